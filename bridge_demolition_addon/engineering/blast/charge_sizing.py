@@ -1,8 +1,7 @@
 """The distance up to which a charge gives a wanted load, and the smallest charge that gives it at a distance.
 
-What is looked for is always the farthest scaled distance at which a load is still reached. That is the one answer on
-the safe side, and the smallest charge, also where the tables are not monotonic: the incident impulse has a bump near
-Z = 0.8 m/kg^(1/3), and pieces of a table meet in small steps.
+Both follow from the farthest scaled distance with that load. It is on the safe side, also where the tables are not
+monotonic: the incident impulse has a bump near Z = 0.8 m/kg^(1/3), and pieces of a table meet in small steps.
 """
 
 from collections.abc import Callable
@@ -17,7 +16,7 @@ from .pulses import BlastModel, blast_wave
 from .wave import SMALLEST_SCALED_DISTANCE, Burst, checked
 
 _FARTHEST_SCALED_DISTANCE = 1e6
-"""Nothing is looked for beyond it: the overpressure there is less than 0.1 Pa."""
+"""End of the search: the overpressure there is less than 0.1 Pa."""
 
 _GRID_POINTS = 4001
 _PARTS = np.arange(257) / 256
@@ -31,17 +30,7 @@ def stand_off_for_overpressure(
     burst: Burst | str = Burst.AIR,
     model: BlastModel | str = BlastModel.KINGERY_BULMASH,
 ) -> float:
-    """Return the farthest stand-off at which a charge gives a peak incident overpressure, m; 0 for no charge.
-
-    Parameters
-    ----------
-    overpressure_pa : float
-        Wanted peak overpressure, Pa.
-    tnt_kg : float
-        Charge, kg of TNT.
-    burst, model : Burst, BlastModel
-        Where it detonates, and where the wave comes from.
-    """
+    """Return the farthest stand-off at which a charge gives a peak incident overpressure, m; 0 for no charge."""
     _check(overpressure_pa, "overpressure", "Pa")
     size = float(cube_root(checked(tnt_kg, "charge", "kg of TNT")))
     return size * _distance_of_overpressure(overpressure_pa, Burst(burst), BlastModel(model))
@@ -53,10 +42,7 @@ def smallest_charge_for_overpressure(
     burst: Burst | str = Burst.AIR,
     model: BlastModel | str = BlastModel.KINGERY_BULMASH,
 ) -> float:
-    """Return the smallest charge that gives a peak incident overpressure at a stand-off, kg of TNT.
-
-    Parameters and errors are those of `stand_off_for_overpressure`.
-    """
+    """Return the smallest charge that gives a peak incident overpressure at a stand-off, kg of TNT."""
     _check(overpressure_pa, "overpressure", "Pa")
     _check(stand_off_m, "stand-off", "m")
     z = _distance_of_overpressure(overpressure_pa, Burst(burst), BlastModel(model))
@@ -69,7 +55,7 @@ def smallest_charge_for_impulse(
     burst: Burst | str = Burst.AIR,
     model: BlastModel | str = BlastModel.KINGERY_BULMASH,
 ) -> float:
-    """Return the smallest charge that gives an incident impulse per area (Pa·s) at a stand-off (m), kg of TNT.
+    """Return the smallest charge that gives an incident impulse per area at a stand-off, kg of TNT.
 
     The impulse of W kg is that of 1 kg at the same Z, times W^(1/3) = R/Z. So Z is where (impulse of 1 kg) / Z is the
     wanted impulse over R.
@@ -85,7 +71,7 @@ def smallest_charge_for_impulse(
 
 
 def _charge_at(stand_off_m: float, scaled_distance: float) -> float:
-    """Return the charge of which a stand-off has a scaled distance, kg of TNT."""
+    """Return the charge, kg of TNT, by a stand-off and its scaled distance."""
     size = stand_off_m / scaled_distance
     return size * size * size
 
@@ -111,13 +97,13 @@ def _impulse_over_distance(z: FloatArray, burst: Burst, model: BlastModel) -> Fl
 
 
 def _farthest(wanted: float, load: Callable[..., FloatArray], burst: Burst, model: BlastModel) -> float | None:
-    """Return the farthest scaled distance at which a load is reached, None if it is reached nowhere."""
+    """Return the farthest scaled distance with a load, None if there is none."""
     distances, loads = _distances(), _on_grid(load, burst, model)
     reached = np.flatnonzero(loads >= wanted)
     if not len(reached):
         return None
     if reached[-1] == len(distances) - 1:
-        raise BlastError(f"load is {wanted:g}: expected more than {loads[-1]:.2g}, which reaches beyond any distance")
+        raise BlastError(f"load is {wanted:g}: expected more than {loads[-1]:.2g}, that beyond any distance")
     near, far = distances[reached[-1]], distances[reached[-1] + 1]
     for _ in range(_DIVISIONS):
         between = near + (far - near) * _PARTS

@@ -1,10 +1,9 @@
 """Exposure of bodies to charges: stand-offs, projected areas, and the share of each body that a charge sees.
 
 Areas change as the bodies turn. For the shares, rays go from every charge to every body: to its centre of mass, and to
-the points half-way from there to the vertices of its hull. A ray is stopped by the convex hull of any other body that
-it passes through; the visible share is that of the rays that are not. A wave also bends round edges, which is not
-modelled: behind anything narrow the load is more than this share. A body that contains the charge stops nothing: it is
-what the charge breaks.
+the points half-way from there to the vertices of its hull. The convex hull of another body stops a ray that passes
+through it; the visible share is that of the other rays. A wave also bends round edges, which is not modelled: behind
+anything narrow the load is more than this share. A body that contains the charge stops nothing: the charge breaks it.
 """
 
 from itertools import pairwise
@@ -17,34 +16,22 @@ from ..geometry.proximity import ranges
 from ..geometry.vectors import dot, length, transformed, transformed_back
 
 UPWARDS = np.array([0.0, 0.0, 1.0])
-"""Where a charge in the very centre of a body pushes it: away from the ground, as no other direction is marked."""
+"""Direction in which a charge in the very centre of a body pushes it: away from the ground, as none other is marked."""
 
 GRAZING_M = 1e-3
 """Hulls stop rays this much inside their faces, so that none is stopped between bodies that touch, or by rounding."""
 
 _HALF_WAY = 0.5
-"""Where between centre and vertices the rays end: well inside the body, which so is never hidden by one it touches."""
+"""Where between centre and vertices rays end: well inside the body, so that no body that touches it hides it."""
 
 PAIRS_AT_ONCE = 1_000_000
 """Ray-and-body or ray-and-face pairs looked at in one array operation: some tens of megabytes."""
 
 
 def lines_of_blast(sources: FloatArray, centres: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return stand-offs and directions from sources to bodies.
+    """Return stand-offs (n, c) and unit vectors (n, c, 3) from sources (c, 3) to bodies' centres of mass (n, 3).
 
-    Parameters
-    ----------
-    sources : (c, 3) float
-        Positions of the charges, m.
-    centres : (n, 3) float
-        Centres of mass of the bodies, m.
-
-    Returns
-    -------
-    stand_offs : (n, c) float
-        Distances, m.
-    directions : (n, c, 3) float
-        Unit vectors from source to body; `UPWARDS` where a source is in the very centre of a body.
+    The direction is `UPWARDS` where a source is in the very centre of a body.
     """
     differences = centres[:, None] - sources[None]
     stand_offs = length(differences)
@@ -56,21 +43,9 @@ def lines_of_blast(sources: FloatArray, centres: FloatArray) -> tuple[FloatArray
 
 
 def projected_areas(hulls: ConvexHulls, rotations: FloatArray, directions: FloatArray) -> FloatArray:
-    """Return the bodies' areas projected along directions, the report's equation 6: ½ Σ |n̂ · n̂ᵢ| Sᵢ over the faces.
+    """Return the bodies' areas (n, c), m², projected along directions (n, c, 3): ½ Σ |n̂ · n̂ᵢ| Sᵢ over the faces.
 
-    Parameters
-    ----------
-    hulls : ConvexHulls
-        Convex hulls of n bodies.
-    rotations : (n, 3, 3) float
-        From the axes of each body to those of the world.
-    directions : (n, c, 3) float
-        Unit vectors from the sources to the bodies.
-
-    Returns
-    -------
-    (n, c) float
-        Areas, m².
+    That is the report's equation 6. Rotations (n, 3, 3) are from the axes of each body to those of the world.
     """
     if not len(hulls):
         return np.zeros(directions.shape[:2])
@@ -88,23 +63,9 @@ def projected_areas(hulls: ConvexHulls, rotations: FloatArray, directions: Float
 
 
 def visible_shares(hulls: ConvexHulls, centres: FloatArray, rotations: FloatArray, sources: FloatArray) -> FloatArray:
-    """Return the shares of the bodies that the charges see.
+    """Return the shares (n, c) of the bodies that charges at `sources` (c, 3) see: from 0, hidden, to 1, free.
 
-    Parameters
-    ----------
-    hulls : ConvexHulls
-        Convex hulls of n bodies.
-    centres : (n, 3) float
-        Centres of mass, m.
-    rotations : (n, 3, 3) float
-        From the axes of each body to those of the world.
-    sources : (c, 3) float
-        Positions of the charges, m.
-
-    Returns
-    -------
-    (n, c) float
-        From 0, hidden, to 1, free.
+    Rotations (n, 3, 3) are from the axes of each body to those of the world, `centres` (n, 3) are centres of mass.
     """
     owners, targets = _targets(hulls, centres, rotations)
     counts = np.bincount(owners, minlength=len(hulls))

@@ -6,9 +6,9 @@ Explosives Safety Seminar (1994). The coefficients are in ``data``; every quanti
 distances, in one to four pieces that meet within 2.4 % (incident impulse of the surface burst at Z = 2.38), mostly
 within 1 %.
 
-Out of its range no polynomial is evaluated. Nearer than its range a quantity keeps the value at the near end. Beyond
-it the wave is taken for a sound wave: pressures and impulses fall as 1/Z, more slowly than a shock and so on the safe
-side, the duration stays, and the front goes at the speed of sound.
+Nearer than its range a quantity keeps the value at the near end. Beyond it the wave is taken for a sound wave:
+pressures and impulses fall as 1/Z, more slowly than a shock and so on the safe side, the duration stays, and the front
+goes at the speed of sound.
 """
 
 import csv
@@ -28,7 +28,7 @@ from .wave import SOUND_SPEED_M_S, Burst, Wave
 
 
 class Quantity(StrEnum):
-    """What the tables hold, by its name in them."""
+    """Quantity in the tables, by its name there; those of a `Wave` come first, in its order."""
 
     PEAK_OVERPRESSURE = "incident_overpressure"
     REFLECTED_OVERPRESSURE = "reflected_overpressure"
@@ -49,9 +49,7 @@ _FALLING_AS_SOUND = {
     Quantity.REFLECTED_IMPULSE,
 }
 
-
 _LN_10 = 2.302585092994045684
-
 
 Formula = Callable[[FloatArray], FloatArray]
 
@@ -84,14 +82,8 @@ def evaluate(quantity: Quantity, scaled_distance: FloatArray, burst: Burst = Bur
 
 def unit_wave(scaled_distance: FloatArray, burst: Burst = Burst.AIR) -> Wave:
     """Return the wave of 1 kg of TNT at scaled distances of any shape, m/kg^(1/3)."""
-    return Wave(
-        evaluate(Quantity.PEAK_OVERPRESSURE, scaled_distance, burst),
-        evaluate(Quantity.REFLECTED_OVERPRESSURE, scaled_distance, burst),
-        evaluate(Quantity.INCIDENT_IMPULSE, scaled_distance, burst),
-        evaluate(Quantity.REFLECTED_IMPULSE, scaled_distance, burst),
-        evaluate(Quantity.ARRIVAL_TIME, scaled_distance, burst),
-        evaluate(Quantity.DURATION, scaled_distance, burst),
-    )
+    of_wave = [quantity for quantity in Quantity if quantity is not Quantity.SHOCK_FRONT_VELOCITY]
+    return Wave(*(evaluate(quantity, scaled_distance, burst) for quantity in of_wave))
 
 
 @cache
@@ -102,9 +94,7 @@ def _tables() -> Mapping[Burst, Mapping[Quantity, list[_Piece]]]:
     }
 
 
-def _read(
-    name: str, value_of: Callable[[Mapping[str, str], float], Callable[[FloatArray], FloatArray]]
-) -> Mapping[Quantity, list[_Piece]]:
+def _read(name: str, value_of: Callable[[Mapping[str, str], float], Formula]) -> Mapping[Quantity, list[_Piece]]:
     # Named from here, as the package has another name inside Blender.
     here = resources.files(__package__)
     pieces = defaultdict(list)

@@ -1,7 +1,7 @@
 """The blast wave of Kinney and Graham: closed formulas for a spherical burst of TNT, the report's equations 3 and 4.
 
 Kinney and Graham, *Explosive Shocks in Air* (2nd ed., 1985), chapter 6. Far away their pressure and impulse fall as
-1/Z, as those of a sound wave do, so that no end is set to their range.
+1/Z, as those of a sound wave do, so that their range has no end.
 """
 
 from functools import cache
@@ -26,11 +26,10 @@ GROUND_REFLECTION = 1.8
 
 SHORTEST_DURATION_DISTANCE = 0.5095
 """Scaled distance, m/kg^(1/3), of the least duration. Nearer than it equation 4 rises again, up to a second for 1 kg,
-which no wave does that has the peak and the impulse of the other formulas; a wave keeps its least duration there."""
+which contradicts peak and impulse by the other formulas; a wave keeps its least duration there."""
 
 _TABLE_DECADES = (-3.0, 4.0)
-"""Powers of ten of the scaled distances between which arrival times are integrated: at the end the front has long been
-a sound wave."""
+"""Powers of ten of the scaled distances between which arrival times are integrated, up to where it is a sound wave."""
 
 
 def peak_overpressure(scaled_distance: FloatArray) -> FloatArray:

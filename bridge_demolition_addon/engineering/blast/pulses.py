@@ -5,7 +5,7 @@ front arrived; the pulse is over at τ = t_d. The suction that follows, the nega
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from math import factorial
 
 import numpy as np
@@ -57,24 +57,10 @@ def blast_wave(
     burst: Burst | str = Burst.AIR,
     model: BlastModel | str = BlastModel.KINGERY_BULMASH,
 ) -> Wave:
-    """Return the waves of charges at stand-offs.
+    """Return the waves of charges (kg of TNT) at stand-offs (m), of the shape to which both broadcast.
 
-    Parameters
-    ----------
-    stand_off_m : (...) float
-        Distances from the charges, m; nearer than a charge's surface (`wave.SMALLEST_SCALED_DISTANCE`) counts as
-        that.
-    tnt_kg : (...) float
-        Charges, kg of TNT; a charge of 0 has a wave of zeros.
-    burst : Burst
-        Where the charges detonate.
-    model : BlastModel
-        Where the wave comes from.
-
-    Returns
-    -------
-    Wave
-        Arrays of the shape to which stand-offs and charges broadcast.
+    Stand-offs nearer than a charge's surface (`wave.SMALLEST_SCALED_DISTANCE`) count as that; a charge of 0 has a wave
+    of zeros.
 
     Examples
     --------
@@ -100,24 +86,12 @@ class Loading(NamedChoice):
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Pulses:
-    """Friedlander pulses of c charges on n bodies, or of k pairs of them as arrays (k,).
+    """Friedlander pulses of c charges on n bodies, arrays (n, c), or of k pairs of them as arrays (k,)."""
 
-    Attributes
-    ----------
-    arrivals_s : (n, c) float
-        When each front arrives, delay of its charge included, s.
-    peaks_pa : (n, c) float
-        Peak overpressures, Pa; 0 for a charge of 0 kg.
-    durations_s : (n, c) float
-        Positive-phase durations, s.
-    decays : (n, c) float
-        Decays b.
-    """
-
-    arrivals_s: FloatArray
-    peaks_pa: FloatArray
-    durations_s: FloatArray
-    decays: FloatArray
+    arrivals_s: FloatArray  # of the front, delay of its charge included
+    peaks_pa: FloatArray  # peak overpressures; 0 for a charge of 0 kg
+    durations_s: FloatArray  # of the positive phase
+    decays: FloatArray  # decay b
 
     @property
     def ends_s(self) -> FloatArray:
@@ -131,15 +105,12 @@ class Pulses:
 
     def take(self, pairs: IntArray) -> "Pulses":
         """Return the pulses (k,) of pairs (k,): c i + j is that of body i and charge j."""
-        every = (self.arrivals_s, self.peaks_pa, self.durations_s, self.decays)
-        return Pulses(*(values.take(pairs) for values in every))
+        return Pulses(*(getattr(self, item.name).take(pairs) for item in fields(self)))
 
     def put(self, columns: IntArray, other: "Pulses") -> None:
         """Replace the pulses of some charges (k,) by others (n, k)."""
-        self.arrivals_s[:, columns] = other.arrivals_s
-        self.peaks_pa[:, columns] = other.peaks_pa
-        self.durations_s[:, columns] = other.durations_s
-        self.decays[:, columns] = other.decays
+        for item in fields(self):
+            getattr(self, item.name)[:, columns] = getattr(other, item.name)
 
     def load_between(self, start_s: float, end_s: float) -> BoolArray:
         """Return whether each pulse (n, c) loads its body at some time between two."""
@@ -157,24 +128,11 @@ def blast_pulses(
     constant_decay: float | None = None,
     pressure_factor: float = 1.0,
 ) -> Pulses:
-    """Return the pulses of charges on bodies.
+    """Return the pulses of charges on bodies, from stand-offs (n, c), masses and delays (c,), and c bursts.
 
-    Parameters
-    ----------
-    stand_offs_m : (n, c) float
-        Distances of the bodies from the charges, m; nearer than its surface counts as that.
-    tnt_kg, delays_s : (c,) float
-        Mass of each charge, kg of TNT, and its delay, s.
-    bursts : (c,) Burst
-        Where each charge detonates.
-    model : BlastModel
-        Where the waves come from.
-    loading : Loading
-        Which of their pressures loads the bodies.
-    constant_decay : float or None
-        One decay for all pulses, such as `REPORT_DECAY`; None solves each from peak, duration and impulse.
-    pressure_factor : float
-        Factor on the pressures. Impulses grow with it, times and decays stay.
+    Stand-offs nearer than a charge's surface count as that. `constant_decay` is one decay for all pulses, such as
+    `REPORT_DECAY`; None solves each from peak, duration and impulse. Impulses grow with `pressure_factor` as pressures
+    do; times and decays stay.
 
     Examples
     --------
@@ -214,10 +172,7 @@ def impulse_between(pulses: Pulses, start_s: float, end_s: float) -> FloatArray:
 
 
 def pressure_at(pulses: Pulses, time_s: float | FloatArray) -> FloatArray:
-    """Return the overpressure (n, c) of every pulse at a time, Pa; ambient pressure is not part of it.
-
-    Instead of one time there can be an array of them that broadcasts with (n, c).
-    """
+    """Return the overpressure (n, c) of every pulse at a time, or at times that broadcast with (n, c), Pa."""
     return pulse_pressure(pulses.peaks_pa, pulses.durations_s, pulses.decays, time_s - pulses.arrivals_s)
 
 
@@ -233,14 +188,9 @@ def _check_shapes(
 
 
 def pulse_pressure(peak: FloatArray, duration: FloatArray, decay: FloatArray, time: float | FloatArray) -> FloatArray:
-    """Return the overpressure at times since the front arrived; 0 before that and after the positive phase.
+    """Return the overpressure, Pa, at times in s since the front arrived; 0 before it and after the positive phase.
 
-    Parameters
-    ----------
-    peak, duration, decay : (...) float
-        Peak overpressure (Pa), positive-phase duration (s) and decay b of the pulses.
-    time : (...) float
-        Times since the front arrived, s. All four broadcast.
+    Peak overpressure (Pa), positive-phase duration (s), decay b and time broadcast.
     """
     part = _part_of_phase(time, duration)
     passed = np.clip(part, 0.0, 1.0)
@@ -269,17 +219,14 @@ def whole_impulse(peak: FloatArray, duration: FloatArray, decay: FloatArray) -> 
 
 
 def fitted(peak: FloatArray, duration: FloatArray, impulse: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Return duration and decay of the pulses that have a peak, a duration and an impulse.
+    """Return duration and decay of the pulses with a peak (Pa), a duration (s) and an impulse (Pa·s), of one shape.
 
-    No decay of at least 0 gives more than half of p₀ t_d. Where more is asked for, the pulse gets no decay and a longer
+    No decay of at least 0 gives more than half of p₀ t_d. Where more is wanted, the pulse gets no decay and a longer
     duration, 2 i / p₀: peak and impulse are what moves and breaks a body, and tests measure them better than where a
     pulse that fades out ends. A negative decay would keep the duration, with a pressure that hardly falls and then
     drops at once.
 
-    Parameters
-    ----------
-    peak, duration, impulse : (...) float
-        Pa, s and Pa·s, of one shape; where the peak is 0 so are the results.
+    Where the peak is 0 so are the results.
     """
     there = peak > 0.0
     triangle = np.divide(impulse, LARGEST_SHARE * peak, out=np.zeros_like(peak), where=there)
@@ -320,7 +267,7 @@ def _moments(exponent: FloatArray, count: int) -> list[FloatArray]:
         return _closed_moments(exponent, count)
     series = _series_of_moments(np.minimum(exponent, _SERIES_BELOW), count)
     closed = _closed_moments(np.maximum(exponent, _SERIES_BELOW), count)
-    return [np.where(is_small, *each) for each in zip(series, closed, strict=True)]
+    return [np.where(is_small, *moments) for moments in zip(series, closed, strict=True)]
 
 
 def _series_of_moments(exponent: FloatArray, count: int) -> FloatArray:
@@ -333,7 +280,6 @@ def _series_of_moments(exponent: FloatArray, count: int) -> FloatArray:
 
 
 def _closed_moments(exponent: FloatArray, count: int) -> list[FloatArray]:
-    """Return the moments in closed form, for exponents that are not small."""
     left = exponential(-exponent)
     moments = [(1.0 - left) / exponent]
     for order in range(1, count):

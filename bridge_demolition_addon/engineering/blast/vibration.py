@@ -2,8 +2,7 @@
 
 The form is that of Nicholls, Johnson and Duvall, *Blasting Vibrations and Their Effects on Structures*, USBM Bulletin
 656 (1971). K and β are measured on site; those here are to begin with. They are for charges drilled into rock: charges
-in the columns of a bridge shake the ground less, and the fall of the bridge, which often shakes it more than the
-charges, is not in them.
+in the columns of a bridge shake the ground less. The fall of the bridge, which often shakes it more, is not in them.
 """
 
 from dataclasses import dataclass
@@ -22,21 +21,11 @@ DAMAGE_LIMIT_M_S = 0.0508
 
 @dataclass(frozen=True, slots=True)
 class VibratingGround:
-    """How ground carries vibration.
-
-    Attributes
-    ----------
-    name : str
-        What kind of ground.
-    velocity_m_s : float
-        K: peak particle velocity at a scaled distance of 1 m/kg^(1/2), m/s.
-    exponent : float
-        β: how fast it falls.
-    """
+    """How ground carries vibration."""
 
     name: str
-    velocity_m_s: float
-    exponent: float
+    velocity_m_s: float  # K: peak particle velocity at a scaled distance of 1 m/kg^(1/2)
+    exponent: float  # β
 
 
 FREE_FACE_HARD = VibratingGround("free face, hard or highly structured rock", 0.500, 1.6)
@@ -51,16 +40,9 @@ GROUNDS = {"hard": FREE_FACE_HARD, "average": FREE_FACE_AVERAGE, "confined": CON
 def peak_particle_velocity(
     distance_m: ArrayLike, charge_kg: ArrayLike, ground: VibratingGround = FREE_FACE_AVERAGE
 ) -> FloatArray:
-    """Return the peak particle velocity, m/s.
+    """Return the peak particle velocity, m/s, at distances (m) that broadcast with charges (kg).
 
-    Parameters
-    ----------
-    distance_m : (...) float
-        Distances from the charge, m, above 0.
-    charge_kg : (...) float
-        Explosive that detonates within one delay, kg, at least 0. Its own mass: the constants are not for TNT.
-    ground : VibratingGround
-        What carries the vibration.
+    A charge is the explosive that detonates within one delay. Its own mass counts: the constants are not for TNT.
     """
     distance, charge = _distances(distance_m), checked(charge_kg, "charge", "kg")
     return ground.velocity_m_s * power(np.sqrt(charge) / distance, ground.exponent)

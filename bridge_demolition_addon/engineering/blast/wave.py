@@ -50,27 +50,21 @@ class Burst(NamedChoice):
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Wave:
-    """A blast wave at some places, structure of arrays that all have one shape.
+    """A blast wave at some positions, arrays of one shape.
 
-    Attributes
-    ----------
-    peak_overpressure_pa, reflected_overpressure_pa : (...) float
-        Peak overpressure beside the wave's path (incident, side-on), and on a wall that it meets head-on, Pa.
-    incident_impulse_pa_s, reflected_impulse_pa_s : (...) float
-        Impulse per area of the positive phase, incident and on such a wall, Pa·s.
-    arrival_time_s, positive_phase_duration_s : (...) float
-        From the detonation to the front, and from the front to the end of the positive phase, s.
+    Incident pressure and impulse are those beside the wave's path, reflected ones those on a wall that it meets
+    head-on.
     """
 
     peak_overpressure_pa: FloatArray
     reflected_overpressure_pa: FloatArray
-    incident_impulse_pa_s: FloatArray
+    incident_impulse_pa_s: FloatArray  # per area, of the positive phase
     reflected_impulse_pa_s: FloatArray
-    arrival_time_s: FloatArray
+    arrival_time_s: FloatArray  # from the detonation to the front
     positive_phase_duration_s: FloatArray
 
     def scaled(self, size: FloatArray) -> "Wave":
-        """Return the wave at the same scaled distances from charges whose cube root is so many times as large.
+        """Return the wave at the same scaled distances from charges whose cube root is `size` times as large.
 
         Pressures stay, times and impulses grow with the cube root (Hopkinson 1915, Cranz 1926). Without any charge
         there is no wave: everything is 0.
@@ -104,12 +98,7 @@ def reflected_overpressure(overpressure_pa: FloatArray) -> FloatArray:
 def scaled_distance(stand_off_m: ArrayLike, tnt_kg: ArrayLike) -> FloatArray:
     """Return the scaled distance Z = R / W^(1/3), m/kg^(1/3), the report's equation 5 with a transmission factor of 1.
 
-    Parameters
-    ----------
-    stand_off_m : (...) float
-        Distances from the charges, m, at least 0.
-    tnt_kg : (...) float
-        Charges, kg of TNT, at least 0, of a shape that broadcasts; without charge the distance is infinite.
+    Stand-offs (m) and charges (kg of TNT) broadcast; without charge the distance is infinite.
     """
     stand_off = checked(stand_off_m, "stand-off", "m")
     size = cube_root(checked(tnt_kg, "charge", "kg of TNT"))
@@ -119,7 +108,7 @@ def scaled_distance(stand_off_m: ArrayLike, tnt_kg: ArrayLike) -> FloatArray:
 
 
 def checked(values: ArrayLike, name: str, unit: str) -> FloatArray:
-    """Return values as floats."""
+    """Return values as floats; raise where one is below 0 or not finite."""
     numbers = np.asarray(values, float)
     wrong = numbers[~((numbers >= 0.0) & np.isfinite(numbers))]
     if wrong.size:

@@ -34,8 +34,7 @@ DOWEL_SHARE = 1.3 * 4.0 / np.pi * np.sqrt(35.0 / 500.0)
 B500 (B. H. Rasmussen, 1963, Bygningsstatiske Meddelelser 34, on bolts and dowels in concrete). Both together are on an
 ellipse, as normal and shear stress by von Mises' criterion.
 
-Bars do not pull as hard along an inclined crack as across it: otherwise cracks that zigzag, and are longer, would have
-more of them.
+Bars pull less hard along an inclined crack than across it: otherwise cracks that zigzag would be held too strongly.
 """
 
 _COUNT = len(CORNERS)
@@ -50,39 +49,23 @@ _AGREES = 1e-4
 class Cracks:
     """All cracks between n bodies, in place of some of m connections.
 
-    Parameters
-    ----------
-    steel : Steel
-        What the bars are made of.
-    elongation_m : float
-        How far a crack opens where a bar ruptures.
-    yield_n : (4, m) float
-        Force at which the bars in each corner of a crack yield.
-    shares : (m,) float
-        Part of the bars that is left; the caller keeps it up to date.
-    pressed_n_m : (m,) float
-        Stiffness of connections along their normals, with which the sides of a closed crack press on each other.
-
-    Attributes
-    ----------
-    rows : (t,) int
-        Connections in whose place cracks are that hold, in the order in which they came.
-    have_bars : (m,) bool
-        Across which connections bars run.
+    `yield_n` (4, m): forces at which the bars in each corner yield. `shares` (m,): part of the bars that is left, which
+    the caller keeps up to date. `pressed_n_m` (m,): stiffness along the normals, with which the sides of a closed crack
+    press on each other.
     """
 
     def __init__(
         self,
         steel: Steel,
-        elongation_m: float,
+        elongation_m: float,  # opening at which a bar ruptures
         yield_n: FloatArray,
         shares: FloatArray,
         pressed_n_m: FloatArray,
     ):
         self._steel, self._elongation_m, self._yield_n, self._shares = steel, elongation_m, yield_n, shares
-        self.have_bars = (yield_n > 0.0).any(axis=0)
+        self.have_bars = (yield_n > 0.0).any(axis=0)  # (m,)
         self._pressed_n_m = pressed_n_m / _COUNT
-        self.rows: IntArray = np.zeros(0, int)
+        self.rows: IntArray = np.zeros(0, int)  # connections that cracks have replaced, oldest first
         self._first: IntArray = np.zeros(0, int)
         self._second: IntArray = np.zeros(0, int)
         self._first_anchors, self._second_anchors = np.zeros((3, 0)), np.zeros((3, 0))
@@ -103,20 +86,12 @@ class Cracks:
         positions_m: FloatArray,
         rotations: FloatArray,
     ) -> None:
-        """Let bars hold in place of connections.
+        """Let bars hold in place of connections `rows` (r,), whose bodies are `first` and `second`.
 
-        Parameters
-        ----------
-        rows, first, second : (r,) int
-            The connections, and their bodies.
-        places_m : (3, 4, r) float
-            Where their bars cross the cracks, which are still closed.
-        normals : (3, r) float
-            From the first to the second bodies.
-        positions_m, rotations : (3, n) and (3, 3, n) float
-            Of all bodies.
+        The cracks are still closed: bars cross them at `places_m` (3, 4, r), and `normals` (3, r) point from the first
+        to the second bodies.
         """
-        ends = [np.tile(each, _COUNT) for each in (first, second)]
+        ends = [np.tile(bodies, _COUNT) for bodies in (first, second)]
         anchors = [turned_back(rotations[..., end], places_m.reshape(3, -1) - positions_m[:, end]) for end in ends]
         count = len(ends[0])
         self.rows = np.concatenate((self.rows, rows))
@@ -130,13 +105,7 @@ class Cracks:
         self._solved_for = _joined(self._solved_for, np.full((3, 3, count), np.nan))
 
     def settle(self, positions_m: FloatArray, rotations: FloatArray) -> IntArray:
-        """Take over how far bars have yielded by now; return the connections (d,) in whose place none holds any more.
-
-        Parameters
-        ----------
-        positions_m, rotations : (3, n) and (3, 3, n) float
-            Of all bodies.
-        """
+        """Take over how far bars have yielded by now; return the connections (d,) that no bar replaces any more."""
         gaps = self._gaps(positions_m, rotations)
         self._holds = self._holds & (dot_products(gaps, gaps) <= self._elongation_m * self._elongation_m)
         local = _as_bars(turned_back(rotations[..., self._first], gaps), self._normals)
@@ -215,24 +184,13 @@ class Cracks:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CrackLaw:
-    """What b bars, and the sides of their cracks, resist, in the axes of the world.
-
-    Attributes
-    ----------
-    bars : Bars
-    slips_m, flows_m : (3, b), (b,) float
-        How far the bars have yielded.
-    normals : (3, b) float
-        Of the cracks.
-    pressed_n_m : (b,) float
-        Stiffness of places that are pressed.
-    """
+    """What b bars, and the sides of their cracks, resist, in the axes of the world."""
 
     bars: Bars
-    slips_m: FloatArray
-    flows_m: FloatArray
-    normals: FloatArray
-    pressed_n_m: FloatArray
+    slips_m: FloatArray  # (3, b), deformation that stays
+    flows_m: FloatArray  # (b,), length of the path of the slip
+    normals: FloatArray  # (3, b), of the cracks
+    pressed_n_m: FloatArray  # (b,), stiffness where the sides press on each other
 
     def resisted(self, gaps_m: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return forces (3, b) across gaps (3, b), and how they change with these, (3, 3, b)."""
@@ -246,18 +204,7 @@ class CrackLaw:
 
 
 class CrackStep:
-    """What c cracks with 4 c bars do in a sub-step.
-
-    Parameters
-    ----------
-    rows : (c,) int
-        Connections in whose place the cracks are.
-    gaps, law : Gaps, CrackLaw
-        Of each bar.
-    solved : SolvedTangents
-        For which equations were made last.
-    substep_s : float
-    """
+    """What c cracks, in place of connections `rows` (c,), with 4 c bars do in a sub-step."""
 
     def __init__(self, rows: IntArray, gaps: Gaps, law: CrackLaw, solved: SolvedTangents, substep_s: float):
         self.rows = rows
@@ -336,17 +283,7 @@ class CrackStep:
 
 
 def corner_places(points_m: FloatArray, axes: FloatArray, sides_m: FloatArray) -> FloatArray:
-    """Return the corners (3, 4, r) of cracks.
-
-    Parameters
-    ----------
-    points_m : (3, r) float
-        Middles of the cracks.
-    axes : (3, 2, r) float
-        The principal axes of their faces, as columns.
-    sides_m : (2, r) float
-        Sides along these of the rectangles with the same second moments.
-    """
+    """Return the corners (3, 4, r) of cracks with middles (3, r), principal axes (3, 2, r), and sides (2, r)."""
     halves = 0.5 * CORNERS[:, :, None] * sides_m
     return points_m[:, None] + axes[:, 0, None] * halves[:, 0] + axes[:, 1, None] * halves[:, 1]
 

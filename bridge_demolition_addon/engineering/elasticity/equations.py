@@ -1,7 +1,4 @@
-"""Bodies and elastic connections as blocks of linear equations.
-
-All arrays have their components first.
-"""
+"""Bodies and elastic connections as blocks of linear equations. All arrays have their components first."""
 
 from __future__ import annotations
 
@@ -17,22 +14,12 @@ from .joint_rows import JointFrames, JointRows, matrix_products, transposed
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RigidBodies:
-    """n bodies of known mass, where no connection between them is deformed.
+    """n bodies of known mass, where no connection is deformed. Those that never move have mass and inertia 0."""
 
-    Attributes
-    ----------
-    masses_kg : (n,) float
-        Masses; 0 for bodies that never move.
-    inertias_kg_m2 : (3, 3, n) float
-        Tensors of inertia in the axes of the bodies; 0 for bodies that never move.
-    positions_m, rotations : (3, n) and (3, 3, n) float
-        Centres of mass, and axes of the bodies.
-    """
-
-    masses_kg: FloatArray
-    inertias_kg_m2: FloatArray
-    positions_m: FloatArray
-    rotations: FloatArray
+    masses_kg: FloatArray  # (n,)
+    inertias_kg_m2: FloatArray  # (3, 3, n), in the axes of the bodies
+    positions_m: FloatArray  # (3, n), centres of mass
+    rotations: FloatArray  # (3, 3, n)
 
     def __len__(self) -> int:
         return len(self.masses_kg)
@@ -55,7 +42,7 @@ class RigidBodies:
 def summed_on_bodies(frames: JointFrames, loads: tuple[FloatArray, FloatArray], count: int) -> FloatArray:
     """Return the sums (6, n) of loads (6, m) on the first and on the second bodies of connections, for n bodies."""
     bodies = np.concatenate((frames.first, frames.second))
-    return np.stack([np.bincount(bodies, each, count) for each in np.concatenate(loads, axis=1)])
+    return np.stack([np.bincount(bodies, component, count) for component in np.concatenate(loads, axis=1)])
 
 
 def without(stiffness: FloatArray, rows: IntArray) -> FloatArray:
@@ -66,15 +53,7 @@ def without(stiffness: FloatArray, rows: IntArray) -> FloatArray:
 
 
 def connected_parts(moves: BoolArray, first: IntArray, second: IntArray) -> IntArray:
-    """Return the part (n,) to which each body belongs, -1 for those that do not move.
-
-    Parameters
-    ----------
-    moves : (n,) bool
-        Which bodies can move.
-    first, second : (m,) int
-        Bodies of each connection.
-    """
+    """Return the part (n,) of each body, by the bodies (m,) of connections; -1 for those that do not move."""
     free = moves[first] & moves[second]
     links = coo_matrix((np.ones(free.sum()), (first[free], second[free])), shape=(len(moves),) * 2)
     return np.where(moves, connected_components(links, directed=False)[1], -1)
@@ -95,8 +74,8 @@ def stiffness_blocks(rows: JointRows, stiffness: FloatArray) -> tuple[FloatArray
     """Return what connections add to the equations of their first and second bodies, and between: (6, 6, m) each."""
     first, second = rows.matrices()
     first_stressed, second_stressed = (
-        np.concatenate((matrix_products(stiffness[0], each[:3]), matrix_products(stiffness[1], each[3:])))
-        for each in (first, second)
+        np.concatenate((matrix_products(stiffness[0], matrix[:3]), matrix_products(stiffness[1], matrix[3:])))
+        for matrix in (first, second)
     )
     return (
         matrix_products(transposed(first), first_stressed),

@@ -30,26 +30,13 @@ _SAME_FREQUENCY = 1e-6
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Equilibrium:
-    """n bodies at rest.
+    """n bodies at rest."""
 
-    Attributes
-    ----------
-    positions_m, rotations : (3, n) and (3, 3, n) float
-        Where they are then; as before for those that nothing holds.
-    held : (n,) bool
-        Bodies that connections to a support hold.
-    frequency_hz : float
-        Lowest first frequency of the parts that are held; 0 where nothing is.
-    loads : (6, m) float
-        Forces and moments that connections carry then, in their rows, pulling the first body to the second; 0 where
-        nothing holds them.
-    """
-
-    positions_m: FloatArray
-    rotations: FloatArray
-    held: BoolArray
-    frequency_hz: float
-    loads: FloatArray
+    positions_m: FloatArray  # (3, n), as before for bodies that nothing holds
+    rotations: FloatArray  # (3, 3, n)
+    held: BoolArray  # (n,), whether connections to a support hold a body
+    frequency_hz: float  # lowest first frequency of the held parts; 0 where nothing is held
+    loads: FloatArray  # (6, m), forces and moments in the connections' rows, pulling the first body to the second
 
 
 def equilibrium(
@@ -59,19 +46,10 @@ def equilibrium(
     gravity_m_s2: FloatArray,
     loads: FloatArray | None = None,
 ) -> Equilibrium:
-    """Return where bodies rest that hang together by elastic connections, which carry no load where they are now.
+    """Return where bodies rest that elastic connections hold, which carry no load where they are now.
 
-    Parameters
-    ----------
-    frames : JointFrames
-        Of m connections.
-    stiffness : (2, 3, 3, m) float
-        As in `ElasticStructure`.
-    bodies : RigidBodies
-        Where they are now.
-    gravity_m_s2 : (3,) float
-    loads : (6, n) float, optional
-        Further forces on the bodies, N, and moments about their centres, N·m.
+    `stiffness` (2, 3, 3, m) is as in `ElasticStructure`; `loads` (6, n) are further forces on the bodies, N, and
+    moments about their centres, N·m.
     """
     moves = bodies.moves
     label = connected_parts(moves, frames.first, frames.second)

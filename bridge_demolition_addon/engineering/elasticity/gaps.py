@@ -1,7 +1,4 @@
-"""Gaps between pairs of points on two bodies, across which bars or soil act, in the equations of a sub-step.
-
-All arrays have their components first.
-"""
+"""Gaps between pairs of points on two bodies, across which bars or soil act. All arrays have their components first."""
 
 from __future__ import annotations
 
@@ -15,23 +12,13 @@ from .joint_rows import cross_products
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Gaps:
-    """Gaps between q pairs of points.
+    """Gaps between q pairs of points."""
 
-    Attributes
-    ----------
-    first, second : (q,) int
-        Bodies of the points.
-    first_arms_m, second_arms_m : (3, q) float
-        From the centres of these to where the forces act.
-    widths_m : (3, q) float
-        From the first points to the second.
-    """
-
-    first: IntArray
+    first: IntArray  # (q,), bodies of the first points
     second: IntArray
-    first_arms_m: FloatArray
+    first_arms_m: FloatArray  # (3, q), from the centre of the body to where the force acts
     second_arms_m: FloatArray
-    widths_m: FloatArray
+    widths_m: FloatArray  # (3, q), from the first points to the second
 
     def rates(self, velocities: FloatArray) -> FloatArray:
         """Return how fast the gaps (3, q) open, with velocities and angular velocities (6, n) of the bodies."""
@@ -42,18 +29,10 @@ class Gaps:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SolvedTangents:
-    """The tangents of q gaps for which the equations were made last, among those of all gaps.
+    """The tangents of q gaps for which the equations were made last, among those of all p gaps."""
 
-    Attributes
-    ----------
-    tangents_n_m : (3, 3, p) float
-        Of all gaps; written to.
-    rows : (q,) int
-        Which of these the gaps are.
-    """
-
-    tangents_n_m: FloatArray
-    rows: IntArray
+    tangents_n_m: FloatArray  # (3, 3, p), of all gaps; written to
+    rows: IntArray  # (q,)
 
     def differ(self, tangents_n_m: FloatArray) -> BoolArray:
         """Return whether each gap (q,) now has other tangents."""

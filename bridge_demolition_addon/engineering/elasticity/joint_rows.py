@@ -1,8 +1,8 @@
 """How connections are deformed, and how the motion of their bodies deforms them further.
 
 Each connection has six rows, as Bullet's own constraint between two frames: three shifts of the second frame against
-the first, along the axes of the first, and three turns, the angles of Euler in the order x, y, z. Only these rows make
-it possible to tell Bullet which relative motion to expect.
+the first, along the axes of the first, and three turns, the angles of Euler in the order x, y, z. Only with these rows
+does Bullet know which relative motion to expect.
 
 All arrays have their components first and the connections last, so that numpy works on long stretches of memory.
 """
@@ -19,23 +19,13 @@ from ..arrays import FloatArray, IntArray
 
 @dataclass(frozen=True, slots=True, eq=False)
 class JointFrames:
-    """Frames of m connections, fixed in their two bodies.
+    """Frames of m connections, fixed in their two bodies."""
 
-    Attributes
-    ----------
-    first, second : (m,) int
-        The bodies.
-    first_axes, second_axes : (3, 3, m) float
-        Axes of the frames, the columns of each matrix, in the axes of the body.
-    first_points_m, second_points_m : (3, m) float
-        Where the frames are, from the centre of the body, in its axes.
-    """
-
-    first: IntArray
+    first: IntArray  # (m,), the first bodies
     second: IntArray
-    first_axes: FloatArray
+    first_axes: FloatArray  # (3, 3, m), axes of the frames as columns, in the axes of the body
     second_axes: FloatArray
-    first_points_m: FloatArray
+    first_points_m: FloatArray  # (3, m), from the centre of the body to the frame, in the axes of the body
     second_points_m: FloatArray
 
     def __len__(self) -> int:
@@ -48,23 +38,13 @@ class JointFrames:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class JointPlaces:
-    """Where the frames of m connections are in the world.
+    """Where the frames of m connections are in the world."""
 
-    Attributes
-    ----------
-    first_axes, second_axes : (3, 3, m) float
-        Their axes, the columns of each matrix.
-    first_levers_m, second_levers_m : (3, m) float
-        From the centres of the bodies to the frames.
-    shifts_m : (3, m) float
-        From the first frame to the second.
-    """
-
-    first_axes: FloatArray
+    first_axes: FloatArray  # (3, 3, m), axes of the frames as columns
     second_axes: FloatArray
-    first_levers_m: FloatArray
+    first_levers_m: FloatArray  # (3, m), from the centre of the body to the frame
     second_levers_m: FloatArray
-    shifts_m: FloatArray
+    shifts_m: FloatArray  # (3, m), from the first frame to the second
 
     def only(self, rows: IntArray) -> JointPlaces:
         """Return the places of some connections (r,)."""
@@ -88,7 +68,7 @@ class JointPlaces:
         """Return the rows at these places."""
         first_z, second_x = self.first_axes[:, 2], self.second_axes[:, 0]
         y = cross_products(first_z, second_x)
-        turning = np.stack([_unit(each) for each in (cross_products(y, first_z), y, cross_products(second_x, y))])
+        turning = np.stack([_unit(axis) for axis in (cross_products(y, first_z), y, cross_products(second_x, y))])
         along = transposed(self.first_axes)
         return JointRows(
             along,
@@ -102,20 +82,13 @@ class JointPlaces:
 class JointRows:
     """How fast the deformations of m connections shrink when bodies move: velocities of the first against the second.
 
-    Attributes
-    ----------
-    along : (3, 3, m) float
-        Unit vectors along which velocities count; the first index is the row.
-    first_turning, second_turning : (3, 3, m) float
-        What the angular velocities of both bodies add to these rows.
-    turning : (3, 3, m) float
-        Unit vectors about which relative angular velocities count.
+    The first index of each array (3, 3, m) is the row.
     """
 
-    along: FloatArray
-    first_turning: FloatArray
+    along: FloatArray  # unit vectors along which velocities count
+    first_turning: FloatArray  # share of the angular velocities of the first bodies in these rows
     second_turning: FloatArray
-    turning: FloatArray
+    turning: FloatArray  # unit vectors about which relative angular velocities count
 
     @classmethod
     def empty(cls, count: int) -> JointRows:
@@ -132,13 +105,7 @@ class JointRows:
         return JointRows(*(getattr(self, item.name)[..., connections] for item in fields(self)))
 
     def rates(self, first: FloatArray, second: FloatArray) -> FloatArray:
-        """Return how fast deformations shrink (6, m).
-
-        Parameters
-        ----------
-        first, second : (6, m) float
-            Velocities, then angular velocities, of the bodies.
-        """
+        """Return how fast deformations shrink (6, m), from velocities and angular velocities (6, m) of both bodies."""
         velocity, angular_velocity = first[:3] - second[:3], first[3:] - second[3:]
         shifting = turned(self.along, velocity)
         shifting += turned(self.first_turning, first[3:])
@@ -148,10 +115,7 @@ class JointRows:
     def loads(self, amounts: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return what amounts (6, m) in the rows do to the first and to the second bodies.
 
-        Returns
-        -------
-        first, second : (6, m) float
-            Forces, or impulses, then torques about the centres of the bodies.
+        Each result (6, m): forces, or impulses, then torques about the centres of the bodies.
         """
         force = turned_back(self.along, amounts[:3])
         torque = turned_back(self.turning, amounts[3:])
@@ -168,15 +132,7 @@ class JointRows:
 
 
 def joint_places(frames: JointFrames, positions_m: FloatArray, rotations: FloatArray) -> JointPlaces:
-    """Return where the frames of m connections are.
-
-    Parameters
-    ----------
-    frames : JointFrames
-        Of the m connections.
-    positions_m, rotations : (3, n) and (3, 3, n) float
-        Of all n bodies.
-    """
+    """Return where the frames of m connections between n bodies are."""
     first, second = rotations.take(frames.first, axis=2), rotations.take(frames.second, axis=2)
     first_levers = turned(first, frames.first_points_m)
     second_levers = turned(second, frames.second_points_m)

@@ -1,4 +1,4 @@
-"""How stiff connections are: the faces that shards share, as far as the two shards reach behind them.
+"""How stiff connections are: the faces that shards share, as far as the two shards extend behind them.
 
 Between two Voronoi cells, springs with the same stiffness along a face as across it, E by the distance between the
 cells' points, deform evenly under every even stress, however irregular the cells are: J. E. Bolander and S. Saito
@@ -36,15 +36,7 @@ SHORTEST = 0.02
 
 @dataclass(frozen=True, slots=True)
 class ElasticModuli:
-    """How a material deforms.
-
-    Attributes
-    ----------
-    young_pa : float
-        Modulus of elasticity.
-    poisson : float
-        Poisson's ratio.
-    """
+    """How a material deforms: modulus of elasticity and Poisson's ratio."""
 
     young_pa: float
     poisson: float
@@ -81,24 +73,12 @@ ratio of uncracked concrete. Masonry: 1000 times its compressive strength, and a
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SectionStiffness:
-    """Stiffness of m connections in the axes of their sections (`mechanics.section_forces`).
+    """Stiffness of m connections in the axes of their sections (`mechanics.section_forces`)."""
 
-    Attributes
-    ----------
-    axial_n_m : (m,) float
-        Against shifts along x, N/m.
-    shear_n_m : (m, 2) float
-        Against shifts along y and z.
-    torsion_nm : (m,) float
-        Against turns about x, N·m/rad.
-    bending_nm : (m, 2, 2) float
-        Against turns about y and z.
-    """
-
-    axial_n_m: FloatArray
-    shear_n_m: FloatArray
-    torsion_nm: FloatArray
-    bending_nm: FloatArray
+    axial_n_m: FloatArray  # (m,), against shifts along x
+    shear_n_m: FloatArray  # (m, 2), against shifts along y and z
+    torsion_nm: FloatArray  # (m,), against turns about x, N·m/rad
+    bending_nm: FloatArray  # (m, 2, 2), against turns about y and z
 
     def against_shifts(self) -> FloatArray:
         """Return the matrices (3, 3, m) that make forces of shifts."""
@@ -122,18 +102,10 @@ def section_stiffness(
     lengths_m: FloatArray,
     is_deep: BoolArray,
 ) -> SectionStiffness:
-    """Return the stiffness of connections by faces.
+    """Return the stiffness of m connections by faces with areas (m,) and second moments (m, 2, 2) in their axes.
 
-    Parameters
-    ----------
-    young_pa, shear_pa : (m,) float
-        Moduli of the material between the two points.
-    areas_m2, second_moments_m4 : (m,), (m, 2, 2) float
-        Of the faces, in the axes of the sections.
-    lengths_m : (m,) float
-        Between the two points, along the normal.
-    is_deep : (m, 2) bool
-        Whether the shards are as deep as their members along y, and along z.
+    `lengths_m` (m,) are between the shards' points along the normal; `young_pa` and `shear_pa` (m,) are the moduli
+    there. `is_deep` (m, 2) says whether the shards are as deep as their members along y, and along z.
     """
     lengths = np.maximum(lengths_m, SHORTEST * np.sqrt(areas_m2))
     along = np.where(is_deep, (SHEAR_FACTOR * shear_pa)[:, None], young_pa[:, None])
@@ -160,7 +132,7 @@ def torsion_constants(areas_m2: FloatArray, second_moments_m4: FloatArray) -> Fl
     one, beside, other = second_moments_m4[:, 0, 0], second_moments_m4[:, 0, 1], second_moments_m4[:, 1, 1]
     mean, spread = (one + other) / 2.0, np.sqrt(np.square((one - other) / 2.0) + np.square(beside))
     area = np.where(areas_m2 > 0.0, areas_m2, 1.0)
-    shorter, longer = (np.sqrt(12.0 * np.maximum(each, 0.0) / area) for each in (mean - spread, mean + spread))
+    shorter, longer = (np.sqrt(12.0 * np.maximum(moment, 0.0) / area) for moment in (mean - spread, mean + spread))
     slender = np.divide(shorter, longer, out=np.zeros_like(shorter), where=longer > 0.0)
     square = slender * slender
     constants: FloatArray = (
@@ -172,10 +144,10 @@ def torsion_constants(areas_m2: FloatArray, second_moments_m4: FloatArray) -> Fl
 def in_frames(stiffness: SectionStiffness, sections: FloatArray, held: BoolArray) -> FloatArray:
     """Return stiffness (2, 3, 3, m) in the axes of frames, from that in sections (3, 3, m), whose axes are the columns.
 
-    Rows that are not held (6, m) resist nothing, and the others resist no more for that.
+    Rows that are not `held` (6, m) resist nothing, and the others resist no more for that.
     """
     matrices = np.stack((stiffness.against_shifts(), stiffness.against_turns()))
-    turned = [matrix_products(matrix_products(sections, each), transposed(sections)) for each in matrices]
+    turned = [matrix_products(matrix_products(sections, matrix), transposed(sections)) for matrix in matrices]
     for matrix, rows in zip(turned, (held[:3], held[3:]), strict=True):
         for row in range(3):
             _let_go(matrix, row, ~rows[row])

@@ -16,14 +16,9 @@ _BLOCK = 6
 
 
 class BlockSystem:
-    """Equations of b bodies, coupled in pairs by c connections, whose numbers change while their places do not.
+    """Equations of bodies, coupled in pairs by c connections, whose numbers change while their places do not.
 
-    Parameters
-    ----------
-    body_count : int
-        How many bodies there are.
-    first, second : (c,) int
-        The bodies of each connection; -1 for one whose motion is known.
+    `first` and `second` (c,) are the bodies of each connection; -1 for one whose motion is known.
     """
 
     def __init__(self, body_count: int, first: IntArray, second: IntArray):
@@ -44,16 +39,9 @@ class BlockSystem:
         self._find_places(blocks)
 
     def factor(self, of_bodies: FloatArray, first: FloatArray, second: FloatArray, between: FloatArray) -> None:
-        """Take over the numbers.
+        """Take over and factor the numbers of each body (6, 6, b), and what each connection adds (6, 6, c).
 
-        Parameters
-        ----------
-        of_bodies : (6, 6, b) float
-            What each body has by itself.
-        first, second : (6, 6, c) float
-            What each connection adds to its first and to its second body.
-        between : (6, 6, c) float
-            What it puts between them, rows for the first body.
+        A connection adds to its `first` and `second` body, and `between` them, with rows for the first body.
         """
         both = between[..., self._has_both]
         both = np.where(self._is_turned, np.swapaxes(both, 0, 1), both)

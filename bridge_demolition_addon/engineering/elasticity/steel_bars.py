@@ -1,8 +1,8 @@
-"""How reinforcing bars stretch: elastic up to their yield force, then with hardening, and elastic again when let go.
+"""How reinforcing bars stretch: elastic up to their yield force, then with hardening, and elastic again when unloaded.
 
 The law is bilinear: EN 1992-1-1:2004, 3.2.7 (2) a. It is meant for bars that are pulled along their axis. Across a
 crack they are also pulled askew: their force then has the direction in which the sides of the crack have parted, and
-what stays of that follows the force (J. C. Simo and T. J. R. Hughes, 1998, Computational Inelasticity, chapter 1).
+the part that stays follows the force (J. C. Simo and T. J. R. Hughes, 1998, Computational Inelasticity, chapter 1).
 
 All arrays have their components first and the bars last.
 """
@@ -28,21 +28,11 @@ RUPTURE_STRAIN = 0.05
 
 @dataclass(frozen=True, slots=True)
 class Steel:
-    """How bars yield, harden and rupture, whatever their number and length.
+    """How bars yield, harden and rupture, whatever their number and length."""
 
-    Attributes
-    ----------
-    yield_pa : float
-        Yield strength, f_y.
-    hardening : float
-        Tensile strength over yield strength, f_t / f_y.
-    rupture_strain : float
-        Strain under the largest force, ε_u, at which they rupture.
-    """
-
-    yield_pa: float = YIELD_PA
-    hardening: float = HARDENING
-    rupture_strain: float = RUPTURE_STRAIN
+    yield_pa: float = YIELD_PA  # f_y
+    hardening: float = HARDENING  # tensile strength over yield strength, f_t / f_y
+    rupture_strain: float = RUPTURE_STRAIN  # strain under the largest force, ε_u
 
     def __post_init__(self) -> None:
         if not (np.isfinite(self.yield_pa) and self.yield_pa > 0.0):
@@ -66,21 +56,11 @@ USUAL_STEEL = Steel()
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Bars:
-    """b bars across cracks.
+    """b bars across cracks."""
 
-    Attributes
-    ----------
-    yield_n : (b,) float
-        Forces at which they yield.
-    stiffness_n_m : (b,) float
-        Of a bar by how far the crack opens.
-    modulus_n_m : (b,) float
-        By how much the yield force grows with the part of the opening that stays.
-    """
-
-    yield_n: FloatArray
-    stiffness_n_m: FloatArray
-    modulus_n_m: FloatArray
+    yield_n: FloatArray  # (b,), forces at which they yield
+    stiffness_n_m: FloatArray  # (b,), force by opening of the crack
+    modulus_n_m: FloatArray  # (b,), growth of the yield force with the part of the opening that stays
 
     @classmethod
     def of(cls, yield_n: FloatArray, steel: Steel, elongation_m: float) -> Bars:
@@ -100,22 +80,12 @@ class Bars:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class BarResponse:
-    """What b bars do when they are stretched.
+    """What b bars do when they are stretched."""
 
-    Attributes
-    ----------
-    forces_n : (3, b) float
-        Along the stretch; they pull its ends together.
-    slips_m, flows_m : (3, b) float, (b,) float
-        What of the stretch stays, and how long the way is on which it came.
-    tangents_n_m : (3, 3, b) float
-        By how much the forces change with the stretch.
-    """
-
-    forces_n: FloatArray
-    slips_m: FloatArray
-    flows_m: FloatArray
-    tangents_n_m: FloatArray
+    forces_n: FloatArray  # (3, b), along the stretch; they pull its ends together
+    slips_m: FloatArray  # (3, b), part of the stretch that stays
+    flows_m: FloatArray  # (b,), length of the path on which that came
+    tangents_n_m: FloatArray  # (3, 3, b), derivatives of the forces by the stretch
 
 
 def bar_response(bars: Bars, stretches_m: FloatArray, slips_m: FloatArray, flows_m: FloatArray) -> BarResponse:

@@ -25,7 +25,7 @@ from .joint_rows import JointFrames, JointPlaces, JointRows, joint_places
 from .sparse_system import BlockSystem
 
 _MOST_GUESSES = 40
-"""How often the equations are solved for bars that yield; what is not found by then goes into the next sub-step."""
+"""How often the equations are solved for bars that yield; what is out of balance then goes into the next sub-step."""
 
 TURNED_RAD = 1e-4
 """How far bodies may turn before rows and equations are made again: loads are then off by as much, relative."""
@@ -33,55 +33,30 @@ TURNED_RAD = 1e-4
 
 @dataclass(frozen=True, slots=True, eq=False)
 class StepInput:
-    """How n bodies stand before a sub-step, and would move in it without connections.
+    """How n bodies stand before a sub-step, and would move in it without connections."""
 
-    Attributes
-    ----------
-    positions_m, rotations : (3, n) and (3, 3, n) float
-        Centres of mass, and axes of the bodies.
-    velocities : (6, n) float
-        Velocities in m/s and angular velocities in rad/s that they would have at its end without connections.
-    asleep : (n,) bool
-        Whether each is at rest and not simulated.
-    """
-
-    positions_m: FloatArray
-    rotations: FloatArray
-    velocities: FloatArray
-    asleep: BoolArray
+    positions_m: FloatArray  # (3, n), centres of mass
+    rotations: FloatArray  # (3, 3, n)
+    velocities: FloatArray  # (6, n), m/s and rad/s, at its end without connections
+    asleep: BoolArray  # (n,)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ElasticStep:
     """What k of the elastic connections do in a sub-step; the others are broken, or asleep.
 
-    Attributes
-    ----------
-    acting : (k,) int
-        Which connections.
-    deformations : (6, k) float
-        Before the sub-step, m and rad, as Bullet measures them.
-    rates : (6, k) float
-        How fast they shrink in it, m/s and rad/s.
-    of_first, of_second : (6, k) float
-        Impulses on the two bodies, and about their centres.
-    cracks : (c,) int
-        Broken connections in whose place reinforcement acts.
-    of_cracks_on_first, of_cracks_on_second : (6, c) float
-        Its impulses on the two bodies, and about their centres.
-    of_bodies : (6, n) float
-        The sum on every body.
+    Impulses are on the first and on the second bodies, and about their centres.
     """
 
-    acting: IntArray
-    deformations: FloatArray
-    rates: FloatArray
-    of_first: FloatArray
+    acting: IntArray  # (k,), which connections
+    deformations: FloatArray  # (6, k), before the sub-step, m and rad, as Bullet measures them
+    rates: FloatArray  # (6, k), how fast they shrink in it, m/s and rad/s
+    of_first: FloatArray  # (6, k), impulses
     of_second: FloatArray
-    cracks: IntArray
-    of_cracks_on_first: FloatArray
+    cracks: IntArray  # (c,), broken connections in whose place reinforcement acts
+    of_cracks_on_first: FloatArray  # (6, c), its impulses
     of_cracks_on_second: FloatArray
-    of_bodies: FloatArray
+    of_bodies: FloatArray  # (6, n), the sum on every body
 
 
 class NonlinearTerms(Protocol):
@@ -123,8 +98,6 @@ class SoilSpringLaw(Protocol):
 
 
 class _Part:
-    """Bodies that hang together by connections, and their equations."""
-
     def __init__(self, bodies: IntArray, connections: IntArray, first: IntArray, second: IntArray):
         self.bodies, self.connections = bodies, connections
         self.first, self.second = first, second
@@ -164,25 +137,9 @@ class _RowCache:
 class ElasticStructure:
     """Bodies with elastic connections between them.
 
-    Parameters
-    ----------
-    frames : JointFrames
-        Of the m connections.
-    stiffness : (2, 3, 3, m) float
-        Against shifts, N/m, and against rotations, N·m/rad, in the axes of the first frames.
-    bodies : RigidBodies
-        What rounding leaves of deformations where they are counts as none.
-    damping_s : float
-        Damping over stiffness, β.
-    cracks : Cracks or None
-        Reinforcement in place of connections that broke, if there is any.
-    soil : SoilSpringLaw or None
-        Footings on soil, if there are any.
-
-    Attributes
-    ----------
-    part_of_connection : (m,) int
-        What hung together when the sub-step began: a number for each part, -1 for connections that had broken.
+    `stiffness` (2, 3, 3, m) is against shifts, N/m, and against rotations, N·m/rad, in the axes of the first frames;
+    `damping_s` is damping over stiffness, β. What rounding leaves of deformations where the `bodies` are counts as
+    none.
     """
 
     def __init__(
@@ -317,7 +274,7 @@ class ElasticStructure:
         numbers = np.unique(part_of_connection)
         parts, numbers_before = self._parts, self._part_of_body
         self._part_of_body = np.full(self._count, -1)
-        self.part_of_connection = np.full(len(self._frames), -1)
+        self.part_of_connection = np.full(len(self._frames), -1)  # (m,); -1 stays for connections that had broken
         self._parts = []
         within = np.full(self._count, -1)
         of_bodies, of_connections = (_grouped(each, numbers) for each in (label, part_of_connection))

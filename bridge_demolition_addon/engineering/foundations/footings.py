@@ -1,9 +1,9 @@
 """Footings on springs: what they resist in a sub-step, in the equations of the elastic structure.
 
-Under each footing are places, each with its part of the area. A place presses by stiffness, area and settlement, and
-never pulls: E. Winkler (1867), Die Lehre von der Elastizität und Festigkeit. Where the pressure reaches what the soil
-resists, it stays there and the place settles for good. Along the ground it holds as a spring up to its friction, by the
-pressure at the beginning of the sub-step, and slides beyond it.
+Each part of a footing's area is a spring. It presses by stiffness, area and settlement, and never pulls: E. Winkler
+(1867), Die Lehre von der Elastizität und Festigkeit. At the largest pressure that the soil resists, it settles for
+good. Along the ground it holds up to its friction, by the pressure at the beginning of the sub-step, and slides beyond
+it.
 
 A sub-step is implicit, and solved as `elasticity.cracks` is: forces are linear about a guess, which is followed by
 another until both agree.
@@ -22,7 +22,7 @@ from ..elasticity.gaps import Gaps, SolvedTangents, motion_of_points
 from ..elasticity.joint_rows import cross_products, matrix_products, transposed, turned, turned_back
 
 _AGREES = 1e-4
-"""Part of the mean force of the places under a footing by which that of one may be off."""
+"""Part of the mean force of a footing's springs by which that of one may be off."""
 
 _EVEN_M = 1e-10
 """Settlement up to this counts as none."""
@@ -33,51 +33,23 @@ _ANY = 1e300
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SoilSprings:
-    """Springs under f footings, at p places.
+    """Springs under f footings, at p positions."""
 
-    Attributes
-    ----------
-    rows : (f,) int
-        Connection of each footing with the ground, in ascending order.
-    footings : (p,) int
-        Footing of each place, in ascending order.
-    places_m : (p, 3) float
-        Where they are as the bridge was built.
-    areas_m2 : (p,) float
-        Their parts of the area.
-    stiffness_n_m3, horizontal_n_m3 : (f,) float
-        Pressure by settlement, and shear by slip.
-    capacity_pa, friction : (f,) float
-        Largest pressure, which may be infinite, and largest shear by pressure.
-    """
-
-    rows: IntArray
-    footings: IntArray
-    places_m: FloatArray
-    areas_m2: FloatArray
-    stiffness_n_m3: FloatArray
-    horizontal_n_m3: FloatArray
-    capacity_pa: FloatArray
-    friction: FloatArray
+    rows: IntArray  # (f,), connection of each footing with the ground, in ascending order
+    footings: IntArray  # (p,), footing of each spring, in ascending order
+    places_m: FloatArray  # (p, 3), position as the bridge was built
+    areas_m2: FloatArray  # (p,), parts of the area
+    stiffness_n_m3: FloatArray  # (f,), pressure by settlement
+    horizontal_n_m3: FloatArray  # (f,), shear by slip
+    capacity_pa: FloatArray  # (f,), largest pressure, which may be infinite
+    friction: FloatArray  # (f,), largest shear by pressure
 
 
 class Footings:
-    """All footings of a structure of n bodies.
+    """All footings of a structure of n bodies, which has connections between bodies `first` and `second` (m,).
 
-    Parameters
-    ----------
-    springs : SoilSprings
-    first, second : (m,) int
-        Bodies of all connections, of which those of footings have the ground as one.
-    moves : (n,) bool
-        Whether each body can move.
-    positions_m, rotations : (3, n) and (3, 3, n) float
-        As the bridge was built.
-
-    Attributes
-    ----------
-    rows : (f,) int
-        Connections, in ascending order.
+    Each footing's connection, of `rows` (f,), has the ground as one body. Positions (3, n) and rotations (3, 3, n) are
+    those of the bridge as it was built, `moves` (n,) is False for bodies that never move.
     """
 
     def __init__(
@@ -95,8 +67,8 @@ class Footings:
         standing, ground = np.where(self._stands_first, one, other), np.where(self._stands_first, other, one)
         self._of, self._standing, self._ground = of, standing[of], ground[of]
         self._anchors, self._ground_anchors = (
-            turned_back(rotations[..., each], springs.places_m.T - positions_m[:, each])
-            for each in (self._standing, self._ground)
+            turned_back(rotations[..., bodies], springs.places_m.T - positions_m[:, bodies])
+            for bodies in (self._standing, self._ground)
         )
         areas = springs.areas_m2
         self._soil = PressedSprings(
@@ -110,13 +82,7 @@ class Footings:
         self._solved_for = np.full((3, 3, len(of)), np.nan)
 
     def settle(self, positions_m: FloatArray, rotations: FloatArray) -> None:
-        """Take over, before a sub-step, how far places have settled or slid for good.
-
-        Parameters
-        ----------
-        positions_m, rotations : (3, n) and (3, 3, n) float
-            Of all bodies.
-        """
+        """Take over, before a sub-step, how far springs have settled or slid for good."""
         gaps = self._gaps(positions_m, rotations)[0]
         soil = self._soil
         deepest = soil.capacity_n / soil.vertical_n_m
@@ -165,7 +131,7 @@ class Footings:
         )
 
     def _gaps(self, positions_m: FloatArray, rotations: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Where places are: from where they were built on the ground, and from the bodies that stand and the ground."""
+        """Gaps from where springs were built on the ground, and arms from the standing bodies and the ground."""
         arms = turned(rotations[..., self._standing], self._anchors)
         on_ground = turned(rotations[..., self._ground], self._ground_anchors)
         between = positions_m[:, self._standing] - positions_m[:, self._ground]
@@ -177,21 +143,10 @@ class Footings:
 
 
 class FootingStep:
-    """What c footings with q places do in a sub-step.
+    """What c footings with q springs do in a sub-step.
 
-    Parameters
-    ----------
-    rows, stands_first : (c,) int, (c,) bool
-        Connections, and whether the first body of each is the one that stands on the ground.
-    footings : (q,) int
-        Footing of each place.
-    gaps : Gaps
-        From the ground to what stands on it, and how far each place is from where nothing is resisted.
-    soil : PressedSprings
-        The springs, and how they are pressed as the sub-step begins.
-    solved : SolvedTangents
-        For which equations were made last.
-    substep_s : float
+    `rows` and `stands_first` (c,): connections, and whether the first body of each stands on the ground. `footings`
+    (q,): footing of each spring. `gaps` are from the ground to the body, and from where a spring resists nothing.
     """
 
     def __init__(
@@ -227,7 +182,7 @@ class FootingStep:
         implicit = self._substep_s * self._substep_s * tangents
         stiff = matrix_products(transposed(moving), matrix_products(implicit, moving)).reshape(36, -1)
         count = len(self.rows)
-        sums = np.stack([np.bincount(self._of[mine], each, count) for each in stiff])[:, chosen].reshape(6, 6, -1)
+        sums = np.stack([np.bincount(self._of[mine], entry, count) for entry in stiff])[:, chosen].reshape(6, 6, -1)
         first = self._stands_first[chosen]
         return np.where(first, sums, 0.0), np.where(first, 0.0, sums), np.zeros_like(sums)
 
@@ -254,10 +209,10 @@ class FootingStep:
         standing = np.where(self._stands_first, *loads)
         bodies = np.zeros(len(self.rows), int)
         bodies[self._of] = self._gaps.second
-        return np.stack([np.bincount(bodies, each, count) for each in standing])
+        return np.stack([np.bincount(bodies, component, count) for component in standing])
 
     def _begin_at(self, moved: FloatArray) -> None:
-        """Take forces for linear about places that have moved further (3, q)."""
+        """Take forces for linear about springs that have moved further (3, q)."""
         forces, self._tangents = self._soil.resisted(self._gaps.widths_m + moved)
         self._forces = forces + turned(self._tangents, moved)
 
@@ -270,28 +225,15 @@ class FootingStep:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PressedSprings:
-    """Springs at q places.
+    """Springs at q positions."""
 
-    Attributes
-    ----------
-    vertical_n_m, horizontal_n_m : (q,) float
-        Stiffness.
-    capacity_n : (q,) float
-        Largest pressing force.
-    friction : (q,) float
-        Largest force along the ground by the pressing force.
-    pressed_n : (q,) float
-        Pressing force by which friction counts.
-    """
-
-    vertical_n_m: FloatArray
+    vertical_n_m: FloatArray  # (q,), stiffness
     horizontal_n_m: FloatArray
-    capacity_n: FloatArray
-    friction: FloatArray
-    pressed_n: FloatArray
+    capacity_n: FloatArray  # largest pressing force
+    friction: FloatArray  # largest force along the ground by the pressing force
+    pressed_n: FloatArray  # pressing force by which friction counts
 
     def only(self, which: IntArray) -> PressedSprings:
-        """Return some of the springs."""
         return PressedSprings(*(getattr(self, item.name)[which] for item in fields(self)))
 
     def resisted(self, gaps_m: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -301,7 +243,7 @@ class PressedSprings:
         forces[2] = np.clip(wanted, 0.0, self.capacity_n)
         tangents[2, 2] = np.where((wanted > 0.0) & (wanted < self.capacity_n), self.vertical_n_m, 0.0)
         along = gaps_m[:2]
-        squares = _squares(along)
+        squares = along[0] * along[0] + along[1] * along[1]
         size = np.sqrt(squares) * self.horizontal_n_m
         limit = self.friction * self.pressed_n
         slides = size > limit
@@ -311,9 +253,3 @@ class PressedSprings:
         across = np.divide(share * self.horizontal_n_m, squares, out=np.zeros_like(size), where=slides)
         tangents[:2, :2] -= across * along[:, None] * along
         return forces, tangents
-
-
-def _squares(vectors: FloatArray) -> FloatArray:
-    """Return the squares (q,) of vectors (2, q)."""
-    squares: FloatArray = vectors[0] * vectors[0] + vectors[1] * vectors[1]
-    return squares

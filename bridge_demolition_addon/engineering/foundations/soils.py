@@ -16,18 +16,10 @@ Poisson's ratio ν = 1/3: F. E. Richart, J. R. Hall and R. D. Woods (1970), Vibr
 
 @dataclass(frozen=True, slots=True)
 class Soil:
-    """A class of soil.
+    """A class of soil."""
 
-    Attributes
-    ----------
-    stiffness_n_m3 : float
-        Pressure by settlement: modulus of subgrade reaction.
-    friction : float
-        Of concrete cast on it.
-    """
-
-    stiffness_n_m3: float
-    friction: float
+    stiffness_n_m3: float  # pressure by settlement: modulus of subgrade reaction
+    friction: float  # of concrete cast on it
 
     @property
     def capacity_pa(self) -> float:
@@ -47,7 +39,6 @@ SOILS = {
 """Classes to start from where nothing was measured.
 
 Stiffness: the middle of the range in J. E. Bowles (1996), Foundation Analysis and Design, 5th edition, table 9-1; his
-clays that carry up to 200 kPa, and from 200 to 800 kPa. Most ranges reach from half of it to one and a half times, that
-of medium dense sand from a fifth to 1.8 times. Friction: NAVFAC DM-7.02 (1986), chapter 3, table 1, mass concrete on
-soil.
+clays that carry up to 200 kPa, and from 200 to 800 kPa. Most ranges go from half of it to one and a half times, that of
+medium dense sand from a fifth to 1.8 times. Friction: NAVFAC DM-7.02 (1986), chapter 3, table 1, mass concrete on soil.
 """

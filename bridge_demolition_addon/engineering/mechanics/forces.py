@@ -1,4 +1,4 @@
-"""What connections do to bodies: resultants, sums of magnitudes, and moments at the connections themselves."""
+"""Effects of connections on bodies: resultants, sums of magnitudes, and moments at the connections themselves."""
 
 from __future__ import annotations
 
@@ -9,44 +9,21 @@ from ..geometry.vectors import by_component, cross_by_component
 
 
 def moments_at(points: FloatArray, forces: FloatArray, torques: FloatArray, centres: FloatArray) -> FloatArray:
-    """Return the moments of connections about their own points.
+    """Return the moments (..., 3), N·m, of connections about their own points (..., 3), m.
 
-    Parameters
-    ----------
-    points : (..., 3) float
-        Where the connections sit, m.
-    forces, torques : (..., 3) float
-        Force on a body in N, and the torque of the whole load about that body's centre in N·m.
-    centres : (..., 3) float
-        That body's centre, m.
-
-    Returns
-    -------
-    (..., 3) float
-        In N·m: the torque less what the force makes by its lever arm.
+    `torques` (..., 3) are those of the whole load about the body's centre; the force's lever arm is taken off.
     """
     return torques - cross_by_component(points - centres, forces)
 
 
 class PairSums:
-    """Sums over the pairs of n bodies in each of s sub-steps, all at once.
+    """Sums over the pairs of n bodies in each of s sub-steps, all at once. `shape` is (s, n).
 
     The sum of the magnitudes of all forces on a body measures how hard it is held from all sides, where the resultant
     of a body at rest is only its weight.
 
-    Parameters
-    ----------
-    pairs : (k, 2) int
-        Bodies.
-    substeps : (k,) int or None
-        Sub-step of each pair; None where all pairs are in all sub-steps, and values are (s, k).
-    shape : tuple of int
-        Sub-steps s and bodies n.
-
-    Attributes
-    ----------
-    first, second : (s k,) or (k,) int
-        Rows of the bodies of the pairs among those (s n,) of all sub-steps.
+    `pairs` (k, 2) are bodies, `substeps` (k,) the sub-step of each pair; None where all pairs are in all sub-steps, and
+    values are (s, k). `first` and `second` are rows of the pairs' bodies among those (s n,) of all sub-steps.
     """
 
     def __init__(self, pairs: IntArray, substeps: IntArray | None, shape: tuple[int, int]):

@@ -17,10 +17,10 @@ from .section_cuts import ConnectedFaces, cut_loads
 from .section_forces import SectionForces
 
 SPREAD = 7.0
-"""How far a section reaches from its middle, by the thickness of the member.
+"""How far a section extends from its middle, by the thickness of the member.
 
 A ball of 1 m that punches through a plate of 0.25 m is resisted along 4 × 1 m + 4 π × 0.25 m, the control perimeter of
-EN 1992-1-1:2004, 6.4.2. Two sections, one on either side, have that length if they reach seven thicknesses.
+EN 1992-1-1:2004, 6.4.2. Two sections, one on either side, have that length if they extend by seven thicknesses.
 """
 
 WHOLE = 2.0
@@ -29,19 +29,11 @@ thickness is half its side. Smaller ones clip an edge."""
 
 
 class MemberSections:
-    """Sections through m connections as they were built.
+    """Sections through m connections as they were built, between n bodies.
 
-    Parameters
-    ----------
-    faces : ConnectedFaces
-    centres_m : (n, 3) float
-        Centres of the bodies.
-    moves : (n,) bool
-        Whether each body moves. One that does not is behind its faces, wherever its centre is.
-    kinds : (m,) int
-        A section has connections of one kind: those between the same two members.
-    thicknesses_m : (m,) float
-        Of the thinner of these members; nan where it is not known.
+    `moves` (n,): a body that does not move is behind its faces, wherever its centre is. `kinds` (m,): a section has
+    connections of one kind, those between the same two members. `thicknesses_m` (m,) are those of the thinner of these
+    members; nan where it is not known.
     """
 
     def __init__(
@@ -60,7 +52,7 @@ class MemberSections:
         self._before = np.where(moves[first, None], centres_m[first], self._points - beyond)
         self._behind = np.where(moves[second, None], centres_m[second], self._points + beyond)
         self._tree = cKDTree(self._points)
-        self._found: dict[int, tuple[FloatArray, FloatArray, FloatArray]] = {}
+        self._known: dict[int, tuple[FloatArray, FloatArray, FloatArray]] = {}
 
     def are_whole(self, rows: IntArray) -> BoolArray:
         """Whether the sections of some connections (k,) are those of their members, as they were built: (k,) bool."""
@@ -78,29 +70,15 @@ class MemberSections:
         points: FloatArray,
         axes: FloatArray,
     ) -> tuple[SectionForces, FloatArray, FloatArray]:
-        """Loads and sizes of the sections of some intact connections.
+        """Return loads, areas (k,) and second moments (k, 2, 2) of the sections of some intact connections `rows` (k,).
 
-        Parameters
-        ----------
-        rows : (k,) int
-            Which connections.
-        parts : (m,) int
-            What hangs together: a section does not reach from one part to another. Negative where a connection is
-            broken.
-        forces, moments, points : (m, 3) float
-            On the first body of each connection, about the connection's own point, which is also given, in the axes of
-            the world; N, N·m, m.
-        axes : (k, 3, 3) float
-            Of the sections of those connections, as columns.
-
-        Returns
-        -------
-        loads, areas_m2, second_moments_m4
-            Of the k sections.
+        `parts` (m,) are numbers of what hangs together, which no section goes beyond; negative for broken connections.
+        Forces, moments and points (m, 3) are on the first body of each connection, about its own point, in the axes of
+        the world. `axes` (k, 3, 3) are those of the sections, as columns.
         """
-        found = [self._faces(row) for row in rows.tolist()]
-        owners = np.repeat(np.arange(len(rows)), [len(faces) for faces, _, _ in found])
-        faces, signs, cosines = (np.concatenate(each) for each in zip(*found, strict=True))
+        in_sections = [self._faces(row) for row in rows.tolist()]
+        owners = np.repeat(np.arange(len(rows)), [len(faces) for faces, _, _ in in_sections])
+        faces, signs, cosines = (np.concatenate(arrays) for arrays in zip(*in_sections, strict=True))
         holds = parts[faces] == parts[rows][owners]
         owners, faces, signs, cosines = owners[holds], faces[holds], signs[holds], cosines[holds]
         return cut_loads(
@@ -112,7 +90,7 @@ class MemberSections:
 
         Where the section doubles back, a face carries a load, and has no area.
         """
-        if row not in self._found:
+        if row not in self._known:
             point, normal = self._points[row], self._normals[row]
             near = np.array(sorted(self._tree.query_ball_point(point, self._reaches[row])))
             near = near[(self._kinds[near] == self._kinds[row]) | (near == row)]
@@ -121,8 +99,8 @@ class MemberSections:
             near, before, behind = near[parted], before[parted], behind[parted]
             signs = np.where((before < behind) | (near == row), 1.0, -1.0)
             cosines = np.maximum(signs * dot(self._normals[near], normal), 0.0)
-            self._found[row] = near, signs, cosines
-        return self._found[row]
+            self._known[row] = near, signs, cosines
+        return self._known[row]
 
 
 def kinds_of(members: IntArray) -> IntArray:
