@@ -1,4 +1,4 @@
-"""What a scene was built as, kept with it, and what was changed by hand since."""
+"""A scene as it was built, kept with it, and what the user changed since."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from ..errors import SimulationError
 from ..model.scenario.kept import values_from_text, values_text
 from .bodies import Kind
 from .body_settings import BodySettings, body_settings_of
+from .custom_properties import keep
 from .run_setup import RunSetup, run_setup_of
 
 _AS_BUILT = "bda_as_built"
@@ -23,7 +24,7 @@ _SAME_M = 1e-3
 _SAME_ROTATION = 1e-3
 _LEAST_RUBBLE = 3
 _RUBBLE_SHARE = 0.1
-"""A person moves a few shards, or many alike. From so many on that lie each in its own way, it was a simulation."""
+"""A person moves a few shards, or many alike. Where this many have rotations of their own, a simulation moved them."""
 
 
 def keep_as_built(scene: bpy.types.Scene) -> None:
@@ -32,7 +33,7 @@ def keep_as_built(scene: bpy.types.Scene) -> None:
 
 
 def manual_edits(scene: bpy.types.Scene, setup: RunSetup) -> list[str]:
-    """Return what is no longer as it was built, in a few words each; nothing where that is not known."""
+    """Return short texts on what is no longer as it was built; none where that is not known."""
     before = values_from_text(scene.get(_AS_BUILT, ""), {})
     return [text for text, digest in setup.compared().items() if before.get(text, digest) != digest]
 
@@ -48,12 +49,11 @@ def keep_built_bodies(scene: bpy.types.Scene) -> None:
 
 def forget_built_bodies(scene: bpy.types.Scene) -> None:
     """Forget what was built, as it is removed."""
-    if _BODIES in scene:
-        del scene[_BODIES]
+    keep(scene, _BODIES, None)
 
 
 def changed_bodies(scene: bpy.types.Scene) -> list[str]:
-    """Return in sentences which bodies are missing, were added or moved since a scene was built."""
+    """Return sentences on bodies that are missing, were added or moved since a scene was built."""
     kept = values_from_text(scene.get(_BODIES, ""), {})
     bodies = body_settings_of(scene)
     built = {name: np.array(place) for places in kept.values() for name, place in places.items()}
@@ -100,15 +100,7 @@ def _moved(scene: bpy.types.Scene, built: dict[str, np.ndarray], bodies: BodySet
 
 
 def check_start(setup: RunSetup, positions_m: np.ndarray) -> None:
-    """See that a simulation begins where the bodies of its scene are.
-
-    Parameters
-    ----------
-    setup
-        What is simulated.
-    positions_m : (n, 3) float
-        Where the simulation has its bodies before any time has passed.
-    """
+    """Check that a simulation, with its n bodies at positions (n, 3) before any time, begins as its scene is."""
     bodies = setup.bodies
     rows = _free_shards(bodies)
     away_m = length(positions_m[rows] - bodies.own_matrices[rows, :3, 3])
@@ -123,7 +115,7 @@ def check_start(setup: RunSetup, positions_m: np.ndarray) -> None:
 
 
 def _free_shards(bodies: BodySettings) -> list[int]:
-    """Return the rows of shards that nothing but their own location places."""
+    """Return the rows of shards without animation, parent or constraint: their own location is where they are."""
     rows = bodies.of_kind(Kind.SHARD)
     is_held = [bool(obj.parent or len(obj.constraints)) for obj in bodies.objects]
     return [row for row in rows if not (bodies.is_animated[row] or is_held[row])]

@@ -15,6 +15,7 @@ from ..engineering.geometry.solids import box
 from ..model.scenario import Ground, GroundSurface, ShardSettings
 from ..model.scenario.kept import values_from_text, values_text
 from ..model.terrain.built import TerrainFacts
+from .custom_properties import kept_numbers
 from .naming import make_named, numbered_names
 
 _KIND = "bda_kind"
@@ -31,6 +32,18 @@ _SURFACE_COLOURS = {
     "railway": (0.25, 0.22, 0.20, 1.0),
 }
 _SHADES = (1.0, 0.94, 0.88, 0.97, 0.91)
+
+_START_MOTION = "bda_start_motion"
+
+SHARD_PROPERTIES = {
+    "linear_damping": "linear_damping",
+    "angular_damping": "angular_damping",
+    "use_deactivation": "use_deactivation",
+    "start_deactivated": "use_start_deactivated",
+    "deactivation_linear_velocity_m_s": "deactivate_linear_velocity",
+    "deactivation_angular_velocity_rad_s": "deactivate_angular_velocity",
+}
+"""Keys of a scenario, and the properties of Blender's rigid bodies that they set."""
 
 
 class Kind(StrEnum):
@@ -54,7 +67,7 @@ def kind_of(body: bpy.types.Object) -> Kind:
 
 
 def member_of(body: bpy.types.Object) -> tuple[str, str]:
-    """Return name and kind of the member that a body is a piece of, both empty where it is of none."""
+    """Return name and kind of the member that a body is a piece of; both are empty for other bodies."""
     return str(body.get(_MEMBER, "")), str(body.get(_MEMBER_KIND, ""))
 
 
@@ -69,19 +82,21 @@ def is_marked(body: bpy.types.Object) -> bool:
 
 
 def bodies_of(scene: bpy.types.Scene) -> list[bpy.types.Object]:
-    """Return all mesh objects that take part in the scene's rigid-body world."""
-    return [body for body in scene.rigidbody_world.collection.all_objects if body.type == "MESH" and body.rigid_body]
+    """Return all mesh objects that take part in the scene's rigid-body world, if it has one."""
+    world = scene.rigidbody_world
+    objects = world.collection.all_objects if world and world.collection else ()
+    return [body for body in objects if body.type == "MESH" and body.rigid_body]
 
 
 def lacks_ground(scene: bpy.types.Scene) -> bool:
-    """Return whether a scene has shards that were built here, and no ground under them, nor any of the user's own."""
+    """Return whether a scene has shards of the add-on, and no ground, not even one of the user's own."""
     bodies = bodies_of(scene)
     has_ours = any(is_marked(body) and kind_of(body) == Kind.SHARD for body in bodies)
     return has_ours and all(kind_of(body) != Kind.GROUND for body in bodies)
 
 
 def scaled_mesh(body: bpy.types.Object) -> TriangleMesh:
-    """Return a body's triangles, scaled as it is, from its origin, which Bullet takes for its centre of mass."""
+    """Return a body's triangles, scaled as it is, relative to its origin, which is its centre of mass in Bullet."""
     mesh = triangle_mesh(body.data)
     return TriangleMesh(mesh.vertices * np.array(body.matrix_world.to_scale(), float), mesh.triangles)
 
@@ -103,18 +118,9 @@ def create_shards(
     centres_m: np.ndarray,
     masses_kg: np.ndarray,
 ) -> list[bpy.types.Object]:
-    """Make an active body for each shard, its origin at its centre of mass.
+    """Make an active body for each of n shards, its origin at its centre of mass (n, 3), m.
 
-    Parameters
-    ----------
-    collection : bpy.types.Collection
-        Where the bodies go: that of a rigid-body world, best while `off_scene`.
-    settings : ShardSettings
-        Surface, damping and rest of all of them.
-    shards : sequence of length n
-        Their meshes.
-    centres_m, masses_kg : (n, 3) float, (n,) float
-        Their centres of mass and masses.
+    The bodies go into the collection of a rigid-body world, fastest while it is `off_scene`.
     """
     names = numbered_names("Shard", len(shards), bpy.data.objects, bpy.data.meshes)
     meshes = make_named(bpy.data.meshes, names, lambda name, _: bpy.data.meshes.new(name))
@@ -134,12 +140,22 @@ def create_shards(
 def _set_shard(rigid: bpy.types.RigidBodyObject, settings: ShardSettings) -> None:
     rigid.collision_shape = "CONVEX_HULL"
     set_surface(rigid, settings.friction, settings.restitution, settings.collision_margin_m)
-    rigid.linear_damping = settings.linear_damping
-    rigid.angular_damping = settings.angular_damping
-    rigid.use_deactivation = settings.use_deactivation
-    rigid.use_start_deactivated = settings.start_deactivated
-    rigid.deactivate_linear_velocity = settings.deactivation_linear_velocity_m_s
-    rigid.deactivate_angular_velocity = settings.deactivation_angular_velocity_rad_s
+    for key, name in SHARD_PROPERTIES.items():
+        setattr(rigid, name, getattr(settings, key))
+
+
+def keep_start_motion(
+    bodies: Sequence[bpy.types.Object], velocities_m_s: np.ndarray, angular_velocities_rad_s: np.ndarray
+) -> None:
+    """Have bodies (n,) begin with velocities (n, 3) and angular velocities (n, 3), where these are not 0."""
+    for body, motion in zip(bodies, np.column_stack((velocities_m_s, angular_velocities_rad_s)).tolist(), strict=True):
+        if any(motion):
+            body[_START_MOTION] = motion  # Blender has no such property of rigid bodies
+
+
+def start_motion_of(bodies: Sequence[bpy.types.Object]) -> np.ndarray:
+    """Return velocities, m/s, and angular velocities, rad/s, (n, 6) with which bodies (n,) begin."""
+    return np.array([kept_numbers(body, _START_MOTION, (0.0,) * 6) for body in bodies], float).reshape(-1, 6)
 
 
 def create_flat_ground(world: bpy.types.RigidBodyWorld, half_size_m: float, settings: Ground) -> bpy.types.Object:
@@ -153,10 +169,7 @@ def create_flat_ground(world: bpy.types.RigidBodyWorld, half_size_m: float, sett
 def create_terrain(
     world: bpy.types.RigidBodyWorld, mesh: TriangleMesh, settings: Ground, facts: TerrainFacts | None = None
 ) -> bpy.types.Object:
-    """Make passive ground of triangles, which bodies meet as they are and not as their convex hull.
-
-    It keeps what became of the file that it was made from.
-    """
+    """Make passive ground of triangles, not of their convex hull; it keeps facts on the file that it was made from."""
     ground = _create_passive(world, mesh_of("Ground", mesh), "MESH", settings)
     if facts is not None:
         ground[_TERRAIN] = values_text(asdict(facts))
@@ -164,19 +177,18 @@ def create_terrain(
 
 
 def is_uneven_ground(body: bpy.types.Object) -> bool:
-    """Return whether a body is ground that was built here, which others meet at its triangles."""
+    """Return whether a body is ground of the add-on that others meet at its triangles."""
     return is_marked(body) and kind_of(body) == Kind.GROUND and body.rigid_body.collision_shape == "MESH"
 
 
 def terrain_facts(scene: bpy.types.Scene) -> dict[str, Any] | None:
-    """Return what became of the file of a scene's terrain, by the names of `TerrainFacts`; None where it is flat."""
-    world = scene.rigidbody_world
-    bodies = bodies_of(scene) if world and world.collection else []
-    return next((values_from_text(str(body[_TERRAIN]), {}) for body in bodies if _TERRAIN in body), None)
+    """Return the facts on the file of a scene's terrain, by the names of `TerrainFacts`; None where it is flat."""
+    texts = (str(body[_TERRAIN]) for body in bodies_of(scene) if _TERRAIN in body)
+    return next((values_from_text(text, {}) for text in texts), None)
 
 
 def create_surface(world: bpy.types.RigidBodyWorld, mesh: TriangleMesh, settings: GroundSurface) -> bpy.types.Object:
-    """Make a passive surface on the ground, such as water; its name and kind are marked as those of a member."""
+    """Make a passive surface on the ground, such as water, marked with its name and kind as a member is."""
     surface = _create_passive(world, mesh_of(settings.name, mesh), "MESH", settings)
     surface.color = _SURFACE_COLOURS.get(settings.kind, SOIL)
     mark_member(surface, settings.name, settings.kind)

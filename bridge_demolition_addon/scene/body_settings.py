@@ -10,8 +10,8 @@ import bpy
 import numpy as np
 
 from .bodies import Kind, bodies_of, is_marked, kind_of, member_of
-from .time_scale import curves_of
 from .tools.ball import lifts_of
+from .tools.keyframes import curves_of, keyframes_of
 
 _RIGID = (
     *("type", "collision_shape", "enabled", "mass", "friction", "restitution", "linear_damping", "angular_damping"),
@@ -27,21 +27,18 @@ class BodySettings:
 
     Attributes
     ----------
-    objects, names, kinds, members : sequence of length n
-        A member is the name of what a body is a piece of.
-    is_marked, is_animated : (n,) bool
-        Whether the add-on made a body, and whether it has an animation.
+    is_marked : (n,) bool
+        Whether the add-on made a body.
     matrices, own_matrices : (n, 4, 4) float
-        Where a body is in the frame in which this was read, and where its own location and rotation place it.
+        Where a body is in the frame in which this was read, and where its own location and rotation put it.
     boxes_m : (n, 8, 3) float
         Corners of its bounding box, in its own axes.
-    vertex_counts : (n,) int
     layers : sequence of tuple of bool
         Collision collections.
     rigid : mapping of str to list
         Properties of its rigid body by Blender's names.
     keys : (k,) float
-        Keyframes of all of them but of balls that are lifted, which a run has begin where they lie.
+        Keyframes of all of them except balls that are lifted: a run lifts these from where they lie.
     """
 
     objects: tuple[bpy.types.Object, ...]
@@ -73,7 +70,7 @@ class BodySettings:
 
     def of_kind(self, kind: Kind) -> list[int]:
         """Return the rows of bodies of a kind."""
-        return [row for row, each in enumerate(self.kinds) if each == kind]
+        return [row for row, other in enumerate(self.kinds) if other == kind]
 
     def common(self, name: str, rows: Sequence[int]) -> list[Any]:
         """Return the different values that bodies have of a property."""
@@ -103,9 +100,4 @@ def body_settings_of(scene: bpy.types.Scene) -> BodySettings:
 def _keys(body: bpy.types.Object) -> np.ndarray:
     if not (body.animation_data and body.animation_data.action) or lifts_of(body):
         return np.zeros(0)
-    keys: list[np.ndarray] = [np.zeros(0)]
-    for curve in curves_of(body.animation_data):
-        points = np.empty(2 * len(curve.keyframe_points), np.float32)
-        curve.keyframe_points.foreach_get("co", points)
-        keys.append(points)
-    return np.concatenate(keys)
+    return np.concatenate([np.zeros(0), *(keyframes_of(curve).ravel() for curve in curves_of(body.animation_data))])

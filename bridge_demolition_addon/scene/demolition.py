@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
+from itertools import chain
 from typing import Any
 
 import bpy
@@ -23,13 +24,21 @@ from .as_built import keep_built_bodies
 from .blast.charges import charge_objects, create_charges
 from .blast.force_fields import build_force_objects
 from .blast.settings import keep_blast
-from .bodies import bodies_of, create_flat_ground, create_shards, create_surface, create_terrain, is_marked, mark_member
+from .bodies import (
+    bodies_of,
+    create_flat_ground,
+    create_shards,
+    create_surface,
+    create_terrain,
+    is_marked,
+    keep_start_motion,
+    mark_member,
+)
 from .connections.breaking_settings import Breaking, keep_bars, keep_breaking
 from .connections.constraints import create_connections
 from .connections.elasticity import forget_elasticity, keep_elasticity
 from .connections.joints import set_joints
 from .connections.soil import keep_soil
-from .start_motion import keep_start_motion
 from .structural_changes import keep_changes, keep_loads
 from .time_scale import animate_time_scale, stop_animation
 from .tools.ball import create_ball
@@ -42,22 +51,19 @@ TOOLS: dict[type[PlannedAction], Callable[[BuildSite, Any], object]] = {
     Ball: create_ball,
     Jackhammer: create_jackhammer,
 }
-"""Actions that are bodies of their own, and what makes them, in the order of a scenario's actions."""
+"""Makers of the actions that are bodies of their own, in the order of a scenario's actions."""
 
 KEPT: dict[type[PlannedAction], Callable[[bpy.types.Scene, Sequence[Any]], None]] = {
     Change: keep_changes,
     Load: keep_loads,
 }
-"""Actions that act on bodies that are there: what keeps all of a kind with the scene until a recording applies them."""
+"""Actions on bodies that are there, and what keeps all of a kind with the scene until a recording applies them."""
 
 
 def build_demolition(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> list[bpy.types.Object]:
-    """Put a model and everything around it into an empty scene, ready to be played from its start frame.
+    """Put a model and everything around it into an empty scene, and return the shards in the model's order.
 
-    Returns
-    -------
-    list of bpy.types.Object
-        The shards, in the model's order.
+    The scene can be played from its start frame then.
     """
     record = scenario.ground_record
     with settings_restored_on_failure(scene), _all_or_nothing(scene):
@@ -70,7 +76,7 @@ def build_demolition(scene: bpy.types.Scene, scenario: Scenario, model: Model) -
 
 
 def check_replaceable(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> None:
-    """See that what was built in a scene can be removed and another model built in its place, and change nothing."""
+    """Check that a model can be built in a scene in place of another, and change nothing."""
     if others := [body.name for body in bodies_of(scene) if not is_marked(body)]:
         raise SimulationError(
             f"the rigid-body world has {len(others)} bodies that were not built here, such as {others[0]!r}: take them "
@@ -103,13 +109,12 @@ def _build(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> list[bpy
         set_joints(made, joints, model.joint_of_connection, scenario.time.step)
         if model.soil:
             keep_soil(made, model.soil)
-        if model.stiffness is None:
-            forget_elasticity(scene)
-        else:
+        forget_elasticity(scene)
+        if model.stiffness is not None:
             ratio = scenario.connections.damping_ratio
             ratio = DAMPING_RATIO if ratio is None else ratio
             keep_elasticity(scene, made, model.stiffness, ratio, model.thicknesses_m())
-    if not charge_objects(scene):  # those that the user has placed stay the objects that they are
+    if not charge_objects(scene):  # charges that the user has placed stay
         create_charges(scene, scenario.charges)
     keep_blast(scene, scenario.blast)
     if scenario.charges and scenario.blast.apply == Apply.FIELDS:
@@ -121,10 +126,11 @@ def _build(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> list[bpy
 
 def _create_ground(world: bpy.types.RigidBodyWorld, scenario: Scenario, model: Model) -> bpy.types.Object:
     """Make the ground and the surfaces on it, and return the ground."""
-    if model.ground.terrain is None:
+    terrain = model.ground.terrain
+    if terrain is None:
         ground = create_flat_ground(world, room_around(scenario, model.members), scenario.ground)
     else:
-        ground = create_terrain(world, model.ground.terrain.mesh, scenario.ground, model.ground.facts)
+        ground = create_terrain(world, terrain.mesh, scenario.ground, model.ground.facts)
     for surface in model.ground.surfaces:
         create_surface(world, surface.mesh, surface.settings)
     return ground
@@ -132,21 +138,20 @@ def _create_ground(world: bpy.types.RigidBodyWorld, scenario: Scenario, model: M
 
 @contextmanager
 def _all_or_nothing(scene: bpy.types.Scene) -> Iterator[None]:
-    """Remove the world and all data that were made in the block where it fails: there is no undo of half a button."""
+    """Remove the world and all data that the block made where it fails: Blender does not undo half an operator."""
     before = set(_all_data())
     try:
         yield
     except BaseException:
         stop_animation(scene)
         remove_world(scene)
-        bpy.data.batch_remove([each for each in _all_data() if each not in before])
+        bpy.data.batch_remove(set(_all_data()) - before)
         raise
 
 
 def _all_data() -> Iterator[bpy.types.ID]:
-    """Give everything of the kinds that a demolition is made of."""
-    for kind in (bpy.data.objects, bpy.data.meshes, bpy.data.collections, bpy.data.actions):
-        yield from kind
+    """Give all data of the kinds that a demolition is made of."""
+    return chain(bpy.data.objects, bpy.data.meshes, bpy.data.collections, bpy.data.actions)
 
 
 def _breaking(scenario: Scenario, strength: Strength | None) -> Breaking:

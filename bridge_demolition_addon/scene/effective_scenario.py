@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -12,7 +13,7 @@ from ..engineering.single_precision import as_given
 from ..errors import ScenarioError
 from ..model.scenario import Ground, Scenario
 from ..model.schema import Table
-from .bodies import Kind
+from .bodies import SHARD_PROPERTIES, Kind
 from .body_settings import BodySettings
 from .world import START_FRAME
 
@@ -26,40 +27,36 @@ _DEFAULT_MARGIN_M = 0.04
 
 _GROUND = {"friction": "friction", "restitution": "restitution"}
 _BALL = {**_GROUND, "mass_kg": "mass", "angular_damping": "angular_damping"}
-_SHARDS = {
-    **_GROUND,
-    "linear_damping": "linear_damping",
-    "angular_damping": "angular_damping",
-    "use_deactivation": "use_deactivation",
-    "start_deactivated": "use_start_deactivated",
-    "deactivation_linear_velocity_m_s": "deactivate_linear_velocity",
-    "deactivation_angular_velocity_rad_s": "deactivate_angular_velocity",
-}
-"""Keys of a scenario, and Blender's properties of rigid bodies that they set."""
+_SHARDS = {**_GROUND, **SHARD_PROPERTIES}
+"""Keys of a scenario, and the properties of Blender's rigid bodies that they set."""
 
 
 def effective_scenario(setup: RunSetup, built: Scenario) -> tuple[Scenario, list[str]]:
-    """Return what a scene that was built from a scenario runs, and in sentences what of it no scenario can say."""
-    scenario, unsaid = built, []
+    """Return what a scene that was built from a scenario runs, and sentences on what no scenario can say."""
+    scenario, left_out = built, []
     for write in setup.writers():
         try:
             scenario = write(setup, scenario)
         except ScenarioError as error:
-            unsaid.append(str(error))
-    return scenario, unsaid
+            left_out.append(str(error))
+    return scenario, left_out
 
 
+@contextmanager
+def _refused(reason: str) -> Iterator[None]:
+    """Put a reason before what the model says of values that no scenario can have."""
+    try:
+        yield
+    except ScenarioError as error:
+        raise ScenarioError(f"{reason} ({error})") from error
+
+
+@_refused("settings of bodies that no scenario can have")
 def with_bodies(setup: RunSetup, scenario: Scenario) -> Scenario:
     """Take over mass and surface of ground, ball and shards; of shards what all of them have."""
-    try:
-        return _with_bodies(setup.bodies, scenario)
-    except ScenarioError as error:
-        raise ScenarioError(f"settings of bodies that no scenario can have ({error})") from error
-
-
-def _with_bodies(bodies: BodySettings, scenario: Scenario) -> Scenario:
+    bodies = setup.bodies
     rows = {kind: [row for row in bodies.of_kind(kind) if bodies.is_marked[row]] for kind in Kind}
-    shards = _common(bodies, rows[Kind.SHARD], _SHARDS.items(), scenario.shards)
+    shards = _common(bodies, rows[Kind.SHARD], _SHARDS, scenario.shards)
     own = zip(bodies.rigid["use_margin"], bodies.rigid["collision_margin"], strict=True)
     margins = [margin if is_used else _DEFAULT_MARGIN_M for is_used, margin in own]
     if len(common := {margins[row] for row in rows[Kind.SHARD]}) == 1:
@@ -70,7 +67,7 @@ def _with_bodies(bodies: BodySettings, scenario: Scenario) -> Scenario:
     scenario = replace(scenario, ground=_with_surfaces(bodies, rows[Kind.GROUND], scenario.ground))
     if scenario.ball is None:
         return scenario
-    ball = _common(bodies, rows[Kind.BALL], _BALL.items(), scenario.ball)
+    ball = _common(bodies, rows[Kind.BALL], _BALL, scenario.ball)
     return replace(scenario, ball=_replaced(scenario.ball, ball))
 
 
@@ -80,23 +77,16 @@ def _with_surfaces(bodies: BodySettings, rows: Sequence[int], ground: Ground) ->
     for row in rows:
         named.setdefault(bodies.members[row], []).append(row)
     surfaces = tuple(
-        _replaced(surface, _common(bodies, named.get(surface.name, ()), _GROUND.items(), surface))
+        _replaced(surface, _common(bodies, named.get(surface.name, ()), _GROUND, surface))
         for surface in ground.surfaces
     )
-    ground = _replaced(ground, _common(bodies, named.get("", ()), _GROUND.items(), ground))
+    ground = _replaced(ground, _common(bodies, named.get("", ()), _GROUND, ground))
     return ground if surfaces == ground.surfaces else replace(ground, surfaces=surfaces)
 
 
+@_refused("frames of another length than what is planned and animated allows")
 def with_time_step(setup: RunSetup, scenario: Scenario) -> Scenario:
     """Take over frame rate, sub-steps, solver and speed. What is animated keeps its frames, and its times change."""
-    try:
-        return _with_time_step(setup, scenario)
-    except ScenarioError as error:
-        text = "frames of another length than what is planned and animated allows"
-        raise ScenarioError(f"{text} ({error})") from error
-
-
-def _with_time_step(setup: RunSetup, scenario: Scenario) -> Scenario:
     time = _replaced(scenario.time, _read(setup.time.settings, scenario.time))
     factor = time.step.frame_s / scenario.time.step.frame_s
     if time == scenario.time:
@@ -114,15 +104,12 @@ def with_duration(setup: RunSetup, scenario: Scenario) -> Scenario:
     lengths = setup.time.frame_lengths_s
     if len(lengths) == len(scenario.timeline):
         return scenario
-    try:
+    with _refused(f"the last frame, {setup.time.last_frame}, which is before all that is planned"):
         return replace(scenario, time=replace(scenario.time, duration_s=float(lengths.sum())))
-    except ScenarioError as error:
-        text = f"the last frame, {setup.time.last_frame}, which is before all that is planned"
-        raise ScenarioError(f"{text} ({error})") from error
 
 
 def with_speed(setup: RunSetup, scenario: Scenario) -> Scenario:
-    """Refuse frames that are not as long as planned, as far as they are played; Blender has single precision."""
+    """Refuse played frames that are not as long as planned; Blender has single precision."""
     lengths, planned = setup.time.frame_lengths_s, scenario.timeline.frame_lengths_s
     count = min(len(lengths), len(planned))
     if not np.allclose(lengths[:count], planned[:count], rtol=1e-6, atol=0.0):
@@ -131,23 +118,21 @@ def with_speed(setup: RunSetup, scenario: Scenario) -> Scenario:
 
 
 def with_first_frame(setup: RunSetup, scenario: Scenario) -> Scenario:
-    """Refuse another start frame than that of all that is built."""
+    """Refuse another start frame than `START_FRAME`."""
     if setup.time.start_frame != START_FRAME:
         raise ScenarioError(f"the first frame, {setup.time.start_frame}")
     return scenario
 
 
-def _common(
-    bodies: BodySettings, rows: Sequence[int], names: Iterable[tuple[str, str]], given: Table
-) -> dict[str, Any]:
+def _common(bodies: BodySettings, rows: Sequence[int], names: Mapping[str, str], table: Table) -> dict[str, Any]:
     """Return the values that all of some bodies have in common, by the keys of their table."""
-    values = {key: bodies.common(name, rows) for key, name in names}
-    return _read({key: common[0] for key, common in values.items() if len(common) == 1}, given)
+    values = {key: bodies.common(name, rows) for key, name in names.items()}
+    return _read({key: common[0] for key, common in values.items() if len(common) == 1}, table)
 
 
-def _read(values: Mapping[str, Any], given: Table) -> dict[str, Any]:
-    """Return values as Blender holds them in the decimals that the table was given, where it holds just those."""
-    return {name: as_given(value, getattr(given, name)) for name, value in values.items()}
+def _read(values: Mapping[str, Any], table: Table) -> dict[str, Any]:
+    """Return Blender's single-precision values in the decimals of the table where they mean the same."""
+    return {name: as_given(value, getattr(table, name)) for name, value in values.items()}
 
 
 def _replaced(table: _Table, values: Mapping[str, Any]) -> _Table:

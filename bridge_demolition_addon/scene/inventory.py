@@ -1,4 +1,4 @@
-"""Reading the bodies and connections of a scene's rigid-body world."""
+"""The bodies and connections of a scene's rigid-body world, as results keep them."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from .connections.constraints import sections_of
 def take_inventory(bodies: Sequence[bpy.types.Object], connections: Sequence[bpy.types.Object]) -> Inventory:
     """Read all that stays the same throughout a simulation."""
     moves = np.array([body.rigid_body.type == "ACTIVE" for body in bodies], bool)
-    pairs = _pairs(bodies, connections)
+    pairs = _pairs(bodies, connections)  # first, as a section needs both bodies too
     areas, normals, second_moments = sections_of(connections)
     meshes = [scaled_mesh(body) for body in bodies]
     members = np.array([member_of(body) for body in bodies], str).reshape(-1, 2)
@@ -35,7 +35,7 @@ def take_inventory(bodies: Sequence[bpy.types.Object], connections: Sequence[bpy
         vertex_counts=np.array([len(mesh.vertices) for mesh in meshes], int),
         connection_names=np.array([connection.name for connection in connections], str),
         pairs=pairs,
-        points_m=np.array([each.matrix_world.translation for each in connections], float).reshape(-1, 3),
+        points_m=np.array([empty.matrix_world.translation for empty in connections], float).reshape(-1, 3),
         areas_m2=areas,
         normals=normals,
         second_moments_m4=second_moments,

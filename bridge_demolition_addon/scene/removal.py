@@ -1,4 +1,4 @@
-"""Removing a demolition from its scene with everything that only it used, and connections that lack a body."""
+"""Removal of a demolition from its scene with everything that only it used, and of connections that lack a body."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from .blast.force_fields import force_collection, force_objects
 from .bodies import bodies_of, is_marked
 from .connections.breaking_settings import Breaking, keep_breaking
 from .connections.constraints import ends_of, loose_connections
+from .demolition import KEPT
 from .rendering.dust import remove_dust
 from .rendering.markers import clear_markers
 from .rendering.materials import remove_unused_materials
 from .rendering.surroundings import clear_surroundings
-from .structural_changes import keep_changes, keep_loads
 from .time_scale import stop_animation
 from .world import START_FRAME, remove_world
 
@@ -21,10 +21,8 @@ from .world import START_FRAME, remove_world
 def remove_demolition(scene: bpy.types.Scene) -> int:
     """Remove everything that was built in a scene but the charges, and return how many bodies there were.
 
-    Sun, sky and camera go with it, and what they took the place of comes back.
-
-    The scene goes to its start frame. Bodies that were not built here stay, and the rigid-body world with them; so
-    do meshes that something else uses.
+    The scene goes to its start frame. Sun, sky and camera go too, and what they replaced comes back. Bodies of the
+    user's own stay, and the rigid-body world with them; so do meshes that something else uses.
     """
     if scene.rigidbody_world is None or scene.rigidbody_world.collection is None:
         return 0
@@ -43,8 +41,8 @@ def remove_demolition(scene: bpy.types.Scene) -> int:
     remove_unused_materials()
     stop_animation(scene)
     keep_breaking(scene, Breaking())
-    keep_changes(scene, ())
-    keep_loads(scene, ())
+    for keep in KEPT.values():
+        keep(scene, ())
     forget_built_bodies(scene)
     fields = force_collection(scene)
     if fields and not fields.all_objects:
@@ -76,7 +74,7 @@ def _remove_in_turn(scene: bpy.types.Scene, *groups: list[bpy.types.Object]) -> 
     body that is removed while an old connection still points to it crashes Blender when time goes on.
     """
     for group in groups:
-        meshes = {each.data for each in group if each.type == "MESH"}
+        meshes = {obj.data for obj in group if obj.type == "MESH"}
         _take_out_of_world(scene, group)
         bpy.data.batch_remove(group)
         _restart(scene)
@@ -87,11 +85,11 @@ def _take_out_of_world(scene: bpy.types.Scene, group: list[bpy.types.Object]) ->
     """Have Blender free the bodies among some objects in the world of their scene, where there are other worlds.
 
     Blender does not know the world of a body that it deletes. It takes the body out of the worlds of all scenes by its
-    place in one of them, so that another body goes in its stead, and crashes later.
+    index in one of them, so that it takes another body out instead, and crashes later.
     """
-    others = [each.rigidbody_world for each in bpy.data.scenes if each.rigidbody_world and each != scene]
+    others = [other.rigidbody_world for other in bpy.data.scenes if other.rigidbody_world and other != scene]
     shared = {body for world in others if world.collection for body in world.collection.all_objects}
-    bodies = [each for each in group if each.rigid_body and each not in shared]
+    bodies = [obj for obj in group if obj.rigid_body and obj not in shared]
     if others and bodies:
         chosen = {"object": bodies[0], "active_object": bodies[0], "selected_objects": bodies}
         with bpy.context.temp_override(scene=scene, view_layer=scene.view_layers[0], **chosen):

@@ -1,8 +1,8 @@
 """All that decides a run, read from its scene once.
 
-What decides a run is a field of `RunSetup`. Each says what of it goes into the digest of what was built, what is
-compared with the scene as it was built, and how a scenario says it, or in a sentence why not. The digest, manual edits,
-the scenario of a run and its recording follow from the fields.
+Each field of `RunSetup` says which parts of it go into the digest of the scene, which are compared with the scene as it
+was built, and how a scenario says it, or why not. The digest, manual edits, the scenario of a run and its recording
+follow from the fields.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from ..model.sequence.events import Event, Structure, recorded_structure, schedu
 from ..model.sequence.loads import PlacedLoad, placed_loads
 from .blast.charges import charges_of
 from .blast.settings import blast_of
-from .bodies import Kind
+from .bodies import Kind, start_motion_of
 from .body_settings import BodySettings, body_settings_of
 from .connections.breaking_settings import Breaking, breaking_of
 from .connections.constraint_settings import ConstraintSettings, constraint_settings_of
@@ -36,7 +36,6 @@ from .connections.elasticity import ConnectionElasticity, elasticity_of
 from .connections.soil import soil_of
 from .effective_scenario import with_bodies, with_duration, with_first_frame, with_speed, with_time_step
 from .inventory import take_inventory
-from .start_motion import start_motion_of
 from .structural_changes import changes_of, loads_of
 from .time_scale import TimeOfScene, time_of
 from .tools.ground_motion import GroundMotionOfScene, ground_motion_of
@@ -45,7 +44,7 @@ Parts = Mapping[str, Any]
 """Arrays, numbers and texts by names, as `digest` takes them."""
 
 Writer = Callable[["RunSetup", Scenario], Scenario]
-"""Returns a scenario that says what a setup has; raises `ScenarioError` with what no scenario can say."""
+"""Returns a scenario that says what a setup has; raises `ScenarioError` on what no scenario can say."""
 
 _ALWAYS_S = 1e6
 """After this time every pulse of a blast is over."""
@@ -61,19 +60,19 @@ def decides(
     hashed: Callable[[RunSetup], Parts] | str,
     compared: Mapping[str, Callable[[RunSetup], Parts]] | str,
     written: Sequence[Writer] | str,
-) -> dict[str, Any]:
-    """Say what follows from a field of `RunSetup`, or in a sentence why nothing does.
+) -> Any:
+    """Return a field of `RunSetup` that says what follows from it; a text says why nothing does.
 
     Parameters
     ----------
     hashed
-        What of it is in the digest of what was built.
+        Its parts in the digest of what was built.
     compared
-        What of it is compared with the scene as it was built, by the words for what differs.
+        Its parts that are compared with the scene as it was built, by the text for a difference.
     written
         How it is written into the scenario of a run.
     """
-    return {"hashed": hashed, "compared": compared, "written": written}
+    return field(metadata={"hashed": hashed, "compared": compared, "written": written})
 
 
 def _elastic_parts(setup: RunSetup) -> Parts:
@@ -86,7 +85,7 @@ def _elastic_parts(setup: RunSetup) -> Parts:
 
 
 def _soil_parts(setup: RunSetup) -> Parts:
-    """Soil gives under elastic connections alone."""
+    """Return no parts for rigid connections: soil only deforms under elastic ones."""
     if setup.elasticity is None or setup.soil is None:
         return {}
     return {f"soil {name}": values for name, values in known_parts(setup.soil).items()}
@@ -94,8 +93,8 @@ def _soil_parts(setup: RunSetup) -> Parts:
 
 def _breaking_parts(setup: RunSetup) -> Parts:
     breaking = setup.breaking
-    strength, ductility = (astuple(each) if each else () for each in (breaking.strength, breaking.ductility))
-    parts = {"strength_pa": np.array(strength, float), "ductility": np.array(ductility, float)}
+    limits = {"strength_pa": breaking.strength, "ductility": breaking.ductility}
+    parts = {name: np.array(astuple(limit) if limit else (), float) for name, limit in limits.items()}
     bars = breaking.bars
     return parts | ({"bars": np.column_stack((bars.yield_n, bars.offsets_m))} if bars else {})
 
@@ -123,7 +122,7 @@ def _time_parts(setup: RunSetup) -> Parts:
 
 
 def _blast_parts(setup: RunSetup) -> Parts:
-    """Return the impulses that all charges together would give to all bodies as they were built."""
+    """Return the impulses of all charges together on all bodies as they were built."""
     if not setup.goes_off:
         return {"blast_impulses_ns": np.zeros(0)}
     positions_m, rotations = setup.bodies.positions_m, setup.bodies.rotations
@@ -133,7 +132,7 @@ def _blast_parts(setup: RunSetup) -> Parts:
 
 
 def _unlike(bodies: BodySettings, name: str) -> list[Any]:
-    """Return a property of all shards where it is not the same for all: a scenario can only say the same."""
+    """Return a property of all shards where they differ: a scenario has one value for all of them."""
     values = [bodies.rigid[name][row] for row in bodies.of_kind(Kind.SHARD)]
     return values if len(set(values)) > 1 else []
 
@@ -145,7 +144,7 @@ def _shape_parts(setup: RunSetup) -> Parts:
 
 
 def _mass_parts(setup: RunSetup) -> Parts:
-    """Return masses without that of the ball, which has a key."""
+    """Return all masses but that of the ball, which has a key."""
     bodies = setup.bodies
     return {"kg": [kg for kg, kind in zip(bodies.rigid["mass"], bodies.kinds, strict=True) if kind != Kind.BALL]}
 
@@ -198,121 +197,74 @@ def _record_parts(setup: RunSetup) -> Parts:
 class RunSetup:
     """All that decides a run, as its scene has it.
 
-    Attributes
-    ----------
-    gravity_m_s2, has_gravity : (3,) float, bool
-    bodies, connections : BodySettings, ConstraintSettings
-    inventory : Inventory
-        What of these stays the same throughout a run.
-    breaking : Breaking
-    elasticity : ConnectionElasticity or None
-    start_motion : (n, 6) float
-        Velocities, m/s, and angular velocities, rad/s, with which bodies begin.
-    changes : tuple of Change
-        Removals, saw cuts and weakenings.
-    loads : tuple of Load
-    ground_motion : GroundMotionOfScene or None
-    soil : SoilSprings or None
-        What footings stand on.
-    blast : BlastSettings
-    charges : tuple of Charge
-    time : TimeOfScene
+    The inventory is what stays the same of bodies and connections throughout a run. The start motion (n, 6) is the
+    velocity, m/s, and angular velocity, rad/s, that each body begins with.
     """
 
-    gravity_m_s2: np.ndarray = field(
-        metadata=decides(
-            hashed=_NOT_IN_DIGEST,
-            compared={"gravity": lambda setup: {"m_s2": setup.gravity_m_s2, "used": setup.has_gravity}},
-            written=_NO_KEY,
-        )
+    gravity_m_s2: np.ndarray = decides(
+        hashed=_NOT_IN_DIGEST,
+        compared={"gravity": lambda setup: {"m_s2": setup.gravity_m_s2, "used": setup.has_gravity}},
+        written=_NO_KEY,
     )
-    has_gravity: bool = field(
-        metadata=decides(hashed=_NOT_IN_DIGEST, compared="compared with gravity_m_s2", written=_NO_KEY)
+    has_gravity: bool = decides(hashed=_NOT_IN_DIGEST, compared="compared with gravity_m_s2", written=_NO_KEY)
+    bodies: BodySettings = decides(
+        hashed=lambda setup: {"positions_m": setup.bodies.positions_m, "rotations": setup.bodies.rotations},
+        compared={
+            "which bodies there are": lambda setup: {"names": setup.bodies.names},
+            "places, shapes or sizes of bodies": _shape_parts,
+            "masses of bodies": _mass_parts,
+            "how bodies move and touch": _contact_parts,
+            "animation of bodies": lambda setup: {"keys": setup.bodies.keys},
+        },
+        written=(with_bodies,),
     )
-    bodies: BodySettings = field(
-        metadata=decides(
-            hashed=lambda setup: {"positions_m": setup.bodies.positions_m, "rotations": setup.bodies.rotations},
-            compared={
-                "which bodies there are": lambda setup: {"names": setup.bodies.names},
-                "places, shapes or sizes of bodies": _shape_parts,
-                "masses of bodies": _mass_parts,
-                "how bodies move and touch": _contact_parts,
-                "animation of bodies": lambda setup: {"keys": setup.bodies.keys},
-            },
-            written=(with_bodies,),
-        )
+    connections: ConstraintSettings = decides(
+        hashed=lambda setup: {
+            "thresholds_ns": setup.connections.constraint["breaking_threshold"],
+            "breaks": setup.connections.constraint["use_breaking"],
+        },
+        compared={
+            "which connections there are, and between which bodies": _pair_parts,
+            "kinds and strengths of connections": _joint_parts,
+        },
+        written=_NO_KEY,
     )
-    connections: ConstraintSettings = field(
-        metadata=decides(
-            hashed=lambda setup: {
-                "thresholds_ns": setup.connections.constraint["breaking_threshold"],
-                "breaks": setup.connections.constraint["use_breaking"],
-            },
-            compared={
-                "which connections there are, and between which bodies": _pair_parts,
-                "kinds and strengths of connections": _joint_parts,
-            },
-            written=_NO_KEY,
-        )
+    inventory: Inventory = decides(
+        hashed=lambda setup: known_parts(setup.inventory),
+        compared="compared with bodies and connections",
+        written="written with bodies",
     )
-    inventory: Inventory = field(
-        metadata=decides(
-            hashed=lambda setup: known_parts(setup.inventory),
-            compared="compared with bodies and connections",
-            written="written with bodies",
-        )
+    breaking: Breaking = decides(hashed=_breaking_parts, compared="compared with connections", written=_SAME_KEY)
+    elasticity: ConnectionElasticity | None = decides(
+        hashed=_elastic_parts, compared="compared with connections", written=_SAME_KEY
     )
-    breaking: Breaking = field(
-        metadata=decides(hashed=_breaking_parts, compared="compared with connections", written=_SAME_KEY)
+    start_motion: np.ndarray = decides(
+        hashed=lambda setup: {"start_motion": setup.start_motion} if setup.start_motion.any() else {},
+        compared={"velocities that bodies begin with": lambda setup: {"start_motion": setup.start_motion}},
+        written=_SAME_KEY,
     )
-    elasticity: ConnectionElasticity | None = field(
-        metadata=decides(hashed=_elastic_parts, compared="compared with connections", written=_SAME_KEY)
+    changes: tuple[Change, ...] = decides(
+        hashed=_NOT_IN_DIGEST,
+        compared={"removals, saw cuts and weakenings": lambda setup: {"planned": repr(setup.changes)}},
+        written=_SAME_KEY,
     )
-    start_motion: np.ndarray = field(
-        metadata=decides(
-            hashed=lambda setup: {"start_motion": setup.start_motion} if setup.start_motion.any() else {},
-            compared={"velocities that bodies begin with": lambda setup: {"start_motion": setup.start_motion}},
-            written=_SAME_KEY,
-        )
+    loads: tuple[Load, ...] = decides(
+        hashed=_load_parts, compared={"loads": lambda setup: {"planned": repr(setup.loads)}}, written=_SAME_KEY
     )
-    changes: tuple[Change, ...] = field(
-        metadata=decides(
-            hashed=_NOT_IN_DIGEST,
-            compared={"removals, saw cuts and weakenings": lambda setup: {"planned": repr(setup.changes)}},
-            written=_SAME_KEY,
-        )
+    ground_motion: GroundMotionOfScene | None = decides(
+        hashed=_ground_motion_parts, compared={"the motion of the ground": _record_parts}, written=_SAME_KEY
     )
-    loads: tuple[Load, ...] = field(
-        metadata=decides(
-            hashed=_load_parts,
-            compared={"loads": lambda setup: {"planned": repr(setup.loads)}},
-            written=_SAME_KEY,
-        )
+    soil: SoilSprings | None = decides(
+        hashed=_soil_parts,
+        compared={"soil under footings": lambda setup: known_parts(setup.soil) if setup.soil else {}},
+        written=_SAME_KEY,
     )
-    ground_motion: GroundMotionOfScene | None = field(
-        metadata=decides(
-            hashed=_ground_motion_parts, compared={"the motion of the ground": _record_parts}, written=_SAME_KEY
-        )
-    )
-    soil: SoilSprings | None = field(
-        metadata=decides(
-            hashed=_soil_parts,
-            compared={"soil under footings": lambda setup: known_parts(setup.soil) if setup.soil else {}},
-            written=_SAME_KEY,
-        )
-    )
-    blast: BlastSettings = field(
-        metadata=decides(hashed="hashed with charges", compared=_BY_KEY, written="written as panels show it")
-    )
-    charges: tuple[Charge, ...] = field(
-        metadata=decides(hashed=_blast_parts, compared=_BY_KEY, written="written as panels show them")
-    )
-    time: TimeOfScene = field(
-        metadata=decides(
-            hashed=_time_parts,
-            compared=_BY_KEY,
-            written=(with_time_step, with_duration, with_speed, with_first_frame),
-        )
+    blast: BlastSettings = decides(hashed="hashed with charges", compared=_BY_KEY, written="written as panels show it")
+    charges: tuple[Charge, ...] = decides(hashed=_blast_parts, compared=_BY_KEY, written="written as panels show them")
+    time: TimeOfScene = decides(
+        hashed=_time_parts,
+        compared=_BY_KEY,
+        written=(with_time_step, with_duration, with_speed, with_first_frame),
     )
 
     @property
@@ -324,7 +276,7 @@ class RunSetup:
         return digest(parts)
 
     def compared(self) -> dict[str, str]:
-        """Return the digest of all that is compared with the scene as it was built, by the words for what differs."""
+        """Return the digests of all parts that are compared with the scene as it was built, by their texts."""
         return {
             text: digest(parts(self)) for compared in self._metadata("compared") for text, parts in compared.items()
         }
@@ -381,14 +333,9 @@ class RunSetup:
 
 
 def run_setup_of(scene: bpy.types.Scene, *, with_connections: bool = True) -> RunSetup:
-    """Read all that decides a run from its scene.
+    """Read all that decides a run from a scene with a rigid-body world.
 
-    Parameters
-    ----------
-    scene
-        With a rigid-body world.
-    with_connections
-        Whether the inventory has connections; a run of which motion alone can be read has none.
+    The inventory has no connections where the run can only read motion.
     """
     bodies, connections = body_settings_of(scene), constraint_settings_of(scene)
     return RunSetup(
@@ -399,7 +346,7 @@ def run_setup_of(scene: bpy.types.Scene, *, with_connections: bool = True) -> Ru
         inventory=take_inventory(bodies.objects, connections.objects if with_connections else ()),
         breaking=breaking_of(scene, connections.objects),
         elasticity=elasticity_of(scene, connections.objects),
-        start_motion=np.column_stack(start_motion_of(bodies.objects)),
+        start_motion=start_motion_of(bodies.objects),
         changes=changes_of(scene),
         loads=loads_of(scene),
         ground_motion=ground_motion_of(scene),

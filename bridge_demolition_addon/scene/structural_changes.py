@@ -8,26 +8,19 @@ import bpy
 
 from ..model.scenario import Change, Load, Removal, SawCut, Weakening
 from ..model.scenario.kept import tables_from_text, tables_text
-from ..model.schema import Table
+from .custom_properties import keep
 
 _CHANGES, _LOADS = "bda_changes", "bda_loads"
 
 
 def keep_changes(scene: bpy.types.Scene, changes: Sequence[Change]) -> None:
     """Keep changes in the scene, and so in its file; a recording of the scene applies them."""
-    _keep(scene, _CHANGES, changes)
+    keep(scene, _CHANGES, tables_text(changes) if changes else None)
 
 
 def keep_loads(scene: bpy.types.Scene, loads: Sequence[Load]) -> None:
     """Keep loads in the scene, and so in its file; a recording of the scene applies them."""
-    _keep(scene, _LOADS, loads)
-
-
-def _keep(scene: bpy.types.Scene, name: str, tables: Sequence[Table]) -> None:
-    if tables:
-        scene[name] = tables_text(tables)
-    elif name in scene:
-        del scene[name]
+    keep(scene, _LOADS, tables_text(loads) if loads else None)
 
 
 def changes_of(scene: bpy.types.Scene) -> tuple[Change, ...]:

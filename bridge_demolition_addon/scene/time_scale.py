@@ -10,6 +10,7 @@ import numpy as np
 
 from ..engineering.timing.time_step import TimeStep
 from ..engineering.timing.timeline import Timeline
+from .tools.keyframes import curves_of
 from .world import FIRST_STEP_FRAME, START_FRAME, farthest_per_substep_of, scene_time_step
 
 _PATH = "rigidbody_world.time_scale"
@@ -19,21 +20,16 @@ _SINGLE = 1e-6
 
 @dataclass(frozen=True, slots=True, eq=False)
 class TimeOfScene:
-    """How a run cuts time.
+    """How a run cuts time: settings as of `time_settings`, and the step of the start frame.
 
     Attributes
     ----------
-    settings : dict
-        As `time_settings` returns them.
-    step : TimeStep
-        That of the start frame.
-    farthest_per_substep_m : float or None
+    farthest_per_substep_m
         How far a body may go in one sub-step before frames have more of them; None where they never do.
-    start_frame, last_frame : int
-    is_animated : bool
+    is_animated
         Whether frames may differ in length.
     frame_lengths_s : (f,) float
-        Simulated time of each frame that is played, from the first that time leads to.
+        Simulated time of each frame that is played, from `FIRST_STEP_FRAME` on.
     """
 
     settings: dict[str, Any]
@@ -131,11 +127,3 @@ def _curve(scene: bpy.types.Scene) -> bpy.types.FCurve | None:
     if animation is None or animation.action is None:
         return None
     return next((curve for curve in curves_of(animation) if curve.data_path == _PATH), None)
-
-
-def curves_of(animation: bpy.types.AnimData) -> list[bpy.types.FCurve]:
-    """Return the curves of an action that is in use."""
-    if not hasattr(animation, "action_slot"):  # Blender before 4.4
-        return list(animation.action.fcurves)
-    bags = [bag for layer in animation.action.layers for strip in layer.strips for bag in strip.channelbags]
-    return [curve for bag in bags if bag.slot == animation.action_slot for curve in bag.fcurves]

@@ -1,4 +1,4 @@
-"""The user's own mesh objects: solids of them, and weights that were painted on them."""
+"""The user's own mesh objects: their solids, and weights painted on them."""
 
 from __future__ import annotations
 
@@ -15,31 +15,24 @@ from .bodies import triangle_mesh
 def solid_of_object(body: bpy.types.Object) -> Repaired:
     """Return an object's mesh as a solid where it stands, in m, and what was repaired to make it one.
 
-    Modifiers are applied, and it is scaled, turned and moved as the object and its parents are. The object itself is
-    not changed. Linked, parented, mirrored and scaled objects are taken as they are seen.
+    Linked, parented, mirrored and scaled objects are taken as they are seen, with modifiers; the object is not changed.
     """
     _check_is_mesh(body, "convert it, or leave it out")
     return repaired_solid(_mesh_in_world(body), body.name)
 
 
 def painted_points(body: bpy.types.Object, group: str) -> tuple[np.ndarray, np.ndarray]:
-    """Return where a mesh's vertices are and their weights in a vertex group.
+    """Return a mesh's vertices (v, 3), m, in the world's axes, and their weights (v,), 0 to 1, in a vertex group.
 
     The mesh is taken as it was painted, without modifiers, which may change its vertices.
-
-    Returns
-    -------
-    points : (v, 3) float
-        In m, in the world's axes.
-    weights : (v,) float
-        From 0 to 1.
     """
     _check_is_mesh(body, "choose the object that was painted")
     index = body.vertex_groups.find(group)
     if index < 0:
         known = ", ".join(vertex_group.name for vertex_group in body.vertex_groups) or "none"
         raise GeometryError(f"{body.name}: has no vertex group {group!r}; paint one, or choose from: {known}.")
-    weights = np.array([_weight(vertex, index) for vertex in body.data.vertices])
+    groups = [{group.group: group.weight for group in vertex.groups} for vertex in body.data.vertices]
+    weights = np.array([weights_by_group.get(index, 0.0) for weights_by_group in groups])
     return _in_world(body, triangle_mesh(body.data).vertices), weights
 
 
@@ -64,7 +57,3 @@ def _in_world(body: bpy.types.Object, vertices: np.ndarray) -> np.ndarray:
     """Return vertices (v, 3) of an object, from its own axes to the world's, m."""
     matrix = np.array(body.matrix_world, dtype=float)
     return transformed(matrix[:3, :3], vertices) + matrix[:3, 3]
-
-
-def _weight(vertex: bpy.types.MeshVertex, group: int) -> float:
-    return next((each.weight for each in vertex.groups if each.group == group), 0.0)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterator
 
 import bpy
@@ -15,32 +14,32 @@ def symbols_are_hidden(layer: bpy.types.ViewLayer, scene: bpy.types.Scene) -> bo
     if not has_symbols(layer, scene):
         return False
     of_collections = (collection.hide_viewport for collection in _collections(layer, scene))
-    return all(of_collections) and all(each.hide_get(view_layer=layer) for each in _loose(layer, scene))
+    return all(of_collections) and all(empty.hide_get(view_layer=layer) for empty in _loose(layer, scene))
 
 
 def has_symbols(layer: bpy.types.ViewLayer, scene: bpy.types.Scene) -> bool:
     """Return whether there are such empties."""
-    return any(True for _ in itertools.chain(_collections(layer, scene), _loose(layer, scene)))
+    return any(_collections(layer, scene)) or any(_loose(layer, scene))
 
 
 def hide_symbols(layer: bpy.types.ViewLayer, scene: bpy.types.Scene, hidden: bool) -> None:
     """Hide the connections and force fields from view, or show them; they work all the same."""
     for collection in _collections(layer, scene):
         collection.hide_viewport = hidden
-    for each in _loose(layer, scene):
-        each.hide_set(hidden, view_layer=layer)
+    for empty in _loose(layer, scene):
+        empty.hide_set(hidden, view_layer=layer)
 
 
 def _collections(layer: bpy.types.ViewLayer, scene: bpy.types.Scene) -> Iterator[bpy.types.LayerCollection]:
     world = scene.rigidbody_world
-    wanted = [each for each in (world and world.constraints, force_collection(scene)) if each]
-    return (each for each in _all(layer.layer_collection) if each.collection in wanted)
+    wanted = [collection for collection in (world and world.constraints, force_collection(scene)) if collection]
+    return (shown for shown in _all(layer.layer_collection) if shown.collection in wanted)
 
 
 def _loose(layer: bpy.types.ViewLayer, scene: bpy.types.Scene) -> Iterator[bpy.types.Object]:
     """Return empties of connections whose collection is not in the scene, as with Blender's own buttons."""
     constraints = scene.rigidbody_world and scene.rigidbody_world.constraints
-    if not constraints or any(each.collection == constraints for each in _all(layer.layer_collection)):
+    if not constraints or any(shown.collection == constraints for shown in _all(layer.layer_collection)):
         return
     yield from (obj for obj in constraints.objects if obj.type == "EMPTY" and obj.name in layer.objects)
 

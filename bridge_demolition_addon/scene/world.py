@@ -11,7 +11,7 @@ import bpy
 from ..engineering.timing.time_step import TimeStep
 from ..engineering.units import STANDARD_GRAVITY_M_S2
 from ..model.scenario import TimeSettings
-from .custom_properties import kept_number
+from .custom_properties import keep, kept_number
 
 START_FRAME = 1
 
@@ -21,10 +21,10 @@ FIRST_STEP_FRAME = START_FRAME + 2
 _OF_SCENE = ("gravity", "frame_start", "frame_end")
 _OF_UNITS = ("system", "scale_length")
 _OF_RENDERING = ("fps", "fps_base", "use_lock_interface")
-"""Settings of the scene, its units and its rendering that `create_world` makes."""
+"""Settings of the scene, its units and its rendering that `create_world` changes."""
 
 _OURS = "bda_"
-"""What the names of properties begin with that a scene keeps for us."""
+"""How the names of the add-on's properties of a scene begin."""
 
 _FARTHEST_PER_SUBSTEP = "bda_farthest_per_substep_m"
 
@@ -44,7 +44,7 @@ def create_world(scene: bpy.types.Scene, settings: TimeSettings, last_frame: int
     world = scene.rigidbody_world
     world.substeps_per_frame = settings.substeps_per_frame
     world.solver_iterations = settings.solver_iterations
-    _keep_farthest_per_substep(scene, settings.farthest_per_substep_m)
+    keep(scene, _FARTHEST_PER_SUBSTEP, settings.farthest_per_substep_m)
     world.use_split_impulse = settings.split_impulse
     world.time_scale = settings.time_scale
     world.point_cache.frame_start, world.point_cache.frame_end = START_FRAME, last_frame
@@ -57,7 +57,7 @@ def create_world(scene: bpy.types.Scene, settings: TimeSettings, last_frame: int
 
 @contextmanager
 def settings_restored_on_failure(scene: bpy.types.Scene) -> Iterator[None]:
-    """Give a scene back its gravity, units, frames and kept properties where what is built in the block fails."""
+    """Give a scene back its gravity, units, frames and kept properties where the block fails."""
     groups = ((scene, _OF_SCENE), (scene.unit_settings, _OF_UNITS), (scene.render, _OF_RENDERING))
     settings = [(group, name, _copied(getattr(group, name))) for group, names in groups for name in names]
     kept = _kept_properties(scene)
@@ -80,7 +80,7 @@ def _kept_properties(scene: bpy.types.Scene) -> dict[str, Any]:
 
 
 def _copied(value: Any) -> Any:
-    """Return a value that stays when Blender's own is changed: of arrays it gives what shows the present one."""
+    """Return a copy of a value: Blender's arrays show what they are changed to."""
     return value if isinstance(value, str | int | float) else tuple(value)
 
 
@@ -89,7 +89,8 @@ def remove_world(scene: bpy.types.Scene) -> None:
     world = scene.rigidbody_world
     if world is None:
         return
-    empty = [each for each in (world.collection, world.constraints) if each and not each.all_objects]
+    collections = (world.collection, world.constraints)
+    empty = [collection for collection in collections if collection and not collection.all_objects]
     with bpy.context.temp_override(scene=scene):
         bpy.ops.rigidbody.world_remove()
     bpy.data.batch_remove(empty)
@@ -106,15 +107,8 @@ def farthest_per_substep_of(scene: bpy.types.Scene) -> float | None:
     return kept_number(scene, _FARTHEST_PER_SUBSTEP, 0.0) or None
 
 
-def _keep_farthest_per_substep(scene: bpy.types.Scene, farthest_m: float | None) -> None:
-    if farthest_m is not None:
-        scene[_FARTHEST_PER_SUBSTEP] = farthest_m
-    elif _FARTHEST_PER_SUBSTEP in scene:
-        del scene[_FARTHEST_PER_SUBSTEP]
-
-
 def start_over(scene: bpy.types.Scene) -> None:
-    """Go to the start frame, and have frames that were played before simulated again instead of played back."""
+    """Go to the start frame, and have Blender simulate frames again that it would play back."""
     world = scene.rigidbody_world
     world.substeps_per_frame = world.substeps_per_frame  # Blender takes any setting for a change
     scene.frame_set(world.point_cache.frame_start)
@@ -134,19 +128,18 @@ def keep_played_frames(scene: bpy.types.Scene) -> None:
 def off_scene(scene: bpy.types.Scene) -> Iterator[tuple[bpy.types.Collection, bpy.types.Collection]]:
     """Take the collections of bodies and connections off the scene while many objects are linked to them.
 
-    What is linked to them becomes a body or a connection of the scene's world all the same. But for every link to a
-    collection that a scene shows, Blender goes through all that is in it: the time would grow with the square of
-    their number.
+    Objects linked to them become bodies or connections of the scene's world all the same. But for every link to a
+    collection that a scene shows, Blender goes through all its objects: the time grows with the square of their number.
     """
-    bodies, connections = scene.rigidbody_world.collection, scene.rigidbody_world.constraints
-    shown = [each for each in (bodies, connections) if each in scene.collection.children[:]]
-    for each in shown:
-        scene.collection.children.unlink(each)
+    both = (scene.rigidbody_world.collection, scene.rigidbody_world.constraints)
+    shown = [collection for collection in both if collection in scene.collection.children[:]]
+    for collection in shown:
+        scene.collection.children.unlink(collection)
     try:
-        yield bodies, connections
+        yield both
     finally:
-        for each in shown:
-            scene.collection.children.link(each)
+        for collection in shown:
+            scene.collection.children.link(collection)
 
 
 def evaluated_scenes(scene: bpy.types.Scene) -> list[bpy.types.Scene]:

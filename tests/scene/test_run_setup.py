@@ -2,7 +2,7 @@
 """All that decides a run is a field of its setup, and the digest, manual edits and scenario follow from the fields."""
 
 from collections import Counter
-from dataclasses import dataclass, field, fields, replace
+from dataclasses import dataclass, fields, replace
 
 import pytest
 from support.checkout import SMALL
@@ -39,20 +39,17 @@ def wind_is_in_no_scenario(setup, scenario):
 
 @dataclass(frozen=True, eq=False)
 class WindySetup(RunSetup):
-    wind_n: float = field(
-        default=0.0,
-        metadata=decides(
-            hashed=lambda setup: {"wind_n": setup.wind_n},
-            compared={"wind": lambda setup: {"wind_n": setup.wind_n}},
-            written=(wind_is_in_no_scenario,),
-        ),
+    wind_n: float = decides(
+        hashed=lambda setup: {"wind_n": setup.wind_n},
+        compared={"wind": lambda setup: {"wind_n": setup.wind_n}},
+        written=(wind_is_in_no_scenario,),
     )
 
 
 def test_one_more_field_is_in_the_digest_in_what_is_compared_and_in_the_scenario(scene, scenario):
     setup = run_setup_of(scene)
     known = {item.name: getattr(setup, item.name) for item in fields(setup)}
-    still, storm = WindySetup(**known), WindySetup(**known, wind_n=5e3)
+    still, storm = WindySetup(**known, wind_n=0.0), WindySetup(**known, wind_n=5e3)
     assert len({setup.digest, still.digest, storm.digest}) == 3
     assert {name for name, digest in storm.compared().items() if still.compared()[name] != digest} == {"wind"}
     assert effective_scenario(still, scenario) == (scenario, [])

@@ -148,8 +148,7 @@ def test_what_is_laid_and_looked_at_follows_the_ground(built, blender, tmp_path)
     from mathutils import Vector
 
     from bridge_demolition_addon.scene.bodies import terrain_facts
-    from bridge_demolition_addon.scene.rendering.ground import ground_of, terrain_under
-    from bridge_demolition_addon.scene.rendering.site_plan import lay_site_plan
+    from bridge_demolition_addon.scene.rendering.ground import ground_of, lay_site_plan, terrain_under
     from bridge_demolition_addon.scene.rendering.surroundings import surround
 
     scene, _, model = built

@@ -15,7 +15,7 @@ from bridge_demolition_addon.model.scenario import SawCut, Weakening
 from bridge_demolition_addon.scene.connections.breaking_settings import Breaking, keep_breaking
 from bridge_demolition_addon.scene.connections.elasticity import keep_elasticity
 from bridge_demolition_addon.scene.structural_changes import keep_changes
-from bridge_demolition_addon.scene.time_scale import curves_of
+from bridge_demolition_addon.scene.tools.keyframes import curves_of
 
 GRAVITY = float(np.float32(STANDARD_GRAVITY_M_S2))
 CONCRETE = ElasticModuli(30e9, 0.2)

@@ -15,7 +15,7 @@ from ...model.blast.charges import EXPLOSIVES, MS_PER_S, Charge, explosive_named
 from ..bodies import mesh_of
 from ..collections import collection_for, find_collection
 from ..rendering.materials import SurfaceMaterial, material_of
-from ..time_scale import curves_of
+from ..tools.keyframes import curves_of
 
 MASS, EXPLOSIVE, DELAY, BURST = "bda_mass_kg", "bda_explosive", "bda_delay_s", "bda_burst"
 """Properties of an empty that stands for a charge."""

@@ -14,8 +14,10 @@ import numpy as np
 from mathutils import Matrix, Vector
 
 from ...display.colour_scale import linear
+from ..collections import ROLE
+from ..custom_properties import keep
+from .materials import new_nodes
 
-_ROLE = "bda_role"
 _MATERIALS = ("Contours", "Shaded contours")
 """Flat and shaded."""
 _LOOK = "bda_look_before"
@@ -54,22 +56,19 @@ def paint(
 
     Parameters
     ----------
-    scene : bpy.types.Scene
-        Scene with a rigid-body world.
-    depsgraph : bpy.types.Depsgraph
+    depsgraph
         Has the evaluated copies that are painted.
-    rows : mapping of str to int
+    rows
         Row of each body's colour, by its name; a body that is missing keeps its own colour.
     screen_colours : (n, 3) float
         Colours as a screen has them; a body with a nan keeps its own.
     """
     painted = np.column_stack((linear(screen_colours), np.ones(len(screen_colours))))
-    wanted = [tuple(colour) if known else None for colour, known in zip(painted.tolist(), _known(painted), strict=True)]
+    colours, is_known = painted.tolist(), np.isfinite(painted).all(axis=1).tolist()
     for body in _bodies(scene):
         row = rows.get(body.name)
-        colour = body.color if row is None else wanted[row]
-        if colour is not None:
-            _set_colour(body, depsgraph, colour)
+        if row is None or is_known[row]:
+            _set_colour(body, depsgraph, body.color if row is None else colours[row])
 
 
 def place(
@@ -83,23 +82,11 @@ def place(
 
     Blender forgets the frames it played with any change of a setting of the scene, even one in the sidebar.
 
-    Parameters
-    ----------
-    scene : bpy.types.Scene
-        Scene with a rigid-body world.
-    depsgraph : bpy.types.Depsgraph
-        Has the evaluated copies that are placed.
-    rows : mapping of str to int
-        Row of each body that is to be placed, by its name.
-    positions_m, rotations : (n, 3) float, (n, 3, 3) float
-        Positions of the bodies' origins, and rotation matrices.
+    Bodies are given by their names and rows, origins as positions (n, 3) and rotations as matrices (n, 3, 3).
     """
     for body in _bodies(scene):
         row = rows.get(body.name)
-        if row is None:
-            continue
-        evaluated = body.evaluated_get(depsgraph)
-        if evaluated.is_evaluated:
+        if row is not None and (evaluated := body.evaluated_get(depsgraph)).is_evaluated:
             rotation = Matrix(rotations[row]).to_quaternion()
             evaluated.matrix_world = Matrix.LocRotScale(Vector(positions_m[row]), rotation, body.scale)
 
@@ -158,11 +145,10 @@ def show_materials(scene: bpy.types.Scene) -> None:
     for layer in scene.view_layers:
         if _HAD_MATERIAL in layer:
             layer.material_override = layer.get(_MATERIAL_BEFORE)
-            for name in (_HAD_MATERIAL, _MATERIAL_BEFORE):
-                if name in layer:
-                    del layer[name]
+            keep(layer, _HAD_MATERIAL, None)
+            keep(layer, _MATERIAL_BEFORE, None)
     bpy.data.batch_remove(
-        [material for material in bpy.data.materials if material.get(_ROLE) in _MATERIALS and not material.users]
+        [material for material in bpy.data.materials if material.get(ROLE) in _MATERIALS and not material.users]
     )
 
 
@@ -177,25 +163,17 @@ def _set_colour(body: bpy.types.Object, depsgraph: bpy.types.Depsgraph, colour: 
         evaluated.color = colour
 
 
-def _known(painted: np.ndarray) -> list[bool]:
-    return np.isfinite(painted).all(axis=1).tolist()
-
-
 def _material(shaded: bool) -> bpy.types.Material:
     """Return a material that shines in the colour of its object, less so where it looks away from the light."""
     role = _MATERIALS[shaded]
-    material = next((each for each in bpy.data.materials if each.get(_ROLE) == role), None)
-    if material:
-        return material
+    for material in bpy.data.materials:
+        if material.get(ROLE) == role:
+            return material
     material = bpy.data.materials.new(role)
-    material[_ROLE] = role
-    if bpy.app.version < (5, 0, 0):
-        material.use_nodes = True
+    material[ROLE] = role
+    kinds = ("ShaderNodeObjectInfo", "ShaderNodeEmission", "ShaderNodeOutputMaterial")
+    info, shine, output = new_nodes(material, *kinds)
     tree = material.node_tree
-    tree.nodes.clear()
-    info, shine, output = (
-        tree.nodes.new(kind) for kind in ("ShaderNodeObjectInfo", "ShaderNodeEmission", "ShaderNodeOutputMaterial")
-    )
     tree.links.new(info.outputs["Color"], shine.inputs["Color"])
     tree.links.new(shine.outputs["Emission"], output.inputs["Surface"])
     if shaded:
@@ -205,9 +183,8 @@ def _material(shaded: bool) -> bpy.types.Material:
 
 def _dim(tree: bpy.types.NodeTree, strength: bpy.types.NodeSocket) -> None:
     """Let the strength fall from 1, towards the light, to `_DARKEST` away from it."""
-    face, turned, share = (
-        tree.nodes.new(kind) for kind in ("ShaderNodeNewGeometry", "ShaderNodeVectorMath", "ShaderNodeMapRange")
-    )
+    kinds = ("ShaderNodeNewGeometry", "ShaderNodeVectorMath", "ShaderNodeMapRange")
+    face, turned, share = (tree.nodes.new(kind) for kind in kinds)
     turned.operation = "DOT_PRODUCT"
     turned.inputs[1].default_value = _LIGHT_FROM.normalized()
     share.inputs["From Min"].default_value, share.inputs["To Min"].default_value = -1.0, _DARKEST

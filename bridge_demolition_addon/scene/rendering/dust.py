@@ -9,9 +9,10 @@ import bpy
 from ...display.dust import Puff
 from ...engineering.geometry.solids import sphere
 from ..bodies import mesh_of
-from ..collections import collection_for, find_collection
+from ..collections import ROLE, collection_for, remove_marked
+from .materials import new_nodes
 
-_ROLE, _MARK = "Dust", "bda_role"
+_DUST = "Dust"
 _SEGMENTS = 24
 _DENSITY = 0.5
 _COLOUR = (0.62, 0.58, 0.52, 1.0)
@@ -26,12 +27,12 @@ def raise_dust(scene: bpy.types.Scene, clouds: Iterable[Puff]) -> None:
     clouds = list(clouds)
     if not clouds:
         return
-    collection, mesh = collection_for(scene, _ROLE), mesh_of("Dust", sphere(1.0, _SEGMENTS))
+    collection, mesh = collection_for(scene, _DUST), mesh_of("Dust", sphere(1.0, _SEGMENTS))
     mesh.materials.append(_material())
     rate = scene.render.fps / scene.render.fps_base
     for number, cloud in enumerate(clouds):
         puff = bpy.data.objects.new(f"Dust {number}", mesh)
-        puff[_MARK] = _ROLE
+        puff[ROLE] = _DUST
         puff.display_type, puff.hide_select = "WIRE", True
         collection.objects.link(puff)
         _animate(puff, cloud, rate)
@@ -39,32 +40,14 @@ def raise_dust(scene: bpy.types.Scene, clouds: Iterable[Puff]) -> None:
 
 def remove_dust(scene: bpy.types.Scene) -> int:
     """Remove all clouds, and return how many there were."""
-    collection = find_collection(scene, _ROLE)
-    if collection is None:
-        return 0
-    ours = [obj for obj in collection.objects if obj.get(_MARK) == _ROLE]
-    data = {our.data for our in ours} | {
-        our.animation_data.action for our in ours if our.animation_data and our.animation_data.action
-    }
-    materials = {material for our in ours for material in our.data.materials if material}
-    bpy.data.batch_remove(ours)
-    bpy.data.batch_remove([each for each in data if not each.users])
-    bpy.data.batch_remove([each for each in materials if not each.users])
-    if not collection.objects and not collection.children:
-        bpy.data.collections.remove(collection)
-    return len(ours)
+    return remove_marked(scene, _DUST)
 
 
 def _animate(puff: bpy.types.Object, cloud: Puff, frames_per_second: float) -> None:
     grown = cloud.frame + max(1, round(_GROWING_S * frames_per_second))
     gone = cloud.frame + max(2, round(_GONE_S * frames_per_second))
     x, y, z = cloud.place_m
-    states = (
-        (cloud.frame, 0.25, 0.0, 1.0),
-        (grown, 1.0, 0.3, 0.6),
-        (gone, 1.6, 1.0, 0.0),
-    )
-    for frame, size, risen, density in states:
+    for frame, size, risen, density in ((cloud.frame, 0.25, 0.0, 1.0), (grown, 1.0, 0.3, 0.6), (gone, 1.6, 1.0, 0.0)):
         puff.scale = (size * cloud.radius_m,) * 3
         puff.location = (x, y, z + risen * _RISE * cloud.radius_m)
         puff.color = (*_COLOUR[:3], density)  # which the material takes its density from
@@ -78,17 +61,14 @@ def _animate(puff: bpy.types.Object, cloud: Puff, frames_per_second: float) -> N
 
 def _material() -> bpy.types.Material:
     material = bpy.data.materials.new("Dust")
-    if bpy.app.version < (5, 0, 0):
-        material.use_nodes = True
-    tree = material.node_tree
-    tree.nodes.clear()
     kinds = ("ShaderNodeObjectInfo", "ShaderNodeMath", "ShaderNodeVolumePrincipled", "ShaderNodeOutputMaterial")
-    info, density, volume, output = (tree.nodes.new(kind) for kind in kinds)
+    info, density, volume, output = new_nodes(material, *kinds)
+    link = material.node_tree.links.new
     density.operation = "MULTIPLY"
     density.inputs[1].default_value = _DENSITY
     volume.inputs["Color"].default_value = _COLOUR
     # The same all over a cloud, which renders many times as fast; a sphere is thin at its edge by itself.
-    tree.links.new(info.outputs["Alpha"], density.inputs[0])
-    tree.links.new(density.outputs[0], volume.inputs["Density"])
-    tree.links.new(volume.outputs["Volume"], output.inputs["Volume"])
+    link(info.outputs["Alpha"], density.inputs[0])
+    link(density.outputs[0], volume.inputs["Density"])
+    link(volume.outputs["Volume"], output.inputs["Volume"])
     return material

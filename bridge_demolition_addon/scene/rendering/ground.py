@@ -1,24 +1,36 @@
-"""The ground of a scene as it is looked at: what is laid on it follows it, and what the mouse is over lies on it."""
+"""The ground of a scene as it is looked at: what the mouse is over lies on it, and so does a site plan."""
 
 from __future__ import annotations
+
+import math
+from pathlib import Path
 
 import bpy
 import numpy as np
 from mathutils import Vector
 
 from ...engineering.geometry.mesh import TriangleMesh
+from ...engineering.geometry.rotations import turn_in_plane
 from ...engineering.geometry.vectors import transformed
 from ...engineering.terrain.recorded import NamedSurface, RecordedGround
 from ...engineering.terrain.surface import Surface
+from ...errors import OutputError
 from ..bodies import bodies_of, is_uneven_ground, member_of, triangle_mesh
+from ..collections import ROLE, collection_for, remove_marked
+from .materials import new_nodes
+
+_SITE_PLAN = "Site plan"
+_ABOVE_M = 0.01
+"""Above the ground, so that the two do not flicker."""
+
+_PARTS = 128
+"""Parts of a side where the ground is not flat, which the picture then follows."""
 
 
 def ground_of(scene: bpy.types.Scene) -> RecordedGround:
     """Return the ground that was built in a scene, where it lies now."""
-    world, terrain, surfaces = scene.rigidbody_world, None, []
-    for body in bodies_of(scene) if world and world.collection else []:
-        if not is_uneven_ground(body):
-            continue
+    terrain, surfaces = None, []
+    for body in filter(is_uneven_ground, bodies_of(scene)):
         mesh, matrix = triangle_mesh(body.data), np.array(body.matrix_world, float)
         surface = Surface(TriangleMesh(transformed(matrix[:3, :3], mesh.vertices) + matrix[:3, 3], mesh.triangles))
         name, kind = member_of(body)
@@ -31,13 +43,73 @@ def ground_of(scene: bpy.types.Scene) -> RecordedGround:
 
 def terrain_under(scene: bpy.types.Scene, eye: Vector, ray: Vector) -> Vector | None:
     """Return where a ray meets the terrain of a scene, or a surface on it; None where it meets none."""
-    world = scene.rigidbody_world
-    places = []
-    for body in bodies_of(scene) if world and world.collection else []:
-        if not is_uneven_ground(body) or not body.visible_get():
-            continue
+    points = []
+    for body in filter(is_uneven_ground, bodies_of(scene)):
         back = body.matrix_world.inverted_safe()
-        met, place, _, _ = body.ray_cast(back @ eye, back.to_3x3() @ ray)
-        if met:
-            places.append(body.matrix_world @ place)
-    return min(places, key=lambda place: (place - eye).length, default=None)
+        if body.visible_get():
+            is_met, point, _, _ = body.ray_cast(back @ eye, back.to_3x3() @ ray)
+            points += [body.matrix_world @ point] if is_met else []
+    return min(points, key=lambda point: (point - eye).length, default=None)
+
+
+def lay_site_plan(
+    scene: bpy.types.Scene, path: Path, width_m: float, bearing_deg: float, origin: tuple[float, float]
+) -> tuple[float, float]:
+    """Lay a picture on the ground in place of the one that was there, and return its width and height there, m.
+
+    It takes no part in the simulation.
+
+    Parameters
+    ----------
+    bearing_deg
+        Direction of the x axis, clockwise from the upward direction of the picture.
+    origin
+        Where the origin of the scene lies in it, as shares of its width and height, from its left and its foot.
+    """
+    image = _loaded(path)
+    height_m = width_m * image.size[1] / image.size[0]
+    remove_marked(scene, _SITE_PLAN)
+    left, low = -origin[0] * width_m, -origin[1] * height_m
+    ground, turn = ground_of(scene), turn_in_plane(math.radians(bearing_deg - 90.0))
+    parts = 1 if ground.is_flat else _PARTS
+    shares = np.stack(np.meshgrid(*2 * (np.linspace(0.0, 1.0, parts + 1),)), -1).reshape(-1, 2)
+    points = shares * (width_m, height_m) + (left, low)
+    corners = np.column_stack((points, ground.heights_at(transformed(turn, points))))
+    first = (np.arange(parts)[:, None] * (parts + 1) + np.arange(parts)).ravel()
+    faces = np.column_stack((first, first + 1, first + parts + 2, first + parts + 1))
+    mesh = bpy.data.meshes.new("Site plan")
+    mesh.from_pydata(corners.tolist(), [], faces.tolist())
+    layer = mesh.uv_layers.new(name="Picture")
+    for loop, share in zip(layer.data, shares[faces.ravel()].tolist(), strict=True):
+        loop.uv = share
+    mesh.materials.append(_material(image))
+    plan = bpy.data.objects.new("Site plan", mesh)
+    plan[ROLE] = _SITE_PLAN
+    # The picture's upward direction lies at a bearing of 0, and the x axis so far clockwise from it.
+    plan.location, plan.rotation_euler = (0.0, 0.0, _ABOVE_M), (0.0, 0.0, math.radians(bearing_deg - 90.0))
+    plan.hide_select = True
+    collection_for(scene, _SITE_PLAN).objects.link(plan)
+    return width_m, height_m
+
+
+def _loaded(path: Path) -> bpy.types.Image:
+    try:
+        image = bpy.data.images.load(str(path), check_existing=True)
+    except RuntimeError as error:
+        raise OutputError(f"{path}: Blender cannot read this picture; choose a PNG, JPEG or TIFF file") from error
+    if not all(image.size):
+        if not image.users:
+            bpy.data.images.remove(image)
+        raise OutputError(f"{path}: is no picture that Blender can read; choose a PNG, JPEG or TIFF file")
+    return image
+
+
+def _material(image: bpy.types.Image) -> bpy.types.Material:
+    material = bpy.data.materials.new("Site plan")
+    kinds = ("ShaderNodeTexImage", "ShaderNodeBsdfPrincipled", "ShaderNodeOutputMaterial")
+    picture, shader, output = new_nodes(material, *kinds)
+    picture.image = image
+    shader.inputs["Roughness"].default_value = 1.0
+    material.node_tree.links.new(picture.outputs["Color"], shader.inputs["Base Color"])
+    material.node_tree.links.new(shader.outputs["BSDF"], output.inputs["Surface"])
+    return material

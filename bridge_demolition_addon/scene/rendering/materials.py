@@ -1,4 +1,4 @@
-"""Procedural materials: what is made of nodes alone, and needs no picture from outside."""
+"""Procedural materials, of nodes alone: they need no picture."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from enum import StrEnum
 
 import bpy
 
+from ..collections import ROLE
+
 BUILT_AT = "bda_built_at_m"
 """Property of a body: where its origin was built, so that a pattern runs on from shard to shard and falls with them."""
-
-_ROLE = "bda_role"
 
 
 class SurfaceMaterial(StrEnum):
@@ -28,20 +28,10 @@ class SurfaceMaterial(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class _Look:
-    """A material.
+    """A material: roughness and metallic as of Blender's Principled BSDF, colours in linear light.
 
-    Attributes
-    ----------
-    plain
-        The colour where no pattern is drawn, as in Solid view, linear light.
-    dark, light
-        The colours between which the pattern lies, linear light.
-    roughness, metallic
-        As of Blender's Principled BSDF.
-    grain_m
-        Size of the pattern's largest patches.
-    depth_m
-        How deep its bumps look.
+    `plain` is the colour where no pattern is drawn, as in Solid view; the pattern lies between `dark` and `light`. Its
+    largest patches are `grain_m` wide, and its bumps look `depth_m` deep.
     """
 
     plain: tuple[float, float, float]
@@ -77,86 +67,69 @@ _LOOKS = {
 }
 
 
+def new_nodes(owner: bpy.types.Material | bpy.types.World, *kinds: str) -> list[bpy.types.Node]:
+    """Return new nodes of some kinds, the only ones of a material or world."""
+    if bpy.app.version < (5, 0, 0):
+        owner.use_nodes = True
+    nodes = owner.node_tree.nodes
+    nodes.clear()
+    made = [nodes.new(kind) for kind in kinds]
+    for number, node in enumerate(made):
+        node.location = (220.0 * number, 0.0)
+    return made
+
+
 def material_of(surface: SurfaceMaterial) -> bpy.types.Material:
-    """Return the material of a surface, which is made when it is first asked for."""
-    found = next((each for each in bpy.data.materials if each.get(_ROLE) == surface and not each.library), None)
-    if found:
-        return found
+    """Return the material of a surface, which the first call makes."""
+    for material in bpy.data.materials:
+        if material.get(ROLE) == surface and not material.library:
+            return material
     material = bpy.data.materials.new(surface.value)
-    material[_ROLE] = surface.value
+    material[ROLE] = surface.value
     look = _LOOKS[surface]
     material.diffuse_color = (*look.plain, 1.0)  # which Solid view and Workbench show
     material.roughness, material.metallic = look.roughness, look.metallic
-    if bpy.app.version < (5, 0, 0):
-        material.use_nodes = True
-    _lay_out(material.node_tree, look)
+    _lay_out(material, look)
     return material
 
 
 def remove_unused_materials() -> None:
-    """Remove the materials of surfaces that nothing has any more."""
-    ours = [
-        material
-        for material in bpy.data.materials
-        if material.get(_ROLE) in set(SurfaceMaterial) and not material.library
-    ]
-    bpy.data.batch_remove([our for our in ours if not our.users])
+    """Remove the materials of surfaces that nothing uses any more."""
+    unused = [material for material in bpy.data.materials if not (material.users or material.library)]
+    bpy.data.batch_remove([material for material in unused if material.get(ROLE) in set(SurfaceMaterial)])
 
 
-def _lay_out(tree: bpy.types.NodeTree, look: _Look) -> None:
+def _lay_out(material: bpy.types.Material, look: _Look) -> None:
     """Colour by noise in two sizes, and bumps by the same noise."""
-    tree.nodes.clear()
-    place = _place_as_built(tree)
-    large, small = (_noise(tree, place, size) for size in (look.grain_m, look.grain_m / 12.0))
-    mixed = _node(tree, "ShaderNodeMath", operation="MULTIPLY_ADD")
-    _link(tree, large, mixed.inputs[0])
-    mixed.inputs[1].default_value = 0.6
-    halved = _node(tree, "ShaderNodeMath", operation="MULTIPLY")
-    _link(tree, small, halved.inputs[0])
-    halved.inputs[1].default_value = 0.4
-    _link(tree, halved.outputs[0], mixed.inputs[2])
-    ramp = _node(tree, "ShaderNodeValToRGB")
-    ramp.color_ramp.elements[0].position, ramp.color_ramp.elements[0].color = 0.3, (*look.dark, 1.0)
-    ramp.color_ramp.elements[1].position, ramp.color_ramp.elements[1].color = 0.7, (*look.light, 1.0)
-    _link(tree, mixed.outputs[0], ramp.inputs[0])
-    shader, output = _node(tree, "ShaderNodeBsdfPrincipled"), _node(tree, "ShaderNodeOutputMaterial")
+    own, built, position, large, small, halved, mixed, ramp, shader, output = new_nodes(
+        material,
+        *("ShaderNodeTexCoord", "ShaderNodeAttribute", "ShaderNodeVectorMath", "ShaderNodeTexNoise"),
+        *("ShaderNodeTexNoise", "ShaderNodeMath", "ShaderNodeMath", "ShaderNodeValToRGB"),
+        *("ShaderNodeBsdfPrincipled", "ShaderNodeOutputMaterial"),
+    )
+    link = material.node_tree.links.new
+    # Where a point of a body was when it was built; in its own axes where the body does not say.
+    built.attribute_type, built.attribute_name = "OBJECT", BUILT_AT
+    position.operation = "ADD"
+    link(own.outputs["Object"], position.inputs[0])
+    link(built.outputs["Vector"], position.inputs[1])
+    for noise, size_m in ((large, look.grain_m), (small, look.grain_m / 12.0)):
+        noise.inputs["Scale"].default_value, noise.inputs["Detail"].default_value = 1.0 / size_m, 6.0
+        link(position.outputs[0], noise.inputs["Vector"])
+    halved.operation, mixed.operation = "MULTIPLY", "MULTIPLY_ADD"
+    halved.inputs[1].default_value, mixed.inputs[1].default_value = 0.4, 0.6
+    link(small.outputs[0], halved.inputs[0])
+    link(large.outputs[0], mixed.inputs[0])
+    link(halved.outputs[0], mixed.inputs[2])
+    for stop, share, colour in zip(ramp.color_ramp.elements, (0.3, 0.7), (look.dark, look.light), strict=True):
+        stop.position, stop.color = share, (*colour, 1.0)
+    link(mixed.outputs[0], ramp.inputs[0])
     shader.inputs["Roughness"].default_value = look.roughness
     shader.inputs["Metallic"].default_value = look.metallic
-    _link(tree, ramp.outputs[0], shader.inputs["Base Color"])
+    link(ramp.outputs[0], shader.inputs["Base Color"])
     if look.depth_m:
-        bump = _node(tree, "ShaderNodeBump")
+        bump = material.node_tree.nodes.new("ShaderNodeBump")
         bump.inputs["Distance"].default_value = look.depth_m
-        _link(tree, mixed.outputs[0], bump.inputs["Height"])
-        _link(tree, bump.outputs[0], shader.inputs["Normal"])
-    _link(tree, shader.outputs[0], output.inputs["Surface"])
-    for number, node in enumerate(tree.nodes):
-        node.location = (220.0 * number, 0.0)
-
-
-def _place_as_built(tree: bpy.types.NodeTree) -> bpy.types.NodeSocket:
-    """Return where a point of a body was when it was built; in its own axes where the body does not say."""
-    own, built = _node(tree, "ShaderNodeTexCoord"), _node(tree, "ShaderNodeAttribute", attribute_type="OBJECT")
-    built.attribute_name = BUILT_AT
-    added = _node(tree, "ShaderNodeVectorMath", operation="ADD")
-    _link(tree, own.outputs["Object"], added.inputs[0])
-    _link(tree, built.outputs["Vector"], added.inputs[1])
-    return added.outputs[0]
-
-
-def _noise(tree: bpy.types.NodeTree, place: bpy.types.NodeSocket, size_m: float) -> bpy.types.NodeSocket:
-    noise = _node(tree, "ShaderNodeTexNoise")
-    noise.inputs["Scale"].default_value = 1.0 / size_m
-    noise.inputs["Detail"].default_value = 6.0
-    _link(tree, place, noise.inputs["Vector"])
-    return noise.outputs[0]
-
-
-def _node(tree: bpy.types.NodeTree, kind: str, **settings: str) -> bpy.types.Node:
-    node = tree.nodes.new(kind)
-    for name, value in settings.items():
-        setattr(node, name, value)
-    return node
-
-
-def _link(tree: bpy.types.NodeTree, source: bpy.types.NodeSocket, target: bpy.types.NodeSocket) -> None:
-    tree.links.new(source, target)
+        link(mixed.outputs[0], bump.inputs["Height"])
+        link(bump.outputs[0], shader.inputs["Normal"])
+    link(shader.outputs[0], output.inputs["Surface"])

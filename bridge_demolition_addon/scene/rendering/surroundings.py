@@ -10,16 +10,16 @@ import numpy as np
 from ...engineering.geometry.solids import box
 from ...model.scenario.recording import PictureSettings
 from ..bodies import SOIL, bodies_of, is_uneven_ground, mesh_of, scaled_mesh
-from ..collections import collection_for, find_collection
+from ..collections import ROLE, collection_for, remove_marked
+from ..custom_properties import keep
 from .camera import aim_camera
-from .materials import SurfaceMaterial, material_of
+from .materials import SurfaceMaterial, material_of, new_nodes
 from .startup_objects import bring_startup_objects_back, put_startup_objects_away
 
-_ROLE = "Surroundings"
-_MARK = "bda_role"
+_SURROUNDINGS = "Surroundings"
 _SKY = "Sky"
 _WORLD_BEFORE = "bda_world_before"
-"""Property of our sky: the world that it took the place of."""
+"""Property of our sky: the world that it replaced."""
 
 _POINTS = "bda_points_in_view"
 
@@ -29,7 +29,7 @@ _SUN_ANGLE_DEG = 0.53
 """How large the sun looks from the earth."""
 
 _SUN_TURN_DEG = (48.0, 0.0, -35.0)
-"""From the vertical, and about it: over the shoulder of whoever looks from `camera._VIEW_FROM`."""
+"""From the vertical, and about it: over the shoulder of the camera at `camera._VIEW_FROM`."""
 
 _SKY_STRENGTH = 0.7
 _HAZE, _BLUE = (0.62, 0.70, 0.78), (0.13, 0.27, 0.52)
@@ -42,7 +42,7 @@ _STARTUP_GREY = 0.0509
 
 
 def surround(scene: bpy.types.Scene, points: np.ndarray, view: PictureSettings | None = None) -> None:
-    """Put a scene under sun and sky, before a camera that sees points (n, 3) float, m, or stands as is asked for.
+    """Put a scene under sun and sky, before a camera that sees points (n, 3) float, m, or stands where `view` says.
 
     Blender's start-up objects are put away. A camera and a world of the user's own stay the scene's.
     """
@@ -50,42 +50,34 @@ def surround(scene: bpy.types.Scene, points: np.ndarray, view: PictureSettings |
     put_startup_objects_away(scene)
     if scene.world is None or _is_of_startup(scene.world):
         _put_sky_up(scene)
-    collection, own = collection_for(scene, _ROLE), scene.camera
+    collection, own = collection_for(scene, _SURROUNDINGS), scene.camera
     scene[_POINTS] = np.asarray(points, float).ravel().tolist()
     camera = aim_camera(scene, points, scene.render.resolution_x / scene.render.resolution_y, collection, view)
     scene.camera = own or camera
     land = _land(camera.data.clip_end / 2.0, _lowest_ground(scene))
-    for each in (_sun(), land):
-        collection.objects.link(each)
+    for obj in (_sun(), land):
+        collection.objects.link(obj)
     for obj in collection.objects:
-        obj[_MARK] = _ROLE
+        obj[ROLE] = _SURROUNDINGS
     for layer in scene.view_layers:
         land.hide_set(True, view_layer=layer)  # for pictures alone: View All would show nothing else
 
 
 def points_in_view(scene: bpy.types.Scene) -> np.ndarray | None:
-    """Return the points (n, 3) float, m, that cameras of a scene are to see; None where it has not been built here."""
+    """Return the points (n, 3) float, m, that cameras of a scene are to see; None where it was not built here."""
     return np.array(scene[_POINTS]).reshape(-1, 3) if _POINTS in scene else None
 
 
 def clear_surroundings(scene: bpy.types.Scene) -> None:
-    """Take away what `surround` has made, and bring back what it has put away."""
-    if collection := find_collection(scene, _ROLE):
-        ours = [obj for obj in collection.objects if obj.get(_MARK) == _ROLE]
-        data = {our.data for our in ours if our.data}
-        data |= {our.animation_data.action for our in ours if our.animation_data and our.animation_data.action}
-        bpy.data.batch_remove(ours)
-        bpy.data.batch_remove([each for each in data if not each.users])
-        if not collection.objects and not collection.children:
-            bpy.data.collections.remove(collection)
+    """Remove what `surround` has made, and bring back what it has put away."""
+    remove_marked(scene, _SURROUNDINGS)
     sky = scene.world
-    if sky and sky.get(_MARK) == _SKY:
+    if sky and sky.get(ROLE) == _SKY:
         before = sky.get(_WORLD_BEFORE)
         scene.world = before if isinstance(before, bpy.types.World) else None
         if not sky.users:
             bpy.data.worlds.remove(sky)
-    if _POINTS in scene:
-        del scene[_POINTS]
+    keep(scene, _POINTS, None)
     bring_startup_objects_back(scene)
 
 
@@ -100,10 +92,8 @@ def _sun() -> bpy.types.Object:
 
 def _lowest_ground(scene: bpy.types.Scene) -> float:
     """Return the height of the lowest place of ground that is not flat, m; 0 without such."""
-    world = scene.rigidbody_world
-    bodies = bodies_of(scene) if world and world.collection else []
-    uneven = [body for body in bodies if is_uneven_ground(body)]
-    return min((float(scaled_mesh(each).vertices[:, 2].min()) for each in uneven), default=0.0)
+    uneven = [body for body in bodies_of(scene) if is_uneven_ground(body)]
+    return min((float(scaled_mesh(body).vertices[:, 2].min()) for body in uneven), default=0.0)
 
 
 def _land(half_size_m: float, height_m: float) -> bpy.types.Object:
@@ -127,36 +117,23 @@ def _is_of_startup(world: bpy.types.World) -> bool:
 
 
 def _put_sky_up(scene: bpy.types.Scene) -> None:
+    """Make a sky with haze at the horizon and blue overhead the scene's world."""
     sky = bpy.data.worlds.new(_SKY)
-    sky[_MARK] = _SKY
+    sky[ROLE] = _SKY
     if scene.world:
         sky[_WORLD_BEFORE] = scene.world  # a user of it, so that it is saved with the file
     sky.color = PLAIN_SKY
-    if bpy.app.version < (5, 0, 0):
-        sky.use_nodes = True
-    _lay_out(sky.node_tree)
-    scene.world = sky
-
-
-def _lay_out(tree: bpy.types.NodeTree) -> None:
-    """Haze at the horizon, blue overhead."""
-    tree.nodes.clear()
-    place, parts, ramp, background, output = (
-        tree.nodes.new(kind)
-        for kind in (
-            "ShaderNodeTexCoord",
-            "ShaderNodeSeparateXYZ",
-            "ShaderNodeValToRGB",
-            "ShaderNodeBackground",
-            "ShaderNodeOutputWorld",
-        )
+    position, parts, ramp, background, output = new_nodes(
+        sky,
+        *("ShaderNodeTexCoord", "ShaderNodeSeparateXYZ", "ShaderNodeValToRGB"),
+        *("ShaderNodeBackground", "ShaderNodeOutputWorld"),
     )
     ramp.color_ramp.elements[0].color, ramp.color_ramp.elements[1].color = (*_HAZE, 1.0), (*_BLUE, 1.0)
     ramp.color_ramp.elements[1].position = 0.6
     background.inputs["Strength"].default_value = _SKY_STRENGTH
-    tree.links.new(place.outputs["Generated"], parts.inputs[0])
-    tree.links.new(parts.outputs["Z"], ramp.inputs[0])
-    tree.links.new(ramp.outputs[0], background.inputs["Color"])
-    tree.links.new(background.outputs[0], output.inputs["Surface"])
-    for number, node in enumerate(tree.nodes):
-        node.location = (220.0 * number, 0.0)
+    link = sky.node_tree.links.new
+    link(position.outputs["Generated"], parts.inputs[0])
+    link(parts.outputs["Z"], ramp.inputs[0])
+    link(ramp.outputs[0], background.inputs["Color"])
+    link(background.outputs[0], output.inputs["Surface"])
+    scene.world = sky

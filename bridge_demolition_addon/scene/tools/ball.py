@@ -1,4 +1,4 @@
-"""The wrecking ball: released, lifted by animation, released again."""
+"""The wrecking ball: released, lifted by animation, released again; and its cable on the tip of a crane."""
 
 from __future__ import annotations
 
@@ -8,21 +8,24 @@ import bpy
 import numpy as np
 from mathutils import Matrix
 
-from ...engineering.geometry.solids import sphere
-from ...model.scenario import Ball
+from ...engineering.geometry.solids import box, sphere
+from ...model.scenario import Ball, BallCable
 from ...model.scenario.ball import lift_path
 from ...model.scenario.kept import values_from_text, values_text
 from ...model.schema import given
 from ..bodies import Kind, create_body, mesh_of, set_surface
+from ..connections.constraints import mark_cable
 from ..custom_properties import edited
 from ..world import START_FRAME
 from .build_site import BuildSite
-from .cable import create_cable
 from .keyframes import key_values
 
 _LIFTS = "bda_lifts"
 _BALL_SEGMENTS = 88
 _STEEL = (0.08, 0.09, 0.10, 1.0)
+_CRANE_SIZE_M = 0.3
+_APART_FROM_ALL = 19
+"""Collision collection of the crane's tip alone, so that nothing hits it."""
 
 
 def create_ball(site: BuildSite, settings: Ball) -> bpy.types.Object:
@@ -49,14 +52,30 @@ def create_ball(site: BuildSite, settings: Ball) -> bpy.types.Object:
     # ball a frame late, as its threads happen to run.
     ball.keyframe_insert("location", frame=START_FRAME)
     if settings.cable:
-        create_cable(site.world, ball, settings.cable)
+        _create_cable(site.world, ball, settings.cable)
     if settings.hits:
         _create_hits(site, ball, settings, surfaces_m)
     return ball
 
 
+def _create_cable(world: bpy.types.RigidBodyWorld, ball: bpy.types.Object, settings: BallCable) -> None:
+    """Fix a point of the ball's own solid to a crane by a constraint that never breaks and is no connection."""
+    crane = create_body(world, mesh_of("Crane", box((_CRANE_SIZE_M,) * 3, (0.0, 0.0, 0.0))), Kind.CRANE, "BOX")
+    crane.location = settings.crane_point_m
+    crane.rigid_body.type = "PASSIVE"
+    crane.rigid_body.collision_collections = [number == _APART_FROM_ALL for number in range(20)]
+    cable = bpy.data.objects.new("Cable", None)
+    cable.location = settings.crane_point_m
+    world.constraints.objects.link(cable)
+    constraint = cable.rigid_body_constraint
+    constraint.type = "POINT"
+    constraint.object1, constraint.object2 = crane, ball
+    constraint.disable_collisions = False
+    mark_cable(cable)
+
+
 def _create_hits(site: BuildSite, ball: bpy.types.Object, settings: Ball, surfaces_m: Sequence[float]) -> None:
-    """Animate all hits but the first, on surfaces of these heights, the first one's too."""
+    """Animate all hits but the first; the surfaces have the heights of all."""
     radius = settings.diameter_m / 2.0
     start = tuple(ball.location)
     release_frame = site.frame_after(settings.release_time_s)
@@ -82,15 +101,10 @@ def plan_lift(
     start_m: tuple[float, float, float],
     end_m: tuple[float, float, float],
 ) -> None:
-    """Animate a lift of the ball to a place; animation leads it for the first time in the step towards `lift_frame`.
+    """Animate a lift of the ball; animation leads it for the first time in the step towards `lift_frame`.
 
-    Where the ball will lie by then is not known yet: the path begins at a guess, which `lift_from` corrects.
-
-    Parameters
-    ----------
-    shares : (k,) float
-        Share of the lift's time that has passed in the frame before `lift_frame` and in those that follow it, from 0
-        to 1.
+    The shares (k,), 0 to 1, of the lift's time have passed in the frame before `lift_frame` and those after it. The
+    start is a guess, which `lift_from` corrects.
     """
     lifts = values_from_text(ball.get(_LIFTS, ""), [])
     ball[_LIFTS] = values_text([*lifts, [lift_frame, np.asarray(shares).tolist(), list(end_m)]])
@@ -98,16 +112,16 @@ def plan_lift(
 
 
 def lifts_of(ball: bpy.types.Object) -> list[tuple[int, np.ndarray, np.ndarray]]:
-    """Return first frame, shares of time (k,) float and end (3,) float of every planned lift."""
+    """Return first frame, shares of time (k,) and end (3,), m, of every planned lift."""
     lifts = values_from_text(ball.get(_LIFTS, ""), [])
     try:
         return [(int(frame), np.array(shares, float), np.array(end, float)) for frame, shares, end in lifts]
     except (TypeError, ValueError) as error:
-        raise edited(ball, _LIFTS, "frames, shares and places of lifts") from error
+        raise edited(ball, _LIFTS, "frames, shares and positions of lifts") from error
 
 
 def begin_lifts(balls: Sequence[bpy.types.Object], frame: int, depsgraph: bpy.types.Depsgraph) -> None:
-    """Have balls that are lifted from the frame after this one on go up from where they are."""
+    """Have balls whose lift begins in the next frame go up from where they are."""
     for ball in balls:
         for lift_frame, shares, end in lifts_of(ball):
             if frame == lift_frame - 1:
@@ -117,12 +131,12 @@ def begin_lifts(balls: Sequence[bpy.types.Object], frame: int, depsgraph: bpy.ty
 def lift_from(ball: bpy.types.Object, lift_frame: int, shares: np.ndarray, end_m: np.ndarray, matrix: Matrix) -> None:
     """Make a lift begin where the ball is in the frame before it, as its matrix says.
 
-    Blender takes a body that animation begins to lead to its animated place within one frame, at any speed, and turns
-    it as well.
+    Blender takes a body that animation begins to lead to its animated position and rotation within one frame, at any
+    speed.
     """
-    place, rotation, _ = matrix.decompose()
+    position, rotation, _ = matrix.decompose()
     frames = _frames(lift_frame, shares)
-    key_values(ball, "location", frames, lift_path(np.array(place, float), end_m, shares))
+    key_values(ball, "location", frames, lift_path(np.array(position, float), end_m, shares))
     key_values(ball, "rotation_euler", frames[:1], [rotation.to_euler(ball.rotation_mode)], constant=True)
 
 

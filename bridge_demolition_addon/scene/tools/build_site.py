@@ -1,4 +1,4 @@
-"""Where tools are built: a rigid-body world, the frames of a run, and what lies under each place."""
+"""Where tools are built: a rigid-body world, the frames of a run, and the heights of the bridge."""
 
 from __future__ import annotations
 
@@ -14,16 +14,7 @@ from ..world import FIRST_STEP_FRAME
 
 @dataclass(frozen=True, eq=False, slots=True)
 class BuildSite:
-    """What the maker of a tool is given.
-
-    Attributes
-    ----------
-    world : bpy.types.RigidBodyWorld
-    timeline : Timeline
-        Frames from the first that time leads to.
-    height_at : callable
-        Height of the bridge at a place, m.
-    """
+    """What the maker of a tool works with; the timeline begins at `FIRST_STEP_FRAME`."""
 
     world: bpy.types.RigidBodyWorld
     timeline: Timeline

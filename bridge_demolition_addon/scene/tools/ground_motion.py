@@ -12,7 +12,7 @@ from ...engineering.ground_motion.record import GroundRecord, integrated
 from ...engineering.timing.timeline import Timeline
 from ...errors import SimulationError
 from ..bodies import Kind, bodies_of, kind_of
-from ..custom_properties import edited, kept_number
+from ..custom_properties import edited, keep, kept_number
 from .keyframes import key_values
 
 _TIMES = "bda_ground_motion_times_s"
@@ -22,14 +22,7 @@ _START = "bda_ground_motion_start_s"
 
 @dataclass(frozen=True, slots=True, eq=False)
 class GroundMotionOfScene:
-    """How the ground of a scene moves.
-
-    Attributes
-    ----------
-    record : GroundRecord
-    start_s : float
-        Simulated time at which it begins.
-    """
+    """A record that moves the ground of a scene from a simulated time on."""
 
     record: GroundRecord
     start_s: float
@@ -42,13 +35,9 @@ class GroundMotionOfScene:
 
 def keep_ground_motion(scene: bpy.types.Scene, record: GroundRecord | None, start_s: float = 0.0) -> None:
     """Keep a record in the scene, and so in its file; with None its ground rests."""
-    for name in (_TIMES, _ACCELERATIONS, _START):
-        if name in scene:
-            del scene[name]
-    if record is not None:
-        scene[_TIMES] = record.times_s.tolist()
-        scene[_ACCELERATIONS] = record.accelerations_m_s2.ravel().tolist()
-        scene[_START] = start_s
+    keep(scene, _TIMES, record and record.times_s.tolist())
+    keep(scene, _ACCELERATIONS, record and record.accelerations_m_s2.ravel().tolist())
+    keep(scene, _START, record and start_s)
 
 
 def ground_motion_of(scene: bpy.types.Scene) -> GroundMotionOfScene | None:
@@ -58,26 +47,19 @@ def ground_motion_of(scene: bpy.types.Scene) -> GroundMotionOfScene | None:
     try:
         times = np.array(scene[_TIMES], float)
         accelerations = np.array(scene[_ACCELERATIONS], float).reshape(len(times), 3)
+        if len(times) < 2 or not (np.diff(times) > 0.0).all() or not np.isfinite(accelerations).all():
+            raise ValueError("times have to ascend, and accelerations to be finite")
     except (KeyError, TypeError, ValueError) as error:
         raise edited(scene, _TIMES, "times and accelerations of a record") from error
-    if len(times) < 2 or not (np.diff(times) > 0.0).all() or not np.isfinite(accelerations).all():
-        raise edited(scene, _TIMES, "times and accelerations of a record")
     return GroundMotionOfScene(integrated(times, accelerations), kept_number(scene, _START, 0.0))
 
 
 def move_with_ground(
     scene: bpy.types.Scene, record: GroundRecord, start_s: float, frame: int, timeline: Timeline
 ) -> None:
-    """Animate the ground and all bodies that are fixed to it.
+    """Animate the ground and all bodies that are fixed to it, from the frame of the time 0 on.
 
     Blender moves them in straight lines between two frames; a recording moves them in every sub-step.
-
-    Parameters
-    ----------
-    frame : int
-        Frame of the time 0, the last one before time passes.
-    timeline : Timeline
-        The frames from there on.
     """
     times = np.concatenate(([0.0], timeline.ends_s))
     shifts = np.array([record.displacement_at(time_s - start_s) for time_s in times.tolist()])

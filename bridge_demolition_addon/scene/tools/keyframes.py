@@ -1,4 +1,4 @@
-"""Keyframes of bodies, written all at once."""
+"""Curves of animation, and keyframes written all at once."""
 
 from __future__ import annotations
 
@@ -17,19 +17,14 @@ def key_values(
     *,
     constant: bool = False,
 ) -> None:
-    """Set keyframes of a property with k components; its other keyframes stay.
+    """Set c keyframes of a property with k components, values (c, k); its other keyframes stay.
 
-    Parameters
-    ----------
-    frames, values : (c,) float, (c, k) float
-        The keyframes.
-    constant : bool
-        Whether values hold until the next keyframe, instead of going there in a straight line.
+    Values go to the next keyframe in a straight line, or hold until there where they are constant.
     """
-    columns = np.asarray(values, float).reshape(len(frames), -1).T
-    for index, column in enumerate(columns):
+    numbers = np.asarray(frames, float).tolist()
+    for index, column in enumerate(np.asarray(values, float).reshape(len(numbers), -1).T.tolist()):
         curve = _curve(body, data_path, index)
-        keys = {**_keys(curve), **dict(zip(np.asarray(frames, float).tolist(), column.tolist(), strict=True))}
+        keys = dict(keyframes_of(curve).astype(float).tolist()) | dict(zip(numbers, column, strict=True))
         points = curve.keyframe_points
         points.add(len(keys) - len(points))
         points.foreach_set("co", np.array(sorted(keys.items())).ravel())
@@ -38,10 +33,19 @@ def key_values(
         curve.update()
 
 
-def _keys(curve: bpy.types.FCurve) -> dict[float, float]:
+def keyframes_of(curve: bpy.types.FCurve) -> np.ndarray:
+    """Return frames and values (c, 2) of a curve's keyframes, as Blender has them in single precision."""
     values = np.empty(2 * len(curve.keyframe_points), np.float32)
     curve.keyframe_points.foreach_get("co", values)
-    return dict(values.reshape(-1, 2).astype(float).tolist())
+    return values.reshape(-1, 2)
+
+
+def curves_of(animation: bpy.types.AnimData) -> list[bpy.types.FCurve]:
+    """Return the curves of an action that is in use."""
+    if not hasattr(animation, "action_slot"):  # Blender before 4.4
+        return list(animation.action.fcurves)
+    bags = [bag for layer in animation.action.layers for strip in layer.strips for bag in strip.channelbags]
+    return [curve for bag in bags if bag.slot == animation.action_slot for curve in bag.fcurves]
 
 
 def _curve(body: bpy.types.Object, data_path: str, index: int) -> bpy.types.FCurve:

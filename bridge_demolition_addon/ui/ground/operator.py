@@ -11,8 +11,7 @@ from ...errors import DemolitionError
 from ...model.scenario import Zone
 from ...model.toml_tables import toml_value
 from ...scene.rendering.dust import raise_dust, remove_dust
-from ...scene.rendering.ground import terrain_under
-from ...scene.rendering.site_plan import lay_site_plan
+from ...scene.rendering.ground import lay_site_plan, terrain_under
 from ...simulation.blender_events import recorded_scene
 from ..contours import view as contour_view
 from ..operators import Action, GuardedOperator, absolute, recording_runs, refused

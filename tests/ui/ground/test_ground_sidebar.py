@@ -189,7 +189,7 @@ def test_dust_is_off_and_renders_where_it_is_raised(ran, extension, tmp_path):
 
 
 def curves_of(body):
-    from bridge_demolition_addon.scene.time_scale import curves_of as found
+    from bridge_demolition_addon.scene.tools.keyframes import curves_of as found
 
     return found(body.animation_data)
 
