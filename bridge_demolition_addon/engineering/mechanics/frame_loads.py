@@ -19,39 +19,20 @@ class SubstepLoads:
     """Loads of s sub-steps that follow each other, on n bodies by m connections and k contact points.
 
     Contacts come as impulses, as Bullet keeps them. Loads of connections are forces: Bullet has divided them by the
-    sub-step already.
-
-    Attributes
-    ----------
-    substeps_s : (s,) float
-        How long each sub-step was.
-    connection_forces_n, connection_moments_nm : (s, m, 3) float
-        Force on the first body of each connection, and moment about the connection's own point.
-    connection_points_m : (s, m, 3) float
-        Where the connections are.
-    signed_2019_ns : (s, m) float
-        The one number that Bullet keeps of a connection, an impulse.
-    contact_substeps : (k,) int
-        In which sub-step each contact is, in ascending order.
-    contact_pairs : (k, 2) int
-        Bodies in contact.
-    contact_impulses_ns, contact_points_m : (k, 3) float
-        Impulse on the first of them, and where it acts.
-    centres_m, rotations : (s, n, 3) float, (s, n, 3, 3) float
-        Centres of mass and rotations of all bodies.
+    sub-step already. Both are on the first body of a pair.
     """
 
-    substeps_s: FloatArray
-    connection_forces_n: FloatArray
-    connection_moments_nm: FloatArray
-    connection_points_m: FloatArray
-    signed_2019_ns: FloatArray
-    contact_substeps: IntArray
-    contact_pairs: IntArray
-    contact_impulses_ns: FloatArray
-    contact_points_m: FloatArray
-    centres_m: FloatArray
-    rotations: FloatArray
+    substeps_s: FloatArray  # (s,), lengths
+    connection_forces_n: FloatArray  # (s, m, 3)
+    connection_moments_nm: FloatArray  # (s, m, 3), about the connection's own point
+    connection_points_m: FloatArray  # (s, m, 3)
+    signed_2019_ns: FloatArray  # (s, m), the one number that Bullet keeps of a connection, an impulse
+    contact_substeps: IntArray  # (k,), in ascending order
+    contact_pairs: IntArray  # (k, 2)
+    contact_impulses_ns: FloatArray  # (k, 3)
+    contact_points_m: FloatArray  # (k, 3)
+    centres_m: FloatArray  # (s, n, 3), of mass
+    rotations: FloatArray  # (s, n, 3, 3)
 
     @cached_property
     def connection_impulses_ns(self) -> FloatArray:
@@ -102,44 +83,25 @@ class Moment:
 class FrameLoads:
     """Loads of one frame on n bodies and m connections.
 
-    Forces on a body are those of its connections and contacts together, without gravity.
-
-    Attributes
-    ----------
-    body_forces_n, body_peaks_n : (n, 3) float, (n,) float
-        Mean of the resultant, and its largest magnitude.
-    body_sums_n, body_peak_sums_n : (n,) float
-        Mean and largest of the sum of the magnitudes.
-    body_contact_impulses_ns : (n, 3) float
-        Impulse of the contacts.
-    body_signed_2019_n : (n,) float
-        Mean of what the add-on of 2019 calls the contact force: the numbers that Bullet keeps of its connections, added
-        or taken off with their signs. For comparison only.
-    stresses_pa : (n, 3, 3) float
-        Average stress under the mean loads, tension positive.
-    von_mises_pa : (n,) float
-        Equivalent stress in the sub-step in which all loads together were largest.
-    connection_forces_n, connection_moments_nm : (m, 3) float
-        Mean force on the first body of each pair, and moment about the connection's own point.
-    connection_peaks_n : (m,) float
-        Largest magnitude of the force.
-    connection_peak_forces_n, connection_peak_moments_nm : (m, 3) float
-        Force and moment in the sub-step that had it.
+    Forces on a body are those of its connections and contacts together, without gravity. Loads of a connection are on
+    its first body, about the connection's own point.
     """
 
-    body_forces_n: FloatArray
-    body_peaks_n: FloatArray
-    body_sums_n: FloatArray
-    body_peak_sums_n: FloatArray
-    body_contact_impulses_ns: FloatArray
+    body_forces_n: FloatArray  # (n, 3), mean of the resultant
+    body_peaks_n: FloatArray  # (n,), its largest magnitude
+    body_sums_n: FloatArray  # (n,), mean of the sum of the magnitudes
+    body_peak_sums_n: FloatArray  # (n,), its largest
+    body_contact_impulses_ns: FloatArray  # (n, 3)
+    # (n,), mean of the contact force of the add-on of 2019, for comparison only: the numbers that Bullet keeps of the
+    # body's connections, added or taken off with their signs.
     body_signed_2019_n: FloatArray
-    stresses_pa: FloatArray
-    von_mises_pa: FloatArray
-    connection_forces_n: FloatArray
-    connection_moments_nm: FloatArray
-    connection_peaks_n: FloatArray
-    connection_peak_forces_n: FloatArray
-    connection_peak_moments_nm: FloatArray
+    stresses_pa: FloatArray  # (n, 3, 3), average stress under the mean loads, tension positive
+    von_mises_pa: FloatArray  # (n,), equivalent stress in the sub-step in which all loads together were largest
+    connection_forces_n: FloatArray  # (m, 3), mean
+    connection_moments_nm: FloatArray  # (m, 3), mean
+    connection_peaks_n: FloatArray  # (m,), largest magnitude of the force
+    connection_peak_forces_n: FloatArray  # (m, 3), force in the sub-step of that peak
+    connection_peak_moments_nm: FloatArray  # (m, 3)
 
     def unknown(self) -> FrameLoads:
         """Return loads of the same shape of which nothing is known: nan throughout."""
@@ -152,14 +114,8 @@ class LoadAccumulator:
     Stress is calculated twice a frame and not for every sub-step, which would cost more than all the rest: from the
     mean loads, and from those of the sub-step in which all loads together were largest.
 
-    Parameters
-    ----------
-    pairs : (m, 2) int
-        Bodies of the connections.
-    volumes_m3 : (n,) float
-        Volumes of the bodies; 0 for a body without stress.
-    normals_at : function
-        Gives the unit normals (m, 3) of the connections under given rotations (n, 3, 3) of the bodies.
+    A body with a volume of 0 has no stress. `normals_at` gives the unit normals (m, 3) of the connections under
+    rotations (n, 3, 3) of the bodies.
     """
 
     def __init__(self, pairs: IntArray, volumes_m3: FloatArray, normals_at: Callable[[FloatArray], FloatArray]):

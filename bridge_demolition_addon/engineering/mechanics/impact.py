@@ -1,8 +1,8 @@
 """Hits: their impulse from the recorded steps, and an estimate of the force that rigid bodies cannot give.
 
 The force of a rigid-body impact is impulse by step, and grows without limit as the step shrinks. The impulse does not
-depend on the step. With a contact time, from Hertz's theory or from a measurement, it gives a peak force that means
-something.
+depend on the step. With a contact time, from Hertz's theory or from a measurement, it gives a peak force that does not
+either. K. L. Johnson (1985), Contact Mechanics, Cambridge University Press, has the equations.
 """
 
 from __future__ import annotations
@@ -37,27 +37,15 @@ CONCRETE = Elasticity(young_modulus_pa=30e9, poisson_ratio=0.2)
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Hit:
-    """Consecutive steps in which a body was hit.
-
-    Attributes
-    ----------
-    first_step, last_step : int
-        Rows of the first and the last of these steps.
-    start_s, end_s : float
-        When the first of them began and the last ended.
-    impulse_ns : (3,) float
-        Impulse on the body over all of them.
-    raw_peak_force_n, raw_step_s : float
-        Largest impulse of one step divided by the step, and that step: it grows as the step shrinks.
-    """
+    """Consecutive steps in which a body was hit."""
 
     first_step: int
     last_step: int
-    start_s: float
-    end_s: float
-    impulse_ns: FloatArray
-    raw_peak_force_n: float
-    raw_step_s: float
+    start_s: float  # when the first step began
+    end_s: float  # when the last step ended
+    impulse_ns: FloatArray  # (3,), on the body over all of them
+    raw_peak_force_n: float  # largest impulse of one step by the step: it grows as the step shrinks
+    raw_step_s: float  # that step
 
     @property
     def impulse_magnitude_ns(self) -> float:
@@ -66,36 +54,23 @@ class Hit:
 
 
 def hits(impulses_ns: FloatArray, steps_s: FloatArray, start_s: float = 0.0, resting_force_n: float = 0.0) -> list[Hit]:
-    """Hits of a body, from the impulses of its contacts.
+    """Hits of a body, in order of time, from its contact impulses (k, 3) in steps (k,): sub-steps or frames.
 
-    Parameters
-    ----------
-    impulses_ns : (k, 3) float
-        Sum of the contact impulses on the body in each step.
-    steps_s : (k,) float
-        Length of each step; sub-steps, or frames where nothing finer was recorded.
-    start_s : float
-        When the first step begins.
-    resting_force_n : float
-        A step belongs to a hit when its force is above this. With 0 every contact does, and a body that comes to rest
-        is being hit for ever; a few times its weight tells the two apart.
-
-    Returns
-    -------
-    list of Hit
-        In order of time. Steps in which no time passes, or whose impulse is nan, belong to no hit.
+    A step belongs to a hit when its force is above `resting_force_n`. With 0 every contact does, and a body that comes
+    to rest is being hit for ever; a few times its weight separates the two. Steps in which no time passes, or whose
+    impulse is nan, belong to no hit.
     """
     impulses_ns, steps_s = np.asarray(impulses_ns, dtype=float), np.asarray(steps_s, dtype=float)
     magnitudes = length(impulses_ns)
     ends_s = start_s + np.cumsum(steps_s)
     hit = (magnitudes > resting_force_n * steps_s) & (steps_s > 0.0)
     changes = np.flatnonzero(np.diff(hit, prepend=False, append=False))
-    found = []
+    of_body = []
     for first, after in changes.reshape(-1, 2):
         rows = slice(first, after)
         raw_forces = magnitudes[rows] / steps_s[rows]
         peak = raw_forces.argmax()
-        found.append(
+        of_body.append(
             Hit(
                 first_step=int(first),
                 last_step=int(after - 1),
@@ -106,22 +81,16 @@ def hits(impulses_ns: FloatArray, steps_s: FloatArray, start_s: float = 0.0, res
                 raw_step_s=float(steps_s[rows][peak]),
             )
         )
-    return found
+    return of_body
 
 
 @dataclass(frozen=True, slots=True)
 class Contact:
-    """Two bodies that meet at a point, as Hertz's theory sees them: reduced to one mass, one radius and one modulus.
+    """Two bodies that meet at a point, as Hertz's theory sees them: reduced to one mass, one radius and one modulus."""
 
-    Attributes
-    ----------
-    mass_kg, radius_m, modulus_pa : float
-        1/m = 1/m₁ + 1/m₂, 1/R = 1/R₁ + 1/R₂ and 1/E* = (1 - ν₁²)/E₁ + (1 - ν₂²)/E₂.
-    """
-
-    mass_kg: float
-    radius_m: float
-    modulus_pa: float
+    mass_kg: float  # 1/m = 1/m₁ + 1/m₂
+    radius_m: float  # 1/R = 1/R₁ + 1/R₂
+    modulus_pa: float  # 1/E* = (1 - ν₁²)/E₁ + (1 - ν₂²)/E₂
 
     @classmethod
     def between(
@@ -135,9 +104,7 @@ class Contact:
     ) -> Contact:
         """A sphere with a half-space that does not move, or with another sphere where mass and radius are given.
 
-        References
-        ----------
-        K. L. Johnson (1985), Contact Mechanics, Cambridge University Press, equations 4.3, 4.5 and 11.20.
+        Johnson, equations 4.3, 4.5 and 11.20.
         """
         return cls(
             mass_kg=1.0 / (1.0 / first_mass_kg + 1.0 / second_mass_kg),
@@ -152,12 +119,7 @@ def _compliance(elasticity: Elasticity) -> float:
 
 
 def hertz_compression(contact: Contact, speed_m_s: float) -> float:
-    """Largest approach of two elastic bodies that meet at a speed, m: (15 m v² / (16 √R E*))^(2/5).
-
-    References
-    ----------
-    Johnson (1985), equation 11.23.
-    """
+    """Largest approach of two elastic bodies that meet at a speed, m: (15 m v² / (16 √R E*))^(2/5), Johnson, 11.23."""
     energy = contact.mass_kg * speed_m_s * speed_m_s
     return float(power(15.0 * energy / (16.0 * math.sqrt(contact.radius_m) * contact.modulus_pa), 0.4))
 
@@ -165,12 +127,8 @@ def hertz_compression(contact: Contact, speed_m_s: float) -> float:
 def hertz_contact_time(contact: Contact, speed_m_s: float) -> float:
     """Time for which two elastic bodies that meet at a speed above 0 touch, s: 2.87 (m² / (R E*² v))^(1/5).
 
-    A body that also yields or crushes touches for longer: this is the least time, and what follows from it the largest
-    force.
-
-    References
-    ----------
-    Johnson (1985), equation 11.24; the number is 2.868, here not rounded.
+    A body that also yields or crushes touches for longer: this is the least time, and the force from it the largest.
+    Johnson, equation 11.24; the number is 2.868, here not rounded.
     """
     return _HERTZ_TIME * hertz_compression(contact, speed_m_s) / speed_m_s
 
@@ -179,13 +137,9 @@ def hertz_peak_force(contact: Contact, speed_m_s: float) -> float:
     """Largest force between two elastic bodies that meet at a speed, N: 4/3 E* √R δ^(3/2) at the largest compression δ.
 
     It holds for a hit that is elastic throughout, which for mild steel ends at some millimetres a second (Johnson,
-    section 11.5). In any other, steel yields or concrete crushes at a lower force, and this is an upper bound. The
-    theory also takes the bodies to be much larger than the contact, and not to bend: good for a pier or an abutment, an
-    upper bound for a slab.
-
-    References
-    ----------
-    Johnson (1985), equations 4.23 and 11.23.
+    section 11.5; the force by equations 4.23 and 11.23). In any other, steel yields or concrete crushes at a lower
+    force, and this is an upper bound. The theory also takes the bodies to be much larger than the contact, and not to
+    bend: good for a pier or an abutment, an upper bound for a slab.
     """
     compression = hertz_compression(contact, speed_m_s)
     return 4.0 / 3.0 * contact.modulus_pa * math.sqrt(contact.radius_m) * compression * math.sqrt(compression)
@@ -195,49 +149,26 @@ def half_sine_peak_force(impulse_ns: float, contact_time_s: float) -> float:
     """Largest force of an impulse that comes and goes as half a sine wave, N: π J / (2 t).
 
     With the whole impulse of an elastic hit, 2 m v, and Hertz's contact time it is 0.854 of Hertz's own peak force: his
-    pulse is a little more pointed than a sine.
-
-    References
-    ----------
-    W. Goldsmith (1960), Impact, Edward Arnold, chapter 4: the pulse of a Hertz impact is close to half a sine.
+    pulse is a little more pointed than a sine (W. Goldsmith, 1960, Impact, Edward Arnold, chapter 4).
     """
     return math.pi * impulse_ns / (2.0 * contact_time_s)
 
 
 @dataclass(frozen=True, slots=True)
 class ImpactEstimate:
-    """Forces of a hit that do not depend on the step.
-
-    Attributes
-    ----------
-    contact_time_s : float
-        Given, or by Hertz.
-    half_sine_peak_force_n : float
-        From the recorded impulse and the contact time.
-    hertz_peak_force_n : float
-        Of an elastic hit at the same speed: an upper bound.
-    """
+    """Forces of a hit that do not depend on the step."""
 
     contact_time_s: float
-    half_sine_peak_force_n: float
-    hertz_peak_force_n: float
+    half_sine_peak_force_n: float  # from the recorded impulse and the contact time
+    hertz_peak_force_n: float  # of an elastic hit at the same speed: an upper bound
 
 
 def estimate(
     impulse_ns: float, speed_m_s: float, contact: Contact, contact_time_s: float | None = None
 ) -> ImpactEstimate:
-    """The result of a hit, from its impulse and the speed at which the bodies met.
+    """Estimate the forces of a hit, from its impulse and the speed (above 0) at which the bodies met.
 
-    Parameters
-    ----------
-    impulse_ns : float
-        Magnitude of the impulse.
-    speed_m_s : float
-        Speed of approach along the line of contact before the hit, above 0.
-    contact : Contact
-        The two bodies.
-    contact_time_s : float, optional
-        Where it is known from a measurement; without it, Hertz's.
+    `contact_time_s` is a measured one; without it, Hertz's.
     """
     time_s = hertz_contact_time(contact, speed_m_s) if contact_time_s is None else contact_time_s
     return ImpactEstimate(

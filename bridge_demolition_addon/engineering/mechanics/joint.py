@@ -1,4 +1,4 @@
-"""What kind of connection holds two bodies together, and what breaks it."""
+"""Kinds of connections between two bodies, and what breaks them."""
 
 from __future__ import annotations
 
@@ -9,7 +9,8 @@ from ..elasticity.section_stiffness import ElasticModuli
 from .strength import Strength
 
 TYPES = ("FIXED", "POINT", "HINGE", "GENERIC", "GENERIC_SPRING")
-"""Kinds of connections that can be built."""
+"""Kinds of connections: FIXED holds everything, POINT a point, HINGE all but the rotation about the vertical, GENERIC
+all but what is free, and GENERIC_SPRING has springs in what is free."""
 
 
 class JointMotion(StrEnum):
@@ -34,19 +35,11 @@ MOTIONS = tuple(motion.value for motion in JointMotion)
 
 @dataclass(frozen=True, slots=True)
 class Springs:
-    """Springs in the motions that a GENERIC_SPRING connection lets happen; without load as it was built.
+    """Springs in the motions that a GENERIC_SPRING connection lets happen; without load as it was built."""
 
-    Attributes
-    ----------
-    stiffness_n_m, damping_ns_m : float
-        Along each free axis.
-    turning_stiffness_nm_rad, turning_damping_nms_rad : float
-        About each free axis.
-    """
-
-    stiffness_n_m: float = 0.0
+    stiffness_n_m: float = 0.0  # along each free axis
     damping_ns_m: float = 0.0
-    turning_stiffness_nm_rad: float = 0.0
+    turning_stiffness_nm_rad: float = 0.0  # about each free axis
     turning_damping_nms_rad: float = 0.0
 
     def of(self, motion: JointMotion) -> tuple[float, float]:
@@ -58,28 +51,11 @@ class Springs:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Joint:
-    """What many connections have in common.
+    """Properties that many connections share; None where a connection has none of that kind."""
 
-    Attributes
-    ----------
-    type : str
-        One of `TYPES`: FIXED holds everything, POINT a point, HINGE all but the rotation about the vertical, GENERIC
-        all but what is free, and GENERIC_SPRING has springs in what is free.
-    free : tuple of str
-        The `MOTIONS` that a GENERIC or GENERIC_SPRING connection lets happen.
-    springs : Springs
-        Of a GENERIC_SPRING connection.
-    breaking_force_n : float, optional
-        Force that breaks the connection; None where no single force does.
-    strength : Strength, optional
-        Stresses that break it; None where no stress does.
-    moduli : ElasticModuli, optional
-        How it deforms; None where it is rigid.
-    """
-
-    type: str
-    free: tuple[str, ...] = ()
+    type: str  # one of `TYPES`
+    free: tuple[str, ...] = ()  # the `MOTIONS` that a GENERIC or GENERIC_SPRING connection lets happen
     springs: Springs = Springs()
     breaking_force_n: float | None = None
-    strength: Strength | None = None
-    moduli: ElasticModuli | None = None
+    strength: Strength | None = None  # stresses that break it
+    moduli: ElasticModuli | None = None  # None where it is rigid

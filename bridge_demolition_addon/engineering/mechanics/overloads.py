@@ -25,15 +25,11 @@ further has torn, whatever the faces beside it carry. Rigid connections share a 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ConnectionLoads:
-    """Loads of m connections at one moment, in the axes of the world.
-
-    Attributes
-    ----------
-    forces_n, moments_nm, points_m : (m, 3) float
-        On the first body of each connection, about its own point, which is also given.
+    """Loads of m connections at one moment, in the axes of the world, on the first bodies, about the connections'
+    points.
     """
 
-    forces_n: FloatArray
+    forces_n: FloatArray  # (m, 3)
     moments_nm: FloatArray
     points_m: FloatArray
 
@@ -45,16 +41,13 @@ class ConnectionLoads:
 class Overloads:
     """Judges m connections by the strength of their material.
 
-    Parameters
-    ----------
-    faces : ConnectedFaces
-    moves : (n,) bool
-        Whether each body moves.
-    strength : Strength
-        For all, or for each of them.
-    member_sections : MemberSections or None
-        The sections that elastic connections are judged by. Rigid ones, which share loads by chance, are judged by cuts
-        through single shards, and so are elastic ones whose section clips an edge of a member.
+    `moves` (n,) says whether each body moves. `member_sections` are the sections that elastic connections are judged
+    by. Rigid ones, which share loads by chance, are judged by cuts through single shards, and so are elastic ones whose
+    section clips an edge of a member.
+
+    In all methods `rows` (r,) are intact connections and `axes` (r, 3, 3) those of their sections, `loads` those of
+    all; `left` (m,) is what is left of the strength of each, `intact` (m,) what still holds, `parts` (m,) what elastic
+    connections hold together.
     """
 
     def __init__(
@@ -74,14 +67,8 @@ class Overloads:
     def candidates(self, loads: FloatArray, lever_arms_m: FloatArray, left: FloatArray) -> IntArray:
         """Return the connections (k,) whose loads are large enough to break them, whatever they act on.
 
-        Parameters
-        ----------
-        loads : (6, m) float
-            Forces, and moments about other points than those of the connections.
-        lever_arms_m : (m,) float
-            How far away these are.
-        left : (m,) float
-            What is left of the strength of each.
+        Loads (6, m) are forces, and moments about other points than the connections', which are `lever_arms_m` (m,)
+        away.
         """
         by_force, by_moment = self._largest_utilisations
         force, torque = length(loads[:3].T), length(loads[3:].T)
@@ -100,19 +87,6 @@ class Overloads:
         """Return which connections (k,) break: overloaded alone and in their sections, and each the worst around.
 
         When one breaks, its neighbours take over its load: they are judged again after the next sub-step.
-
-        Parameters
-        ----------
-        rows : (r,) int
-            Intact connections.
-        loads : ConnectionLoads
-            Of all.
-        axes : (r, 3, 3) float
-            Of the sections of these connections.
-        intact, left : (m,) bool, (m,) float
-            What still holds, and what is left of the strength of each.
-        parts : (m,) int, optional
-            What elastic connections hold together.
         """
         rows, used = self.overloaded(rows, loads, axes, intact, left, parts)
         return rows[worst_around(self._pairs[rows], used, self._moves)] if len(rows) else rows
@@ -126,10 +100,7 @@ class Overloads:
         left: FloatArray,
         parts: IntArray | None = None,
     ) -> tuple[IntArray, FloatArray]:
-        """Return which connections (k,) are overloaded alone and in their sections, and their utilisations (k,).
-
-        Parameters are those of `breaking`.
-        """
+        """Return which connections (k,) are overloaded alone and in their sections, and their utilisations (k,)."""
         alone = self.alone(rows, loads, axes, left)
         is_over = alone > 1.0
         rows, alone, axes = rows[is_over], alone[is_over], axes[is_over]
@@ -139,7 +110,7 @@ class Overloads:
         return rows[used > 1.0], used[used > 1.0]
 
     def alone(self, rows: IntArray, loads: ConnectionLoads, axes: FloatArray, left: FloatArray) -> FloatArray:
-        """Utilisations (r,) of some connections, each by itself; parameters are those of `breaking`."""
+        """Utilisations (r,) of some connections, each by itself."""
         return self.of_forces(rows, loads.in_sections(rows, axes)) / left[rows]
 
     def of_forces(self, rows: IntArray, forces: SectionForces) -> FloatArray:
@@ -156,10 +127,7 @@ class Overloads:
         left: FloatArray,
         parts: IntArray | None,
     ) -> FloatArray:
-        """Utilisations (r,) of the sections of some connections, whose own (r,) are known.
-
-        Parameters are those of `breaking`.
-        """
+        """Utilisations (r,) of the sections of some connections, whose own (r,) are known."""
         if self._member_sections is None or parts is None:
             return self._in_cuts(rows, loads, axes, intact) / left[rows]
         used = self._in_members(self._member_sections, rows, loads, axes, intact, parts) / left[rows]
@@ -187,13 +155,9 @@ class Overloads:
         whole = members.are_whole(rows)
         used = np.empty(len(rows))
         if whole.any():
+            holding = np.where(intact, parts, -1)
             of_sections, areas, second_moments = members.sections(
-                rows[whole],
-                np.where(intact, parts, -1),
-                loads.forces_n,
-                loads.moments_nm,
-                loads.points_m,
-                axes[whole],
+                rows[whole], holding, loads.forces_n, loads.moments_nm, loads.points_m, axes[whole]
             )
             sections = rectangular_sections(areas, second_moments)
             used[whole] = utilisation(of_sections, sections, strength_at(self._strength, rows[whole]))

@@ -25,18 +25,10 @@ _SMALLEST_GAP_M = 1e-9
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FaceBars:
-    """Layers of bars across the faces of m connections, each face's put together.
+    """Layers of bars across the faces of m connections, each face's put together."""
 
-    Attributes
-    ----------
-    yield_n : (m,) float
-        Force at which all bars across a face yield; 0 where there are none.
-    offsets_m : (m, 2) float
-        Where that force acts, from the point of the connection along the section's y and z.
-    """
-
-    yield_n: FloatArray
-    offsets_m: FloatArray
+    yield_n: FloatArray  # (m,), force at which all bars across a face yield; 0 where there are none
+    offsets_m: FloatArray  # (m, 2), where it acts, from the connection's point along the section's y and z
 
     def with_even(self, even_n: FloatArray) -> FaceBars:
         """Return them together with bars (m,) that are spread evenly over the faces."""
@@ -48,19 +40,10 @@ class FaceBars:
 def parting(
     first_points: FloatArray, second_points: FloatArray, first_velocities: FloatArray, second_velocities: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """How far, how fast and in which direction the two points of each bar part.
+    """Return how far (t,), m, how fast (t,), m/s, and in which direction (t, 3) the two points of each bar part.
 
-    Parameters
-    ----------
-    first_points, second_points, first_velocities, second_velocities : (t, 3) float
-        Places in m and velocities in m/s of the points on both bodies, which were one before the crack.
-
-    Returns
-    -------
-    distances, rates : (t,) float
-        In m and m/s.
-    directions : (t, 3) float
-        Unit vectors from the first point to the second.
+    Points, m, and velocities, m/s, (t, 3) are of the places on both bodies that were one before the crack. The
+    directions are unit vectors from the first point to the second.
     """
     gaps, speeds = second_points - first_points, second_velocities - first_velocities
     distances = length(gaps)
@@ -71,9 +54,9 @@ def parting(
 def effective_masses(masses_kg: FloatArray, pairs: IntArray, turning_kg: FloatArray | float = 0.0) -> FloatArray:
     """Mass (t,) that each bar between a pair (t, 2) of bodies (n,) may take to be its own, kg.
 
-    1/m = 1/m₁ + 1/m₂, where a body of mass 0 does not move, and what is given, (t,) 1/kg, as a bar beside the middle of
-    its bodies turns them. It is shared out among all bars of a body: bars that know nothing of each other would
-    otherwise stop it several times over.
+    1/m = 1/m₁ + 1/m₂ + `turning_kg` (t,), 1/kg, for the turning of the bodies by a bar beside their middle. A body of
+    mass 0 does not move. The mass is shared out among all bars of a body, which would otherwise stop it several times
+    over.
     """
     counts = np.bincount(pairs.ravel(), minlength=len(masses_kg))[pairs].max(axis=1)
     inverse = np.divide(1.0, masses_kg, out=np.zeros(len(masses_kg)), where=masses_kg > 0.0)[pairs].sum(axis=1)
@@ -84,16 +67,10 @@ def effective_masses(masses_kg: FloatArray, pairs: IntArray, turning_kg: FloatAr
 def bar_forces(
     held_n: FloatArray, speeds_m_s: FloatArray, masses_kg: FloatArray, yield_forces_n: FloatArray, substep_s: float
 ) -> tuple[FloatArray, FloatArray]:
-    """Tension of each bar in the coming sub-step, and the part of it that it holds on with.
+    """Tension (t,) of each bar in the coming sub-step, and the part of it that it holds on with.
 
-    Parameters
-    ----------
-    held_n : (t,) float
-        What it held on with before.
-    speeds_m_s, masses_kg, yield_forces_n : (t,) float
-        Rate at which its points part, the mass it may take for its own, and the force at which it yields.
-    substep_s : float
-        Length of the sub-step.
+    That part was `held_n` before. Speeds are those at which a bar's points part, masses those that it may take for its
+    own (`effective_masses`).
     """
     stopping = masses_kg * speeds_m_s / substep_s
     held = np.clip(held_n + _GROWTH * stopping, 0.0, yield_forces_n)

@@ -20,41 +20,19 @@ _LEVEL_CUT = 1e-6
 
 @dataclass(frozen=True, eq=False, slots=True)
 class SectionForces:
-    """Forces and moments in m sections.
+    """Forces and moments in m sections, N and N·m."""
 
-    Attributes
-    ----------
-    axial_n : (m,) float
-        Along x, tension positive, N.
-    shear_n : (m, 2) float
-        Along y and z, N.
-    torsion_nm : (m,) float
-        About x, N·m.
-    bending_nm : (m, 2) float
-        About y and z, N·m. About y it pulls where z is positive, about z where y is negative.
-    """
-
-    axial_n: FloatArray
-    shear_n: FloatArray
-    torsion_nm: FloatArray
-    bending_nm: FloatArray
+    axial_n: FloatArray  # (m,), along x, tension positive
+    shear_n: FloatArray  # (m, 2), along y and z
+    torsion_nm: FloatArray  # (m,), about x
+    bending_nm: FloatArray  # (m, 2), about y, which pulls where z is positive, and z, which pulls where y is negative
 
 
 def section_axes(normals: FloatArray) -> FloatArray:
-    """Axes of sections in the axes of the world.
+    """Rotations (m, 3, 3) of sections with unit normals (m, 3) from the first body: their x, y and z are the columns.
 
     Where the cut is level, every direction in it is equally far from the vertical: z then points along the world's x,
     which is along the road.
-
-    Parameters
-    ----------
-    normals : (m, 3) float
-        Unit vectors from the first body to the second.
-
-    Returns
-    -------
-    (m, 3, 3) float
-        Rotations: x, y and z of each section are its columns.
     """
     x = np.asarray(normals, dtype=float)
     level = length(x[:, :2]) < _LEVEL_CUT
@@ -64,14 +42,9 @@ def section_axes(normals: FloatArray) -> FloatArray:
 
 
 def section_forces(axes: FloatArray, forces: FloatArray, moments: FloatArray) -> SectionForces:
-    """Forces and moments of connections in the axes of their sections.
+    """Forces and moments of connections in the axes (m, 3, 3) of their sections.
 
-    Parameters
-    ----------
-    axes : (m, 3, 3) float
-        From `section_axes` or `rotations.carried_axes`.
-    forces, moments : (m, 3) float
-        On the first body of each connection, about the connection's own point, in the axes of the world, N and N·m.
+    Those given, (m, 3), are on the first body of each connection, about its own point, in the axes of the world.
     """
-    force, moment = (transformed_back(axes, each) for each in (forces, moments))
+    force, moment = transformed_back(axes, forces), transformed_back(axes, moments)
     return SectionForces(force[:, 0], force[:, 1:], moment[:, 0], moment[:, 1:])

@@ -1,8 +1,8 @@
 """When a connection breaks: strengths by area, so that it does not matter how finely a bridge is cut.
 
 A connection stands for the section it was cut with. Its axial force, shear, torsion and bending give stresses in that
-section, and these are compared with the strengths of the material together. What breaks may go on as a ductile
-connection, such as the reinforcement across a crack, until it has opened too far.
+section, and these are compared with the strengths of the material together. A broken connection may go on as a ductile
+one, such as the reinforcement across a crack, until it has opened too far.
 """
 
 from __future__ import annotations
@@ -25,25 +25,13 @@ _ROUNDING = 1e-9
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Strength:
-    """Stresses at which a material breaks, each a positive number, or an array (m,) with one for every connection.
+    """Stresses at which a material breaks, each a positive number, or an array (m,) with one for every connection."""
 
-    Attributes
-    ----------
-    compression_pa, tension_pa : float or (m,) float
-        Axial force by area.
-    shear_pa : float or (m,) float
-        Shear force by area: the mean over the section, which codes of practice give their shear strengths for.
-    torsion_pa : float or (m,) float
-        Torsional moment by torsion modulus: the shear stress at the edge of an uncracked section.
-    bending_pa : float or (m,) float
-        Bending moment by elastic section modulus: the stress that an uncracked section would have at its edge.
-    """
-
-    compression_pa: float | FloatArray
+    compression_pa: float | FloatArray  # axial force by area
     tension_pa: float | FloatArray
-    shear_pa: float | FloatArray
-    torsion_pa: float | FloatArray
-    bending_pa: float | FloatArray
+    shear_pa: float | FloatArray  # mean over the section, which codes of practice give their shear strengths for
+    torsion_pa: float | FloatArray  # moment by torsion modulus: shear stress at the edge of an uncracked section
+    bending_pa: float | FloatArray  # moment by elastic section modulus: stress at the edge of an uncracked section
 
     def __post_init__(self) -> None:
         for field in fields(self):
@@ -54,7 +42,7 @@ class Strength:
     @classmethod
     def in_n_mm2(cls, compression: float, tension: float, shear: float, torsion: float, bending: float) -> Strength:
         """Strength from numbers in N/mm²."""
-        return cls(*(NEWTON_PER_SQUARE_MILLIMETRE * each for each in (compression, tension, shear, torsion, bending)))
+        return cls(*(NEWTON_PER_SQUARE_MILLIMETRE * value for value in (compression, tension, shear, torsion, bending)))
 
     def times(self, factor: float) -> Strength:
         """All strengths times a factor above 0; with a factor of 1 the same object."""
@@ -93,39 +81,24 @@ Steel is S235 up to 40 mm thick, at yield: EN 1993-1-1:2005, table 3.1; in shear
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Sections:
-    """What resists in m sections; nan throughout for a section without an area.
+    """Resisting properties of m sections; nan throughout for a section without an area."""
 
-    Attributes
-    ----------
-    areas_m2 : (m,) float
-        Area.
-    directions : (m, 2, 2) float
-        The principal axes of bending are its columns, in the section's y and z.
-    bending_moduli_m3, torsion_moduli_m3 : (m, 2), (m,) float
-        Elastic moduli about these axes, and for torsion: moment by stress at the edge.
-    """
-
-    areas_m2: FloatArray
-    directions: FloatArray
-    bending_moduli_m3: FloatArray
-    torsion_moduli_m3: FloatArray
+    areas_m2: FloatArray  # (m,)
+    directions: FloatArray  # (m, 2, 2), principal axes of bending as columns, in the section's y and z
+    bending_moduli_m3: FloatArray  # (m, 2), elastic moduli about these axes: moment by stress at the edge
+    torsion_moduli_m3: FloatArray  # (m,)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Ductility:
-    """What holds on after a connection broke; numbers, or arrays (m,) with one for every connection.
+    """Resistance of a broken connection; numbers, or arrays (m,) with one for every connection.
 
-    Attributes
-    ----------
-    strength_share : float or (m,) float
-        Part of the strength that is left, from 0, nothing, to 1.
-    elongation_m : float or (m,) float
-        How far the two sides of the crack may part before it lets go. It is a length and not a share of one: the
-        distance between two shards depends on how finely the bridge is cut, the width of a crack does not.
+    The elongation is a length and not a share of one: the distance between two shards depends on how finely the bridge
+    is cut, the width of a crack does not.
     """
 
-    strength_share: float | FloatArray
-    elongation_m: float | FloatArray
+    strength_share: float | FloatArray  # part of the strength that is left, from 0, nothing, to 1
+    elongation_m: float | FloatArray  # how far the two sides of the crack may part
 
     def __post_init__(self) -> None:
         share, elongation = np.asarray(self.strength_share), np.asarray(self.elongation_m)
@@ -136,22 +109,15 @@ class Ductility:
 
 
 def rectangular_sections(areas: FloatArray, second_moments: FloatArray) -> Sections:
-    """Sections with known second moments of area, as the rectangles that have the same.
+    """Sections with areas (m,), m², and second moments of area, as the rectangles that have the same.
+
+    The second moments (m, 2, 2), m⁴, are about the section's y and z axes through its centre: ∫ z² dA and ∫ y² dA on
+    the diagonal, -∫ y z dA beside it; positive definite.
 
     The edges of a section of any shape are taken to be as far from its middle as those of the rectangle with the same
     area and second moments: √(3 I / A). That is exact for rectangles, whichever way they are turned, but for squares,
     whose second moments do not say it: these lie along the section's axes.
 
-    Parameters
-    ----------
-    areas : (m,) float
-        In m².
-    second_moments : (m, 2, 2) float
-        About the section's y and z axes through its centre, m⁴: ∫ z² dA and ∫ y² dA on the diagonal, -∫ y z dA beside
-        it; positive definite.
-
-    References
-    ----------
     Torsion of a rectangle b > c: stress = T / (b c²) × (3 + 1.8 c/b), within 5 % (S. Timoshenko, 1955, Strength of
     Materials, part I, 3rd edition, section 62).
     """
@@ -197,7 +163,7 @@ def largest_utilisations(sections: Sections, strength: Strength) -> tuple[FloatA
 
 
 def utilisation(forces: SectionForces, sections: Sections, strength: Strength) -> FloatArray:
-    """How much of its strength each connection uses, (m,); above 1 it breaks.
+    """Utilisation (m,) of each connection; above 1 it breaks. Nan where the section has no area, or the forces are nan.
 
     - Stretched edge: axial tension by its strength plus bending by its own; compression relieves it.
     - Pressed edge: compression plus bending, by the strength in compression.
@@ -209,11 +175,6 @@ def utilisation(forces: SectionForces, sections: Sections, strength: Strength) -
     NASA/TM-2002-211737). Friction, which helps a pressed section against shear, is not counted on.
 
     The stress of a rectangle is largest at a corner: bending about its two axes adds up.
-
-    Returns
-    -------
-    (m,) float
-        Nan where the section has no area, or the forces are nan.
     """
     axial = forces.axial_n / sections.areas_m2
     moments = transformed_back(sections.directions, forces.bending_nm)

@@ -11,40 +11,23 @@ from ..geometry.vectors import cross_by_component, symmetric_eigenvalues
 def average_stress(
     bodies: IntArray, forces: FloatArray, points: FloatArray, centres: FloatArray, volumes: FloatArray
 ) -> FloatArray:
-    """Average stress tensor of every body under point loads: (1/V) Σ f ⊗ r, tension positive (Love-Weber).
+    """Average stress tensor (n, 3, 3), Pa, of every body: (1/V) Σ f ⊗ r, tension positive (Love-Weber).
+
+    Point loads (k, 3), N, act on `bodies` (k,) at points (k, 3), m. The tensor is symmetric; nan for a body without a
+    volume, and for one with a load that is nan.
 
     The lever arms r start at the centre of mass: gravity and any common acceleration of the whole body, such as that of
-    a free fall or a hit through the centre, then add nothing, and the formula is exact. What it leaves out is the
-    inertia of turning. Where the loads make a body turn ever faster, the sum has a part that is not symmetric, half
-    their moment; it is what turns the body and no stress, so only the symmetric part is taken. Of a long body, the same
-    turning takes some of the symmetric part too, and spinning adds a tension of about density × ω² L² / 12, which is
-    0.02 N/mm² for a shard of concrete of 1 m at 10 rad/s. Neither is allowed for.
+    a free fall or a hit through the centre, then add nothing, and the formula is exact. It leaves out the inertia of
+    turning. Where the loads make a body turn ever faster, the sum has a part that is not symmetric, half their moment;
+    it turns the body and is no stress, so only the symmetric part is taken. Of a long body, the same turning takes some
+    of the symmetric part too, and an angular velocity adds a tension of about density × ω² L² / 12, which is 0.02 N/mm²
+    for a shard of concrete of 1 m at 10 rad/s. Neither is allowed for.
 
-    Parameters
-    ----------
-    bodies : (k,) int
-        The body that each load acts on.
-    forces : (k, 3) float
-        Force on that body, N.
-    points : (k, 3) float
-        Where it acts, m.
-    centres : (n, 3) float
-        Centres of mass of all bodies, m.
-    volumes : (n,) float
-        Volumes of all bodies, m³.
-
-    Returns
-    -------
-    (n, 3, 3) float
-        Symmetric, Pa; nan for a body without a volume, and for one with a load that is nan.
-
-    References
-    ----------
     A. E. H. Love (1927), A Treatise on the Mathematical Theory of Elasticity, 4th edition, § 123: mean stress from the
     forces on the surface. J. Weber (1966), Recherches concernant les contraintes intergranulaires dans les milieux
-    pulvérulents, Bulletin de Liaison des Ponts et Chaussées 20. On inertia: F. Nicot, N. Hadda, M. Guessasma,
-    J. Fortin, O. Millet (2013), On the definition of the stress tensor in granular media, International Journal of
-    Solids and Structures 50, 2508-2517.
+    pulvérulents, Bulletin de Liaison des Ponts et Chaussées 20. On inertia: F. Nicot, N. Hadda, M. Guessasma, J.
+    Fortin, O. Millet (2013), On the definition of the stress tensor in granular media, International Journal of Solids
+    and Structures 50, 2508-2517.
     """
     return _averaged(bodies, forces, points - centres[bodies], volumes)
 
@@ -52,34 +35,16 @@ def average_stress(
 def average_stress_of_moments(
     bodies: IntArray, moments: FloatArray, normals: FloatArray, volumes: FloatArray
 ) -> FloatArray:
-    """What the moments of connections add to the average stress of the bodies they act on.
+    """Part (n, 3, 3), Pa, of the average stress of bodies that moments (k, 3), N·m, about connections' points add.
 
     A couple by itself says nothing about a symmetric tensor; how it is spread over its face does. A bending moment is
-    spread as stress at right angles to the face: with n the normal, n ⊗ (n × M), whatever the shape of the face and
-    however the stress varies over it. Torsion is spread as circular shear, which adds nothing symmetric on a face whose
-    two second moments of area are equal, and is left out on all others.
+    spread as stress at right angles to the face: with n the normal, which may point either way, n ⊗ (n × M), whatever
+    the shape of the face and however the stress varies over it. Torsion is spread as circular shear, which adds nothing
+    symmetric on a face whose two second moments of area are equal, and is left out on all others.
 
     Without this part, a block of a beam would show half of its shear stress V/A: the other half comes from the
     difference between the bending moments at its two ends.
 
-    Parameters
-    ----------
-    bodies : (k,) int
-        The body that each moment acts on.
-    moments : (k, 3) float
-        Moment on that body about the connection's point, N·m.
-    normals : (k, 3) float
-        Unit normal of the connection's face, pointing either way.
-    volumes : (n,) float
-        Volumes of all bodies, m³.
-
-    Returns
-    -------
-    (n, 3, 3) float
-        Symmetric, Pa, to be added to `average_stress`.
-
-    References
-    ----------
     Love (1927), § 123: (1/V) ∮ t ⊗ r dA. With tractions t = s n and M = ∫ r × s n dA, ∫ s r dA = n × M within the face.
     """
     return _averaged(bodies, normals, cross_by_component(normals, moments), volumes)

@@ -26,16 +26,9 @@ from .forces import PairSums
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Motion:
-    """Motion of n bodies at the ends of s sub-steps.
+    """Motion of n bodies at the ends of s sub-steps, arrays (s, n, 3)."""
 
-    Attributes
-    ----------
-    centres_m : (s, n, 3) float
-        Centres of mass.
-    velocities_m_s, angular_velocities_rad_s : (s, n, 3) float
-    """
-
-    centres_m: FloatArray
+    centres_m: FloatArray  # centres of mass
     velocities_m_s: FloatArray
     angular_velocities_rad_s: FloatArray
 
@@ -47,39 +40,23 @@ class Motion:
 
     def from_(self, before: Motion) -> Motion:
         """Return the motion (s + 1, n, 3) that begins where another ends."""
-        pairs = ((getattr(each, item.name) for each in (before, self)) for item in fields(Motion))
-        return Motion(*(_joined(earlier[-1:], later) for earlier, later in pairs))
+        names = (item.name for item in fields(Motion))
+        return Motion(*(_joined(getattr(before, name)[-1:], getattr(self, name)) for name in names))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PairImpulses:
-    """Impulses between k pairs of bodies: of connections, in each of s sub-steps, or of contacts, each in one of them.
+    """Impulses between k pairs of bodies: of connections, in each of s sub-steps, or of contacts, each in one."""
 
-    Attributes
-    ----------
-    pairs : (k, 2) int
-        Bodies.
-    impulses_ns : (s, k, 3) or (k, 3) float
-        Impulse on the first body of each pair; the second gets the opposite.
-    points_m : (s, k, 3) or (k, 3) float
-        Where they act.
-    angular_impulses_nms : (s, k, 3) float or None
-        Impulse of the moment about that point on the first body; None for contacts, which have none.
-    substeps : (k,) int or None
-        Sub-step of each contact, in ascending order; None for connections.
-    stored_j : (s, k) float or None
-        Energy that elastic connections can have stored at the end of each sub-step; None for what stores none.
-    """
-
-    pairs: IntArray
-    impulses_ns: FloatArray
-    points_m: FloatArray
-    angular_impulses_nms: FloatArray | None = None
-    substeps: IntArray | None = None
-    stored_j: FloatArray | None = None
+    pairs: IntArray  # (k, 2), bodies
+    impulses_ns: FloatArray  # (s, k, 3) or (k, 3), on the first body of a pair; the second gets the opposite
+    points_m: FloatArray  # where they act
+    angular_impulses_nms: FloatArray | None = None  # (s, k, 3), of the moment about that point; contacts have none
+    substeps: IntArray | None = None  # (k,), of each contact, in ascending order; None for connections
+    stored_j: FloatArray | None = None  # (s, k), energy that elastic connections can have stored at each end
 
     def of_substeps(self, count: int) -> list[slice]:
-        """Return which impulses are in each of so many sub-steps, all of them in a row."""
+        """Return which impulses are in each of `count` sub-steps, all of them in a row."""
         steps = np.arange(count + 1)
         ends = steps * len(self.pairs) if self.substeps is None else np.searchsorted(self.substeps, steps)
         return [slice(start, end) for start, end in itertools.pairwise(ends.tolist())]
@@ -90,36 +67,17 @@ _Energy = TypeVar("_Energy", float, FloatArray)
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FrameWork(Generic[_Energy]):
-    """Work in one frame, J.
-
-    Attributes
-    ----------
-    gravity_j : float
-        Work of gravity.
-    loads_j : float
-        Work of blast and of all else that pushes bodies from outside.
-    tools_j : float
-        Work of bodies that move as animation says, such as a ball that is lifted.
-    damping_j : float
-        Energy of translation taken away by Blender's damping.
-    dissipated_j : float
-        Energy taken away between bodies: by impacts, friction, and connections that give.
-    made_by_connections_j, made_by_contacts_j, made_by_lifting_j : float
-        Energy that the solver has made, by how: connections pulled together, contacts pushed apart, and bodies moved up
-        without a velocity, as Bullet parts hulls that overlap.
-    made_j : (n,) float
-        The same energy by the body that got it.
-    """
+    """Work in one frame, J. The solver's energy is given by cause, and in `made_j` by the body that got it."""
 
     gravity_j: _Energy
-    loads_j: _Energy
-    tools_j: _Energy
-    damping_j: _Energy
-    dissipated_j: _Energy
-    made_by_connections_j: _Energy
-    made_by_contacts_j: _Energy
-    made_by_lifting_j: _Energy
-    made_j: FloatArray
+    loads_j: _Energy  # of blast and of all else that pushes bodies from outside
+    tools_j: _Energy  # of bodies that move as animation says, such as a ball that is lifted
+    damping_j: _Energy  # energy of translation taken away by Blender's damping
+    dissipated_j: _Energy  # taken away between bodies: by impacts, friction, and connections that yield
+    made_by_connections_j: _Energy  # where stretched connections are pulled together
+    made_by_contacts_j: _Energy  # where contacts are pushed apart
+    made_by_lifting_j: _Energy  # where bodies move up without a velocity, as Bullet parts hulls that overlap
+    made_j: FloatArray  # (n,)
 
     @classmethod
     def unknown(cls, *shape: int) -> FrameWork[Any]:
@@ -132,16 +90,8 @@ class FrameWork(Generic[_Energy]):
 class WorkAccumulator:
     """Adds up the work in a frame, some sub-steps at a time; how many makes no difference, to the last bit.
 
-    Parameters
-    ----------
-    masses_kg : (n,) float
-        Masses; 0 for bodies that never move.
-    linear_damping, angular_damping : (n,) float
-        Shares of the velocities that Bullet takes away in a second.
-    gravity_m_s2 : (3,) float
-        Acceleration of gravity.
-    start : Motion
-        Motion (1, n, 3) at the beginning.
+    Bodies that never move have mass 0. `linear_damping` and `angular_damping` (n,) are the shares of the velocities
+    that Bullet takes away in a second; `start` is the motion (1, n, 3) at the beginning.
     """
 
     def __init__(
@@ -194,20 +144,10 @@ class WorkAccumulator:
         resultants_ns: FloatArray,
         substeps_s: FloatArray,
     ) -> None:
-        """Add some sub-steps.
+        """Add some sub-steps, at whose ends bodies move as `after`.
 
-        Parameters
-        ----------
-        after : Motion
-            Motion at their ends.
-        free : (s, n) bool
-            Bodies that move freely in them. The others rest, or move as animation says.
-        of_connections, of_contacts : PairImpulses
-            All impulses between bodies.
-        resultants_ns : (s, n, 3) float
-            Their sum on every body.
-        substeps_s : (s,) float
-            How long each is.
+        `free` (s, n): bodies that move freely in them. The others rest, or move as animation says. `resultants_ns` (s,
+        n, 3) are the sums of all impulses between bodies.
         """
         whole, masses = after.from_(self._before), np.where(free, self._masses, 0.0)
         self._before = after
@@ -228,7 +168,7 @@ class WorkAccumulator:
         by_loads = dot(momenta - resultants_ns, mean.velocities_m_s)
         by_gravity = masses * dot(mean.velocities_m_s, self._gravity)
         by_damping = masses * (dot(before, before) - dot(damped, damped))
-        works = [self._of_pairs(each, mean, free) for each in (of_connections, of_contacts)]
+        works = [self._of_pairs(impulses, mean, free) for impulses in (of_connections, of_contacts)]
         lifting = self._of_lifting(whole, masses, steps)
         for substep, substep_s in enumerate(substeps_s.tolist()):
             self._loads_j += float(by_loads[substep][free[substep]].sum())
@@ -251,7 +191,7 @@ class WorkAccumulator:
         return linear[..., None], angular[..., None]
 
     def _of_pairs(self, between: PairImpulses, mean: Motion, free: BoolArray) -> PairWork:
-        """Return what is taken away between bodies, what tools did, and what is made and by which body it is got."""
+        """Return the work between bodies, by their mean motion in each sub-step."""
         substeps = between.of_substeps(len(free))
         if not len(between.pairs):
             return PairWork.none(len(free))
@@ -312,22 +252,12 @@ class WorkAccumulator:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PairWork:
-    """Work between bodies in each of s sub-steps, J.
+    """Work between bodies in each of s sub-steps, J. First and second bodies of the pairs are apart."""
 
-    Attributes
-    ----------
-    taken_j, made_j : list of float
-        Energy that is taken away, as a negative number, and energy that is made.
-    made_by_body_j : list of (s, n) float
-        The energy made by the body that got it: first and second bodies of the pairs.
-    tools_j : list of list of float
-        Work of bodies that are led, as first and as second bodies.
-    """
-
-    taken_j: list[float]
+    taken_j: list[float]  # energy that is taken away, as a negative number
     made_j: list[float]
-    made_by_body_j: list[FloatArray]
-    tools_j: list[list[float]]
+    made_by_body_j: list[FloatArray]  # (s, n) each
+    tools_j: list[list[float]]  # work of bodies that are led
 
     @classmethod
     def none(cls, substeps: int) -> PairWork:
@@ -346,12 +276,12 @@ def _of_tools(
     works = []
     for sign, bodies, others in ((-1.0, sums.first, sums.second), (1.0, sums.second, sums.first)):
         acts = led[bodies] & free[others]
-        each_j = []
+        works_j = []
         for substep in substeps:
             rows = substep.start + np.flatnonzero(acts[substep])
             work = _dot([load.take(rows) for load in loads], motion.take(bodies[rows], axis=1))
-            each_j.append(sign * float(work.sum()))
-        works.append(each_j)
+            works_j.append(sign * float(work.sum()))
+        works.append(works_j)
     return works
 
 
@@ -377,5 +307,5 @@ def _dot(first: Sequence[FloatArray], second: Sequence[FloatArray]) -> FloatArra
 
 def _joined(first: FloatArray, second: FloatArray) -> FloatArray:
     """Vectors (s, n, 3) of earlier and later sub-steps, each component of which lies together in memory."""
-    parts = [np.moveaxis(each, -1, 0) for each in (first, second)]
+    parts = [np.moveaxis(vectors, -1, 0) for vectors in (first, second)]
     return np.moveaxis(np.concatenate(parts, axis=1), 0, -1)

@@ -27,24 +27,14 @@ _ROUNDING = 1e-9
 class Connections:
     """Connections between shards, structure of arrays.
 
-    Attributes
-    ----------
-    pairs : (m, 2) int
-        Indices of the connected shards; the second is `GROUND` for a foundation.
-    points : (m, 3) float
-        Where each connection sits, m: the centre of the face that the two share, or half-way between their centres of
-        mass where they share none.
-    areas : (m,) float
-        Area of the shared face, m²; 0 where the two share none.
-    normals : (m, 3) float
-        Unit vectors from the first body to the second, at right angles to the shared face; without one, along the line
-        between their centres of mass, and upwards where these coincide.
+    Where two shards share no face, the point is half-way between their centres of mass, and the normal along the line
+    between these, upwards where they coincide.
     """
 
-    pairs: IntArray
-    points: FloatArray
-    areas: FloatArray
-    normals: FloatArray
+    pairs: IntArray  # (m, 2), shards; the second is `GROUND` for a foundation
+    points: FloatArray  # (m, 3), centre of the shared face, m
+    areas: FloatArray  # (m,), of the shared face, m²; 0 without one
+    normals: FloatArray  # (m, 3), unit vectors from the first body to the second, at right angles to the face
 
     def __len__(self) -> int:
         return len(self.pairs)
@@ -57,20 +47,9 @@ class Connections:
 def connect(
     centres: FloatArray, faces: SharedFaces, pairs: IntArray, distances: FloatArray, limit_per_shard: int
 ) -> Connections:
-    """Connections of neighbouring shards, nearest first, until a shard has as many as allowed.
+    """Connections of neighbouring pairs (k, 2) of shards, nearest first, until a shard has as many as allowed.
 
-    Parameters
-    ----------
-    centres : (n, 3) float
-        Centres of mass of the shards, m.
-    faces : SharedFaces
-        All faces that two shards share.
-    pairs : (k, 2) int
-        Neighbouring shards.
-    distances : (k,) float
-        How far apart they are, in m or in any other order of preference.
-    limit_per_shard : int
-        How many connections a shard may have.
+    `distances` (k,) are in m or in any other order of preference; `centres` (n, 3) are centres of mass, m.
     """
     pairs = limited(pairs, distances, limit_per_shard, len(centres))
     pairs = pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))]
@@ -97,12 +76,7 @@ def neighbours_by_centre(centres: FloatArray, radius_m: float) -> tuple[IntArray
 def neighbours_by_count(centres: FloatArray, count: int) -> tuple[IntArray, FloatArray]:
     """Pairs (k, 2) of shards, one of them among those nearest to the other, and their distances (k,) in m.
 
-    Parameters
-    ----------
-    centres : (n, 3) float
-        Centres of mass, m.
-    count : int
-        How many of its nearest each shard is connected with; it may be among the nearest of more.
+    Each shard is connected with its `count` nearest; it may be among the nearest of more.
     """
     others, distances = nearest_points(centres, count)
     pairs = np.sort(np.column_stack((np.repeat(np.arange(len(centres)), others.shape[1]), others.ravel())), axis=1)
@@ -115,8 +89,8 @@ def neighbours_by_vertex(shards: Sequence[TriangleMesh], radius_m: float) -> tup
     corners = _Corners.of(shards)
     candidates = boxes_that_meet(corners.lower, corners.upper, radius_m)
     counts = np.diff(corners.bounds)[candidates].prod(axis=1)
-    found = [corners.distances(candidates[part], radius_m) for part in blocks(counts)]
-    distances = np.concatenate([np.zeros(0), *found])
+    parts = [corners.distances(candidates[part], radius_m) for part in blocks(counts)]
+    distances = np.concatenate([np.zeros(0), *parts])
     near = distances <= radius_m
     return candidates[near], distances[near]
 
@@ -143,14 +117,10 @@ def limited(pairs: IntArray, distances: FloatArray, limit_per_shard: int, shard_
 def foundations(
     shards: Sequence[TriangleMesh], heights_at: Callable[[FloatArray], FloatArray] | None = None
 ) -> Connections:
-    """Connections to the ground of all shards that stand on it, in the middle of the face they stand on.
+    """Connections to the ground of all shards, before gaps are made, in the middle of the face that they stand on.
 
-    Parameters
-    ----------
-    shards : sequence of TriangleMesh
-        Before gaps are made.
-    heights_at : callable, optional
-        Heights (k,) of the ground at places (k, 2), nan beyond it; flat at 0 unless given.
+    `heights_at` gives heights (k,) of the ground at positions (k, 2), nan beyond it; the ground is flat at 0 without
+    it.
     """
     standing = [(index, *_standing_face(shard, heights_at)) for index, shard in enumerate(shards)]
     standing = [(index, area, centre) for index, area, centre in standing if area > 0.0]
@@ -171,7 +141,7 @@ def joined(parts: Sequence[Connections]) -> Connections:
 def _standing_face(
     shard: TriangleMesh, heights_at: Callable[[FloatArray], FloatArray] | None
 ) -> tuple[float, FloatArray]:
-    """Area and centre of what of a shard lies flat on the ground."""
+    """Area and centre of the part of a shard that lies flat on the ground."""
     corners = shard.corners
     if heights_at is None:
         level = 0.0
@@ -220,9 +190,9 @@ class _Corners:
     def _near_box(self, shards: IntArray, others: IntArray, radius_m: float) -> tuple[IntArray, IntArray]:
         """Row k and vertex of shards[k], for all its vertices within a radius of the box of others[k]."""
         row, vertex = ranges(self.bounds[shards], np.diff(self.bounds)[shards])
-        reach = radius_m * (1.0 + _ROUNDING) + _ROUNDING
+        radius_m = radius_m * (1.0 + _ROUNDING) + _ROUNDING
         places, other = self.vertices[vertex], others[row]
-        near = ((places >= self.lower[other] - reach) & (places <= self.upper[other] + reach)).all(axis=1)
+        near = ((places >= self.lower[other] - radius_m) & (places <= self.upper[other] + radius_m)).all(axis=1)
         return row[near], vertex[near]
 
 

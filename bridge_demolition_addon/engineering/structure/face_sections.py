@@ -1,4 +1,4 @@
-"""Second moments of area of the faces that shards share: what a section resists bending with."""
+"""Second moments of area of the faces that shards share, by which a section resists bending."""
 
 from __future__ import annotations
 
@@ -17,31 +17,19 @@ _SAME_PLANE_M = 1e-6
 """How far a corner may lie off the plane of a face and still belong to it: rounding of coordinates of a bridge."""
 
 _SAME_AREA = 1e-3
-"""Part by which the area found in a shard's mesh may differ from the face's, before it is taken for another face's."""
+"""Part by which the area in a shard's mesh may differ from the face's, before it is taken for another face's."""
 
 
 def second_moments(
     shards: Sequence[TriangleMesh], first: IntArray, areas: FloatArray, centres: FloatArray, normals: FloatArray
 ) -> FloatArray:
-    """Second moments of area of faces about their own centres.
+    """Second moments of area (m, 2, 2), m⁴, of faces about their own centres, by the first shard (m,) of each.
+
+    About the section's y and z axes (`section_forces.section_axes`) they are ∫ z² dA and ∫ y² dA on the diagonal, and
+    -∫ y z dA beside it. Normals (m, 3) point out of the first shard; a face without area has no moments.
 
     The face is looked for in the mesh of its first shard: all triangles in its plane that look its way. Where these are
     not just the face, as on the underside of a deck that rests on a smaller pier cap, it is taken for a square.
-
-    Parameters
-    ----------
-    shards : sequence of TriangleMesh
-        All shards.
-    first : (m,) int
-        The first shard of each face.
-    areas, centres, normals : (m,), (m, 3), (m, 3) float
-        Area, centre and unit normal, out of the first shard; a face without area has no moments.
-
-    Returns
-    -------
-    (m, 2, 2) float
-        About the section's y and z axes (`section_forces.section_axes`), m⁴: ∫ z² dA and ∫ y² dA on the
-        diagonal, -∫ y z dA beside it.
     """
     moments = np.square(areas[:, None, None]) / 12.0 * np.eye(2)
     with_area = np.flatnonzero(areas > 0.0)
@@ -53,8 +41,8 @@ def second_moments(
         for count in np.unique(counts[counts > 0]):
             alike = np.flatnonzero(counts == count)
             own = corners[counts[face] == count].reshape(len(alike), count, 3, 2)
-            found, is_alone = _about_own_centres(own, areas[rows[alike]])
-            moments[rows[alike[is_alone]]] = found[is_alone]
+            of_faces, is_alone = _about_own_centres(own, areas[rows[alike]])
+            moments[rows[alike[is_alone]]] = of_faces[is_alone]
     return moments
 
 
@@ -63,14 +51,7 @@ def triangles_in_faces(
 ) -> tuple[IntArray, FloatArray]:
     """Face (t,), in ascending order, and corners (t, 3, 2) of all triangles in the planes of k faces.
 
-    Corners are in the face's own y and z, about its centre.
-
-    Parameters
-    ----------
-    shards : k TriangleMesh
-        The first shard of each face.
-    centres, normals : (k, 3) float
-        Of the faces.
+    Corners are in the face's own y and z, about its centre. There is a first shard for each face.
     """
     vertex_counts = np.array([len(shard.vertices) for shard in shards])
     faces, _ = ranges(np.zeros(len(shards), int), vertex_counts)
