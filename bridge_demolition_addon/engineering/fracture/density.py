@@ -1,4 +1,4 @@
-"""How closely the points lie around which a solid is cut: finer near places, or where it was painted."""
+"""Density of the points around which a solid is cut: finer near positions, or where it was painted."""
 
 from __future__ import annotations
 
@@ -17,20 +17,16 @@ _PAIRS_PER_BLOCK = 2_000_000
 
 @dataclass(frozen=True, slots=True)
 class PointDensity:
-    """Relative density of points: `at` gives it (n,) for places (n, 3) in m; it is above 0 and at most `largest`."""
+    """Relative density of points: `at` gives it (n,) at positions (n, 3) in m; it is above 0 and at most `largest`."""
 
     at: Callable[[FloatArray], FloatArray]
     largest: float
 
 
 def density_around(places_m: FloatArray, radii_m: Sequence[float], factors: Sequence[float]) -> PointDensity:
-    """Density `factor` in each place, that falls evenly to 1 at its radius; where several reach, the largest counts.
+    """Density `factor`, at least 1, in each position (k, 3), that falls evenly to 1 at its radius.
 
-    Parameters
-    ----------
-    places_m : (k, 3) float
-    radii_m, factors : (k,) float
-        Radii above 0; factors of at least 1.
+    Where several overlap, the largest counts.
     """
     places = np.asarray(places_m, dtype=float).reshape(-1, 3)
     radii, surplus = np.asarray(radii_m, dtype=float), np.asarray(factors, dtype=float) - 1.0
@@ -47,28 +43,16 @@ def densest(densities: Sequence[PointDensity]) -> PointDensity:
     """The largest of one or more densities, everywhere."""
     return PointDensity(
         lambda points: np.array([density.at(points) for density in densities]).max(axis=0),
-        max(each.largest for each in densities),
+        max(density.largest for density in densities),
     )
 
 
 def painted_density(points_m: FloatArray, weights: FloatArray, factor: float) -> PointDensity:
-    """Density between 1, where nothing is painted, and `factor`, where the paint is full.
+    """Density between 1, where nothing is painted, and `factor`, at least 1, where the paint is full.
 
-    Between the painted points the weights are interpolated by inverse squared distances.
-
-    Parameters
-    ----------
-    points_m : (k, 3) float
-        Where the weights are known, such as a mesh's vertices.
-    weights : (k,) float
-        From 0 to 1.
-    factor : float
-        At least 1.
-
-    References
-    ----------
-    D. Shepard (1968), A two-dimensional interpolation function for irregularly-spaced data, Proc. 23rd ACM National
-    Conference, 517-524.
+    Weights (k,), from 0 to 1, are known at points (k, 3), such as a mesh's vertices. Between these they are
+    interpolated by inverse squared distances: D. Shepard (1968), A two-dimensional interpolation function for
+    irregularly-spaced data, Proc. 23rd ACM National Conference, 517-524.
     """
     known, weights = np.asarray(points_m, dtype=float).reshape(-1, 3), np.asarray(weights, dtype=float)
     if not len(known) or len(known) != len(weights):

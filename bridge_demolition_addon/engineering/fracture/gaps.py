@@ -21,19 +21,10 @@ _PAIRS_PER_BLOCK = 1_000_000
 
 
 def with_gaps(shards: Sequence[TriangleMesh], solid: TriangleMesh, gap_m: float) -> tuple[TriangleMesh, ...]:
-    """TriangleMeshs of a solid with a gap between them.
+    """The closed shards of a solid with a clear distance `gap_m` between them; with 0 they come back as they are.
 
     Half of it is taken from either side: of a shard that lies behind the plane of a cut, what is too close to the
     plane; of one that bends around the cut, what lies in front of the cut itself.
-
-    Parameters
-    ----------
-    shards : n TriangleMesh
-        Of this solid, closed.
-    solid : TriangleMesh
-        What they were cut from.
-    gap_m : float
-        Clear distance between two shards, m; with 0 the shards come back as they are.
     """
     if gap_m == 0.0:
         return tuple(shards)
@@ -79,9 +70,9 @@ def _taken_back(shard: TriangleMesh, is_cut: BoolArray, depth: float, tolerance:
     solid = to_manifold(shard, "A shard")
     planes = np.unique(np.column_stack([normals, heights])[is_behind].round(9), axis=0)
     for *normal, height in planes.tolist():
-        solid = solid.trim_by_plane([-each for each in normal], depth - height)
+        solid = solid.trim_by_plane([-component for component in normal], depth - height)
     if not is_behind.all():
-        prisms = [_prism(*each, depth) for each in zip(corners[~is_behind], normals[~is_behind], strict=True)]
+        prisms = [_prism(*face, depth) for face in zip(corners[~is_behind], normals[~is_behind], strict=True)]
         solid = Manifold.batch_boolean([solid, *prisms], OpType.Subtract)
     if solid.is_empty() or solid.volume() <= 0.0:
         raise GeometryError(f"Nothing is left of shard {number} with gaps of {2.0 * depth:g} m; make them smaller.")
@@ -92,6 +83,6 @@ _PRISM_TRIANGLES = np.array([[0, 2, 1], [3, 4, 5], [0, 1, 4], [0, 4, 3], [1, 2, 
 
 
 def _prism(corners: FloatArray, normal: FloatArray, depth: float) -> Manifold:
-    """What lies within a depth on either side of a triangle (3, 3)."""
+    """Volume within a depth on either side of a triangle (3, 3)."""
     vertices = np.concatenate([corners - depth * normal, corners + depth * normal])
     return to_manifold(TriangleMesh(vertices, _PRISM_TRIANGLES), "A cut")

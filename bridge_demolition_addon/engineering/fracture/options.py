@@ -1,4 +1,4 @@
-"""How a solid is cut, beyond the number of its shards."""
+"""Options of cutting a solid, beyond the number of its shards."""
 
 from __future__ import annotations
 
@@ -18,26 +18,15 @@ class Recursion:
 
 @dataclass(frozen=True, slots=True)
 class FractureOptions:
-    """How a solid is cut.
+    """How a solid is cut."""
 
-    Attributes
-    ----------
-    density : PointDensity, optional
-        Where the points lie closer; evenly by default.
-    noise : float
-        How far points are moved at random, in any direction, as a part of a shard's mean size (volume / shards)^(1/3):
-        points drawn at random stay as random as they are, given ones lose their order.
-    stretch : (3,) float
-        How long shards are along x, y and z, relative to each other.
-    recursion : Recursion, optional
-        Which shards are cut again.
-    """
-
-    density: PointDensity | None = None
+    density: PointDensity | None = None  # where points lie closer; evenly by default
+    # How far points are moved at random, as a part of a shard's mean size (volume / shards)^(1/3): sampled points stay
+    # as random as they are, chosen ones lose their order.
     noise: float = 0.0
-    stretch: tuple[float, float, float] = (1.0, 1.0, 1.0)
+    stretch: tuple[float, float, float] = (1.0, 1.0, 1.0)  # relative lengths of shards along x, y and z
     recursion: Recursion | None = None
 
 
 PLAIN = FractureOptions()
-"""Points drawn evenly, and nothing else."""
+"""Points sampled evenly, and nothing else."""

@@ -1,4 +1,4 @@
-"""Points drawn from a solid at random, evenly or by a density."""
+"""Points sampled from a solid at random, evenly or by a density."""
 
 from collections.abc import Sequence
 from functools import partial
@@ -24,7 +24,7 @@ _FILLED_ENOUGH = 0.3
 def random_points(
     solid: TriangleMesh, count: int, generator: np.random.Generator, density: PointDensity | None = None
 ) -> FloatArray:
-    """Points (count, 3) drawn from the volume, evenly or by a density; of several bodies each gets one first."""
+    """Points (count, 3) sampled from the volume, evenly or by a density; of several bodies each gets one first."""
     if count < 1:
         raise GeometryError(f"A solid cannot be cut into {count} shards; ask for at least one.")
     whole = to_manifold(solid)
@@ -35,16 +35,16 @@ def random_points(
             f"least {len(separate)} or unite the bodies."
         )
     parts = [to_manifold(from_manifold(*shells)) for shells in separate] if len(separate) > 1 else []
-    drawn = _uniform if density is None else partial(_by_density, density=density)
-    firsts = [drawn(part, 1, generator) for part in parts]
-    return np.concatenate([*firsts, drawn(whole, count - len(firsts), generator)])
+    sampled = _uniform if density is None else partial(_by_density, density=density)
+    firsts = [sampled(part, 1, generator) for part in parts]
+    return np.concatenate([*firsts, sampled(whole, count - len(firsts), generator)])
 
 
-def moved_points(solid: TriangleMesh, points: FloatArray, reach_m: float, generator: np.random.Generator) -> FloatArray:
-    """Points (n, 3) moved at random by up to `reach_m`, each as soon as a move does not lead out of the solid."""
+def moved_points(solid: TriangleMesh, points: FloatArray, most_m: float, generator: np.random.Generator) -> FloatArray:
+    """Points (n, 3) moved at random by up to `most_m`, each as soon as a move does not lead out of the solid."""
     moved, waiting = points.copy(), np.arange(len(points))
     for _ in range(_MOST_MOVES):
-        distances = reach_m * cube_root(generator.random(len(waiting)))
+        distances = most_m * cube_root(generator.random(len(waiting)))
         tried = points[waiting] + distances[:, None] * _directions(len(waiting), generator)
         inside = contains(solid, tried)
         moved[waiting[inside]] = tried[inside]
@@ -57,20 +57,18 @@ def moved_points(solid: TriangleMesh, points: FloatArray, reach_m: float, genera
 def _directions(count: int, generator: np.random.Generator) -> FloatArray:
     """Unit vectors (count, 3), all directions alike, from uniform numbers alone, which are exact on every processor.
 
-    References
-    ----------
     G. Marsaglia (1972), Choosing a point from the surface of a sphere, Annals of Mathematical Statistics 43, 645-646.
     """
-    found = np.zeros((0, 2))
-    while len(found) < count:
-        tried = generator.uniform(-1.0, 1.0, (2 * (count - len(found)), 2))
-        found = np.concatenate([found, tried[dot(tried, tried) < 1.0]])[:count]
-    squares = dot(found, found)
-    return np.column_stack((found * (2.0 * np.sqrt(1.0 - squares))[:, None], 1.0 - 2.0 * squares))
+    in_circle = np.zeros((0, 2))
+    while len(in_circle) < count:
+        tried = generator.uniform(-1.0, 1.0, (2 * (count - len(in_circle)), 2))
+        in_circle = np.concatenate([in_circle, tried[dot(tried, tried) < 1.0]])[:count]
+    squares = dot(in_circle, in_circle)
+    return np.column_stack((in_circle * (2.0 * np.sqrt(1.0 - squares))[:, None], 1.0 - 2.0 * squares))
 
 
 def _by_density(solid: Manifold, count: int, generator: np.random.Generator, density: PointDensity) -> FloatArray:
-    """Points (count, 3) by rejection: of evenly drawn ones as many stay as the density says."""
+    """Points (count, 3) by rejection: of evenly sampled ones as many stay as the density says."""
     points = np.zeros((0, 3))
     while len(points) < count:
         tried = _uniform(solid, count - len(points), generator)

@@ -1,10 +1,10 @@
 """Voronoi fracture of a solid into shards, with the faces the shards share.
 
-The Voronoi cells of points in the solid are worked out for all points together (`voronoi`); the boolean engine
-then cuts each out of the solid. In a concave or holed solid a cell can come out in several pieces. The piece that holds
-the cell's own point is the shard; every other piece goes to the neighbour it shares most area with, the largest common
-area first, and is sewn on (`seams`). So there are exactly as many shards as points, each is connected, and
-nothing is lost. Counting every piece as a shard of its own would not give the number asked for, and would give slivers.
+The Voronoi cells of points in the solid are worked out for all points together (`voronoi`); the boolean engine then
+cuts each out of the solid. In a concave or holed solid a cell can be in several pieces. The piece that holds the cell's
+own point is the shard; every other piece goes to the neighbour it shares most area with, the largest common area first,
+and is sewn on (`seams`). So there are exactly as many shards as points, each is connected, and nothing is lost.
+Counting every piece as a shard of its own would give another number of shards, and slivers.
 """
 
 from collections.abc import Sequence
@@ -41,32 +41,18 @@ _BOX_MARGIN = 1e-3
 """The box around the cells is larger than the solid by this part of its longest extent: its sides must cut nothing."""
 
 _SAME_CUT_M = 1e-7
-"""How far apart the two sides of one cut may lie: it was made at once, and only rounding is between them."""
+"""How far apart the two sides of one cut may lie: only rounding is between them."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Fracture:
-    """A solid in shards; row i of every array is shard i.
+    """A solid in shards; row i of every array is shard i."""
 
-    Attributes
-    ----------
-    shards : n TriangleMesh
-        Closed and connected.
-    volumes : (n,) float
-        In m³, all positive.
-    centres : (n, 3) float
-        Centres of mass for uniform density, in m.
-    points : (n, 3) float
-        The points whose Voronoi cells the shards are, in m.
-    faces : SharedFaces
-        Where the shards were cut apart.
-    """
-
-    shards: tuple[TriangleMesh, ...]
-    volumes: FloatArray
-    centres: FloatArray
-    points: FloatArray
-    faces: SharedFaces
+    shards: tuple[TriangleMesh, ...]  # closed and connected
+    volumes: FloatArray  # (n,), m³, all positive
+    centres: FloatArray  # (n, 3), centres of mass for uniform density, m
+    points: FloatArray  # (n, 3), the points whose Voronoi cells the shards are, m
+    faces: SharedFaces  # where the shards were cut apart
 
     def __len__(self) -> int:
         return len(self.shards)
@@ -103,25 +89,10 @@ class _Triangles:
 
 
 def fracture(solid: TriangleMesh, shard_count: int, seed: int = 0, options: FractureOptions = PLAIN) -> Fracture:
-    """The solid in exactly `shard_count` shards, around points drawn from its volume, evenly unless options say else.
+    """Return a closed solid in exactly `shard_count` shards, around points sampled from its volume.
 
-    With recursion there are more, as some of that number are cut again.
-
-    Parameters
-    ----------
-    solid : TriangleMesh
-        Closed, as `solids.checked_solid` returns it; convex or not, with holes or cavities.
-    shard_count : int
-        How many shards. Each separate body of the solid takes at least one.
-    seed : int
-        The same seed gives the same shards, bit for bit.
-    options : FractureOptions
-        Where the points lie closer, how shards are stretched, which are cut again.
-
-    Raises
-    ------
-    GeometryError
-        When fewer shards are asked for than the solid has bodies, or none, or when the solid cannot be cut.
+    The points are spread evenly unless `options` say else; with recursion there are more shards, as some are cut again.
+    Each separate body of the solid takes at least one. The same seed gives the same shards, bit for bit.
 
     Examples
     --------
@@ -136,24 +107,10 @@ def fracture(solid: TriangleMesh, shard_count: int, seed: int = 0, options: Frac
 
 
 def voronoi_cells(solid: TriangleMesh, points: FloatArray, seed: int = 0, options: FractureOptions = PLAIN) -> Fracture:
-    """The solid in one shard per point: its part nearest to that point.
+    """Return a closed solid in one shard per point (n, 3): its part nearest to that point.
 
-    Parameters
-    ----------
-    solid : TriangleMesh
-        Closed, as `solids.checked_solid` returns it; convex or not, with holes or cavities.
-    points : (n, 3) float
-        Inside the solid, at least one in each of its separate bodies, no two alike.
-    seed : int
-        Start of the random numbers that some options need.
-    options : FractureOptions
-        As for `fracture`; the density is of no use to points that are given.
-
-    Raises
-    ------
-    GeometryError
-        When there are no points, when one lies outside or two coincide, when a body has none, or when the solid cannot
-        be cut.
+    Points lie inside the solid, at least one in each of its separate bodies, no two alike. Of the `options`, the
+    density does not count, as the points are chosen already.
     """
     points = np.array(points, dtype=float).reshape(-1, 3)
     if not len(points):
@@ -197,7 +154,7 @@ def _with_recursion(
     recursion: Recursion,
     stretch: FloatArray | None,
 ) -> Fracture:
-    """A fracture of which some shards are cut again; faces between their shards are found by where they touch."""
+    """A fracture of which some shards are cut again; faces between their shards are where these touch."""
     large = np.flatnonzero(first.volumes >= recursion.smallest_m3)
     chosen = set(generator.permutation(large)[: round(recursion.share * len(large))].tolist())
     if not chosen or recursion.shards < 2:
@@ -248,12 +205,11 @@ def _pieces(solid: TriangleMesh, points: FloatArray, stretch: FloatArray | None)
         # Its triangles are known by the number `cut`, and by their neighbours, in what is left of it in the solid.
         convex = to_manifold(cell.mesh, "A Voronoi cell", cut, cell.neighbours)
         parts = bodies(convex ^ whole, smallest_volume=smallest)
-        pieces += [_piece(index, shells, cut) for shells in parts]
+        pieces += [
+            _Piece(index, from_manifold(*shells), np.concatenate([_facing(shell, cut) for shell in shells]))
+            for shells in parts
+        ]
     return pieces
-
-
-def _piece(cell: int, shells: Sequence[Manifold], cut: int) -> _Piece:
-    return _Piece(cell, from_manifold(*shells), np.concatenate([_facing(shell, cut) for shell in shells]))
 
 
 def _facing(shell: Manifold, cut: int) -> FloatArray:
@@ -315,7 +271,7 @@ def _joined_to_neighbours(pieces: Sequence[_Piece], points: FloatArray, faces: S
     cell = np.array([piece.cell for piece in pieces])
     alone = np.bincount(cell, minlength=len(points))[cell] == 1
     for index, piece in enumerate(pieces):
-        if alone[index] or _holds(piece, points[piece.cell]):
+        if alone[index] or contains(piece.mesh, points[piece.cell])[0]:
             shard_of_piece[index] = piece.cell
     first, second = faces.pairs.T
     while (shard_of_piece < 0).any():
@@ -331,10 +287,6 @@ def _joined_to_neighbours(pieces: Sequence[_Piece], points: FloatArray, faces: S
             f"Nothing is left of the cell of point {empty[0]}; it lies on the surface or on another point."
         )
     return shard_of_piece
-
-
-def _holds(piece: _Piece, point: FloatArray) -> bool:
-    return bool(contains(piece.mesh, point)[0])
 
 
 def _grouped(pieces: Sequence[_Piece], shard_of_piece: IntArray, count: int) -> list[list[_Piece]]:
@@ -354,7 +306,7 @@ def _sewn(pieces: Sequence[_Piece], solid: TriangleMesh) -> TriangleMesh:
     # Between two pieces a triangle is covered wholly or not at all; half is only the mark furthest from rounding.
     patch = covered > all_triangles.areas / 2
     whole = sewn(joined_meshes([piece.mesh for piece in pieces]), patch, RIM_TOLERANCE * solid.longest_extent)
-    found = bodies(to_manifold(whole, "A shard sewn from pieces"), smallest_volume=SMALLEST_PIECE * solid.volume)
-    if len(found) != 1:
+    shards = bodies(to_manifold(whole, "A shard sewn from pieces"), smallest_volume=SMALLEST_PIECE * solid.volume)
+    if len(shards) != 1:
         raise GeometryError("The pieces of a shard could not be joined; try another seed or number of shards.")
-    return from_manifold(*found[0])
+    return from_manifold(*shards[0])

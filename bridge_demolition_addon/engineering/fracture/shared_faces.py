@@ -22,25 +22,12 @@ _PAIRS_PER_BLOCK = 20_000
 
 @dataclass(frozen=True, eq=False, slots=True)
 class SharedFaces:
-    """What neighbouring shards have in common, one row per pair of neighbours, sorted by pair.
+    """Common faces of neighbouring shards, one row per pair of neighbours, sorted by pair."""
 
-    Attributes
-    ----------
-    pairs : (k, 2) int
-        Indices of the two shards, the smaller first.
-    areas : (k,) float
-        Common area in m².
-    centres : (k, 3) float
-        Centre of the common area in m.
-    normals : (k, 3) float
-        Unit vector out of the first shard into the second. Where the common area is not plane, the direction of the sum
-        of its area vectors.
-    """
-
-    pairs: IntArray
-    areas: FloatArray
-    centres: FloatArray
-    normals: FloatArray
+    pairs: IntArray  # (k, 2), the smaller index first
+    areas: FloatArray  # (k,), m²
+    centres: FloatArray  # (k, 3), m
+    normals: FloatArray  # (k, 3), unit vectors out of the first shard, along the sum of the area vectors
 
     def __len__(self) -> int:
         return len(self.areas)
@@ -53,16 +40,10 @@ NO_FACES = SharedFaces(np.zeros((0, 2), dtype=np.int64), np.zeros(0), np.zeros((
 def shared_faces(
     pairs: IntArray, areas: FloatArray, centres: FloatArray, normals: FloatArray, smallest_area: float = 0.0
 ) -> SharedFaces:
-    """Patches (m,) between two shards each, put together to one face per pair of shards.
+    """Patches (m,) between two shards each, put together to one face per pair (m, 2) of shards.
 
-    Parameters
-    ----------
-    pairs : (m, 2) int
-        In any order and as often as there are patches. A patch between a shard and itself is left out.
-    areas, centres, normals : (m,), (m, 3), (m, 3) float
-        Area, centre and unit normal, from the first of the pair to the second, of each patch.
-    smallest_area : float
-        A pair with no more than this in common, in m², is left out.
+    Pairs are in any order and as often as there are patches; normals point from the first to the second. A patch
+    between a shard and itself is left out, and so is a pair with no more than `smallest_area` in common, m².
     """
     apart = (pairs[:, 0] != pairs[:, 1]) & (areas > 0)
     pairs, areas, centres, normals = pairs[apart], areas[apart], centres[apart], normals[apart]
@@ -93,23 +74,11 @@ def joined_faces(parts: Sequence[SharedFaces]) -> SharedFaces:
 def touching_faces(
     meshes: Sequence[TriangleMesh], tolerance_m: float = 1e-4, member: IntArray | None = None
 ) -> SharedFaces:
-    """Where meshes stand on or against each other with plane faces that look at each other.
+    """Faces where closed meshes stand on or against each other with plane faces that look at each other.
 
     Only faces in the same plane count: bodies that overlap in space or meet along an edge do not touch in this sense.
-
-    Parameters
-    ----------
-    meshes : n meshes
-        Closed, convex or not, for example the shards of a fracture.
-    tolerance_m : float
-        How far apart, or how far inside each other, two faces may be and still touch.
-    member : (n,) int, optional
-        The bridge member each mesh belongs to. When given, only meshes of different members are compared.
-
-    Returns
-    -------
-    SharedFaces
-        Its pairs are indices of the meshes.
+    Two faces may be apart, or inside each other, by the tolerance. Only meshes of different bridge members (n,) are
+    compared, if these are given.
     """
     lower = np.array([mesh.vertices.min(axis=0) for mesh in meshes]).reshape(-1, 3)
     upper = np.array([mesh.vertices.max(axis=0) for mesh in meshes]).reshape(-1, 3)
@@ -125,22 +94,11 @@ def touching_faces(
 
 
 def overlaps(first: FloatArray, second: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """What pairs of triangles that look at each other have in common, seen along the normal of the first.
+    """Return areas (m,) and centres (m, 3) that triangles (m, 3, 3) that look at each other have in common.
 
-    Parameters
-    ----------
-    first, second : (m, 3, 3) float
-        Corners, counter-clockwise seen from outside; both have an area, nearly the same plane and nearly opposite
-        normals.
+    Both of a pair have an area, nearly the same plane and nearly opposite normals; corners run counter-clockwise seen
+    from outside. The centre is in the plane of the first triangle; its first corner where there is no overlap.
 
-    Returns
-    -------
-    areas : (m,) float
-    centres : (m, 3) float
-        In the plane of the first triangle; its first corner where there is no overlap.
-
-    References
-    ----------
     I. Sutherland, G. Hodgman (1974), Reentrant polygon clipping, Communications of the ACM 17, 32-42; here all corners
     that are cut off are moved onto the cutting line instead of being dropped, which leaves area and centre right and
     every polygon with the same number of corners.
@@ -194,9 +152,9 @@ def _facing_triangles(
     surface: _Surface, pairs: IntArray, lower: FloatArray, upper: FloatArray, tolerance: float
 ) -> tuple[IntArray, IntArray, IntArray]:
     """Row of the pair, triangle of its first and triangle of its second mesh, wherever the two may touch."""
-    reach = np.full(3, tolerance)
-    row, first = _triangles_in_box(surface, pairs[:, 0], lower[pairs[:, 1]] - reach, upper[pairs[:, 1]] + reach)
-    own_row, second = _triangles_in_box(surface, pairs[:, 1], lower[pairs[:, 0]] - reach, upper[pairs[:, 0]] + reach)
+    lower, upper = lower - tolerance, upper + tolerance
+    row, first = _triangles_in_box(surface, pairs[:, 0], lower[pairs[:, 1]], upper[pairs[:, 1]])
+    own_row, second = _triangles_in_box(surface, pairs[:, 1], lower[pairs[:, 0]], upper[pairs[:, 0]])
     starts = np.searchsorted(own_row, np.arange(len(pairs)))
     counts = np.bincount(own_row, minlength=len(pairs))
     of_first, position = ranges(starts[row], counts[row])

@@ -38,12 +38,8 @@ _SIDES = np.array([[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2
 class ConvexCell:
     """The Voronoi cell of one point.
 
-    Attributes
-    ----------
-    mesh : TriangleMesh
-        Its surface.
-    neighbours : (t,) int
-        What each triangle faces: the index of another point or, from the number of points upwards, a side of the box.
+    Each triangle faces one of the `neighbours` (t,): another point or, from the number of points upwards, a side of the
+    box.
     """
 
     mesh: TriangleMesh
@@ -63,17 +59,10 @@ class _Polyhedra:
 
 
 def convex_cells(points: FloatArray, lower: FloatArray, upper: FloatArray) -> Iterator[ConvexCell]:
-    """Voronoi cells of points in an axis-parallel box, in the order of the points.
+    """Voronoi cells of points (n, 3) in an axis-parallel box around them, in the order of the points.
 
     A cell is clipped by its neighbours, nearest first, until no point is left whose plane would cut off a corner.
-    Points further away than twice the cell's radius need no look: a plane halfway to them cannot reach the cell.
-
-    Parameters
-    ----------
-    points : (n, 3) float
-        Inside the box.
-    lower, upper : (3,) float
-        Opposite corners of the box.
+    Points further away than twice the cell's radius need no look: a plane halfway to them cannot meet the cell.
     """
     scale = float(np.max(np.abs([lower, upper])))
     for first in range(0, len(points), _CELLS_PER_BLOCK):
@@ -83,7 +72,7 @@ def convex_cells(points: FloatArray, lower: FloatArray, upper: FloatArray) -> It
 
 
 def _clipped_by_nearest(cells: _Polyhedra, points: FloatArray, members: IntArray, scale: float) -> _Polyhedra:
-    """Cells clipped by all points that can reach them; cell k is that of point members[k]."""
+    """Cells clipped by all points that can cut them; cell k is that of point members[k]."""
     own = points[members]
     tolerance = PLANE_TOLERANCE * scale
     # The neighbours still to come, by distance; infinitely far are those that are done with or cannot cut any more.
@@ -109,8 +98,7 @@ def _drop_what_cannot_cut(
     bounds = np.searchsorted(corners.owner, np.arange(len(own) + 1))
     for cell, (first, last) in enumerate(pairwise(bounds)):
         arms = corners.corners[first:last] - own[cell]
-        reach = 2 * length(arms).max()
-        within = np.flatnonzero(distances[cell] < reach)
+        within = np.flatnonzero(distances[cell] < 2 * length(arms).max())
         towards = points[within] - own[cell]
         heights = dot(towards[:, None], arms).max(axis=1) / distances[cell, within] - distances[cell, within] / 2
         cutting = within[heights > tolerance]

@@ -1,4 +1,4 @@
-"""Convex hulls of bodies as flat arrays: what a blast wave sees of them, and what they hide from it."""
+"""Convex hulls of bodies as flat arrays, which a blast wave meets, and which hide others from it."""
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -23,31 +23,16 @@ _SAME_PLANE_DIGITS = 9
 class ConvexHulls:
     """Convex hulls of n bodies with f faces and v vertices in all, structure of arrays, in the axes of their bodies.
 
-    Attributes
-    ----------
-    normals : (f, 3) float
-        Outward unit normals; the faces of a body follow each other.
-    areas : (f,) float
-        Face areas, m².
-    face_vectors : (3, f) float
-        Normals times areas, m².
-    offsets : (f,) float
-        Distances of the faces from the body's centre of mass along their normals, m.
-    starts : (n + 1,) int
-        Where the faces of each body begin, and the number of all.
-    vertices : (v, 3) float
-        From the bodies' centres of mass, m; those of a body follow each other.
-    vertex_starts : (n + 1,) int
-        Where the vertices of each body begin, and the number of all.
+    Faces and vertices of a body follow each other.
     """
 
-    normals: FloatArray
-    areas: FloatArray
-    face_vectors: FloatArray
-    offsets: FloatArray
-    starts: IntArray
-    vertices: FloatArray
-    vertex_starts: IntArray
+    normals: FloatArray  # (f, 3), outward unit normals
+    areas: FloatArray  # (f,), m²
+    face_vectors: FloatArray  # (3, f), normals times areas, m²
+    offsets: FloatArray  # (f,), distances of the faces from the body's centre of mass along their normals, m
+    starts: IntArray  # (n + 1,), first face of each body, and the number of all
+    vertices: FloatArray  # (v, 3), from the bodies' centres of mass, m
+    vertex_starts: IntArray  # (n + 1,), first vertex of each body, and the number of all
 
     def __len__(self) -> int:
         return len(self.starts) - 1

@@ -13,18 +13,10 @@ from .vectors import dot, length, unit
 
 @dataclass(frozen=True, eq=False, slots=True)
 class TriangleMesh:
-    """A surface of triangles.
+    """A surface of triangles."""
 
-    Attributes
-    ----------
-    vertices : (v, 3) float
-        Places in m.
-    triangles : (t, 3) int
-        Vertices of each triangle, counter-clockwise seen from outside.
-    """
-
-    vertices: FloatArray
-    triangles: IntArray
+    vertices: FloatArray  # (v, 3), m
+    triangles: IntArray  # (t, 3), vertices of each triangle, counter-clockwise seen from outside
 
     @property
     def corners(self) -> FloatArray:
@@ -72,14 +64,9 @@ def triangle_areas_and_normals(corners: FloatArray) -> tuple[FloatArray, FloatAr
 
 
 def volumes_and_centres(meshes: Sequence[TriangleMesh]) -> tuple[FloatArray, FloatArray]:
-    """Volumes and centres of mass of closed meshes of uniform density, by Gauss's theorem.
+    """Volumes (n,), m³, and centres of mass (n, 3), m, of closed meshes of uniform density, by Gauss's theorem.
 
-    Returns
-    -------
-    volumes : (n,) float
-        In m³; negative for a mesh that is inside out.
-    centres : (n, 3) float
-        In m; the mean of the vertices for a mesh without volume.
+    The volume of a mesh that is inside out is negative; the centre of one without volume is the mean of its vertices.
     """
     if not len(meshes):
         return np.zeros(0), np.zeros((0, 3))

@@ -1,4 +1,4 @@
-"""What solids have in common: cut off where members are made, and looked for where nothing may overlap."""
+"""Volumes that solids have in common: cut off where members are made, and looked for where nothing may overlap."""
 
 from __future__ import annotations
 
@@ -33,22 +33,14 @@ class Overlaps:
 
 
 def overlaps(meshes: Sequence[TriangleMesh], tolerance: float = SHARD_OVERLAP_TOLERANCE) -> Overlaps:
-    """Which meshes overlap by more than a tolerance.
-
-    Parameters
-    ----------
-    meshes : n meshes
-        Closed, for example shards.
-    tolerance : float
-        Part of the smaller volume of two meshes that they may have in common.
-    """
+    """Pairs of closed meshes, such as shards, that have more than a part of the smaller volume in common."""
     solids = [_manifold(mesh, index) for index, mesh in enumerate(meshes)]
     volumes = np.array([solid.volume() for solid in solids])
     boxes = np.array([solid.bounding_box() for solid in solids]).reshape(-1, 2, 3)
     pairs = boxes_that_meet(boxes[:, 0], boxes[:, 1], 0.0)
     common = np.array([(solids[one] ^ solids[other]).volume() for one, other in pairs])
-    found = np.flatnonzero(common > tolerance * volumes[pairs].min(axis=1)) if len(pairs) else np.zeros(0, int)
-    order = found[np.argsort(-common[found], kind="stable")]
+    large = np.flatnonzero(common > tolerance * volumes[pairs].min(axis=1)) if len(pairs) else np.zeros(0, int)
+    order = large[np.argsort(-common[large], kind="stable")]
     return Overlaps(pairs[order], common[order] if len(order) else np.zeros(0))
 
 
@@ -58,21 +50,9 @@ def hulls(shards: Sequence[TriangleMesh]) -> list[TriangleMesh]:
 
 
 def separated(solids: Sequence[TriangleMesh], names: Sequence[str]) -> tuple[list[TriangleMesh], FloatArray]:
-    """Solids without what they have in common with those before them.
+    """Closed solids without what they have in common with those before them, and the volumes (n,) cut off them, m³.
 
-    Parameters
-    ----------
-    solids : n solids
-        Closed.
-    names : n str
-        What they are called, for messages.
-
-    Returns
-    -------
-    solids : n solids
-        The same objects where nothing was cut off.
-    volumes : (n,) float
-        What was cut off each, m³.
+    A solid of which nothing was cut off is the same object.
     """
     whole = [to_manifold(solid, name) for solid, name in zip(solids, names, strict=True)]
     result, removed = list(solids), np.zeros(len(solids))

@@ -69,8 +69,6 @@ def _distances_to_sides(points: FloatArray, starts: FloatArray, ends: FloatArray
 def _windings(points: FloatArray, starts: FloatArray, ends: FloatArray) -> IntArray:
     """How often an outline winds around each of the points (p,), from the sides that a ray to the right meets.
 
-    References
-    ----------
     D. Sunday (2021), Practical Geometry Algorithms: the winding number of a point in a polygon, without angles.
     """
     heights = points[:, None, 1]

@@ -18,21 +18,11 @@ _ON_A_LINE = 1e-9
 
 @dataclass(frozen=True, slots=True)
 class PlanCells:
-    """Rows and columns of square cells, whose lines lie at multiples of their side.
-
-    Attributes
-    ----------
-    side_m
-        Of a cell.
-    first_column, first_row
-        Lowest x and y by the side: whole numbers.
-    columns, rows
-        How many.
-    """
+    """Rows and columns of square cells, whose lines lie at multiples of their side."""
 
     side_m: float
-    first_column: int
-    first_row: int
+    first_column: int  # lowest x by the side
+    first_row: int  # lowest y by the side
     columns: int
     rows: int
 
@@ -59,13 +49,9 @@ class PlanCells:
         return self.side_m * np.arange(self.first_row, self.first_row + self.rows + 1, dtype=float)
 
     def touched(self, rings: Sequence[FloatArray]) -> BoolArray:
-        """Return of which cells (rows, columns) an area covers a part, even the smallest.
+        """Return the cells (rows, columns) of which an area covers a part, even the smallest.
 
-        Parameters
-        ----------
-        rings
-            Outlines (k, 2) of the area, which lies within the cells, as `outlines` gives them: holes run the other way
-            round.
+        Its outlines (k, 2), as `outlines` gives them, lie within the cells; those of holes run the other way round.
         """
         grid = np.zeros((self.rows, self.columns), bool)
         if not len(rings):

@@ -1,4 +1,4 @@
-"""What lies near each other among thousands of points or boxes, found by sorting them into the cells of a grid."""
+"""Neighbours among thousands of points or boxes, found by sorting them into the cells of a grid."""
 
 from __future__ import annotations
 
@@ -14,11 +14,10 @@ _MOST_CELLS = 2**20
 """Cells along an axis, at most: the number of a cell in three axes then fits into 64 bits."""
 
 _SLACK = 1e-6
-"""Part of a radius that cells are larger by, so that rounding never hides a neighbour two cells away: far more than
-the 2**20 × 2**-52 to which a coordinate is known that is counted in cells."""
+"""Part of a radius that cells are larger by: rounding, 2**20 × 2**-52, then never hides a neighbour two cells away."""
 
 _CELLS_PER_BOX = 30
-"""Cells that a box reaches into, in the mean, at most: 2 in each direction and room for some large ones."""
+"""Cells that a box is in, in the mean, at most: 2 in each direction and room for some large ones."""
 
 _AT_ONCE = 2_000_000
 """Candidates in one array operation: their differences in three axes take 50 MB."""
@@ -48,19 +47,15 @@ def blocks(counts: IntArray) -> Iterator[slice]:
 
 
 def boxes_that_meet(lower: FloatArray, upper: FloatArray, distance: float = 0.0) -> IntArray:
-    """Pairs of boxes, by corners (n, 3), that are no further apart than a distance in every direction.
+    """Pairs (k, 2) of boxes, by corners (n, 3), that are no further apart than a distance in every direction.
 
-    Every box is noted in all cells that it reaches into, and boxes noted in the same cell are compared. A pair is taken
-    in the first cell that both are noted in, so that none is found twice.
-
-    Returns
-    -------
-    (k, 2) int
-        The smaller index first, in ascending order.
+    The smaller index comes first, and pairs are in ascending order. Every box is noted in all cells that it is in, and
+    boxes noted in the same cell are compared. A pair is taken in the first cell that both are noted in: so it comes
+    once.
     """
-    found: list[IntArray] = [np.zeros((0, 2), np.int64)]
+    meeting: list[IntArray] = [np.zeros((0, 2), np.int64)]
     if len(lower) > 1:
-        upper = upper + distance  # to one side is enough: half of the distance on either side comes to the same
+        upper = upper + distance  # to one side is enough: half of the distance on either side is the same
         low, key_of, boxes, keys = _boxes_in_cells(lower, upper)
         places = np.arange(len(boxes))
         others = np.searchsorted(keys, keys, side="right") - places - 1
@@ -70,40 +65,27 @@ def boxes_that_meet(lower: FloatArray, upper: FloatArray, distance: float = 0.0)
             first_cell = key_of(np.maximum(low[one], low[other])) == keys[place]
             one, other = one[first_cell], other[first_cell]
             meets = ((lower[one] <= upper[other]) & (lower[other] <= upper[one])).all(axis=1)
-            found.append(np.column_stack((np.minimum(one, other), np.maximum(one, other)))[meets])
-    pairs = np.concatenate(found)
+            meeting.append(np.column_stack((np.minimum(one, other), np.maximum(one, other)))[meets])
+    pairs = np.concatenate(meeting)
     return pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))]
 
 
 def points_within(points: FloatArray, radius: float) -> tuple[IntArray, FloatArray]:
     """Pairs (k, 2) of points (n, 3) no further apart than a radius, in ascending order, and their distances (k,)."""
-    found_pairs: list[IntArray] = [np.zeros((0, 2), np.int64)]
-    found_distances = [np.zeros(0)]
+    near: list[tuple[IntArray, FloatArray]] = [(np.zeros((0, 2), np.int64), np.zeros(0))]
     if len(points) > 1:
         for query, other, distances in _Grid.of(points, radius).near(np.arange(len(points))):
             once = (query < other) & (distances <= radius)
-            found_pairs.append(np.column_stack((query, other))[once])
-            found_distances.append(distances[once])
-    pairs, distances = np.concatenate(found_pairs), np.concatenate(found_distances)
+            near.append((np.column_stack((query, other))[once], distances[once]))
+    pairs, distances = (np.concatenate(parts) for parts in zip(*near, strict=True))
     order = np.lexsort((pairs[:, 1], pairs[:, 0]))
     return pairs[order], distances[order]
 
 
 def nearest_points(points: FloatArray, count: int) -> tuple[IntArray, FloatArray]:
-    """The points nearest to each point, nearest first and, at the same distance, the smaller index first.
+    """Indices and distances (n, c) of the `count` points nearest to each point (n, 3), at most all others.
 
-    Parameters
-    ----------
-    points : (n, 3) float
-    count : int
-        How many for each; all others where there are no more.
-
-    Returns
-    -------
-    indices : (n, c) int
-        Of the nearest.
-    distances : (n, c) float
-        How far away they are.
+    They are nearest first and, at the same distance, the smaller index first.
     """
     count = min(count, max(len(points) - 1, 0))
     indices, distances = np.zeros((len(points), count), np.int64), np.zeros((len(points), count))
@@ -184,7 +166,7 @@ def _boxes_in_cells(
 
 
 def _likely_radius(points: FloatArray, count: int) -> float:
-    """A radius in which some points have that many others; more than 0 unless all points are in one place."""
+    """Radius within which some points have that many others; above 0 unless all points are in one position."""
     sample = points[:: max(1, len(points) // _SAMPLE)]
     distances = distance(sample[:, None], points)
     radius = float(np.partition(distances, count, axis=1)[:, count].min())
@@ -194,7 +176,7 @@ def _likely_radius(points: FloatArray, count: int) -> float:
 def _keep_nearest(
     query: IntArray, other: IntArray, apart: FloatArray, indices: IntArray, distances: FloatArray
 ) -> IntArray:
-    """Enter the nearest others of all queries that have enough of them, and say which these are."""
+    """Enter the nearest others of all queries that have enough of them, and return these queries."""
     order = np.lexsort((other, apart, query))
     query, other, apart = query[order], other[order], apart[order]
     unique, starts, counts = np.unique(query, return_index=True, return_counts=True)

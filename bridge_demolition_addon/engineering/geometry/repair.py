@@ -17,6 +17,7 @@ from .solids import (
     OVERLAP_TOLERANCE,
     SMALLEST_VOLUME,
     bodies,
+    check_faces,
     checked_solid,
     contains,
     from_manifold,
@@ -46,23 +47,9 @@ class Repaired:
 def repaired_solid(mesh: TriangleMesh, name: str) -> Repaired:
     """The mesh as a solid: corners merged, plane holes closed, faces turned outwards, overlapping bodies united.
 
-    Parameters
-    ----------
-    mesh : TriangleMesh
-        Of any origin.
-    name : str
-        What the user calls it; the error messages begin with it.
-
-    Raises
-    ------
-    GeometryError
-        It encloses no volume, has a hole that is not plane, edges with more than two faces that cannot be separated,
-        or a body that crosses itself.
+    Error messages begin with the name that the user gave the mesh.
     """
-    if not len(mesh.triangles):
-        raise GeometryError(f"{name}: has no faces; give it a closed surface.")
-    if not np.isfinite(mesh.vertices).all():
-        raise GeometryError(f"{name}: has vertices that are not finite numbers; delete or move them.")
+    check_faces(mesh, name)
     repairs: list[str] = []
     vertices, triangles = _merged(mesh)
     triangles = _without_doubles(triangles, repairs)
@@ -218,7 +205,7 @@ def _united(mesh: TriangleMesh, repairs: list[str], name: str) -> TriangleMesh:
     if len(separate) < 2:
         return mesh
     whole = union(separate)
-    if whole.volume >= sum(each.volume for each in separate) * (1.0 - OVERLAP_TOLERANCE):
+    if whole.volume >= sum(body.volume for body in separate) * (1.0 - OVERLAP_TOLERANCE):
         return mesh
     repairs.append(f"united {len(separate)} overlapping bodies")
     return whole

@@ -1,4 +1,4 @@
-"""Rotations of bodies: what turns one into another, and what they carry along."""
+"""Rotations of bodies, changes between them, and points and axes that turn with bodies."""
 
 from __future__ import annotations
 
@@ -44,45 +44,20 @@ def rotated(rotations: FloatArray, vectors: FloatArray) -> FloatArray:
 
 
 def carried_points(local_points: FloatArray, centres: FloatArray, rotations: FloatArray) -> FloatArray:
-    """Where points fixed to moving bodies are, (..., 3) in m.
+    """Positions (..., m, 3) of points fixed to moving bodies, m, with centre and rotation of the body of each.
 
-    Parameters
-    ----------
-    local_points : (m, 3) float
-        In the axes of their bodies, from the bodies' centres, m.
-    centres, rotations : (..., m, 3), (..., m, 3, 3) float
-        Of the body of each point.
+    `local_points` (m, 3) are in the axes of their bodies, from the bodies' centres, m.
     """
     return centres + transformed(rotations, local_points)
 
 
 def axes_in_bodies(axes: FloatArray, bodies: IntArray, rotations: FloatArray) -> FloatArray:
-    """Axes (m, 3, 3) as seen from the bodies that they are fixed to, to be carried along with `carried_axes`.
-
-    Parameters
-    ----------
-    axes : (m, 3, 3) float
-        In the axes of the world, as columns.
-    bodies : (m,) int
-        The body that each set of axes turns with.
-    rotations : (n, 3, 3) float
-        Of all bodies at that time.
-    """
+    """Axes (m, 3, 3), as columns, as seen from the bodies (m,) that they turn with, for `carried_axes`."""
     return product(np.swapaxes(rotations[bodies], 1, 2), axes)
 
 
 def carried_axes(local_axes: FloatArray, bodies: IntArray, rotations: FloatArray) -> FloatArray:
-    """Where axes (m, 3, 3) that are fixed to bodies point in the world.
-
-    Parameters
-    ----------
-    local_axes : (m, 3, 3) float
-        From `axes_in_bodies`.
-    bodies : (m,) int
-        The body that each set of axes turns with.
-    rotations : (n, 3, 3) float
-        Of all bodies.
-    """
+    """Axes (m, 3, 3) in the world that turn with bodies (m,), from `axes_in_bodies`."""
     return product(rotations[bodies], local_axes)
 
 

@@ -1,8 +1,7 @@
 """Closed meshes that touch along plane patches, sewn to one closed mesh.
 
-Uniting them by a boolean operation does not do: where two patches are the same but for rounding, it finds a gap as
-often as a contact, and the result falls apart. Here the patches are taken out and the rims of the holes joined, corner
-to corner.
+A boolean operation does not unite them: where two patches are the same but for rounding, it finds a gap as often as a
+contact, and the result falls apart. Here the patches are taken out and the rims of the holes joined, corner to corner.
 """
 
 from itertools import pairwise
@@ -15,22 +14,11 @@ from .vectors import distance, dot, length
 
 
 def sewn(mesh: TriangleMesh, patch: BoolArray, tolerance_m: float) -> TriangleMesh:
-    """Meshes without the patches they touch along, closed again across the rims.
+    """Closed meshes, joined to one, without the patches (t,) they touch along, closed again across the rims.
 
-    Parameters
-    ----------
-    mesh : TriangleMesh
-        All meshes together, each closed.
-    patch : (t,) bool
-        The triangles to take out. They come in two layers, one of either mesh, that cover each other.
-    tolerance_m : float
-        Corners of the rims that are no further apart are one, m.
-
-    Returns
-    -------
-    TriangleMesh
-        Closed, with the vertices as they came; those of the patches are no longer used. Where a corner of one rim lies
-        on an edge of the other, a triangle without area joins them.
+    The patches come in two layers, one of either mesh, that cover each other. Corners of the rims that are no further
+    apart than the tolerance are one. Vertices stay, those of the patches are no longer used. Where a corner of one rim
+    lies on an edge of the other, a triangle without area joins them.
     """
     rim = np.unique(_open_edges(mesh.triangles[~patch]))
     triangles = without_slivers(welded(mesh.vertices, rim, tolerance_m)[mesh.triangles[~patch]])
@@ -61,7 +49,7 @@ def _open_edges(triangles: IntArray) -> IntArray:
 
 
 def welded(vertices: FloatArray, corners: IntArray, tolerance: float) -> IntArray:
-    """For every vertex (v,) the one that stands for it: of these corners that lie together the first, else itself."""
+    """The vertex (v,) that stands for each: of `corners` that lie together the first, else itself."""
     representative = np.arange(len(vertices))
     apart = distance(vertices[corners, None], vertices[corners])
     representative[corners] = corners[np.argmax(apart <= tolerance, axis=1)]

@@ -16,17 +16,10 @@ _CANDIDATES_PER_BLOCK = 2_000_000
 
 
 def first_crossing(corners: FloatArray) -> FloatArray | None:
-    """A place (3,) where an edge goes through the inside of a triangle, or none.
+    """Position (3,) where an edge goes through the inside of a triangle of a surface (t, 3, 3), or None.
 
-    Triangles that lie in one plane and overlap there are not found.
+    Triangles that lie in one plane and overlap there do not count as crossing.
 
-    Parameters
-    ----------
-    corners : (t, 3, 3) float
-        Corners of all triangles of a surface, m.
-
-    References
-    ----------
     T. Möller, B. Trumbore (1997), Fast, minimum storage ray-triangle intersection, Journal of Graphics Tools 2, 21-28;
     here for the edges of one triangle in place of rays.
     """
@@ -50,7 +43,7 @@ def first_crossing(corners: FloatArray) -> FloatArray | None:
 
 
 def _crossing(one: FloatArray, other: FloatArray) -> FloatArray | None:
-    """A place where an edge of one of the triangles (m, 3, 3) goes through the other of its pair."""
+    """Position where an edge of one of the triangles (m, 3, 3) goes through the other of its pair."""
     for through, edged in ((one, other), (other, one)):
         for corner in range(3):
             start, end = edged[:, corner], edged[:, (corner + 1) % 3]

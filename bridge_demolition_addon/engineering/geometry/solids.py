@@ -30,15 +30,7 @@ _BOX_TRIANGLES = _BOX_QUADS[:, [[0, 1, 2], [0, 2, 3]]].reshape(-1, 3)
 
 
 def box(size_m: Sequence[float], centre_m: Sequence[float] = (0.0, 0.0, 0.0)) -> TriangleMesh:
-    """An axis-parallel box.
-
-    Parameters
-    ----------
-    size_m : (3,) float
-        Edge lengths along x, y and z.
-    centre_m : (3,) float
-        Where its centre is.
-    """
+    """An axis-parallel box, by its edge lengths along x, y and z."""
     size, centre = np.asarray(size_m, dtype=float), np.asarray(centre_m, dtype=float)
     if not (np.isfinite(size).all() and np.isfinite(centre).all() and (size > 0).all()):
         raise GeometryError(
@@ -58,66 +50,47 @@ def cylinder(radius_m: float, height_m: float, sides: int) -> TriangleMesh:
 
 
 def union(solids: Sequence[TriangleMesh]) -> TriangleMesh:
-    """What is inside at least one of the solids, as one solid."""
+    """Volume inside at least one of the solids, as one solid."""
     if not len(solids):
         raise GeometryError("There are no solids to unite; give at least one.")
-    operands = [to_manifold(each, f"solid {index + 1} of {len(solids)}") for index, each in enumerate(solids)]
+    operands = [to_manifold(solid, f"solid {number} of {len(solids)}") for number, solid in enumerate(solids, 1)]
     return from_manifold(Manifold.batch_boolean(operands, OpType.Add))
 
 
 def difference(solid: TriangleMesh, others: Sequence[TriangleMesh]) -> TriangleMesh:
-    """What is inside the solid and inside none of the others; without faces where nothing is."""
-    operands = [to_manifold(each) for each in (solid, *others)]
+    """Volume inside the solid and inside none of the others; without faces where there is none."""
+    operands = [to_manifold(operand) for operand in (solid, *others)]
     return from_manifold(Manifold.batch_boolean(operands, OpType.Subtract))
 
 
 def checked_solid(mesh: TriangleMesh, name: str) -> TriangleMesh:
-    """The mesh as a solid that can be cut, turned outside-out where all its faces look inwards.
+    """The mesh as a closed solid of positive volume that can be cut, turned where all its faces look inwards.
 
-    Surfaces that cross themselves within one body are not found: the boolean engine cannot tell them from sound ones.
-
-    Parameters
-    ----------
-    mesh : TriangleMesh
-        Of any origin.
-    name : str
-        What the user calls it; the error messages begin with it.
-
-    Returns
-    -------
-    TriangleMesh
-        Closed, consistently wound, of positive volume.
+    Error messages begin with the user's name for it. Surfaces that cross themselves within one body pass: the boolean
+    engine cannot tell them from sound ones.
     """
     _check_surface(mesh, name)
     if mesh.volume < 0.0:
         mesh = mesh.flipped()
     if mesh.volume <= SMALLEST_VOLUME * mesh.cube_volume:
         raise GeometryError(f"{name}: encloses no volume; give it a thickness.")
-    found = bodies(to_manifold(mesh, name), name=name)
-    if any(map(is_film, found)):
-        which = "is" if len(found) == 1 else "one of its bodies is"
+    separate = bodies(to_manifold(mesh, name), name=name)
+    if any(map(is_film, separate)):
+        which = "is" if len(separate) == 1 else "one of its bodies is"
         raise GeometryError(
             f"{name}: {which} thinner than {1e3 * _THINNEST_M:g} mm; give it a thickness, in metres, or delete it."
         )
-    _check_bodies(found, name)
+    _check_bodies(separate, name)
     return mesh
 
 
 def to_manifold(
     mesh: TriangleMesh, name: str = "The solid", original: int | None = None, face_ids: IntArray | None = None
 ) -> Manifold:
-    """The mesh in the boolean engine, in double precision.
+    """The closed mesh in the boolean engine, in double precision.
 
-    Parameters
-    ----------
-    mesh : TriangleMesh
-        Closed.
-    name : str
-        What the error message begins with.
-    original : int, optional
-        Number, reserved in the engine, by which triangles that stem from this mesh can be known in what is made of it.
-    face_ids : (t,) int, optional
-        Numbers that its triangles keep with it.
+    Triangles that stem from this mesh keep the number `original`, reserved in the engine, and their numbers `face_ids`
+    (t,). An error message begins with `name`.
     """
     marks = {}
     if original is not None and face_ids is not None:
@@ -153,13 +126,7 @@ def hull(points: FloatArray) -> Manifold:
 def bodies(manifold: Manifold, smallest_volume: float = 0.0, name: str = "The solid") -> list[list[Manifold]]:
     """The separate bodies of a solid, each as its outer shell followed by the cavities inside it.
 
-    Parameters
-    ----------
-    manifold : Manifold
-    smallest_volume : float
-        Shells that enclose no more than this, in m³, are left out, unless there is only one.
-    name : str
-        What the user calls the solid.
+    Shells that enclose no more than `smallest_volume`, m³, are left out, unless there is only one.
     """
     shells = manifold.decompose()
     if len(shells) <= 1:
@@ -167,10 +134,10 @@ def bodies(manifold: Manifold, smallest_volume: float = 0.0, name: str = "The so
     volumes = np.array([shell.volume() for shell in shells])
     outer = np.flatnonzero(volumes > smallest_volume)
     outer_meshes = [from_manifold(shells[index]) for index in outer]
-    found = [[shells[index]] for index in outer]
+    separate = [[shells[index]] for index in outer]
     for cavity in np.flatnonzero(volumes < -smallest_volume):
-        found[_enclosing(shells[cavity], outer_meshes, volumes[outer], name)].append(shells[cavity])
-    return found
+        separate[_enclosing(shells[cavity], outer_meshes, volumes[outer], name)].append(shells[cavity])
+    return separate
 
 
 def is_film(shells: Sequence[Manifold]) -> bool:
@@ -180,21 +147,10 @@ def is_film(shells: Sequence[Manifold]) -> bool:
 
 
 def contains(mesh: TriangleMesh, points: FloatArray) -> BoolArray:
-    """Which points lie inside a closed mesh, by its winding number around each.
+    """Which points (n, 3) lie inside a closed mesh, by its winding number around each.
 
-    Parameters
-    ----------
-    mesh : TriangleMesh
-        Closed; concave, holed and hollow are fine. A point on the surface may go either way.
-    points : (n, 3) float
-
-    Returns
-    -------
-    (n,) bool
-
-    References
-    ----------
-    A. van Oosterom, J. Strackee (1983), The solid angle of a plane triangle, IEEE Trans. Biomed. Eng. 30, 125-126.
+    The mesh may be concave, holed and hollow. A point on the surface may count as inside or outside. A. van Oosterom,
+    J. Strackee (1983), The solid angle of a plane triangle, IEEE Trans. Biomed. Eng. 30, 125-126.
     """
     corners = mesh.corners
     points = np.asarray(points, dtype=float).reshape(-1, 3)
@@ -203,14 +159,18 @@ def contains(mesh: TriangleMesh, points: FloatArray) -> BoolArray:
     return np.concatenate(blocks) > 0.5 if blocks else np.zeros(0, dtype=bool)
 
 
-def _check_surface(mesh: TriangleMesh, name: str) -> None:
-    triangles = mesh.triangles
-    if not len(triangles):
+def check_faces(mesh: TriangleMesh, name: str) -> None:
+    """Raise for a mesh without faces, or with vertices that are not finite numbers."""
+    if not len(mesh.triangles):
         raise GeometryError(f"{name}: has no faces; give it a closed surface.")
     if not np.isfinite(mesh.vertices).all():
         raise GeometryError(f"{name}: has vertices that are not finite numbers; delete or move them.")
-    edges = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
-    _, faces_of_edge = np.unique(np.sort(edges, axis=1), axis=0, return_counts=True)
+
+
+def _check_surface(mesh: TriangleMesh, name: str) -> None:
+    check_faces(mesh, name)
+    edges = mesh.triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
+    _, edge, faces_of_edge = np.unique(np.sort(edges, axis=1), axis=0, return_inverse=True, return_counts=True)
     if (faces_of_edge == 1).any():
         raise GeometryError(
             f"{name}: not closed, {int((faces_of_edge == 1).sum())} edges have a face on one side only; fill the holes "
@@ -220,20 +180,19 @@ def _check_surface(mesh: TriangleMesh, name: str) -> None:
         raise GeometryError(f"{name}: not closed, some edges have an odd number of faces; delete the inner faces.")
     # Sound where every edge is walked as often one way as the other.
     code = np.where(edges[:, 0] < edges[:, 1], 1, -1)
-    _, edge = np.unique(np.sort(edges, axis=1), axis=0, return_inverse=True)
     if np.bincount(edge.ravel(), weights=code).any():
         raise GeometryError(
             f"{name}: some faces look inwards and some outwards; recalculate the normals to the outside."
         )
 
 
-def _check_bodies(found: list[list[Manifold]], name: str) -> None:
-    if len(found) < 2:
+def _check_bodies(separate: list[list[Manifold]], name: str) -> None:
+    if len(separate) < 2:
         return
-    separate = [to_manifold(from_manifold(*shells), name) for shells in found]
-    total = sum(body.volume() for body in separate)
-    if Manifold.batch_boolean(separate, OpType.Add).volume() < total * (1 - OVERLAP_TOLERANCE):
-        raise GeometryError(f"{name}: its {len(found)} separate bodies overlap; unite them into one first.")
+    solids = [to_manifold(from_manifold(*shells), name) for shells in separate]
+    total = sum(solid.volume() for solid in solids)
+    if Manifold.batch_boolean(solids, OpType.Add).volume() < total * (1 - OVERLAP_TOLERANCE):
+        raise GeometryError(f"{name}: its {len(solids)} separate bodies overlap; unite them into one first.")
 
 
 def _enclosing(cavity: Manifold, outer_meshes: list[TriangleMesh], volumes: FloatArray, name: str) -> int:

@@ -14,7 +14,7 @@ import numpy as np
 from ..arrays import FloatArray, IntArray
 
 _SWEEPS = 8
-"""Sweeps of Jacobi's method, which squares what is left beside the diagonal in each: double precision needs five."""
+"""Sweeps of Jacobi's method, each of which squares the rest beside the diagonal: double precision needs five."""
 
 
 def dot(first: FloatArray, second: FloatArray) -> FloatArray:
@@ -103,10 +103,8 @@ def outer(first: FloatArray, second: FloatArray) -> FloatArray:
 
 
 def symmetric_eigenvalues(matrices: FloatArray) -> FloatArray:
-    """Eigenvalues (..., 3), in ascending order, of symmetric matrices (..., 3, 3), by Jacobi's method.
+    """Eigenvalues (..., 3), ascending, of symmetric matrices (..., 3, 3), by Jacobi's method.
 
-    References
-    ----------
     G. H. Golub, C. F. Van Loan (1996), Matrix Computations, 3rd edition, section 8.4.
     """
     # The components of all matrices lie together in memory.
