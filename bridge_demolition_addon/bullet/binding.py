@@ -1,4 +1,4 @@
-"""Finding the Bullet world of a scene, its bodies and its constraints. All is checked, and nothing is written."""
+"""Finding the Bullet world of a scene, its bodies and its constraints; all is checked, and nothing is written."""
 
 from __future__ import annotations
 
@@ -16,35 +16,29 @@ from .memory import read_pointer
 
 @dataclass(frozen=True, slots=True, eq=False)
 class EvaluatedCopies:
-    """Copies of the connections that have the constraints.
+    """Copies of the connections that have the constraints, by a dependency graph at an address.
 
-    Attributes
-    ----------
-    depsgraph
-        Address of the dependency graph that made them.
-    rows
-        Which connection each copy is of, by its address.
+    `rows` has the connection of each copy by its address.
     """
 
     depsgraph: int
     rows: dict[int, int]
 
     def edited_rows(self, scene: bpy.types.Scene) -> np.ndarray:
-        """Rows (k,) of the connections whose copies the coming update replaces, or frees as their collection is hidden.
+        """Return the connections (k,) whose copies the coming update replaces, or frees as their collection is hidden.
 
-        What waits for an update is known by its copy: the original may be deleted by now.
+        An update is known by the copy: the original may be deleted by now.
         """
-        depsgraphs = (layer.depsgraph for layer in scene.view_layers)
-        depsgraph = next((each for each in depsgraphs if each and each.as_pointer() == self.depsgraph), None)
-        if depsgraph is None:
-            return np.empty(0, int)
-        constraints = scene.rigidbody_world.constraints
-        if depsgraph.id_type_updated("SCENE") and not _is_shown(constraints, depsgraph.view_layer.layer_collection):
-            return np.arange(len(self.rows))
-        if not depsgraph.id_type_updated("OBJECT"):
-            return np.empty(0, int)
-        rows = (self.rows.get(update.id.as_pointer()) for update in depsgraph.updates)
-        return np.array([row for row in rows if row is not None], int)
+        for depsgraph in (layer.depsgraph for layer in scene.view_layers):
+            if not depsgraph or depsgraph.as_pointer() != self.depsgraph:
+                continue
+            constraints = scene.rigidbody_world.constraints
+            if depsgraph.id_type_updated("SCENE") and not _is_shown(constraints, depsgraph.view_layer.layer_collection):
+                return np.arange(len(self.rows))
+            if depsgraph.id_type_updated("OBJECT"):
+                rows = (self.rows.get(update.id.as_pointer()) for update in depsgraph.updates)
+                return np.array([row for row in rows if row is not None], int)
+        return np.empty(0, int)
 
 
 def find_dynamics_world(layout: Layout, world: bpy.types.RigidBodyWorld | None) -> int:
@@ -70,20 +64,29 @@ def find_bodies(
     layout: Layout, bodies: Sequence[bpy.types.Object], depsgraph: bpy.types.Depsgraph, to_read: bool
 ) -> np.ndarray:
     """Return Bullet's bodies (n,); 0 for one that is not simulated, where nothing is to be read."""
-    holders, addresses = [], []
-    for body in bodies:
-        shared = read_pointer(body.rigid_body.as_pointer() + layout.blender.body_shared)
-        holder = read_pointer(shared) if shared else 0
-        if to_read and not holder:
-            raise SimulationError(f"body {body.name!r} is not simulated: give it a mesh and a rigid body")
-        holders.append(holder)
-        addresses.append(read_pointer(holder) if holder else 0)
+    holders = [_holder(layout, body) for body in bodies]
+    if to_read and 0 in holders:
+        name = bodies[holders.index(0)].name
+        raise SimulationError(f"body {name!r} is not simulated: give it a mesh and a rigid body")
+    addresses = [read_pointer(holder) if holder else 0 for holder in holders]
     simulated = [row for row in zip(bodies, holders, addresses, strict=True) if row[1]]
     if to_read:
         checks.check_bodies(layout, simulated, depsgraph)
     else:
         checks.check_owners(layout, simulated)
     return np.array(addresses, np.uint64)
+
+
+def bodies_in_use(layout: Layout) -> set[int]:
+    """Return the addresses of Bullet's bodies of all objects that there are now."""
+    holders = (_holder(layout, body) for body in bpy.data.objects if body.rigid_body)
+    return {read_pointer(holder) for holder in holders if holder}
+
+
+def _holder(layout: Layout, body: bpy.types.Object) -> int:
+    """Address of Blender's rbRigidBody, which points at Bullet's; 0 for a body that is not simulated."""
+    shared = read_pointer(body.rigid_body.as_pointer() + layout.blender.body_shared)
+    return read_pointer(shared) if shared else 0
 
 
 def find_copies(

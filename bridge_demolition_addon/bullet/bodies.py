@@ -8,86 +8,62 @@ from ..model.results.removed_shards import OUT_OF_REACH_M
 from .body_motion import BodyMotionReader
 from .contacts import ContactReader
 from .layout import ASLEEP, AWAKE, DISABLED, SLEEPING, WANTS_SLEEP, Layout
-from .memory import (
-    Places,
-    add_vectors,
-    gather_doubles,
-    gather_integers,
-    write_doubles,
-    write_integers,
-    write_vectors,
-)
+from .memory import Fields, add_vectors, gather_doubles, gather_integers, write_doubles, write_integers, write_vectors
 
 _TRANSFORM = 8 * np.array([0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14])
 """Rotation matrix and origin in bytes from the start of a btTransform: four vectors of four doubles each."""
 
 _ORIGIN = 96
-_TORQUE = 32
-"""Bytes from the total force to the total torque."""
 
 
 class BodyTable:
-    """n bodies of a world, as long as it is bound.
+    """The bodies of a world at addresses (n,), as long as it is bound.
 
-    Parameters
-    ----------
-    layout
-        Byte offsets.
-    addresses
-        (n,) uint64 of the bodies.
-    contacts
-        Reads their contacts.
-
-    Attributes
-    ----------
-    removed
-        (n,) bodies that `remove` took out of the simulation.
+    `removed` (n,) marks those that `remove` took out of the simulation.
     """
 
     def __init__(self, layout: Layout, addresses: np.ndarray, contacts: ContactReader):
         self.addresses, self.contacts = addresses, contacts
         self.removed = np.zeros(len(addresses), bool)
         self._layout, self._body = layout, layout.body
-        self._transforms = Places(addresses, layout.body.transform + _TRANSFORM)
+        self._transforms = Fields(addresses, layout.body.transform + _TRANSFORM)
 
     def __len__(self) -> int:
         return len(self.addresses)
 
     def positions(self) -> tuple[np.ndarray, np.ndarray]:
-        """Origins (n, 3) in m and rotation matrices (n, 3, 3)."""
+        """Return positions (n, 3) in m and rotation matrices (n, 3, 3)."""
         transforms = np.ascontiguousarray(self._transforms.copy().T)
         return transforms[:, 9:], transforms[:, :9].reshape(-1, 3, 3)
 
     def velocities(self) -> np.ndarray:
-        """Linear velocities (n, 3), m/s."""
+        """Return velocities (n, 3), m/s."""
         return gather_doubles(self._fields(self._body.linear_velocity), 3)
 
     def angular_velocities(self) -> np.ndarray:
-        """Angular velocities (n, 3), rad/s."""
+        """Return angular velocities (n, 3), rad/s."""
         return gather_doubles(self._fields(self._body.angular_velocity), 3)
 
     def can_move(self) -> np.ndarray:
-        """Whether each body (n,) is free now: neither passive nor moved by animation."""
+        """Return whether each body (n,) is free now: neither passive nor moved by animation."""
         return gather_doubles(self._fields(self._body.inverse_mass))[:, 0] > 0.0
 
     def asleep(self) -> np.ndarray:
-        """Whether each body (n,) is asleep; what can never move is not."""
+        """Return whether each body (n,) is asleep; one that can never move is not."""
         states = gather_integers(self._fields(self._body.activation))
         return np.isin(states, list(SLEEPING)) & self.can_move()
 
     def motion(self) -> BodyMotionReader:
-        """What reads the motion of all bodies in one go, and moves them."""
+        """Return the reader of the motion of all bodies, which also moves them."""
         return BodyMotionReader(self._layout, self.addresses)
 
     def set_velocities(
         self, bodies: np.ndarray, velocities_m_s: np.ndarray, angular_velocities_rad_s: np.ndarray
     ) -> None:
         """Give bodies (k,) velocities and angular velocities (k, 3); those that sleep go on sleeping."""
-        for offset, vectors in (
-            (self._body.linear_velocity, velocities_m_s),
-            (self._body.angular_velocity, angular_velocities_rad_s),
-        ):
-            write_vectors(self.addresses[bodies] + np.uint64(offset), vectors)
+        addresses = self.addresses[bodies]
+        write_vectors(addresses + np.uint64(self._body.linear_velocity), velocities_m_s)
+        write_vectors(addresses + np.uint64(self._body.angular_velocity), angular_velocities_rad_s)
 
     def set_positions(self, bodies: np.ndarray, positions_m: np.ndarray) -> None:
         """Move bodies (k,) to positions (k, 3)."""
@@ -96,7 +72,7 @@ class BodyTable:
     def move_kinematic(self, bodies: np.ndarray, positions_m: np.ndarray, velocity_m_s: np.ndarray) -> None:
         """Move animated bodies (k,) to positions (k, 3), with one velocity (3,) for the coming sub-step.
 
-        To be called before a sub-step: Bullet has worked out by then how animation would move them.
+        To be called before a sub-step: by then Bullet has calculated how animation would move them.
         """
         self.set_positions(bodies, positions_m)
         resting = np.zeros((len(bodies), 3))
@@ -111,16 +87,13 @@ class BodyTable:
     def add_forces(self, bodies: np.ndarray, forces_n: np.ndarray, torques_nm: np.ndarray | None = None) -> None:
         """Add forces (k, 3) and torques (k, 3) on bodies (k,), each as often as it is named, in the coming sub-step.
 
-        To be called before a sub-step: Bullet forgets them after it. A body that sleeps or cannot move is not moved by
-        them.
+        To be called before a sub-step: Bullet forgets them after it. They do not wake a body that sleeps.
         """
-        named = self._each_once(bodies)
-        for offset, values in ((0, forces_n), (_TORQUE, torques_nm)):
-            if values is None:
-                continue
-            sums = np.column_stack([np.bincount(bodies, column, len(self)) for column in values.T])[named]
-            fields = self.addresses[named] + np.uint64(self._body.total_force + offset)
-            write_vectors(fields, gather_doubles(fields, 3) + sums)
+        named = self._once(bodies)
+        for offset, vectors in ((self._body.total_force, forces_n), (self._body.total_torque, torques_nm)):
+            if vectors is not None:
+                sums = np.column_stack([np.bincount(bodies, column, len(self)) for column in vectors.T])[named]
+                add_vectors(self.addresses[named] + np.uint64(offset), sums)
 
     def push(self, bodies: np.ndarray, forces_n: np.ndarray) -> None:
         """Wake bodies (k,), each named once and in order, and add forces (k, 3) on them in the coming sub-step."""
@@ -133,38 +106,36 @@ class BodyTable:
     def wake(self, bodies: np.ndarray) -> None:
         """Wake those of bodies (k,) that sleep or are about to, as Bullet does when something touches them.
 
-        To be called before a sub-step: Bullet has passed the sleeping ones by when it gave all others their weight, so
-        they get it here.
+        To be called before a sub-step: Bullet gives sleeping bodies no weight, so they get it here.
         """
-        named = self._each_once(bodies)
+        named = self._once(bodies)
         states = gather_integers(self.addresses[named] + np.uint64(self._body.activation))
         drowsy = self.addresses[named[(states == ASLEEP) | (states == WANTS_SLEEP)]]
         write_integers(drowsy + np.uint64(self._body.activation), AWAKE)
         write_doubles(drowsy + np.uint64(self._body.deactivation_time), 0.0)
-        sleeping = named[states == ASLEEP]
-        if not len(sleeping):
-            return
-        weights = gather_doubles(self.addresses[sleeping] + np.uint64(self._body.gravity), 3)
-        self.add_forces(sleeping, weights)
+        sleeping = self.addresses[named[states == ASLEEP]]
+        weights = gather_doubles(sleeping + np.uint64(self._body.gravity), 3)
+        add_vectors(sleeping + np.uint64(self._body.total_force), weights)
 
     def remove(self, bodies: np.ndarray) -> None:
         """Take bodies (k,) out of the simulation for good; their connections have to be broken.
 
-        Deleting them would crash Blender, which still points at them. They stay, disabled, out of reach of all others:
-        `OUT_OF_REACH_M` below their positions.
+        Deleting them would crash Blender, which still points at them. They stay, disabled, `OUT_OF_REACH_M` below their
+        positions.
         """
         addresses = self.addresses[bodies]
         origins = addresses + np.uint64(self._body.transform + _ORIGIN)
         self.contacts.forget(bodies)
         write_vectors(origins, gather_doubles(origins, 3) - (0.0, 0.0, OUT_OF_REACH_M))
-        self.set_velocities(bodies, np.zeros((len(bodies), 3)), np.zeros((len(bodies), 3)))
+        resting = np.zeros((len(bodies), 3))
+        self.set_velocities(bodies, resting, resting)
         write_integers(addresses + np.uint64(self._body.activation), DISABLED)
         self.removed[bodies] = True
 
-    def _each_once(self, bodies: np.ndarray) -> np.ndarray:
-        """Those of bodies (k,), each once and in order."""
+    def _once(self, bodies: np.ndarray) -> np.ndarray:
+        """Return each of bodies (k,) once and in order."""
         return np.flatnonzero(np.bincount(bodies, minlength=len(self)))
 
     def _fields(self, offset: int) -> np.ndarray:
-        """Addresses (n,) of a field of all bodies."""
+        """Return addresses (n,) of a field of all bodies."""
         return self.addresses + np.uint64(offset)

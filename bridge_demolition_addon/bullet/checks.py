@@ -1,4 +1,4 @@
-"""Holding every offset against what Blender itself says, before any of it is trusted.
+"""Comparing every offset with values that Blender itself shows, before any of it is trusted.
 
 All reads here are fault-free, so that a wrong offset ends in a `LayoutError` and never in a crash.
 """
@@ -34,7 +34,7 @@ def check_settings(layout: Layout, world: bpy.types.RigidBodyWorld) -> None:
 
 
 def is_physics_world(layout: Layout, address: int) -> bool:
-    """Whether an rbDynamicsWorld lies there: Blender and Bullet name the same dispatcher, broadphase and solver."""
+    """Return whether an rbDynamicsWorld lies there: it names the same dispatcher, broadphase and solver as Bullet."""
     blender, bullet = layout.blender, layout.world
     try:
         dynamics = read_pointer(address)
@@ -50,7 +50,7 @@ def is_physics_world(layout: Layout, address: int) -> bool:
 
 
 def check_solver(layout: Layout, dynamics: int, world: bpy.types.RigidBodyWorld, substep_s: float) -> None:
-    """Bullet's solver settings are where they are expected, and no one else uses the field that takes our token."""
+    """Bullet's solver settings are where they are expected."""
     _expect("solver iterations", read_value(dynamics + layout.world.iterations, "i"), world.solver_iterations)
     _expect("warm starting", read_value(dynamics + layout.world.warm_starting, "d"), WARM_STARTING)
     step = read_value(dynamics + layout.world.step, "d")
@@ -63,22 +63,18 @@ def check_bodies(
 ) -> None:
     """Each body's Bullet values are those that Python shows.
 
-    Parameters
-    ----------
-    bodies
-        Object, address of Blender's rbRigidBody and of Bullet's btRigidBody.
-    depsgraph
-        Evaluated for the present frame: it knows where the bodies are.
+    A body is an object, the address of Blender's rbRigidBody and that of Bullet's btRigidBody. The dependency graph is
+    evaluated for the present frame: it knows where the bodies are.
     """
     scene = depsgraph.scene
     gravity = np.array(scene.gravity, float) if scene.use_gravity else np.zeros(3)
     for body, holder, address in bodies:
         _check_body(layout, body, holder, address, gravity)
-        _check_place(layout, body.evaluated_get(depsgraph), address)
+        _check_position(layout, body.evaluated_get(depsgraph), address)
 
 
 def check_owners(layout: Layout, bodies: Iterable[tuple[bpy.types.Object, int, int]]) -> None:
-    """Each of Bullet's bodies points back at Blender's; nothing that may have been edited or recorded is looked at."""
+    """Each of Bullet's bodies points back at Blender's; settings may have been edited, and are not compared."""
     for body, holder, address in bodies:
         _expect(f"user pointer of body {body.name!r}", read_pointer(address + layout.body.user_pointer), holder)
 
@@ -88,20 +84,14 @@ def check_connections(
 ) -> None:
     """Each connection has a known type, its own two bodies and its own breaking threshold.
 
-    Parameters
-    ----------
-    connections
-        Object and address of Bullet's btTypedConstraint.
-    bodies
-        Address of the btRigidBody of every body, by object.
-    were_edited
-        Whether settings may not be those that Bullet's constraints were made from: then only types are looked at.
+    A connection is an object and the address of Bullet's btTypedConstraint; addresses of bodies are by object. Where
+    settings were edited, Bullet's constraints were made from others, and only types are compared.
     """
     for connection, address in connections:
         if were_edited:
-            types = {each for known in CONSTRAINT_TYPES.values() for each in known}
+            type_ = read_value(address + layout.constraint.type, "i")
             _expect_member(
-                f"type of connection {connection.name!r}", read_value(address + layout.constraint.type, "i"), types
+                f"type of connection {connection.name!r}", type_, frozenset().union(*CONSTRAINT_TYPES.values())
             )
         else:
             _check_connection(layout, connection, address, bodies)
@@ -118,7 +108,9 @@ def _check_body(layout: Layout, body: bpy.types.Object, holder: int, address: in
 
     _expect(f"user pointer {name}", value("Q", offsets.user_pointer), holder)
     _expect_member(f"activation state {name}", value("i", offsets.activation), ACTIVATION_STATES)
-    _expect_time(f"time {name} at rest", value("d", offsets.deactivation_time))
+    slow_s = value("d", offsets.deactivation_time)
+    if not 0.0 <= slow_s <= _LONGEST_S:
+        raise LayoutError(f"time {name} at rest is {slow_s:g} s")
     _expect(f"internal type {name}", value("i", offsets.internal_type), RIGID_BODY)
     _expect_close(f"friction {name}", value("d", offsets.friction), settings.friction)
     _expect_close(f"damping {name}", value("d", offsets.linear_damping), settings.linear_damping)
@@ -148,29 +140,29 @@ def _is_animated(settings: bpy.types.RigidBodyObject) -> bool:
     return settings.id_data.animation_data is not None
 
 
-def _check_place(layout: Layout, body: bpy.types.Object, address: int) -> None:
-    """Bullet's transform, three rows of four doubles and an origin, is the body's place without its scale."""
+def _check_position(layout: Layout, body: bpy.types.Object, address: int) -> None:
+    """Bullet's transform, three rows of four doubles and an origin, is that of the body without its scale."""
     raw = read(address + layout.body.transform, 15 * 8)
     if raw is None:
         raise LayoutError(f"transform of body {body.name!r} cannot be read")
     transform = np.frombuffer(raw)
-    place, rotation, _ = body.matrix_world.decompose()
+    position, rotation, _ = body.matrix_world.decompose()
     expected = np.column_stack((np.array(rotation.to_matrix(), float), np.zeros(3)))
-    size = 1.0 + np.abs(place).max()
-    _expect_close(f"place of body {body.name!r}", abs(transform[12:] - place).max() / size, 0.0)
+    size = 1.0 + np.abs(position).max()
+    _expect_close(f"position of body {body.name!r}", abs(transform[12:] - position).max() / size, 0.0)
     # Rotations pass through single-precision quaternions, which costs some digits.
-    turned = abs(np.delete(transform[:12].reshape(3, 4) - expected, 3, axis=1)).max()
-    if not turned <= _ROTATION:
-        raise LayoutError(f"rotation of body {body.name!r} is off by {turned:g}")
+    off = abs(np.delete(transform[:12].reshape(3, 4) - expected, 3, axis=1)).max()
+    if not off <= _ROTATION:
+        raise LayoutError(f"rotation of body {body.name!r} is off by {off:g}")
 
 
 def _check_connection(layout: Layout, connection: bpy.types.Object, address: int, bodies: dict) -> None:
     offsets, settings, name = layout.constraint, connection.rigid_body_constraint, f"of connection {connection.name!r}"
     _expect_member(f"type {name}", read_value(address + offsets.type, "i"), CONSTRAINT_TYPES[settings.type])
-    found = {read_pointer(address + offsets.body_a), read_pointer(address + offsets.body_b)}
-    wanted = {bodies.get(settings.object1), bodies.get(settings.object2)}
-    if None not in wanted:
-        _expect(f"bodies {name}", found, wanted)
+    expected = {bodies.get(settings.object1), bodies.get(settings.object2)}
+    if None not in expected:
+        pair = {read_pointer(address + offsets.body_a), read_pointer(address + offsets.body_b)}
+        _expect(f"bodies {name}", pair, expected)
     if settings.use_breaking:
         threshold = read_value(address + offsets.breaking_threshold, "d")
         _expect_close(f"breaking threshold {name}", threshold, settings.breaking_threshold)
@@ -178,21 +170,16 @@ def _check_connection(layout: Layout, connection: bpy.types.Object, address: int
     _expect_close(f"drawing size {name}", read_value(address + offsets.drawing_size, "d"), DRAWING_SIZE)
 
 
-def _expect(what: str, found: object, expected: object) -> None:
-    if found != expected:
-        raise LayoutError(f"{what} is {found}, not {expected}")
+def _expect(name: str, value: object, expected: object) -> None:
+    if value != expected:
+        raise LayoutError(f"{name} is {value}, not {expected}")
 
 
-def _expect_close(what: str, found: float, expected: float) -> None:
-    if not abs(found - expected) <= _FLOAT32 * max(1.0, abs(expected)):
-        raise LayoutError(f"{what} is {found:g}, not {expected:g}")
+def _expect_close(name: str, value: float, expected: float) -> None:
+    if not abs(value - expected) <= _FLOAT32 * max(1.0, abs(expected)):
+        raise LayoutError(f"{name} is {value:g}, not {expected:g}")
 
 
-def _expect_time(what: str, found: float) -> None:
-    if not 0.0 <= found <= _LONGEST_S:
-        raise LayoutError(f"{what} is {found:g} s")
-
-
-def _expect_member(what: str, found: int, expected: Iterable[int]) -> None:
-    if found not in expected:
-        raise LayoutError(f"{what} is {found}")
+def _expect_member(name: str, value: int, expected: Iterable[int]) -> None:
+    if value not in expected:
+        raise LayoutError(f"{name} is {value}")

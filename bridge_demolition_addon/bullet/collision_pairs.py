@@ -2,9 +2,9 @@
 
 A connection can keep its two bodies from colliding, so that it alone carries the load between them. Bullet 3 notes
 that in a list that each body has of bodies it ignores, and leaves it there when the connection breaks: former
-neighbours, and shards broken off their foundation, would pass through each other for good. Here the entries of a
-broken connection are replaced by the body itself, which it never meets. Bullet looks for entries by their value, so it
-neither misses them nor frees anything twice when it takes the constraint apart later.
+neighbours, and shards broken off their foundation, would pass through each other for good. So the entries of a broken
+connection are replaced by the body itself, which it never meets. Bullet looks for entries by their value, so it
+neither misses them nor frees anything twice when it removes the constraint later.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import numpy as np
 
 from ..errors import LayoutError
 from .layout import Layout
-from .memory import gather_pointers, read, read_pointer, read_value, write_pointers
+from .memory import gather_pointers, read_pointer, read_pointers, read_value, write_pointers
 
 _MOST_IGNORED = 1_000_000
 
@@ -23,14 +23,7 @@ _MOST_IGNORED = 1_000_000
 class CollisionPairs:
     """The entries that connections have in the lists of their bodies.
 
-    Parameters
-    ----------
-    layout
-        Byte offsets.
-    connections
-        (m,) addresses of connections that keep their bodies from colliding.
-    bodies
-        (n,) addresses of all bodies.
+    The connections at addresses (m,) keep their bodies from colliding; all bodies are at addresses (n,).
     """
 
     def __init__(self, layout: Layout, connections: np.ndarray, bodies: np.ndarray):
@@ -42,7 +35,7 @@ class CollisionPairs:
         self._slots = _slots(self._pairs, lists)
 
     def restore(self, rows: np.ndarray) -> None:
-        """Let the bodies of the given connections (k,) collide, as far as no other connection still forbids it."""
+        """Let the bodies of connections (k,) collide, where no other connection still forbids it."""
         for side in (0, 1):
             body, other = self._pairs[rows, side], self._pairs[rows, 1 - side]
             entries = gather_pointers(body + self._list_offset) + 8 * self._slots[rows, side]
@@ -51,7 +44,7 @@ class CollisionPairs:
 
 
 def let_collide(layout: Layout, first: int, second: int) -> None:
-    """Let two bodies collide whose connection is gone, as far as no other connection still forbids it."""
+    """Let two bodies collide whose connection is gone, where no other connection still forbids it."""
     for body, other in ((first, second), (second, first)):
         ignored = _ignored_bodies(layout, body)
         if other in ignored:
@@ -60,14 +53,12 @@ def let_collide(layout: Layout, first: int, second: int) -> None:
 
 
 def _ignored_bodies(layout: Layout, body: int) -> list[int]:
-    """The list of bodies that a body ignores, read without trust."""
+    """Read the list of bodies that a body ignores."""
     count = read_value(body + layout.body.ignored_bodies_count, "i")
     if not 0 <= count <= _MOST_IGNORED:
         raise LayoutError(f"a body ignores {count} others")
-    raw = read(read_pointer(body + layout.body.ignored_bodies_data), 8 * count) if count else b""
-    if raw is None:
-        raise LayoutError("the list of bodies that a body ignores cannot be read")
-    return np.frombuffer(raw, np.uint64).tolist()
+    data_field = body + layout.body.ignored_bodies_data
+    return read_pointers(data_field, count, "the list of bodies that a body ignores").tolist()
 
 
 def _slots(pairs: np.ndarray, lists: dict[int, list[int]]) -> np.ndarray:

@@ -1,4 +1,4 @@
-"""Constraints of a Bullet world that was checked, as arrays over Bullet's own memory: connections, as they hold."""
+"""Connections as constraints of a Bullet world that was checked, as arrays over Bullet's own memory."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import numpy as np
 from .collision_pairs import CollisionPairs
 from .constraint_rows import ConstraintRows
 from .layout import Layout
-from .memory import Places, gather_doubles, gather_pointers, write_bytes, write_doubles, write_pointers
+from .memory import Fields, gather_doubles, gather_pointers, write_bytes, write_doubles, write_pointers
 from .teardown import Fingerprints
 
 FEEDBACK_DOUBLES = 16
@@ -15,18 +15,16 @@ FEEDBACK_DOUBLES = 16
 
 
 class ConstraintTable:
-    """m connections of a world, of which e exist in it, as long as it is bound. Nothing is written until `prepare`.
+    """m connections of a world, as long as it is bound; e of them exist in it. Nothing is written until `prepare`.
 
     Parameters
     ----------
-    layout
-        Byte offsets.
     addresses
         (m,) uint64 of the constraints; 0 for one that does not exist.
     forbids_collision
         (m,) whether each keeps its bodies from colliding.
     collision_pairs
-        How these are let collide; None in a world that is not read.
+        Entries of these in Bullet's lists; None in a world that is not read.
     feedback
         (m, 4, 4) where Bullet is to write the loads of the connections; never to be freed.
 
@@ -51,7 +49,7 @@ class ConstraintTable:
         self._forbids_collision, self._collision_pairs = forbids_collision, collision_pairs
         self._pair_rows = np.cumsum(forbids_collision) - 1
         self._fingerprints = Fingerprints(layout, addresses[self.exists])
-        self._enabled: tuple[np.ndarray, Places] | None = None  # of those that exist
+        self._enabled: tuple[np.ndarray, Fields] | None = None  # of those that exist
         self._rows: ConstraintRows | None = None
 
     def __len__(self) -> int:
@@ -73,16 +71,15 @@ class ConstraintTable:
         self._point_feedback_at(starts[self.exists] if wanted else np.uint64(0))
 
     def intact(self) -> np.ndarray:
-        """Whether each connection (m,) exists and has not broken."""
+        """Return whether each connection (m,) exists and has not broken."""
         if self._enabled is None or not np.array_equal(self.exists, self._enabled[0]):
-            offsets = [self._constraint.enabled]
-            self._enabled = self.exists.copy(), Places(self.existing, offsets, np.uint8)
+            self._enabled = self.exists.copy(), Fields(self.existing, [self._constraint.enabled], np.uint8)
         intact = np.zeros(len(self), bool)
         intact[self.exists] = self._enabled[1].copy()[0] != 0
         return intact
 
     def first_bodies(self) -> np.ndarray:
-        """Addresses (e,) of Bullet's body A of those that exist."""
+        """Return the addresses (e,) of Bullet's body A of those that exist."""
         return gather_pointers(self._fields(self._constraint.body_a))
 
     def break_rows(self, rows: np.ndarray) -> None:
@@ -121,21 +118,18 @@ class ConstraintTable:
             self._forbids_collision[broken] = False
 
     def elastic_rows(self, names: list[str]) -> ConstraintRows:
-        """What writes to the rows of all connections, which have names and have to exist.
-
-        `restore` leaves them as Blender made them.
-        """
+        """Return the rows of all connections, which have to exist; `restore` leaves them as Blender made them."""
         self._rows = ConstraintRows(self._layout, self.addresses, names)
         return self._rows
 
     def forget_freed(self) -> np.ndarray:
-        """Leave those alone that Blender has freed by now; return whether each that existed (e,) is still there."""
+        """Mark those that Blender has freed by now; return whether each that existed (e,) is still there."""
         alive = self._fingerprints.still_there(self.existing)
         self.exists[self.exists] = alive
         return alive
 
     def restore(self) -> None:
-        """Take our buffer and all that was written to rows out of those that exist."""
+        """Take our buffer, and what was written to rows, out of those that exist."""
         self.stop_loads()
         if self._rows:
             self._rows.restore(np.flatnonzero(self.exists))

@@ -1,4 +1,4 @@
-"""Contacts between bodies: where they touch, and what they do to each other."""
+"""Contacts between bodies: where they touch, and their impulses."""
 
 from __future__ import annotations
 
@@ -12,30 +12,30 @@ from ..engineering.geometry.vectors import dot, length
 from ..errors import LayoutError
 from .layout import Layout
 from .memory import (
-    Places,
+    Fields,
     copy_pointers,
     gather_integers,
     gather_pointers,
     read,
-    read_pointer,
+    read_pointers,
     read_value,
     write_integers,
 )
 
 _MOST_POINTS = 4
-"""Of two bodies: Bullet keeps no more (MANIFOLD_CACHE_SIZE)."""
+"""Bullet keeps no more of two bodies (MANIFOLD_CACHE_SIZE)."""
 
 _MOST_MANIFOLDS = 50_000_000
-"""What is more is no number of contacts: they would take 76 GB."""
+"""More contacts than there can be: they would take 76 GB."""
 
 _LARGEST_FRICTION = 10.0
-"""What Bullet keeps the combined friction of two bodies within."""
+"""Bullet's limit of the combined friction of two bodies."""
 
 _CHECKED_POINTS = 200
 """Contact points looked at in a check; a wrong offset is wrong in the first of them."""
 
 _MANIFOLD_END = struct.Struct("<QQi")
-"""Both bodies of a contact and the number of its points, which follow each other."""
+"""Both bodies of a contact, then the number of its points."""
 
 _UNIT = 1e-6
 """How far a unit vector's length, computed by Bullet in double precision, may be from 1."""
@@ -47,24 +47,24 @@ class ContactCopies:
 
     Attributes
     ----------
-    values
-        (15, k) place, normal, impulses along the normal and two lateral directions, and these directions.
+    components
+        (15, k) position, normal, impulses along the normal and two lateral directions, and these directions.
     bodies
         (2, k) uint64 addresses of the two bodies.
     """
 
-    values: np.ndarray
+    components: np.ndarray
     bodies: np.ndarray
 
     @property
     def size(self) -> int:
-        """What they take in memory, in bytes."""
-        return self.values.nbytes + self.bodies.nbytes
+        """Their bytes in memory."""
+        return self.components.nbytes + self.bodies.nbytes
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Contacts:
-    """Contact points of s sub-steps, structure of arrays.
+    """Contact points of s sub-steps.
 
     Attributes
     ----------
@@ -72,7 +72,7 @@ class Contacts:
         (k,) in which sub-step each is, in ascending order.
     pairs
         (k, 2) indices of the two bodies.
-    places_m
+    positions_m
         (k, 3) where they touch, on the second body.
     normals
         (k, 3) unit vectors from the second body to the first.
@@ -82,18 +82,18 @@ class Contacts:
 
     substeps: np.ndarray
     pairs: np.ndarray
-    places_m: np.ndarray
+    positions_m: np.ndarray
     normals: np.ndarray
     normal_impulses_ns: np.ndarray
     tangential_impulses_ns: np.ndarray
 
     @property
     def impulses_ns(self) -> np.ndarray:
-        """Whole impulse (k, 3) on the first body, N·s."""
+        """Whole impulses (k, 3) on the first bodies, N·s."""
         return self.normal_impulses_ns[:, None] * self.normals + self.tangential_impulses_ns
 
     def without(self, bodies: np.ndarray) -> Contacts:
-        """The contacts of none of the bodies that a mask (s, n) marks in their sub-step."""
+        """Return the contacts without those of bodies that a mask (s, n) marks in their sub-step."""
         kept = ~bodies[self.substeps[:, None], self.pairs].any(axis=1)
         return Contacts(*(getattr(self, item.name)[kept] for item in fields(self)))
 
@@ -102,17 +102,7 @@ class Contacts:
 
 
 class ContactReader:
-    """Reads the contacts of a world whose bodies are known.
-
-    Parameters
-    ----------
-    layout
-        Byte offsets.
-    dispatcher
-        Address of the btCollisionDispatcher.
-    bodies
-        (n,) addresses of the bodies, in the order of their indices.
-    """
+    """Reads the contacts of a world, by the addresses of its btCollisionDispatcher and of its bodies (n,)."""
 
     def __init__(self, layout: Layout, dispatcher: int, bodies: np.ndarray):
         self._layout, self._dispatcher = layout, dispatcher
@@ -120,18 +110,16 @@ class ContactReader:
         self._sorted = bodies[self._order]
         self._is_checked = False
         point = layout.manifold.point
-        starts = [place + 8 * np.arange(3) for place in (point.place_on_b, point.normal)]
-        directions = [place + 8 * np.arange(3) for place in (point.lateral_directions, point.lateral_directions + 32)]
-        self._impulse_offsets = layout.manifold.points + np.array(
-            [point.normal_impulse, point.lateral_impulses, point.lateral_impulses + 8]
-        )
-        self._other_offsets = layout.manifold.points + np.concatenate([*starts, *directions])
+        vectors = np.array([point.position_on_b, point.normal, point.lateral_directions, point.lateral_directions + 32])
+        impulses = np.array([point.normal_impulse, point.lateral_impulses, point.lateral_impulses + 8])
+        self._impulse_offsets = layout.manifold.points + impulses
+        self._vector_offsets = layout.manifold.points + (vectors[:, None] + 8 * np.arange(3)).ravel()
         self._find(np.zeros(0, np.uint64))
 
     def copy(self) -> ContactCopies:
         """Copy the contact points that carry a load now."""
         manifolds = self._checked_manifolds()
-        if not np.array_equal(manifolds, self._manifolds_found):
+        if not np.array_equal(manifolds, self._known_manifolds):
             self._find(manifolds)
         counts = self._counts.copy()[0]
         used = np.flatnonzero(counts)
@@ -142,24 +130,18 @@ class ContactReader:
         number = np.arange(len(rows)) - np.repeat(np.cumsum(counts) - counts, counts)
         further = number * self._layout.manifold.point.size
         impulses = self._impulses.copy_at(rows, further)
-        # Friction can be left where the push has gone to nothing within the iterations of the solver.
+        # The solver's iterations can end with friction where no normal impulse is left.
         loaded = np.flatnonzero((impulses[0] != 0.0) | (impulses[1] != 0.0) | (impulses[2] != 0.0))
         rows, further = rows.take(loaded), further.take(loaded)
-        others = self._others.copy_at(rows, further)
-        values = np.concatenate((others[:6], impulses.take(loaded, axis=1), others[6:]))
-        return ContactCopies(values, self._bodies.copy_at(rows))
+        vectors = self._vectors.copy_at(rows, further)
+        components = np.concatenate((vectors[:6], impulses.take(loaded, axis=1), vectors[6:]))
+        return ContactCopies(components, self._bodies.copy_at(rows))
 
     def contacts(self, copies: Sequence[ContactCopies]) -> Contacts:
-        """Contact points that carry a load, also those of sleeping bodies, which keep their last one.
-
-        Parameters
-        ----------
-        copies
-            Those of s sub-steps.
-        """
-        values = np.concatenate([copy.values for copy in copies], axis=1)
+        """Return the contact points in copies of s sub-steps, also those of sleeping bodies, which keep their last."""
+        values = np.concatenate([copy.components for copy in copies], axis=1)
         bodies = np.concatenate([copy.bodies for copy in copies], axis=1)
-        substeps = np.repeat(np.arange(len(copies)), [copy.values.shape[1] for copy in copies])
+        substeps = np.repeat(np.arange(len(copies)), [copy.components.shape[1] for copy in copies])
         _check_directions(values)
         first, second = values[7] * values[9:12], values[8] * values[12:15]
         # Bullet leaves the second direction unset where it solved only one.
@@ -167,9 +149,9 @@ class ContactReader:
         return Contacts(substeps, self._indices(bodies).T, values[0:3].T, values[3:6].T, values[6], tangential.T)
 
     def forget(self, rows: np.ndarray) -> None:
-        """Drop all contact points of bodies (k,) that were put elsewhere; Bullet finds those of their new places.
+        """Drop all contact points of bodies (k,) that were put elsewhere; Bullet finds those of their new positions.
 
-        It would take the way that they were moved for how deep they are in others, and push them apart by a part of it.
+        It would take the distance that they were moved by for how deep they are in others, and push them apart.
         """
         manifolds, layout = self._checked_manifolds(), self._layout.manifold
         pairs = [self._indices(gather_pointers(manifolds + np.uint64(side))) for side in (layout.body_a, layout.body_b)]
@@ -179,51 +161,36 @@ class ContactReader:
     def _find(self, manifolds: np.ndarray) -> None:
         """Note where everything is in manifolds at these addresses."""
         layout = self._layout.manifold
-        self._manifolds_found = manifolds
-        self._counts = Places(manifolds, [layout.count], np.int32)
-        self._bodies = Places(manifolds, [layout.body_a, layout.body_b], np.uint64)
-        self._impulses = Places(manifolds, self._impulse_offsets)
-        self._others = Places(manifolds, self._other_offsets)
+        self._known_manifolds = manifolds
+        self._counts = Fields(manifolds, [layout.count], np.int32)
+        self._bodies = Fields(manifolds, [layout.body_a, layout.body_b], np.uint64)
+        self._impulses = Fields(manifolds, self._impulse_offsets)
+        self._vectors = Fields(manifolds, self._vector_offsets)
 
     def _checked_manifolds(self) -> np.ndarray:
-        """Addresses of all manifolds, checked when the first are there."""
-        manifolds = self._manifolds()
-        if len(manifolds) and not self._is_checked:
-            check_contacts(self._layout, manifolds, set(self._sorted.tolist()))
-            self._is_checked = True
-        return manifolds
-
-    def _manifolds(self) -> np.ndarray:
-        """Addresses of all manifolds, from Bullet's pool and from beyond it."""
+        """Addresses of all manifolds, from Bullet's pool and from beyond it; checked when the first are there."""
         layout, address = self._layout.dispatcher, self._dispatcher
-        if not self._is_checked:
-            return _doubtful_manifolds(self._layout, address)
-        count = int(gather_integers(np.array([address + layout.manifold_count]))[0])
+        count_field, data_field = address + layout.manifold_count, address + layout.manifold_data
+        count = int(gather_integers(np.array([count_field]))[0] if self._is_checked else read_value(count_field, "i"))
         if not 0 <= count <= _MOST_MANIFOLDS:
             raise LayoutError(f"{count} contacts")
-        data = int(gather_pointers(np.array([address + layout.manifold_data]))[0])
-        return copy_pointers(data, count) if count else np.zeros(0, np.uint64)
+        if self._is_checked:
+            return copy_pointers(int(gather_pointers(np.array([data_field]))[0]), count)
+        manifolds = read_pointers(data_field, count, "the list of contacts")
+        _check_contacts(self._layout, manifolds, set(self._sorted.tolist()))
+        self._is_checked = count > 0
+        return manifolds
 
     def _indices(self, addresses: np.ndarray) -> np.ndarray:
-        places = np.minimum(np.searchsorted(self._sorted, addresses), len(self._sorted) - 1)
-        if not (self._sorted[places] == addresses).all():
+        """Bodies at addresses, by their indices."""
+        indices = np.minimum(np.searchsorted(self._sorted, addresses), len(self._sorted) - 1)
+        if not (self._sorted[indices] == addresses).all():
             raise LayoutError("a contact names a body that is not in the scene")
-        return self._order[places]
+        return self._order[indices]
 
 
-def _doubtful_manifolds(layout: Layout, dispatcher: int) -> np.ndarray:
-    """Addresses of all manifolds, read without trust."""
-    count = read_value(dispatcher + layout.dispatcher.manifold_count, "i")
-    if not 0 <= count <= _MOST_MANIFOLDS:
-        raise LayoutError(f"{count} contacts")
-    raw = read(read_pointer(dispatcher + layout.dispatcher.manifold_data), 8 * count) if count else b""
-    if raw is None:
-        raise LayoutError("the list of contacts cannot be read")
-    return np.frombuffer(raw, np.uint64)
-
-
-def check_contacts(layout: Layout, manifolds: np.ndarray, bodies: set[int]) -> None:
-    """Contacts name known bodies, and their points hold together geometrically. Reads without trust."""
+def _check_contacts(layout: Layout, manifolds: np.ndarray, bodies: set[int]) -> None:
+    """Contacts name known bodies, and their points agree with each other."""
     left = _CHECKED_POINTS
     for manifold in manifolds.tolist():
         raw = read(manifold + layout.manifold.body_a, _MANIFOLD_END.size)
@@ -250,13 +217,12 @@ def _check_point(layout: Layout, address: int, frictions: list[float]) -> None:
     def vector(offset: int) -> np.ndarray:
         return doubles[offset // 8 : offset // 8 + 3]
 
-    normal, gap = vector(point.normal), vector(point.place_on_a) - vector(point.place_on_b)
-    reach = 1.0 + abs(vector(point.place_on_a)).max()
-    # Bullet multiplies the two.
+    normal, gap = vector(point.normal), vector(point.position_on_a) - vector(point.position_on_b)
+    size = 1.0 + abs(vector(point.position_on_a)).max()
     friction = min(frictions[0] * frictions[1], _LARGEST_FRICTION)
     checks: Mapping[str, bool] = {
         "normal": bool(abs(length(normal) - 1.0) <= _UNIT),
-        "distance": bool(abs(dot(gap, normal) - doubles[point.distance // 8]) <= _UNIT * reach),
+        "distance": bool(abs(dot(gap, normal) - doubles[point.distance // 8]) <= _UNIT * size),
         "friction": abs(doubles[point.friction // 8] - friction) <= _UNIT * (1.0 + friction),
         "normal impulse": 0.0 <= doubles[point.normal_impulse // 8] < np.inf,
     }

@@ -1,8 +1,8 @@
 """Having Blender pass over the force fields of a scene in frames in which none of them pushes.
 
-In every sub-step Blender holds every field against every body, even fields without strength: with a thousand of each,
-a frame takes three times as long. It asks for the fields of the collection that the rigid-body world is limited to,
-where it is limited to one, and knows of none in the scene's own root collection, which can be chosen for no such limit.
+In every sub-step Blender applies every field to every body, even fields without strength: with a thousand of each, a
+frame takes three times as long. If the rigid-body world is limited to a collection, only fields in it act. Blender
+finds none in the scene's own root collection, which users cannot choose as the limit.
 
 So a pointer to that collection is written, into the evaluated copy of the scene only: set through Python, the limit
 would belong to the user's scene, and would have all of Blender's relations built again.
@@ -21,18 +21,13 @@ INFLUENCES = (
     *("all", "force", "vortex", "magnetic", "wind", "curve_guide", "texture", "harmonic"),
     *("charge", "lennardjones", "boid", "turbulence", "drag", "smokeflow", "gravity"),
 )
-"""Of the kinds of fields and of gravity: floats behind the pointer to the collection, by which it is known."""
+"""Weights of the kinds of fields and of gravity: floats behind the pointer to the collection, which mark it."""
 
 
 def ignore_fields(scene: bpy.types.Scene) -> None:
     """Let no field act in the coming frames, until `let_fields_act` or the next update of the scene's evaluated copy.
 
-    A world that is limited to a collection by its user is left alone.
-
-    Raises
-    ------
-    LayoutError
-        Memory is not as expected; nothing has been written.
+    A world that its user has limited to a collection stays. Raises a `LayoutError` if memory is not as expected.
     """
     for evaluated in evaluated_scenes(scene):
         if evaluated.rigidbody_world.effector_weights.collection is None:
@@ -40,13 +35,7 @@ def ignore_fields(scene: bpy.types.Scene) -> None:
 
 
 def let_fields_act(scene: bpy.types.Scene) -> None:
-    """Let fields act again.
-
-    Raises
-    ------
-    LayoutError
-        Memory is not as expected; nothing has been written.
-    """
+    """Let fields act again. Raises a `LayoutError` if memory is not as expected."""
     for evaluated in evaluated_scenes(scene):
         if evaluated.rigidbody_world.effector_weights.collection == evaluated.collection:
             _limit(evaluated, 0)

@@ -4,13 +4,37 @@ Bullet 3.07 as Blender 4.2 to 5.2 compiles it, in double precision. The Linux an
 C++ ABI and were measured on Linux; the Windows columns follow Microsoft's ABI, where vectors are aligned to 16 bytes.
 They are confirmed with the Windows build of bpy 5.0.1 under wine: `scripts/test_windows` passes all of `tests/bullet`
 and the tests of elastic connections there. A table is never trusted for its platform's sake: `checks` holds every
-entry against values that Blender itself gives out.
+entry that is written as a number against values of Blender.
 """
 
 from __future__ import annotations
 
 import sys
 from dataclasses import dataclass, replace
+
+
+@dataclass(frozen=True, slots=True)
+class Behind:
+    """Offset of what lies so many bytes behind another field of its structure."""
+
+    field: str
+    distance: int
+
+    def __get__(self, structure: object, _class: type) -> int:
+        return int(getattr(structure, self.field)) + self.distance
+
+
+@dataclass(frozen=True, slots=True)
+class SpringRows:
+    """Offsets of a value in the six rows of a spring, from where its shifts and its first rotation begin."""
+
+    linear: int
+    angular: int
+
+    def __get__(self, spring: SpringLayout, _class: type) -> tuple[int, ...]:
+        shifts = (spring.linear + self.linear + 8 * row for row in range(3))
+        rotations = (spring.angular + self.angular + spring.angular_size * row for row in range(3))
+        return (*shifts, *rotations)
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,20 +50,9 @@ class BlenderLayout:
     physics_world_broadphase: int = 24
     physics_world_solver: int = 32
 
-    @property
-    def world_last_frame(self) -> int:
-        """Frame simulated last, a float before the shared part."""
-        return self.world_shared - 4
-
-    @property
-    def world_iterations(self) -> int:
-        """Iterations of the solver, a short after the sub-steps."""
-        return self.world_substeps + 2
-
-    @property
-    def world_time_scale(self) -> int:
-        """Time scale, behind the two shorts and the flags."""
-        return self.world_substeps + 8
+    world_last_frame = Behind("world_shared", -4)  # frame simulated last, a float
+    world_iterations = Behind("world_substeps", 2)  # of the solver, a short
+    world_time_scale = Behind("world_substeps", 8)  # behind the two shorts and the flags
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,50 +70,16 @@ class BodyLayout:
     gravity: int
     linear_damping: int
 
-    @property
-    def linear_velocity(self) -> int:
-        """Two vectors before the inverse mass."""
-        return self.inverse_mass - 64
-
-    @property
-    def angular_velocity(self) -> int:
-        """The vector before the inverse mass."""
-        return self.inverse_mass - 32
-
-    @property
-    def inverse_inertia(self) -> int:
-        """Inverse tensor of inertia in the axes of the world, three rows just before the linear velocity."""
-        return self.inverse_mass - 160
-
-    @property
-    def total_force(self) -> int:
-        """Sum of the forces of the coming step, three vectors after the body's weight; the torque follows."""
-        return self.gravity + 96
-
-    @property
-    def activation(self) -> int:
-        """State of activation, in the block of settings that ends with the user pointer."""
-        return self.user_pointer - 72
-
-    @property
-    def deactivation_time(self) -> int:
-        """How long the body has been slow, behind its state of activation."""
-        return self.activation + 8
-
-    @property
-    def ignored_bodies_count(self) -> int:
-        """Length of the list of bodies that this one does not collide with."""
-        return self.user_pointer + 60
-
-    @property
-    def ignored_bodies_data(self) -> int:
-        """First entry of that list."""
-        return self.user_pointer + 72
-
-    @property
-    def constraints(self) -> int:
-        """Array of the constraints that keep the body from colliding, behind damping and motion state."""
-        return self.linear_damping + 80
+    inverse_inertia = Behind("inverse_mass", -160)  # three rows of the tensor in the axes of the world
+    linear_velocity = Behind("inverse_mass", -64)
+    angular_velocity = Behind("inverse_mass", -32)
+    total_force = Behind("gravity", 96)  # in the coming step, with the weight
+    total_torque = Behind("gravity", 128)
+    activation = Behind("user_pointer", -72)  # state of activation
+    deactivation_time = Behind("user_pointer", -64)  # how long the body has been slow
+    ignored_bodies_count = Behind("user_pointer", 60)  # length of the list of bodies that it does not collide with
+    ignored_bodies_data = Behind("user_pointer", 72)  # first entry of that list
+    constraints = Behind("linear_damping", 80)  # array of those that keep the body from colliding
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,38 +90,19 @@ class ConstraintLayout:
     breaking_threshold: int = 24
     body_a: int = 40
 
-    @property
-    def enabled(self) -> int:
-        """Set until the constraint breaks."""
-        return self.body_a - 8
-
-    @property
-    def body_b(self) -> int:
-        """The other body."""
-        return self.body_a + 8
-
-    @property
-    def applied_impulse(self) -> int:
-        """Impulse of the constraint's last solver row, which is all that Bullet itself compares and shows."""
-        return self.body_a + 16
-
-    @property
-    def drawing_size(self) -> int:
-        """Size for debug drawings, which Blender leaves at its default."""
-        return self.body_a + 24
-
-    @property
-    def joint_feedback(self) -> int:
-        """Where Bullet writes the constraint's loads, when set."""
-        return self.body_a + 32
+    enabled = Behind("body_a", -8)  # set until the constraint breaks
+    body_b = Behind("body_a", 8)
+    applied_impulse = Behind("body_a", 16)  # of the last solver row, which is all that Bullet compares with thresholds
+    drawing_size = Behind("body_a", 24)  # in debug drawings; Blender leaves it at its default
+    joint_feedback = Behind("body_a", 32)  # where Bullet writes the constraint's loads, when set
 
 
 @dataclass(frozen=True, slots=True)
 class SpringLayout:
-    """btGeneric6DofSpring2Constraint: what Blender makes of FIXED, and of springs of the second kind.
+    """btGeneric6DofSpring2Constraint: Blender makes it for FIXED, and for springs of the second kind.
 
     Frames are three rows of four doubles and an origin. Limits of the three shifts lie beside one another; those of
-    each turn lie in a block of their own.
+    each rotation lie in a block of their own.
     """
 
     linear: int
@@ -152,30 +112,10 @@ class SpringLayout:
     frame_b: int = 208
     angular_size: int = 176
 
-    @property
-    def lower(self) -> tuple[int, ...]:
-        """Lower limits of the six rows."""
-        return self._rows(0, 0)
-
-    @property
-    def upper(self) -> tuple[int, ...]:
-        """Upper limits."""
-        return self._rows(32, 8)
-
-    @property
-    def correction(self) -> tuple[int, ...]:
-        """Shares of an error that are corrected in a sub-step (ERP)."""
-        return self._rows(96, 24)
-
-    @property
-    def softness(self) -> tuple[int, ...]:
-        """How much the rows give way (CFM)."""
-        return self._rows(128, 32)
-
-    def _rows(self, linear: int, angular: int) -> tuple[int, ...]:
-        shifts = (self.linear + linear + 8 * row for row in range(3))
-        turns = (self.angular + angular + self.angular_size * row for row in range(3))
-        return (*shifts, *turns)
+    lower = SpringRows(0, 0)  # lower limits
+    upper = SpringRows(32, 8)  # upper limits
+    correction = SpringRows(96, 24)  # shares of an error that are corrected in a sub-step (ERP)
+    softness = SpringRows(128, 32)  # CFM
 
 
 @dataclass(frozen=True, slots=True)
@@ -187,50 +127,15 @@ class WorldLayout:
     solver_settings: int = 176
     solver: int = 456
 
-    @property
-    def bodies(self) -> int:
-        """Array of all bodies, just before the dispatcher."""
-        return self.dispatcher - 32
-
-    @property
-    def constraints(self) -> int:
-        """Array of all constraints, two pointers behind the solver."""
-        return self.solver + 16
-
-    @property
-    def moving_bodies(self) -> int:
-        """Array of the bodies that can move, behind that of the constraints."""
-        return self.solver + 48
-
-    @property
-    def after_step(self) -> int:
-        """Function that is called after every step; Blender sets none."""
-        return self.solver_settings - 24
-
-    @property
-    def before_step(self) -> int:
-        """Function that is called before every step, once gravity is in the forces; Blender sets none."""
-        return self.solver_settings - 16
-
-    @property
-    def user_info(self) -> int:
-        """Field for the user of the library, just before the solver's settings; Blender does not use it."""
-        return self.solver_settings - 8
-
-    @property
-    def step(self) -> int:
-        """Length of the last sub-step."""
-        return self.solver_settings + 24
-
-    @property
-    def iterations(self) -> int:
-        """Iterations of the solver."""
-        return self.solver_settings + 40
-
-    @property
-    def warm_starting(self) -> int:
-        """Share of the last impulses that the solver starts with."""
-        return self.solver_settings + 160
+    bodies = Behind("dispatcher", -32)  # array of all bodies
+    constraints = Behind("solver", 16)  # array of all constraints
+    moving_bodies = Behind("solver", 48)  # array of the bodies that can move
+    after_step = Behind("solver_settings", -24)  # function called after every step; Blender sets none
+    before_step = Behind("solver_settings", -16)  # the same before it, once gravity is in the forces
+    user_info = Behind("solver_settings", -8)  # for the user of the library; Blender does not use it
+    step = Behind("solver_settings", 24)  # length of the last sub-step
+    iterations = Behind("solver_settings", 40)
+    warm_starting = Behind("solver_settings", 160)  # share of the last impulses that the solver starts with
 
 
 @dataclass(frozen=True, slots=True)
@@ -240,40 +145,13 @@ class ContactPointLayout:
     size: int
     normal: int = 128
 
-    @property
-    def place_on_b(self) -> int:
-        """Where the contact is on the second body."""
-        return self.normal - 64
-
-    @property
-    def place_on_a(self) -> int:
-        """Where it is on the first body."""
-        return self.normal - 32
-
-    @property
-    def distance(self) -> int:
-        """How far apart the two bodies are, negative inside each other."""
-        return self.normal + 32
-
-    @property
-    def friction(self) -> int:
-        """Combined friction of the two bodies."""
-        return self.normal + 40
-
-    @property
-    def normal_impulse(self) -> int:
-        """Impulse along the normal."""
-        return self.normal + 104
-
-    @property
-    def lateral_impulses(self) -> int:
-        """Impulses along the two lateral directions."""
-        return self.normal + 120
-
-    @property
-    def lateral_directions(self) -> int:
-        """The two directions, one after the other."""
-        return self.size - 64
+    position_on_b = Behind("normal", -64)
+    position_on_a = Behind("normal", -32)
+    distance = Behind("normal", 32)  # between the two bodies, negative inside each other
+    friction = Behind("normal", 40)  # of the two bodies combined
+    normal_impulse = Behind("normal", 104)
+    lateral_impulses = Behind("normal", 120)  # along the two lateral directions
+    lateral_directions = Behind("size", -64)  # one after the other
 
 
 @dataclass(frozen=True, slots=True)
@@ -283,20 +161,13 @@ class ManifoldLayout:
     points: int
     point: ContactPointLayout
 
+    body_b = Behind("body_a", 8)
+    count = Behind("body_a", 16)  # number of contact points
+
     @property
     def body_a(self) -> int:
         """First body."""
         return self.points + 4 * self.point.size
-
-    @property
-    def body_b(self) -> int:
-        """Second body."""
-        return self.body_a + 8
-
-    @property
-    def count(self) -> int:
-        """Number of contact points."""
-        return self.body_a + 16
 
 
 @dataclass(frozen=True, slots=True)
@@ -305,15 +176,8 @@ class DispatcherLayout:
 
     manifolds: int = 16
 
-    @property
-    def manifold_count(self) -> int:
-        """Length of the array."""
-        return self.manifolds + 4
-
-    @property
-    def manifold_data(self) -> int:
-        """First entry of the array."""
-        return self.manifolds + 16
+    manifold_count = Behind("manifolds", 4)
+    manifold_data = Behind("manifolds", 16)  # first entry
 
 
 @dataclass(frozen=True, slots=True)
@@ -384,15 +248,13 @@ RIGID_BODY = 2
 """Bullet's internal type of a rigid body (btCollisionObject::CO_RIGID_BODY)."""
 
 AWAKE, WANTS_SLEEP, ASLEEP, DISABLED = 1, 3, 2, 5
-"""Activation states of a body that is simulated, that is about to rest, that rests until something wakes it, and of one
-that is not simulated whatever happens to it.
-"""
+"""Activation states of a body: simulated, about to rest, at rest until something wakes it, and never simulated."""
 
 SLEEPING = frozenset({ASLEEP, DISABLED})
-"""Activation states in which a body is not simulated: asleep and disabled."""
+"""Activation states in which a body is not simulated."""
 
-ACTIVATION_STATES = frozenset({1, 2, 3, 4, 5})
-"""Active, sleeping, wants to sleep, never sleeps, disabled."""
+ACTIVATION_STATES = frozenset({AWAKE, ASLEEP, WANTS_SLEEP, 4, DISABLED})
+"""All activation states; 4 is that of a body that never sleeps."""
 
 CONSTRAINT_TYPES = {
     "POINT": frozenset({3}),
@@ -407,15 +269,15 @@ CONSTRAINT_TYPES = {
 """Bullet's number (btTypedConstraintType) for each kind of constraint that Blender makes."""
 
 WARM_STARTING = 0.85
-"""Bullet's default warm-starting factor, which Blender leaves alone: a mark to know the solver's settings by."""
+"""Bullet's default warm-starting factor, which Blender keeps: a mark to know the solver's settings by."""
 
 DRAWING_SIZE = 0.05
 """Bullet's default size for debug drawings of constraints, in single precision: a mark to know a constraint by."""
 
 FIRST_STEP_S = 1.0 / 60.0
-"""What the solver of a new world names as its step, in single precision, before it has taken any."""
+"""Step of a new world's solver before it has taken any, in single precision."""
 
 
 def platform_layout() -> Layout:
-    """Layout of the platform that Blender runs on."""
+    """Return the layout of the platform that Blender runs on."""
     return MICROSOFT if sys.platform == "win32" else SYSTEM_V

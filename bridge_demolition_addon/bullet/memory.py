@@ -1,8 +1,7 @@
 """Reading and writing this process's memory by address.
 
-Two ways: `read` asks the operating system and cannot fault, whatever the address, and serves while an address is
-still in doubt; the gathering functions read and write many addresses at once with numpy, and are only for addresses
-that have been checked.
+`read` asks the operating system and cannot fault, whatever the address: it serves until an address is checked. All
+others read and write many checked addresses at once with numpy.
 """
 
 from __future__ import annotations
@@ -45,23 +44,23 @@ def read_pointer(address: int) -> int:
     return pointer
 
 
-def gather_doubles(addresses: np.ndarray, count: int = 1, columns: np.ndarray | None = None) -> np.ndarray:
-    """Doubles at each of the checked addresses (n,): `count` in a row, or those at `columns` (c,); as (n, c)."""
-    columns = np.arange(count) if columns is None else columns
-    return _DOUBLES.take(_indices(addresses, 8)[:, None] + columns)
+def read_pointers(field: int, count: int, name: str) -> np.ndarray:
+    """So many pointers (count,) uint64 in the array that the pointer in a field names; never faults."""
+    raw = read(read_pointer(field), 8 * count) if count else b""
+    if raw is None:
+        raise LayoutError(f"{name} cannot be read")
+    return np.frombuffer(raw, np.uint64)
 
 
-class Places:
-    """The same c values at each of n checked addresses, to be copied again and again.
+def gather_doubles(addresses: np.ndarray, count: int = 1) -> np.ndarray:
+    """So many doubles in a row (n, count) at each of the checked addresses (n,)."""
+    return _DOUBLES.take(_indices(addresses, 8)[:, None] + np.arange(count))
 
-    Parameters
-    ----------
-    addresses
-        (n,) where each structure begins.
-    offsets
-        (c,) of the values in it, in bytes.
-    type_
-        What the values are.
+
+class Fields:
+    """The same c fields of n structures, to be copied again and again.
+
+    The structures begin at checked addresses (n,); the fields lie at offsets (c,) in bytes.
     """
 
     def __init__(
@@ -73,13 +72,13 @@ class Places:
         self._indices: np.ndarray | None = None
 
     def copy(self) -> np.ndarray:
-        """Values (c, n) as they are now."""
+        """Return the values (c, n) as they are now."""
         if self._indices is None:
             self._indices = self._starts + self._offsets
         return self._space.take(self._indices)
 
     def copy_at(self, rows: np.ndarray, further: np.ndarray | int = 0) -> np.ndarray:
-        """Values (c, k) in some of the structures (k,), each so many bytes (k,) behind the offsets."""
+        """Return the values (c, k) in structures (k,), each so many bytes (k,) behind the offsets."""
         return self._space.take(self._starts.take(rows) + further // self._space.itemsize + self._offsets)
 
 
@@ -141,7 +140,7 @@ def write_pointers(addresses: np.ndarray | int, pointers: np.ndarray | np.uint64
 
 
 class _AddressSpace:
-    """The whole address space of user programs, offered to numpy as one array without a copy."""
+    """The whole address space of user programs, as one array of numpy without a copy."""
 
     def __init__(self, type_: str, item_size: int):
         shape = ((_HIGHEST - _LOWEST) // item_size,)
@@ -218,9 +217,5 @@ def _mac_reader() -> Callable[[int, int], bytes | None]:
     return read_mac
 
 
-def _no_reader() -> Callable[[int, int], bytes | None]:
-    return lambda address, size: None
-
-
 _READERS = {"linux": _linux_reader, "win32": _windows_reader, "darwin": _mac_reader}
-_read_own_process = _READERS.get(sys.platform, _no_reader)()
+_read_own_process = _READERS.get(sys.platform, lambda: lambda _address, _size: None)()

@@ -2,24 +2,22 @@
 
 When a body or a connection is deleted, Blender frees Bullet's part of it, but not everything that points at it: freed
 constraints stay in the world, and in the lists of their bodies; freed bodies stay in their constraints and, depending
-on how they were deleted, in the world. Blender comes to grief over them when it next takes a step, validates the
-constraints or frees the world for a new one, which it makes at the start frame.
+on how they were deleted, in the world. Blender crashes over them when it next takes a step, validates the constraints
+or frees the world for a new one, which it makes at the start frame.
 
-So all these pointers are taken out here. What is left must not be simulated any more (`time_control.stop_time`), as
+So all these pointers are taken out here. The rest must not be simulated any more (`time_control.stop_time`), as
 collision detection still knows the freed bodies.
 """
 
 from __future__ import annotations
 
-import itertools
-
-import bpy
 import numpy as np
 
 from ..errors import LayoutError
+from .binding import bodies_in_use
 from .collision_pairs import let_collide
 from .layout import Layout
-from .memory import read, read_pointer, read_value, write_integers, write_pointers
+from .memory import read, read_pointer, read_pointers, read_value, write_integers, write_pointers
 
 _MOST_ENTRIES = 10_000_000
 _INERT_BYTES = 4096
@@ -30,28 +28,15 @@ _inert_bodies: list[np.ndarray] = []
 
 
 class PointerArray:
-    """One of Bullet's arrays of pointers, read without trust.
-
-    Parameters
-    ----------
-    layout
-        Byte offsets.
-    address
-        Of the array's structure.
-    known
-        All pointers that may be in it.
-    """
+    """One of Bullet's arrays, at the address of its structure, read without trust: only known pointers may be in it."""
 
     def __init__(self, layout: Layout, address: int, known: set[int]):
         self._count_field = address + layout.array.count
         count, capacity = (read_value(address + field, "i") for field in (layout.array.count, layout.array.capacity))
         if not 0 <= count <= capacity <= _MOST_ENTRIES:
             raise LayoutError(f"an array of Bullet has {count} of {capacity} entries")
-        self._data = read_pointer(address + layout.array.data) if count else 0
-        raw = read(self._data, 8 * count) if count else b""
-        if raw is None:
-            raise LayoutError("an array of Bullet cannot be read")
-        self.entries = np.frombuffer(raw, np.uint64).tolist()
+        self._data_field = address + layout.array.data
+        self.entries = read_pointers(self._data_field, count, "an array of Bullet").tolist()
         if not known.issuperset(self.entries):
             raise LayoutError("an array of Bullet holds what Blender did not put there")
 
@@ -60,20 +45,12 @@ class PointerArray:
         entries = np.array([entry for entry in self.entries if entry in kept], np.uint64)
         if len(entries) == len(self.entries):
             return
-        write_pointers(self._data + 8 * np.arange(len(entries)), entries)
+        write_pointers(read_pointer(self._data_field) + 8 * np.arange(len(entries)), entries)
         write_integers(np.array([self._count_field]), len(entries))
 
 
 class Fingerprints:
-    """What constraints in use begin with, to tell them from memory that was freed.
-
-    Parameters
-    ----------
-    layout
-        Byte offsets.
-    constraints
-        (m,) addresses of btTypedConstraints that have been checked.
-    """
+    """First bytes of checked constraints at addresses (m,), to tell them from memory that was freed."""
 
     def __init__(self, layout: Layout, constraints: np.ndarray):
         # Class, type and the two bodies; a flag in between changes when the constraint breaks.
@@ -83,7 +60,7 @@ class Fingerprints:
         self._prints = {address: self._print(address) for address in constraints.tolist()}
 
     def still_there(self, addresses: np.ndarray) -> np.ndarray:
-        """Whether each of the addresses (k,) is still the constraint that it was, and not freed."""
+        """Return whether at each of the addresses (k,) there is still its constraint."""
         prints = (self._print(address) == self._prints[address] for address in addresses.tolist())
         return np.fromiter(prints, bool, len(addresses))
 
@@ -95,23 +72,13 @@ class Fingerprints:
 def detach_freed(
     layout: Layout, dynamics: int, bodies: np.ndarray, connections: np.ndarray, alive: np.ndarray, *, bodies_stay: bool
 ) -> None:
-    """Take out of a world all that may point at freed memory.
+    """Take out of the world at an address all that may point at freed memory.
 
-    Parameters
-    ----------
-    layout
-        Byte offsets.
-    dynamics
-        Address of the btDiscreteDynamicsWorld.
-    bodies, connections
-        Addresses (n,), (m,) of all bodies and constraints that it had when it was checked.
-    alive
-        (m,) whether each constraint is still there.
-    bodies_stay
-        Whether the bodies that are there now will not be freed before the world is.
+    When it was checked it had bodies and connections at addresses (n,) and (m,), of which those that are alive are
+    still there. With `bodies_stay` the bodies of now will not be freed before the world is.
     """
     known_bodies, known_connections = set(bodies.tolist()), set(connections.tolist())
-    living = known_bodies & _bodies_in_use(layout)
+    living = known_bodies & bodies_in_use(layout)
     world = layout.world
     constraints = PointerArray(layout, dynamics + world.constraints, known_connections)
     everything = PointerArray(layout, dynamics + world.bodies, known_bodies)
@@ -125,31 +92,20 @@ def detach_freed(
 
 
 def take_bodies_from(layout: Layout, connections: np.ndarray, body_class: int = 0) -> None:
-    """Give constraints at addresses (k,) an inert body of a class in place of their own, which may be freed."""
+    """Give constraints at addresses (k,) an inert body in place of their own, which may be freed."""
     inert = _inert_body(body_class)
     for field in (layout.constraint.body_a, layout.constraint.body_b):
         write_pointers(connections + np.uint64(field), inert)
 
 
 def take_out_constraints(layout: Layout, dynamics: int, bodies: np.ndarray, known: set[int], gone: set[int]) -> None:
-    """Take constraints out of a world that goes on, which Blender frees without doing so.
+    """Take constraints, some of which Blender has freed, out of a world at an address that goes on.
 
-    Parameters
-    ----------
-    layout
-        Byte offsets.
-    dynamics
-        Address of the btDiscreteDynamicsWorld.
-    bodies : (n,) uint64
-        Addresses of all bodies.
-    known
-        Addresses of all constraints that may be in the world.
-    gone
-        Those to take out; they may be freed by now.
+    All its bodies are at addresses (n,); of the known constraints that may be in it, those that are gone are taken out.
     """
     in_world = PointerArray(layout, dynamics + layout.world.constraints, known)
     lists = {body: PointerArray(layout, body + layout.body.constraints, known) for body in bodies.tolist()}
-    lost = {body: gone.intersection(each.entries) for body, each in lists.items()}
+    lost = {body: gone.intersection(array.entries) for body, array in lists.items()}
     in_world.keep(known - gone)
     for array in lists.values():
         array.keep(known - gone)
@@ -159,19 +115,8 @@ def take_out_constraints(layout: Layout, dynamics: int, bodies: np.ndarray, know
             let_collide(layout, *pair)
 
 
-def _bodies_in_use(layout: Layout) -> set[int]:
-    """Addresses of the btRigidBodies of all objects that there are now."""
-    addresses = set()
-    for body in itertools.compress(bpy.data.objects, (obj.rigid_body for obj in bpy.data.objects)):
-        shared = read_pointer(body.rigid_body.as_pointer() + layout.blender.body_shared)
-        holder = read_pointer(shared) if shared else 0
-        if holder:
-            addresses.add(read_pointer(holder))
-    return addresses
-
-
 def _inert_body(class_address: int) -> int:
-    """Address of a body that no constraint holds and that ignores no other."""
+    """Return the address of a body that no constraint holds and that ignores no other."""
     raw = np.zeros(_INERT_BYTES // 8 + 1, np.uint64)
     _inert_bodies.append(raw)
     address = raw.ctypes.data + raw.ctypes.data % 16

@@ -1,12 +1,11 @@
 """Setting how much time passes in the coming frame.
 
-Blender takes the first step in the same breath as it makes its Bullet world, before anything can be asked of that
-world. With a time scale of 0 it makes the world and takes no step. And where the time scale is animated, Blender may
-simulate a frame before it has animated it: nothing in its order of work forbids that.
+Blender makes its Bullet world and takes the first step at once, before anything can be read from that world. With a
+time scale of 0 it makes the world and takes no step. And where the time scale is animated, Blender may simulate a frame
+before it has animated it: its order of work does not forbid that.
 
 So the time scale is written before each such frame, into the evaluated copy of the scene only: setting it through
-Python would touch the user's scene, and would mark the point cache as outdated, so that nothing could be played back
-afterwards.
+Python would change the user's scene, and mark the point cache as outdated, so that nothing could be played back.
 """
 
 from __future__ import annotations
@@ -26,10 +25,7 @@ _NEVER = -2_000_000.0
 def set_time_scale(scene: bpy.types.Scene, time_scale: float) -> None:
     """Let the coming frame have a time scale; with 0 no simulated time passes in it.
 
-    Raises
-    ------
-    LayoutError
-        Memory is not as expected; nothing has been written.
+    Raises a `LayoutError` if memory is not as expected; then nothing has been written.
     """
     for world in _evaluated_worlds(scene):
         _write_time_scale(world, time_scale)
@@ -37,10 +33,8 @@ def set_time_scale(scene: bpy.types.Scene, time_scale: float) -> None:
 
 def set_substeps(scene: bpy.types.Scene, substeps: int) -> None:
     """Let the coming frame have so many sub-steps."""
-    layout = platform_layout()
     for world in _evaluated_worlds(scene):
-        checks.check_settings(layout, world)
-        write_short(world.as_pointer() + layout.blender.world_substeps, substeps)
+        write_short(_field(world, "world_substeps"), substeps)
 
 
 def time_stands_still(depsgraph: bpy.types.Depsgraph) -> bool:
@@ -58,17 +52,11 @@ def release_time(scene: bpy.types.Scene) -> None:
 def stop_time(scene: bpy.types.Scene) -> None:
     """Let Blender take no step until the start frame: it simulates only the frame that follows on its last one.
 
-    Unlike a time scale of 0 this outlasts animation, and an update of the scene's evaluated copy.
-
-    Raises
-    ------
-    LayoutError
-        Memory is not as expected; nothing has been written.
+    Unlike a time scale of 0 this outlasts animation, and an update of the scene's evaluated copy. Raises a
+    `LayoutError` if memory is not as expected; then nothing has been written.
     """
-    layout = platform_layout()
     for world in _evaluated_worlds(scene):
-        checks.check_settings(layout, world)
-        field = world.as_pointer() + layout.blender.world_last_frame
+        field = _field(world, "world_last_frame")
         last = read_value(field, "f")
         if last != _NEVER and not (abs(last) < -_NEVER and last == int(last)):
             raise LayoutError(f"last frame of the world is {last:g}")
@@ -80,6 +68,11 @@ def _evaluated_worlds(scene: bpy.types.Scene) -> list[bpy.types.RigidBodyWorld]:
 
 
 def _write_time_scale(world: bpy.types.RigidBodyWorld, time_scale: float) -> None:
+    write_float(_field(world, "world_time_scale"), time_scale)
+
+
+def _field(world: bpy.types.RigidBodyWorld, name: str) -> int:
+    """Address of a field of Blender's world, which is checked."""
     layout = platform_layout()
     checks.check_settings(layout, world)
-    write_float(world.as_pointer() + layout.blender.world_time_scale, time_scale)
+    return int(world.as_pointer() + getattr(layout.blender, name))

@@ -45,7 +45,7 @@ _buffers_bullet_may_write: list[np.ndarray] = []
 
 
 class WorldState(Enum):
-    """What `BulletWorld.bind` found."""
+    """State of the world at a call of `BulletWorld.bind`."""
 
     ABSENT = "Blender has made no world yet"
     NEW = "a world that was checked and prepared just now"
@@ -54,17 +54,7 @@ class WorldState(Enum):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _BoundWorld:
-    """A world that was checked.
-
-    Attributes
-    ----------
-    dynamics
-        Address of the btDiscreteDynamicsWorld.
-    bodies, constraints
-        What is in it.
-    copies
-        Copies of the connections that have the constraints; None where the connections themselves have them.
-    """
+    """A world that was checked, a btDiscreteDynamicsWorld at an address."""
 
     dynamics: int
     bodies: BodyTable
@@ -82,7 +72,7 @@ class BulletWorld:
     bodies, connections
         Objects with a rigid body, and objects with a rigid-body constraint. All arrays are in their order.
     layout
-        Byte offsets; those of this platform unless given.
+        Byte offsets; by default those of this platform.
     """
 
     def __init__(
@@ -101,9 +91,7 @@ class BulletWorld:
         self._feedback = _aligned_doubles(len(self.connection_objects))
 
     def bind(self, depsgraph: bpy.types.Depsgraph, *, to_read: bool = True) -> WorldState:
-        """Find the world, and check and prepare it where it is new. Cheap where it is not.
-
-        Not for the start frame: there Blender still holds the world of an earlier simulation.
+        """Find the world, and check and prepare it if it is new. Not for the start frame, which has an earlier world.
 
         Parameters
         ----------
@@ -134,7 +122,6 @@ class BulletWorld:
 
     @property
     def _world(self) -> _BoundWorld:
-        """The world that it is bound to."""
         assert self._bound is not None
         return self._bound
 
@@ -153,7 +140,7 @@ class BulletWorld:
     ) -> None:
         """Have functions called before and after every sub-step of this world, with the sub-step's length in s.
 
-        They are called from whatever thread simulates, while Blender's data is in use: they must not touch bpy, and
+        They are called from the thread that simulates, while Blender's data is in use: they must not touch bpy, and
         must not raise. Another world that Blender makes does not know them.
         """
         world = self._layout.world
@@ -162,52 +149,43 @@ class BulletWorld:
             write_pointers(self._world.dynamics + field, address)
 
     def take_substep(self) -> float:
-        """Length in s of the sub-steps taken since the last call, 0.0 where none was taken.
+        """Return the length in s of the sub-steps since the last call, 0.0 where Bullet took none, and clear it.
 
-        Bullet writes the length at every sub-step and never reads it back, so that taking it out tells frames that
-        were simulated from frames that Blender played back from its cache.
+        Bullet writes the length at every sub-step and never reads it: so frames that were simulated differ from frames
+        that Blender played back from its cache.
         """
-        address = self._world.dynamics + self._layout.world.step
-        substep = float(gather_doubles(np.array([address]))[0, 0])
-        write_doubles(np.array([address]), 0.0)
+        field = np.array([self._world.dynamics + self._layout.world.step])
+        substep = float(gather_doubles(field)[0, 0])
+        write_doubles(field, 0.0)
         return substep
 
     def snapshots(self, sides: np.ndarray) -> SnapshotTaker:
-        """What takes snapshots of this world, as long as it is bound.
-
-        Parameters
-        ----------
-        sides
-            (k,) which loads of connections are in them: 2 c for those of connection c on Bullet's body A, 2 c + 1 for
-            those on its body B.
-        """
+        """Return the taker of snapshots of this world, as long as it is bound; with loads on `sides` of connections."""
         return SnapshotTaker(self._layout, self.bodies, self.constraints, sides)
 
     def elastic_rows(self) -> ConstraintRows:
-        """What writes to the rows of the connections of this world, as long as it is bound; all have to exist.
+        """Return the rows of the connections of this world, as long as it is bound; all have to exist.
 
         When the world is released they are as Blender made them again.
         """
-        names = [connection.name for connection in self.connection_objects]
-        exists = self.constraints.exists
+        names, exists = [connection.name for connection in self.connection_objects], self.constraints.exists
         if not exists.all():
             name = names[int(np.argmin(exists))]
             raise SimulationError(f"elastic connection {name!r} is switched off: enable it, or delete it")
         return self.constraints.elastic_rows(names)
 
     def first_is_body_a(self) -> np.ndarray:
-        """Whether `object1` of each connection (m,) is Bullet's body A; True where the connection does not exist."""
+        """Return whether `object1` of each connection (m,) is Bullet's body A; True where no connection exists."""
         exists = self.constraints.exists
         first = np.ones(len(exists), bool)
         by_object = dict(zip(self.body_objects, self.bodies.addresses.tolist(), strict=True))
         existing = itertools.compress(self.connection_objects, exists)
-        expected = [by_object.get(connection.rigid_body_constraint.object1) for connection in existing]
-        body_a = self.constraints.first_bodies().tolist()
-        first[exists] = [a == e for a, e in zip(body_a, expected, strict=True)]
+        objects = [by_object.get(connection.rigid_body_constraint.object1, 0) for connection in existing]
+        first[exists] = self.constraints.first_bodies() == np.array(objects, np.uint64)
         return first
 
     def release(self) -> None:
-        """Take our buffers out of the world again, where it is still the one that was prepared."""
+        """Take our buffers out of the world again, if it is still the one that was prepared."""
         try:
             ours = self._is_bound_to(self._find())
         except (LayoutError, ReferenceError):  # the scene is gone, and its world with it
@@ -221,14 +199,10 @@ class BulletWorld:
         self._bound = None
 
     def detach_freed(self, *, bodies_stay: bool = True) -> None:
-        """Make a world safe that objects are being taken out of; it must not be simulated any more.
+        """Make a world safe from which objects are being removed; it must not be simulated any more.
 
-        Where the bodies that are there now do not stay until the world is freed, it lets go of all of them.
-
-        Raises
-        ------
-        LayoutError
-            Memory is not as expected; nothing has been written but that no loads are read any more.
+        If the bodies of now do not stay until the world is freed, all of them are taken out of it. Raises a
+        `LayoutError` if memory is not as expected; then no loads are read any more, and nothing else has changed.
         """
         if not self._is_bound_to(self._find()):
             return
@@ -241,30 +215,26 @@ class BulletWorld:
         constraints.exists[:] = False
 
     def outlive(self) -> None:
-        """Make the connections of a removed world safe: Blender has freed their bodies, and deletes them later.
+        """Make the connections of a removed world safe, before Blender updates anything.
 
-        To be called before Blender updates anything.
+        Blender has freed their bodies, and deletes the connections later.
         """
         if self._bound is not None:
             self.constraints.forget_freed()
             take_bodies_from(self._layout, self.constraints.existing)
 
     def has_grown(self) -> bool:
-        """Return whether Blender has added anything to the world since it was bound, as it does after an edit."""
+        """Return whether Blender has added anything to the world since it was bound, as after an edit."""
         world, count = self._layout.world, self._layout.array.count
         known = ((world.bodies, len(self.bodies)), (world.constraints, len(self.constraints.existing)))
         return any(read_value(self._world.dynamics + array + count, "i") > number for array, number in known)
 
     def take_out_edited(self) -> list[bpy.types.Object]:
-        """Take out of the world what Blender is about to free, as it was edited; return the connections concerned.
+        """Take edited connections, which Blender is about to free, out of the world; return them.
 
         Blender copies an edited object again. It frees the constraint of the former copy, makes another, and forgets to
-        take the first one out. To be called before Blender updates anything.
-
-        Raises
-        ------
-        LayoutError
-            Memory is not as expected; nothing has been written.
+        take the first one out. To be called before Blender updates anything. Raises a `LayoutError` if memory is not as
+        expected; then nothing has been written.
         """
         if not self._is_bound_to(self._find()) or self._world.copies is None:
             return []
@@ -286,9 +256,8 @@ class BulletWorld:
         return self._bound is not None and dynamics == self._bound.dynamics and self._is_marked(dynamics)
 
     def _is_marked(self, dynamics: int) -> bool:
-        if not (dynamics and self._token):
-            return False
-        return bool(read_value(dynamics + self._layout.world.user_info, "Q") == self._token)
+        token = read_value(dynamics + self._layout.world.user_info, "Q") if dynamics and self._token else 0
+        return bool(token) and token == self._token
 
     def _check(self, dynamics: int, depsgraph: bpy.types.Depsgraph, to_read: bool) -> _BoundWorld:
         """Check a new world from end to end. Nothing is written."""
@@ -302,11 +271,9 @@ class BulletWorld:
         bodies = bodies[bodies != 0]
         for field in (world.user_info, world.before_step, world.after_step):
             if read_value(dynamics + field, "Q") and not self._is_marked(dynamics):
-                raise LayoutError("something else has its hand on Blender's Bullet world")
-        forbids = [
-            connection_object.rigid_body_constraint.disable_collisions for connection_object in self.connection_objects
-        ]
-        forbids_collision = np.array(forbids, bool) & (constraints != 0)
+                raise LayoutError("another program uses Blender's Bullet world")
+        settings = (connection.rigid_body_constraint for connection in self.connection_objects)
+        forbids_collision = np.array([item.disable_collisions for item in settings], bool) & (constraints != 0)
         pairs = CollisionPairs(layout, constraints[forbids_collision], bodies) if to_read else None
         contacts = ContactReader(layout, read_pointer(dynamics + world.dispatcher), bodies)
         table = ConstraintTable(layout, constraints, forbids_collision, pairs, self._feedback)
@@ -314,14 +281,14 @@ class BulletWorld:
 
 
 def _callback(action: Callable[[float], None]) -> Any:
-    """A function as Bullet calls it, never to be freed."""
+    """Return a function as Bullet calls it, never to be freed."""
     callback = _STEP_FUNCTION(lambda _world, substep: action(substep))
     _callbacks_bullet_may_call.append(callback)
     return callback
 
 
 def _aligned_doubles(count: int) -> np.ndarray:
-    """Zeroed feedback blocks (count, 4, 4), aligned so that a body's load is in one cache line, never to be freed."""
+    """Return feedback blocks (count, 4, 4), aligned so that a body's load is in one cache line, never to be freed."""
     raw = np.zeros(count * FEEDBACK_DOUBLES + _CACHE_LINE // 8)
     _buffers_bullet_may_write.append(raw)
     start = (-raw.ctypes.data % _CACHE_LINE) // 8

@@ -68,7 +68,7 @@ def test_every_shifted_offset_is_refused(stepped, group, name, shift):
     for frame in range(3, 9):
         blocks.scene.frame_set(frame)
     assert world.bind(graph) is WorldState.KNOWN
-    assert world.snapshots(np.array([0])).take().forces_n[0, 2] == pytest.approx(-35.0 * 9.80665, rel=1e-3)
+    assert world.snapshots(np.array([0])).take().load_components[2, 0] == pytest.approx(-35.0 * 9.80665, rel=1e-3)
     world.release()
 
 

@@ -28,19 +28,8 @@ from .drivers import Driver
 class FieldBlast:
     """Loads through force-field empties: in each frame one steady force per body, whose impulse is exact.
 
-    Parameters
-    ----------
-    scene : bpy.types.Scene
-        The scene.
-    bodies : (n,) bpy.types.Object
-        Those of its bodies that can be pushed.
-    explosion : Explosion
-        The charges and these bodies.
-
-    Attributes
-    ----------
-    lost_loads : int
-        How often a body has left the reach of its field within a frame, and lost a part of its load.
+    The bodies (n,) are those that can be pushed. `lost_loads` counts how often a body has left its field within a
+    frame, and lost a part of its load.
     """
 
     def __init__(self, scene: bpy.types.Scene, bodies: Sequence[bpy.types.Object], explosion: Explosion):
@@ -52,39 +41,40 @@ class FieldBlast:
         self._pushed = np.zeros(0, int)
         self._directions = np.zeros((0, 3))
         self._reaches: FieldReach | None = None
-        self._centres: np.ndarray | None = None
+        self._positions_m: np.ndarray | None = None
 
-    def before_frame(self, start_s: float, frame_s: float, centres: np.ndarray, rotations: np.ndarray) -> None:
-        """Aim and load the fields for a frame that begins at a time and is that long."""
+    def before_frame(self, start_s: float, frame_s: float, positions_m: np.ndarray, rotations: np.ndarray) -> None:
+        """Aim and load the fields for a frame with a begin and a length, and the bodies at positions (n, 3)."""
         self._fields.rest()
         let_fields_act(self._scene)
         self._loads, self._pushed = no_loads(), np.zeros(0, int)
         if frame_s > 0.0 and not self._explosion.is_quiet(start_s, start_s + frame_s):
-            self._loads = self._explosion.loads(start_s, start_s + frame_s, centres, rotations)
+            self._loads = self._explosion.loads(start_s, start_s + frame_s, positions_m, rotations)
         if len(self._loads):
-            self._push(frame_s, centres)
-        else:
-            self._spare_blender_the_fields()
+            self._push(frame_s, positions_m)
+        elif not has_other_fields(self._scene):
+            with suppress(LayoutError):  # it only takes longer
+                ignore_fields(self._scene)
 
-    def _push(self, frame_s: float, centres: np.ndarray) -> None:
-        impulses = self._loads.vectors(len(centres))
+    def _push(self, frame_s: float, positions_m: np.ndarray) -> None:
+        impulses = self._loads.vectors(len(positions_m))
         sizes = length(impulses)
         self._pushed = np.flatnonzero(sizes > 0.0)
         self._directions = impulses[self._pushed] / sizes[self._pushed, None]
-        self._reaches = isolating_reaches(self._pushed, self._directions, centres)
-        self._centres = centres
+        self._reaches = isolating_reaches(self._pushed, self._directions, positions_m)
+        self._positions_m = positions_m
         forces = sizes[self._pushed] / frame_s
-        self._fields.push(self._pushed, forces, self._directions, centres[self._pushed], self._reaches)
+        self._fields.push(self._pushed, forces, self._directions, positions_m[self._pushed], self._reaches)
 
-    def after_frame(self, centres: np.ndarray) -> StepLoads:
-        """Return the loads of the frame, after which the bodies are at centres (n, 3)."""
+    def after_frame(self, positions_m: np.ndarray) -> StepLoads:
+        """Return the loads of the frame, after which the bodies are at positions (n, 3)."""
         if not self._fields.still_push():
             raise SimulationError(
                 "a force field was changed or deleted while it pushed: leave them alone while the blast goes on"
             )
         if len(self._pushed):
-            moves = (centres - self._centres)[self._pushed]
-            self.lost_loads += int((~given(self._reaches).contain(moves, self._directions)).sum())
+            displacements = (positions_m - self._positions_m)[self._pushed]
+            self.lost_loads += int((~given(self._reaches).contain(displacements, self._directions)).sum())
         return self._loads
 
     def rest(self) -> None:
@@ -93,24 +83,9 @@ class FieldBlast:
         with suppress(LayoutError):  # until Blender makes its evaluated copy again
             let_fields_act(self._scene)
 
-    def _spare_blender_the_fields(self) -> None:
-        """Let it pass over them in the coming frame, where all are ours."""
-        if not has_other_fields(self._scene):
-            with suppress(LayoutError):  # it only takes longer
-                ignore_fields(self._scene)
-
 
 class DirectBlast:
-    """Loads as forces in Bullet, set again in every sub-step.
-
-    Parameters
-    ----------
-    bodies : BodyTable
-    rows : (n,) int
-        Which of them can be pushed.
-    explosion : Explosion
-        The charges and these bodies.
-    """
+    """Loads as forces in Bullet, set again in every sub-step, on the bodies (n,) that can be pushed."""
 
     def __init__(self, bodies: BodyTable, rows: np.ndarray, explosion: Explosion):
         self._bodies, self._rows, self._explosion = bodies, rows, explosion
@@ -126,8 +101,8 @@ class DirectBlast:
         start_s, self._elapsed_s = self._elapsed_s, self._elapsed_s + substep_s
         if self._explosion.is_quiet(start_s, self._elapsed_s):
             return
-        centres, rotations = self._bodies.positions()
-        loads = self._explosion.loads(start_s, self._elapsed_s, centres[self._rows], rotations[self._rows])
+        positions_m, rotations = self._bodies.positions()
+        loads = self._explosion.loads(start_s, self._elapsed_s, positions_m[self._rows], rotations[self._rows])
         if not len(loads):
             return
         pushed = np.flatnonzero(np.bincount(loads.bodies, minlength=len(self._rows)))
@@ -142,20 +117,11 @@ class DirectBlast:
 
 
 class Blast(Driver):
-    """The explosion of a scene while it is simulated.
-
-    Parameters
-    ----------
-    scene, setup
-        The scene, and what decides its run, with charges that go off.
-    world
-        The bound world; None where Bullet's memory is not to be trusted.
-    """
+    """The explosion of a scene while it is simulated; the world is None where Bullet's memory is not to be trusted."""
 
     def __init__(self, scene: bpy.types.Scene, setup: RunSetup, world: BulletWorld | None):
         explosion = setup.explosion()
-        self._rows = setup.pushed_rows
-        self._count = len(setup.bodies)
+        self._rows, self._count = setup.pushed_rows, len(setup.bodies)
         self._fields: FieldBlast | None = None
         self._direct: DirectBlast | None = None
         if setup.blast.apply == Apply.FIELDS:
@@ -169,11 +135,11 @@ class Blast(Driver):
 
     @property
     def lost_loads(self) -> int:
-        """Return how often a body has left the reach of its field within a frame, and lost a part of its load."""
+        """How often a body has left its field within a frame, and lost a part of its load."""
         return self._fields.lost_loads if self._fields else 0
 
     def before_frame(self, start_s: float, frame_s: float, positions_m: np.ndarray, rotations: np.ndarray) -> None:
-        """Prepare a frame that begins at a time, is that long, and finds all bodies at positions (n, 3)."""
+        """Prepare a frame with a begin and a length, and all bodies at positions (n, 3)."""
         if self._fields:
             self._fields.before_frame(start_s, frame_s, positions_m[self._rows], rotations[self._rows])
         elif self._direct:

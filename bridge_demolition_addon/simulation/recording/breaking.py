@@ -91,7 +91,7 @@ class Breaker:
 
         Bullet's own threshold has been at work within the sub-step.
         """
-        rows = self._candidates(reading.snapshot.loads)
+        rows = self._candidates(reading.snapshot.load_components)
         if not len(rows):
             return _NONE
         loads = self._meter.moment(reading)

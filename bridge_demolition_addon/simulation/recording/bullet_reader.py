@@ -188,7 +188,7 @@ class BulletReader:
         return ContactHistory(
             np.full(len(contacts), frame),
             contacts.pairs,
-            contacts.places_m,
+            contacts.positions_m,
             contacts.normals,
             contacts.normal_impulses_ns,
             contacts.tangential_impulses_ns,

@@ -1,4 +1,7 @@
-"""Elastic connections of a world: worked out before each sub-step, put into Bullet as forces, and read with its own."""
+"""Elastic connections of a world: calculated before each sub-step, put into Bullet as forces, and read with its own.
+
+Arrays of vectors have their components first here, as in `engineering.elasticity`, unless they are said to be (r, 3).
+"""
 
 from __future__ import annotations
 
@@ -19,6 +22,7 @@ from ...engineering.elasticity.joint_rows import (
     JointFrames,
     JointRows,
     components_first,
+    components_last,
     joint_places,
     matrix_products,
     transposed,
@@ -37,7 +41,7 @@ from ...scene.world import scene_time_step
 
 @dataclass(frozen=True, slots=True)
 class RestingState:
-    """How a bridge deforms and vibrates before anything acts on it but its weight.
+    """How a bridge deforms and vibrates under its weight alone.
 
     Attributes
     ----------
@@ -46,9 +50,9 @@ class RestingState:
     frequency_hz : float
         First frequency; 0 where nothing is held.
     damping_ratio : float
-        Damping of it as a share of the critical one, with that of steps in time.
+        Its damping as a share of the critical one, with that of steps in time.
     held_bodies : int
-        Bodies that connections to a support hold; the others fall, or lie on what holds them by contact alone.
+        Bodies that connections to a support hold; the others fall, or lie on something by contact alone.
     """
 
     deflection_m: float
@@ -65,26 +69,13 @@ class RestingState:
 class ElasticConnections:
     """All connections of a world that was bound just now, before any time passes.
 
-    Parameters
-    ----------
-    scene : bpy.types.Scene
-    world : BulletWorld
-    inventory : Inventory
-        Its bodies and connections.
-    bodies : sequence of bpy.types.Object
-    stiffness : SectionStiffness
-        Of the connections.
-    damping_ratio : float
-        Damping of the first frequency, as a share of the critical one.
-    soil : SoilSprings or None
-        What footings stand on, where the ground yields.
+    The damping ratio is that of the first frequency, as a share of the critical one. Footings stand on soil where the
+    ground yields.
 
     Raises
     ------
     LayoutError
         Memory is not as expected; nothing has been written.
-    SimulationError
-        A connection is not of a kind that can be elastic.
     """
 
     def __init__(
@@ -99,29 +90,28 @@ class ElasticConnections:
     ):
         self._world, self._rows, self._reader = world, world.elastic_rows(), world.bodies.motion()
         self._damping_ratio = damping_ratio
-        self._left_per_second = 1.0 - np.array(
-            [(body.rigid_body.linear_damping, body.rigid_body.angular_damping) for body in bodies]
-        ).T.repeat(3, axis=0)
+        settings = [(body.rigid_body.linear_damping, body.rigid_body.angular_damping) for body in bodies]
+        self._left_per_second = 1.0 - np.array(settings).T.repeat(3, axis=0)
         is_first = world.first_is_body_a()
         pairs = np.where(is_first[:, None], inventory.pairs, inventory.pairs[:, ::-1])
-        axes_a, points_a, axes_b, points_b = self._rows.frames()
+        (axes_a, points_a), (axes_b, points_b) = self._rows.frame_components()
         self._frames = JointFrames(pairs[:, 0], pairs[:, 1], axes_a, axes_b, points_a, points_b)
         motion = self._reader.read()
         self._check_frames(motion)
-        places = joint_places(self._frames, motion.positions_m, motion.rotations)
+        places = joint_places(self._frames, motion.position_components_m, motion.rotation_components)
         sections = components_first(section_axes(inventory.normals))
         self._stiffness = in_frames(
             stiffness, matrix_products(transposed(places.first_axes), sections), self._rows.held
         )
         self._axial_n_m = stiffness.axial_n_m
         self._masses = inventory.masses_kg
-        self._inertias = _inertias(self._reader.inverse_inertias(), motion.rotations, self._masses)
+        self._inertias = _inertias(self._reader.inverse_inertia_components(), motion.rotation_components, self._masses)
         self._shortest_s = scene_time_step(scene).substep_s
         self._gravity = np.array(scene.gravity, float) if scene.use_gravity else np.zeros(3)
         self._footings = None
         if soil is not None:
             moves, ends = self._masses > 0.0, (self._frames.first, self._frames.second)
-            self._footings = Footings(soil, *ends, moves, motion.positions_m, motion.rotations)
+            self._footings = Footings(soil, *ends, moves, motion.position_components_m, motion.rotation_components)
             self._touching = np.ones(len(soil.rows))
         self._rest = self._settle(motion)
         self._structure: ElasticStructure | None = None
@@ -134,15 +124,9 @@ class ElasticConnections:
         world.constraints.hold_thresholds()
 
     def reinforce(self, breaking: Breaking, left: np.ndarray) -> None:
-        """Have reinforcement hold on in place of what breaks, before any time passes.
+        """Have reinforcement hold where connections break; to be called before any time passes.
 
-        Parameters
-        ----------
-        breaking : Breaking
-            Part of the strength that it has, layers of bars, how far a crack opens until they rupture, and what they
-            are made of.
-        left : (m,) float
-            Part of its strength that each connection has left, kept up to date by the events.
+        Events keep up to date which part of its strength each connection (m,) has left.
         """
         sections = rectangular_sections(self._inventory.areas_m2, self._inventory.second_moments_m4)
         self._face_sides_m = 6.0 * sections.bending_moduli_m3[:, ::-1].T / self._inventory.areas_m2
@@ -156,14 +140,7 @@ class ElasticConnections:
         self._cracks = Cracks(breaking.steel, float(ductility.elongation_m), yield_n, left, self._axial_n_m)
 
     def tear(self, rows: np.ndarray, points_m: np.ndarray, axes: np.ndarray) -> None:
-        """Let the reinforcement hold of connections (r,) that broke just now.
-
-        Parameters
-        ----------
-        rows : (r,) int
-        points_m, axes : (r, 3) and (r, 3, 3) float
-            Where they are, and the axes of their sections, as columns.
-        """
+        """Let the reinforcement hold of connections (r,) that broke at points (r, 3), with section axes (r, 3, 3)."""
         if self._cracks is not None:
             held = self._cracks.have_bars[rows]
             rows, points_m, axes = rows[held], points_m[held], axes[held]
@@ -174,12 +151,14 @@ class ElasticConnections:
         places = corner_places(components_first(points_m), across, self._face_sides_m[:, rows])
         outwards = np.where(self._is_first[rows], 1.0, -1.0) * components_first(axes[:, :, 0])
         first, second = self._frames.first[rows], self._frames.second[rows]
-        self._cracks.add(rows, first, second, places, outwards, motion.positions_m, motion.rotations)
+        self._cracks.add(
+            rows, first, second, places, outwards, motion.position_components_m, motion.rotation_components
+        )
 
     @property
     def resting_state(self) -> RestingState:
         """How the bridge deforms under its own weight."""
-        rest, start = self._rest, self._built.positions_m
+        rest, start = self._rest, self._built.position_components_m
         fallen = (start - rest.positions_m)[2, rest.held]
         frequency = rest.frequency_hz
         ratio = max(self._damping_ratio, np.pi * frequency * self._shortest_s) if frequency else 0.0
@@ -187,30 +166,24 @@ class ElasticConnections:
 
     @property
     def parts(self) -> np.ndarray:
-        """What connections (m,) held together as the sub-step began: a number for each part, -1 for broken ones."""
+        """Part of the bridge that each connection (m,) was in as the sub-step began, -1 for broken ones."""
         return given(self._structure).part_of_connection
 
     def begin_substep(self, substep_s: float) -> None:
-        """Look at the bodies before a sub-step of a length in s, after all other loads on them."""
+        """Read the bodies before a sub-step of a length in s, after all other loads on them."""
         self._motion = motion = self._reader.read()
         if substep_s != self._substep_s:
             self._prepare(motion, substep_s)
         left = np.where(motion.inverse_masses > 0.0, power(self._left_per_second, substep_s), 1.0)
-        velocities = left * motion.velocities
-        velocities += substep_s * self._accelerations(motion, motion.loads)
-        given(self._structure).settle(motion.positions_m, motion.rotations)
+        velocities = left * motion.velocity_components
+        velocities += substep_s * self._accelerations(motion, motion.load_components)
+        given(self._structure).settle(motion.position_components_m, motion.rotation_components)
         if self._footings:
             self._follow_lifting()
-        self._start = StepInput(motion.positions_m, motion.rotations, velocities, motion.asleep)
+        self._start = StepInput(motion.position_components_m, motion.rotation_components, velocities, motion.asleep)
 
     def predict(self) -> np.ndarray:
-        """Work out the sub-step with what is intact, as if there were no contacts.
-
-        Returns
-        -------
-        (2, 6, m) float
-            Forces and torques on Bullet's bodies A and B of each connection.
-        """
+        """Return forces and torques (2, 6, m) in the sub-step on Bullet's bodies A and B, as if nothing touched."""
         intact = self._world.constraints.intact()
         self._coming = step = given(self._structure).step(self._start, intact, self._substep_s)
         self._loads[:, :, ~self.holding(intact)] = 0.0
@@ -223,24 +196,26 @@ class ElasticConnections:
         return self._loads
 
     def apply(self) -> None:
-        """Put into Bullet what was predicted."""
+        """Put the predicted sub-step into Bullet."""
         motion, step = self._motion, self._coming
         moved = np.flatnonzero(step.of_bodies.any(axis=0) & (motion.inverse_masses > 0.0))
-        self._reader.set_loads(moved, motion.loads[:, moved] + step.of_bodies[:, moved] / self._substep_s)
+        self._reader.set_loads(moved, motion.load_components[:, moved] + step.of_bodies[:, moved] / self._substep_s)
         self._rows.expect(step.acting, step.deformations - self._substep_s * step.rates)
         given(self._structure).end_substep()
 
     def stored_j(self, intact: np.ndarray) -> np.ndarray:
-        """Return the energy that is now in connections (m,) that are intact, or in what holds in their place."""
+        """Return the energy that is now in connections (m,) that are intact, or in their reinforcement."""
         motion = self._reader.read()
-        return given(self._structure).stored_j(motion.positions_m, motion.rotations) * self.holding(intact)
+        return given(self._structure).stored_j(motion.position_components_m, motion.rotation_components) * self.holding(
+            intact
+        )
 
     def loads_on(self, sides: np.ndarray) -> np.ndarray:
         """Return forces and torques (6, m) in the last sub-step on Bullet's body A or B of each connection (m,)."""
         return np.where(sides == 0, self._loads[0], self._loads[1])
 
     def holding(self, intact: np.ndarray) -> np.ndarray:
-        """Return which connections (m,) hold, those that are intact and those in whose place reinforcement does."""
+        """Return which connections (m,) hold, intact or by reinforcement."""
         if self._cracks is None:
             return intact
         holding = intact.copy()
@@ -250,7 +225,7 @@ class ElasticConnections:
     def _settle(self, motion: BodyMotion) -> Equilibrium:
         """Put the bodies where they rest under their own weight."""
         masses = np.where(motion.inverse_masses > 0.0, self._masses, 0.0)
-        bodies = RigidBodies(masses, self._inertias, motion.positions_m, motion.rotations)
+        bodies = RigidBodies(masses, self._inertias, motion.position_components_m, motion.rotation_components)
         rest = equilibrium(self._frames, self._stiffness, bodies, self._gravity)
         rows = np.flatnonzero(rest.held)
         self._reader.set_positions(rows, rest.positions_m[:, rows], rest.rotations[..., rows])
@@ -263,15 +238,19 @@ class ElasticConnections:
             frequency = self._rest.frequency_hz
             # Stiffness-proportional damping has the ratio π f β, to which implicit steps add π f dt.
             damping_s = max(self._damping_ratio / (np.pi * frequency) - substep_s, 0.0) if frequency > 0.0 else 0.0
-            bodies = RigidBodies(self._masses, self._inertias, self._built.positions_m, self._built.rotations)
+            bodies = RigidBodies(
+                self._masses, self._inertias, self._built.position_components_m, self._built.rotation_components
+            )
             self._structure = ElasticStructure(
                 self._frames, self._stiffness, bodies, damping_s, self._cracks, self._footings
             )
             self._damping_s = damping_s
-        places = joint_places(self._frames, motion.positions_m, motion.rotations)
+        places = joint_places(self._frames, motion.position_components_m, motion.rotation_components)
         intact = np.flatnonzero(self._world.constraints.intact())
         rows = places.rows()
-        inverse = _effective_inverse_masses(rows, self._frames, motion.inverse_masses, self._reader.inverse_inertias())
+        inverse = _effective_inverse_masses(
+            rows, self._frames, motion.inverse_masses, self._reader.inverse_inertia_components()
+        )
         diagonal = self._stiffness[:, [0, 1, 2], [0, 1, 2]].reshape(6, -1)
         hardness = substep_s * (substep_s + self._damping_s) * diagonal * inverse
         softness = np.divide(1.0, hardness, out=np.full_like(hardness, np.inf), where=hardness > 0.0)
@@ -279,11 +258,11 @@ class ElasticConnections:
         if self._footings:
             self._touching[:] = 1.0
         self._rows.soften(intact, softness[:, intact])
-        # What sleeps is held as it is, in the sub-step in which Bullet finds what wakes it.
+        # Sleeping bodies are held as they are, in the sub-step in which Bullet finds what wakes them.
         self._rows.expect(intact, places.deformations()[:, intact])
 
     def _follow_lifting(self) -> None:
-        """Let Bullet's own constraint of a footing answer as softly as what of it still touches the ground."""
+        """Make Bullet's own constraint of a footing softer as less of it touches the ground."""
         footings = given(self._footings)
         touching, rows = footings.touching, footings.rows
         changed = np.flatnonzero((touching != self._touching) & self._world.constraints.intact()[rows])
@@ -297,24 +276,18 @@ class ElasticConnections:
 
     def _accelerations(self, motion: BodyMotion, loads: np.ndarray) -> np.ndarray:
         """Accelerations (6, n) by forces and torques (6, n)."""
-        inverse = self._reader.inverse_inertias()
-        turning = inverse[:, 0] * loads[3] + inverse[:, 1] * loads[4] + inverse[:, 2] * loads[5]
-        return np.concatenate((motion.inverse_masses * loads[:3], turning * (motion.inverse_masses > 0.0)))
+        inverse = self._reader.inverse_inertia_components()
+        angular = inverse[:, 0] * loads[3] + inverse[:, 1] * loads[4] + inverse[:, 2] * loads[5]
+        return np.concatenate((motion.inverse_masses * loads[:3], angular * (motion.inverse_masses > 0.0)))
 
     def _check_frames(self, motion: BodyMotion) -> None:
-        places = joint_places(self._frames, motion.positions_m, motion.rotations)
-        connections = self._world.connection_objects
-        matrices = np.array([np.array(connection.matrix_world) for connection in connections]).reshape(-1, 4, 4)
-        names = [connection.name for connection in connections]
-        turned = np.array([connection.matrix_world.decompose()[1].to_matrix() for connection in connections], float)
+        places = joint_places(self._frames, motion.position_components_m, motion.rotation_components)
         for axes, bodies, levers in (
             (places.first_axes, self._frames.first, places.first_levers_m),
             (places.second_axes, self._frames.second, places.second_levers_m),
         ):
-            points = motion.positions_m[:, bodies] + levers
-            check_frames(
-                axes, points, components_first(matrices[:, :3, 3]), components_first(turned.reshape(-1, 3, 3)), names
-            )
+            points = components_last(motion.position_components_m[:, bodies] + levers)
+            check_frames(components_last(axes), points, self._world.connection_objects)
 
 
 def _inertias(inverse: np.ndarray, rotations: np.ndarray, masses_kg: np.ndarray) -> np.ndarray:
@@ -337,12 +310,12 @@ def _effective_inverse_masses(
     rows: JointRows, frames: JointFrames, inverse_masses: np.ndarray, inverse_inertias: np.ndarray
 ) -> np.ndarray:
     """By how much a unit impulse in each row (6, m) changes the velocity in it."""
-    found = []
+    of_bodies = []
     for body, turning in ((frames.first, rows.first_turning), (frames.second, rows.second_turning)):
         inertia = inverse_inertias[..., body]
         shifts = inverse_masses[body] + _squares(turning, inertia)
-        found.append(np.concatenate((shifts, _squares(rows.turning, inertia))))
-    return found[0] + found[1]
+        of_bodies.append(np.concatenate((shifts, _squares(rows.turning, inertia))))
+    return of_bodies[0] + of_bodies[1]
 
 
 def _squares(vectors: np.ndarray, matrices: np.ndarray) -> np.ndarray:

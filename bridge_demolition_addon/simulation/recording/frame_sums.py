@@ -130,7 +130,7 @@ class FrameSums:
             return
         bodies, loads = self._meter.loads([substep.reading for substep in substeps])
         resultants_n = self._frame.add(loads)
-        motion = Motion(bodies.positions, bodies.velocities, bodies.angular_velocities)
+        motion = Motion(bodies.positions_m, bodies.velocities_m_s, bodies.angular_velocities_rad_s)
         if self._every_substep and work_counts:
             resultants_ns = loads.substeps_s[:, None, None] * resultants_n
             of_connections, of_contacts = _impulses(self._inventory.pairs, loads, _stored_j(substeps))
@@ -164,7 +164,7 @@ class FrameSums:
         impulses = [points[first == ball].sum(axis=0) - points[second == ball].sum(axis=0) for ball in self._balls]
         # A ball that is lifted moves as animation says: what it pushes off does not hit it.
         free = bodies.can_move[substep, self._balls, None]
-        self._hits.append((end_s, np.where(free, impulses, 0.0), bodies.velocities[substep, self._balls]))
+        self._hits.append((end_s, np.where(free, impulses, 0.0), bodies.velocities_m_s[substep, self._balls]))
 
 
 def _stored_j(substeps: Sequence[MeasuredSubstep]) -> np.ndarray | None:

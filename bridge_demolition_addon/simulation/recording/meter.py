@@ -85,7 +85,7 @@ class Meter:
         """Return what Bullet holds after a sub-step; of elastic connections it knows only what contacts change."""
         snapshot = self._snapshots.take()
         if self._elastic:
-            snapshot = replace(snapshot, loads=snapshot.loads + self._elastic.loads_on(self._sides))
+            snapshot = replace(snapshot, load_components=snapshot.load_components + self._elastic.loads_on(self._sides))
         forces = self._reinforcement.forces_n.copy() if self._reinforcement else None
         return Reading(snapshot, substep_s, end_s, forces)
 
@@ -95,7 +95,7 @@ class Meter:
 
     def predicted(self, loads: np.ndarray, substep_s: float, begin_s: float) -> Reading:
         """Return what Bullet holds before a sub-step, with the loads (6, m) that connections will have in it."""
-        return Reading(replace(self._snapshots.take(), loads=loads), substep_s, begin_s, None)
+        return Reading(replace(self._snapshots.take(), load_components=loads), substep_s, begin_s, None)
 
     def stored_j(self, intact: np.ndarray) -> np.ndarray | None:
         """Return the energy that is now in elastic connections (m,), of those that are intact or reinforced."""
@@ -136,10 +136,10 @@ class Meter:
         self, snapshots: Sequence[Snapshot], bodies: BodyHistory, substeps_s: np.ndarray
     ) -> SubstepLoads:
         """Loads of sub-steps (s,) after which snapshots were taken, without reinforcement."""
-        loads = np.stack([snapshot.loads for snapshot in snapshots], axis=1)
+        loads = np.stack([snapshot.load_components for snapshot in snapshots], axis=1)
         force, torque = (np.moveaxis(vectors, 0, -1) for vectors in (loads[:3], loads[3:]))
-        centres = taken(bodies.positions, self._bodies)
-        rotations = taken(bodies.rotations.reshape(*bodies.positions.shape[:2], 9), self._bodies)
+        centres = taken(bodies.positions_m, self._bodies)
+        rotations = taken(bodies.rotations.reshape(*bodies.positions_m.shape[:2], 9), self._bodies)
         points = carried_points(self._local_points, centres, rotations.reshape(*centres.shape, 3))
         moment = moments_at(points, force, torque, centres)
         contacts = self._snapshots.contacts(snapshots)
@@ -152,7 +152,7 @@ class Meter:
             contact_substeps=contacts.substeps,
             contact_pairs=contacts.pairs,
             contact_impulses_ns=contacts.impulses_ns,
-            contact_points_m=contacts.places_m,
-            centres_m=bodies.positions,
+            contact_points_m=contacts.positions_m,
+            centres_m=bodies.positions_m,
             rotations=bodies.rotations,
         )

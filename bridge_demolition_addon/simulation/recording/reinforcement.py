@@ -17,20 +17,8 @@ from .drivers import Driver
 class Reinforcement(Driver):
     """Pulls across the cracks of rigid connections with reinforcement, by one force for each that broke.
 
-    Parameters
-    ----------
-    bodies : BodyTable
-    inventory : Inventory
-        The same bodies, and their connections.
-    breaking : Breaking
-        What is left of a connection, how far that stretches, and layers of bars besides.
-    remaining_strength : (m,) float
-        Part of its strength that each connection has left, kept up to date by the events.
-
-    Attributes
-    ----------
-    forces_n : (m, 3) float
-        Force on the first body of each connection in the coming sub-step.
+    Events keep up to date which part of its strength each connection (m,) has left. `forces_n` (m, 3) are the forces on
+    the first bodies in the coming sub-step.
     """
 
     def __init__(self, bodies: BodyTable, inventory: Inventory, breaking: Breaking, remaining_strength: np.ndarray):
@@ -47,28 +35,20 @@ class Reinforcement(Driver):
         self.forces_n = np.zeros((len(inventory.pairs), 3))
 
     def tear(self, rows: np.ndarray, points_m: np.ndarray, axes: np.ndarray) -> None:
-        """Let the reinforcement of connections (r,) hold that broke just now.
-
-        Parameters
-        ----------
-        rows : (r,) int
-        points_m, axes : (r, 3) and (r, 3, 3) float
-            Where they are, and the axes of their sections, as columns.
-        """
+        """Let the reinforcement hold of connections (r,) that broke at points (r, 3), with section axes (r, 3, 3)."""
         if self._offsets_m is not None:
             points_m = points_m + transformed(axes[:, :, 1:], self._offsets_m[rows])
             held = self._yield_n[rows] > 0.0
             rows, points_m = rows[held], points_m[held]
         positions, rotations = self._bodies.positions()
         pairs = self._inventory.pairs[rows]
-        levers = points_m[:, None] - positions[pairs]
-        anchors = transformed_back(rotations[pairs], levers)
+        anchors = transformed_back(rotations[pairs], points_m[:, None] - positions[pairs])
         self._rows = np.concatenate((self._rows, rows))
         self._anchors = np.concatenate((self._anchors, anchors))
         self._holding_n = np.concatenate((self._holding_n, np.zeros(len(rows))))
 
     def before_substep(self, elapsed_s: float, substep_s: float) -> None:
-        """Let go what has stretched too far, and pull with the rest in the coming sub-step."""
+        """Release bars that have stretched too far, and pull with the others in the coming sub-step."""
         self.forces_n[:] = 0.0
         if not len(self._rows):
             return
@@ -89,12 +69,12 @@ class Reinforcement(Driver):
         self._rows, self._anchors, self._holding_n = self._rows[holds], self._anchors[holds], self._holding_n[holds]
 
     def _turning(self, pairs: np.ndarray, levers: np.ndarray, directions: np.ndarray) -> np.ndarray | float:
-        """By how much a unit impulse along bars (t,) has their points part, as it turns their bodies, 1/kg.
+        """Return how fast a unit impulse along bars (t,) has their points part by rotation of their bodies, 1/kg.
 
-        Bars at the middles of faces hardly turn their bodies; those at the depth of a layer do.
+        Bars at the middles of faces hardly rotate their bodies; those at the depth of a layer do.
         """
         if self._reader is None:
             return 0.0
-        inverse = components_last(self._reader.inverse_inertias())[pairs]
+        inverse = components_last(self._reader.inverse_inertia_components())[pairs]
         arms = np.cross(levers, directions[:, None])
         return dot(arms, transformed(inverse, arms)).sum(axis=1)

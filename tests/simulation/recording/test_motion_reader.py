@@ -42,7 +42,7 @@ def test_change_of_momentum_is_the_sum_of_all_impulses(blender, tmp_path, monkey
     def compare(meter, substep_s, end_s):
         reading = read(meter, substep_s, end_s)
         bodies, loads = meter.loads([reading])
-        before, after, inventory = velocities[-1], bodies.velocities[0], recording.inventory
+        before, after, inventory = velocities[-1], bodies.velocities_m_s[0], recording.inventory
         one = LoadAccumulator(inventory.pairs, inventory.volumes_m3, meter.normals)
         one.add(loads)
         masses = inventory.masses_kg[1:, None]
