@@ -1,4 +1,4 @@
-"""What acts in Bullet's world around each sub-step, each as a class of its own; `substeps` writes down their order."""
+"""Drivers, which act in Bullet's world around each sub-step; `substeps` writes down their order."""
 
 from __future__ import annotations
 
@@ -27,19 +27,14 @@ class Driver(Protocol):
 
 
 class LastSubstepLoads(Driver):
-    """Has Bullet write loads in the last sub-step of each frame alone: they are read after that one.
-
-    Parameters
-    ----------
-    constraints : ConstraintTable
-    """
+    """Has Bullet write loads in the last sub-step of each frame alone: they are read after that one."""
 
     def __init__(self, constraints: ConstraintTable):
         self._constraints, self._are_written = constraints, True
         self._expected, self._begun = 0, 0
 
     def before_frame(self, substeps: int) -> None:
-        """Know how many sub-steps Blender takes in the coming frame."""
+        """Set how many sub-steps Blender takes in the coming frame."""
         self._expected, self._begun = substeps, 0
 
     def before_substep(self, elapsed_s: float, substep_s: float) -> None:
@@ -60,22 +55,9 @@ class LastSubstepLoads(Driver):
 
 
 class WarmUp(Driver):
-    """Lets nothing break, and slows down the shards, until the structure has settled under its own weight.
+    """Lets nothing break, and slows down the shards (s,), until the structure has settled under its own weight.
 
-    Parameters
-    ----------
-    world : BulletWorld
-    shards : (s,) int
-        Bodies that are slowed down.
-    breaking : Breaking
-        How long it takes, and what velocity is left.
-    release : bool
-        Whether Bullet's own thresholds hold afterwards.
-
-    Attributes
-    ----------
-    is_over : bool
-        Whether it has ended, or there is none.
+    With `release` Bullet's own thresholds hold afterwards.
     """
 
     def __init__(self, world: BulletWorld, shards: np.ndarray, breaking: Breaking, *, release: bool):
@@ -87,7 +69,7 @@ class WarmUp(Driver):
     def before_substep(self, elapsed_s: float, substep_s: float) -> None:
         """Slow the shards down."""
         if not self.is_over and self._breaking.warm_up_damping:
-            # As Bullet's own damping: a share of the velocity in a second, whatever the step.
+            # As Bullet's own damping: a share of the velocity in a second, with any step.
             left = float(power(1.0 - self._breaking.warm_up_damping, substep_s))
             self._world.bodies.slow_down(self._shards, left)
 
@@ -100,14 +82,7 @@ class WarmUp(Driver):
 
 
 class ThresholdScale(Driver):
-    """Scales Blender's breaking thresholds, impulses in a sub-step, to the length of each sub-step.
-
-    Parameters
-    ----------
-    constraints : ConstraintTable
-    made_for_s : float
-        Length of the sub-steps that the thresholds were made for.
-    """
+    """Scales Blender's breaking thresholds, impulses in a sub-step, from the length they were made for to each other."""
 
     def __init__(self, constraints: ConstraintTable, made_for_s: float):
         self._constraints, self._made_for_s = constraints, made_for_s

@@ -26,22 +26,10 @@ class AppliedEvent:
 
 
 class Events(Driver):
-    """All events of a world, each before the first sub-step that begins at its time or later.
+    """All events of a world in order of time, each before the first sub-step that begins at its time or later.
 
-    Parameters
-    ----------
-    world : BulletWorld
-    pairs : (m, 2) int
-        Bodies of the connections.
-    events : sequence of Event
-        In order of time.
-
-    Attributes
-    ----------
-    remaining_strength : (m,) float
-        Part of its strength that each connection has left.
-    applied : list of AppliedEvent
-        What was applied so far.
+    The connections are between pairs (m, 2) of bodies; `remaining_strength` (m,) is the part of its strength that each
+    has left.
     """
 
     def __init__(self, world: BulletWorld, pairs: np.ndarray, events: Sequence[Event]):
@@ -52,7 +40,7 @@ class Events(Driver):
         self._begins_s = 0.0
 
     def before_substep(self, elapsed_s: float, substep_s: float) -> None:
-        """Apply what is due before a sub-step of a length in s; simulated time is known once a frame at least."""
+        """Apply events that are due before a sub-step of a length in s; simulated time is known once a frame at least."""
         self._begins_s = max(self._begins_s, elapsed_s)
         while self._coming and self._coming[0].time_s <= self._begins_s + _ROUNDING * substep_s:
             self._apply(self._coming.pop(0))
@@ -60,7 +48,7 @@ class Events(Driver):
 
     def _apply(self, event: Event) -> None:
         connections = event.connections[self._world.constraints.intact()[event.connections]]
-        # What broke before may still hold by its reinforcement, which is weakened or cut with the rest.
+        # Connections that broke before may still hold by reinforcement, which is weakened or cut with the others.
         self.remaining_strength[event.connections] *= event.factor
         if event.factor > 0.0:
             self._world.constraints.weaken(connections, event.factor)
@@ -72,7 +60,7 @@ class Events(Driver):
         self.applied.append(AppliedEvent(self._begins_s, event.kind, bodies, connections))
 
     def _concerned(self, bodies: np.ndarray, connections: np.ndarray) -> np.ndarray:
-        """Bodies whose support may be gone: all, where some are removed on which others may lie unconnected."""
+        """Bodies whose support may be gone: all, if bodies are removed on which others may lie unconnected."""
         if len(bodies):
             return np.arange(len(self._world.bodies))
         return np.unique(self._pairs[connections])

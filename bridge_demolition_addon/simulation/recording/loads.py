@@ -13,14 +13,7 @@ from .drivers import Driver
 
 
 class Loads(Driver):
-    """Pushes bodies with all loads.
-
-    Parameters
-    ----------
-    bodies : BodyTable
-    loads : sequence of PlacedLoad
-        On its bodies.
-    """
+    """Pushes bodies with all loads."""
 
     def __init__(self, bodies: BodyTable, loads: Sequence[PlacedLoad]):
         self._table = bodies
@@ -34,15 +27,13 @@ class Loads(Driver):
         at_points = np.array([load.arm_m is not None for load in loads], bool)
         self._turns = np.flatnonzero(at_points[self._load_of])
         arms = np.array([load.arm_m for load in loads if load.arm_m is not None]).reshape(-1, 3)
-        self._arms = transformed_back(
-            bodies.positions()[1][self._bodies[self._turns]], arms
-        )  # in the axes of the bodies
+        self._arms_in_bodies = transformed_back(bodies.positions()[1][self._bodies[self._turns]], arms)
         self._begins_s = 0.0
 
     def before_substep(self, elapsed_s: float, substep_s: float) -> None:
         """Push with the means of loads in a sub-step of a length in s; simulated time is known once a frame at least.
 
-        What was removed carries nothing, and its part of the load is gone with it.
+        A body that was removed carries no load, and its part of the load is gone with it.
         """
         if not self._loads:
             return
@@ -53,7 +44,7 @@ class Loads(Driver):
         forces = sizes_n[:, None] * self._unit_forces
         torques = np.zeros_like(forces)
         if len(self._turns):
-            arms = transformed(self._table.positions()[1][self._bodies[self._turns]], self._arms)
+            arms = transformed(self._table.positions()[1][self._bodies[self._turns]], self._arms_in_bodies)
             torques[self._turns] = cross(arms, forces[self._turns])
         pushed = np.flatnonzero((sizes_n > 0.0) & ~self._table.removed[self._bodies])
         if len(pushed):

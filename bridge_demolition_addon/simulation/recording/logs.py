@@ -32,13 +32,7 @@ from .breaking import Breaks
 
 @dataclass(frozen=True, slots=True)
 class LogFiles:
-    """Files of their own for logs that are not to go to the folder of the results.
-
-    Attributes
-    ----------
-    forces, debris
-        File for that log, or None for the folder.
-    """
+    """Files of their own for logs; None for the folder of the results."""
 
     forces: Path | None = None
     debris: Path | None = None
@@ -48,18 +42,9 @@ _IN_THE_FOLDER = LogFiles()
 
 
 class Logs:
-    """All logs of a recording.
+    """All logs of a recording, in an existing folder, in which they replace others.
 
-    Parameters
-    ----------
-    folder
-        Existing folder; logs that are there are replaced.
-    inventory
-        The bodies and connections that the logs are about.
-    charges
-        Names of the charges, where there is a blast.
-    files
-        Logs that go elsewhere.
+    Charges are named where there is a blast; `files` says which logs go elsewhere.
     """
 
     def __init__(
@@ -76,7 +61,7 @@ class Logs:
         self._largest_kinetic_j = np.zeros(len(bodies))
 
     def write_frame(self, frame: Frame) -> None:
-        """Log the loads of a frame; of the first frame, also where everything is."""
+        """Log the loads of a frame; of the first frame, also all positions."""
         if not self._breaking.in_place:
             raise SimulationError(f"{self._folder}: was moved or deleted while a run wrote to it")
         self._forces.write(frame.number, frame.time_s, frame)
@@ -88,26 +73,23 @@ class Logs:
             self._write_positions(frame)
 
     def write_breaks(self, frame: int, breaks: Sequence[Breaks]) -> None:
-        """Log the connections that broke in a frame, each with the loads that it broke under."""
+        """Log the connections that broke in a frame, with the loads that broke them."""
         names, bodies, pairs = self._inventory.connection_names, self._inventory.body_names, self._inventory.pairs
         for at_once in breaks:
             entries = [(names[row], *bodies[pairs[row]]) for row in at_once.connections]
             self._breaking.write(frame, at_once.time_s, entries, at_once.loads)
 
     def write_blast(self, frame: Frame, loads: StepLoads, frame_s: float) -> None:
-        """Log the blast loads of a frame that is that long; pressures and forces are means over it."""
+        """Log the blast loads of a frame of a length in s; pressures and forces are means over it."""
         bodies = self._inventory.body_names
         pairs = zip(loads.bodies, loads.charges, strict=True)
         entries = [(bodies[body], self._charges[charge]) for body, charge in pairs]
         given(self._explosion).write(frame.number, frame.time_s, entries, FrameBlast(loads, frame_s))
 
     def close(self, last_frame: Frame | None) -> None:
-        """Log where everything is at last, if there was a frame, and close the files.
+        """Log all positions of the last frame, if there is one, and close the files.
 
-        Raises
-        ------
-        OutputError
-            The disk is full; the files are closed all the same.
+        Raises an `OutputError` if the disk is full; the files are closed all the same.
         """
         with ExitStack() as files:
             for log in (self._forces, self._debris, self._breaking, self._explosion):
@@ -122,7 +104,7 @@ class Logs:
 
 
 def checked_log(path: Path, *, overwrite: bool) -> Path:
-    """A file for a log, after seeing that it can be written."""
+    """Return a file for a log after checking that it can be written."""
     if path.is_dir():
         raise OutputError(f"{path}: expected a file for the log, found a folder")
     if path.exists() and not path.is_file():

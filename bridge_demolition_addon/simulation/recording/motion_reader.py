@@ -27,7 +27,7 @@ _NEED_MEMORY: tuple[tuple[Callable[[RunSetup], Any], str, str], ...] = (
     (lambda setup: setup.ground_motion, "a ground that moves needs", "take ground_motion out of the scenario"),
     (lambda setup: setup.changes, "removals, saw cuts and weakenings need", "take them out of the scenario"),
 )
-"""What of a run needs Blender's memory, and what to do without it."""
+"""Features of a run that need Blender's memory, and what to do without it."""
 
 
 def check_motion_is_enough(setup: RunSetup, layout_error: LayoutError, *, contacts: bool) -> None:
@@ -45,10 +45,8 @@ def check_motion_is_enough(setup: RunSetup, layout_error: LayoutError, *, contac
 class MomentumReader:
     """Follows bodies by their positions alone, frame by frame.
 
-    Connections are not seen: not their forces, nor whether they hold. Of a body, only the mean of all forces on it
-    but gravity is known, and that one frame late in its velocity: a force of one frame is spread over two.
-
-    The inventory is of the same bodies, without connections.
+    Neither the forces of connections are known, nor whether they hold. Of a body, only the mean of all forces on it but
+    gravity is known, and that one frame late in its velocity: a force of one frame is spread over two.
     """
 
     def __init__(self, scene: bpy.types.Scene, bodies: Sequence[bpy.types.Object], inventory: Inventory):
@@ -57,7 +55,7 @@ class MomentumReader:
         self._last: Frame | None = None
 
     def read_frame(self, depsgraph: bpy.types.Depsgraph) -> Frame:
-        """Return the frame just evaluated, one on from the last; of a blast it has nothing yet."""
+        """Return the frame just evaluated, the next after the last, without the impulses of a blast."""
         matrices = np.array([body.evaluated_get(depsgraph).matrix_world for body in self._bodies], float)
         positions, axes = matrices[:, :3, 3], matrices[:, :3, :3]
         rotations = axes / length(np.swapaxes(axes, 1, 2))[:, None]
@@ -94,6 +92,6 @@ class MomentumReader:
 
 
 def unknown_loads(inventory: Inventory) -> FrameLoads:
-    """Return loads of which nothing is known, nan throughout."""
+    """Return loads that are unknown, nan throughout."""
     normals = np.zeros((len(inventory.pairs), 3))
     return LoadAccumulator(inventory.pairs, inventory.volumes_m3, lambda _: normals).finish().unknown()

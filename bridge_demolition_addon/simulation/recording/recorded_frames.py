@@ -16,15 +16,7 @@ from ...model.schema import given
 
 
 class RecordedFrames:
-    """What has been recorded of a simulation so far.
-
-    Attributes
-    ----------
-    inventory : Inventory or None
-        The bodies and connections; None before the first frame.
-    last : Frame or None
-        The last frame recorded; None before the first.
-    """
+    """What has been recorded of a simulation so far; inventory and last frame are None before the first frame."""
 
     def __init__(self) -> None:
         self.inventory: Inventory | None = None
@@ -33,7 +25,7 @@ class RecordedFrames:
 
     @property
     def frames(self) -> Sequence[Frame]:
-        """Frames recorded so far, as they are kept: each is read from the disk when it is asked for."""
+        """Frames recorded so far; each is read from the disk when it is asked for."""
         return () if self._stream is None else self._stream
 
     @property
@@ -52,35 +44,23 @@ class RecordedFrames:
         return int((~self.last.intact).sum()) if self.last else 0
 
     def motion(self) -> tuple[float, np.ndarray, np.ndarray, np.ndarray]:
-        """Time in s of the last frame, and positions (n, 3), rotations (n, 3, 3) and sleep (n,) of its bodies.
-
-        They are those that are kept, so that the results have the same rest.
-        """
+        """Return time in s, positions (n, 3), rotations (n, 3, 3) and sleep (n,) of the last frame, as it is kept."""
         last = self.frames[-1]
         return last.time_s, last.positions_m, last.rotations, last.asleep
 
     def results(self) -> Results:
-        """Everything recorded, mapped from the disk: only what is looked at is read.
-
-        Raises
-        ------
-        SimulationError
-            Nothing was recorded.
-        """
+        """Return everything recorded, mapped from the disk: only what is used is read."""
         if self._stream is None or not self.recorded_frames:
             raise SimulationError("nothing was recorded: play the timeline from its start frame")
         return self._stream.results()
 
     def remove_stream(self) -> None:
-        """Remove the files with the frames, as the results are kept by now.
-
-        What was recorded can be read as before, as long as the recording is there.
-        """
+        """Remove the files with the frames, as the results are kept by now; the recording can still be read."""
         if self._stream is not None:
             self._stream.remove()
 
     def forget(self) -> None:
-        """Let go of all that was recorded, and of its files: Windows replaces none that is open."""
+        """Discard all that was recorded, and close its files: Windows replaces none that is open."""
         self.last = None
         if self._stream is not None:
             self._stream.discard()

@@ -23,12 +23,7 @@ class RunTiming:
     def set_time(self, *, holds_first: bool) -> None:
         """Hold time in the frame in which Blender makes its world, if asked to, and have it pass as it is animated.
 
-        Raises
-        ------
-        LayoutError
-            Time cannot be held.
-        SimulationError
-            Time is animated and cannot be set.
+        Raises a `LayoutError` if time cannot be held.
         """
         scene = self._scene
         coming, animated = scene.frame_current, time_is_animated(scene)
@@ -43,12 +38,9 @@ class RunTiming:
             raise
 
     def set_substeps(self, last: Frame | None) -> int:
-        """Give the coming frame as many sub-steps as its bodies are fast, where the scene says so; return how many.
+        """Set the sub-steps of the coming frame by the speed of its bodies, if the scene says so; return how many.
 
-        Parameters
-        ----------
-        last
-            The frame before it; None where the number is not to change.
+        `last` is the frame before it, None where the number is not to change.
         """
         scene = self._scene
         step, farthest_m = time_step_at(scene, scene.frame_current), farthest_per_substep_of(scene)
