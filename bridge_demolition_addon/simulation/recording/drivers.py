@@ -82,7 +82,7 @@ class WarmUp(Driver):
 
 
 class ThresholdScale(Driver):
-    """Scales Blender's breaking thresholds, impulses in a sub-step, from the length they were made for to each other."""
+    """Scales Blender's breaking thresholds, impulses in sub-steps of one length, to the length of each sub-step."""
 
     def __init__(self, constraints: ConstraintTable, made_for_s: float):
         self._constraints, self._made_for_s = constraints, made_for_s

@@ -40,7 +40,7 @@ class Events(Driver):
         self._begins_s = 0.0
 
     def before_substep(self, elapsed_s: float, substep_s: float) -> None:
-        """Apply events that are due before a sub-step of a length in s; simulated time is known once a frame at least."""
+        """Apply due events before a sub-step of a length in s; simulated time is known once a frame at least."""
         self._begins_s = max(self._begins_s, elapsed_s)
         while self._coming and self._coming[0].time_s <= self._begins_s + _ROUNDING * substep_s:
             self._apply(self._coming.pop(0))
