@@ -1,4 +1,4 @@
-"""Everything that can go wrong in a way the user can mend, one family under one base."""
+"""Errors that the user can mend, one family under one base."""
 
 
 class DemolitionError(Exception):
@@ -34,7 +34,7 @@ class MissingLibraryError(DemolitionError):
 
 
 class LayoutError(DemolitionError):
-    """Blender's memory does not look as expected; nothing was trusted and nothing was written."""
+    """Blender's memory does not look as expected; nothing in it was used or changed."""
 
 
 class SimulationError(DemolitionError):
@@ -46,11 +46,11 @@ class BlastError(DemolitionError):
 
 
 class ContourError(DemolitionError):
-    """What contours are to show cannot be shown: a range without an extent, or results of another scene."""
+    """Contours cannot be shown: of a range without an extent, or of results of another scene."""
 
 
 def text_of(error: Exception) -> str:
-    """Return what an error says: of the system's, which file and why, without its number."""
+    """Return the text of an error: of the system's, which file and why, without its number."""
     if isinstance(error, OSError) and error.filename is not None and error.strerror:
         return f"{error.filename}: {error.strerror}"
     return str(error)

@@ -1,14 +1,12 @@
 """Exponentials, powers and angles that have the same bits on every processor and system.
 
 Numpy and the C library choose another code by processor (with or without fused multiply-add, for example), and its last
-bit differs. One bit in a load or in a vertex is enough for another collapse. What stands here is made of additions,
+bit differs. One bit in a load or in a vertex is enough for another collapse. These functions are made of additions,
 multiplications, divisions and scaling by powers of two, which IEEE 754 rounds in one way.
 
 All functions take numbers or arrays and calculate in float64. Their results are within about 1 unit in the last place
 of the exact ones; of a `power` within 1e-15, relative.
 
-References
-----------
 Methods and coefficients of fdlibm 5.3, © 1993 Sun Microsystems, Inc., which freely grants to use, copy, modify and
 distribute it. Exact products and sums: T. J. Dekker (1971), A floating-point technique for extending the available
 precision, Numerische Mathematik 18, 224-242.
@@ -24,55 +22,37 @@ from .arrays import FloatArray
 LARGEST_ANGLE = 2.0**20
 """Largest angle that `sine` and `cosine` take, rad."""
 
+
+def coefficients(text: str) -> tuple[float, ...]:
+    """Return the numbers of a text, such as the coefficients of a polynomial from the constant upwards."""
+    return tuple(map(float, text.split()))
+
+
 # Upper parts end in zeros, so that their products with small integers are exact.
 _LN2_PARTS = 6.93147180369123816490e-01, 1.90821492927058770002e-10
 _HALF_PI_PARTS = 1.57079632673412561417e00, 6.07710050630396597660e-11, 2.02226624879595063154e-21
 _PI_REST = 1.2246467991473531772e-16
 
-_EXPONENTIAL = (
-    1.66666666666666019037e-01,
-    -2.77777777770155933842e-03,
-    6.61375632143793436117e-05,
-    -1.65339022054652515390e-06,
-    4.13813679705723846039e-08,
+_EXPONENTIAL = coefficients(
+    "1.66666666666666019037e-01 -2.77777777770155933842e-03 6.61375632143793436117e-05 -1.65339022054652515390e-06 "
+    "4.13813679705723846039e-08"
 )
-_LOGARITHM = (
-    6.666666666666735130e-01,
-    3.999999999940941908e-01,
-    2.857142874366239149e-01,
-    2.222219843214978396e-01,
-    1.818357216161805012e-01,
-    1.531383769920937332e-01,
-    1.479819860511658591e-01,
+_LOGARITHM = coefficients(
+    "6.666666666666735130e-01 3.999999999940941908e-01 2.857142874366239149e-01 2.222219843214978396e-01 "
+    "1.818357216161805012e-01 1.531383769920937332e-01 1.479819860511658591e-01"
 )
-_SINE = (
-    -1.66666666666666324348e-01,
-    8.33333333332248946124e-03,
-    -1.98412698298579493134e-04,
-    2.75573137070700676789e-06,
-    -2.50507602534068634195e-08,
-    1.58969099521155010221e-10,
+_SINE = coefficients(
+    "-1.66666666666666324348e-01 8.33333333332248946124e-03 -1.98412698298579493134e-04 2.75573137070700676789e-06 "
+    "-2.50507602534068634195e-08 1.58969099521155010221e-10"
 )
-_COSINE = (
-    4.16666666666666019037e-02,
-    -1.38888888888741095749e-03,
-    2.48015872894767294178e-05,
-    -2.75573143513906633035e-07,
-    2.08757232129817482790e-09,
-    -1.13596475577881948265e-11,
+_COSINE = coefficients(
+    "4.16666666666666019037e-02 -1.38888888888741095749e-03 2.48015872894767294178e-05 -2.75573143513906633035e-07 "
+    "2.08757232129817482790e-09 -1.13596475577881948265e-11"
 )
-_ARCTANGENT = (
-    3.33333333333329318027e-01,
-    -1.99999999998764832476e-01,
-    1.42857142725034663711e-01,
-    -1.11111104054623557880e-01,
-    9.09088713343650656196e-02,
-    -7.69187620504482999495e-02,
-    6.66107313738753120669e-02,
-    -5.83357013379057348645e-02,
-    4.97687799461593236017e-02,
-    -3.65315727442169155270e-02,
-    1.62858201153657823623e-02,
+_ARCTANGENT = coefficients(
+    "3.33333333333329318027e-01 -1.99999999998764832476e-01 1.42857142725034663711e-01 -1.11111104054623557880e-01 "
+    "9.09088713343650656196e-02 -7.69187620504482999495e-02 6.66107313738753120669e-02 -5.83357013379057348645e-02 "
+    "4.97687799461593236017e-02 -3.65315727442169155270e-02 1.62858201153657823623e-02"
 )
 _ARCTANGENT_LIMITS = np.array([7.0, 11.0, 19.0, 39.0]) / 16.0
 _ARCTANGENT_STARTS = np.array(
@@ -215,14 +195,14 @@ def _polynomial(x: FloatArray, coefficients: Sequence[float]) -> FloatArray:
 
 
 def _sum(one: FloatArray, other: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Sum, and what its rounding left out."""
+    """Sum, and the rest that its rounding left out."""
     total = one + other
     of_other = total - one
     return total, (one - (total - of_other)) + (other - of_other)
 
 
 def _product(one: FloatArray, other: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Product, and what its rounding left out."""
+    """Product, and the rest that its rounding left out."""
     product = one * other
     (one_high, one_low), (other_high, other_low) = _halves(one), _halves(other)
     rest = ((one_high * other_high - product) + one_high * other_low + one_low * other_high) + one_low * other_low

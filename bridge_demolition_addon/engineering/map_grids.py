@@ -1,4 +1,4 @@
-"""Grids of maps: where on earth a place of transverse Mercator coordinates lies, such as those of UTM."""
+"""Grids of maps: positions on earth of transverse Mercator coordinates, such as those of UTM."""
 
 from __future__ import annotations
 
@@ -9,24 +9,14 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class TransverseMercator:
-    """A transverse Mercator projection.
-
-    Attributes
-    ----------
-    central_meridian_deg, latitude_of_origin_deg : float
-        Where its axes cross.
-    scale : float
-        On the central meridian.
-    false_easting_m, false_northing_m : float
-        What the axes' crossing is called.
-    semi_major_axis_m, inverse_flattening : float
-        The ellipsoid; that of GRS 1980 unless given, from which WGS 84 differs by a tenth of a millimetre.
+    """A transverse Mercator projection of an ellipsoid, that of GRS 1980 unless given; WGS 84 differs from it by 0.1
+    mm.
     """
 
     central_meridian_deg: float
     latitude_of_origin_deg: float = 0.0
-    scale: float = 0.9996
-    false_easting_m: float = 500_000.0
+    scale: float = 0.9996  # on the central meridian
+    false_easting_m: float = 500_000.0  # coordinates of the axes' crossing
     false_northing_m: float = 0.0
     semi_major_axis_m: float = 6_378_137.0
     inverse_flattening: float = 298.257222101
@@ -34,8 +24,6 @@ class TransverseMercator:
     def place_on_earth(self, easting_m: float, northing_m: float) -> tuple[float, float]:
         """Return latitude and longitude in degrees.
 
-        References
-        ----------
         L. Krüger's series in the third flattening, to its fourth power: C. Karney (2011), Transverse Mercator with an
         accuracy of a few nanometers, Journal of Geodesy 85, 475-485, equations 12, 35 and 36; from the conformal to the
         geographic latitude equations 7 to 9, by fixed-point iteration.
@@ -113,10 +101,10 @@ WGS 84, GDA94 and GDA2020 (MGA) in the south. The number of the zone follows. Al
 
 def grid_of_epsg(name: str) -> TransverseMercator | None:
     """Return the UTM zone of a reference system's name, such as ``EPSG:25832``; None for all that is no UTM zone."""
-    found = re.fullmatch(r"(?:urn:ogc:def:crs:)?EPSG:{1,2}(\d+)", name.strip(), flags=re.IGNORECASE)
-    if not found:
+    match = re.fullmatch(r"(?:urn:ogc:def:crs:)?EPSG:{1,2}(\d+)", name.strip(), flags=re.IGNORECASE)
+    if not match:
         return None
-    code = found.group(1)
+    code = match.group(1)
     for zones, false_northing_m in ((_UTM_NORTH, 0.0), (_UTM_SOUTH, 10_000_000.0)):
         for beginning, (first, last) in zones.items():
             zone = code.removeprefix(beginning)

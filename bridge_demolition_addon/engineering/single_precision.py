@@ -1,4 +1,4 @@
-"""Numbers that Blender holds in single precision, and the decimals that they were given as."""
+"""Numbers that Blender holds in single precision, and the decimals that the user gave."""
 
 from __future__ import annotations
 

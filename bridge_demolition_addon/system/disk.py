@@ -1,4 +1,4 @@
-"""Files that a kill, a full disk or somebody else at work may hit: written whole or not at all, or found to be gone."""
+"""Files that a kill, a full disk or another process may hit: written whole or not at all, or known to be gone."""
 
 import os
 import shutil
@@ -13,7 +13,7 @@ from ..errors import OutputError
 def whole_file(path: Path) -> Iterator[Path]:
     """Give a file beside a path to write to, and have it take the place of the path once it is on the disk.
 
-    Whatever was at the path stays until then, and stays where writing fails; an error of the system names the path.
+    The file at the path stays until then, and stays where writing fails; an error of the system names the path.
     """
     part = part_of(path)
     try:
@@ -73,13 +73,7 @@ def is_in_place(descriptor: int, path: Path) -> bool:
 
 @contextmanager
 def writing(path: Path) -> Iterator[None]:
-    """Say which path cannot be written, where what is done in the block fails for it.
-
-    Raises
-    ------
-    OutputError
-        The system refuses to write.
-    """
+    """Raise `OutputError` with a path that cannot be written, where the block fails for it."""
     try:
         yield
     except OSError as error:

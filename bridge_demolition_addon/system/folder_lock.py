@@ -1,4 +1,4 @@
-"""One at a time: whoever writes results or a report to a folder locks it against all others."""
+"""One writer at a time: a process that writes to a folder locks it against all others."""
 
 from __future__ import annotations
 
@@ -35,17 +35,10 @@ else:
 
 
 class FolderLock:
-    """A folder that only its holder writes to, from when this is made until it is released.
+    """An existing folder that only its holder writes to, from when this is made until it is released.
 
-    The system holds the lock as long as the process lives. What a killed process leaves of it is a file without effect,
-    which the next one takes over.
-
-    Parameters
-    ----------
-    folder
-        Existing folder.
-    is_new
-        Whether it was made for this holder.
+    The system holds the lock as long as the process lives. A killed process leaves a file without effect, which the
+    next one takes over. `is_new` says whether the folder was made for this holder.
     """
 
     def __init__(self, folder: Path, *, is_new: bool = False) -> None:
@@ -83,7 +76,7 @@ class FolderLock:
 
 
 def check_unlocked(folder: Path) -> None:
-    """See that nobody writes to a folder, without changing anything in it."""
+    """Raise `OutputError` where a process writes to a folder; nothing in it is changed."""
     path = folder / LOCK_FILE
     if path.is_file():
         with writing(folder), path.open("rb+", buffering=0) as file:
@@ -91,13 +84,13 @@ def check_unlocked(folder: Path) -> None:
 
 
 def writer_in(folder: Path) -> str | None:
-    """Return who writes to a folder, None where nobody does or it cannot be told; nothing in it is changed."""
+    """Return the process that writes to a folder, None where none does or it is unknown; nothing is changed."""
     path = folder / LOCK_FILE
     if not path.is_file():
         return None
     try:
         file = path.open("rb", buffering=0)
-    except OSError:  # it has gone just now, or is not for everybody to read
+    except OSError:  # it has gone just now, or this user may not read it
         return None
     with file:
         try:
@@ -137,5 +130,5 @@ def _holder(path: Path) -> str:
 def _remove_closed(path: Path) -> None:
     try:
         path.unlink(missing_ok=True)
-    except PermissionError:  # another process has opened it in between: now it is that one's
+    except PermissionError:  # another process has opened it in between, and owns it now
         return

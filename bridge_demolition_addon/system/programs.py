@@ -12,13 +12,8 @@ _PACKAGE = Path(__file__).resolve().parents[1]
 def program_command(module: str, blender: str = "") -> list[str]:
     """Return the command that runs `main` of a module of this package, from any folder; arguments may follow.
 
-    Parameters
-    ----------
-    module
-        Name of the module within the package.
-    blender
-        Program of Blender that runs it, without a window; this Python where it is empty. Blender without preferences
-        knows no extensions and none of their libraries, so it gets the paths of this process.
+    A program of Blender runs it, without a window; this Python where none is given. Blender without preferences knows
+    no extensions and none of their libraries, so it gets the paths of this process.
     """
     libraries = f"sys.path += {sys.path!r}; " if blender else ""
     start = (
@@ -33,9 +28,9 @@ def program_command(module: str, blender: str = "") -> list[str]:
 def start_program(
     command: Sequence[str], errors: IO[bytes], environment: Mapping[str, str] | None = None
 ) -> tuple[subprocess.Popen[str], IO[str], IO[str]]:
-    """Start a program, and return it with the stream of what it is asked and that of its answers.
+    """Start a program, and return it with the stream of its questions and that of its answers.
 
-    Ctrl-C does not reach it: the process that started it ends it.
+    Ctrl-C does not get to it: the process that started it ends it.
     """
     if sys.platform == "win32":
         new_group = subprocess.CREATE_NEW_PROCESS_GROUP

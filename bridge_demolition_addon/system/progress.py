@@ -1,11 +1,11 @@
-"""How far some work is, as the one who does it tells and the one who shows it takes in."""
+"""Progress of some work, as it is reported and shown."""
 
 
 class Progress:
-    """Takes in how far some work is, and shows nothing of it."""
+    """Takes in the progress of some work, and shows nothing of it."""
 
     def stage(self, text: str) -> None:
-        """Take in what begins now."""
+        """Take in the name of the stage that begins now."""
 
     def frame(self, done: int, total: int, broken: int, left_s: float | None) -> None:
         """Take in how many frames are done and connections broken, and how long the other frames take, if known."""

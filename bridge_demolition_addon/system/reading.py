@@ -1,4 +1,4 @@
-"""Files of the user, read only where they are files, and no larger than what is expected of them."""
+"""Files of the user, read only where they are files, and no larger than expected."""
 
 from __future__ import annotations
 
@@ -11,43 +11,30 @@ MEGABYTE = 1_000_000
 
 
 def check_file(path: Path, most_bytes: int | None = None) -> None:
-    """Make sure that a path leads to a file: a pipe would be waited for, and a device read without end.
+    """Raise `UnreadableError` where a path leads to no file, cannot be read, or to more than `most_bytes`.
 
-    Parameters
-    ----------
-    path : Path
-        What is to be read.
-    most_bytes : int, optional
-        How large it may be; of any size unless given.
-
-    Raises
-    ------
-    UnreadableError
-        It is no file, cannot be looked at, or is larger. The text does not name it.
+    A pipe would be waited for, and a device read without end. The text does not name the path.
     """
     try:
-        found = path.stat()
+        status = path.stat()
     except FileNotFoundError as error:
         raise UnreadableError("no such file") from error
     except OSError as error:
         raise UnreadableError(f"cannot be read: {error.strerror}") from error
     except ValueError as error:
         raise UnreadableError(f"no path of a file: {error}") from error
-    if stat.S_ISDIR(found.st_mode):
+    if stat.S_ISDIR(status.st_mode):
         raise UnreadableError("is a directory")
-    if not stat.S_ISREG(found.st_mode):
+    if not stat.S_ISREG(status.st_mode):
         raise UnreadableError("is a pipe or a device, not a file")
-    if most_bytes is not None and found.st_size > most_bytes:
-        raise UnreadableError(f"has {found.st_size / MEGABYTE:.1f} MB: expected at most {most_bytes / MEGABYTE:g} MB")
+    if most_bytes is not None and status.st_size > most_bytes:
+        raise UnreadableError(f"has {status.st_size / MEGABYTE:.1f} MB: expected at most {most_bytes / MEGABYTE:g} MB")
 
 
 def file_text(path: Path, most_bytes: int) -> str:
     """Return the text of a file in UTF-8, without the mark that editors on Windows may put at its beginning.
 
-    Raises
-    ------
-    UnreadableError
-        It is no file, cannot be read, is larger than `most_bytes` or no such text. The text does not name it.
+    Raise `UnreadableError` as `check_file`, and where it is no such text.
     """
     check_file(path, most_bytes)
     try:

@@ -14,13 +14,7 @@ _BY_SYSTEM = [getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr
 
 
 class Interrupted(KeyboardInterrupt):
-    """The program was asked to end.
-
-    Attributes
-    ----------
-    signal_number
-        Signal that asked.
-    """
+    """The program was asked to end, by a signal."""
 
     def __init__(self, signal_number: int):
         super().__init__()
@@ -28,9 +22,9 @@ class Interrupted(KeyboardInterrupt):
 
 
 def interrupt_by_system() -> None:
-    """Have those of the system raise `Interrupted` from now on; none that is to be ignored, as `nohup` asks."""
-    for each in _heeded(_BY_SYSTEM):
-        signal.signal(each, _interrupt)
+    """Have those of the system raise `Interrupted` from now on, but those that are ignored, as `nohup` asks."""
+    for number in _heeded(_BY_SYSTEM):
+        signal.signal(number, _interrupt)
 
 
 def _interrupt(signal_number: int, _frame: FrameType | None) -> NoReturn:
@@ -38,7 +32,7 @@ def _interrupt(signal_number: int, _frame: FrameType | None) -> NoReturn:
 
 
 def _heeded(signals: Sequence[int]) -> list[int]:
-    return [each for each in signals if signal.getsignal(each) is not signal.SIG_IGN]
+    return [number for number in signals if signal.getsignal(number) is not signal.SIG_IGN]
 
 
 @contextmanager
@@ -52,15 +46,15 @@ def interrupted_afterwards() -> Iterator[None]:
 
 @contextmanager
 def signals_noted() -> Iterator[Sequence[int]]:
-    """Give a list that grows by every such signal; none of them cuts what is done in the block, or a file, in two."""
+    """Give a list that grows by every such signal; none of them interrupts the block, or cuts a file in two."""
     numbers: list[int] = []
     if threading.current_thread() is not threading.main_thread():
         yield numbers
         return
     noted = _heeded([signal.SIGINT, *_BY_SYSTEM])
-    before = {each: signal.signal(each, lambda number, _: numbers.append(number)) for each in noted}
+    before = {number: signal.signal(number, lambda received, _: numbers.append(received)) for number in noted}
     try:
         yield numbers
     finally:
-        for each, handler in before.items():
-            signal.signal(each, handler or signal.SIG_DFL)  # none that Python knows of, inside Blender
+        for number, handler in before.items():
+            signal.signal(number, handler or signal.SIG_DFL)  # Blender's own handlers are None here

@@ -28,20 +28,12 @@ _STILL = 0.01
 
 @dataclass(frozen=True, slots=True, eq=False)
 class GroundRecord:
-    """Motion of the ground at k times.
+    """Motion of the ground at k times."""
 
-    Attributes
-    ----------
-    times_s : (k,) float
-        From 0 on.
-    accelerations_m_s2, velocities_m_s, displacements_m : (k, 3) float
-        Along x, y and z, from where the ground rests before.
-    """
-
-    times_s: FloatArray
-    accelerations_m_s2: FloatArray
+    times_s: FloatArray  # (k,), from 0 on
+    accelerations_m_s2: FloatArray  # (k, 3), along x, y and z
     velocities_m_s: FloatArray
-    displacements_m: FloatArray
+    displacements_m: FloatArray  # from where the ground rests before
 
     @property
     def duration_s(self) -> float:
@@ -49,7 +41,7 @@ class GroundRecord:
         return float(self.times_s[-1])
 
     def displacement_at(self, time_s: float) -> FloatArray:
-        """Return the displacement (3,) at a time: 0 before the record, and what it ends with after it."""
+        """Return the displacement (3,) at a time: 0 before the record, and its last one after it."""
         if time_s <= 0.0:
             return np.zeros(3)
         if time_s >= self.times_s[-1]:
@@ -86,22 +78,22 @@ def integrated(times_s: FloatArray, accelerations_m_s2: FloatArray) -> GroundRec
 def corrected(times_s: FloatArray, accelerations_m_s2: FloatArray, baseline: str) -> GroundRecord:
     """Return the motion by accelerations (k, 3) at times (k,), with a baseline taken off them."""
     taken_off: dict[str, Callable[[GroundRecord], FloatArray]] = {"linear": _line, "parabola": _parabola}
-    found = integrated(times_s, accelerations_m_s2)
+    record = integrated(times_s, accelerations_m_s2)
     if baseline in taken_off:
-        found = integrated(times_s, accelerations_m_s2 - taken_off[baseline](found))
-    at_end, largest = abs(found.velocities_m_s[-1]).max(), abs(found.velocities_m_s).max()
+        record = integrated(times_s, accelerations_m_s2 - taken_off[baseline](record))
+    at_end, largest = abs(record.velocities_m_s[-1]).max(), abs(record.velocities_m_s).max()
     if at_end > _STILL * largest:
         raise ScenarioError(
             f'ground_motion.baseline is "{baseline}", and the record ends with {at_end:.3g} m/s, '
             f"{at_end / largest:.0%} of its largest velocity: expected one that ends at rest; take linear or parabola"
         )
-    farthest = abs(found.displacements_m).max()
+    farthest = abs(record.displacements_m).max()
     if farthest > LARGEST_DISPLACEMENT_M:
         raise ScenarioError(
             f"ground_motion moves the ground by {farthest:.0f} m: expected at most {LARGEST_DISPLACEMENT_M:g} m; check "
             "ground_motion.unit, or take another ground_motion.baseline"
         )
-    return found
+    return record
 
 
 def _line(record: GroundRecord) -> FloatArray:
@@ -134,7 +126,7 @@ def _powers(times_s: FloatArray, exponent: int) -> GroundRecord:
 
 
 def _ending_as(record: GroundRecord, one: GroundRecord, other: GroundRecord) -> tuple[FloatArray, FloatArray]:
-    """How much of two motions together ends with velocity and displacement of another, in each direction."""
+    """Parts of two motions that together end with velocity and displacement of another, in each direction."""
     (a,), (b,) = one.velocities_m_s[-1], other.velocities_m_s[-1]
     (c,), (d,) = one.displacements_m[-1], other.displacements_m[-1]
     velocity, displacement = record.velocities_m_s[-1], record.displacements_m[-1]

@@ -1,4 +1,4 @@
-"""Where the probability of success passes one half, without a model of how it rises: probabilistic bisection.
+"""Position where the probability of success passes one half, without a model of how it rises: probabilistic bisection.
 
 Each run votes for the median to be below or above it, and is right with a probability that is taken to be the same
 everywhere: R. Waeber, P. I. Frazier and S. G. Henderson (2013), Bisection search with noisy responses, SIAM Journal on
@@ -20,13 +20,8 @@ def median_interval(
 ) -> tuple[float, float, float]:
     """Median of the posterior, and the interval about it that has a probability.
 
-    Parameters
-    ----------
-    runs : LevelOutcomes
-    lowest, highest : float
-        Range in which the median is as likely everywhere, before the runs; widened to hold them all.
-    probability : float
-        Of the interval.
+    Before the runs the median is as likely everywhere in the range from `lowest` to `highest`, which is widened to hold
+    them all.
     """
     inside = runs.levels[np.isfinite(runs.levels)]
     edges = np.unique(np.concatenate(([lowest, highest], inside)))

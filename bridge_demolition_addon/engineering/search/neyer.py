@@ -1,9 +1,9 @@
-"""Where to try next: B. T. Neyer's D-optimal test of sensitivity, with several runs at once.
+"""Choice of the next level: B. T. Neyer's D-optimal test of sensitivity, with several runs at once.
 
 B. T. Neyer (1994), A D-optimality-based sensitivity test, Technometrics 36, 61-70. Until both kinds of outcome are
 there, the range is searched and left if need be; then it is halved down to the guess of the spread, which shrinks until
-runs overlap; from then on each run is where it adds most to the determinant of Fisher's information on the median
-and the spread.
+runs overlap; from then on each run is where it adds most to the determinant of Fisher's information on the median and
+the spread.
 
 Runs whose outcome is not there yet count as information: how much a run gives does not depend on its outcome. So
 several at once are a greedy D-optimal batch.
@@ -21,7 +21,7 @@ from ..arrays import FloatArray
 from .probit import LevelOutcomes, SuccessCurve, fitted
 
 SHRINKS = 0.8
-"""By how much the guess of the spread shrinks with each run without overlap."""
+"""Factor by which the guess of the spread shrinks with each run without overlap."""
 
 _ROUNDING = 1e-9
 _FARTHEST = 5.0
@@ -29,18 +29,10 @@ _PLACES = 2001
 
 
 class NeyerTest:
-    """The levels of a test, one after another.
+    """The levels of a test, one after another; higher levels succeed more often.
 
-    Parameters
-    ----------
-    lowest, highest : float
-        Range in which the median is expected; higher levels succeed more often.
-    spread : float
-        Guess of the spread.
-    rounded : callable, optional
-        What makes a level that can be tried of one that was chosen.
-    pending : int
-        How many runs are under way while the next is chosen.
+    The median is expected between `lowest` and `highest`, `spread` is a guess. `rounded` makes a level that can be
+    tried of one that was chosen; `pending` runs are under way while the next is chosen.
     """
 
     def __init__(
@@ -78,9 +70,9 @@ class NeyerTest:
 
     def _next(self, runs: LevelOutcomes, under_way: FloatArray, guess: float) -> tuple[float, float]:
         """The next level, and the guess of the spread after it."""
-        if runs.overlap and (found := fitted(runs)):
+        if runs.overlap and (likeliest := fitted(runs)):
             low, high = runs.levels.min(), runs.levels.max()
-            normal = SuccessCurve(float(np.clip(found.median, low, high)), min(found.spread, high - low))
+            normal = SuccessCurve(float(np.clip(likeliest.median, low, high)), min(likeliest.spread, high - low))
             return most_informative(np.concatenate((runs.levels, under_way)), normal), guess
         place, width = self._search(runs, guess)
         if place is not None:
@@ -91,7 +83,9 @@ class NeyerTest:
         return most_informative(np.concatenate((runs.levels, under_way)), normal), SHRINKS * guess
 
     def _search(self, runs: LevelOutcomes, guess: float) -> tuple[float | None, float]:
-        """Where to look for both kinds of outcome, and how far that may be off; None once they are a guess apart."""
+        """The level at which to look for both kinds of outcome, and how far it may be off; None once they are a guess
+        apart.
+        """
         if not len(runs):
             return (self.lowest + self.highest) / 2.0, (self.highest - self.lowest) / 4.0
         low, high = float(runs.levels.min()), float(runs.levels.max())

@@ -25,33 +25,19 @@ _STEEPEST = 1e6
 
 @dataclass(frozen=True, slots=True)
 class SuccessCurve:
-    """How the probability of success rises.
+    """Curve of the probability of success; a spread of 0 where runs do not overlap: success from the median on."""
 
-    Attributes
-    ----------
-    median, spread : float
-        μ and σ; a spread of 0 where runs do not overlap: success at and above the median, failure below.
-    """
-
-    median: float
-    spread: float
+    median: float  # μ
+    spread: float  # σ
 
     def quantile(self, probability: float) -> float:
-        """Where success has a probability."""
+        """Return the level at which success has a probability."""
         return self.median + self.spread * float(ndtri(probability))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class LevelOutcomes:
-    """n runs.
-
-    Attributes
-    ----------
-    levels : (n,) float
-        Where.
-    successes : (n,) bool
-        Whether each succeeded.
-    """
+    """Levels (n,) of runs, and whether each succeeded (n,)."""
 
     levels: FloatArray
     successes: BoolArray
@@ -120,7 +106,7 @@ def _likeliest(runs: LevelOutcomes) -> SuccessCurve:
 
 
 def log_likelihood(runs: LevelOutcomes, normal: SuccessCurve) -> float:
-    """Logarithm of the probability of what runs came to."""
+    """Logarithm of the probability of these outcomes."""
     if normal.spread == 0.0:
         return 0.0 if runs.highest_failure <= normal.median <= runs.lowest_success else -np.inf
     signs = np.where(runs.successes, 1.0, -1.0)
@@ -128,7 +114,7 @@ def log_likelihood(runs: LevelOutcomes, normal: SuccessCurve) -> float:
 
 
 def profile_likelihood(runs: LevelOutcomes, place: float, probability: float) -> float:
-    """Largest logarithm of the likelihood of all distributions that have this probability of success at a place."""
+    """Largest logarithm of the likelihood of all distributions with this probability of success at a level."""
     signs = np.where(runs.successes, 1.0, -1.0)
     offsets, base = runs.levels - place, float(ndtri(probability))
     unit = max(np.ptp(runs.levels), abs(offsets).max(), 1e-300)
@@ -140,28 +126,16 @@ def profile_likelihood(runs: LevelOutcomes, place: float, probability: float) ->
     high = 1.0
     while high < _STEEPEST and loss(2.0 * high) < loss(high):
         high *= 2.0
-    found = minimize_scalar(loss, bounds=(0.0, 4.0 * high), method="bounded", options={"xatol": 1e-7 * high})
-    return -min(float(found.fun), loss(0.0), loss(_STEEPEST))
+    least = minimize_scalar(loss, bounds=(0.0, 4.0 * high), method="bounded", options={"xatol": 1e-7 * high})
+    return -min(float(least.fun), loss(0.0), loss(_STEEPEST))
 
 
 def limit(runs: LevelOutcomes, probability: float, confidence: float, side: int) -> float:
-    """Limit of the place where success has a probability.
+    """Return the upper (`side` 1) or lower (-1) limit of the level where success has a probability; ± ∞ without.
 
     Twice the logarithm of the ratio of likelihoods is compared with the F distribution with 1 and n - 2 degrees of
-    freedom instead of χ², its limit for many runs: with few, the design follows the answers, and σ comes out small.
-
-    Parameters
-    ----------
-    runs : LevelOutcomes
-    probability, confidence : float
-        Of success there; and with which the limit holds.
-    side : int
-        1 for an upper limit, -1 for a lower one.
-
-    Returns
-    -------
-    float
-        ± ∞ where the runs set no limit.
+    freedom instead of χ², its limit for many runs: with few, the design follows the answers, and σ is estimated too
+    small.
     """
     normal = fitted(runs)
     if normal is None or len(runs) < 4:
@@ -185,7 +159,7 @@ def limit(runs: LevelOutcomes, probability: float, confidence: float, side: int)
 
 
 def chance(normal: SuccessCurve, places: FloatArray) -> FloatArray:
-    """Probability of success (k,) at places (k,)."""
+    """Probability of success (k,) at levels (k,)."""
     if normal.spread == 0.0:
         return np.where(places >= normal.median, 1.0, 0.0)
     chances: FloatArray = ndtr((places - normal.median) / normal.spread)

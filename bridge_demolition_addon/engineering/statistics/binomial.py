@@ -1,12 +1,10 @@
-"""How often something happens in independent runs, with the same bits on every processor.
+"""Probability that something happens so often in independent runs, with the same bits on every processor.
 
 All limits of this package rest on it: the binomial distribution is the regularised incomplete beta function of whole
-numbers, P(at most k of n) = I_(1-p)(n - k, k + 1).
-
-References
-----------
-C. Loader (2000), Fast and Accurate Computation of Binomial Probabilities: `_probability_of`, its Stirling errors and
-deviances.
+numbers, P(at most k of n) = I_(1-p)(n - k, k + 1). C. Loader (2000), Fast and Accurate Computation of Binomial
+Probabilities: `_probability_of`, its Stirling errors and deviances. The limits for a proportion are those of C. J.
+Clopper and E. S. Pearson (1934), The use of confidence or fiducial limits illustrated in the case of the binomial,
+Biometrika 26, 404-413.
 """
 
 from __future__ import annotations
@@ -16,31 +14,20 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike
 
-from ..arithmetic import exponential, logarithm, power
+from ..arithmetic import coefficients, exponential, logarithm, power
 from ..arrays import FloatArray
 
 _HALVINGS = 64
 """Leave 5e-20 of the chances between 0 and 1, which is nine digits of one in ten billions."""
 
 _STIRLING_ERRORS = np.array(
-    [
-        0.0,
-        8.10614667953272582196702e-02,
-        4.13406959554092940938221e-02,
-        2.76779256849983391487892e-02,
-        2.07906721037650931115228e-02,
-        1.66446911898211921631948e-02,
-        1.38761288230707479987457e-02,
-        1.18967099458917700950557e-02,
-        1.04112652619720964556590e-02,
-        9.25546218271273291772864e-03,
-        8.33056343336287125646931e-03,
-        7.57367548795184079497202e-03,
-        6.94284010720952986566415e-03,
-        6.40899418800420706843965e-03,
-        5.95137011275884773562442e-03,
-        5.55473355196280137103868e-03,
-    ]
+    coefficients(
+        "0.0 8.10614667953272582196702e-02 4.13406959554092940938221e-02 2.76779256849983391487892e-02 "
+        "2.07906721037650931115228e-02 1.66446911898211921631948e-02 1.38761288230707479987457e-02 "
+        "1.18967099458917700950557e-02 1.04112652619720964556590e-02 9.25546218271273291772864e-03 "
+        "8.33056343336287125646931e-03 7.57367548795184079497202e-03 6.94284010720952986566415e-03 "
+        "6.40899418800420706843965e-03 5.95137011275884773562442e-03 5.55473355196280137103868e-03"
+    )
 )
 """ln(n!) less Stirling's formula, for n up to 15."""
 
@@ -52,19 +39,9 @@ _SERIES_TERMS = 9
 
 
 def binomial_cdf(happened: ArrayLike, runs: ArrayLike, chance: ArrayLike) -> FloatArray:
-    """Probability that something of a given chance happens at most so often in so many independent runs.
+    """Probability that something with a chance happens at most `happened` times in so many independent runs.
 
-    Parameters
-    ----------
-    happened, runs : whole numbers
-        How often, 0 to `runs`, and how many runs; arrays of one shape, or numbers.
-    chance : float
-        Of one run, 0 to 1.
-
-    Returns
-    -------
-    float or array of float
-        Within 1e-12 of the exact probability for up to a million runs.
+    It is within 1e-12 of the exact probability for up to a million runs. Numbers, or arrays of one shape.
     """
     happened, runs, chance = np.broadcast_arrays(
         np.asarray(happened, float), np.asarray(runs, float), np.asarray(chance, float)
@@ -86,6 +63,16 @@ def binomial_cdf_inverse(happened: ArrayLike, runs: ArrayLike, probability: Arra
         likely = binomial_cdf(happened, runs, middle) > probability
         lowest, highest = np.where(likely, middle, lowest), np.where(likely, highest, middle)
     return highest[()]
+
+
+def upper_limit(happened: ArrayLike, runs: int, confidence: float) -> FloatArray:
+    """Largest probability that so many of the independent runs leave possible, with a one-sided confidence."""
+    return binomial_cdf_inverse(happened, runs, 1.0 - confidence)
+
+
+def lower_limit(happened: ArrayLike, runs: int, confidence: float) -> FloatArray:
+    """Smallest probability that so many of the independent runs leave possible, with a one-sided confidence."""
+    return 1.0 - upper_limit(runs - np.asarray(happened), runs, confidence)
 
 
 def _end_sum(happened: FloatArray, runs: FloatArray, chance: FloatArray) -> FloatArray:

@@ -1,23 +1,20 @@
 """Limits by rank: the largest run, or one of the next, as a limit for all runs to come, whatever their distribution.
 
-What is drawn has to be independent and of one distribution, and how many runs there are and which rank counts has to
-be fixed before they are seen.
+Runs have to be independent and of one distribution, and their number and the rank have to be fixed before they are
+seen.
 
-One count serves three questions, because in each of them so many runs of all touch what is set up, and the part of the
+One count serves three questions, because in each of them so many runs of all touch the limit, and the part of the
 distribution that lies outside is then at most theirs:
 
 - the k-th largest of one quantity as its limit (Wilks 1941): k runs;
 - the largest of each of m quantities as limits of all m at once (Guba, Makai and Pál 2003): m runs;
 - the smallest shape with d free dimensions around all runs (Campi and Garatti 2008): d runs.
 
-References
-----------
 S. S. Wilks (1941), Determination of sample sizes for setting tolerance limits, Annals of Mathematical Statistics 12,
-91-96.
-A. Guba, M. Makai and L. Pál (2003), Statistical aspects of best estimate method, Reliability Engineering and System
-Safety 80, 217-232.
-M. C. Campi and S. Garatti (2008), The exact feasibility of randomized solutions of uncertain convex programs, SIAM
-Journal on Optimization 19, 1211-1230: their bound, which for d dimensions is that of the d-th largest of one.
+91-96. A. Guba, M. Makai and L. Pál (2003), Statistical aspects of best estimate method, Reliability Engineering and
+System Safety 80, 217-232. M. C. Campi and S. Garatti (2008), The exact feasibility of randomized solutions of uncertain
+convex programs, SIAM Journal on Optimization 19, 1211-1230: their bound, which for d dimensions is that of the d-th
+largest of one.
 """
 
 from __future__ import annotations
@@ -25,21 +22,13 @@ from __future__ import annotations
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
-from .binomial import binomial_cdf
-from .proportions import upper_limit
+from .binomial import binomial_cdf, upper_limit
 
 
 def achieved_confidence(support_count: int, runs: int, quantile: float) -> float:
-    """Return how sure it is that at least a share `quantile` of all runs to come stays within.
+    """Return how sure it is that at least a share `quantile` of all runs to come stays within a limit.
 
-    Parameters
-    ----------
-    support_count
-        How many of the runs set the limit: for the k-th largest as limit of one quantity, k.
-    runs
-        How many there are, not fewer.
-    quantile
-        Share of all runs, above 0 and below 1.
+    So many of the runs set the limit: for the k-th largest as limit of one quantity, k.
     """
     return float(1.0 - binomial_cdf(support_count - 1, runs, 1.0 - quantile))
 
@@ -69,7 +58,7 @@ def most_support_by_runs(runs: IntArray, quantile: float, confidence: float) -> 
     allowed, refused = np.zeros(runs.shape, int), runs + 1
     while (refused - allowed > 1).any():
         middle = np.where(refused - allowed > 1, (allowed + refused) // 2, allowed)
-        # At no rank at all everything stays within: what is not asked any more keeps its answer.
+        # At no rank at all everything stays within: a closed search keeps its answer.
         sure = (middle == allowed) | (binomial_cdf(np.maximum(middle - 1, 0), runs, 1.0 - quantile) <= 1.0 - confidence)
         allowed, refused = np.where(sure, middle, allowed), np.where(sure, refused, middle)
     return allowed
@@ -86,23 +75,10 @@ def nth_largest(values: FloatArray, rank: int) -> float:
 
 
 def limits_by_runs(values: FloatArray, quantile: float, confidence: float, rank: int) -> tuple[IntArray, FloatArray]:
-    """Follow a limit while runs come in.
+    """Return numbers of runs (m,), and the limit (m,) by so many first runs, of values (n,) in the order of the runs.
 
-    Parameters
-    ----------
-    values : (n,) float
-        In the order of the runs.
-    quantile, confidence
-        What the limit has to hold.
-    rank
-        Highest rank from the largest that is used: with many runs the one fixed beforehand, with few a lower one.
-
-    Returns
-    -------
-    (m,) int
-        Numbers of runs at which the limit is looked at: up to `_MOST_POINTS` of those that allow one, all included.
-    (m,) float
-        The limit by these first runs.
+    The numbers are up to `_MOST_POINTS` of those that allow a limit, all included. `rank` is the highest from the
+    largest that is used: with many runs the one fixed beforehand, with few a lower one.
     """
     first = least_runs(quantile, confidence)
     if len(values) < first:
@@ -110,7 +86,7 @@ def limits_by_runs(values: FloatArray, quantile: float, confidence: float, rank:
     points = min(_MOST_POINTS, len(values) - first + 1)
     runs = np.unique(np.rint(np.linspace(first, len(values), points)).astype(int))
     ranks = np.minimum(most_support_by_runs(runs, quantile, confidence), rank)
-    limits = [nth_largest(values[:count], each) for count, each in zip(runs, ranks, strict=True)]
+    limits = [nth_largest(values[:count], allowed) for count, allowed in zip(runs, ranks, strict=True)]
     return runs, np.array(limits)
 
 

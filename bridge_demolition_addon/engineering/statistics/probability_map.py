@@ -1,7 +1,7 @@
-"""Map of a study: how likely debris is at a place.
+"""Map of a study: probability of debris at a position.
 
-The limit of each cell holds for this cell by itself. That one of many cells is hit more often than its limit says is
-to be expected: the limit of the debris distance is for the whole plan at once.
+The limit of each cell holds for this cell by itself. Of many cells, one is expected to be hit more often than its limit
+says: the limit of the debris distance is for the whole plan at once.
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ from manifold3d import CrossSection
 
 from ..arrays import FloatArray, IntArray
 from ..geometry.plan_cells import PlanCells
+from .binomial import upper_limit
 from .order_limits import least_runs
-from .proportions import upper_limit
 
 LEVELS = (0.5, 0.05, 0.01)
 """Probabilities that are outlined."""
@@ -27,25 +27,13 @@ _MOST_CELLS = 200
 
 @dataclass(frozen=True, eq=False)
 class ProbabilityMap:
-    """How often debris was at a place, at any time of a run.
-
-    Attributes
-    ----------
-    cells
-        Where on the plan.
-    hits : (rows, columns) int
-        Runs in which debris covered a part of a cell. A run that did not finish hit everything.
-    runs, unfinished
-        How many there were, and how many of them did not finish.
-    confidence
-        Of the limit of each cell by itself.
-    """
+    """Numbers of runs with debris in each cell, at any time. A run that did not finish hit every cell."""
 
     cells: PlanCells
-    hits: IntArray
+    hits: IntArray  # (rows, columns)
     runs: int
     unfinished: int
-    confidence: float
+    confidence: float  # of the limit of each cell by itself
 
     @property
     def shares(self) -> FloatArray:
@@ -59,11 +47,11 @@ class ProbabilityMap:
         return upper_limit(counts, self.runs, self.confidence)[of.reshape(self.hits.shape)]
 
     def resolves(self, probability: float) -> bool:
-        """Return whether the runs show of any place, such as one far away, that they hit it with no more than this."""
+        """Return whether the runs show of any position, even a distant one, that they hit it with no more than this."""
         return float(upper_limit(self.unfinished, self.runs, self.confidence)) <= probability
 
     def runs_for(self, probability: float) -> int:
-        """Return how many runs it takes to show so of a place that none of them hits."""
+        """Return how many runs it takes to show this of a position that none of them hits."""
         return least_runs(1.0 - probability, self.confidence)
 
     def area_above(self, probability: float) -> CrossSection:
@@ -77,17 +65,11 @@ class ProbabilityMap:
 def probability_map(
     swept: Iterable[Sequence[FloatArray] | None], confidence: float, around: Sequence[FloatArray] = ()
 ) -> ProbabilityMap | None:
-    """Return the map of a study; None where no run moved anything and there is nothing around which to draw it.
+    """Return the map of a study; None where no run moved anything and `around` is empty.
 
-    Parameters
-    ----------
-    swept
-        Of each run the outlines (k, 2) of all that its debris covered at any time, with holes the other way round; None
-        of a run that did not finish. It is gone through twice.
-    confidence
-        Of the limits.
-    around
-        Outlines (k, 2) that the map shows as well, such as the bridge's.
+    `swept` has the outlines (k, 2) of the area that debris covered in each run, with holes the other way round; None
+    for a run that did not finish. It is gone through twice. The map also shows the outlines `around`, such as the
+    bridge's.
     """
     corners = [_box(rings) for rings in (*swept, around) if rings]
     if not corners:

@@ -1,7 +1,5 @@
 """Rank correlation: whether one quantity rises or falls with another, whatever the form of the curve.
 
-References
-----------
 C. Spearman (1904), The proof and measurement of association between two things, American Journal of Psychology 15,
 72-101.
 """

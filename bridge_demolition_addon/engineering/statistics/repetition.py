@@ -1,11 +1,8 @@
-"""How much a limit by rank scatters: where it would lie if all runs were made again, with other inputs.
+"""Scatter of a limit by rank: where it would lie if all runs were made again, with other inputs.
 
-Two sets of independent runs of one distribution mix evenly. How many of the second lie below a run of the first
-depends on its rank alone, whatever the distribution is.
-
-References
-----------
-H. A. David and H. N. Nagaraja (2003), Order Statistics, 3rd edition, section 7.3: prediction of order statistics.
+Two sets of independent runs of one distribution mix evenly. How many of the second lie below a run of the first depends
+on its rank alone, whatever the distribution is: H. A. David and H. N. Nagaraja (2003), Order Statistics, 3rd edition,
+section 7.3, prediction of order statistics.
 """
 
 from __future__ import annotations
@@ -17,19 +14,9 @@ from ..arrays import FloatArray
 
 
 def chances_above(rank: int, runs: int) -> FloatArray:
-    """Return how likely the value of a rank, in as many new runs, is above each of the values that are known.
+    """Return how likely the value of a rank, in as many new runs, is above each known value (runs,), the largest first.
 
-    Parameters
-    ----------
-    rank
-        From the largest, which is 1.
-    runs
-        How many runs are known, and how many are new.
-
-    Returns
-    -------
-    (runs,) float
-        For the largest value that is known, the second largest, and so on: increasing.
+    The rank counts from the largest, which is 1. The chances increase.
     """
     # From the largest down, the new value of that rank comes after `rank` - 1 new ones and so many known ones.
     before = np.arange(1.0, runs)
@@ -42,25 +29,10 @@ def chances_above(rank: int, runs: int) -> FloatArray:
 
 
 def repeated_limit(values: FloatArray, rank: int, confidence: float) -> tuple[float, float, float]:
-    """Return the range in which the limit by rank of as many new runs would lie.
+    """Return the range in which the limit by a rank, from the largest, of as many new runs would lie.
 
-    Parameters
-    ----------
-    values : (n,) float
-        What is known.
-    rank
-        That of the limit, from the largest.
-    confidence
-        For each end of the range by itself.
-
-    Returns
-    -------
-    float
-        The largest known value that a new limit exceeds with this confidence; minus infinity where there is none.
-    float
-        The smallest known value that it does not exceed with this confidence; infinity where there is none.
-    float
-        How likely it exceeds all that is known.
+    These are the largest known value that a new limit exceeds with the confidence, or minus infinity; the smallest that
+    it does not exceed with the confidence, or infinity; and how likely it exceeds all known values.
     """
     falling = np.sort(values)[::-1]
     chances = chances_above(rank, len(values))

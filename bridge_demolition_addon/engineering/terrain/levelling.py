@@ -1,4 +1,4 @@
-"""Ground levelled under what stands on it, and dug away from what reaches into it, as for footings."""
+"""Ground levelled under what stands on it, and dug away from members that go into it, as for footings."""
 
 from __future__ import annotations
 
@@ -19,56 +19,29 @@ STANDS_M = 1e-3
 _SAMPLES_PER_STEP = 2
 """Samples of a member in a cell of the grid, along each side."""
 
-_TOLD_M = 1e-3
-"""Ground that is moved by less is not worth a word."""
+_REPORTED_M = 1e-3
+"""Ground that is moved by less is not reported."""
 
 
 @dataclass(frozen=True, slots=True)
 class Levelled:
-    """What was done to the ground for a member.
-
-    Attributes
-    ----------
-    name : str
-        Of the member.
-    dug_m, filled_m : float
-        How deep ground was taken away, and how high it was filled up, at most.
-    """
+    """Change of the ground for a member."""
 
     name: str
-    dug_m: float
-    filled_m: float
+    dug_m: float  # largest depth of ground taken away
+    filled_m: float  # largest height of ground filled up
 
 
 def levelled(
     grid: Grid, members: Sequence[tuple[str, TriangleMesh]], heights_at: Callable[[FloatArray], FloatArray]
 ) -> tuple[Grid, BoolArray, tuple[Levelled, ...]]:
-    """Return a grid whose ground is level under feet and reaches into no member.
+    """Return a grid that is level under feet and inside no member, its nodes (s, s) that matter, and the changes.
 
-    A member stands on the ground where that comes up to the middle of its lowest face. There the ground is filled up
-    or dug away to the face. Wherever else the ground would reach into a member, up to a cell beside it, it is dug away.
+    A member stands on the ground where that is as high as the middle of its lowest face. There the ground is filled up
+    or dug away to the face. Wherever else the ground would go into a member, up to a cell beside it, it is dug away.
 
-    Parameters
-    ----------
-    grid : Grid
-        The ground, without gaps.
-    members : sequence of (str, TriangleMesh)
-        Names and solids.
-    heights_at : callable
-        Heights (n,) of the terrain at places (n, 2); nan where it has no data.
-
-    Returns
-    -------
-    grid : Grid
-        The ground as it is after that.
-    kept : (s, s) bool
-        Nodes at which its height matters.
-    done : tuple of Levelled
-
-    Raises
-    ------
-    GeometryError
-        The terrain has no data under the foot of a member.
+    `grid` has no gaps; members are names and solids; `heights_at` gives heights (n,) of the terrain at positions (n,
+    2), nan where it has no data.
     """
     before, heights = grid.heights, grid.heights.copy()
     lows, touched, kept = [], [], np.zeros(before.shape, bool)
@@ -96,7 +69,7 @@ def levelled(
     for (name, _), nodes in zip(members, touched, strict=True):
         change = (heights - before)[nodes]
         dug, filled = -float(change.min(initial=0.0)), float(change.max(initial=0.0))
-        if max(dug, filled) > _TOLD_M:
+        if max(dug, filled) > _REPORTED_M:
             done.append(Levelled(name, dug, filled))
     return replace(grid, heights=heights), kept | _grown(heights != before), tuple(done)
 
@@ -115,7 +88,7 @@ def _foot(solid: TriangleMesh) -> FloatArray | None:
 
 
 def _lower_side(solid: TriangleMesh, spacing_m: float) -> FloatArray:
-    """Places (n, 3) on the lower side of a solid, so close that none of its plan is farther from them than that."""
+    """Positions (n, 3) on the lower side of a solid, so close that none of its plan is farther from them than that."""
     low, high = solid.bounds[:, :2]
     counts = np.maximum(np.ceil((high - low) / spacing_m).astype(int), 1) + 1
     x, y = (np.linspace(low[axis], high[axis], counts[axis]) for axis in (0, 1))
@@ -126,7 +99,7 @@ def _lower_side(solid: TriangleMesh, spacing_m: float) -> FloatArray:
 
 
 def _on_edges(solid: TriangleMesh, spacing_m: float) -> FloatArray:
-    """Places (n, 3) along all edges: of what is thinner than the spacing they are all there is."""
+    """Positions (n, 3) along all edges: solids thinner than the spacing have no others."""
     edges = np.unique(np.sort(solid.triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1), axis=0)
     first, second = solid.vertices[edges[:, 0]], solid.vertices[edges[:, 1]]
     parts = np.maximum(np.ceil(np.abs(second - first)[:, :2].max(axis=1) / spacing_m).astype(int), 1)
@@ -139,18 +112,18 @@ def _on_edges(solid: TriangleMesh, spacing_m: float) -> FloatArray:
 
 def _nodes_below(grid: Grid, samples: FloatArray) -> FloatArray:
     """Lowest of the samples (n, 3) in the cells around each node, (s, s); inf where there are none."""
-    found = np.full(grid.heights.shape, np.inf)
+    lowest = np.full(grid.heights.shape, np.inf)
     cells = np.clip(np.floor((samples[:, :2] - grid.low) / grid.step_m).astype(np.int64), 0, grid.size - 2)
     for down in (0, 1):
         for right in (0, 1):
-            np.minimum.at(found, (cells[:, 1] + down, cells[:, 0] + right), samples[:, 2])
-    return found
+            np.minimum.at(lowest, (cells[:, 1] + down, cells[:, 0] + right), samples[:, 2])
+    return lowest
 
 
 def _beside(low: FloatArray) -> FloatArray:
     """The least value (s, s) of each node and its eight neighbours."""
     for axis in (0, 1):
-        padded = np.pad(low, [(1, 1) if each == axis else (0, 0) for each in (0, 1)], constant_values=np.inf)
+        padded = np.pad(low, [(1, 1) if other == axis else (0, 0) for other in (0, 1)], constant_values=np.inf)
         first, second = (padded.take(range(at, at + low.shape[axis]), axis) for at in (0, 2))
         low = np.minimum(low, np.minimum(first, second))
     return low

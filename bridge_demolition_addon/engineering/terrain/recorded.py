@@ -1,4 +1,4 @@
-"""The ground that a run was on: how high it is at a place, and what lies on it."""
+"""The ground that a run was on: its height at a position, and the surfaces on it."""
 
 from __future__ import annotations
 
@@ -17,15 +17,7 @@ _LEVEL_M = 1e-4
 
 @dataclass(frozen=True, slots=True)
 class NamedSurface:
-    """A surface on the ground.
-
-    Attributes
-    ----------
-    name, kind : str
-        What it is called, and what it is, such as water.
-    surface : Surface
-        Its triangles.
-    """
+    """A surface on the ground; its kind is a word such as water."""
 
     name: str
     kind: str
@@ -40,21 +32,13 @@ class NamedSurface:
         return float(heights.max()) if len(heights) and np.ptp(heights) <= _LEVEL_M else None
 
     def plan(self) -> CrossSection:
-        """What it covers in plan, above the ground or below it."""
+        """Return the area that it covers in plan, above the ground or below it."""
         return _covered(self.surface.mesh.corners[:, :, :2])
 
 
 @dataclass(frozen=True, slots=True)
 class RecordedGround:
-    """The ground of a run.
-
-    Attributes
-    ----------
-    terrain : Surface or None
-        The ground; None where it is flat, at height 0.
-    surfaces : tuple of NamedSurface
-        What lies on it.
-    """
+    """The ground of a run, and the surfaces on it; without `terrain` it is flat, at height 0."""
 
     terrain: Surface | None = None
     surfaces: tuple[NamedSurface, ...] = ()
@@ -65,7 +49,7 @@ class RecordedGround:
         return self.terrain is None and not self.surfaces
 
     def shown(self, surface: NamedSurface) -> CrossSection:
-        """What a surface covers in plan where it lies above the terrain: of water, up to its shores.
+        """Return the area of a surface in plan where it lies above the terrain: of water, up to its shores.
 
         Of a surface that is not level it is all of its plan.
         """
@@ -75,7 +59,7 @@ class RecordedGround:
         return plan - _covered_above(self.terrain.mesh.corners, level, np.array(plan.bounds()).reshape(2, 2))
 
     def heights_at(self, places_m: FloatArray) -> FloatArray:
-        """Heights (...) of ground and surfaces at places (..., 2), m; beyond its edge, that of its lowest place."""
+        """Heights (...) of ground and surfaces at positions (..., 2), m; beyond its edge, the lowest of the terrain."""
         places = np.asarray(places_m, float)
         flat = places.reshape(-1, 2)
         heights = np.zeros(len(flat))
@@ -88,14 +72,14 @@ class RecordedGround:
 
 
 def _covered(corners: FloatArray) -> CrossSection:
-    """What triangles (t, 3, 2) cover in plan, whichever side of them is up."""
+    """Area of triangles (t, 3, 2) in plan, whichever side of them is up."""
     areas = signed_area(corners)
     corners = np.where((areas < 0.0)[:, None, None], corners[:, ::-1], corners)
     return CrossSection(list(corners[areas != 0.0]), FillRule.NonZero)
 
 
 def _covered_above(corners: FloatArray, level_m: float, bounds_m: FloatArray) -> CrossSection:
-    """What the parts of triangles (t, 3, 3) above a level cover in plan, of those that meet a box (2, 2)."""
+    """Area in plan of the parts of triangles (t, 3, 3) above a level, of those that meet a box (2, 2)."""
     plan = corners[:, :, :2]
     meets = (plan.max(axis=1) >= bounds_m[0]).all(axis=1) & (plan.min(axis=1) <= bounds_m[1]).all(axis=1)
     parts = []

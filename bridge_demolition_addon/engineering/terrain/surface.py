@@ -1,4 +1,4 @@
-"""Surfaces of triangles over a plan, and how high they are at a place."""
+"""Surfaces of triangles over a plan, and their heights."""
 
 from __future__ import annotations
 
@@ -12,19 +12,16 @@ from ..geometry.proximity import blocks, ranges
 from ..geometry.vectors import cross_2d
 
 _ON_EDGE = 1e-9
-"""How far outside a triangle, as a part of it, a place may lie and still be on it."""
+"""How far outside a triangle, as a part of it, a position may lie and still be on it."""
 
 _MOST_CELLS_ALONG = 1024
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Surface:
-    """Triangles over a plan, sorted into square cells so that those at a place are found at once.
+    """Triangles over a plan, sorted into square cells so that those at a position are known at once.
 
-    Parameters
-    ----------
-    mesh : TriangleMesh
-        The triangles. Upright ones have no height at any place.
+    Upright triangles have no height at any position.
     """
 
     mesh: TriangleMesh
@@ -44,7 +41,7 @@ class Surface:
         size = (upper.max(axis=0) - low).max() if len(corners) else 1.0
         along = min(_MOST_CELLS_ALONG, int(np.sqrt(max(len(corners), 1))) + 1)
         cell = max(float(size) / along, np.finfo(float).tiny)
-        first, last = (np.floor((each - low) / cell).astype(np.int64) for each in (lower, upper))
+        first, last = (np.floor((corner - low) / cell).astype(np.int64) for corner in (lower, upper))
         counts = last.max(axis=0, initial=0) + 1
         wide, high = (last - first + 1).T
         rows, number = ranges(np.zeros(len(corners), np.int64), wide * high)
@@ -64,7 +61,7 @@ class Surface:
 
     @property
     def points(self) -> FloatArray:
-        """Places (n, 3) at which heights were given."""
+        """Positions (n, 3) at which heights were given."""
         return self.mesh.vertices
 
     @property
@@ -73,11 +70,11 @@ class Surface:
         return None
 
     def heights_at(self, places: FloatArray) -> FloatArray:
-        """Heights (n,) of the highest triangle at places (n, 2); nan where there is none."""
+        """Heights (n,) of the highest triangle at positions (n, 2); nan where there is none."""
         places = np.asarray(places, float).reshape(-1, 2)
-        found = np.full(len(places), np.nan)
+        highest = np.full(len(places), np.nan)
         if not len(self._corners):
-            return found
+            return highest
         column, row = np.floor((places - self._low) / self._cell_m).astype(np.int64).T
         on_edge = places == self.bounds[1]
         column = np.where(on_edge[:, 0], np.minimum(column, self._counts[0] - 1), column)
@@ -89,12 +86,12 @@ class Surface:
         for part in blocks(counts):
             of, candidate = ranges(self._firsts[cells[part]], counts[part])
             heights = _heights_in(self._corners[self._triangles[candidate]], places[rows[part][of]])
-            np.fmax.at(found, rows[part][of], heights)
-        return found
+            np.fmax.at(highest, rows[part][of], heights)
+        return highest
 
 
 def _heights_in(corners: FloatArray, places: FloatArray) -> FloatArray:
-    """Height (n,) of each triangle (n, 3, 3) at its place (n, 2); nan where that is beside it."""
+    """Height (n,) of each triangle (n, 3, 3) at its position (n, 2); nan where that is beside it."""
     origin = corners[:, 0]
     first, second = corners[:, 1] - origin, corners[:, 2] - origin
     offset = places - origin[:, :2]

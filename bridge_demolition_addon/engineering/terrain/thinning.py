@@ -1,8 +1,8 @@
-"""A square grid of heights as few triangles: right-angled ones, halved where the ground asks for it.
+"""A square grid of heights as few triangles: right-angled ones, halved where the ground is uneven.
 
 W. Evans, D. Kirkpatrick, G. Townsend (2001), *Right-triangulated irregular networks*, Algorithmica 30(2), 264-286. A
 triangle is halved at the middle of its longest side. Where a middle is needed, so are the middles of all triangles that
-it came from, so that no two triangles meet at a gap.
+it was part of, so that no two triangles meet at a gap.
 """
 
 from __future__ import annotations
@@ -21,21 +21,11 @@ _MOST_ROUNDS = 30
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Grid:
-    """Heights at the nodes of a square grid with 2^k cells along each side.
+    """Heights at the nodes of a square grid with 2^k cells along each side."""
 
-    Attributes
-    ----------
-    low : (2,) float
-        x and y of its first node, m.
-    step_m : float
-        Distance of nodes.
-    heights : (s, s) float
-        Rows along x, one for each y; s = 2^k + 1.
-    """
-
-    low: FloatArray
+    low: FloatArray  # (2,), x and y of its first node, m
     step_m: float
-    heights: FloatArray
+    heights: FloatArray  # (s, s), rows along x, one for each y; s = 2^k + 1
 
     @property
     def size(self) -> int:
@@ -43,7 +33,7 @@ class Grid:
         return len(self.heights)
 
     def places(self) -> FloatArray:
-        """Places (s², 2) of all nodes, row by row, m."""
+        """Positions (s², 2) of all nodes, row by row, m."""
         numbers = np.arange(self.size)
         x, y = np.meshgrid(self.low[0] + self.step_m * numbers, self.low[1] + self.step_m * numbers)
         return np.column_stack((x.ravel(), y.ravel()))
@@ -52,21 +42,12 @@ class Grid:
 def thinned(grid: Grid, tolerance_m: float, kept: BoolArray, longest_m: float) -> TriangleMesh:
     """Return triangles that are no farther than a tolerance above or below any node of a grid.
 
-    Parameters
-    ----------
-    grid : Grid
-        The heights.
-    tolerance_m : float
-        How far nodes may lie off the triangles.
-    kept : (s, s) bool
-        Nodes that are corners of triangles in any case.
-    longest_m : float
-        Shorter sides of triangles are no longer than this, or the grid's step.
+    Nodes `kept` (s, s) are corners in any case. Shorter sides are no longer than `longest_m`, or the grid's step.
     """
     limit = tolerance_m
     for _ in range(_MOST_ROUNDS):
         needed = _needed(grid, limit, kept, longest_m)
-        # What is left out at one size adds to what is left out at others: measured, and asked for more strictly.
+        # Errors of all sizes of triangles add up: they are measured, and the limit made stricter.
         if np.abs(_interpolated(grid.heights, needed) - grid.heights).max() <= tolerance_m:
             return _triangles(grid, needed)
         limit *= _STRICTER
@@ -86,14 +67,14 @@ def _middles(size: int, half: int, of_squares: bool) -> tuple[FloatArray, FloatA
     """Middles (m, 2) of the longest sides of one size, as row and column, and the sides' ends, (m, 2) each."""
     odd, even = np.arange(half, size, 2 * half), np.arange(0, size, 2 * half)
     if of_squares:
-        row, column = (each.ravel() for each in np.meshgrid(odd, odd, indexing="ij"))
+        row, column = (numbers.ravel() for numbers in np.meshgrid(odd, odd, indexing="ij"))
         # The diagonal runs to the corner whose numbers are both even, in steps of the side.
         same = ((row - half) // (2 * half) + (column - half) // (2 * half)) % 2 == 0
         lean = np.where(same, half, -half)
         first, second = (row - half, column - lean), (row + half, column + lean)
     else:
-        flat = [each.ravel() for each in np.meshgrid(even, odd, indexing="ij")]
-        upright = [each.ravel() for each in np.meshgrid(odd, even, indexing="ij")]
+        flat = [numbers.ravel() for numbers in np.meshgrid(even, odd, indexing="ij")]
+        upright = [numbers.ravel() for numbers in np.meshgrid(odd, even, indexing="ij")]
         row, column = (np.concatenate(pair) for pair in zip(flat, upright, strict=True))
         along = np.repeat([half, 0], [len(flat[0]), len(upright[0])])
         first, second = (row - (half - along), column - along), (row + (half - along), column + along)
@@ -124,22 +105,22 @@ def _halved_further(needed: BoolArray, row: IntArray, column: IntArray, half: in
         shifts = tuple((a * half // 2, b * half // 2) for a in (-1, 1) for b in (-1, 1))
     else:
         return np.zeros(len(row), bool)
-    found = np.zeros(len(row), bool)
+    halved = np.zeros(len(row), bool)
     for down, right in shifts:
         there = (row + down >= 0) & (row + down <= last) & (column + right >= 0) & (column + right <= last)
-        found |= there & needed[np.clip(row + down, 0, last), np.clip(column + right, 0, last)]
-    return found
+        halved |= there & needed[np.clip(row + down, 0, last), np.clip(column + right, 0, last)]
+    return halved
 
 
 def _interpolated(heights: FloatArray, needed: BoolArray) -> FloatArray:
     """Heights (s, s) of the triangles at all nodes: a node that is no corner is the mean of its longest side's ends."""
-    found = heights.copy()
+    interpolated = heights.copy()
     for half, of_squares in _levels(len(heights)):
         middles, first, second = _middles(len(heights), half, of_squares)
         row, column = middles.T
-        between = (found[tuple(first.T)] + found[tuple(second.T)]) / 2.0
-        found[row, column] = np.where(needed[row, column], heights[row, column], between)
-    return found
+        between = (interpolated[tuple(first.T)] + interpolated[tuple(second.T)]) / 2.0
+        interpolated[row, column] = np.where(needed[row, column], heights[row, column], between)
+    return interpolated
 
 
 def _triangles(grid: Grid, needed: BoolArray) -> TriangleMesh:

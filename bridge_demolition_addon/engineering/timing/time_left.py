@@ -15,27 +15,19 @@ _AT_REST_M_S = 0.5
 """Speed below which a body is taken to stay where it is."""
 
 _SLOWING_S = 0.4
-"""Time in which what has landed gets slower by a factor of e: from 0.3 to 0.6 s the time left of three examples, with
-a ball and with explosives, is within a factor of 1.5 in most looks."""
+"""Time in which a landed body gets slower by a factor of e: from 0.3 to 0.6 s the time left of three examples, with a
+ball and with explosives, is within a factor of 1.5 in most looks."""
 
 _MOST_TIMES = 60
 """Times to come that are looked at."""
 
 
 class Pace:
-    """How long work takes, judged by the later half of its steps: Blender makes its world in the first one.
-
-    Attributes
-    ----------
-    took_s
-        Time on the clock of each step.
-    work
-        How much was done in it, in any unit.
-    """
+    """Pace of work, judged by the later half of its steps: Blender makes its world in the first one."""
 
     def __init__(self) -> None:
-        self.took_s: list[float] = []
-        self.work: list[float] = []
+        self.took_s: list[float] = []  # time on the clock of each step
+        self.work: list[float] = []  # done in each step, in any unit
 
     def note(self, took_s: float, work: float = 1.0) -> None:
         """Note a step that is done."""
@@ -52,24 +44,10 @@ class Pace:
 def speeds_to_come(
     heights_m: FloatArray, velocities_m_s: FloatArray, gravity_m_s2: float, after_s: Sequence[float]
 ) -> FloatArray:
-    """Return how fast the fastest body probably is at some times to come.
+    """Return how fast, m/s, the fastest body probably is at times (k,) from now on, in order.
 
-    What moves flies on until it is as low as the lowest body, and slows down there. What rests is taken to stay at
-    rest: what will fall is not known.
-
-    Parameters
-    ----------
-    heights_m : array of float, shape (n,)
-    velocities_m_s : array of float, shape (n, 3)
-    gravity_m_s2 : float
-        Downwards; above 0.
-    after_s : sequence of float, shape (k,)
-        Times from now on, in order.
-
-    Returns
-    -------
-    array of float, shape (k,)
-        Speeds, m/s.
+    A moving body, with height and velocity (n, 3), flies on until it is as low as the lowest body, and slows down
+    there. A body at rest is taken to stay at rest: later falls are not known.
     """
     times = np.asarray(after_s, float)
     along_x, along_y, upwards = velocities_m_s.T

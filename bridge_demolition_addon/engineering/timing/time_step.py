@@ -1,4 +1,4 @@
-"""The one place where frames, sub-steps, forces and impulses are converted into each other."""
+"""Conversion between frames, sub-steps, forces and impulses, for the whole program."""
 
 from __future__ import annotations
 
@@ -19,22 +19,12 @@ MOST_SUBSTEPS = 1000
 
 @dataclass(frozen=True, slots=True)
 class TimeStep:
-    """How Blender cuts time: frames into sub-steps, each one step of Bullet.
+    """Division of time by Blender: frames into sub-steps, each one step of Bullet."""
 
-    Parameters
-    ----------
-    frames_per_second, frames_per_second_base
-        Blender's frame rate, the quotient of the two (29.97 Hz is 30 / 1.001).
-    substeps_per_frame
-        Bullet's steps in a frame.
-    time_scale
-        Simulated seconds per second of animation.
-    """
-
-    frames_per_second: int
+    frames_per_second: int  # Blender's frame rate is this by the next: 29.97 Hz is 30 / 1.001
     frames_per_second_base: float
     substeps_per_frame: int
-    time_scale: float
+    time_scale: float  # simulated seconds per second of animation
 
     @property
     def frame_s(self) -> float:
@@ -47,18 +37,9 @@ class TimeStep:
         return self.frame_s / self.substeps_per_frame
 
     def substeps_within(self, farthest_m: float, speed_m_s: float, acceleration_m_s2: float) -> int:
-        """Return how many sub-steps a frame needs so that a body goes no farther than so much in one of them.
+        """Return the sub-steps of a frame so that a body goes no farther in one, at most `MOST_SUBSTEPS`.
 
-        Parameters
-        ----------
-        farthest_m : float
-        speed_m_s, acceleration_m_s2 : float
-            Speed of the body as the frame begins, and by how much it may grow.
-
-        Returns
-        -------
-        int
-            At least `substeps_per_frame`, at most `MOST_SUBSTEPS`.
+        Speed is that of the body as the frame begins, which may grow by the acceleration.
         """
         return int(substeps_within(self.frame_s, self.substeps_per_frame, farthest_m, speed_m_s, acceleration_m_s2))
 

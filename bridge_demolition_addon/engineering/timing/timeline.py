@@ -1,4 +1,4 @@
-"""The frames of a run, each as long as it is: some of them shortened, so that what lasts milliseconds can be seen."""
+"""The frames of a run, each with its length: some of them shortened, so that milliseconds can be seen."""
 
 from __future__ import annotations
 
@@ -21,19 +21,11 @@ _FEWEST_BETWEEN = 8
 
 @dataclass(frozen=True, slots=True)
 class SlowMotion:
-    """A span of simulated time in which frames are shorter than elsewhere.
-
-    Attributes
-    ----------
-    start_s, duration_s
-        When it begins, and how long it lasts, simulated time.
-    frame_s
-        Simulated time of one of its frames.
-    """
+    """A span of simulated time in which frames are shorter than elsewhere."""
 
     start_s: float
     duration_s: float
-    frame_s: float
+    frame_s: float  # simulated time of one of its frames
 
     @property
     def end_s(self) -> float:
@@ -43,34 +35,28 @@ class SlowMotion:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Timeline:
-    """Frames in their order.
-
-    Attributes
-    ----------
-    frame_lengths_s
-        (k,) simulated time that each frame adds.
-    """
+    """Frames in their order, (k,) simulated time that each adds."""
 
     frame_lengths_s: FloatArray
 
     @classmethod
     def of(cls, frame_s: float, duration_s: float, slow_motions: Sequence[SlowMotion] = ()) -> Timeline:
-        """Frames that cover a duration, in slow motion where that is asked for.
+        """Frames that cover a duration, with slow motions in it.
 
-        Slow motion begins exactly when it is asked for, and frames shorten towards it by `SLOWING` each. Bullet pulls
-        connections that have given way together again with a force that goes with 1 / step², so that a bridge that
-        has settled in long steps would be torn apart by short ones that came all at once. For the same reason the time
-        before is divided evenly, and slow motions with less than `_FEWEST_BETWEEN` frames in between are one.
+        A slow motion begins exactly at its time, and frames shorten towards it by `SLOWING` each. Bullet pulls
+        connections that have stretched together again with a force that goes with 1 / step², so that a bridge that has
+        settled in long steps would be torn apart by short ones that began at once. For the same reason the time before
+        is divided evenly, and slow motions with less than `_FEWEST_BETWEEN` frames in between are one.
         """
         lengths: list[FloatArray] = []
         time = 0.0
-        for each in _merged(slow_motions, _FEWEST_BETWEEN * frame_s):
-            if each.start_s >= duration_s:
+        for slow in _merged(slow_motions, _FEWEST_BETWEEN * frame_s):
+            if slow.start_s >= duration_s:
                 break
-            lengths.append(_frames_slowing_down(frame_s, each.frame_s, each.start_s - time))
-            count = max(1, frames_over(each.frame_s, each.duration_s))
-            lengths.append(np.full(count, each.frame_s))
-            time = each.start_s + count * each.frame_s
+            lengths.append(_frames_slowing_down(frame_s, slow.frame_s, slow.start_s - time))
+            count = max(1, frames_over(slow.frame_s, slow.duration_s))
+            lengths.append(np.full(count, slow.frame_s))
+            time = slow.start_s + count * slow.frame_s
         lengths.append(np.full(max(0, frames_over(frame_s, duration_s - time)), frame_s))
         return cls(np.concatenate(lengths))
 

@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
+from ...engineering.statistics.binomial import lower_limit
 from ...engineering.statistics.order_limits import most_support, nth_largest
-from ...engineering.statistics.proportions import lower_limit
 from ...system.disk import whole_file
 from ..study.runs_table import REACH, RunsTable
 from .file import Optimisation

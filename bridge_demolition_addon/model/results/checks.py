@@ -9,7 +9,7 @@ import numpy as np
 
 from ...engineering.geometry.vectors import product
 from ...errors import OutputError
-from ...system.array_files.blocks import blocks_of
+from ...system.array_files.archive import blocks_of
 from ..schema import LARGEST_NUMBER
 
 _FARTHEST_M = 1e7

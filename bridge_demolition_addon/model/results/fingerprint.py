@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from ...system.array_files.blocks import blocks_of
+from ...system.array_files.archive import blocks_of
 from .arrays import Results
 
 SHORT = 8

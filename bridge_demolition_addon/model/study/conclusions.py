@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from ...engineering.statistics.binomial import lower_limit, upper_limit
 from ...engineering.statistics.order_limits import (
     achieved_confidence,
     coverage,
@@ -21,7 +22,6 @@ from ...engineering.statistics.order_limits import (
     most_support,
     nth_largest,
 )
-from ...engineering.statistics.proportions import lower_limit, upper_limit
 from ...engineering.statistics.repetition import repeated_limit
 from ...errors import OutputError
 from .file import Study

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import struct
 import zipfile
-from collections.abc import Container, Mapping
+from collections.abc import Container, Iterator, Mapping
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +17,9 @@ _ENDING = ".npy"
 _MAPPED_FROM = 1 << 16
 """Bytes from which on an array is mapped; a smaller one is read, which takes less."""
 
+_NUMBERS = 1 << 18
+"""Numbers in a piece of an array: the results of a piece stay in the processor's cache."""
+
 _ALIGNMENT = 64
 """Bytes; numpy works fastest on arrays that begin at multiples of them."""
 
@@ -24,22 +27,15 @@ _LOCAL_HEADER, _SIZES, _PADDING = 30, 20, 4
 """Bytes before an array in the archive: a header, its 64-bit sizes, and the mark and length of a padding."""
 
 _PADDING_MARK = 0xD935
-"""Of fields that hold nothing, as other programs that align archives use it."""
+"""Mark of empty fields, as other programs that align archives use it."""
 
 _HEADER_READERS = {(1, 0): np.lib.format.read_array_header_1_0, (2, 0): np.lib.format.read_array_header_2_0}
 
 
 def write_archive(path: Path, arrays: Mapping[str, np.ndarray], packed: Container[str] = ()) -> None:
-    """Write arrays by their names, whole or not at all; the same arrays give the same file.
+    """Write arrays of any size by their names, whole or not at all; the same arrays give the same file.
 
-    Parameters
-    ----------
-    path : Path
-        File to write.
-    arrays : mapping of arrays
-        Arrays of any size, also mapped ones.
-    packed : container of str
-        Names of those to pack, besides the small ones. A packed array has to be read as a whole.
+    Those in `packed` are packed, as small ones are. A packed array has to be read as a whole.
     """
     with whole_file(path) as part, part.open("w+b") as written, zipfile.ZipFile(written, "w") as archive:
         for name, values in arrays.items():
@@ -58,11 +54,19 @@ def write_archive(path: Path, arrays: Mapping[str, np.ndarray], packed: Containe
 def read_archive(path: Path) -> dict[str, np.ndarray]:
     """Read all arrays of an archive by their names, and check that they are as they were written.
 
-    Large arrays are mapped from a copy, and stay as they are, whatever becomes of the archive.
+    Large arrays are mapped from a copy, and stay as they are, whatever happens to the archive.
     """
     with zipfile.ZipFile(path) as archive:
-        members = [each for each in archive.infolist() if each.filename.endswith(_ENDING)]
+        members = [member for member in archive.infolist() if member.filename.endswith(_ENDING)]
         return {member.filename.removesuffix(_ENDING): _array(archive, member) for member in members}
+
+
+def blocks_of(values: np.ndarray) -> Iterator[np.ndarray]:
+    """Give an array in pieces along its first axis, in order, so that work on it takes little memory."""
+    values = np.atleast_1d(values)
+    rows = max(1, _NUMBERS // max(1, values[:1].size))
+    for first in range(0, len(values), rows):
+        yield values[first : first + rows]
 
 
 def _array(archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> np.ndarray:

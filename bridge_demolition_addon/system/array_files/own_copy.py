@@ -1,4 +1,4 @@
-"""Arrays in copies of files that nobody else can reach."""
+"""Arrays in copies of files that no other program can change."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _BLOCK = 1 << 20
 
 
 def mapped_copy(content: IO[bytes], dtype: np.dtype, shape: tuple[int, ...], *, is_fortran: bool = False) -> np.ndarray:
-    """Copy a file from where it stands to its end, and return the array that this is, mapped: it takes no memory.
+    """Copy a file from where it stands to its end, and return its array, mapped: it takes no memory.
 
     The copy has no name, and goes with the array. A mapped file that another program cuts short or empties would end
     the process. Where there is no room for the copy on the disk, it is in memory.

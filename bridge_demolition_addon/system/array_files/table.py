@@ -1,4 +1,4 @@
-"""Tables that grow on the disk row by row, as files of numpy that anybody can read at any time."""
+"""Tables that grow on the disk row by row, as files of numpy that any process can read at any time."""
 
 from __future__ import annotations
 
@@ -27,15 +27,9 @@ _ALIGNMENT = 64
 class GrowingTable:
     """A file ``.npy`` of rows with named columns, each of which is on the disk as soon as it is added.
 
-    The rows can be read while it grows, also from other threads. A process that is killed leaves a file with all whole
-    rows. Rows that were read or mapped stay as they are, whatever becomes of the table.
-
-    Parameters
-    ----------
-    path : Path
-        File to write; one that is there is replaced.
-    row_type : np.dtype
-        Names, types and shapes of the columns.
+    A file that is at the path is replaced. The rows can be read while it grows, also from other threads. A process that
+    is killed leaves a file with all whole rows. Rows that were read or mapped stay as they are, whatever happens to the
+    table.
     """
 
     def __init__(self, path: Path, row_type: np.dtype):
@@ -44,7 +38,7 @@ class GrowingTable:
         self._count = 0
         self._lock = threading.Lock()
         with writing(path):
-            path.unlink(missing_ok=True)  # whoever has mapped it would crash if it was emptied
+            path.unlink(missing_ok=True)  # a process that has mapped it would crash if it was emptied
             self._file = path.open("x+b", buffering=0)
         self._unwanted: list[bool] = []
         self._finish = weakref.finalize(self, _finish, self._file, path, self._unwanted)
@@ -86,7 +80,7 @@ class GrowingTable:
             return _mapped(self._file, self.row_type, self._start, self._count)
 
     def remove(self) -> None:
-        """Take the file away; what is in it can be read as long as the table is there.
+        """Take the file away; its rows can be read as long as the table is there.
 
         Windows removes no open file: there it goes with the table.
         """
@@ -96,7 +90,7 @@ class GrowingTable:
             self.path.unlink()
 
     def discard(self) -> None:
-        """Take the file away with all that is in it; rows that were mapped stay."""
+        """Take the file away with all its rows; rows that were mapped stay."""
         self._unwanted.append(True)
         self._finish()
 
@@ -127,7 +121,7 @@ def _mapped(file: BinaryIO, row_type: np.dtype, start: int, count: int) -> np.nd
 
 
 def _header(row_type: np.dtype, count: int) -> bytes:
-    """Return what stands before the rows: as long for any number of them."""
+    """Return the header before the rows: as long for any number of them."""
     longest = len(_description(row_type, _ANY_COUNT))
     length = -(-(len(_MAGIC) + 4 + longest + 1) // _ALIGNMENT) * _ALIGNMENT - len(_MAGIC) - 4
     return _MAGIC + length.to_bytes(4, "little") + _description(row_type, count).ljust(length - 1) + b"\n"
@@ -143,7 +137,7 @@ def _described(row_type: np.dtype) -> str:
 
 
 def _finish(file: BinaryIO, path: Path, unwanted: list[bool]) -> None:
-    """Close a table that nobody has any more, and remove it if nobody wants it."""
+    """Close a table that is no longer used, and remove it if it is unwanted."""
     is_to_go = unwanted and is_in_place(file.fileno(), path)
     file.close()
     if is_to_go:

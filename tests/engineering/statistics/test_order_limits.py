@@ -8,6 +8,7 @@ import pytest
 from scipy.stats import beta, lognorm, quantile_test
 from support.checkout import ROOT
 
+from bridge_demolition_addon.engineering.statistics.binomial import upper_limit
 from bridge_demolition_addon.engineering.statistics.order_limits import (
     achieved_confidence,
     coverage,
@@ -16,7 +17,6 @@ from bridge_demolition_addon.engineering.statistics.order_limits import (
     most_support,
     nth_largest,
 )
-from bridge_demolition_addon.engineering.statistics.proportions import upper_limit
 
 ENSEMBLES = 2000
 TOLERANCE = 3.3

@@ -7,8 +7,8 @@ from manifold3d import CrossSection
 from scipy.stats import beta, norm
 
 from bridge_demolition_addon.engineering.geometry.plan_areas import outlines
+from bridge_demolition_addon.engineering.statistics.binomial import upper_limit
 from bridge_demolition_addon.engineering.statistics.probability_map import probability_map
-from bridge_demolition_addon.engineering.statistics.proportions import upper_limit
 
 RUNS = 400
 CONFIDENCE = 0.95

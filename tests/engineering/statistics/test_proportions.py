@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from scipy.stats import binomtest
 
-from bridge_demolition_addon.engineering.statistics.proportions import lower_limit, upper_limit
+from bridge_demolition_addon.engineering.statistics.binomial import lower_limit, upper_limit
 
 
 @pytest.mark.parametrize(

@@ -9,8 +9,7 @@ import zlib
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.system.array_files.archive import read_archive, write_archive
-from bridge_demolition_addon.system.array_files.blocks import blocks_of
+from bridge_demolition_addon.system.array_files.archive import blocks_of, read_archive, write_archive
 
 LARGE = np.arange(60_000, dtype="<f4").reshape(200, 100, 3)
 ARRAYS = {
