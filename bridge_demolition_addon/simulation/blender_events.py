@@ -1,7 +1,6 @@
-"""One handler for each of Blender's events: it passes the event on to the owner of the scene.
+"""One handler for each of Blender's events: it passes the event on to the owner of the scene, a `RecordedScene`.
 
-The handlers are there while the add-on is on, or something is done in a scene without it. What each owner does, and in
-which order, is written in `RecordedScene`.
+The handlers are there while the add-on is on, or a scene is recorded, coloured or guarded without it.
 """
 
 from __future__ import annotations
@@ -18,7 +17,7 @@ from .recorded_scene import RecordedScene
 from .recording.recorder import Recording
 
 _scenes: dict[int, RecordedScene] = {}
-"""By the numbers that stay a scene's own while Blender runs."""
+"""Owners by the numbers that scenes have as long as Blender runs."""
 
 _is_registered = False
 
@@ -32,7 +31,7 @@ def register() -> None:
 
 
 def unregister() -> None:
-    """End all that is done in scenes, and take the handlers away."""
+    """End the work in all scenes, and remove the handlers."""
     global _is_registered
     _is_registered = False
     stop_recording()
@@ -44,7 +43,7 @@ def unregister() -> None:
 
 
 def recorded_scene(scene: bpy.types.Scene) -> RecordedScene:
-    """Return the owner of all that is done in a scene; events of the scene reach it from now on."""
+    """Return the owner of a scene, which events of the scene reach from now on."""
     _attach()
     owner = _scenes.get(scene.session_uid)
     if owner is None:
@@ -66,7 +65,7 @@ def shown_results(scene: bpy.types.Scene) -> ShownResults:
 def start_recording(recording: Recording, *, alone: bool = False) -> None:
     """Let a recording follow its scene's timeline, in place of one that may still run.
 
-    Alone, in a process in which nobody can edit the scene, it need not be guarded against that.
+    Alone, in a process in which the scene cannot be edited, it is not guarded.
     """
     stop_recording()
     recorded_scene(recording.scene).start(recording, alone=alone)
@@ -88,13 +87,13 @@ def running_recording() -> Recording | None:
 
 
 def _let_go() -> None:
-    """Let go of the worlds of all scenes, before Blender frees them or does it unseen."""
+    """Release the worlds of all scenes before Blender frees them, or while events still show that it does."""
     for owner in list(_scenes.values()):
         owner.before_undo_or_load()
 
 
 def _look_at_all() -> None:
-    """Know the worlds of all scenes; while Blender switches the add-on on, it names only those that are shown."""
+    """Take over the worlds of all scenes; while Blender switches the add-on on, it names only those that are shown."""
     shown = [window.scene for window in bpy.context.window_manager.windows]
     for scene in getattr(bpy.data, "scenes", shown):
         recorded_scene(scene).look()

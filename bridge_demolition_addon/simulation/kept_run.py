@@ -1,8 +1,8 @@
-"""Runs that are kept: in their folder, and with their scene, so that a file that is opened again finds them."""
+"""Runs that are kept in their folder, and with their scene, so that a file that is opened again finds them."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
@@ -29,7 +29,7 @@ _FOLDER, _DIGEST = "bda_run_folder", "bda_run_digest"
 def keep_recording(folder: Path, recording: Recording, summary: Mapping[str, Any], context: RunContext) -> None:
     """Write a recording that has ended to its folder, and keep it with its scene."""
     results = recording.results()
-    if context.scenario and not (folder / SCENARIO_FILE).exists():  # the folder was moved, and this one is in its place
+    if context.scenario and not (folder / SCENARIO_FILE).exists():  # this folder takes the place of one that was moved
         keep_scenario(folder, context.scenario, context.made_by_hand)
     keep_results(folder, results, summary)
     if motion := context.ground_motion:
@@ -45,7 +45,7 @@ def keep_results(folder: Path, results: Results, summary: Mapping[str, Any]) -> 
     """Write arrays, summary and force chart of a recording beside its logs."""
     results.save(folder / RESULTS_FILE)
     write_summary(folder, summary)
-    # Loading matplotlib takes a second, which neither other commands nor switching the add-on on wait for. Where it
+    # Loading matplotlib takes a second, for which neither other commands nor switching the add-on on should wait. If it
     # is missing or broken, the results are written by now.
     from ..charts.force_chart import plot_forces
 
@@ -55,10 +55,8 @@ def keep_results(folder: Path, results: Results, summary: Mapping[str, Any]) -> 
 def _mark_run(scene: bpy.types.Scene, results: Results, summary: RunSummary) -> None:
     """Mark on the scene's timeline what happened in its run."""
     settings = blast_of(scene)
-    charges = charges_of(scene) if settings.explosion else ()
-    detonations_s = {
-        given(charge.name): settings.start_s + charge.delay_s for charge in charges if charge.mass_kg > 0.0
-    }
+    charges = [charge for charge in charges_of(scene) if charge.mass_kg > 0.0] if settings.explosion else []
+    detonations_s = {given(charge.name): settings.start_s + charge.delay_s for charge in charges}
     mark_moments(scene, moments(results, np.array(scene.gravity), detonations_s, summary.came_to_rest_s))
 
 
@@ -75,7 +73,7 @@ def has_run(scene: bpy.types.Scene) -> bool:
 
 
 def digest_of_run(scene: bpy.types.Scene) -> str:
-    """Return what the results of the run that is kept with a scene are known by."""
+    """Return the digest of the results of the run that is kept with a scene."""
     return str(scene.get(_DIGEST))
 
 
@@ -85,29 +83,17 @@ def is_run_of(scene: bpy.types.Scene, folder: Path) -> bool:
 
 
 def folder_of_run(scene: bpy.types.Scene) -> Path:
-    """Return where the results of the run kept with a scene are: its folder, or one that moved with the file."""
-    for folder in _places(Path(str(scene[_FOLDER]))):
+    """Return the folder with the results of the run kept with a scene, or a folder that moved with the file."""
+    kept = Path(str(scene[_FOLDER]))
+    beside = Path(bpy.data.filepath).parent
+    for folder in (kept, beside, beside / kept.name) if bpy.data.filepath else (kept,):
         if result_digest_in(folder) == scene.get(_DIGEST):
             return folder
     raise OutputError(
-        f"{scene[_FOLDER]}: holds the results of this scene's run no more; load them from where they are, or run the "
-        "scene again"
+        f"{kept}: holds the results of this scene's run no more; load them from where they are, or run the scene again"
     )
 
 
 def results_of_run(scene: bpy.types.Scene) -> Results:
-    """Return the results of the run that is kept with a scene.
-
-    Raises
-    ------
-    OutputError
-        They are not there any more, are of another run by now, or cannot be read.
-    """
+    """Return the results of the run that is kept with a scene; raises an `OutputError` if they cannot be read."""
     return load_results(folder_of_run(scene) / RESULTS_FILE)
-
-
-def _places(folder: Path) -> Iterator[Path]:
-    yield folder
-    if bpy.data.filepath:
-        beside = Path(bpy.data.filepath).parent
-        yield from (beside, beside / folder.name)

@@ -1,4 +1,4 @@
-"""A run of which only motion and breaking are wanted, as in a study: no loads, no logs, no pictures, no scene."""
+"""A run that records motion and breaking alone, as in a study: no loads, no logs, no pictures, no scene."""
 
 from __future__ import annotations
 
@@ -21,21 +21,10 @@ from .run_summary import RunContext, rest_watch, run_summary
 
 @contextmanager
 def motion_run(scenario: Scenario, model: Model, folder: Path) -> Iterator[tuple[Results, dict[str, Any]]]:
-    """Simulate a scenario in an otherwise empty Blender file, and give what came to pass until the block ends.
+    """Simulate a scenario in an otherwise empty Blender file, and return results and summary, which last for the block.
 
-    Motion and breaking have the same bits as those of `run_scenario`; loads and work are unknown.
-
-    Parameters
-    ----------
-    scenario, model
-        What to simulate, and its model.
-    folder
-        Existing folder in which frames are kept meanwhile.
-
-    Returns
-    -------
-    Results, dict
-        What was recorded, and its summary, as in ``summary.json``.
+    Motion and breaking have the same bits as those of `run_scenario`; loads and work are unknown. Frames are kept in an
+    existing folder during the block.
     """
     with interrupted_afterwards():
         bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)  # add-ons stay, one of which this may be

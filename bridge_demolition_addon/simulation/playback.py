@@ -5,53 +5,73 @@ from __future__ import annotations
 import time
 
 import bpy
+import numpy as np
 
-from ..engineering.timing.time_left import Pace
+from ..engineering.geometry.vectors import length
+from ..engineering.timing.time_left import Pace, speeds_to_come
+from ..engineering.timing.time_step import substeps_within
 from ..errors import SimulationError
+from ..model.results.frames import Frame
 from ..model.sequence.rest import Rest
-from ..scene.world import start_over
+from ..scene.time_scale import time_step_at
+from ..scene.world import farthest_per_substep_of, start_over
 from .blender_events import running_recording, start_recording, stop_recording
 from .recording.recorder import Recording
-from .workload import Workload
+
+
+class Workload:
+    """Sub-steps that are still to come in a run, as its bodies move now: they all take equally long, frames do not.
+
+    The run is from the first to the last frame, without the start frame.
+    """
+
+    def __init__(self, scene: bpy.types.Scene, first: int, last: int) -> None:
+        self._first = first
+        steps = [time_step_at(scene, frame) for frame in range(first, last + 1)]
+        self._frames_s = np.array([step.frame_s for step in steps])
+        self._fewest = np.array([step.substeps_per_frame for step in steps])
+        self._ends_s = np.cumsum(self._frames_s)
+        self._farthest_m = farthest_per_substep_of(scene)
+        gravity = np.array(scene.gravity, float) if scene.use_gravity else np.zeros(3)
+        self._gravity_m_s2 = float(length(gravity))
+
+    def to_come(self, frame: Frame) -> float:
+        """Return how many sub-steps follow after a frame."""
+        rows = slice(frame.number + 1 - self._first, None)
+        frames_s, fewest, ends_s = self._frames_s[rows], self._fewest[rows], self._ends_s[rows]
+        if self._farthest_m is None or not len(fewest) or not self._gravity_m_s2:
+            return float(fewest.sum())
+        after_s = ends_s - ends_s[0]
+        speeds = speeds_to_come(frame.positions_m[:, 2], frame.velocities_m_s, self._gravity_m_s2, after_s)
+        return float(substeps_within(frames_s, fewest, self._farthest_m, speeds, self._gravity_m_s2).sum())
 
 
 class Playing:
-    """One pass through a scene's timeline.
+    """One pass through a scene's timeline, with a recording that is not started yet.
 
     Parameters
     ----------
-    recording
-        What follows it, not started yet.
     stop_at
         The rest at which to end before the last frame of the scene, or of its simulation where that ends before.
     alone
-        Whether nobody can edit the scene meanwhile, so that it need not be guarded against that.
+        Whether the scene cannot be edited meanwhile, so that it need not be guarded.
 
     Attributes
     ----------
-    total
-        Frames to play, without the start frame.
-    done
-        Frames played.
+    total, done
+        Frames to play, without the start frame, and frames played.
     seconds, longest_frame_s
         Wall time of all of them, and of the one that took longest.
     left_s
-        Time on the clock that the rest takes, what happens between the frames included; None before the third frame.
-
-    Raises
-    ------
-    SimulationError
-        The scene has no frames to play.
+        Wall time that the remaining frames take, with the time between frames; None before the third frame.
     """
 
     def __init__(self, recording: Recording, stop_at: Rest | None = None, *, alone: bool = False):
         self.recording = recording
         self._rest = stop_at
         self._scene = recording.scene
-        self.total = frames_to_play(self._scene)
-        self.done = 0
-        self.longest_frame_s = 0.0
-        self.seconds = 0.0
+        self.total, self.done = frames_to_play(self._scene), 0
+        self.seconds = self.longest_frame_s = 0.0
         self.left_s: float | None = None
         start_recording(recording, alone=alone)
         start_over(self._scene)
@@ -67,31 +87,25 @@ class Playing:
 
     @property
     def at_rest(self) -> bool:
-        """Whether everything rests as it was waited for."""
+        """Whether everything rests as the scenario waits for."""
         return self._rest is not None and self._rest.is_reached
 
     def step(self) -> None:
-        """Play the next frame.
-
-        Raises
-        ------
-        DemolitionError
-            The recording has ended, for the reason that is raised.
-        """
-        self._see_whether_recorded()
+        """Play the next frame, or raise the error for which the recording has ended."""
+        self._check_recording()
         began = time.perf_counter()
         self._scene.frame_set(self._scene.rigidbody_world.point_cache.frame_start + self.done + 1)
         took = time.perf_counter() - began
         self.seconds += took
         self.longest_frame_s = max(self.longest_frame_s, took)
         self.done += 1
-        self._see_whether_recorded()
+        self._check_recording()
         self._judge_time(began, took)
         if self._rest and self.recording.recorded_frames:
             self._rest.observe(*self.recording.motion())
 
     def _judge_time(self, began_s: float, took_s: float) -> None:
-        """Note how long the last frame took, and judge how long those to come take."""
+        """Note how long the last frame took, and estimate how long those to come take."""
         if self._stepped_at_s is not None:  # not the first frame, in which Blender makes its world
             self._stepping.note(took_s, self.recording.substeps)
             self._between.note(began_s - self._stepped_at_s)
@@ -103,19 +117,19 @@ class Playing:
         self._stepped_at_s = began_s + took_s
 
     def end(self) -> None:
-        """End the recording, and leave it at its logs."""
+        """End the recording."""
         if running_recording() is self.recording:
             stop_recording()
 
-    def _see_whether_recorded(self) -> None:
+    def _check_recording(self) -> None:
         if self.recording.error:
             raise self.recording.error
         if running_recording() is not self.recording:
-            raise SimulationError("the recording was ended by someone else")
+            raise SimulationError("another program ended the recording")
 
 
 def play_alone(recording: Recording, stop_at: Rest | None = None) -> None:
-    """Play all frames of a scene that nobody can edit meanwhile, and end the recording."""
+    """Play all frames of a scene that cannot be edited meanwhile, and end the recording."""
     playing = Playing(recording, stop_at, alone=True)
     try:
         while not playing.finished:
@@ -127,13 +141,7 @@ def play_alone(recording: Recording, stop_at: Rest | None = None) -> None:
 
 
 def frames_to_play(scene: bpy.types.Scene) -> int:
-    """Return how many frames a scene has to play, without the start frame.
-
-    Raises
-    ------
-    SimulationError
-        There are none.
-    """
+    """Return how many frames a scene has to play, at least one, without the start frame."""
     cache = scene.rigidbody_world.point_cache
     last = min(scene.frame_end, cache.frame_end)
     if last <= cache.frame_start + 1:

@@ -21,20 +21,9 @@ from .recording.recorder import Recording
 class RecordedScene:
     """Records a scene, keeps Blender from crashing over it, and colours its bodies.
 
-    The methods named after Blender's events never raise. Each does its work in the order in which it is written: the
-    guard comes before the recording, as it has to see what was removed while Bullet still has it, and contours come
-    last, as they show what was recorded.
-
-    Attributes
-    ----------
-    scene
-        As Blender holds it now.
-    recording
-        The recording that runs, or ended early and was not stopped yet; or None.
-    results
-        The results that are shown.
-    contours
-        Colours of the bodies.
+    The methods named after Blender's events never raise. Their order of work matters: the guard comes before the
+    recording, as it has to see removed objects while Bullet still has them, and contours come last, as they show the
+    recorded frame. `recording` runs, or has ended early and was not stopped yet.
     """
 
     def __init__(self, scene: bpy.types.Scene):
@@ -49,16 +38,16 @@ class RecordedScene:
 
     @property
     def stands_still(self) -> bool:
-        """Whether the scene is not simulated until its start frame, as something was taken out of its world."""
+        """Whether the scene is not simulated until its start frame, as an object was taken out of its world."""
         return self._guard.stands_still
 
     @property
     def is_at_work(self) -> bool:
-        """Whether anything is done in the scene that lasts."""
+        """Whether the scene is recorded, coloured or stands still."""
         return self.recording is not None or self.contours.is_shown or self.stands_still
 
     def start(self, recording: Recording, *, alone: bool = False) -> None:
-        """Record the scene from now on; alone means that nobody can take anything out of it meanwhile."""
+        """Record the scene from now on; alone means that it cannot be edited meanwhile."""
         self._is_alone = alone
         if not alone:
             self._guard.share(self.scene, recording.world)
@@ -67,7 +56,7 @@ class RecordedScene:
         self.results.follow(recording)
 
     def stop(self) -> Recording | None:
-        """End the recording, and give it back."""
+        """End the recording, and return it."""
         recording, self.recording = self.recording, None
         self.results.is_live = False
         if recording and not recording.error:
@@ -78,12 +67,12 @@ class RecordedScene:
         return recording
 
     def show_results(self, results: Results) -> None:
-        """Show kept results, until something new is recorded."""
+        """Show kept results, until the next recording."""
         self.results.load(results)
         self.contours.refresh()
 
     def look(self) -> None:
-        """Know the world as it is now, to guard it from before the next frame on."""
+        """Take over the world as it is now, to guard it from the next frame on."""
         for depsgraph in self._depsgraphs():
             if not self._is_recorded:
                 self._guard.look(self.scene, depsgraph)
@@ -113,16 +102,16 @@ class RecordedScene:
             self._fail(SimulationError(changes))
 
     def after_update(self, depsgraph: bpy.types.Depsgraph) -> None:
-        """Colour the bodies: one that was edited was evaluated again, and has its own colour."""
+        """Colour the bodies: an edited body was evaluated again, and has its own colour."""
         self.contours.paint(depsgraph)
 
     def before_undo_or_load(self, *, world_stays: bool = False) -> None:
-        """End the recording and let go of the world while they are still there: Blender frees them now.
+        """End the recording and release the world before Blender frees them.
 
-        With `world_stays` Blender keeps the world, but not all that is in it: the world stands still.
+        With `world_stays` Blender keeps the world, but frees some of its objects: the world stands still.
         """
         with suppress(ReferenceError):  # the scene was deleted before
-            self._guard.check_objects(self.scene)  # one that is not shown was not updated since something was deleted
+            self._guard.check_objects(self.scene)  # a scene that is not shown was not updated since a deletion
         if self._is_recorded:
             self._fail(SimulationError("undo, redo or loading a file took away what was recorded"))
         try:
@@ -134,7 +123,7 @@ class RecordedScene:
             self._guard.forget()
 
     def after_load(self) -> None:
-        """Go to the start frame, as no body has a place in any other, and show the results of the scene's run."""
+        """Go to the start frame, as positions are lost in any other, and show the results of the scene's run."""
         world = self.scene.rigidbody_world
         if self.scene.library or not (world and world.collection and any(map(is_marked, world.collection.all_objects))):
             return
@@ -147,7 +136,7 @@ class RecordedScene:
                 self.results.missing = str(error)
 
     def before_render(self) -> None:
-        """Let the world rest, where Blender would simulate it in the render."""
+        """Let the world rest if Blender would simulate it in the render."""
         self._is_rendered = True
         if has_to_rest(self.scene):
             self.scene.rigidbody_world.enabled = False
@@ -186,7 +175,7 @@ class RecordedScene:
 
 
 def _refuse_unplayed_frame(recording: Recording) -> None:
-    """A render simulates in copies and a thread of its own; what was played before it plays back."""
+    """A render simulates in copies and a thread of its own; it only plays back frames that were played before."""
     scene, last = recording.scene, recording.last_frame
     if scene.frame_current > (scene.rigidbody_world.point_cache.frame_start if last is None else last):
         raise SimulationError("a render went beyond the frames that were recorded: play the timeline, then render it")

@@ -49,30 +49,19 @@ def run_scenario(
     film: bool = False,
     model: Model | None = None,
 ) -> dict[str, Any]:
-    """Simulate a scenario in a new, otherwise empty Blender file and keep everything in a folder.
+    """Simulate a scenario in a new, otherwise empty Blender file, keep everything in a folder and return its summary.
 
     Parameters
     ----------
-    scenario
-        What to simulate.
     output
         Folder for the results; made here.
     overwrite
         Whether results of an earlier run in that folder may be replaced.
-    pictures
-        Whether to render pictures.
-    progress
-        Told about every stage and frame.
     film
         Whether to render a film of the contours, in real time and in slow motion, which takes a second or more for
         every frame without a graphics card.
     model
-        Its model, where it is built already.
-
-    Returns
-    -------
-    dict
-        The content of ``summary.json``.
+        Its model, if it is built already.
     """
     check_folder(output, overwrite=overwrite)
     if pictures or film:
@@ -191,10 +180,7 @@ def _prepare_view(scene: bpy.types.Scene, scenario: Scenario, model: Model, shar
 def _simulate(
     scene: bpy.types.Scene, folder: Path, scenario: Scenario, progress: Progress, signals: Sequence[int]
 ) -> Playing:
-    """Play the timeline once, until a signal or an error cuts it short.
-
-    A scene that is stopped at rest ends with the frame in which it is.
-    """
+    """Play the timeline once, until a signal or an error ends it; a scene that stops at rest ends with that frame."""
     rest = rest_watch(scenario, ground_motion_of(scene)) if scenario.time.stop_at_rest else None
     asked = scenario.recording
     recording = Recording(scene, folder, every_substep=asked.every_substep, contacts=asked.contacts)

@@ -1,4 +1,4 @@
-"""A run in a few numbers, for its `summary.json`: what was recorded, and what its scenario knows about it."""
+"""Summary of a run for its `summary.json`, from its recording and its scenario."""
 
 from __future__ import annotations
 
@@ -31,24 +31,20 @@ from .recording.recorder import Recording
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RunContext:
-    """What a summary needs of a scene, read before the recording: undo or another file may remove the scene.
+    """Values of a scene that its summary needs, read before the recording: undo or another file may remove the scene.
 
     Attributes
     ----------
-    title : str
-        Title of the results.
     gravity : (3,) float
         Gravity of the scene, m/s².
     substep_s : float
         Length of a sub-step where time is not animated.
     scenario : Scenario or None
-        What the scene runs; None where it was not built from a scenario.
+        None where the scene was not built from a scenario.
     made_by_hand : sequence of str
-        What of that no scenario can say, in words.
-    ground_motion : GroundMotionOfScene or None
-        How the ground moves, where it does.
+        Parts of the scene that no scenario can describe, as text.
     terrain : dict or None
-        What became of the file of the ground; None where it is flat.
+        Facts on the file of the ground and its mesh; None where the ground is flat.
     """
 
     title: str
@@ -69,17 +65,7 @@ class RunContext:
 
 
 def run_summary(recording: Recording, results: Results, context: RunContext, *, completed: bool) -> dict[str, Any]:
-    """Return the totals of a recording that has ended.
-
-    Parameters
-    ----------
-    recording, results
-        The recording and what it has.
-    context
-        What it is of.
-    completed
-        Whether it went on for as long as it was meant to.
-    """
+    """Return the totals of a recording that has ended; completed or before its time."""
     scenario = context.scenario
     contact_time_s = scenario.ball.contact_time_s if scenario and scenario.ball else None
     summary = {
@@ -108,7 +94,7 @@ def _shortest_substep_s(results: Results) -> float | None:
 
 
 def _fingerprint(recording: Recording, results: Results) -> dict[str, str]:
-    """Digests of what was built, how it moved and what came out, and what it was calculated with."""
+    """Digests of model, motion and result, with the processor and the programs that calculated them."""
     whole = {"result": result_digest(results)} if recording.has_loads else {}
     return {
         "built": given(recording.setup).digest,
@@ -123,7 +109,7 @@ def _fingerprint(recording: Recording, results: Results) -> dict[str, str]:
 
 
 def _processor() -> str:
-    """Name of the processor, as far as the system tells it."""
+    """Name of the processor, if the system knows it."""
     information = Path("/proc/cpuinfo")  # of Linux, where Python knows no more than the architecture
     if information.exists():
         for line in information.read_text(encoding="utf-8", errors="replace").splitlines():
@@ -133,27 +119,24 @@ def _processor() -> str:
 
 
 def _on_ground(results: Results) -> dict[str, Any]:
-    """Debris on each surface of the ground by its name, and what went through the ground or off its edge."""
+    """Debris on each surface of the ground by its name, and bodies that went through the ground or off its edge."""
     left, _ = without_removed(results)
-    under = bodies_under_ground(left)
-    debris = debris_of(left) if left.ground().surfaces else None
-    surfaces = debris_on_surfaces(left, debris) if debris else ()
-    return {
-        "debris_on_surfaces": {
-            surface.name: {
-                "kind": surface.kind,
-                "bodies": len(surface.bodies),
-                "mass_kg": surface.mass_kg,
-                "covered_m2": surface.covered_m2,
-            }
-            for surface in surfaces
-        },
-        "under_ground": [str(name) for name in left.inventory.body_names[under]],
+    surfaces = debris_on_surfaces(left, debris_of(left)) if left.ground().surfaces else ()
+    on_surfaces = {
+        surface.name: {
+            "kind": surface.kind,
+            "bodies": len(surface.bodies),
+            "mass_kg": surface.mass_kg,
+            "covered_m2": surface.covered_m2,
+        }
+        for surface in surfaces
     }
+    under = left.inventory.body_names[bodies_under_ground(left)]
+    return {"debris_on_surfaces": on_surfaces, "under_ground": [str(name) for name in under]}
 
 
 def rest_watch(scenario: Scenario, motion: GroundMotionOfScene | None) -> Rest:
-    """Watch for the rest that a scenario waits for, on ground that moves so."""
+    """Return the rest that a scenario waits for, on moving ground too."""
     time, motion_end_s = scenario.time, motion.end_s if motion else 0.0
     return Rest(time.rest_speed_m_s, time.rest_spin_rad_s, time.rest_hold_s, last_event_s(scenario, motion_end_s))
 
@@ -183,14 +166,14 @@ def _of_scenario(
 
 
 def _touchdown(scenario: Scenario, results: Results) -> dict[str, Any]:
-    """How the fall shakes the ground at each neighbour, by its name; None where nothing fell."""
+    """Touchdown vibration at each neighbour, by its name; None where nothing fell."""
     landed = landings(results)
     shaken = ((neighbour.name, shaking_at(neighbour.place_m, landed)) for neighbour in scenario.neighbours)
     return {name: shaking and asdict(shaking) for name, shaking in shaken}
 
 
 def _charges(scenario: Scenario, recording: Recording) -> dict[str, Any] | None:
-    """What exploded when, and whether all of it reached the bodies; None where nothing did."""
+    """Charges with their detonations, and blast loads that were lost; None without an explosion."""
     charges = [charge for charge in scenario.charges if charge.mass_kg > 0.0]
     if not scenario.blast.explosion or not charges:
         return None

@@ -1,4 +1,4 @@
-"""Breaking by strength: after a sub-step by what was measured, before it by what elastic connections will carry."""
+"""Breaking by strength: after a sub-step by measured loads, before it by those that elastic connections will carry."""
 
 from __future__ import annotations
 
@@ -24,16 +24,9 @@ _NONE = np.zeros(0, int)
 
 @dataclass(frozen=True, slots=True)
 class Breaks:
-    """Connections that broke in one sub-step.
+    """Connections (b,) that broke in one sub-step under loads in their own axes.
 
-    Attributes
-    ----------
-    time_s : float
-        Simulated time at its end; at its beginning, of what broke before it.
-    connections : (b,) int
-        Which connections.
-    loads : SectionForces
-        What they broke under, in their own axes.
+    `time_s` is the simulated time at its end, or at its beginning for those that broke before it.
     """
 
     time_s: float
@@ -43,7 +36,7 @@ class Breaks:
 
 @dataclass(frozen=True, slots=True)
 class Resistance:
-    """What resists in m connections.
+    """Resistance of m connections.
 
     Attributes
     ----------
@@ -54,7 +47,7 @@ class Resistance:
     elastic : ElasticConnections or None
         The connections, where they are elastic.
     reinforcement : ElasticConnections, Reinforcement or None
-        What resists in place of those that broke.
+        Holds where connections broke.
     """
 
     overloads: Overloads | None
@@ -64,21 +57,7 @@ class Resistance:
 
 
 class Breaker:
-    """Breaks what is overloaded, and lets bodies collide that nothing holds together any more.
-
-    Parameters
-    ----------
-    constraints : ConstraintTable
-    meter : Meter
-    resistance : Resistance
-    warm_up : WarmUp
-        Nothing breaks before it is over.
-
-    Attributes
-    ----------
-    uses_strength : bool
-        Whether strength breaks anything.
-    """
+    """Breaks overloaded connections once the warm-up is over, and lets bodies collide that none holds together."""
 
     def __init__(self, constraints: ConstraintTable, meter: Meter, resistance: Resistance, warm_up: WarmUp):
         self._constraints, self._meter, self._resistance, self._warm_up = constraints, meter, resistance, warm_up
@@ -87,10 +66,7 @@ class Breaker:
         self._broken_before: list[Breaks] = []
 
     def break_overloaded(self, reading: Reading) -> np.ndarray:
-        """Break what is overloaded after a sub-step, and return it (b,).
-
-        Bullet's own threshold has been at work within the sub-step.
-        """
+        """Break connections (b,) that a sub-step has overloaded, and return them, without those broken by Bullet."""
         rows = self._candidates(reading.snapshot.load_components)
         if not len(rows):
             return _NONE
@@ -100,7 +76,7 @@ class Breaker:
         return rows
 
     def break_predicted(self, both_sides: np.ndarray, begin_s: float, substep_s: float) -> np.ndarray:
-        """Break what predicted loads (2, 6, m) on the bodies of connections would overload, and return it (b,)."""
+        """Break the connections (b,) that predicted loads (2, 6, m) on their bodies overload, and return them."""
         loads = self._meter.predicted_loads(both_sides)
         rows = self._candidates(loads)
         if not len(rows):
@@ -115,19 +91,19 @@ class Breaker:
         return rows
 
     def take_broken_before(self) -> list[Breaks]:
-        """Return what broke before the sub-step."""
+        """Return the breaks before the sub-step, and forget them."""
         broken, self._broken_before = self._broken_before, []
         return broken
 
     def follow(self, intact: np.ndarray) -> np.ndarray:
-        """Take over what is intact (m,) after a sub-step; return what broke in it (b,)."""
+        """Take over which connections (m,) are intact after a sub-step; return those that broke in it (b,)."""
         broken = np.flatnonzero(self._intact & ~intact)
         self._intact = intact
         self._let_collide()
         return broken
 
     def _candidates(self, loads: np.ndarray) -> np.ndarray:
-        """Intact connections (k,) whose loads (6, m) are large enough to break them, whatever they act on."""
+        """Intact connections (k,) whose loads (6, m) are large enough to break them in any section."""
         if not self._warm_up.is_over or not self.uses_strength:
             return _NONE
         resistance = self._resistance
@@ -160,18 +136,13 @@ class ElasticPrediction(Driver):
     """Puts elastic connections into each sub-step, without those that would break in it.
 
     A connection that carries more than its strength in a sub-step would push its bodies more than a real one.
-
-    Parameters
-    ----------
-    elastic : ElasticConnections
-    breaker : Breaker
     """
 
     def __init__(self, elastic: ElasticConnections, breaker: Breaker):
         self._elastic, self._breaker = elastic, breaker
 
     def before_substep(self, elapsed_s: float, substep_s: float) -> None:
-        """Predict loads, and break what they overload, until nothing more breaks."""
+        """Predict loads, and break the connections that they overload, until no more break."""
         self._elastic.begin_substep(substep_s)
         for _ in range(_MOST_ROUNDS):
             if not len(self._breaker.break_predicted(self._elastic.predict(), elapsed_s, substep_s)):

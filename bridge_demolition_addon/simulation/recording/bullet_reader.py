@@ -33,20 +33,13 @@ from .substeps import SubstepRecorder, in_order
 
 
 class BulletReader:
-    """Reads the frames of one simulation.
+    """Reads the frames of one simulation in a world that was bound just now, before any time passes.
 
     Parameters
     ----------
-    scene : bpy.types.Scene
-    setup : RunSetup
-        All that decides the run.
-    world : BulletWorld
-        Its world, bound just now, before any time passes.
-    blast : Blast or None
-        What explodes.
-    every_substep : bool
+    every_substep
         Whether loads are read after every sub-step, or only after the last one of each frame.
-    loads : bool
+    loads
         Whether loads and work are read at all.
 
     Attributes
@@ -54,7 +47,7 @@ class BulletReader:
     resting_state : RestingState or None
         How the bridge deforms under its own weight; None where connections are rigid.
     rigid_because : LayoutError or None
-        Why connections that are meant to be elastic are rigid.
+        Why connections that should be elastic are rigid.
     """
 
     def __init__(
@@ -84,7 +77,7 @@ class BulletReader:
     def _substep_recorder(
         self, elastic: ElasticConnections | None, blast: Blast | None, loads: bool
     ) -> SubstepRecorder:
-        """Return what Bullet calls, with all drivers, and what is measured and breaks."""
+        """Return the recorder that Bullet calls, with all drivers in order."""
         setup, world, inventory = self._setup, self._world, self._inventory
         breaking, constraints = setup.breaking, world.constraints
         self._events = events = Events(world, inventory.pairs, setup.events)
@@ -116,13 +109,13 @@ class BulletReader:
         return SubstepRecorder(constraints, drivers, meter, breaker, warm_up, self._sums)
 
     def before_frame(self, substeps: int) -> None:
-        """Know how many sub-steps the coming frame has."""
+        """Set how many sub-steps the coming frame has."""
         self._substeps_of_frame = substeps
         if self._last_loads:
             self._last_loads.before_frame(substeps)
 
     def close(self) -> None:
-        """Read nothing any more; what is still worked out is waited for."""
+        """Read nothing any more, once the thread has ended."""
         if self._sums:
             self._sums.close()
 
@@ -131,18 +124,17 @@ class BulletReader:
         return np.flatnonzero((self._inventory.body_kinds == "shard") & self._inventory.moves)
 
     def _elastic_connections(self, setup: RunSetup) -> ElasticConnections | None:
-        """Return the connections, None where Bullet's memory does not let them be elastic."""
-        bodies, soil = setup.bodies.objects, setup.soil
-        elasticity = given(setup.elasticity)
+        """Return the connections; None if they cannot be elastic, as Bullet's memory is not as expected."""
+        bodies, elasticity = setup.bodies.objects, given(setup.elasticity)
         stiffness, ratio = elasticity.stiffness, elasticity.damping_ratio
         try:
-            return ElasticConnections(self._scene, self._world, self._inventory, bodies, stiffness, ratio, soil)
+            return ElasticConnections(self._scene, self._world, self._inventory, bodies, stiffness, ratio, setup.soil)
         except LayoutError as error:
             self.rigid_because = error
             return None
 
     def _ground_drive(self) -> GroundDrive | None:
-        """Return what moves the ground, None where it rests."""
+        """Return the driver of the ground, None where it rests."""
         setup = self._setup
         if setup.ground_motion is None:
             return None
@@ -150,7 +142,7 @@ class BulletReader:
         return GroundDrive(self._world.bodies, rows, self._free_shards(), setup.ground_motion)
 
     def _overloads(self, elastic: ElasticConnections | None) -> Overloads | None:
-        """Return what judges connections by their strength; elastic ones by sections of members as they were built."""
+        """Return the criterion of strength; elastic connections are judged by whole sections of built members."""
         strength, inventory, sections = self._setup.breaking.strength, self._inventory, None
         if not strength:
             return None
@@ -161,7 +153,7 @@ class BulletReader:
         return Overloads(inventory.faces, inventory.moves, strength, sections)
 
     def _work(self) -> WorkAccumulator:
-        """Return what adds up the work in each frame, from how bodies move now."""
+        """Return the sum of work in each frame, which begins with the present motion."""
         bodies, rigid = self._world.bodies, self._setup.bodies.rigid
         return WorkAccumulator(
             self._inventory.masses_kg,
@@ -177,22 +169,17 @@ class BulletReader:
         return self._events.applied
 
     def take_ball_history(self) -> BallHistory:
-        """Return what hit the balls since this was asked last."""
+        """Return the hits of the balls since the last call."""
         return self._sums.take_ball_history() if self._sums else BallHistory.unknown()
 
     def take_contacts(self, frame: int) -> ContactHistory:
-        """Return the contacts in the last sub-step since this was asked last, which is that of a frame."""
+        """Return the contacts in the last sub-step of a frame."""
         contacts = self._sums.take_last_contacts() if self._sums else None
         if contacts is None:
             return ContactHistory.none()
-        return ContactHistory(
-            np.full(len(contacts), frame),
-            contacts.pairs,
-            contacts.positions_m,
-            contacts.normals,
-            contacts.normal_impulses_ns,
-            contacts.tangential_impulses_ns,
-        )
+        impulses = contacts.normal_impulses_ns, contacts.tangential_impulses_ns
+        frames = np.full(len(contacts), frame)
+        return ContactHistory(frames, contacts.pairs, contacts.positions_m, contacts.normals, *impulses)
 
     @property
     def seconds(self) -> float:
@@ -200,9 +187,9 @@ class BulletReader:
         return self._substeps.seconds
 
     def read_first_frame(self, substep_s: float) -> Frame:
-        """Return a frame in which no time passed, or else one whose loads were not asked for in time.
+        """Return the first frame: no time has passed in it, or its loads are unknown.
 
-        Where connections are elastic, and have put the bodies where they rest, it shows them as they were built.
+        Where connections are elastic, and have put the bodies at rest, it shows them as they were built.
         """
         self._substeps.skip(substep_s * self._scene.rigidbody_world.substeps_per_frame)
         loads, work, _ = self._finish_frame()
@@ -214,7 +201,7 @@ class BulletReader:
         return replace(frame, positions_m=self._built_positions_m, rotations=self._built_rotations)
 
     def read_frame(self, substep_s: float) -> tuple[Frame, list[Breaks]]:
-        """Return the frame whose sub-steps have this length, without blast, and what broke in it."""
+        """Return the frame whose sub-steps have this length, without blast, and the breaks in it."""
         if not self._every_substep:
             self._substeps.after_substep(substep_s)
             self._substeps.skip(substep_s * (self._substeps_of_frame - 1))
@@ -226,24 +213,25 @@ class BulletReader:
         return self._frame(substep_s, loads, work), breaks
 
     def _finish_frame(self) -> tuple[FrameLoads, FrameWork, list[Breaks]]:
-        """Return loads and work of the frame, and what broke in it; unknown where loads are not read."""
+        """Return loads and work of the frame, unknown where loads are not read, and the breaks in it."""
         if self._sums:
             return self._sums.finish_frame()
         return given(self._no_loads), FrameWork.unknown(len(self._inventory.masses_kg)), []
 
     def _frame(self, substep_s: float, loads: FrameLoads, work: FrameWork) -> Frame:
-        positions, rotations = self._world.bodies.positions()
+        bodies = self._world.bodies
+        positions_m, rotations = bodies.positions()
         return Frame(
             number=self._scene.frame_current,
             time_s=self._substeps.elapsed_s,
             substep_s=substep_s,
-            positions_m=positions,
+            positions_m=positions_m,
             rotations=rotations,
-            velocities_m_s=self._world.bodies.velocities(),
-            angular_velocities_rad_s=self._world.bodies.angular_velocities(),
-            asleep=self._world.bodies.asleep(),
+            velocities_m_s=bodies.velocities(),
+            angular_velocities_rad_s=bodies.angular_velocities(),
+            asleep=bodies.asleep(),
             intact=self._world.constraints.intact(),
-            blast_impulses_ns=np.zeros_like(positions),
+            blast_impulses_ns=np.zeros_like(positions_m),
             loads=loads,
             work=work,
         )

@@ -1,13 +1,15 @@
-"""What all sub-steps of a frame come to: loads, work, breaking, and the hits of the balls.
+"""Sums over all sub-steps of a frame: loads, work, breaking, and the hits of the balls.
 
-While Bullet waits, nothing is done but copying what it holds. The loads of many sub-steps are then worked out at once,
-which takes a fraction of the time: all those of a frame, or as many as fit into `BATCH_BYTES`. In larger models that
-is done beside Bullet, in a thread of its own.
+While Bullet waits, its state is only copied. The loads of many sub-steps are then evaluated at once, which takes a
+fraction of the time: all those of a frame, or as many as fit into `BATCH_BYTES`. In larger models a thread of its own
+does that while Bullet goes on with its next sub-steps: Blender releases Python while it simulates, and numpy does so in
+long loops, so that each runs on a core of its own.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import partial
 
@@ -19,32 +21,52 @@ from ...engineering.mechanics.frame_loads import FrameLoads, LoadAccumulator, Su
 from ...engineering.mechanics.work import FrameWork, Motion, PairImpulses, WorkAccumulator
 from ...model.results.frames import BallHistory
 from ...model.results.inventory import Inventory
-from .background import BackgroundWork
 from .breaking import Breaks
 from .meter import Meter, Reading
 
 BATCH_BYTES = 1_000_000
-"""Copies of sub-steps that are kept until they are worked out; fewer take longer each, more leave more to wait for at
-the end of a frame."""
+"""Copies of sub-steps that are kept until they are evaluated; fewer take longer each, with more the end of a frame has
+to wait longer."""
 
 WORTH_HANDING_OVER_BYTES = 200_000
-"""Copies of fewer bytes are worked out sooner than they are handed over."""
+"""Handing over copies of fewer bytes takes longer than evaluating them."""
+
+THREAD_NAME = "recording"
+"""First part of the names of the threads."""
+
+
+class BackgroundWork:
+    """One thread that does one job at a time, in the order in which they come.
+
+    A job must touch neither Blender's data nor Bullet's memory, but only data that no other code changes meanwhile.
+    """
+
+    def __init__(self) -> None:
+        self._thread = ThreadPoolExecutor(max_workers=1, thread_name_prefix=THREAD_NAME)
+        self._job: Future[None] | None = None
+
+    def begin(self, job: Callable[[], None]) -> None:
+        """Begin a job once the one before is done, and raise the error of that one."""
+        self.finish()
+        self._job = self._thread.submit(job)
+
+    def finish(self) -> None:
+        """Wait until the job is done, and raise its error."""
+        job, self._job = self._job, None
+        if job:
+            job.result()
+
+    def close(self) -> None:
+        """Wait for the job that may still run, without raising its error, and end the thread for good."""
+        self._thread.shutdown()
+        self._job = None
 
 
 @dataclass(frozen=True, slots=True)
 class MeasuredSubstep:
-    """A sub-step that is still to be worked out.
+    """A sub-step that is still to be evaluated: connections (b,) that broke in it, and others that broke before it.
 
-    Attributes
-    ----------
-    reading : Reading
-        What was read after it.
-    broken : (b,) int
-        Connections that broke in it.
-    broken_before : sequence of Breaks
-        What broke before it.
-    stored_j : (m,) float or None
-        Energy in elastic connections at its end.
+    `stored_j` (m,) is the energy in elastic connections at its end.
     """
 
     reading: Reading
@@ -54,18 +76,7 @@ class MeasuredSubstep:
 
 
 class FrameSums:
-    """Adds up the sub-steps of each frame.
-
-    Parameters
-    ----------
-    meter : Meter
-    inventory : Inventory
-        Bodies and connections.
-    work : WorkAccumulator
-        Adds up the work in each frame.
-    every_substep : bool
-        Whether every sub-step is measured: the work of a frame is known only then.
-    """
+    """Adds up the sub-steps of each frame; the work of a frame is known only where every sub-step is measured."""
 
     def __init__(self, meter: Meter, inventory: Inventory, work: WorkAccumulator, *, every_substep: bool):
         self._meter, self._inventory, self._work, self._every_substep = meter, inventory, work, every_substep
@@ -86,7 +97,7 @@ class FrameSums:
             self._work_counts = counts
 
     def add(self, substep: MeasuredSubstep) -> None:
-        """Take over a sub-step, and work out many once it is worth it."""
+        """Take over a sub-step, and evaluate many of them when it is worth it."""
         self._substeps += 1
         self._last = substep.reading
         self._waiting.append(substep)
@@ -94,7 +105,7 @@ class FrameSums:
             self._hand_over()
 
     def finish_frame(self) -> tuple[FrameLoads, FrameWork, list[Breaks]]:
-        """Return loads and work of the frame and what broke in it, and begin the next frame."""
+        """Return loads, work and breaks of the frame, and begin the next frame."""
         self._background.finish()
         waiting, self._waiting = self._waiting, []
         self.work_out(waiting, work_counts=self._work_counts)
@@ -105,11 +116,11 @@ class FrameSums:
         return loads, work, breaks
 
     def close(self) -> None:
-        """Leave nothing that still works on what was measured."""
+        """Wait for the thread, and end it."""
         self._background.close()
 
     def take_ball_history(self) -> BallHistory:
-        """Return the hits of the balls in every sub-step since this was asked last."""
+        """Return the hits of the balls in every sub-step since the last call."""
         if not self._hits:
             return BallHistory.unknown()
         times, impulses, velocities = map(np.array, zip(*self._hits, strict=True))
@@ -117,15 +128,12 @@ class FrameSums:
         return BallHistory(self._balls, times, impulses, velocities)
 
     def take_last_contacts(self) -> Contacts | None:
-        """Return the contacts in the last sub-step since this was asked last; None where there was none."""
+        """Return the contacts in the last sub-step since the last call; None where there was no sub-step."""
         last, self._last = self._last, None
         return None if last is None else self._meter.contacts(last)
 
     def work_out(self, substeps: Sequence[MeasuredSubstep], *, work_counts: bool) -> None:
-        """Add up loads and work of sub-steps, and note what broke and what hit the balls.
-
-        Only one thread at a time does this, and it reads nothing but copies.
-        """
+        """Add up loads and work of sub-steps, breaks and hits of balls; in one thread at a time, which reads copies."""
         if not substeps:
             return
         bodies, loads = self._meter.loads([substep.reading for substep in substeps])
@@ -152,7 +160,7 @@ class FrameSums:
         return self._every_substep and size > (WORTH_HANDING_OVER_BYTES if ends_frame else BATCH_BYTES)
 
     def _hand_over(self) -> None:
-        """Have the sub-steps that wait worked out beside what Blender does next."""
+        """Have the sub-steps that wait evaluated while Blender goes on."""
         waiting, self._waiting = self._waiting, []
         if waiting:
             self._background.begin(partial(self.work_out, waiting, work_counts=self._work_counts))
@@ -162,7 +170,7 @@ class FrameSums:
         first, second = loads.contact_pairs[contacts].T
         points = np.ascontiguousarray(loads.contact_impulses_ns[contacts])  # sums follow the order in memory
         impulses = [points[first == ball].sum(axis=0) - points[second == ball].sum(axis=0) for ball in self._balls]
-        # A ball that is lifted moves as animation says: what it pushes off does not hit it.
+        # A ball that is lifted moves as animation says: bodies that it pushes aside do not hit it.
         free = bodies.can_move[substep, self._balls, None]
         self._hits.append((end_s, np.where(free, impulses, 0.0), bodies.velocities_m_s[substep, self._balls]))
 

@@ -1,4 +1,4 @@
-"""What a sub-step did: copies of what Bullet holds after it, and the loads that follow from many of them at once."""
+"""Loads of sub-steps: copies of Bullet's state after each, and the loads that follow from many of them at once."""
 
 from __future__ import annotations
 
@@ -22,16 +22,9 @@ from .reinforcement import Reinforcement
 
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """What was read after a sub-step.
+    """Bullet's state after a sub-step, with the loads of elastic connections, and simulated time at its end.
 
-    Attributes
-    ----------
-    snapshot : Snapshot
-        What Bullet holds, with the loads of elastic connections.
-    substep_s, end_s : float
-        Length of the sub-step, and simulated time at its end.
-    reinforcement_n : (m, 3) float or None
-        Forces of reinforcement in it, where there is any beside rigid connections.
+    `reinforcement_n` (m, 3) are the forces of reinforcement across cracks of rigid connections, if there is any.
     """
 
     snapshot: Snapshot
@@ -43,20 +36,7 @@ class Reading:
 class Meter:
     """Reads a world that was bound just now, before any time passes.
 
-    Parameters
-    ----------
-    world : BulletWorld
-    inventory : Inventory
-        Its bodies and connections.
-    elastic : ElasticConnections or None
-        The connections, where they are elastic.
-    reinforcement : Reinforcement or None
-        Of rigid connections that broke.
-
-    Attributes
-    ----------
-    lever_arms_m : (m,) float
-        From the centres of the bodies on which loads are read to the connections, which stay where they are on these.
+    `lever_arms_m` (m,) reach from the centres of the bodies on which loads are read to the connections.
     """
 
     def __init__(
@@ -68,21 +48,22 @@ class Meter:
     ):
         self._elastic, self._reinforcement = elastic, reinforcement
         pairs = inventory.pairs
-        # Of a hinge on a fixed body, Bullet leaves out a part of the torque on that body: loads are read on the other.
+        # On a fixed body Bullet leaves out a part of a hinge's torque: loads are read on the other.
         side = np.where(inventory.moves[pairs[:, 0]], 0, 1)
         rows = np.arange(len(pairs))
         self._sides = np.where(world.first_is_body_a(), side, 1 - side)
         self._snapshots = world.snapshots(2 * rows + self._sides)
         self._sign = np.where(side == 0, 1.0, -1.0)[:, None]
         self._bodies = pairs[rows, side]
-        centres, rotations = world.bodies.positions()
+        positions_m, rotations = world.bodies.positions()
         bodies = self._bodies
-        self._local_points = by_component(*transformed_back(rotations[bodies], inventory.points_m - centres[bodies]).T)
+        levers = transformed_back(rotations[bodies], inventory.points_m - positions_m[bodies])
+        self._local_points = by_component(*levers.T)
         self.lever_arms_m = length(self._local_points)
         self._local_axes = axes_in_bodies(section_axes(inventory.normals), bodies, rotations)
 
     def read(self, substep_s: float, end_s: float) -> Reading:
-        """Return what Bullet holds after a sub-step; of elastic connections it knows only what contacts change."""
+        """Return Bullet's state after a sub-step; of elastic connections Bullet knows only what contacts change."""
         snapshot = self._snapshots.take()
         if self._elastic:
             snapshot = replace(snapshot, load_components=snapshot.load_components + self._elastic.loads_on(self._sides))
@@ -90,15 +71,15 @@ class Meter:
         return Reading(snapshot, substep_s, end_s, forces)
 
     def predicted_loads(self, both_sides: np.ndarray) -> np.ndarray:
-        """Return loads (6, m) where they are read, of those (2, 6, m) on Bullet's bodies A and B."""
+        """Return loads (6, m) on the bodies where they are read, from those (2, 6, m) on Bullet's bodies A and B."""
         return np.where(self._sides == 0, both_sides[0], both_sides[1])
 
     def predicted(self, loads: np.ndarray, substep_s: float, begin_s: float) -> Reading:
-        """Return what Bullet holds before a sub-step, with the loads (6, m) that connections will have in it."""
+        """Return Bullet's state before a sub-step, with the loads (6, m) that connections will have in it."""
         return Reading(replace(self._snapshots.take(), load_components=loads), substep_s, begin_s, None)
 
     def stored_j(self, intact: np.ndarray) -> np.ndarray | None:
-        """Return the energy that is now in elastic connections (m,), of those that are intact or reinforced."""
+        """Return the energy that is now in elastic connections (m,) that are intact or reinforced."""
         return self._elastic.stored_j(intact) if self._elastic else None
 
     def loads(self, readings: Sequence[Reading]) -> tuple[BodyHistory, SubstepLoads]:
@@ -120,16 +101,16 @@ class Meter:
         return self._snapshots.contacts([reading.snapshot])
 
     def section_axes(self, rotations: np.ndarray, rows: np.ndarray) -> np.ndarray:
-        """Return the axes (r, 3, 3) of some connections (r,), turned with their bodies."""
+        """Return the section axes (r, 3, 3) of connections (r,), rotated with their bodies."""
         return carried_axes(self._local_axes[rows], self._bodies[rows], rotations)
 
     def section_forces(self, loads: Moment, rows: np.ndarray) -> SectionForces:
-        """Return the loads of some connections (r,) in their own axes."""
+        """Return the loads of connections (r,) in their own axes."""
         axes = self.section_axes(loads.rotations, rows)
         return section_forces(axes, loads.connection_forces_n[rows], loads.connection_moments_nm[rows])
 
     def normals(self, rotations: np.ndarray) -> np.ndarray:
-        """Return the unit normals (m, 3) of the connections, turned with their bodies."""
+        """Return the unit normals (m, 3) of the connections, rotated with their bodies."""
         return transformed(rotations.take(self._bodies, axis=0), self._local_axes[:, :, 0])
 
     def _substep_loads(

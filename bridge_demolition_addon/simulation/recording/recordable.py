@@ -11,17 +11,18 @@ from ...scene.connections.constraints import connections_of, loose_connections, 
 
 def check_recordable(scene: bpy.types.Scene) -> None:
     """Refuse a scene that cannot be recorded as it is."""
-    if scene.rigidbody_world is None or scene.rigidbody_world.collection is None:
+    world = scene.rigidbody_world
+    if world is None or world.collection is None:
         raise SimulationError(f"scene {scene.name!r} has no rigid-body world: build a demolition in it first")
     if not bodies_of(scene):
         raise SimulationError(f"the rigid-body world of scene {scene.name!r} has no bodies: build a demolition first")
-    if not scene.rigidbody_world.enabled:
+    if not world.enabled:
         raise SimulationError(f"the rigid-body world of scene {scene.name!r} is switched off: switch it on first")
-    if scene.rigidbody_world.point_cache.is_baked:
+    if world.point_cache.is_baked:
         raise SimulationError(
             f"the simulation of scene {scene.name!r} is baked and only played back: delete the bake first"
         )
-    if scene.rigidbody_world.time_scale == 0.0:
+    if world.time_scale == 0.0:
         raise SimulationError(f"the rigid-body world of scene {scene.name!r} has a speed of 0: set it to 1 first")
     unit_scale = scene.unit_settings.scale_length
     if unit_scale != 1.0:
@@ -39,4 +40,4 @@ def check_recordable(scene: bpy.types.Scene) -> None:
         raise SimulationError(
             f"connection {loose[0].name!r} lacks a body{more}: give each two, or remove loose connections first"
         )
-    sections_of(connections_of(scene))  # says what was edited by hand, before anything is begun
+    sections_of(connections_of(scene))  # refuses connections that were edited by hand

@@ -42,22 +42,20 @@ WITHOUT_LOADS = "motion and breaking, without loads"
 class Recording(RecordedFrames):
     """Records one scene from its start frame on; a simulation that starts again is recorded from its beginning.
 
-    What decides the run is read from the scene when its simulation begins: up to then it can be edited.
+    All that decides the run is read from the scene when its simulation begins: up to then the scene can be edited.
 
     Parameters
     ----------
-    scene : bpy.types.Scene
-        Scene with a rigid-body world.
-    folder : Path
-        Folder for the frames and the logs, which has to exist once it is recorded.
-    every_substep : bool
+    folder
+        For the frames and the logs; has to exist when the simulation begins.
+    every_substep
         Whether loads are read after every sub-step, or only after the last one of each frame.
-    log_files : LogFiles or None
+    log_files
         Logs that do not go to the folder; all do by default.
-    loads : bool
-        Whether loads and work are recorded and logs written. Without them a run takes less time and comes to the same:
-        motion and breaking have the same bits.
-    contacts : bool
+    loads
+        Whether loads and work are recorded and logs written. Without them a run takes less time, and motion and
+        breaking have the same bits.
+    contacts
         Whether the contacts of the last sub-step of each frame are kept, where loads are.
 
     Attributes
@@ -67,14 +65,10 @@ class Recording(RecordedFrames):
     changed_bodies : list of str
         Which bodies are missing, were added or moved since the scene was built, in sentences.
     error : Exception or None
-        Why the recording ended before its time.
+        Why the recording ended early.
     layout_error : LayoutError or None
         Why Bullet's memory is not read. Then only the motion of bodies is recorded, and the net force on each
         from its change of momentum.
-    has_loads : bool
-        Whether loads are recorded, as given.
-    world : BulletWorld
-        The world that is recorded.
     setup : RunSetup or None
         All that decides the run; None before the first frame.
     substeps : int
@@ -119,7 +113,7 @@ class Recording(RecordedFrames):
         self.substeps = 0
 
     def before_frame(self) -> None:
-        """Set how much time passes in the coming frame, and what explodes in it."""
+        """Set the time that passes in the coming frame, and its blast loads."""
         try:
             self._timing.set_time(holds_first=self.layout_error is None)
         except LayoutError as error:
@@ -153,7 +147,7 @@ class Recording(RecordedFrames):
         self.close()
 
     def close(self) -> None:
-        """Take everything of ours out of Blender's world and close the logs. What was recorded stays."""
+        """Take our buffers out of Blender's world and close the logs; the frames stay."""
         if self._blast:
             self._blast.rest()
         self.world.release()
@@ -164,11 +158,11 @@ class Recording(RecordedFrames):
             try:
                 logs.close(self.last)
             except OutputError as error:
-                self.error = self.error or error  # a full disk, which may be what the recording ended for
+                self.error = self.error or error  # a full disk, which may have ended the recording
 
     @property
     def lost_blast_loads(self) -> int:
-        """How often a body has left the reach of its force field within a frame, and lost a part of its load."""
+        """How often a body has left its force field within a frame, and lost a part of its load."""
         return self._blast.lost_loads if self._blast else 0
 
     @property
@@ -192,7 +186,7 @@ class Recording(RecordedFrames):
 
     @property
     def rigid_because(self) -> LayoutError | None:
-        """Why connections that are meant to be elastic are rigid."""
+        """Why connections that should be elastic are rigid."""
         if self.layout_error and is_elastic(self.scene):
             return self.layout_error
         return self._reader.rigid_because if self._reader else None
@@ -200,28 +194,28 @@ class Recording(RecordedFrames):
     @property
     def seconds(self) -> float:
         """Wall time that recording has taken so far."""
-        # Read once a frame, the sub-step is read within the frame's own time.
+        # The one sub-step that is read of a frame is in the frame's own time.
         return self._seconds + (self.reading_seconds if self._every_substep else 0.0)
 
     @property
     def reading_seconds(self) -> float:
-        """The part of it in Bullet's sub-steps: copying what it holds, and judging it where strength breaks."""
+        """The part of it in Bullet's sub-steps: copying its state, and breaking connections by their strength."""
         return self._reader.seconds if self._reader else 0.0
 
     def _follow_bullet(self, depsgraph: bpy.types.Depsgraph) -> None:
-        """Record the frame from Bullet's memory, or note why that cannot be trusted."""
+        """Record the frame from Bullet's memory, or note why that is not as expected."""
         try:
             if self.scene.frame_current > self.scene.rigidbody_world.point_cache.frame_start:
                 self._record(self.world.bind(depsgraph), time_stands_still(depsgraph))
         except LayoutError as error:
-            if self.last:  # it was trusted, and parts of it are recorded
+            if self.last:  # recorded from it
                 raise
             self.layout_error = error
         finally:
             self._timing.release()
 
     def _follow_motion(self, depsgraph: bpy.types.Depsgraph) -> None:
-        """Record the frame from where the bodies are."""
+        """Record the frame from the positions of the bodies."""
         number = self.scene.frame_current
         begins = number == self.scene.rigidbody_world.point_cache.frame_start
         if begins or not self._momentum:
@@ -254,7 +248,7 @@ class Recording(RecordedFrames):
         # Without a step Blender played the frame back from its cache, and Bullet stands where it stood.
 
     def _begin_with_bullet(self, held: bool) -> BulletReader:
-        """Begin with the first frame of a new world, in which time was held or not."""
+        """Begin with the first frame of a new world, in which time was held, or not."""
         if self._reader:  # of an earlier world
             self._reader.close()
         setup = run_setup_of(self.scene)
@@ -268,7 +262,7 @@ class Recording(RecordedFrames):
         return self._reader
 
     def _begin(self, setup: RunSetup, world: BulletWorld | None) -> None:
-        """Prepare what explodes, the frames, and the logs of all, in a world that can be read or None."""
+        """Prepare blast, frames and logs; the world is None where it cannot be read."""
         if self._blast:
             self._blast.rest()
         self.setup = setup
@@ -285,7 +279,7 @@ class Recording(RecordedFrames):
             self._logs = Logs(self.folder, setup.inventory, charges, self._log_files)
 
     def _keep(self, frame: Frame, balls: BallHistory, contacts: ContactHistory | None = None) -> None:
-        """Keep and log a frame, with what exploded, what hit the balls and what touched in it."""
+        """Keep and log a frame, with its blast loads, hits of the balls and contacts."""
         frame_s = frame.time_s - (self.last.time_s if self.last else 0.0)
         blast_loads = None
         if self._blast is not None and frame_s > 0.0:
@@ -299,7 +293,7 @@ class Recording(RecordedFrames):
 
 
 def _begin_motion(setup: RunSetup, world: BulletWorld, held: bool) -> None:
-    """Give bodies the velocities with which they begin, and see that what moves from the beginning is followed."""
+    """Give bodies the velocities with which they begin, and refuse a motion whose beginning was not followed."""
     moving = np.flatnonzero(setup.start_motion.any(axis=1))
     if len(moving) and not held:
         raise SimulationError("bodies that begin with a velocity need the timeline played from its start frame")

@@ -1,7 +1,6 @@
-"""What happens around every sub-step: drivers act before it, a meter reads after it, and what is overloaded breaks.
+"""Work around every sub-step: drivers act before it, a meter reads after it, and overloaded connections break.
 
-While Bullet waits, no more is done than that. Where loads are not wanted, nothing is copied that does not decide what
-breaks.
+While Bullet waits, no more is done than that. Without loads, only values that decide breaking are copied.
 """
 
 from __future__ import annotations
@@ -31,39 +30,29 @@ ORDER = (
     Loads,
     ElasticPrediction,
 )
-"""Order in which drivers act, which decides the last bits of a run. The ground moves before anything is connected to
-it or not; events decide what connections and reinforcement are left; elastic connections come last, as they take over
-all forces on the bodies."""
+"""Order in which drivers act, which decides the last bits of a run. The ground moves before events decide which
+connections and reinforcement are left; elastic connections come last, as they take over all forces on the bodies."""
 
 
 def in_order(drivers: Iterable[Driver | None]) -> list[Driver]:
-    """Return the drivers that there are in the order in which they act."""
+    """Return the drivers that are not None in the order in which they act."""
     return sorted((driver for driver in drivers if driver is not None), key=lambda driver: ORDER.index(type(driver)))
 
 
 class SubstepRecorder:
-    """Drives and measures a world sub-step by sub-step. Bullet calls it: it keeps an error instead of raising it.
+    """Drives and measures a world sub-step by sub-step, with drivers in order.
 
-    Parameters
-    ----------
-    constraints : ConstraintTable
-        Of the world, bound before any time passes.
-    drivers : list of Driver
-        In order.
-    meter : Meter
-    breaker : Breaker
-    warm_up : WarmUp
-    sums : FrameSums or None
-        Adds up loads and work; None where these are not recorded. What happens is the same without them.
+    Without sums loads and work are not recorded; the run is the same without them.
 
     Attributes
     ----------
     elapsed_s : float
         Simulated time so far.
     seconds : float
-        Wall time that measuring has cost so far.
+        Wall time that measuring has taken so far.
     error : Exception or None
-        What went wrong in a sub-step; nothing is recorded after it. Whoever follows the frames raises it there.
+        Error in a sub-step, after which nothing is recorded. Bullet calls this class, so that the reader of the frame
+        raises it.
     """
 
     def __init__(
@@ -92,7 +81,7 @@ class SubstepRecorder:
             self.error = error
 
     def after_substep(self, substep_s: float) -> None:
-        """Measure a sub-step of a length in s, and break what was overloaded in it."""
+        """Measure a sub-step of a length in s, and break connections that were overloaded in it."""
         if self.error:
             return
         began = time.perf_counter()
@@ -109,7 +98,7 @@ class SubstepRecorder:
         self.seconds += time.perf_counter() - began
 
     def skip(self, duration_s: float) -> None:
-        """Let time pass of which nothing is known."""
+        """Let time pass without measuring it."""
         self.elapsed_s += duration_s
 
     def _record(self, sums: FrameSums, substep_s: float) -> None:
@@ -123,7 +112,7 @@ class SubstepRecorder:
         sums.add(MeasuredSubstep(reading, broken, self._breaker.take_broken_before(), stored_j))
 
     def _follow(self, substep_s: float) -> None:
-        """Break what is overloaded in a sub-step of which no loads are kept, and let go of what is broken."""
+        """Break connections that are overloaded in a sub-step whose loads are not kept."""
         self._warm_up.end_when_due(self.elapsed_s)
         if self._breaker.uses_strength:
             self._breaker.break_overloaded(self._meter.read(substep_s, self.elapsed_s))

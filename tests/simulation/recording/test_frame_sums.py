@@ -12,8 +12,7 @@ from bridge_demolition_addon.errors import LayoutError
 from bridge_demolition_addon.model.results.fingerprint import result_digest
 from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.recording import frame_sums
-from bridge_demolition_addon.simulation.recording.background import THREAD_NAME, BackgroundWork
-from bridge_demolition_addon.simulation.recording.frame_sums import FrameSums
+from bridge_demolition_addon.simulation.recording.frame_sums import THREAD_NAME, BackgroundWork, FrameSums
 from bridge_demolition_addon.simulation.recording.meter import Meter
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 from bridge_demolition_addon.simulation.recording.substeps import SubstepRecorder

@@ -13,7 +13,7 @@ FRAME_S, FEWEST, FARTHEST_M, GRAVITY = 1.0 / 25.0, 4, 0.01, 9.81
 
 def to_come(scene, settings, frame):
     from bridge_demolition_addon.scene.world import create_world
-    from bridge_demolition_addon.simulation.workload import Workload
+    from bridge_demolition_addon.simulation.playback import Workload
 
     create_world(scene, settings, 21)
     return Workload(scene, 2, 21).to_come(frame)
