@@ -28,12 +28,7 @@ from ..errors import ScenarioError, SimulationError
 from ..model.study.runs_table import CRASHED, DONE, KILLED, OUT_OF_MEMORY, REFUSED, TIMED_OUT, RunOutcome
 from ..model.study.settings import EnsembleSettings
 from ..system.programs import start_program
-
-MARK = "bda-draw "
-"""What begins the program's own lines on its standard output."""
-
-UNWRITABLE = "unwritable"
-"""Status of an answer of a program that could not write; no run's."""
+from .run_service import MARK, UNWRITABLE
 
 RUNS_PER_PROCESS = 50
 """After so many, a process is replaced: Blender gives back little of the memory that a run took."""

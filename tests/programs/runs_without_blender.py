@@ -8,11 +8,11 @@ import os
 import signal
 import sys
 import time
+import tomllib
 from pathlib import Path
 
 from bridge_demolition_addon.errors import OutputError, ScenarioError, SimulationError
-from bridge_demolition_addon.model.scenario.file import scenario_from_text
-from bridge_demolition_addon.studies.run_program import RunService
+from bridge_demolition_addon.studies.run_service import RunService
 
 LOG = Path(sys.argv[1])
 VERSIONS = {"program": "of tests"}
@@ -21,15 +21,15 @@ _played = []
 
 
 def play(request, folder):
-    scenario = scenario_from_text(request["scenario"])
-    deed, seed = scenario.title, scenario.seed
+    scenario = tomllib.loads(request["scenario"])  # the model takes longer to load than all that is done here
+    deed, seed = scenario["scenario"]["title"], scenario["scenario"]["seed"]
     with LOG.open("a", encoding="utf-8") as log:
         log.write(f"{os.getpid()} {deed} {seed}\n")
     (folder / "begun.txt").write_text(deed, encoding="utf-8")
     _DEEDS.get(deed, lambda _folder: None)(folder)
     _played.append(deed)
     (folder / "outlines.npz").write_bytes(b"outlines")
-    outputs = {"reach_m": seed / 2**31, "broken": seed % 7, "heavy": scenario.ball.mass_kg > 9000.0}
+    outputs = {"reach_m": seed / 2**31, "broken": seed % 7, "heavy": scenario["ball"]["mass_kg"] > 9000.0}
     return {"outputs": outputs, "fingerprint": {"motion": f"{seed:x}"}}
 
 

@@ -181,7 +181,9 @@ def test_two_at_once_are_refused(study, tmp_path):
     output = tmp_path / "out"
     first = start(study, output, tmp_path / "log", "--jobs", "1")
     wait_for_draws(first, output, 1)
+    first.send_signal(signal.SIGSTOP)  # or it might be done before the second one looks
     status, _, complained = outcome(start(study, output, tmp_path / "second log"))
+    first.send_signal(signal.SIGCONT)
     assert status == 2
     assert f"{output}: is being written to by process {first.pid} " in complained
     assert outcome(first)[0] == 0

@@ -12,8 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.optimize import brentq, minimize_scalar
-from scipy.special import log_ndtr, ndtr, ndtri
-from scipy.stats import f as f_distribution
+from scipy.special import fdtri, log_ndtr, ndtr, ndtri
 
 from ..arrays import BoolArray, FloatArray
 
@@ -141,7 +140,7 @@ def limit(runs: LevelOutcomes, probability: float, confidence: float, side: int)
     if normal is None or len(runs) < 4:
         return side * np.inf
     most = log_likelihood(runs, normal)
-    least = most - float(f_distribution.ppf(confidence, 2, len(runs) - 2))
+    least = most - float(fdtri(2, len(runs) - 2, confidence))
 
     def above(place: float) -> float:
         return profile_likelihood(runs, place, probability) - least
