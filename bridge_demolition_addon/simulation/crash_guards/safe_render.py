@@ -1,8 +1,8 @@
-"""Renders of what has not been played, without a crash.
+"""Renders of frames that were not played, without a crash.
 
-A render works on copies of its own, beside those of the window, and both share one Bullet world. Where the render is
-the first to simulate, Blender makes bodies of meshes that are not there yet, and crashes, then or at the next step. So
-the world of a demolition rests while it is rendered, unless its frames were played before and are known.
+A render works on copies of its own, beside those of the window, and both share one Bullet world. If the render is the
+first to simulate, Blender makes bodies of meshes that are not there yet, and crashes, then or at the next step. So the
+world of a demolition rests while it is rendered, unless its frames were played before and are known.
 """
 
 import bpy
@@ -11,7 +11,7 @@ from ...scene.bodies import bodies_of, is_marked
 
 
 def frames_are_known(scene: bpy.types.Scene) -> bool:
-    """Return whether Blender plays frames back that it has simulated, and nothing was changed since."""
+    """Return whether Blender plays back frames that it has simulated, as nothing was changed since."""
     cache = scene.rigidbody_world.point_cache
     return cache.is_baked or bool(cache.info and not cache.is_outdated)
 

@@ -1,14 +1,15 @@
 """Undo and redo in the middle of a simulation, without a crash.
 
-Blender's undo reads what has changed again and keeps everything else. It frees the Bullet bodies of changed objects,
+Blender's undo reads changed objects again and keeps everything else. It frees the Bullet bodies of changed objects,
 while the world that it keeps still holds them, and crashes at the next step. Its older undo (a preference for
 developers, "Undo Legacy") reads the whole file again, world included. So wherever there is a rigid-body world, undo and
-redo go the older way, and the preferences are as before when they are done.
+redo use the older way, and the preferences are restored afterwards.
 
-No body has a place in Bullet after that, and a simulation cannot go on from the middle: undo ends at the start frame.
+After that no body has a position in Bullet, and a simulation cannot go on from the middle: undo ends at the start
+frame.
 
-The older undo replaces Blender's data, but scenes linked from other files go on with what was made of the former data,
-and Blender crashes when it next plays them. So where such a scene has been shown, undo goes Blender's own way, and the
+The older undo replaces Blender's data, but scenes linked from other files still use copies of the former data, and
+Blender crashes when it next plays them. So where such a scene has been shown, undo works in Blender's own way, and the
 worlds of demolitions stand still after it.
 """
 
@@ -19,17 +20,17 @@ import bpy
 _LEGACY, _DEVELOPER, _CHANGED = "use_undo_legacy", "show_developer_ui", "is_dirty"
 
 _before: dict[str, bool] = {}
-"""The person's preferences, while they are not as the person left them."""
+"""The user's preferences, while they are changed."""
 
 
 def needs_older_way() -> bool:
-    """Return whether undo and redo have to go the older way now."""
+    """Return whether undo and redo have to use the older way now."""
     scenes = bpy.data.scenes
     return any(scene.rigidbody_world for scene in scenes) and not any(map(_is_linked_and_shown, scenes))
 
 
 def before_undo() -> None:
-    """Make the coming undo or redo go the older way, where it has to."""
+    """Make the coming undo or redo use the older way, if it has to."""
     if _before or not needs_older_way():
         return
     preferences = bpy.context.preferences
@@ -54,7 +55,7 @@ def after_undo() -> None:
 
 
 def restore_preferences() -> None:
-    """Leave the preferences as they were, whether or not the undo has ended."""
+    """Restore the preferences, whether or not the undo has ended."""
     if bpy.app.timers.is_registered(_restore):
         bpy.app.timers.unregister(_restore)
     _restore()

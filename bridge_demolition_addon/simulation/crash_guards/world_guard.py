@@ -1,8 +1,8 @@
 """Keeps Blender from crashing when something is taken out of a rigid-body world in mid-simulation.
 
 Blender frees the Bullet part of a deleted body or connection, but not all that points at it. So the world of every
-scene that was built here is known from the first frame after the start on, recorded or not. When objects are gone, it
-is made safe, and time stops in it until the start frame, where Blender makes a new world. Everything else of the scene
+scene that was built here is watched from the first frame after the start on, recorded or not. When objects are gone,
+the world is made safe, and time stops in it until the start frame, where Blender makes a new one. The rest of the scene
 can be played and edited meanwhile.
 """
 
@@ -22,30 +22,24 @@ from .world_objects import WorldObjects
 
 
 class WorldGuard:
-    """Guard of one scene's world.
-
-    Attributes
-    ----------
-    stands_still
-        Whether the scene is not simulated until its start frame.
-    """
+    """Guard of one scene's world; while it stands still, the scene is not simulated until its start frame."""
 
     def __init__(self) -> None:
         self.stands_still = False
         self._objects: WorldObjects | None = None
-        self._world: BulletWorld | None = None  # none as well where the world cannot be known up to the start frame
+        self._world: BulletWorld | None = None  # also None where memory is not as expected up to the start frame
         self._recorded: BulletWorld | None = None
         self._was_edited = False
 
     def share(self, scene: bpy.types.Scene, world: BulletWorld) -> None:
-        """Guard a world that a recording will know, and until `hand_over` the one that Blender still has."""
+        """Guard a world that a recording will bind, and until `hand_over` the one that Blender still has."""
         self.check_objects(scene)
         if self._world is None:
             self._objects = WorldObjects(scene)
         self._recorded = world
 
     def hand_over(self, scene: bpy.types.Scene) -> None:
-        """Leave the world of a frame after the start frame to the recording, and guard it as the recording knows it."""
+        """Leave the world of a frame after the start frame to the recording, and guard it as it is bound there."""
         world = scene.rigidbody_world
         if self._recorded and world and scene.frame_current > world.point_cache.frame_start:
             recorded = self._recorded
@@ -53,20 +47,20 @@ class WorldGuard:
             self._objects, self._world = WorldObjects(scene), recorded
 
     def end_sharing(self, depsgraphs: Iterable[bpy.types.Depsgraph]) -> None:
-        """Go on guarding the world that a failed recording has let go of; before its first frame, the one before."""
+        """Go on guarding the world that a failed recording has released; before its first frame, the earlier one."""
         self._recorded = None
         for depsgraph in depsgraphs:
             self._bind(depsgraph)
 
     def release(self) -> None:
-        """Leave the world to whoever wants it."""
+        """Release the world."""
         if self._world:
             self._world.release()
         self._objects = self._world = self._recorded = None
         self._was_edited = False
 
     def forget(self) -> None:
-        """Leave a world that Blender frees now: the next one does not stand still for what this one went through."""
+        """Release a world that Blender frees now; the next one does not stand still."""
         self.stands_still = False
         self.release()
 
@@ -77,9 +71,9 @@ class WorldGuard:
         self.release()
 
     def check_objects(self, scene: bpy.types.Scene) -> str:
-        """Return that something was added to the world or taken out, in a sentence; empty where nothing was.
+        """Return a sentence on objects that were added to the world or removed; empty if there are none.
 
-        To be called before Blender frees what was removed: then the world is made safe, and stands still.
+        To be called before Blender frees removed objects: then the world is made safe, and stands still.
         """
         if self._objects is None:
             return ""
@@ -97,7 +91,7 @@ class WorldGuard:
             if self._world:
                 self._stand_still(scene)
             self.release()
-        else:  # Blender takes what was added into the world with the next frame: until then the world is as before
+        else:  # Blender adds new objects to the world in the next frame: until then the world is as before
             self._take_out_edited()
             self._objects, self._was_edited = WorldObjects(scene), True
         return f"rigid-body world changed, {changes}: go to the start frame and record again"
@@ -116,7 +110,7 @@ class WorldGuard:
                 pass  # a new world, and none of ours
 
     def look(self, scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
-        """Know the world that Blender has after a frame that is not recorded; at the start frame still the last one."""
+        """Bind the world that Blender has after a frame that is not recorded; at the start frame still the last one."""
         if not _has_world(scene):
             self.release()
             return
@@ -130,7 +124,7 @@ class WorldGuard:
         self._bind(depsgraph)
 
     def _bind(self, depsgraph: bpy.types.Depsgraph) -> None:
-        """Know the world with all that is in it now, and leave one alone that is not as expected."""
+        """Bind the world with all its present objects; release it if memory is not as expected."""
         if not self._world:
             return
         try:
@@ -138,12 +132,12 @@ class WorldGuard:
             if known and self._world.has_grown():
                 self._world.release()
                 self._world.bind(depsgraph, to_read=False)
-        except (DemolitionError, ReferenceError):  # something of it may be deleted
+        except (DemolitionError, ReferenceError):  # one of its objects may be deleted
             self._world.release()
             self._world = None
 
     def _take_out_edited(self) -> str:
-        """Have edited connections taken out of the world, and say so: Blender makes others with the next frame."""
+        """Take edited connections out of the world, and return a sentence: Blender makes others with the next frame."""
         try:
             edited = self._world.take_out_edited() if self._world else []
         except LayoutError:
@@ -154,7 +148,7 @@ class WorldGuard:
         return f"connection {edited[0].name!r} was edited: go to the start frame and record again"
 
     def _stand_still(self, scene: bpy.types.Scene, *, bodies_stay: bool = True) -> None:
-        """Make the world safe and stop time; where memory is not as expected, Blender is left to itself."""
+        """Make the world safe and stop time, if memory is as expected."""
         try:
             given(self._world).detach_freed(bodies_stay=bodies_stay)
             stop_time(scene)
@@ -168,7 +162,7 @@ def _has_world(scene: bpy.types.Scene) -> bool:
 
 
 def _world_of(scene: bpy.types.Scene) -> BulletWorld | None:
-    """The world of a scene that was built here, without connections that lack a body; None for other scenes."""
+    """Return the world of a scene that was built here, without connections that lack a body; None for other scenes."""
     bodies, loose = bodies_of(scene), set(loose_connections(scene))
     if not any(map(is_marked, bodies)):
         return None

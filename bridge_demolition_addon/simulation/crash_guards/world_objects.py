@@ -1,4 +1,4 @@
-"""What belongs to a scene's rigid-body world, to see when something is added or removed."""
+"""Objects of a scene's rigid-body world, to notice when some are added or removed."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ class WorldObjects:
         self._names_at_first = self._names()
 
     def are_the_same(self) -> bool:
-        """Whether the world still has just these objects."""
+        """Return whether the world still has just these objects."""
         return self._numbers() == self._numbers_at_first
 
     def any_is_gone(self) -> bool:
-        """Whether something was taken out of the world."""
+        """Return whether an object was removed from the world."""
         return not self._names_at_first.keys() <= self._names().keys()
 
     def changes(self) -> str:
-        """What was added and removed since."""
+        """Return the names of objects that were added and removed since."""
         before, now = self._names_at_first, self._names()
         changes = {
             "removed": [name for number, name in before.items() if number not in now],
@@ -38,7 +38,7 @@ class WorldObjects:
         return " and ".join(texts) or "its objects are in another order"
 
     def _numbers(self) -> bytes:
-        """What tells the objects in the world from all others, quickly."""
+        """Numbers of the objects in the world, by which it is compared quickly."""
         numbers = []
         for objects in self._collections():
             numbers.append(np.zeros(len(objects), np.int32))
@@ -51,10 +51,10 @@ class WorldObjects:
 
     def _collections(self) -> list[bpy.types.bpy_prop_collection]:
         world = self._scene.rigidbody_world
-        return [each.all_objects for each in (world.collection, world.constraints) if each]
+        return [collection.all_objects for collection in (world.collection, world.constraints) if collection]
 
 
 def _some(names: Sequence[str]) -> str:
-    """The first of some names, and how many more there are."""
+    """First few names, and how many more there are."""
     shown = ", ".join(repr(name) for name in names[:_MOST_NAMES])
     return shown + (f" and {len(names) - _MOST_NAMES} more" if len(names) > _MOST_NAMES else "")

@@ -18,18 +18,14 @@ from ...scene.rendering.body_colours import paint, show_colours, show_materials,
 from .shown_results import ShownResults
 
 _SAME_M = 1e-3
-"""How far the shards of a scene may be from where stages have them: Blender has places in single precision."""
+"""How far the shards of a scene may be from where stages have them: Blender has positions in single precision."""
 
 
 class ContourDisplay:
-    """Colours of the bodies of one scene.
+    """Colours of the bodies of one scene, by settings, which are None while bodies have their own colours.
 
     Attributes
     ----------
-    shown
-        The results that are coloured.
-    settings
-        What is shown, or None.
     error
         Why the bodies could not be coloured, or None.
     stages
@@ -47,7 +43,7 @@ class ContourDisplay:
 
     @property
     def scene(self) -> bpy.types.Scene:
-        """The scene."""
+        """The scene of the results."""
         return self.shown.scene
 
     @property
@@ -76,7 +72,7 @@ class ContourDisplay:
                 self._paint(layer.depsgraph)
 
     def paint(self, depsgraph: bpy.types.Depsgraph) -> None:
-        """Colour the bodies in an evaluated scene, where contours are shown, and place them; never raises."""
+        """Colour the bodies in an evaluated scene, if contours are shown, and move them; never raises."""
         if self.error or (self.settings is None and not self.shown.are_loaded):
             return
         try:
@@ -87,7 +83,7 @@ class ContourDisplay:
     def shown_frame(self) -> tuple[ContourFrame, int | None] | None:
         """Return the current frame as it is shown, and its row in the series; None where nothing was recorded.
 
-        Of stages it is the stage that is shown, which has no row.
+        A stage, if stages are shown, has no row.
         """
         if self._shows_stages:
             if self.stages is None or self.settings is None:
@@ -101,11 +97,11 @@ class ContourDisplay:
 
     @property
     def magnification(self) -> float:
-        """How many times as far as they are displaced bodies are shown; while they are recorded, where they are."""
+        """Factor on the displacements that are shown; 1 while the scene is recorded."""
         return 1.0 if self.settings is None or self.shown.is_live else self.settings.magnification
 
     def _show_true_shape(self) -> None:
-        """Show bodies that are magnified where they are: Blender does not know that they are shown elsewhere."""
+        """Move magnified bodies back to their positions: Blender does not know that they are shown elsewhere."""
         current = self.shown.current_row
         if current is None or self.magnification == 1.0:
             return

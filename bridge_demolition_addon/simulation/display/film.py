@@ -38,10 +38,6 @@ class FilmSettings:
 
     Attributes
     ----------
-    kind
-        Whether pictures are made into a film and then removed.
-    pictures_per_second
-        Of the film.
     slowness
         Seconds of film for a second of the simulation: 1 is real time.
     slow_motion
@@ -49,7 +45,7 @@ class FilmSettings:
     picture
         Size of the pictures, colour bar included.
     view
-        The camera that takes them; the size of other pictures that it has does not matter here.
+        Their camera; its size of other pictures does not matter here.
     """
 
     kind: FilmKind = FilmKind.FILM
@@ -68,17 +64,7 @@ class FilmSettings:
 
 
 class FilmRendering:
-    """A film in the making, picture by picture.
-
-    Parameters
-    ----------
-    scene
-        Scene whose frames were played already; Blender plays them back from its cache.
-    folder
-        Where to; made if new.
-    contour_settings, film_settings
-        What the pictures show, and how they are put together.
-    """
+    """A film of a scene whose frames were played, rendered picture by picture into a folder, which is made if new."""
 
     def __init__(
         self, scene: bpy.types.Scene, folder: Path, contour_settings: ContourSettings, film_settings: FilmSettings
@@ -90,7 +76,6 @@ class FilmRendering:
         self._contours, self._film = contour_settings, film_settings
         self._films = _frames_of_films(series, film_settings)
         self._frames = sorted(set().union(*self._films.values()))
-        self._series = series
         with writing(folder):
             folder.mkdir(parents=True, exist_ok=True)
             pictures = folder.glob("contours_[0-9][0-9][0-9][0-9][0-9][0-9].png")
@@ -103,13 +88,7 @@ class FilmRendering:
         return len(self._frames)
 
     def pictures(self) -> Iterator[Path]:
-        """Render one picture after the other; the scene is put back when the last is done, or none is wanted any more.
-
-        Raises
-        ------
-        OutputError
-            A picture could not be rendered.
-        """
+        """Render one picture after the other; the scene is restored after the last, or when the iterator is closed."""
         from ...charts.contour_legend import add_legend  # matplotlib, which switching the add-on on need not wait for
 
         scene = self._scene
@@ -132,7 +111,7 @@ class FilmRendering:
                 yield path
 
     def finish(self) -> list[Path]:
-        """Make the films, if any are wanted, and tell which files were written."""
+        """Make the films, if any are asked for, and return the files."""
         pictures = [self._path(frame) for frame in self._frames]
         if self._film.kind == FilmKind.PICTURES:
             return pictures
@@ -155,14 +134,14 @@ def _frames_of_films(series: ContourSeries, settings: FilmSettings) -> dict[str,
         films[SLOW_FILM_FILE] = settings.slow_motion
     frames = np.array(series.frames)
     rows = {film: film_rows(series.times_s, settings.pictures_per_second, slow) for film, slow in films.items()}
-    return {film: frames[each].tolist() for film, each in rows.items()}
+    return {film: frames[rows_of_film].tolist() for film, rows_of_film in rows.items()}
 
 
 @contextmanager
 def _simulation_at_rest(scene: bpy.types.Scene) -> Iterator[None]:
-    """Have the bodies placed as they were recorded where the played frames are forgotten.
+    """Have the bodies stay as they were recorded if Blender has forgotten the played frames.
 
-    A render would simulate them again, beside the simulation of the 3D view in one and the same world, and crash.
+    A render would simulate them again, in the world that the 3D view simulates too, and crash.
     """
     world = scene.rigidbody_world
     if not shown_results(scene).are_placed or not world.enabled:

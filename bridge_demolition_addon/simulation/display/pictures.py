@@ -19,7 +19,7 @@ from ...system.disk import writing
 
 
 def check_camera(view: PictureSettings) -> None:
-    """See that pictures of a scene that is about to be made can be taken as is asked for."""
+    """Check that pictures of a scene that is built next can be rendered."""
     if reason := view.why_not_without_window:
         raise OutputError(reason)
 
@@ -27,7 +27,7 @@ def check_camera(view: PictureSettings) -> None:
 def show_charges(scene: bpy.types.Scene, scenario: Scenario) -> None:
     """Show charges in pictures until they go off, and not at all where there is no explosion."""
     for empty, charge in zip(charge_objects(scene), scenario.charges, strict=True):
-        if empty.library:  # of another file, and animated there
+        if empty.library:  # animated in another file
             continue
         if scenario.blast.explosion:
             show_until(empty, first_frame_after(scenario, scenario.blast.start_s + charge.delay_s))

@@ -19,12 +19,8 @@ class ShownResults:
 
     Attributes
     ----------
-    scene
-        As Blender holds it now.
     recording
-        The recording of the scene that runs, or ran last; or None.
-    is_live
-        Whether it runs.
+        The recording of the scene that runs, or ran last; or None. `is_live` is set while it runs.
     number
         Another number for other results.
     missing
@@ -48,13 +44,7 @@ class ShownResults:
         self.recording, self.is_live = recording, True
 
     def load(self, results: Results) -> None:
-        """Show kept results, until something new is recorded.
-
-        Raises
-        ------
-        ContourError
-            None of their bodies is in the scene.
-        """
+        """Show kept results until the next recording; raises a `ContourError` if the scene has none of their bodies."""
         world = self.scene.rigidbody_world
         there = {body.name for body in bodies_of(self.scene)} if world and world.collection else set()
         names = results.inventory.body_names.tolist()
@@ -75,7 +65,7 @@ class ShownResults:
 
     @property
     def are_loaded(self) -> bool:
-        """Whether results that were loaded are shown, whatever Blender simulates."""
+        """Whether loaded results are shown, also while Blender simulates."""
         return self._loaded is not None
 
     @property
