@@ -5,6 +5,7 @@ import signal
 import sys
 from collections.abc import Sequence
 from contextlib import suppress
+from importlib import import_module
 from typing import NoReturn
 
 from ..errors import (
@@ -18,10 +19,8 @@ from ..errors import (
     ScenarioError,
     text_of,
 )
-from ..system.signals import Interrupted, interrupt_by_system
-from . import charge, charts, check, optimise, report, run, search, stages, study
+from ..system.signals import Interrupted, interrupt_by_system, interrupted_afterwards
 from .console import StandardStream
-from .exchange import export, import_ifc
 from .process_end import end_process
 
 DONE = 0
@@ -30,7 +29,20 @@ WRONG_INPUT = 2
 SIGNALLED = 128
 """Added to the number of the signal that ended a command, as shells do: 130 for Ctrl-C."""
 
-COMMANDS = (check, import_ifc, run, stages, study, search, optimise, report, export, charge, charts)
+COMMANDS = {
+    "check": "check",
+    "import": "exchange.import_ifc",
+    "run": "run",
+    "stages": "stages",
+    "study": "study",
+    "search": "search",
+    "optimise": "optimise",
+    "report": "report",
+    "export": "exchange.export",
+    "charge": "charge",
+    "charts": "charts",
+}
+"""Module of each command."""
 
 
 class UsageError(DemolitionError):
@@ -60,7 +72,8 @@ def main(argv: Sequence[str] | None = None) -> int:
         129 where the terminal was closed.
     """
     try:
-        arguments = _parser().parse_args(argv)
+        words = sys.argv[1:] if argv is None else argv
+        arguments = _parser(words).parse_args(words)
         arguments.execute(arguments)
     except (
         UsageError,
@@ -98,11 +111,14 @@ def entry() -> NoReturn:
     sys.exit(status)
 
 
-def _parser() -> Parser:
+def _parser(argv: Sequence[str]) -> Parser:
+    """Return the parser of the command that is called, or of all: it takes a second to load them."""
     parser = Parser(prog="bda", description="Plan the demolition of a bridge.", allow_abbrev=False)
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    for command in COMMANDS:
-        command.add_to(commands)
+    called = argv[:1] if argv and argv[0] in COMMANDS else COMMANDS
+    with interrupted_afterwards():  # while they load, some libraries take an interrupt for a missing part
+        for name in called:
+            import_module(f".{COMMANDS[name]}", __package__).add_to(commands)
     return parser
 
 

@@ -14,7 +14,9 @@ if sys.argv[1] == "extension":
 
     bridge_demolition_addon.register()
 else:
-    import bridge_demolition_addon.cli.main
+    from bridge_demolition_addon.cli.main import main
+
+    main(["--help"])  # loads all commands
 
 print(*(SLOW & sys.modules.keys()), flush=True)
 os._exit(0)  # Blender's own end may hang or crash where its handlers are registered.
