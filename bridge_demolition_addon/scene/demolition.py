@@ -21,9 +21,8 @@ from ..model.sequence.checked_model import check_actions
 from ..model.structure.model import Model
 from ..model.structure.start_motion import start_motions
 from .as_built import keep_built_bodies
-from .blast.charges import charge_objects, create_charges
+from .blast.charges import charge_objects, create_charges, keep_blast
 from .blast.force_fields import build_force_objects
-from .blast.settings import keep_blast
 from .bodies import (
     bodies_of,
     create_flat_ground,

@@ -8,7 +8,7 @@ from .as_built import forget_built_bodies
 from .blast.force_fields import force_collection, force_objects
 from .bodies import bodies_of, is_marked
 from .connections.breaking_settings import Breaking, keep_breaking
-from .connections.constraints import ends_of, loose_connections
+from .connections.constraints import constraints_of, ends_of, loose_connections
 from .demolition import KEPT
 from .rendering.dust import remove_dust
 from .rendering.markers import clear_markers
@@ -31,7 +31,7 @@ def remove_demolition(scene: bpy.types.Scene) -> int:
     ours = set(bodies)
     _remove_in_turn(
         scene,
-        [constraint for constraint in _constraints(scene) if ours & ends_of(constraint)],
+        [constraint for constraint in constraints_of(scene) if ours & ends_of(constraint)],
         [field for body, field in force_objects(scene).items() if body in ours],
         bodies,
     )
@@ -102,8 +102,3 @@ def _restart(scene: bpy.types.Scene) -> None:
     world.substeps_per_frame = world.substeps_per_frame  # any setting counts as a change
     for layer in scene.view_layers:
         layer.update()
-
-
-def _constraints(scene: bpy.types.Scene) -> list[bpy.types.Object]:
-    constraints = scene.rigidbody_world.constraints
-    return [obj for obj in constraints.all_objects if obj.rigid_body_constraint] if constraints else []

@@ -26,8 +26,7 @@ from ..model.results.inventory import Inventory
 from ..model.scenario import Change, Load, Scenario
 from ..model.sequence.events import Event, Structure, recorded_structure, schedule
 from ..model.sequence.loads import PlacedLoad, placed_loads
-from .blast.charges import charges_of
-from .blast.settings import blast_of
+from .blast.charges import blast_of, charges_of
 from .bodies import Kind, start_motion_of
 from .body_settings import BodySettings, body_settings_of
 from .connections.breaking_settings import Breaking, breaking_of

@@ -17,8 +17,7 @@ from ..model.run_folder.files import FORCE_CHART, SCENARIO_FILE
 from ..model.run_folder.folder import keep_ground_motion, keep_scenario
 from ..model.run_folder.summary import RunSummary, result_digest_in, write_summary
 from ..model.schema import given
-from ..scene.blast.charges import charges_of
-from ..scene.blast.settings import blast_of
+from ..scene.blast.charges import blast_of, charges_of
 from ..scene.rendering.markers import mark_moments
 from .recording.recorder import Recording
 from .run_summary import RunContext

@@ -20,9 +20,8 @@ from benches.way_of_2019 import blast_by_fields
 from bridge_demolition_addon.model.blast.charges import Charge
 from bridge_demolition_addon.model.blast.explosion import Explosion
 from bridge_demolition_addon.model.blast.settings import Apply, BlastSettings
-from bridge_demolition_addon.scene.blast.charges import create_charges
+from bridge_demolition_addon.scene.blast.charges import create_charges, keep_blast
 from bridge_demolition_addon.scene.blast.force_fields import build_force_objects
-from bridge_demolition_addon.scene.blast.settings import keep_blast
 from bridge_demolition_addon.scene.bodies import bodies_of
 from bridge_demolition_addon.simulation.recording import blast
 

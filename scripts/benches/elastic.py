@@ -18,7 +18,7 @@ from benches.deck import SMALLEST, deck, frame_seconds, make_world, recorded
 from bridge_demolition_addon.engineering.elasticity import structure
 from bridge_demolition_addon.model.scenario import ConnectionSettings
 from bridge_demolition_addon.model.structure.model import build_model
-from bridge_demolition_addon.scene.connections.elasticity import damping_ratio_of, forget_elasticity, keep_elasticity
+from bridge_demolition_addon.scene.connections.elasticity import elasticity_of, forget_elasticity, keep_elasticity
 from bridge_demolition_addon.scene.demolition import build_demolition
 
 FRAMES, ROUNDS = 4, 3
@@ -43,7 +43,7 @@ def main(smallest: bool) -> None:
         scene = bpy.context.scene
         build_demolition(scene, scenario, model)
         made = [obj for obj in bpy.data.objects if obj.rigid_body_constraint]
-        ratio, seconds = damping_ratio_of(scene), {}
+        ratio, seconds = elasticity_of(scene, made).damping_ratio, {}
         with tempfile.TemporaryDirectory() as folder:
             for _ in range(1 if smallest else ROUNDS):
                 for way in WAYS:

@@ -14,12 +14,10 @@ WRONG = ("", "nonsense", -1, 1e300, [], [1.0], {"a": 1}, "{}", "[[1]]", "5")
 
 def read_all(scene):
     """Read all that a recording reads of a scene when it begins."""
-    from bridge_demolition_addon.scene.blast.charges import charges_of
+    from bridge_demolition_addon.scene.blast.charges import blast_of, charges_of
     from bridge_demolition_addon.scene.blast.force_fields import force_objects
-    from bridge_demolition_addon.scene.blast.settings import blast_of
     from bridge_demolition_addon.scene.bodies import bodies_of
-    from bridge_demolition_addon.scene.connections.breaking_settings import breaking_of
-    from bridge_demolition_addon.scene.connections.breaking_thresholds import rewrite_thresholds
+    from bridge_demolition_addon.scene.connections.breaking_settings import breaking_of, rewrite_thresholds
     from bridge_demolition_addon.scene.connections.constraints import connections_of
     from bridge_demolition_addon.scene.run_setup import run_setup_of
     from bridge_demolition_addon.scene.tools.ball import lifts_of

@@ -9,9 +9,8 @@ from support.blocks import Blocks
 
 from bridge_demolition_addon.model.blast.charges import Charge
 from bridge_demolition_addon.model.blast.settings import BlastSettings
-from bridge_demolition_addon.scene.blast.charges import create_charges
+from bridge_demolition_addon.scene.blast.charges import create_charges, keep_blast
 from bridge_demolition_addon.scene.blast.force_fields import build_force_objects
-from bridge_demolition_addon.scene.blast.settings import keep_blast
 from bridge_demolition_addon.scene.bodies import bodies_of
 
 IMPULSE_AT_5_PA_S = 40.62

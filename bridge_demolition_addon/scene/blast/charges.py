@@ -1,4 +1,4 @@
-"""Charges as empties that can be moved about, with what they are made of as properties."""
+"""Charges as empties that the user can move, with custom properties, and the settings of the blast in the scene."""
 
 from __future__ import annotations
 
@@ -12,6 +12,8 @@ from mathutils import Matrix, Vector
 from ...engineering.geometry.solids import sphere
 from ...errors import BlastError, DemolitionError
 from ...model.blast.charges import EXPLOSIVES, MS_PER_S, Charge, explosive_named
+from ...model.blast.settings import BlastSettings
+from ...model.scenario.kept import table_from_values, table_values
 from ..bodies import mesh_of
 from ..collections import collection_for, find_collection
 from ..rendering.materials import SurfaceMaterial, material_of
@@ -19,6 +21,10 @@ from ..tools.keyframes import curves_of
 
 MASS, EXPLOSIVE, DELAY, BURST = "bda_mass_kg", "bda_explosive", "bda_delay_s", "bda_burst"
 """Properties of an empty that stands for a charge."""
+
+_OF_BLAST = "bda_blast_"
+_NO_VALUE = -1.0
+"""Stands for a decay that each pulse has of its own: a property of Blender is never empty."""
 
 _HIDDEN = "hide_render"
 _ROLE = "Charges"
@@ -41,44 +47,52 @@ _SHOWN: dict[str, dict[str, Any]] = {
 
 
 def create_charges(scene: bpy.types.Scene, charges: Iterable[Charge]) -> list[bpy.types.Object]:
-    """One empty per charge, at its place."""
+    """Make an empty for each charge, at its position."""
     return [_create(collection_for(scene, _ROLE), charge) for charge in charges]
 
 
 def replace_charges(scene: bpy.types.Scene, charges: Iterable[Charge]) -> list[bpy.types.Object]:
-    """One empty per charge, at its place, instead of all charges that there were."""
+    """Make an empty for each charge, at its position, in place of all charges of the scene."""
     bpy.data.batch_remove(charge_objects(scene))
     return create_charges(scene, charges)
 
 
 def charge_objects(scene: bpy.types.Scene) -> list[bpy.types.Object]:
-    """All objects that stand for charges, in the order in which they came into the scene."""
+    """Return all objects that stand for charges, in the order in which they came into the scene."""
     return [obj for obj in scene.objects if is_charge(obj)]
 
 
-def is_charge(found: bpy.types.Object) -> bool:
-    """Whether an object stands for a charge."""
-    return MASS in found
+def is_charge(obj: bpy.types.Object) -> bool:
+    """Return whether an object stands for a charge."""
+    return MASS in obj
 
 
 def charge_collection(scene: bpy.types.Scene) -> bpy.types.Collection | None:
-    """The collection that charges are put into, once there was one."""
+    """Return the collection of charges; None where there was no charge yet."""
     return find_collection(scene, _ROLE)
 
 
 def charges_of(scene: bpy.types.Scene) -> tuple[Charge, ...]:
-    """The charges as they are now.
+    """Return the charges as they are now."""
+    return tuple(map(_charge, charge_objects(scene)))
 
-    Raises
-    ------
-    BlastError
-        A property of one was set to what no charge can have.
-    """
-    return tuple(_charge(charge_object) for charge_object in charge_objects(scene))
+
+def keep_blast(scene: bpy.types.Scene, settings: BlastSettings) -> None:
+    """Keep whether and how charges go off in a scene, which is saved with it."""
+    for name, value in table_values(settings).items():
+        scene[_OF_BLAST + name] = _NO_VALUE if value is None else value
+
+
+def blast_of(scene: bpy.types.Scene) -> BlastSettings:
+    """Return the settings that a scene keeps; nothing goes off in a scene without settings."""
+    if _OF_BLAST + "explosion" not in scene:
+        return BlastSettings(explosion=False)
+    kept = {name: scene.get(_OF_BLAST + name, _NO_VALUE) for name in table_values(BlastSettings())}
+    return table_from_values(BlastSettings, {name: value for name, value in kept.items() if value != _NO_VALUE})
 
 
 def show_until(charge: bpy.types.Object, frame: int) -> None:
-    """Show a charge in pictures, as a red ball, of the frames before the one in which it has gone off."""
+    """Show a charge as a red ball in pictures of the frames before its detonation."""
     show_never(charge)
     charge.instance_type, charge.instance_collection = "COLLECTION", _symbol()
     for hidden, key_frame in ((True, frame), (False, 0)):
@@ -87,7 +101,7 @@ def show_until(charge: bpy.types.Object, frame: int) -> None:
 
 
 def show_never(charge: bpy.types.Object) -> None:
-    """Take back that a charge is shown in pictures."""
+    """Show a charge in no picture any more."""
     if charge.instance_type == "COLLECTION":
         charge.instance_type = "NONE"
     animation = charge.animation_data
@@ -100,10 +114,10 @@ def show_never(charge: bpy.types.Object) -> None:
 
 
 def _symbol() -> bpy.types.Collection:
-    """A red ball for all charges, as pictures show no empties; it is in no scene but by way of them."""
-    found = next((each for each in bpy.data.collections if each.get(_SYMBOL_MARK) and not each.library), None)
-    if found:
-        return found
+    """Return a red ball for all charges, as pictures show no empties; only they bring it into a scene."""
+    for collection in bpy.data.collections:
+        if collection.get(_SYMBOL_MARK) and not collection.library:
+            return collection
     solid = sphere(_SYMBOL_SIZE_M, _SYMBOL_SEGMENTS)
     ball = bpy.data.objects.new("Charge symbol", mesh_of("Charge symbol", solid))
     ball.data.materials.append(material_of(SurfaceMaterial.CHARGE))
@@ -117,7 +131,7 @@ def _create(collection: bpy.types.Collection, charge: Charge) -> bpy.types.Objec
     empty = bpy.data.objects.new(charge.name, None)
     empty.empty_display_type, empty.empty_display_size = "SPHERE", _SYMBOL_SIZE_M
     empty.show_in_front = True  # charges mostly sit where concrete hides them
-    empty.matrix_world = Matrix.Translation(charge.place_m)  # which holds at once, as a location does not
+    empty.matrix_world = Matrix.Translation(charge.place_m)  # valid at once, unlike a location
     empty[MASS], empty[EXPLOSIVE] = charge.mass_kg, charge.explosive
     empty[DELAY], empty[BURST] = charge.delay_s, charge.burst
     for name, shown in _SHOWN.items():
@@ -133,7 +147,7 @@ def _charge(empty: bpy.types.Object) -> Charge:
     try:
         return Charge(
             name=empty.name,
-            place_m=tuple(_place_of(empty)),
+            place_m=tuple(_position_of(empty)),
             mass_kg=empty[MASS],
             explosive=explosive_named(empty[EXPLOSIVE]).name,
             delay_ms=_in_ms(empty[DELAY]),
@@ -143,12 +157,12 @@ def _charge(empty: bpy.types.Object) -> Charge:
         raise BlastError(f"{empty.name}: {error}") from error
 
 
-def _place_of(empty: bpy.types.Object) -> Vector:
-    """Return where a charge is; after undo Blender knows the place of one in the world only once it has drawn it."""
-    hangs_on_something = empty.parent or len(empty.constraints)
-    return (empty.matrix_world if hangs_on_something else empty.matrix_basis).translation
+def _position_of(empty: bpy.types.Object) -> Vector:
+    """Return where a charge is; after undo Blender knows its matrix in the world only once it has drawn it."""
+    is_held = empty.parent or len(empty.constraints)
+    return (empty.matrix_world if is_held else empty.matrix_basis).translation
 
 
 def _in_ms(delay_s: float) -> float:
-    """Return a delay in ms, as the decimal that was divided to get it in s."""
+    """Return a delay in ms, as the decimal that it had before it was divided to get s."""
     return float(f"{MS_PER_S * delay_s:.15g}") if isinstance(delay_s, Real) else delay_s

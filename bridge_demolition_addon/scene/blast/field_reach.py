@@ -1,8 +1,7 @@
-"""How far a force field may reach so that it pushes its own body and no other.
+"""How far a force field acts, so that it pushes its own body and no other.
 
-A field that pushes along one direction, within a cylinder about that direction, is told apart from its neighbours by
-the cylinder's radius and its two ends. The body has to stay inside while it moves in a frame, and every other body
-outside; so each reach is a part of the way to whatever is nearest.
+A field pushes along one direction, within a cylinder about it. The body has to stay inside while it moves in a frame,
+and every other body outside; so the radius and both ends are a part of the way to the nearest body.
 """
 
 from __future__ import annotations
@@ -14,26 +13,18 @@ import numpy as np
 from ...engineering.geometry.vectors import dot, length
 
 SHARE_OF_WAY = 0.45
-"""Part of the way to a neighbour that a field reaches: less than half, as the neighbour may come nearer too."""
+"""Part of the way to a neighbour over which a field acts: less than half, as the neighbour may come nearer too."""
 
 WIDEST_M = 5.0
 LONGEST_M = 20.0
-"""Reaches where no neighbour is near: more than a body moves in a frame."""
+"""Limits where no neighbour is near: more than a body moves in a frame."""
 
 _PAIRS_AT_ONCE = 2_000_000
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class FieldReach:
-    """Cylinders about the centres of k bodies.
-
-    Attributes
-    ----------
-    radii_m
-        (k,) radius.
-    ahead_m, behind_m
-        (k,) length along the direction and against it.
-    """
+    """Cylinders about the centres of k bodies: radii (k,), lengths (k,) along the direction and against it."""
 
     radii_m: np.ndarray
     ahead_m: np.ndarray
@@ -47,18 +38,11 @@ class FieldReach:
 
 
 def isolating_reaches(bodies: np.ndarray, directions: np.ndarray, centres: np.ndarray) -> FieldReach:
-    """Return the reaches of fields on some bodies, so that none contains the centre of another.
+    """Return cylinders about k bodies of which none contains the centre of another body.
 
-    Parameters
-    ----------
-    bodies, directions
-        (k,) the bodies that are pushed, and (k, 3) unit vectors along which.
-    centres
-        (n, 3) centres of mass of all bodies, m.
+    Each of the bodies (k,) is pushed along a unit vector (k, 3); all n bodies have centres of mass (n, 3), m.
     """
-    reaches = FieldReach(
-        np.full(len(bodies), WIDEST_M), np.full(len(bodies), LONGEST_M), np.full(len(bodies), WIDEST_M)
-    )
+    reaches = FieldReach(*(np.full(len(bodies), limit_m) for limit_m in (WIDEST_M, LONGEST_M, WIDEST_M)))
     rows = max(1, _PAIRS_AT_ONCE // max(1, len(centres)))
     for first in range(0, len(bodies), rows):
         block = slice(first, first + rows)

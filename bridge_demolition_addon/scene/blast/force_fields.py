@@ -1,8 +1,7 @@
 """Force-field empties that push one body each.
 
-A field's loads change from frame to frame. They are written into Blender's evaluated copies of the empties, never into
-the empties themselves, whose strength stays 0: so nothing can be left switched on, not by an undo, a crash or a file
-saved in between, and the frames that Blender has cached stay valid.
+The loads of a frame are written into Blender's evaluated copies of the empties. The strength of the empties stays 0: so
+no undo, crash or saved file leaves one switched on, and the frames that Blender has cached stay valid.
 """
 
 from __future__ import annotations
@@ -48,17 +47,17 @@ def build_force_objects(scene: bpy.types.Scene, bodies: Iterable[bpy.types.Objec
 
 
 def force_collection(scene: bpy.types.Scene) -> bpy.types.Collection | None:
-    """The collection that force fields are in, where there is one."""
+    """Return the collection of force fields, if there is one."""
     return find_collection(scene, _ROLE)
 
 
 def force_objects(scene: bpy.types.Scene) -> dict[bpy.types.Object, bpy.types.Object]:
-    """The force field of each body that has one."""
-    return {each[_BODY]: each for each in _all(scene) if isinstance(each[_BODY], bpy.types.Object)}
+    """Return the force field of each body that has one."""
+    return {field[_BODY]: field for field in _all(scene) if isinstance(field[_BODY], bpy.types.Object)}
 
 
 def has_other_fields(scene: bpy.types.Scene) -> bool:
-    """Whether anything else in a scene may push bodies about: a field of the user's own, or particles, which may be."""
+    """Return whether anything else in a scene may push bodies: a field of the user's own, or particles."""
     ours = set(_all(scene))
     return any(
         (obj.field and obj.field.type != "NONE" and obj not in ours) or obj.particle_systems for obj in scene.objects
@@ -66,7 +65,7 @@ def has_other_fields(scene: bpy.types.Scene) -> bool:
 
 
 def fields_of(scene: bpy.types.Scene, bodies: Sequence[bpy.types.Object]) -> list[bpy.types.Object]:
-    """The force fields of bodies, in their order."""
+    """Return the force fields of bodies, in their order."""
     existing = force_objects(scene)
     lacking = [body.name for body in bodies if body not in existing]
     if lacking:
@@ -87,21 +86,15 @@ class ForceFields:
     def push(
         self, rows: np.ndarray, forces_n: np.ndarray, directions: np.ndarray, centres: np.ndarray, reaches: FieldReach
     ) -> None:
-        """Let some fields push in the coming frame, and no other.
+        """Let the fields of k bodies push in the coming frame, and no other.
 
-        Parameters
-        ----------
-        rows
-            (k,) which of the bodies.
-        forces_n, directions, centres
-            (k,) forces in N, (k, 3) unit vectors along which, and (k, 3) where the bodies are, m.
-        reaches
-            Of the k fields.
+        Forces (k,), N, act along unit vectors (k, 3) on bodies with centres (k, 3), m.
         """
         self.rest()
         # Blender pushes a rigid body with the strength over the frame rate, whatever its base or the time scale.
         strengths = forces_n * self._scene.render.fps
-        columns = zip(rows.tolist(), strengths.tolist(), directions, centres, _rows_of(reaches), strict=True)
+        limits = np.column_stack((reaches.radii_m, reaches.ahead_m, reaches.behind_m)).tolist()
+        columns = zip(rows.tolist(), strengths.tolist(), directions, centres, limits, strict=True)
         for row, strength, direction, centre, (radius, ahead, behind) in columns:
             matrix = _along(direction, centre - behind * direction)
             copies = self._evaluated(self._fields[row])
@@ -118,10 +111,10 @@ class ForceFields:
 
     def still_push(self) -> bool:
         """Return whether the fields that were to push are there, and did so to the end of the frame."""
-        return all(self._pushes(*each) for each in self._pushing)
+        return all(self._pushes(*push) for push in self._pushing)
 
     def rest(self) -> None:
-        """Let none push."""
+        """Let no field push."""
         for field, _ in self._pushing:
             for evaluated in self._evaluated(field):
                 evaluated.field.strength = 0.0
@@ -132,13 +125,13 @@ class ForceFields:
         return bool(copies) and all(abs(copy.field.strength - strength) <= _FLOAT32 * strength for copy in copies)
 
     def _evaluated(self, field: bpy.types.Object) -> list[bpy.types.Object]:
-        """What Blender evaluates of a field; nothing where the field was deleted."""
+        """Return Blender's evaluated copies of a field; none where it was deleted."""
         graphs = [layer.depsgraph for layer in self._scene.view_layers if layer.depsgraph]
         try:
             copies = [field.evaluated_get(graph) for graph in graphs]
         except ReferenceError:
             return []
-        return [copy for copy in copies if copy.is_evaluated]  # what a graph leaves out it gives back as it is
+        return [copy for copy in copies if copy.is_evaluated]  # for an object that it leaves out, a graph returns it
 
 
 def _all(scene: bpy.types.Scene) -> list[bpy.types.Object]:
@@ -147,9 +140,9 @@ def _all(scene: bpy.types.Scene) -> list[bpy.types.Object]:
 
 
 def _orphans(scene: bpy.types.Scene) -> list[bpy.types.Object]:
-    """Force fields without a body, or of a body that has another."""
+    """Return force fields without a body, or of a body that has another."""
     first = set(force_objects(scene).values())
-    return [each for each in _all(scene) if each not in first]
+    return [field for field in _all(scene) if field not in first]
 
 
 def _make(scene: bpy.types.Scene, bodies: Sequence[bpy.types.Object]) -> None:
@@ -168,7 +161,7 @@ def _make(scene: bpy.types.Scene, bodies: Sequence[bpy.types.Object]) -> None:
 
 
 def _template(scene: bpy.types.Scene) -> bpy.types.Object:
-    """Empty whose field pushes along its own z, within a cylinder, and does not push yet."""
+    """Return an empty whose field pushes along its own z, within a cylinder, and does not push yet."""
     if not bpy.ops.object.effector_add.poll():
         raise SimulationError("Blender makes no fields now: go to object mode first, or apply the blast directly")
     selected, active = list(bpy.context.selected_objects), bpy.context.view_layer.objects.active
@@ -176,8 +169,8 @@ def _template(scene: bpy.types.Scene) -> bpy.types.Object:
         bpy.ops.object.effector_add(type="FORCE")  # the only way to an object with a field
     template = bpy.context.view_layer.objects.active
     template.select_set(False)  # its copies would be selected as well, to be moved or deleted by the next key
-    for each in selected:
-        each.select_set(True)
+    for obj in selected:
+        obj.select_set(True)
     bpy.context.view_layer.objects.active = active
     template.name = "Force object"
     template.empty_display_type, template.empty_display_size = "SINGLE_ARROW", _SYMBOL_SIZE_M
@@ -190,12 +183,8 @@ def _template(scene: bpy.types.Scene) -> bpy.types.Object:
     return template
 
 
-def _rows_of(reaches: FieldReach) -> list[list[float]]:
-    return np.column_stack((reaches.radii_m, reaches.ahead_m, reaches.behind_m)).tolist()
-
-
-def _along(direction: np.ndarray, place: np.ndarray) -> Matrix:
-    """Axes of an object at a place whose z lies along a direction."""
+def _along(direction: np.ndarray, position: np.ndarray) -> Matrix:
+    """Return axes at a position whose z lies along a direction."""
     matrix = Vector(direction).to_track_quat("Z", "Y").to_matrix().to_4x4()
-    matrix.translation = place
+    matrix.translation = position
     return matrix

@@ -1,4 +1,4 @@
-"""What breaks connections besides Blender's own threshold, kept with the scene."""
+"""What breaks connections, kept with them and the scene: strengths, and forces that become Blender's thresholds."""
 
 from __future__ import annotations
 
@@ -11,7 +11,10 @@ import numpy as np
 from ...engineering.elasticity.steel_bars import USUAL_STEEL, Steel
 from ...engineering.mechanics.reinforcement import FaceBars
 from ...engineering.mechanics.strength import Ductility, Strength
-from ..custom_properties import kept_number, kept_numbers
+from ...engineering.timing.time_step import TimeStep
+from ..custom_properties import keep, kept_number, kept_numbers
+from ..time_scale import time_step_at
+from .constraints import connections_of
 
 _STRENGTH = "bda_strength_pa"
 _WARM_UP = "bda_warm_up_s"
@@ -19,6 +22,7 @@ _DAMPING = "bda_warm_up_damping"
 _DUCTILITY = "bda_ductility"
 _STEEL = "bda_steel"
 _BARS = "bda_bars"
+_FORCE = "bda_breaking_force_n"
 
 _UNBREAKABLE = Strength(*[1e300] * len(fields(Strength)))
 """Strength of a connection that no stress breaks."""
@@ -30,18 +34,18 @@ class Breaking:
 
     Attributes
     ----------
-    strength : Strength or None
+    strength
         Strength of all connections with an area, or of each; None where Blender's breaking threshold alone decides.
-    warm_up_s : float
+    warm_up_s
         Simulated time from the start in which nothing breaks, so that the structure can settle under its own weight.
-    ductility : Ductility or None
+    ductility
         What is left of a broken connection; None for nothing.
-    warm_up_damping : float
+    warm_up_damping
         Share of their velocities that shards lose in one second of the warm-up, from 0 to 1.
-    steel : Steel
-        What the reinforcement of elastic connections is made of.
-    bars : FaceBars or None
-        Layers of reinforcement across connections, besides what is left by `ductility`.
+    steel
+        Steel of the reinforcement of elastic connections.
+    bars
+        Layers of reinforcement across connections, in addition to what `ductility` leaves.
     """
 
     strength: Strength | None = None
@@ -53,14 +57,11 @@ class Breaking:
 
 
 def keep_breaking(scene: bpy.types.Scene, breaking: Breaking) -> None:
-    """Keep it in the scene, and so in its file."""
+    """Keep how connections break in the scene, and so in its file."""
     scene[_WARM_UP], scene[_DAMPING] = breaking.warm_up_s, breaking.warm_up_damping
     steel = breaking.steel if breaking.ductility else None
     for name, values in ((_STRENGTH, breaking.strength), (_DUCTILITY, breaking.ductility), (_STEEL, steel)):
-        if values:
-            scene[name] = astuple(values)
-        elif name in scene:
-            del scene[name]
+        keep(scene, name, astuple(values) if values else None)
 
 
 def set_strength(connection: bpy.types.Object, strength: Strength | None) -> None:
@@ -69,7 +70,7 @@ def set_strength(connection: bpy.types.Object, strength: Strength | None) -> Non
 
 
 def keep_bars(connections: Sequence[bpy.types.Object], bars: FaceBars) -> None:
-    """Keep with connections (m,) what bars cross them."""
+    """Keep bars with the connections (m,) that they cross."""
     columns = zip(connections, bars.yield_n.tolist(), bars.offsets_m.tolist(), strict=True)
     for connection, yield_n, offset_m in columns:
         connection[_BARS] = (yield_n, *offset_m)
@@ -83,7 +84,7 @@ def _bars_of(connections: Sequence[bpy.types.Object]) -> FaceBars | None:
 
 
 def breaking_of(scene: bpy.types.Scene, connections: Sequence[bpy.types.Object] = ()) -> Breaking:
-    """Return what is kept in a scene and with connections; in any other, Blender's threshold and no warm-up.
+    """Return what a scene and connections keep; without that, Blender's threshold decides and there is no warm-up.
 
     Where any of m connections has a strength of its own, the strength has arrays (m,) float.
     """
@@ -100,3 +101,33 @@ def breaking_of(scene: bpy.types.Scene, connections: Sequence[bpy.types.Object] 
         Steel(*kept_numbers(scene, _STEEL, astuple(USUAL_STEEL))),
         _bars_of(connections),
     )
+
+
+def set_breaking_force(connection: bpy.types.Object, force_n: float, step: TimeStep) -> None:
+    """Make a connection break at a force: Blender has the impulse in a sub-step, the connection keeps the force."""
+    connection[_FORCE] = force_n
+    constraint = connection.rigid_body_constraint
+    constraint.use_breaking = True
+    constraint.breaking_threshold = step.impulse(force_n)
+
+
+def kept_breaking_force(connection: bpy.types.Object) -> float | None:
+    """Return the force that a connection breaks at, N; None where only Blender's own threshold decides."""
+    return kept_number(connection, _FORCE, 0.0) if _FORCE in connection else None
+
+
+def rewrite_thresholds(scene: bpy.types.Scene) -> bool:
+    """Write the thresholds that the kept forces have in the step of the start frame, and return whether any changed.
+
+    With a new threshold Blender simulates from the start again, so call this before a simulation starts. A connection
+    without a kept force keeps its threshold.
+    """
+    step = time_step_at(scene, scene.rigidbody_world.point_cache.frame_start)
+    is_changed = False
+    for connection in connections_of(scene):
+        if (force_n := kept_breaking_force(connection)) is not None:
+            constraint, impulse = connection.rigid_body_constraint, float(np.float32(step.impulse(force_n)))
+            if constraint.breaking_threshold != impulse:
+                constraint.breaking_threshold = impulse
+                is_changed = True
+    return is_changed

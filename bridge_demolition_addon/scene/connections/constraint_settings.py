@@ -9,7 +9,7 @@ from typing import Any
 import bpy
 import numpy as np
 
-from .breaking_thresholds import kept_breaking_force
+from .breaking_settings import kept_breaking_force
 from .constraints import connections_of
 
 _CONSTRAINT = ("type", "enabled", "use_breaking", "breaking_threshold", "disable_collisions")
@@ -22,15 +22,13 @@ class ConstraintSettings:
 
     Attributes
     ----------
-    objects, names : sequence of length m
-    bodies : sequence of (str, str)
-        Names of the two bodies that each holds together, empty for one that it lacks.
-    positions_m : (m, 3) float
-    constraint : mapping of str to list
-        Properties of its constraint by Blender's names.
-    iterations : (m,) int
-        Iterations of the solver that it has of its own, 0 for none.
-    breaking_forces_n : list of float or None
+    bodies
+        Names of the two bodies of each, empty for one that it lacks.
+    constraint
+        Properties of the constraints by Blender's names.
+    iterations
+        Iterations of the solver that each has of its own, 0 for none.
+    breaking_forces_n
         The force that each breaks at, where one is kept.
     """
 
@@ -46,7 +44,7 @@ class ConstraintSettings:
         return len(self.objects)
 
     def breaks_at(self) -> list[float]:
-        """Return the force, N, of each, or an impulse with a minus sign where no force is kept, N·s."""
+        """Return the breaking force, N, of each, or its threshold, N·s, with a minus sign where no force is kept."""
         thresholds = self.constraint["breaking_threshold"]
         return [-own if kept is None else kept for kept, own in zip(self.breaking_forces_n, thresholds, strict=True)]
 

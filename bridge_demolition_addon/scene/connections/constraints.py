@@ -21,10 +21,13 @@ _SECOND_MOMENTS = "bda_second_moments_m4"
 
 def connections_of(scene: bpy.types.Scene) -> list[bpy.types.Object]:
     """Return all objects with a constraint of the scene's rigid-body world, but for the cables of balls."""
+    return [obj for obj in constraints_of(scene) if not obj.get(_IS_CABLE)]
+
+
+def constraints_of(scene: bpy.types.Scene) -> list[bpy.types.Object]:
+    """Return all objects with a constraint of the scene's rigid-body world, cables of balls too."""
     constraints = scene.rigidbody_world.constraints
-    if not constraints:
-        return []
-    return [obj for obj in constraints.all_objects if obj.rigid_body_constraint and not obj.get(_IS_CABLE)]
+    return [obj for obj in constraints.all_objects if obj.rigid_body_constraint] if constraints else []
 
 
 def ends_of(connection: bpy.types.Object) -> set[bpy.types.Object | None]:
@@ -45,18 +48,10 @@ def mark_cable(constraint: bpy.types.Object) -> None:
 
 
 def sections_of(connections: Sequence[bpy.types.Object]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return the sections of m connections.
+    """Return areas (m,), m², normals (m, 3) from first to second bodies, and second moments (m, 2, 2), m⁴.
 
     A connection that the add-on did not make has the area 0, and the direction between its bodies' origins as normal;
     one with only an area is a square.
-
-    Returns
-    -------
-    areas_m2 : (m,) float
-    normals : (m, 3) float
-        Unit vectors from first to second bodies.
-    second_moments_m4 : (m, 2, 2) float
-        Second moments of area.
     """
     areas = np.array([kept_number(connection, _AREA, 0.0) for connection in connections], float)
     normals = np.array([_normal(connection) for connection in connections], float).reshape(-1, 3)
@@ -84,20 +79,12 @@ def create_connections(
     ground: bpy.types.Object | None,
     second_moments_m4: np.ndarray,
 ) -> list[bpy.types.Object]:
-    """Make a constraint for each connection, at its point, in the world's axes: a hinge turns about the vertical.
+    """Make a constraint for each of m connections, with second moments (m, 2, 2), at its point.
 
-    Parameters
-    ----------
-    collection : bpy.types.Collection
-        Where they go: that of a rigid-body world's constraints, best while `off_scene`.
-    connections : Connections
-        The m connections.
-    shards, ground
-        The bodies that they hold together.
-    second_moments_m4 : (m, 2, 2) float
-        Second moments of their areas.
+    Its axes are the world's, so that a hinge rotates about the vertical. The constraints go into the collection of a
+    rigid-body world, fastest while it is `off_scene`.
     """
-    # Sorted behind the shards, of which there are many, see `make_named`.
+    # This name comes after those of the many shards, see `make_named`.
     names = numbered_names("Shard connection", len(connections), bpy.data.objects)
     objects = make_named(bpy.data.objects, names, lambda name, _: bpy.data.objects.new(name, None))
     sections = (connections.areas.tolist(), connections.normals.tolist(), second_moments_m4.reshape(-1, 4).tolist())

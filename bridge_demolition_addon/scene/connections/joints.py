@@ -1,4 +1,4 @@
-"""What kind of connection holds two bodies together, and what breaks it, as properties of Blender's constraints."""
+"""Kinds of connections, and what breaks them, as properties of Blender's constraints."""
 
 from __future__ import annotations
 
@@ -9,8 +9,7 @@ import numpy as np
 
 from ...engineering.mechanics.joint import Joint, JointMotion
 from ...engineering.timing.time_step import TimeStep
-from .breaking_settings import set_strength
-from .breaking_thresholds import set_breaking_force
+from .breaking_settings import set_breaking_force, set_strength
 
 _BLENDER_NAMES = {
     JointMotion.MOVE_X: ("lin_x", "x"),
@@ -20,24 +19,15 @@ _BLENDER_NAMES = {
     JointMotion.TURN_Y: ("ang_y", "ang_y"),
     JointMotion.TURN_Z: ("ang_z", "ang_z"),
 }
-"""How the names of Blender's properties for the limits and for the spring of each motion end."""
+"""Ends of the names of Blender's properties for the limits and the spring of each motion."""
 
 
 def set_joints(
     connections: Sequence[bpy.types.Object], joints: Sequence[Joint], joint_of_connection: np.ndarray, step: TimeStep
 ) -> None:
-    """Give every connection its kind, and what breaks it.
+    """Give m connections their kind and what breaks them, by rows (m,) of the joints.
 
-    Parameters
-    ----------
-    connections
-        The m connections.
-    joints
-        The kinds of connections that there are. The strength of the first is the scene's, see `keep_breaking`.
-    joint_of_connection
-        (m,) which of them each connection is.
-    step
-        How the scene cuts time.
+    The strength of the first joint is the scene's, see `keep_breaking`.
     """
     for connection, row in zip(connections, joint_of_connection.tolist(), strict=True):
         joint = joints[row]
@@ -52,9 +42,9 @@ def _set_type(constraint: bpy.types.RigidBodyConstraint, joint: Joint) -> None:
     if joint.type not in ("GENERIC", "GENERIC_SPRING"):
         constraint.type = joint.type
         return
-    # Blender's own GENERIC holds nothing in the first sub-step and takes it out on the second, with 2.2 times the
-    # weight that hangs from it. A spring of the second kind, with no springs in it, has no such start. The springs of
-    # the first kind give way twice as far as their stiffness says.
+    # Blender's GENERIC carries nothing in the first sub-step, and 2.2 times the weight that hangs from it in the
+    # second. A spring of the second kind, with no springs in it, has no such start. Springs of the first kind deform
+    # twice as far as their stiffness says.
     constraint.type, constraint.spring_type = "GENERIC_SPRING", "SPRING2"
     for motion, (limit, spring) in _BLENDER_NAMES.items():
         is_free = motion in joint.free

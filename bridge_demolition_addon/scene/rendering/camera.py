@@ -1,4 +1,4 @@
-"""Cameras that see a bridge: from beside the road, going round it, or from a place of the user's own."""
+"""Cameras that see a bridge: from beside the road, going round it, or from a position of the user's own."""
 
 from __future__ import annotations
 
@@ -26,14 +26,8 @@ def aim_camera(
 ) -> bpy.types.Object:
     """Add a camera to the scene, or to a collection of it, and make it the scene's.
 
-    Parameters
-    ----------
-    points : (n, 3) float
-        What it sees from beside the road, m, unless it stands in a place of the user's own.
-    aspect : float
-        Width : height of the pictures.
-    view
-        Where it stands, and whether it goes round the bridge meanwhile; None for one beside the road.
+    Unless the view gives its position, it sees points (n, 3), m, from beside the road or on its way round the bridge.
+    The aspect is width : height of the pictures.
     """
     camera = bpy.data.objects.new("Bridge camera", bpy.data.cameras.new("Bridge camera"))
     camera.data.lens, camera.data.sensor_width = _LENS_MM, _SENSOR_MM
@@ -51,15 +45,15 @@ def aim_camera(
     return camera
 
 
-def stand(camera: bpy.types.Object, place: Sequence[float] | np.ndarray, back: Vector) -> None:
-    """Put a camera in a place, with this direction behind it."""
-    camera.location, camera.rotation_euler = place, back.to_track_quat("Z", "Y").to_euler()
+def stand(camera: bpy.types.Object, position: Sequence[float] | np.ndarray, back: Vector) -> None:
+    """Put a camera at a position, with this direction behind it."""
+    camera.location, camera.rotation_euler = position, back.to_track_quat("Z", "Y").to_euler()
 
 
 def _orbit(
     scene: bpy.types.Scene, camera: bpy.types.Object, points: np.ndarray, aspect: float, turn_deg: float
 ) -> None:
-    """Animate a camera that goes round the middle of points, as far away as it takes to see all of them all the way."""
+    """Animate a camera that goes round the middle of points, so far away that it always sees all of them."""
     frames = np.arange(scene.frame_start, scene.frame_end + 1)
     turns = np.radians(turn_deg) * np.linspace(0.0, 1.0, len(frames))
     middle = _middle(points)
@@ -83,7 +77,7 @@ def _viewpoint(points: np.ndarray, axes: np.ndarray, aspect: float) -> np.ndarra
 
 
 def _needed(points: np.ndarray, middle: np.ndarray, axes: np.ndarray, aspect: float) -> float:
-    """Return how far from a middle (3,) that it looks at a camera has to stand to see all points, m."""
+    """Return how far from the middle (3,) of its picture a camera has to stand to see all points, m."""
     seen = (points - middle) @ axes
     half_width = _SENSOR_MM / 2.0 / _LENS_MM
     return float((np.maximum(abs(seen[:, 0]), abs(seen[:, 1]) * aspect) / half_width + seen[:, 2]).max())

@@ -12,29 +12,25 @@ import bpy
 
 from ...errors import OutputError
 from ...model.scenario.recording import PictureSettings
-from .plain_path import rendered_to
-from .stills import IMAGE_SETTINGS, put_back_afterwards, seen_from
+from .stills import IMAGE_SETTINGS, put_back_afterwards, rendered_to, seen_from
 
 _RENDERER = "BLENDER_WORKBENCH"
-"""By far the fastest one."""
+"""The fastest renderer by far."""
 
 _SMOOTHING = "FXAA"
-"""Of Workbench: its default takes three times as long, and flat colours do not need it."""
+"""Workbench's default takes three times as long, and flat colours do not need it."""
 
 _KEPT = {
-    "render": (
-        *("engine", "filepath", "resolution_x", "resolution_y", "resolution_percentage"),
-        "dither_intensity",
-    ),
+    "render": ("engine", "filepath", "resolution_x", "resolution_y", "resolution_percentage", "dither_intensity"),
     "render.image_settings": IMAGE_SETTINGS,
     "display": ("render_aa",),
 }
-"""Settings that are other ones while pictures are rendered."""
+"""Settings that change while pictures are rendered."""
 
 
 @dataclass(frozen=True, slots=True)
 class RenderSettings:
-    """Size of pictures of the contours."""
+    """Size of pictures of contours."""
 
     width_px: int = 1280
     height_px: int = 720
@@ -96,7 +92,7 @@ def _set_up_encoder(render: bpy.types.RenderSettings, pictures_per_second: float
 
 
 def _lay_out(scene: bpy.types.Scene, pictures: Sequence[Path]) -> None:
-    """Make one strip of all pictures, from the first frame on; it grows with each."""
+    """Make one strip of all pictures, from the first frame on."""
     editor = scene.sequence_editor_create()
     strips = editor.strips if hasattr(editor, "strips") else editor.sequences  # their name before Blender 4.4
     strip = strips.new_image("Pictures", str(pictures[0]), 1, 1)

@@ -1,4 +1,4 @@
-"""Markers on the timeline for what happened in a run; the user's own are left alone."""
+"""Markers of the events of a run on the timeline; the user's own stay as they are."""
 
 from __future__ import annotations
 
@@ -7,19 +7,20 @@ from collections.abc import Iterable
 import bpy
 
 from ...model.scenario.kept import values_from_text, values_text
+from ..custom_properties import keep
 
 _OURS = "bda_markers"
-"""Property of a scene: frames and names of the markers that were made here, as markers keep no properties."""
+"""Property of a scene: frames and names of the add-on's markers, as markers have no properties."""
 
 _LOCKED = "bda_markers_locked"
-"""Property of a scene whose markers were locked here."""
+"""Property of a scene whose markers the add-on has locked."""
 
 
 def mark_moments(scene: bpy.types.Scene, moments: Iterable[tuple[int, str]]) -> None:
     """Mark frames by name, in place of those of the run before.
 
-    Where the user has no markers, they are locked: in a low timeline they cover the ruler, and whoever drags along it
-    would move one of them.
+    Where the user has no markers, they are locked: in a low timeline they cover the ruler, and a drag along it would
+    move one of them.
     """
     clear_markers(scene)
     if not scene.timeline_markers and not scene.tool_settings.lock_markers:
@@ -31,13 +32,12 @@ def mark_moments(scene: bpy.types.Scene, moments: Iterable[tuple[int, str]]) -> 
 
 
 def clear_markers(scene: bpy.types.Scene) -> None:
-    """Remove the markers that were made here, and are still where they were put."""
+    """Remove the add-on's markers that are still where they were put."""
     ours = values_from_text(str(scene.get(_OURS, "")), [])
     for marker in list(scene.timeline_markers):
         if [marker.frame, marker.name] in ours:
             scene.timeline_markers.remove(marker)
-    if _OURS in scene:
-        del scene[_OURS]
+    keep(scene, _OURS, None)
     if _LOCKED in scene:
         scene.tool_settings.lock_markers = False
         del scene[_LOCKED]

@@ -1,4 +1,4 @@
-"""Cube, lamp and camera that Blender starts with: out of the way while a bridge is there, and never deleted."""
+"""Cube, lamp and camera that Blender starts with: hidden while a bridge is there, and never deleted."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import bpy
 from mathutils import Matrix, Vector
 
 _PUT_AWAY = "bda_put_away"
-"""Property of an object that was put away: whether it was hidden in renders before, and the scene's camera."""
+"""Property of a hidden object: whether it was hidden in renders before, and whether it was the scene's camera."""
 
 _NEAR_M = 1e-3
 _PLACES = {
@@ -18,7 +18,7 @@ _CUBE_CORNERS = 8
 
 
 def put_startup_objects_away(scene: bpy.types.Scene) -> None:
-    """Hide the objects of Blender's start-up file that nobody has touched, and take their camera from the scene."""
+    """Hide the objects of Blender's start-up file that are as they were, and take their camera from the scene."""
     for obj in scene.objects:
         if _PUT_AWAY not in obj and _is_untouched(obj):
             obj[_PUT_AWAY] = [obj.hide_render, scene.camera == obj]
@@ -31,7 +31,7 @@ def put_startup_objects_away(scene: bpy.types.Scene) -> None:
 
 
 def bring_startup_objects_back(scene: bpy.types.Scene) -> None:
-    """Show what was put away, and give the scene its camera back where it has none by now."""
+    """Show what was hidden, and give the scene its camera back where it has none now."""
     for obj in scene.objects:
         if _PUT_AWAY in obj:
             hidden, was_camera = obj[_PUT_AWAY]
@@ -44,11 +44,11 @@ def bring_startup_objects_back(scene: bpy.types.Scene) -> None:
                 scene.camera = obj
 
 
-def _is_untouched(found: bpy.types.Object) -> bool:
-    if found.type not in _PLACES or found.library or found.rigid_body or found.modifiers or found.parent:
+def _is_untouched(obj: bpy.types.Object) -> bool:
+    if obj.type not in _PLACES or obj.library or obj.rigid_body or obj.modifiers or obj.parent:
         return False
-    name, place = _PLACES[found.type]
-    is_there = found.name == name and (found.matrix_basis.translation - place).length < _NEAR_M
-    if found.type != "MESH":
-        return is_there and not found.animation_data
-    return is_there and len(found.data.vertices) == _CUBE_CORNERS and found.matrix_basis == Matrix.Identity(4)
+    name, place = _PLACES[obj.type]
+    is_there = obj.name == name and (obj.matrix_basis.translation - place).length < _NEAR_M
+    if obj.type != "MESH":
+        return is_there and not obj.animation_data
+    return is_there and len(obj.data.vertices) == _CUBE_CORNERS and obj.matrix_basis == Matrix.Identity(4)

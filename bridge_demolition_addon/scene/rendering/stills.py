@@ -1,19 +1,22 @@
-"""Pictures of a demolition through Workbench, Blender's fast renderer, which needs no screen."""
+"""Pictures of a demolition by Workbench, Blender's fast renderer, which needs no screen."""
 
 from __future__ import annotations
 
+import shutil
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import bpy
 import numpy as np
+from mathutils import Vector
 
 from ...errors import OutputError
 from ...model.scenario.recording import CameraKind, PictureSettings
+from ...system.disk import whole_file
 from ..bodies import bodies_of
 from .camera import aim_camera
-from .plain_path import rendered_to
 from .surroundings import points_in_view
 
 _EXPOSURE = 1.0
@@ -30,11 +33,11 @@ _KEPT = {
     ),
     "view_settings": ("view_transform", "exposure"),
 }
-"""Settings of a scene that `prepare_pictures` and Blender's own choices that hang on them change."""
+"""Settings of a scene that `prepare_pictures` changes, and those that Blender changes with them."""
 
 
 def prepare_pictures(scene: bpy.types.Scene, width_px: int, height_px: int) -> None:
-    """Set up the renderer, which draws materials in their plain colours."""
+    """Set up the renderer, which shows materials in their plain colours."""
     render = scene.render
     render.engine = "BLENDER_WORKBENCH"
     render.resolution_x, render.resolution_y, render.resolution_percentage = width_px, height_px, 100
@@ -58,6 +61,20 @@ def render_picture(scene: bpy.types.Scene, frame: int, path: Path) -> None:
 
 
 @contextmanager
+def rendered_to(path: Path) -> Iterator[str]:
+    """Give a path for Blender to render to, from which the whole file then goes to its own path.
+
+    Blender takes braces in a path for variables, and ``#`` for the number of a frame; this path has none of them.
+    """
+    with TemporaryDirectory(prefix="bda_") as folder:
+        rendered = Path(folder) / path.name
+        yield str(rendered)
+        if rendered.exists():
+            with whole_file(path) as part, rendered.open("rb") as source, part.open("wb") as target:
+                shutil.copyfileobj(source, target)
+
+
+@contextmanager
 def prepared_for_pictures(scene: bpy.types.Scene, view: PictureSettings) -> Iterator[None]:
     """Render pictures within this context; afterwards the scene is as it was, at its frame."""
     with seen_from(scene, view, view.width_px / view.height_px), put_back_afterwards(scene, _KEPT):
@@ -68,13 +85,10 @@ def prepared_for_pictures(scene: bpy.types.Scene, view: PictureSettings) -> Iter
 @contextmanager
 def put_back_afterwards(scene: bpy.types.Scene, names: Mapping[str, Sequence[str]]) -> Iterator[None]:
     """Give settings of a scene, by the paths of their groups, and its frame the values back that they have now."""
-    frame, groups = scene.frame_current, [(scene.path_resolve(path), of_group) for path, of_group in names.items()]
-    kept = [
-        (group, name, getattr(group, name))
-        for group, of_group in groups
-        for name in of_group
-        if hasattr(group, name)  # Blender before 5.0 has fewer
-    ]
+    frame = scene.frame_current
+    settings = [(scene.path_resolve(path), name) for path, of_group in names.items() for name in of_group]
+    # Blender before 5.0 has fewer settings.
+    kept = [(group, name, getattr(group, name)) for group, name in settings if hasattr(group, name)]
     try:
         yield
     finally:
@@ -85,7 +99,7 @@ def put_back_afterwards(scene: bpy.types.Scene, names: Mapping[str, Sequence[str
 
 @contextmanager
 def seen_from(scene: bpy.types.Scene, view: PictureSettings, aspect: float) -> Iterator[None]:
-    """Let the scene be seen by the camera that is asked for within this context."""
+    """Make the camera that a view asks for the scene's within this context."""
     before = scene.camera
     if view.camera == CameraKind.OWN and not view.camera_m:
         if before is None:
@@ -104,10 +118,10 @@ def seen_from(scene: bpy.types.Scene, view: PictureSettings, aspect: float) -> I
 
 
 def _remove(scene: bpy.types.Scene, camera: bpy.types.Object) -> None:
-    """Remove a camera; Blender forgets the frames that it played where an object goes that it last saw in a scene."""
+    """Remove a camera; taken out of the scene first, as Blender forgets its played frames with any object there."""
     parts = [camera.data, *([camera.animation_data.action] if camera.animation_data else [])]
-    for each in camera.users_collection:
-        each.objects.unlink(camera)
+    for collection in camera.users_collection:
+        collection.objects.unlink(camera)
     for layer in scene.view_layers:
         layer.update()
     bpy.data.objects.remove(camera)
@@ -116,12 +130,8 @@ def _remove(scene: bpy.types.Scene, camera: bpy.types.Object) -> None:
 
 def _corners(scene: bpy.types.Scene) -> np.ndarray:
     """Return the corners (c, 3) float of the boxes around all bodies that move, m."""
-    corners = [
-        body.matrix_world @ type(body.location)(corner)
-        for body in bodies_of(scene)
-        if body.rigid_body.type == "ACTIVE"
-        for corner in body.bound_box
-    ]
+    moving = [body for body in bodies_of(scene) if body.rigid_body.type == "ACTIVE"]
+    corners = [body.matrix_world @ Vector(corner) for body in moving for corner in body.bound_box]
     if not corners:
         raise OutputError(
             f"scene {scene.name!r} has no body that moves, and nothing to see: choose a camera of its own"

@@ -18,7 +18,7 @@ from ...errors import ContourError, OutputError
 from ...model.run_folder.files import FILM_FILE, SLOW_FILM_FILE
 from ...model.scenario.recording import PictureSettings
 from ...scene.rendering.film import RenderSettings, encode_film, set_up_for_pictures
-from ...scene.rendering.plain_path import rendered_to
+from ...scene.rendering.stills import rendered_to
 from ...system.disk import writing
 from ..blender_events import contours_of, shown_results
 

@@ -17,10 +17,9 @@ from ...errors import LayoutError, SimulationError
 from ...model.blast.explosion import Explosion, StepLoads, no_loads, sum_of_loads
 from ...model.blast.settings import Apply
 from ...model.schema import given
-from ...scene.blast.charges import charges_of
+from ...scene.blast.charges import blast_of, charges_of
 from ...scene.blast.field_reach import FieldReach, isolating_reaches
 from ...scene.blast.force_fields import ForceFields, fields_of, has_other_fields
-from ...scene.blast.settings import blast_of
 from ...scene.run_setup import RunSetup
 from .drivers import Driver
 

@@ -18,7 +18,7 @@ from ...model.results.frames import BallHistory, ContactHistory, Frame
 from ...model.schema import given
 from ...scene.as_built import changed_bodies, check_start
 from ...scene.bodies import bodies_of
-from ...scene.connections.breaking_thresholds import rewrite_thresholds
+from ...scene.connections.breaking_settings import rewrite_thresholds
 from ...scene.connections.constraints import connections_of
 from ...scene.connections.elasticity import is_elastic
 from ...scene.run_setup import RunSetup, run_setup_of

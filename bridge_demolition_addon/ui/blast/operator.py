@@ -6,9 +6,8 @@ import bpy
 
 from ...model.blast.charges import Charge
 from ...model.scenario import BlastSettings
-from ...scene.blast.charges import charge_collection, charge_objects, create_charges
+from ...scene.blast.charges import charge_collection, charge_objects, create_charges, keep_blast
 from ...scene.blast.force_fields import build_force_objects
-from ...scene.blast.settings import keep_blast
 from ...scene.bodies import Kind, bodies_of, kind_of
 from ...scene.visibility import hide_symbols, symbols_are_hidden
 from ..operators import Action, no_world

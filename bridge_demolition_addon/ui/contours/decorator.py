@@ -20,8 +20,7 @@ from ...display.contours import ContourFrame
 from ...display.force_arrows import arrows, body_forces, connection_forces, contact_forces
 from ...model.blast.charges import Charge
 from ...model.blast.damage import THRESHOLDS, ring_radii
-from ...scene.blast.charges import charges_of
-from ...scene.blast.settings import blast_of
+from ...scene.blast.charges import blast_of, charges_of
 from ...simulation.blender_events import contours_of, shown_results
 from ..labels import FONT_PX, PANEL_COLOUR, TEXT_COLOUR, draw_rectangle, write, write_at
 from ..view_drawing import ViewDrawing

@@ -14,8 +14,7 @@ from manifold3d import CrossSection
 
 from ...display.ground_lines import cross_lines, draped, flash_lines, flash_share, outline_lines, way_lines, zone_lines
 from ...engineering.geometry.plan_areas import outlines
-from ...scene.blast.charges import charges_of
-from ...scene.blast.settings import blast_of
+from ...scene.blast.charges import blast_of, charges_of
 from ...scene.bodies import Kind, kind_of
 from ...scene.time_scale import simulated_time_s
 from ...scene.world import FIRST_STEP_FRAME

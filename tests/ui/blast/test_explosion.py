@@ -6,8 +6,7 @@ from support.checkout import SMALL
 
 from bridge_demolition_addon.model.blast.charges import EXPLOSIVES
 from bridge_demolition_addon.model.blast.settings import BlastSettings
-from bridge_demolition_addon.scene.blast.charges import charge_objects, charges_of
-from bridge_demolition_addon.scene.blast.settings import blast_of, keep_blast
+from bridge_demolition_addon.scene.blast.charges import blast_of, charge_objects, charges_of, keep_blast
 from bridge_demolition_addon.ui.blast.operator import keep_shown_blast
 
 

@@ -98,8 +98,7 @@ def test_a_flash_is_drawn_while_a_charge_goes_off(ran):
 
 
 def test_charges_without_a_world_to_go_off_in_are_no_trouble(extension):
-    from bridge_demolition_addon.scene.blast.charges import create_charges
-    from bridge_demolition_addon.scene.blast.settings import keep_blast
+    from bridge_demolition_addon.scene.blast.charges import create_charges, keep_blast
 
     scene = extension.context.scene
     create_charges(scene, SHORT.charges)
