@@ -59,29 +59,17 @@ _LINES: tuple[dict[str, Any], ...] = tuple(
         ("0.0", (0, (1, 3)), 1.6),
     )
 )
-"""How lines look; they differ without colour, too."""
+"""Looks of lines: they differ without colour, too."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ChartSettings:
-    """How the charts are drawn.
-
-    Attributes
-    ----------
-    model, burst
-        Where the waves come from, and where the charges detonate.
-    as_ratio
-        Overpressures as a ratio to ambient pressure, like in the report, instead of in kPa.
-    scaled
-        Distances and times divided by W^(1/3) instead of real ones.
-    pulse_charge_kg, pier_charge_kg
-        TNT whose pulses are drawn, and TNT at each pier of the two-span bridge; by default those of the report.
-    """
+    """How the charts are drawn; by default with the charges of the report of 2019."""
 
     model: BlastModel = BlastModel.KINGERY_BULMASH
     burst: Burst = Burst.AIR
-    as_ratio: bool = False
-    scaled: bool = False
+    as_ratio: bool = False  # overpressures over ambient pressure, as in the report, not in kPa
+    scaled: bool = False  # distances and times over W^(1/3)
     pulse_charge_kg: float = PULSE_CHARGE_KG
     pier_charge_kg: float = PIER_CHARGE_KG
 
@@ -94,17 +82,17 @@ class ChartSettings:
 
     @property
     def pressure_unit_pa(self) -> float:
-        """What the unit of the pressure axes is in Pa."""
+        """Unit of the pressure axes, Pa."""
         return AMBIENT_PRESSURE_PA if self.as_ratio else 1e3
 
     @property
     def pressure_label(self) -> str:
-        """Unit of the pressure axes, in words."""
+        """Label of the pressure axes."""
         return "overpressure / ambient pressure" if self.as_ratio else "overpressure (kPa)"
 
     @property
     def time_label(self) -> str:
-        """Time axes, in words."""
+        """Label of the time axes."""
         return "time / W$^{1/3}$ (ms/kg$^{1/3}$)" if self.scaled else "time since the detonation (ms)"
 
     @property
@@ -128,7 +116,7 @@ def pressure_over_time(settings: ChartSettings) -> Figure:
         label = f"Z = {z:g} m/kg$^{{1/3}}$" if settings.scaled else f"{_plain(z * cube_root)} m (Z = {z:g})"
         # Up the front first, which takes no time.
         axes.plot(np.append(time[0], time) / time_unit, np.append(0.0, pressure), label=label, **style)
-    axes.set_title(f"Pulses of {_mass(settings.pulse_charge_kg)} of TNT as they pass\n{settings.source}")
+    axes.set_title(f"Pulses of {settings.pulse_charge_kg:,.10g} kg of TNT as they pass\n{settings.source}")
     axes.set(xlabel=settings.time_label, ylabel=settings.pressure_label)
     axes.set_xlim(left=0.0)
     axes.set_ylim(bottom=0.0)
@@ -159,13 +147,11 @@ def _overpressure_over_scaled_distance(settings: ChartSettings) -> Figure:
     """All charges fall on one curve over scaled distance, with the thresholds of damage on it."""
     figure, axes = _figure()
     distances = np.geomspace(0.1, 100.0, 400)
-    wave = blast_wave(distances, 1.0, settings.burst, settings.model)
-    axes.loglog(distances, wave.peak_overpressure_pa / settings.pressure_unit_pa, color="black", label="incident")
-    axes.loglog(
-        distances, wave.reflected_overpressure_pa / settings.pressure_unit_pa, "--", color="black", label="reflected"
-    )
+    wave, unit_pa = blast_wave(distances, 1.0, settings.burst, settings.model), settings.pressure_unit_pa
+    axes.loglog(distances, wave.peak_overpressure_pa / unit_pa, color="black", label="incident")
+    axes.loglog(distances, wave.reflected_overpressure_pa / unit_pa, "--", color="black", label="reflected")
     for threshold in distinct_thresholds():
-        level = threshold.overpressure_pa / settings.pressure_unit_pa
+        level = threshold.overpressure_pa / unit_pa
         axes.axhline(level, color="0.5", linewidth=0.6, linestyle=":")
         axes.text(0.105, level, threshold.damage, fontsize=7, va="bottom")
     axes.set_title(f"Peak overpressure of any charge\n{settings.source}")
@@ -176,10 +162,7 @@ def _overpressure_over_scaled_distance(settings: ChartSettings) -> Figure:
 
 
 def charge_for_overpressure(settings: ChartSettings) -> Figure:
-    """Figure 12: the smallest charge that gives a wanted peak overpressure at a distance.
-
-    Over real distances in any case: over scaled ones there is no charge left to choose.
-    """
+    """Figure 12: the smallest charge for a peak overpressure over real distances: scaled ones leave no choice."""
     figure, axes = _figure()
     distances = np.geomspace(1.0, 200.0, 100)
     for target, style in zip(TARGETS_PA, _LINES, strict=False):
@@ -240,16 +223,13 @@ def two_span_over_time(settings: ChartSettings) -> Figure:
     )
     bar = figure.colorbar(image, ax=axes, extend="both", label=settings.pressure_label)
     bar.formatter = PLAIN
-    axes.set_title(f"Overpressure of all charges over time\n{_bridge_in_words(settings)}\n{settings.source}")
+    axes.set_title(f"Overpressure of all charges over time\n{_bridge_text(settings)}\n{settings.source}")
     axes.set(xlabel=_along_bridge(settings), ylabel=settings.time_label)
     return figure
 
 
 def rings_on_plan(charges: Sequence[Charge], settings: ChartSettings, title: str) -> Figure:
-    """Plan view of charges with the rings within which thresholds of damage are reached at the first one's level.
-
-    Once with all rings, and once near the charges.
-    """
+    """Plan of charges with the rings of damage at the first one's level: all of them, and those near the charges."""
     figure = _blank_figure(11.0, 7.0)
     thresholds = distinct_thresholds()
     radii = ring_radii(charges, charges[0].place_m[2], thresholds, settings.model)
@@ -264,22 +244,15 @@ def rings_on_plan(charges: Sequence[Charge], settings: ChartSettings, title: str
         axes.set_title("near the charges" if nearest else "all rings", fontsize=10)
         axes.grid(alpha=0.3)
     handles, labels = figure.axes[0].get_legend_handles_labels()
-    figure.legend(
-        handles,
-        labels,
-        title=f"peak {settings.pressure_label}",
-        loc="outside lower center",
-        ncols=2,
-        frameon=False,
-        fontsize=9,
-    )
+    looks: dict[str, Any] = {"loc": "outside lower center", "ncols": 2, "frameon": False, "fontsize": 9}
+    figure.legend(handles, labels, title=f"peak {settings.pressure_label}", **looks)
     figure.suptitle(f"{title}\n{settings.source}", parse_math=False)
     return figure
 
 
 def two_span_rings(settings: ChartSettings) -> Figure:
     """Plan view of the two-span bridge with the rings of its charges."""
-    return rings_on_plan(settings.pier_charges, settings, f"Reach of each charge on plan\n{_bridge_in_words(settings)}")
+    return rings_on_plan(settings.pier_charges, settings, f"Reach of each charge on plan\n{_bridge_text(settings)}")
 
 
 CHARTS: dict[str, Callable[[ChartSettings], Figure]] = {
@@ -297,10 +270,7 @@ CHARTS: dict[str, Callable[[ChartSettings], Figure]] = {
 def write_charts(
     folder: Path, settings: ChartSettings, drawn: Callable[[int, int], None] = lambda *_: None
 ) -> list[Path]:
-    """Draw all charts into a folder, which is made if it is new, and return their paths.
-
-    `drawn` is called with how many are drawn, and how many there are.
-    """
+    """Draw all charts into a folder, made if new, and return their paths; `drawn` gets their number so far, of all."""
     paths = []
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -371,17 +341,12 @@ def _circles(places: np.ndarray, radii: np.ndarray) -> tuple[np.ndarray, np.ndar
 
 
 def _scale(settings: ChartSettings) -> float:
-    """What distances along the bridge, and times there, are divided by."""
+    """Divisor of distances along the bridge, and of times there."""
     return float(np.cbrt(settings.pier_charge_kg)) if settings.scaled else 1.0
 
 
-def _bridge_in_words(settings: ChartSettings) -> str:
-    return f"two spans of {SPAN_M:g} m, {_mass(settings.pier_charge_kg)} of TNT at both ends and the mid pier"
-
-
-def _mass(mass_kg: float) -> str:
-    """A mass as it was given."""
-    return f"{mass_kg:,.10g} kg"
+def _bridge_text(settings: ChartSettings) -> str:
+    return f"two spans of {SPAN_M:g} m, {settings.pier_charge_kg:,.10g} kg of TNT at both ends and the mid pier"
 
 
 def _along_bridge(settings: ChartSettings) -> str:
@@ -401,7 +366,7 @@ def _pulses_along_bridge(places_m: np.ndarray, settings: ChartSettings) -> Pulse
 
 
 def _finish_bridge_chart(figure: Figure, axes: Axes, settings: ChartSettings, title: str) -> None:
-    axes.set_title(f"{title}\n{_bridge_in_words(settings)}\n{settings.source}")
+    axes.set_title(f"{title}\n{_bridge_text(settings)}\n{settings.source}")
     axes.set(xlabel=_along_bridge(settings), ylabel=f"peak {settings.pressure_label}", xmargin=0.0)
     _label_plainly(axes)
     figure.legend(loc="outside lower center", ncols=3, frameon=False)

@@ -37,11 +37,7 @@ def overpressure_map(
     ground: RecordedGround = LEVEL_GROUND,
 ) -> None:
     """Largest overpressure of any one charge on the ground, with the rings of damage and the ground's contour lines."""
-    thresholds = [
-        distinct_threshold
-        for distinct_threshold in distinct_thresholds()
-        if distinct_threshold.overpressure_pa >= WIDEST_PA
-    ]
+    thresholds = [threshold for threshold in distinct_thresholds() if threshold.overpressure_pa >= WIDEST_PA]
     radii = ring_radii(charges, 0.0, thresholds, model, pressure_factor)
     places = np.array([charge.place_m[:2] for charge in charges])
     left, back, right, front = bridge.bounds()  # shown even where no ring reaches the ground

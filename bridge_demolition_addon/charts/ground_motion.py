@@ -43,8 +43,8 @@ def response_spectra(figure: FigureBase, record: GroundRecord, wanted: DesignSpe
     times = np.arange(0.0, record.duration_s, step_s)
     for number, axis in enumerate(moving_directions(record)):
         even = np.interp(times, record.times_s, record.accelerations_m_s2[:, axis])
-        found = response_spectrum(even, step_s, _PERIODS_S)
-        axes.semilogx(_PERIODS_S, found, **line_style(number), label=DIRECTIONS[axis])
+        spectrum = response_spectrum(even, step_s, _PERIODS_S)
+        axes.semilogx(_PERIODS_S, spectrum, **line_style(number), label=DIRECTIONS[axis])
     if wanted:
         shape = factor * design_spectrum(wanted, _PERIODS_S)
         axes.semilogx(_PERIODS_S, shape, color="0.5", linewidth=2.5, label="EN 1998-1, 5 %")

@@ -54,7 +54,7 @@ LEVEL_GROUND = RecordedGround()
 _SURFACE_COLOURS = {"water": "tab:blue", "river bank": "tab:green"}
 _CONTOUR, _CONTOUR_LINES, _FLAT_M = "peru", 12, 0.01
 _SEEN = 33
-"""Places along each side of a map at which it is seen which heights are in it."""
+"""Positions along each side of a map at which its heights are looked up."""
 
 _ARROW = {"arrowstyle": "-|>", "color": "black", "linewidth": 0.8, "shrinkA": 0.0, "shrinkB": 0.0}
 
@@ -90,23 +90,21 @@ def debris_map(
 def draw_ground(axes: Axes, ground: RecordedGround) -> None:
     """Draw contour lines of ground that is not flat, and outlines of surfaces on it, in a map that was fitted."""
     left, right, low, high = (*axes.get_xlim(), *axes.get_ylim())
-    for each in ground.surfaces:
-        style: dict[str, Any] = {"fill": False, "edgecolor": _SURFACE_COLOURS.get(each.kind, "0.35"), "linewidth": 0.9}
-        area = ground.shown(each)
+    for surface in ground.surfaces:
+        colour = _SURFACE_COLOURS.get(surface.kind, "0.35")
+        area = ground.shown(surface)
         if area.is_empty():
             continue
-        draw_area(axes, area, linestyle="-.", zorder=0.8, **style)
+        draw_area(axes, area, linestyle="-.", zorder=0.8, fill=False, edgecolor=colour, linewidth=0.9)
         corner = np.clip(area.bounds()[:2], (left, low), (right, high))
-        axes.annotate(plain(each.name), corner, fontsize=6, va="bottom", color=style["edgecolor"], annotation_clip=True)
+        axes.annotate(plain(surface.name), corner, fontsize=6, va="bottom", color=colour, annotation_clip=True)
     if ground.terrain is not None:
         x, y, heights = ground.terrain.mesh.vertices.T
         places = np.stack(np.meshgrid(np.linspace(left, right, _SEEN), np.linspace(low, high, _SEEN)), -1)
         levels = _contour_levels(ground.terrain.heights_at(places))
         if len(levels):
-            surface = Triangulation(x, y, ground.terrain.mesh.triangles)
-            lines = axes.tricontour(
-                surface, heights, levels, colors=_CONTOUR, linewidths=0.5, linestyles="solid", zorder=0.7
-            )
+            style: dict[str, Any] = {"colors": _CONTOUR, "linewidths": 0.5, "linestyles": "solid", "zorder": 0.7}
+            lines = axes.tricontour(Triangulation(x, y, ground.terrain.mesh.triangles), heights, levels, **style)
             axes.clabel(lines, fmt="%g m", fontsize=5)
     axes.set(xlim=(left, right), ylim=(low, high))
 
@@ -184,8 +182,8 @@ def debris_maps_height_mm(runs: Sequence[tuple[str, Debris]]) -> float:
     low, high = _bounds_of(runs)
     columns, rows = min(len(runs), _MAPS_ABREAST), math.ceil(len(runs) / _MAPS_ABREAST)
     wide, across = high - low
-    each = PAGE_WIDTH_MM / columns * float(across / wide) + _MAP_TITLE_MM
-    return min(rows * each + _MAP_LEGEND_MM, _HIGHEST_MAPS_MM)
+    map_mm = PAGE_WIDTH_MM / columns * float(across / wide) + _MAP_TITLE_MM
+    return min(rows * map_mm + _MAP_LEGEND_MM, _HIGHEST_MAPS_MM)
 
 
 def _bounds_of(runs: Sequence[tuple[str, Debris]]) -> tuple[np.ndarray, np.ndarray]:

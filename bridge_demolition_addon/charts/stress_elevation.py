@@ -13,7 +13,7 @@ from ..model.debris.footprint import corners_at
 from ..model.results.arrays import Results
 
 DECADES = 2.0
-"""What is stressed less than the largest by more than so many powers of ten is as light as can be."""
+"""Powers of ten of stress from the darkest to the lightest colour."""
 
 
 def stress_elevation(figure: FigureBase, results: Results, step: int) -> None:
@@ -41,5 +41,5 @@ def stress_elevation(figure: FigureBase, results: Results, step: int) -> None:
 
 def _elevations(results: Results, step: int, bodies: np.ndarray) -> list[np.ndarray]:
     """Return the outlines (k, 2) of bodies as seen across the road."""
-    rings = (outlines(CrossSection.hull_points(each[:, [0, 2]])) for each in corners_at(results, step, bodies))
-    return [found[0] if found else np.zeros((1, 2)) for found in rings]
+    hulls = (CrossSection.hull_points(corners[:, [0, 2]]) for corners in corners_at(results, step, bodies))
+    return [rings[0] if (rings := outlines(hull)) else np.zeros((1, 2)) for hull in hulls]

@@ -1,4 +1,4 @@
-"""Charts of a study: how far its runs reach, how the limit settles, and what comes of each input."""
+"""Charts of a study: debris distances of its runs, how their limit settles, and the influence of each input."""
 
 from __future__ import annotations
 
@@ -36,18 +36,10 @@ _DOTS_OF_FEW, _FEW = 9.0, 300
 def reach_distribution(
     figure: FigureBase, reaches_m: np.ndarray, limit: tuple[float, str] | None, quantile: float
 ) -> None:
-    """Draw how often runs reach how far, and which share of them stays within a distance.
+    """Draw the debris distances (n,) of all runs, and which share of the runs stays within a distance.
 
-    Parameters
-    ----------
-    figure
-        Where to.
-    reaches_m : (n,) float
-        Of all runs, of which at least one finished; infinity where one did not, which is beyond the right edge.
-    limit
-        The limit in metres and as text, if there is one.
-    quantile
-        Share of all runs that it is for.
+    Infinity is a run that did not finish, beyond the right edge. The limit is in metres and as text; the quantile is
+    the share of all runs that it is for.
     """
     upper, lower = figure.subplots(2, 1, sharex=True, height_ratios=(2, 3))
     finite = np.sort(reaches_m[np.isfinite(reaches_m)])
@@ -61,7 +53,7 @@ def reach_distribution(
     if limit:
         upper.axvline(limit[0], color=LIMIT_COLOUR, linewidth=1.8)
         lower.axvline(limit[0], color=LIMIT_COLOUR, linewidth=1.8, label=f"limit, {limit[1]}")
-    lower.set(xlabel="reach beyond the bridge's plan (m)", ylabel="stays within", ylim=(0.0, 1.02))
+    lower.set(xlabel="debris distance from the bridge's plan (m)", ylabel="stays within", ylim=(0.0, 1.02))
     lower.set_xlim(left=0.0)
     lower.yaxis.set_major_formatter(PercentFormatter(1.0, symbol=" %"))
     for axes in (upper, lower):
@@ -87,7 +79,7 @@ def limit_over_runs(figure: FigureBase, reaches_m: np.ndarray, runs: np.ndarray,
     axes.step(runs, _drawable(limits_m), where="post", **style, **marker)
     _mark_endless(axes, runs, limits_m, {"marker": "^", "color": LIMIT_COLOUR, "label": "no limit by the runs so far"})
     axes.xaxis.set_major_locator(MaxNLocator(integer=True))
-    axes.set(xlabel="runs", ylabel="reach (m)", xlim=(0, len(reaches_m) * 1.02))
+    axes.set(xlabel="runs", ylabel="debris distance (m)", xlim=(0, len(reaches_m) * 1.02))
     axes.set_ylim(bottom=0.0)
     axes.grid(alpha=0.3)
     figure.legend(loc="outside lower center", ncols=3, frameon=False, fontsize=8)
@@ -95,17 +87,7 @@ def limit_over_runs(figure: FigureBase, reaches_m: np.ndarray, runs: np.ndarray,
 
 @dataclass(frozen=True, eq=False, slots=True)
 class InputPanel:
-    """An input, as one panel shows it.
-
-    Attributes
-    ----------
-    name
-        With its unit.
-    values
-        Of all runs (n,): numbers or texts.
-    correlation
-        Rank correlation with what the panel shows; None for texts.
-    """
+    """An input as one panel shows it: name with unit, values (n,) of all runs, rank correlation, None for texts."""
 
     name: str
     values: np.ndarray

@@ -29,19 +29,9 @@ def study_plan(
 ) -> None:
     """Draw the plan of a study.
 
-    Parameters
-    ----------
-    figure
-        Where to.
-    bridge
-        Its plan before.
-    likely
-        Where debris is at least so likely, by what the legend says: up to three areas, from the largest to the
-        smallest.
-    limits
-        The limit around the bridge, and around that what is added to it, by what the legend says.
-    zones, neighbours
-        Of the site. A neighbour beyond all that is drawn is left out: it would shrink everything else.
+    `likely` holds up to three areas of debris by what the legend says, the largest first; `limits` the limit around the
+    bridge, then that with its buffer. A neighbour beyond all that is drawn is left out: it would shrink everything
+    else.
     """
     axes = plan_axes(figure)
     for shade, (label, area) in zip(_SHADES[-len(likely) :] if likely else (), likely.items(), strict=True):
@@ -54,12 +44,12 @@ def study_plan(
     low, high = _corners([bridge, *likely.values(), *limits.values()], zones)
     near = [neighbour for neighbour in neighbours if _is_within(neighbour, low, high)]
     if near:
-        places = np.array([each.place_m[:2] for each in near])
+        places = np.array([neighbour.place_m[:2] for neighbour in near])
         axes.plot(*places.T, "^", color="black", markersize=5.0, linestyle="none", label="neighbours")
     fit(axes, figure)
     name_zones(axes, zones)
-    for each in near:
-        name_neighbour(axes, each, to_the_left=each.place_m[0] > (low[0] + high[0]) / 2.0)
+    for neighbour in near:
+        name_neighbour(axes, neighbour, to_the_left=neighbour.place_m[0] > (low[0] + high[0]) / 2.0)
 
 
 def _corners(areas: Sequence[CrossSection], zones: Sequence[Zone]) -> tuple[np.ndarray, np.ndarray]:

@@ -37,20 +37,14 @@ def line_style(number: int, width_pt: float = 1.4) -> dict[str, Any]:
 def blank_figure(
     width_in: float, height_in: float, canvas: type[FigureCanvasBase] = FigureCanvasAgg, **options: Any
 ) -> Figure:
-    """Return an empty figure.
-
-    Not from pyplot, which would set up a window system inside Blender and keep every figure alive.
-    """
+    """Return an empty figure: pyplot would set up a window system inside Blender, and keep every figure alive."""
     figure = Figure(figsize=(width_in, height_in), **options)
     canvas(figure)
     return figure
 
 
 def lay_out(figure: Figure) -> None:
-    """Lay a figure out for good.
-
-    Left to matplotlib, every saving lays it out again and draws it twice.
-    """
+    """Lay a figure out for good: left to matplotlib, every saving lays it out again and draws it twice."""
     if engine := figure.get_layout_engine():
         engine.execute(figure)
     figure.set_layout_engine(None)

@@ -41,14 +41,7 @@ def execute_ensemble(
 ) -> None:
     """Make all runs, write a report if it is wanted, and print what the runs state.
 
-    Parameters
-    ----------
-    ensemble, arguments
-        What is asked, and the options of the command.
-    sentences
-        Puts the result into words.
-    before_report
-        Makes what the report also shows, such as pictures of single runs.
+    `before_report` makes what the report also shows, such as pictures of single runs.
     """
     session, result, paths = _run(ensemble, arguments)
     if arguments.report:

@@ -58,18 +58,10 @@ class Parser(argparse.ArgumentParser):
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run a command and return the exit status.
+    """Run a command, by default that of the arguments of Python, and return the exit status.
 
-    Parameters
-    ----------
-    argv
-        The arguments after the program's name; by default those that Python was started with.
-
-    Returns
-    -------
-    int
-        0 done, 1 the run failed, 2 the input is wrong, 130 interrupted; 143 where the system asked for the end,
-        129 where the terminal was closed.
+    0 done, 1 the run failed, 2 the input is wrong, 130 interrupted; 143 where the system asked for the end, 129 where
+    the terminal was closed.
     """
     try:
         words = sys.argv[1:] if argv is None else argv

@@ -34,10 +34,7 @@ def bridge_edges(bridge: Bridge) -> np.ndarray:
 def ball_lines(ball: Ball, surface_m: float | None) -> np.ndarray:
     """Return a ball before each of its drops, with its way and its target, as lines (2 k, 3) float, m.
 
-    Parameters
-    ----------
-    surface_m : float, optional
-        Height of what it falls on; None where that is not known, and only a ball on a cable can be drawn.
+    `surface_m` is the height of what it falls on; where that is not known, only a ball on a cable is drawn.
     """
     parts = [np.zeros((0, 3))]
     if ball.cable:
@@ -54,10 +51,7 @@ def ball_lines(ball: Ball, surface_m: float | None) -> np.ndarray:
 def outline(bridge: Bridge | None, ball: Ball | None, *, is_all: bool = True) -> np.ndarray:
     """Return bridge and ball as lines (2 k, 3) float, m.
 
-    Parameters
-    ----------
-    is_all : bool
-        Whether the bridge is all there is to fall on; if not, the height of a ball's drop is not known from it.
+    Without `is_all` the ball may fall on something else than the bridge, and the height of its drop is not known.
     """
     parts = [np.zeros((0, 3))]
     if bridge:

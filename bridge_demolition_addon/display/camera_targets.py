@@ -17,14 +17,7 @@ middle half as far."""
 
 
 def points_to_see(scenario: Scenario, members: Sequence[Member]) -> np.ndarray:
-    """Return the points that a camera is to see: the bridge, what works on it, and the ground where members fall, as
-    low as they stand.
-
-    Returns
-    -------
-    (n, 3) float
-        In m.
-    """
+    """Return points (n, 3), m, for a camera: bridge, what works on it, and the ground where members fall."""
     (first, right, low), (last, left, top) = extent(members)
     foot = min(float(low), 0.0)
     room = _DEBRIS_HEIGHTS * (top - foot)

@@ -15,21 +15,7 @@ from .contours import ContourFrame
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ColourBar:
-    """What a colour bar says.
-
-    Attributes
-    ----------
-    title, subtitle
-        The quantity, and what is shown of it; the subtitle may be empty.
-    unit
-        Of the ticks, in brackets.
-    tick_shares : (t,) float
-        Where the ticks are, from 0 (lowest) to 1 (highest).
-    tick_texts
-        Their t numbers.
-    frame, time
-        Which frame it is.
-    """
+    """Texts of a colour bar, with ticks at shares (t,) from 0 (lowest) to 1 (highest)."""
 
     title: str
     subtitle: str

@@ -34,30 +34,17 @@ class ColourMap(StrEnum):
 
 
 def colours(colour_map: ColourMap, shares: np.ndarray) -> np.ndarray:
-    """Return the colours of shares.
-
-    Parameters
-    ----------
-    colour_map
-        Which colours.
-    shares : (n,) float
-        From 0 (lowest) to 1 (highest); nan where there is no value.
-
-    Returns
-    -------
-    (n, 3) float
-        Red, green and blue on a screen, 0 to 1; grey for nan.
-    """
+    """Return the colours (n, 3) on a screen, 0 to 1, of shares (n,) from 0 (lowest) to 1 (highest); grey for nan."""
     shares = np.asarray(shares, float)
     known = np.isfinite(shares)
     inside = np.clip(np.where(known, shares, 0.0), 0.0, 1.0)
     if colour_map == ColourMap.BLUE_TO_RED:
-        found = np.stack((inside, 1.0 - abs(1.0 - 2.0 * inside), np.clip(1.0 - 2.0 * inside, 0.0, 1.0)), axis=-1)
+        painted = np.stack((inside, 1.0 - abs(1.0 - 2.0 * inside), np.clip(1.0 - 2.0 * inside, 0.0, 1.0)), axis=-1)
     else:
         table = _table(colour_map)
         # As matplotlib does: the range is cut into as many equal pieces as there are colours.
-        found = table[np.minimum((inside * len(table)).astype(int), len(table) - 1)]
-    return np.where(known[..., None], found, UNKNOWN)
+        painted = table[np.minimum((inside * len(table)).astype(int), len(table) - 1)]
+    return np.where(known[..., None], painted, UNKNOWN)
 
 
 def linear(screen_colours: np.ndarray) -> np.ndarray:

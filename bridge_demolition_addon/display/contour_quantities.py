@@ -23,17 +23,9 @@ class Unit:
 
 @dataclass(frozen=True, slots=True)
 class UnitFamily:
-    """The units of one kind of quantity.
+    """The units of one kind of quantity, and that in which the user gives a fixed range."""
 
-    Attributes
-    ----------
-    steps
-        Units from the largest down, each with the value from which it is used.
-    of_range
-        The unit in which the user gives a fixed range.
-    """
-
-    steps: tuple[tuple[float, Unit], ...]
+    steps: tuple[tuple[float, Unit], ...]  # from the largest down, each with the value from which it is used
     of_range: Unit
 
     def of(self, largest: float) -> Unit:
@@ -57,22 +49,10 @@ Values = Callable[[Frame, Frame], np.ndarray]
 
 
 class ContourQuantity(Enum):
-    """The quantities, in the order of the sidebar: Blender saves the place of the chosen one.
+    """The quantities, in the order of the sidebar: Blender saves the number of the chosen one.
 
-    Attributes
-    ----------
-    title
-        What it is called.
-    tooltip
-        What it is, in the sidebar.
-    units
-        In what it is shown.
-    mean : Values
-        Its values over a frame; nan where it has none.
-    peak : Values
-        Its largest values within a frame, as far as they are recorded.
-    kind_of_mean, kind_of_peak
-        What the colour bar says of these; empty where there is nothing to say.
+    `mean` returns values over a frame, nan where there is none; `peak` the largest within it, as far as recorded. The
+    colour bar names them by `kind_of_mean` and `kind_of_peak`, which may be empty.
     """
 
     RESULTANT = (

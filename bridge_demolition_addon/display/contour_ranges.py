@@ -23,46 +23,20 @@ class RangeKind(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class ContourSettings:
-    """What is shown, and how.
-
-    Attributes
-    ----------
-    quantity
-        What bodies are coloured by.
-    peak
-        Whether to show the largest value up to a frame instead of that of the frame.
-    whole_run
-        Whether that is the largest value of all frames, whichever is shown: where the bridge will be loaded most.
-    range_kind
-        Of all frames so far, of each frame by itself, or fixed.
-    low, high
-        The fixed range, N, Pa or m.
-    logarithmic
-        Whether equal steps of colour stand for equal ratios. Signs are left out then.
-    decades
-        Powers of ten in an automatic range that is logarithmic.
-    percentile
-        Share of the values other than 0 that lie within an automatic range, %; the few beyond it have its end's colour.
-    colour_map
-        Which colours.
-    shaded
-        Whether faces are darker the more they look away from the light; without it each colour is as in the bar.
-    magnification
-        How many times as far as they are displaced bodies are shown.
-    """
+    """What bodies are coloured by, and how. Ranges are in N, Pa or m."""
 
     quantity: ContourQuantity = ContourQuantity.RESULTANT
-    peak: bool = False
-    whole_run: bool = False
-    range_kind: RangeKind = RangeKind.RUN
+    peak: bool = False  # the largest value up to a frame, not that of the frame
+    whole_run: bool = False  # the peak of all frames, whichever is shown: where the bridge will be loaded most
+    range_kind: RangeKind = RangeKind.RUN  # of all frames so far, of each frame, or fixed from low to high
     low: float = 1e3
     high: float = 1e6
-    logarithmic: bool = True
-    decades: float = 3.0
-    percentile: float = 100.0
+    logarithmic: bool = True  # equal steps of colour are equal ratios, without signs
+    decades: float = 3.0  # powers of ten in an automatic range that is logarithmic
+    percentile: float = 100.0  # of values other than 0 within an automatic range, %; others have its end's colour
     colour_map: ColourMap = ColourMap.VIRIDIS
-    shaded: bool = True
-    magnification: float = 1.0
+    shaded: bool = True  # faces are darker the more they look away from the light; else as in the bar
+    magnification: float = 1.0  # factor on displacements
 
     def __post_init__(self) -> None:
         if self.range_kind != RangeKind.FIXED:

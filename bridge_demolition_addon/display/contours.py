@@ -22,19 +22,7 @@ _BALL = "ball"
 
 @dataclass(frozen=True, slots=True)
 class ContourFrame:
-    """Colours of one frame.
-
-    Attributes
-    ----------
-    frame, time_s
-        Which.
-    values : (n,) float
-        N, Pa or m; nan where a body has no value.
-    scale
-        The range.
-    screen_colours : (n, 3) float
-        As a screen has them.
-    """
+    """Colours (n, 3) of one frame on a screen, and their values (n,) in N, Pa or m; nan where a body has none."""
 
     frame: int
     time_s: float
@@ -54,13 +42,8 @@ class FrameLookup(Protocol):
 class ContourSeries:
     """The frames of a recording as contours: of one that still grows, or of a finished one.
 
-    Parameters
-    ----------
-    inventory : Inventory
-        Its bodies and connections. Bodies that do not move are not coloured and do not count for ranges; a ball is
-        coloured and does not count, as the force on it is larger than that on any shard.
-    recorded : sequence of Frame
-        Its frames, each of which is looked up when it is needed; there may be more of them later.
+    Bodies that do not move are not coloured and do not count for ranges. A ball is coloured and does not count, as the
+    force on it is larger than that on any shard. Frames are looked up when they are needed; there may be more later.
     """
 
     def __init__(self, inventory: Inventory, recorded: FrameLookup):
@@ -156,7 +139,7 @@ class ContourSeries:
             return self._percentile(row, quantity, peak, percentile)
         extents = self._extents[quantity, peak]
         chosen = extents if row is None else extents[row : row + 1]
-        return min(each[0] for each in chosen), max(each[1] for each in chosen)
+        return min(low for low, _ in chosen), max(high for _, high in chosen)
 
     def _percentile(
         self, row: int | None, quantity: ContourQuantity, peak: bool, percentile: float
@@ -164,11 +147,11 @@ class ContourSeries:
         values = self._values[quantity, peak]
         if row is not None:
             return percentiles(values[row][self._counts], percentile)
-        rows, found = self._percentiles.get((quantity, peak, percentile), (0, (0.0, 0.0)))
+        rows, extent = self._percentiles.get((quantity, peak, percentile), (0, (0.0, 0.0)))
         if rows < len(values):
-            found = percentiles(np.concatenate([value[self._counts] for value in values]), percentile)
-            self._percentiles[quantity, peak, percentile] = len(values), found
-        return found
+            extent = percentiles(np.concatenate([value[self._counts] for value in values]), percentile)
+            self._percentiles[quantity, peak, percentile] = len(values), extent
+        return extent
 
     def _scale(self, row: int, settings: ContourSettings) -> ContourScale:
         rows = row if settings.range_kind == RangeKind.FRAME else None

@@ -17,17 +17,7 @@ _LEAST_RADIUS_M, _RADIUS_OF_AREA = 0.6, 1.2
 
 @dataclass(frozen=True, slots=True)
 class Puff:
-    """A cloud of dust.
-
-    Attributes
-    ----------
-    frame
-        In which it appears.
-    place_m : (3,) tuple of float
-        Its middle.
-    radius_m
-        How large it becomes.
-    """
+    """A cloud of dust: the frame in which it appears, its middle, and its radius when fully grown."""
 
     frame: int
     place_m: tuple[float, float, float]
@@ -47,17 +37,17 @@ def puffs(results: Results, most: int = MOST_PUFFS) -> list[Puff]:
     rows, broken = np.nonzero(intact[:-1] & ~intact[1:])
     span = np.ptp(inventory.points_m, axis=0).max(initial=1.0)
     cell = max(span / 12.0, 1.0)
-    found: dict[tuple, list[int]] = {}
+    cubes: dict[tuple, list[int]] = {}
     places = _places(results, rows, broken)
     for number, (row, place) in enumerate(zip(rows.tolist(), places, strict=True)):
-        found.setdefault((row, *np.floor(place / cell).astype(int).tolist()), []).append(number)
+        cubes.setdefault((row, *np.floor(place / cell).astype(int).tolist()), []).append(number)
     clouds = [
         Puff(
             int(frames.number[row + 1]),
             tuple(places[members].mean(axis=0).tolist()),
             max(_LEAST_RADIUS_M, _RADIUS_OF_AREA * float(inventory.areas_m2[broken[members]].sum()) ** 0.5),
         )
-        for (row, *_), members in found.items()
+        for (row, *_), members in cubes.items()
     ]
     largest = sorted(clouds, key=lambda cloud: -cloud.radius_m)[:most]
     return sorted(largest, key=lambda cloud: cloud.frame)

@@ -10,17 +10,9 @@ from ..errors import OutputError
 def film_rows(times_s: np.ndarray, pictures_per_second: float, slowness: float = 1.0) -> np.ndarray:
     """Return the rows (p,) of recorded frames, one for every picture of a film from the first frame to the last.
 
-    The film shows the frame whose time is nearest. So it keeps time where frames are of different lengths, as around a
-    detonation, and where it is slowed down it shows frames several times, as nothing is known between them.
-
-    Parameters
-    ----------
-    times_s : (k,) float
-        Simulated times of the frames, rising.
-    pictures_per_second
-        Of the film.
-    slowness
-        How many seconds of film a second of the simulation takes: 1 is real time, 10 is ten times slower.
+    The film shows the frame whose time (k,) is nearest. So it keeps time where frames are of different lengths, as
+    around a detonation, and where it is slowed down it repeats frames, as nothing is known between them. With a
+    `slowness` of 10 a second of the simulation takes ten seconds of film.
     """
     times_s = np.asarray(times_s, float)
     if not len(times_s):

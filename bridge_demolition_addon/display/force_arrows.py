@@ -37,16 +37,9 @@ def connection_forces(
 
 
 def arrows(starts: np.ndarray, forces: np.ndarray, metres_per_newton: float, least_m: float = 0.0) -> np.ndarray:
-    """Return arrows as lines: ends (6 k, 3) of three lines each, for the k forces whose arrow exceeds `least_m`.
+    """Return arrows as lines, ends (6 k, 3): three for each of the k forces whose arrow is longer than `least_m`.
 
-    Parameters
-    ----------
-    starts, forces : (n, 3) float
-        In m and in N; a force that is not known has no arrow.
-    metres_per_newton
-        Scale.
-    least_m
-        Shorter arrows are left out.
+    Forces (n, 3) are in N, their starts (n, 3) in m; a force that is not known has no arrow.
     """
     along = forces * metres_per_newton
     lengths = np.linalg.norm(along, axis=1)

@@ -17,35 +17,25 @@ def moments(
 ) -> list[tuple[int, str]]:
     """Return frames of a run and what happens in them: release and hit of a ball, charges, first break, rest.
 
-    Parameters
-    ----------
-    results
-        The run.
-    gravity_m_s2 : (3,) float
-        Acceleration of gravity.
-    detonations_s : mapping of str to float
-        When each charge goes off, by its name; one that is later than the run is left out.
-    came_to_rest_s
-        Since when everything rests; None where it does not, or nobody knows.
+    Detonations later than the run are left out. `came_to_rest_s` is None where the run does not come to rest, or this
+    is not known.
     """
     frames = results.frames
     numbers, times_s = np.asarray(frames.number), np.asarray(frames.time_s)
-    found = []
+    marked = []
     for ball in results.inventory.of_kind("ball"):
         moving = np.flatnonzero(np.asarray(frames.velocities_m_s[:, ball]).any(axis=1))
         if len(moving):
-            found.append((int(numbers[max(moving[0] - 1, 0)]), "Release"))
+            marked.append((int(numbers[max(moving[0] - 1, 0)]), "Release"))
     hit = impact_step(results, gravity_m_s2)
     if hit is not None:
-        found.append((int(numbers[hit]), "Hit"))
-    for name, time_s in [
-        *detonations_s.items(),
-        *([("At rest", came_to_rest_s)] if came_to_rest_s is not None else []),
-    ]:
+        marked.append((int(numbers[hit]), "Hit"))
+    at_rest = {} if came_to_rest_s is None else {"At rest": came_to_rest_s}
+    for name, time_s in [*detonations_s.items(), *at_rest.items()]:
         row = int(np.searchsorted(times_s, time_s - _NOISE_S))
         if row < len(numbers):
-            found.append((int(numbers[row]), name))
+            marked.append((int(numbers[row]), name))
     broken = np.flatnonzero(~np.asarray(frames.intact).all(axis=1))
     if len(broken):
-        found.append((int(numbers[broken[0]]), "First break"))
-    return sorted(found)
+        marked.append((int(numbers[broken[0]]), "First break"))
+    return sorted(marked)

@@ -16,21 +16,11 @@ from .contours import ContourFrame
 
 @dataclass(frozen=True, slots=True, eq=False)
 class StageContours:
-    """Utilisation of n shards in s stages.
+    """Utilisation of n shards in s stages."""
 
-    Attributes
-    ----------
-    times_s : (s,) float
-        When the stages begin.
-    used : (s, n) float
-        Largest utilisation of a shard's connections; nan where it has none any more.
-    centres_m : (n, 3) float
-        Where the shards are, by which they are known in a scene.
-    """
-
-    times_s: np.ndarray
-    used: np.ndarray
-    centres_m: np.ndarray
+    times_s: np.ndarray  # (s,) begin of the stages
+    used: np.ndarray  # (s, n) largest utilisation of a shard's connections; nan where it has none any more
+    centres_m: np.ndarray  # (n, 3), by which the shards are known in a scene
 
     @classmethod
     def of_stages(cls, model: Model, stages: Sequence[Stage]) -> StageContours:
@@ -52,8 +42,8 @@ class StageContours:
 
 def used_by_shard(model: Model, used: np.ndarray) -> np.ndarray:
     """Return the largest utilisation (n,) of each shard's connections, of that of all connections (m,)."""
-    found = np.full(len(model.shards), np.nan)
+    largest = np.full(len(model.shards), np.nan)
     for shards in model.connections.pairs.T:
         there = shards >= 0  # the ground is no shard
-        np.fmax.at(found, shards[there], used[there])
-    return found
+        np.fmax.at(largest, shards[there], used[there])
+    return largest

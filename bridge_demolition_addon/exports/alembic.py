@@ -19,16 +19,9 @@ _FRAMES_PER_SECOND = 24.0
 
 
 def write_alembic(results: Results, path: Path, tell: Callable[[int, int, str], None]) -> None:
-    """Write a run, from a new Blender file: a frame in the file for each recorded one, however long it lasted.
+    """Write a run from a new Blender file: a frame for each recorded one, however long it lasted.
 
-    Parameters
-    ----------
-    results
-        The run.
-    path
-        File to write.
-    tell
-        Told after each frame how many are written, of how many.
+    `tell` gets how many frames are written, of how many, and a text.
     """
     if not bpy.app.build_options.alembic:
         raise MissingLibraryError(

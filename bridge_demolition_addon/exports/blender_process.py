@@ -23,21 +23,7 @@ _LAST_WORDS = 400
 
 
 def write_in_blender(form: Format, folder: Path, path: Path, progress: Progress, blender: str = "") -> None:
-    """Have Blender write a run.
-
-    Parameters
-    ----------
-    form
-        The format.
-    folder
-        Of the run.
-    path
-        File to write.
-    progress
-        Shown frame by frame.
-    blender
-        Program of Blender; by default it is a module of this Python.
-    """
+    """Have Blender write a run: the program `blender`, or by default Blender as a module of this Python."""
     progress.stage(f"writing {form.name} with Blender")
     with tempfile.TemporaryFile() as last_words:
         process, requests, answers = start_program(program_command("exports.blender_program", blender), last_words)
@@ -55,8 +41,8 @@ def write_in_blender(form: Format, folder: Path, path: Path, progress: Progress,
         if not is_done:
             last_words.seek(0)
             lines = last_words.read().decode("utf-8", "replace").strip().splitlines()
-            said = lines[-1][-_LAST_WORDS:] if lines else "it said nothing"
-            raise SimulationError(f"Blender ended with status {status} before {form.name} was written: {said}")
+            reason = lines[-1][-_LAST_WORDS:] if lines else "it gave no reason"
+            raise SimulationError(f"Blender ended with status {status} before {form.name} was written: {reason}")
 
 
 def _follow(answers: IO[str], progress: Progress) -> bool:

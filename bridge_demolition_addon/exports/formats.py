@@ -7,24 +7,12 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Format:
-    """A format.
-
-    Attributes
-    ----------
-    name
-        What users call it.
-    title
-        What a menu calls it.
-    what
-        What is written, in a few words.
-    ending
-        Of the file; empty for a format of many files, which have a folder.
-    """
+    """A format: its name on the command line, its title in a menu, and what is written."""
 
     name: str
     title: str
     what: str
-    ending: str = ""
+    ending: str = ""  # of the file; a format of many files has a folder and none
 
 
 PARAVIEW = Format("paraview", "ParaView", "a folder with series of bodies, centres, connections and contacts")
@@ -34,5 +22,5 @@ USD = Format("usd", "USD", "an animated stage, in double precision", ".usdc")
 ALEMBIC = Format("alembic", "Alembic", "an animated scene, by Blender", ".abc")
 MAT = Format("mat", "MATLAB", "all arrays in one file, for MATLAB and Octave", ".mat")
 
-FORMATS = {each.name: each for each in (PARAVIEW, XLSX, GLTF, USD, ALEMBIC, MAT)}
+FORMATS = {form.name: form for form in (PARAVIEW, XLSX, GLTF, USD, ALEMBIC, MAT)}
 """All formats by their names."""

@@ -28,17 +28,10 @@ def write_gltf(results: Results, path: Path, progress: Progress) -> None:
 
 
 def animated_glb(results: Results, finished: Callable[[int, int], None] = lambda *_: None) -> bytes:
-    """Return a run as the content of a GLB file.
+    """Return a run as the content of a GLB file; `finished` gets how many bodies are in it, and how many there are.
 
-    Numbers are in single precision, as glTF has no other. Times begin at 0. Of frames in
-    which a body is the same to the bit, the first and the last have keys.
-
-    Parameters
-    ----------
-    results
-        The run.
-    finished
-        Told after each body how many are in it, and how many there are.
+    Numbers are in single precision, as glTF has no other. Times begin at 0. Of frames in which a body is the same to
+    the bit, the first and the last have keys.
     """
     contents = _Contents()
     meshes = body_meshes(results.inventory)

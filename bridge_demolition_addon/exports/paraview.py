@@ -31,17 +31,7 @@ _Writer = Callable[[Path, Frame], None]
 
 
 def write_paraview(results: Results, folder: Path, progress: Progress) -> None:
-    """Write a run into an empty folder.
-
-    Parameters
-    ----------
-    results
-        The run.
-    folder
-        Existing folder.
-    progress
-        Shown frame by frame.
-    """
+    """Write a run into an empty folder."""
     progress.stage(f"writing {len(results.frames)} frames for ParaView")
     (folder / FRAME_FOLDER).mkdir()
     writers: dict[str, _Writer] = {BODIES: _Surfaces(results).write, CENTRES: _Centres(results).write}

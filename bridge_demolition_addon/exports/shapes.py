@@ -31,10 +31,9 @@ _OTHER: Colour = (0.4, 0.4, 0.4)
 
 
 def body_meshes(inventory: Inventory) -> list[TriangleMesh]:
-    """Return the surface of every body in its own axes, from its origin.
+    """Return the colliding surface of every body: its convex hull, or the triangles of ground that is not flat.
 
-    It is what collides: the convex hull, or the recorded triangles of ground that is not flat. A body without volume
-    has no triangles.
+    It is in the body's own axes, from its origin. A body without volume has no triangles.
     """
     return [_mesh(vertices, inventory.triangles_of(body)) for body, vertices in enumerate(inventory.vertices_by_body())]
 
@@ -50,22 +49,16 @@ def _mesh(vertices: np.ndarray, triangles: np.ndarray) -> TriangleMesh:
 
 def _hull(vertices: np.ndarray) -> TriangleMesh:
     """Return the convex hull, by Qhull: it gives the same triangles each time, as the engine of solids does not."""
-    found = ConvexHull(vertices)
-    rows, triangles = np.unique(found.simplices, return_inverse=True)
-    triangles, corners = triangles.reshape(-1, 3), vertices[found.simplices]
-    inwards = dot(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), found.equations[:, :3]) < 0.0
+    hull = ConvexHull(vertices)
+    rows, triangles = np.unique(hull.simplices, return_inverse=True)
+    triangles, corners = triangles.reshape(-1, 3), vertices[hull.simplices]
+    inwards = dot(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), hull.equations[:, :3]) < 0.0
     triangles[inwards] = triangles[inwards, ::-1]
     return TriangleMesh(vertices[rows], triangles)
 
 
 class ConnectionPlaces:
-    """Where connections are as they move with their first bodies.
-
-    Parameters
-    ----------
-    results
-        The run.
-    """
+    """Positions of connections, which move with their first bodies."""
 
     def __init__(self, results: Results):
         inventory, first = results.inventory, results.frames[0]
@@ -100,11 +93,11 @@ def quaternions(rotations: np.ndarray) -> np.ndarray:
         products[..., 0, axis] = products[..., axis, 0] = r[..., other, one] - r[..., one, other]
         products[..., one + 1, other + 1] = products[..., other + 1, one + 1] = r[..., one, other] + r[..., other, one]
     largest = squares.argmax(axis=-1)
-    found = np.take_along_axis(products, largest[..., None, None], axis=-2)[..., 0, :]
-    found /= np.linalg.norm(found, axis=-1, keepdims=True)
-    turned_over = (found[1:] * found[:-1]).sum(axis=-1) < 0.0
+    unit = np.take_along_axis(products, largest[..., None, None], axis=-2)[..., 0, :]
+    unit /= np.linalg.norm(unit, axis=-1, keepdims=True)
+    turned_over = (unit[1:] * unit[:-1]).sum(axis=-1) < 0.0
     signs = np.concatenate([np.ones((1, *turned_over.shape[1:])), np.where(turned_over, -1.0, 1.0)]).cumprod(axis=0)
-    return found * signs[..., None]
+    return unit * signs[..., None]
 
 
 def needed_keys(values: np.ndarray) -> np.ndarray:

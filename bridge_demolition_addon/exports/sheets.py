@@ -80,19 +80,7 @@ def check_sheets() -> None:
 
 
 def write_sheets(folder: Path, results: Results, path: Path, progress: Progress) -> None:
-    """Write all tables of a run into one file.
-
-    Parameters
-    ----------
-    folder
-        Of the run, with its logs and the tables of its report.
-    results
-        What it recorded.
-    path
-        File to write.
-    progress
-        Shown table by table.
-    """
+    """Write all tables of a run into one file, also its logs and the tables of its report."""
     import xlsxwriter
 
     progress.stage("writing the tables")

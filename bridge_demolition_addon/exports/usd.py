@@ -22,16 +22,9 @@ _WHOLE_CODES = 6
 
 
 def write_usd(results: Results, path: Path, tell: Callable[[int, int, str], None]) -> None:
-    """Write a run.
+    """Write a run; the ending of the file says how it is encoded.
 
-    Parameters
-    ----------
-    results
-        The run.
-    path
-        File to write; its ending says how it is encoded.
-    tell
-        Told after each body how many are written, of how many.
+    `tell` gets how many bodies are written, of how many, and a text.
     """
     pxr = _library()
     stage = pxr.Usd.Stage.CreateNew(str(path))
@@ -78,15 +71,15 @@ def _prepare(pxr: Any, stage: Any, results: Results) -> np.ndarray:
 
 def _identifiers(pxr: Any, names: list[str]) -> list[str]:
     """Return names that USD allows: letters, digits and lines; where two become the same, the later has a number."""
-    found: dict[str, None] = {}
+    taken: dict[str, None] = {}
     for name in names:
         wanted = identifier = pxr.Tf.MakeValidIdentifier(name)
         number = 1
-        while identifier in found:
+        while identifier in taken:
             number += 1
             identifier = f"{wanted}_{number}"
-        found[identifier] = None
-    return list(found)
+        taken[identifier] = None
+    return list(taken)
 
 
 def _describe(pxr: Any, prim: Any, results: Results, body: int) -> None:

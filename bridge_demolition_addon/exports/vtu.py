@@ -25,15 +25,7 @@ _HEAD = '<?xml version="1.0"?>\n<VTKFile type="{}" version="1.0" byte_order="Lit
 
 
 class Topology:
-    """The cells of a mesh, which stay the same from file to file and are encoded once.
-
-    Parameters
-    ----------
-    cells : (c, v) int
-        Points of each cell.
-    cell_type : int
-        Type of all of them.
-    """
+    """The cells of a mesh by their points (c, v), all of one type, encoded once for many files."""
 
     def __init__(self, cells: np.ndarray, cell_type: int):
         count, corners = cells.shape
@@ -56,20 +48,9 @@ def write_vtu(
     cell_data: Mapping[str, np.ndarray],
     encoded: Iterable[str] = (),
 ) -> None:
-    """Write one mesh.
+    """Write one mesh: points (p, 3), in double precision, and arrays (c, …) of its cells by name.
 
-    Parameters
-    ----------
-    path
-        File to write.
-    topology
-        Its cells, c.
-    points_m : (p, 3) float
-        Its points, written in double precision.
-    cell_data
-        Arrays (c, …) by name.
-    encoded
-        Further arrays of cells, as `data_array` gives them.
+    `encoded` are further arrays of cells, as `data_array` gives them.
     """
     with path.open("w", encoding="ascii", newline="\n") as file:
         file.write(_HEAD.format("UnstructuredGrid", ' compressor="vtkZLibDataCompressor"'))

@@ -21,18 +21,7 @@ from .sheets import check_sheets, write_sheets
 def export_run(folder: Path, form: Format, output: Path, progress: Progress, blender: str = "") -> None:
     """Write a run in a format.
 
-    Parameters
-    ----------
-    folder
-        Of the run.
-    form
-        The format.
-    output
-        File or folder to make.
-    progress
-        Shows stages and frames.
-    blender
-        Program of the Blender that writes what only Blender can; by default Blender as a module of this Python.
+    `blender` is the program that writes what only Blender can; by default it is a module of this Python.
     """
     _check_output(form, output)
     if form == formats.XLSX:

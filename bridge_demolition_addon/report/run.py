@@ -37,14 +37,8 @@ def run_report(
 ) -> Report:
     """Return the report of a run, and write its site plans.
 
-    Parameters
-    ----------
-    run, target, progress
-        The run, where its report goes, and what shows how far this is.
-    trajectories
-        Whether the map of the debris shows the paths of the shards.
-    stages
-        Whether the stages of the run's scenario are worked out first, so that the report has a chapter on them.
+    `trajectories` draws the paths of the shards on the map of debris; `stages` works out the stages of its scenario
+    first, for a chapter on them.
     """
     if stages:
         _work_out_stages(run, target, progress)
@@ -66,22 +60,10 @@ def run_document(
     trajectories: bool = False,
     stages: Path | None = None,
 ) -> Document:
-    """Return the report of a run.
+    """Return the page of a run.
 
-    Parameters
-    ----------
-    run
-        The run.
-    version
-        That of this program.
-    zone
-        Its exclusion zone.
-    plans
-        Names of the files that have the zone for the site plan.
-    trajectories
-        Whether the map of the debris shows the paths of the shards.
-    stages
-        Folder with the tables of stages, if there is one.
+    `plans` are names of the files with the zone for the site plan; `stages` is the folder with tables of stages, if
+    any.
     """
     debris = None if run.results is None else debris_of(run.results)
     sections = [cover_section(run, version, debris), trust_section(run.scenario, ONE_RUN)]
@@ -115,9 +97,9 @@ def _work_out_stages(run: ReportedRun, target: Path, progress: Progress) -> None
         raise OutputError(f"{run.folder}: has no scenario whose stages could be worked out; leave out --stages")
     progress.stage("working out the stages")
     bridge = StandingBridge(checked_model(made_elastic(run.scenario)), run.scenario.joints)
-    found = stages_of(run.scenario, bridge, lambda done, total: progress.part(done, total, "stages"))
+    worked_out = stages_of(run.scenario, bridge, lambda done, total: progress.part(done, total, "stages"))
     members = criticality(bridge, lambda done, total: progress.part(done, total, "members taken away"))
-    write_stage_tables(target, found, members, bridge)
+    write_stage_tables(target, worked_out, members, bridge)
 
 
 def _write_plans(zone: ExclusionZone, run: ReportedRun, target: Path) -> list[Path]:

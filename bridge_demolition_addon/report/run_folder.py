@@ -34,35 +34,17 @@ _NO_PICTURE = (OSError, SyntaxError, ValueError, MemoryError, struct.error, zlib
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ReportedRun:
-    """A run as far as its folder holds it.
-
-    Attributes
-    ----------
-    folder
-        The folder.
-    scenario, summary, results
-        Each None where it is missing or cannot be read.
-    ball
-        Its summary, or one of the results with impact and hits of the ball.
-    logged_forces
-        Read from the log where there are no results; None where there is no log either.
-    logged_breaks
-        How many connections the breaking log names; None where it was not needed or is missing.
-    pictures
-        Rendered pictures by name.
-    shortcomings
-        What is missing or cannot be read, in whole sentences.
-    """
+    """A run as far as its folder holds it; None for what is missing or cannot be read."""
 
     folder: Path
     scenario: Scenario | None
     summary: RunSummary | None
     results: Results | None
-    ball: RunSummary
-    logged_forces: LoggedForces | None
-    logged_breaks: int | None
-    pictures: dict[str, Path]
-    shortcomings: tuple[str, ...]
+    ball: RunSummary  # the summary, or one of the results with impact and hits of the ball
+    logged_forces: LoggedForces | None  # only where there are no results
+    logged_breaks: int | None  # connections in the breaking log, only where there are no results
+    pictures: dict[str, Path]  # rendered, by name
+    shortcomings: tuple[str, ...]  # whole sentences on what is missing
 
     @property
     def recorded(self) -> Results:

@@ -41,16 +41,8 @@ def write_areas(
 def write_dxf(path: Path, layers: Mapping[str, CrossSection], contours_m: np.ndarray | None = None) -> None:
     """Write areas as closed polylines, one layer each, in metres and in the scenario's own axes.
 
-    The format is that of AutoCAD release 12, which everything reads.
-
-    Parameters
-    ----------
-    path
-        File to write.
-    layers
-        Areas by the names of their layers.
-    contours_m : (s, 2, 3) float, optional
-        Contour lines of the ground, for a layer of their own, each at its height.
+    Contour lines of the ground (s, 2, 3) have a layer of their own, each at its height. The format is that of AutoCAD
+    release 12, which everything reads.
     """
     lines = ["0", "SECTION", "2", "HEADER", "9", "$ACADVER", "1", "AC1009", "0", "ENDSEC"]
     lines += ["0", "SECTION", "2", "ENTITIES"]
@@ -71,11 +63,11 @@ def write_dxf(path: Path, layers: Mapping[str, CrossSection], contours_m: np.nda
 
 def _layer_names(names: Iterable[str]) -> list[str]:
     """Return names as release 12 may have them, of 31 letters, digits, hyphens and underlines, each another."""
-    found: list[str] = []
+    layers: list[str] = []
     for number, name in enumerate(names, start=1):
         layer = re.sub(r"[^A-Z0-9-]+", "_", name.upper()).strip("_")[:_MOST_LETTERS]
-        found.append(f"{layer[: _MOST_LETTERS - 4]}_{number}" if layer in found or not layer else layer)
-    return found
+        layers.append(f"{layer[: _MOST_LETTERS - 4]}_{number}" if layer in layers or not layer else layer)
+    return layers
 
 
 def write_geojson(path: Path, layers: Mapping[str, CrossSection], site: Site) -> None:
@@ -93,20 +85,10 @@ def write_geojson(path: Path, layers: Mapping[str, CrossSection], site: Site) ->
 
 
 def degrees(points_m: np.ndarray, site: Site) -> np.ndarray:
-    """Return where points of the scenario are on earth.
+    """Return longitude and latitude (p, 2), degrees, of what lies below points (p, 2) of the scenario, m.
 
-    Parameters
-    ----------
-    points_m : (p, 2) float
-        Points in the scenario's axes, on the plane that touches the ellipsoid in the origin.
-    site
-        Where the origin is, and which way x points.
-
-    Returns
-    -------
-    (p, 2) float
-        Longitude and latitude in degrees of what lies below the points. A kilometre away, distances are kept within a
-        millimetre. Longitudes count on beyond 180°, so that an area across that meridian stays in one piece.
+    The points lie on the plane that touches the ellipsoid in the origin; a kilometre away, distances are kept within a
+    millimetre. Longitudes count on beyond 180°, so that an area across that meridian stays in one piece.
     """
     # x points to the bearing, y to the left of it.
     bearing = math.radians(site.bearing_deg)

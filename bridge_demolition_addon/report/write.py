@@ -33,30 +33,14 @@ from .sections.stages import has_stages, stages_report
 
 @dataclass(frozen=True, slots=True)
 class FolderKind:
-    """A kind of folder that a report is made from.
-
-    Attributes
-    ----------
-    name
-        What messages call it.
-    command
-        What makes such a folder.
-    recognised
-        Whether a folder is of this kind.
-    read
-        Reads what the folder holds.
-    report
-        Makes the report of what was read; gets the folder that it goes to as well.
-    subfolder
-        Folder within it that the report goes to by default.
-    """
+    """A kind of folder that a report is made from: its name in messages, and the command that makes it."""
 
     name: str
     command: str
     recognised: Callable[[Path], bool]
     read: Callable[[Path], Any]
-    report: Callable[[Any, Path, Progress], Report]
-    subfolder: str = ""
+    report: Callable[[Any, Path, Progress], Report]  # from what was read, and the folder that it goes to
+    subfolder: str = ""  # that the report goes to by default
 
 
 def _ensemble_kind(
@@ -95,19 +79,8 @@ def write_report(
 ) -> list[Path]:
     """Write the report of a folder of any kind, or the comparison of several runs, and return all files written.
 
-    Parameters
-    ----------
-    folders
-        One folder or more.
-    output
-        Where the report goes, made if it is new; by default into the folder that it is made from.
-    trajectories
-        Whether the map of the debris shows the paths of the shards.
-    stages
-        Whether the stages of the run's scenario are worked out first, so that the report has a chapter on them. Their
-        tables go to where the report goes.
-    progress
-        Shows stages, pictures and pages.
+    The report goes to `output`, or by default into the folder that it is made from. `trajectories` draws the paths of
+    the shards on the map of debris; `stages` first works out the stages of the run's scenario, for a chapter on them.
     """
     if len(folders) > 1:
         return _write_comparison(folders, output, stages=stages, progress=progress)

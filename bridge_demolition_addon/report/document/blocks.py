@@ -22,7 +22,7 @@ MISSING = "-"
 
 @dataclass(frozen=True, slots=True)
 class Paragraph:
-    """Text; a notice is set apart, so that nobody overlooks it."""
+    """Text; a notice is set apart, so that it is not overlooked."""
 
     text: str
     is_notice: bool = False
@@ -37,24 +37,12 @@ class Listing:
 
 @dataclass(frozen=True, slots=True)
 class Column:
-    """A column of a table.
-
-    Attributes
-    ----------
-    heading
-        What people read, with the unit.
-    key
-        What programs read: the heading in the CSV file, with the unit in its name.
-    form
-        Python's format of a number, such as ``.1f``; empty for texts.
-    value
-        Returns the value of a row by what the row is about; None where rows are given to the table.
-    """
+    """A column of a table: its heading for people, and the key that heads it in the CSV file, both with the unit."""
 
     heading: str
     key: str
-    form: str = ""
-    value: Callable[..., Any] | None = None
+    form: str = ""  # Python's format of a number, such as ".1f"; empty for texts
+    value: Callable[..., Any] | None = None  # of a row, by its item; None where rows are given to the table
 
     def shown(self, value: Any) -> str:
         """Return a value as people read it."""
@@ -65,19 +53,9 @@ class Column:
 
 @dataclass(frozen=True, slots=True)
 class DataTable:
-    """A table; its rows also become a CSV file.
+    """A table; its rows also become a CSV file of its name. None is a value that is not known."""
 
-    Attributes
-    ----------
-    name
-        Name of the CSV file, without ending; empty for a table that is only read.
-    title
-        Stands above it.
-    columns, rows
-        What it holds; None for a value that is not known.
-    """
-
-    name: str
+    name: str  # empty for a table that is only read
     title: str
     columns: tuple[Column, ...]
     rows: Sequence[tuple[Any, ...]]
@@ -96,17 +74,7 @@ class DataTable:
 
 @dataclass(frozen=True, slots=True)
 class Picture:
-    """A figure, drawn once for every kind of report.
-
-    Attributes
-    ----------
-    draw
-        Draws it into a figure, or into a part of one.
-    title
-        Caption.
-    height_mm
-        Height at the full width of a page.
-    """
+    """A figure with its caption, drawn once for every kind of report, and its height at the full width of a page."""
 
     draw: Callable[[FigureBase], None]
     title: str
@@ -123,15 +91,7 @@ class Photo:
 
 @dataclass(frozen=True, slots=True)
 class AnimatedModel:
-    """An animated model, which a page shows and paper does not.
-
-    Attributes
-    ----------
-    packed
-        A GLB file, packed by gzip, in base64.
-    title
-        Caption.
-    """
+    """An animated model, a GLB file packed by gzip in base64, which a page shows and paper does not."""
 
     packed: str
     title: str
@@ -173,17 +133,7 @@ class Document:
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """A report that is to be written.
-
-    Attributes
-    ----------
-    document
-        Its page.
-    tables
-        Tables that are files only, besides those of the page.
-    files
-        Files that are written already, such as site plans.
-    """
+    """A report that is to be written, with tables that are only files, and files that are written already."""
 
     document: Document
     tables: tuple[DataTable, ...] = ()

@@ -50,20 +50,10 @@ class Line:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Page:
-    """A page.
-
-    Attributes
-    ----------
-    lines
-        Its text.
-    strokes
-        Rules and boxes: corners (k, 2) in mm, and the width of the pen in points.
-    drawings
-        Drawings, each with its left and upper edge in mm.
-    """
+    """A page: lines of text, strokes, and drawings with their left and upper edge in mm."""
 
     lines: list[Line] = field(default_factory=list)
-    strokes: list[tuple[np.ndarray, float]] = field(default_factory=list)
+    strokes: list[tuple[np.ndarray, float]] = field(default_factory=list)  # corners (k, 2) in mm, pen in points
     drawings: list[tuple[Figure, float, float]] = field(default_factory=list)
 
     def write(self, file: PdfFile) -> None:

@@ -29,21 +29,7 @@ def ensemble_document(
     tables: Iterable[Section | None],
     statistics: str,
 ) -> Document:
-    """Return a report.
-
-    Parameters
-    ----------
-    runs, version
-        The runs, and the version of this program.
-    statement
-        What the runs state; see `statement_section`.
-    pictures
-        Sections on the result.
-    tables
-        Sections on single runs, or on candidates.
-    statistics
-        What the statements rest on.
-    """
+    """Return a report: statement, pictures of the result, what varied, tables of runs or candidates, statistics."""
     ensemble = runs.ensemble
     sections = (
         statement,

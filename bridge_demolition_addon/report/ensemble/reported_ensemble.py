@@ -21,19 +21,7 @@ from ...model.study.runs_table import REACH, RunsTable
 
 @dataclass(frozen=True, eq=False)
 class ReportedEnsemble:
-    """Runs, and what was asked.
-
-    Attributes
-    ----------
-    name : str
-        Of their folder.
-    ensemble : Ensemble
-        What was asked.
-    table : RunsTable
-        All runs that are there.
-    versions : dict
-        What the runs were made with: version by name.
-    """
+    """Runs, and what was asked; the name is that of their folder, versions are by name."""
 
     name: str
     ensemble: Ensemble
@@ -42,15 +30,7 @@ class ReportedEnsemble:
 
     @classmethod
     def read(cls, folder: Path, evaluated: Callable[[Any, RunsTable], dict[str, Any]]) -> Self:
-        """Read a folder.
-
-        Parameters
-        ----------
-        folder
-            Of the ensemble.
-        evaluated
-            Returns the further attributes of a subclass, from the ensemble and its table.
-        """
+        """Read a folder; `evaluated` returns the further attributes of a subclass, from the ensemble and its table."""
         read = read_ensemble(folder)
         try:
             attributes = evaluated(read.ensemble, read.table)

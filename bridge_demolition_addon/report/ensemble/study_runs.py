@@ -30,23 +30,14 @@ _BEYOND_M2 = 1e-3
 
 @dataclass(frozen=True, eq=False)
 class StudyRuns(ReportedEnsemble):
-    """A study, its runs, and what follows from them.
-
-    Attributes
-    ----------
-    swept : iterable
-        Of each row of the table the outlines (k, 2) of all that debris covered at any time, None where the run did not
-        finish; it can be gone through again and again.
-    bridge : CrossSection
-        What the bridge covered at first, in any of the runs.
-    pictures : dict
-        Rendered pictures of runs that were repeated, by number and by what they show.
-    """
+    """A study, its runs, and what follows from them."""
 
     ensemble: Study
     swept: Iterable[Sequence[np.ndarray] | None]
-    bridge: CrossSection
-    pictures: Mapping[int, Mapping[str, Path]]
+    """Outlines (k, 2) of all that debris covered at any time, by row of the table; None where a run did not finish."""
+
+    bridge: CrossSection  # what the bridge covered at first, in any of the runs
+    pictures: Mapping[int, Mapping[str, Path]]  # of runs that were repeated, by number and name
 
     @cached_property
     def conclusions(self) -> Conclusions | None:
@@ -61,12 +52,10 @@ class StudyRuns(ReportedEnsemble):
     @cached_property
     def zones_left(self) -> list[Proportion]:
         """How likely debris leaves each zone of the scenario that holds the bridge."""
-        zones = (
-            []
-            if self.bridge.is_empty()
-            else [zone for zone in self.ensemble.scenario.zones if holds(zone, self.bridge)]
-        )
-        return [proportion_leaving(zone, self.swept, self.ensemble.settings.confidence) for zone in zones]
+        if self.bridge.is_empty():
+            return []
+        confidence, zones = self.ensemble.settings.confidence, self.ensemble.scenario.zones
+        return [proportion_leaving(zone, self.swept, confidence) for zone in zones if holds(zone, self.bridge)]
 
     @property
     def buffer_m(self) -> float | None:
@@ -143,10 +132,10 @@ def _common_plan(plans: Iterable[Iterable]) -> CrossSection:
 
 def _pictures(folder: Path, run_folders: Mapping[int, Path]) -> dict[int, dict[str, Path]]:
     """Return pictures of runs that were repeated, or of which everything was kept, by number and name."""
-    found = {}
+    pictures_by_run = {}
     for number, run_folder in run_folders.items():
         for run in (folder / AGAIN_FOLDER / str(number), run_folder / RUN_FOLDER):
             if pictures := pictures_in(run, []):
-                found[number] = pictures
+                pictures_by_run[number] = pictures
                 break
-    return found
+    return pictures_by_run

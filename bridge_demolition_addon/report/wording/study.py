@@ -42,19 +42,7 @@ def too_few_sentence(limit: DebrisLimit) -> str:
 
 
 def limit_sentence(limit: DebrisLimit, inputs: Sequence[str], least_mass_kg: float, buffer_m: float | None) -> str:
-    """Return the limit of the debris distance, or why there is none.
-
-    Parameters
-    ----------
-    limit
-        Its numbers.
-    inputs
-        Names of what varied from run to run.
-    least_mass_kg
-        Lightest shard that counts.
-    buffer_m
-        What the scenario adds for what the model leaves out; None where it says nothing.
-    """
+    """Return the limit of the debris distance with the buffer of the scenario, if any; or why there is none."""
     if not limit.has_enough_runs:
         return too_few_sentence(limit)
     if not limit.is_known:
@@ -127,15 +115,7 @@ def verified_sentence(left: Proportion, quantile: float) -> str:
 
 
 def shape_sentence(corners: int, quantile: float, confidence: float) -> str:
-    """Return why a zone that is drawn around runs holds less than it seems to, and what to do instead.
-
-    Parameters
-    ----------
-    corners
-        Of the convex hull of what the runs covered: each may be another run's.
-    quantile, confidence
-        What is asked of it.
-    """
+    """Return why a zone drawn around runs holds less than it seems to, by the corners of the hull, and what to do."""
     return (
         "A zone that is drawn around what these runs covered is no such limit: the runs chose its shape, whose convex "
         f"hull has {corners} corners. Even had their number been fixed beforehand, such a zone would be known to hold "
