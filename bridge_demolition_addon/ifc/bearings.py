@@ -1,4 +1,4 @@
-"""Bearings as connections: what each lies on, what lies on it, and which motions it leaves free."""
+"""Bearings as connections: the members below and above each, and the motions that it leaves free."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from .library import library
 from .placement import Placement
 
 SEAT_M = 0.001
-"""How far a bearing is let into what it lies on, so that the two become one solid whatever the rounding of places."""
+"""How far a bearing is let into what it lies on, so that the two become one solid in spite of rounding."""
 
 _ALL_TURNS = ("turn x", "turn y", "turn z")
 _FREE_OF_TYPE = {
@@ -31,7 +31,7 @@ _FREE_OF_TYPE = {
     "ROLLER": ("move x", "turn y"),
     "SPHERICAL": _ALL_TURNS,
 }
-"""What types of IfcBearing leave free, x along the road and y across it."""
+"""Motions that types of IfcBearing leave free, x along the road and y across it."""
 
 _FREE_OTHERWISE = ("turn y",)
 
@@ -41,18 +41,9 @@ _PROPERTIES = {"move": "DisplacementAccommodated", "turn": "RotationAccommodated
 
 @dataclass(frozen=True, slots=True)
 class Bearing:
-    """A bearing between members, given by their places in the list of members.
+    """A bearing between members, given by their numbers in the list of members.
 
-    Attributes
-    ----------
-    below : int
-        What it lies on, and becomes part of.
-    above : tuple of int
-        What lies on it.
-    free : tuple of str
-        Motions that it leaves free.
-    source : str
-        Where these are from.
+    It becomes part of the member below. `source` says where its free motions are from.
     """
 
     below: int
@@ -64,25 +55,11 @@ class Bearing:
 def bearing_of(
     element: Element, solid: TriangleMesh, contacts: NearbyMembers, names: Sequence[str], placement: Placement
 ) -> Bearing | str:
-    """Return what a bearing connects, or why it is left out.
-
-    Parameters
-    ----------
-    element : Element
-        The bearing.
-    solid : TriangleMesh
-        Its body, in its place.
-    contacts : NearbyMembers
-        Of the members.
-    names : sequence of str
-        Of the members.
-    placement : Placement
-        Where the bridge stands.
-    """
+    """Return what a bearing with a solid connects of the members with these names, or why it is left out."""
     down, up = contacts.reached(solid, -TOUCHING_M), contacts.reached(solid, TOUCHING_M)
     # One that it is sunk into, or that is sunk into it, lies on the side that it reaches further into.
-    below = sorted((each for each in down if down[each] > up.get(each, 0.0)), key=lambda each: -down[each])
-    above = sorted(each for each in up if up[each] > down.get(each, 0.0))
+    below = sorted((index for index in down if down[index] > up.get(index, 0.0)), key=lambda index: -down[index])
+    above = sorted(index for index in up if up[index] > down.get(index, 0.0))
     if not below or not above:
         return f"nothing touches it from {'below' if not below else 'above'}{_gaps(solid, contacts, names)}"
     free, source = free_motions(element, placement)
@@ -103,7 +80,7 @@ def _gaps(solid: TriangleMesh, contacts: NearbyMembers, names: Sequence[str]) ->
 
 
 def bearing_rules(bearings: Sequence[Bearing], names: Sequence[str]) -> tuple[list[ConnectionBetween], list[str]]:
-    """Return the connections that bearings are, one for each pair of members, and what they disagree in."""
+    """Return the connections of bearings, one for each pair of members, and notes on bearings that differ."""
     rules: dict[tuple[str, str], tuple[str, ...]] = {}
     notes = []
     for bearing in bearings:
@@ -111,46 +88,43 @@ def bearing_rules(bearings: Sequence[Bearing], names: Sequence[str]) -> tuple[li
             pair = (names[above], names[bearing.below])
             if rules.setdefault(pair, bearing.free) != bearing.free:
                 notes.append(f"bearings between {pair[0]} and {pair[1]} differ: the first counts for all of them")
-    return [_rule(pair, free) for pair, free in rules.items()], notes
-
-
-def _rule(pair: tuple[str, str], free: tuple[str, ...]) -> ConnectionBetween:
-    if not free:
-        return ConnectionBetween(members=pair, type="FIXED")
-    return ConnectionBetween(members=pair, type="GENERIC", free=free)
+    connections = [
+        ConnectionBetween(members=pair, type="GENERIC" if free else "FIXED", free=free) for pair, free in rules.items()
+    ]
+    return connections, notes
 
 
 def free_motions(element: Element, placement: Placement) -> tuple[tuple[str, ...], str]:
     """Return the motions that a bearing leaves free, along and about the bridge's axes, and where they are from."""
-    given = library("util.element").get_psets(element.entity).get("Pset_BearingCommon", {})
-    told = {motion: given[name] for motion, name in _PROPERTIES.items() if _are_truths(given.get(name))}
-    turn = _turn_of(element.entity.ObjectPlacement)
-    if told and turn is not None:
-        axes = _axes(turn, placement)
-        found = [f"{motion} {axes[number]}" for motion, truths in told.items() for number in np.flatnonzero(truths)]
-        return tuple(sorted(found)), "its free motions are those of Pset_BearingCommon"
-    lost = "its own axes follow an alignment, so that its Pset_BearingCommon does not count; " if told else ""
+    pset = library("util.element").get_psets(element.entity).get("Pset_BearingCommon", {})
+    stated = {motion: pset[name] for motion, name in _PROPERTIES.items() if _are_truths(pset.get(name))}
+    rotation = _rotation_of(element.entity.ObjectPlacement)
+    if stated and rotation is not None:
+        axes = _axes(rotation, placement)
+        free = [f"{motion} {axes[number]}" for motion, truths in stated.items() for number in np.flatnonzero(truths)]
+        return tuple(sorted(free)), "its free motions are those of Pset_BearingCommon"
+    lost = "its own axes follow an alignment, so that its Pset_BearingCommon does not count; " if stated else ""
     if element.facts.predefined in _FREE_OF_TYPE:
-        free = _FREE_OF_TYPE[element.facts.predefined]
-        return free, f"{lost}free as {element.facts.predefined} bearings are: {', '.join(free)}"
+        of_type = _FREE_OF_TYPE[element.facts.predefined]
+        return of_type, f"{lost}free as {element.facts.predefined} bearings are: {', '.join(of_type)}"
     return _FREE_OTHERWISE, f"{lost}the file does not say what it leaves free, taken for {', '.join(_FREE_OTHERWISE)}"
 
 
-def _turn_of(placed: Any) -> np.ndarray | None:
-    """Return the matrix (3, 3) of a placement, whose columns are its own axes; None where it follows an alignment."""
-    each = placed
-    while each is not None:
-        if not each.is_a("IfcLocalPlacement"):
+def _rotation_of(placement: Any) -> np.ndarray | None:
+    """Return the axes of a placement as columns (3, 3); None where it follows an alignment."""
+    above = placement
+    while above is not None:
+        if not above.is_a("IfcLocalPlacement"):
             return None
-        each = each.PlacementRelTo
-    return np.array(library("util.placement").get_local_placement(placed))[:3, :3]
+        above = above.PlacementRelTo
+    return np.array(library("util.placement").get_local_placement(placement))[:3, :3]
 
 
 def _are_truths(value: Any) -> bool:
-    return isinstance(value, list | tuple) and len(value) == 3 and all(isinstance(each, bool) for each in value)
+    return isinstance(value, list | tuple) and len(value) == 3 and all(isinstance(truth, bool) for truth in value)
 
 
-def _axes(turn: np.ndarray, placement: Placement) -> list[str]:
+def _axes(rotation: np.ndarray, placement: Placement) -> list[str]:
     """Return which axis of the bridge is nearest to each axis (3, 3) of an element."""
-    in_plan = transformed(placement.turn, turn[:2].T).T
-    return ["xyz"[number] for number in np.abs(np.vstack((in_plan, turn[2:]))).argmax(axis=0)]
+    in_plan = transformed(placement.turn, rotation[:2].T).T
+    return ["xyz"[number] for number in np.abs(np.vstack((in_plan, rotation[2:]))).argmax(axis=0)]

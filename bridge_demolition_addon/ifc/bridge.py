@@ -1,11 +1,11 @@
-"""A bridge from an IFC file: members in their places, what connects and holds them, and the scenario they make."""
+"""A bridge from an IFC file: its members, connections and supports, and the scenario of them."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import groupby
+from itertools import chain, count, groupby
 from pathlib import Path
 from unicodedata import category
 
@@ -13,7 +13,6 @@ from ..engineering.geometry.mesh import TriangleMesh
 from ..engineering.geometry.solids import from_manifold, to_manifold
 from ..errors import IfcError
 from ..model.bridge.member import Member
-from ..model.materials.materials import Material
 from ..model.scenario import (
     ConnectionBetween,
     ConnectionSettings,
@@ -25,11 +24,10 @@ from ..model.scenario import (
 )
 from ..model.scenario.connections import GROUND_NAME
 from ..model.schema import LINE_BREAKING_CATEGORIES, given
-from .bearings import Bearing, bearing_of, bearing_rules, seated
+from .bearings import bearing_of, bearing_rules, seated
 from .contacts import NearbyMembers
 from .element_materials import Substance, substances
 from .elements import Element, elements_of
-from .kinds import LeftOut
 from .map_place import site_of
 from .materials import MaterialTable, material_table
 from .meshes import element_solids
@@ -50,22 +48,9 @@ _STANDING = ("pier", "abutment", "wall", "footing")
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """What became of an element.
+    """The result for an element: ``member``, ``connection`` or ``left out``, and why, or another note on it.
 
-    Attributes
-    ----------
-    element : Element
-        The element.
-    member : Member or None
-        The member that it is, in its place; None for one that is none.
-    substance : Substance or None
-        What the member is made of.
-    became : str
-        ``member``, ``connection`` or ``left out``.
-    why : str
-        Why, or what else there is to know of it; empty for nothing.
-    mesh : TriangleMesh or None
-        What is written of it, where that is not the member's solid.
+    Its member and substance are None where it is left out. The mesh is written in place of the member's solid.
     """
 
     element: Element
@@ -77,7 +62,7 @@ class Outcome:
 
     @property
     def part(self) -> tuple[Member, Substance]:
-        """The member and what it is made of, of an element that is not left out."""
+        """Member and substance of an element that is not left out."""
         return given(self.member), given(self.substance)
 
 
@@ -85,20 +70,8 @@ class Outcome:
 class ImportedBridge:
     """A bridge from an IFC file.
 
-    Attributes
-    ----------
-    scenario : Scenario
-        Its paths of meshes are from its own folder.
-    meshes : dict of str to TriangleMesh
-        By these paths.
-    outcomes : tuple of Outcome
-        Of all elements of the file, in its order.
-    ground_m : float
-        Height of the ground in the file.
-    ground_source, site_source : str
-        Where ground and site are from.
-    notes : tuple of str
-        What was put right or taken for granted.
+    The meshes have the paths of the scenario, relative to its folder. The outcomes are those of all elements of the
+    file, in its order. The ground has its height in the file; the sources say where ground and site are from.
     """
 
     scenario: Scenario
@@ -126,17 +99,15 @@ def _bridge(path: Path, table: MaterialTable, settings: ImportSettings) -> Impor
     made_of = substances(source, members, table, settings)
     repaired, origin = element_solids(source, [*members, *bearings])
     notes = [
-        f"{each.facts.name}: {repair}"
-        for each, done in zip([*members, *bearings], repaired, strict=True)
+        f"{element.facts.name}: {repair}"
+        for element, done in zip([*members, *bearings], repaired, strict=True)
         for repair in done.repairs
     ]
-    solids = [each.solid for each in repaired]
+    solids = [done.solid for done in repaired]
     ground_m, ground_source = _ground(members, solids, float(origin[2]), settings)
-    near = placement_of(
-        [solid for each, solid in zip(members, solids, strict=False) if each.kind in _CARRYING],
-        ground_m - float(origin[2]),
-    )
-    solids = [near.placed(each) for each in solids]
+    carrying = [solid for member, solid in zip(members, solids, strict=False) if member.kind in _CARRYING]
+    near = placement_of(carrying, ground_m - float(origin[2]))
+    solids = [near.placed(solid) for solid in solids]
     placement = replace(near, origin_m=near.origin_m + origin)
     site, site_source = site_of(source, placement)
     outcomes = _members(elements, members, made_of, solids)
@@ -154,29 +125,30 @@ def _bridge(path: Path, table: MaterialTable, settings: ImportSettings) -> Impor
 
 
 def _check_kinds(path: Path, elements: Sequence[Element]) -> None:
-    found = sorted({element.member_kind for element in elements if element.is_member})
-    for wanted, what in ((_CARRYING, "carries the road"), (_STANDING, "stands on the ground")):
-        if not set(found) & set(wanted):
+    present = sorted({element.member_kind for element in elements if element.is_member})
+    for kinds, use in ((_CARRYING, "carries the road"), (_STANDING, "stands on the ground")):
+        if set(present).isdisjoint(kinds):
             raise IfcError(
-                f"{path}: has no element that {what}, of the kinds {', '.join(wanted)}, but {', '.join(found)}; say "
-                f"which are by --kind, as in --kind 'NAME={wanted[0]}'"
+                f"{path}: has no element that {use}, of the kinds {', '.join(kinds)}, but {', '.join(present)}; say "
+                f"which are by --kind, as in --kind 'NAME={kinds[0]}'"
             )
 
 
 def _ground(
     members: Sequence[Element], solids: Sequence[TriangleMesh], origin_m: float, settings: ImportSettings
 ) -> tuple[float, str]:
-    undersides = [float(solid.bounds[0, 2]) + origin_m for _, solid in zip(members, solids, strict=False)]
+    bounds = [solid.bounds for _, solid in zip(members, solids, strict=False)]
+    undersides = [float(low[2]) + origin_m for low, _ in bounds]
     lowest = min(undersides)
     if settings.ground_m is None:
-        return lowest, f"the underside of {members[undersides.index(lowest)].facts.name}, as none is told by --ground"
-    highest = max(float(solid.bounds[1, 2]) + origin_m for _, solid in zip(members, solids, strict=False))
+        return lowest, f"the underside of {members[undersides.index(lowest)].facts.name}, as --ground is not given"
+    highest = max(float(high[2]) + origin_m for _, high in bounds)
     if not settings.ground_m < highest:
         raise IfcError(
             f"the ground at {settings.ground_m:g} m would cover the bridge, which reaches from {lowest:.2f} m to "
             f"{highest:.2f} m in its file"
         )
-    return settings.ground_m, "as told"
+    return settings.ground_m, "as given by --ground"
 
 
 def _members(
@@ -185,26 +157,27 @@ def _members(
     made_of: Sequence[Substance],
     solids: Sequence[TriangleMesh],
 ) -> dict[int, Outcome]:
-    """Return what becomes of all elements but the bearings, by their numbers in the file."""
-    names = _names([each.facts.name for each in members])
-    found = {
-        each.entity.id(): Outcome(each, None, None, "left out", each.kind.why if isinstance(each.kind, LeftOut) else "")
-        for each in elements
-    }
+    """Return the outcomes of all elements but the bearings, by their numbers in the file."""
+    names = _names([member.facts.name for member in members])
+    outcomes = {element.entity.id(): _left_out(element, element.why_left_out) for element in elements}
     for element, name, substance, solid in zip(members, names, made_of, solids, strict=False):
         kept = _above_ground(solid)
         number = element.entity.id()
         if kept is None:
-            found[number] = Outcome(element, None, None, "left out", "it lies below the ground")
+            outcomes[number] = _left_out(element, "it lies below the ground")
             continue
-        why = "; ".join(each for each in (substance.note, "" if kept is solid else "cut off at the ground") if each)
+        why = "; ".join(note for note in (substance.note, "" if kept is solid else "cut off at the ground") if note)
         member = Member(name, element.member_kind, kept, substance.density_kg_m3)
-        found[number] = Outcome(element, member, substance, "member", why)
-    return found
+        outcomes[number] = Outcome(element, member, substance, "member", why)
+    return outcomes
+
+
+def _left_out(element: Element, why: str) -> Outcome:
+    return Outcome(element, None, None, "left out", why)
 
 
 def _above_ground(solid: TriangleMesh) -> TriangleMesh | None:
-    """Return what of a solid lies above the ground; None for nothing."""
+    """Return the part of a solid above the ground; None where there is no such part."""
     if solid.bounds[0, 2] >= -_BELOW_GROUND_M:
         return solid
     kept = to_manifold(solid).trim_by_plane((0.0, 0.0, 1.0), 0.0)
@@ -216,27 +189,24 @@ def _above_ground(solid: TriangleMesh) -> TriangleMesh | None:
 def _connected(
     outcomes: dict[int, Outcome], bearings: Sequence[Element], solids: Sequence[TriangleMesh], placement: Placement
 ) -> tuple[dict[int, Outcome], list[ConnectionBetween], list[str]]:
-    """Return outcomes with those of the bearings, the connections that these are, and what they disagree in."""
-    done, found = dict(outcomes), []
+    """Return outcomes with those of the bearings, the connections of these, and notes on bearings that differ."""
+    done, placed = dict(outcomes), []
     parts = [outcome.part for outcome in outcomes.values() if outcome.member]
     contacts, names = NearbyMembers([member.solid for member, _ in parts]), [member.name for member, _ in parts]
     for element, solid in zip(bearings, solids, strict=True):
         bearing = bearing_of(element, solid, contacts, names, placement)
         number = element.entity.id()
         if isinstance(bearing, str):
-            done[number] = Outcome(element, None, None, "left out", bearing)
+            done[number] = _left_out(element, bearing)
             continue
         below, substance = parts[bearing.below]
-        found.append(bearing)
+        placed.append(bearing)
+        above = " and ".join(names[index] for index in bearing.above)
+        why = f"between {above} and {below.name}, of which it is part; {bearing.source}"
         part = Member(below.name, below.kind, solid, below.density_kg_m3)
-        done[number] = Outcome(element, part, substance, "connection", _why(bearing, names), seated(solid))
-    rules, notes = bearing_rules(found, names)
+        done[number] = Outcome(element, part, substance, "connection", why, seated(solid))
+    rules, notes = bearing_rules(placed, names)
     return done, rules, notes
-
-
-def _why(bearing: Bearing, names: Sequence[str]) -> str:
-    above = " and ".join(names[each] for each in bearing.above)
-    return f"between {above} and {names[bearing.below]}, of which it is part; {bearing.source}"
 
 
 def _scenario(
@@ -247,30 +217,31 @@ def _scenario(
     site: Site | None,
 ) -> tuple[Scenario, dict[str, TriangleMesh], list[str]]:
     kept = [outcome for outcome in outcomes.values() if outcome.member]
-    if not any(each.became == "member" for each in kept):
+    of_members = [outcome for outcome in kept if outcome.became == "member"]
+    if not of_members:
         raise IfcError(f"{source.path}: nothing of it lies above the ground; put the ground lower by --ground")
-    members = [each.part[0] for each in kept if each.became == "member"]
+    members = [outcome.part[0] for outcome in of_members]
     contacts = NearbyMembers([member.solid for member in members])
     supports, held = supports_of(members, contacts)
-    # A member that rests on a bearing touches that, not what the bearing lies on.
+    # A member on a bearing touches the bearing, not the member below it.
     connected = {support.member for support in supports} | {name for rule in rules for name in rule.members}
     loose = loose_members(members, contacts, connected)
-    parts = [each.part[0] for each in kept]
+    parts = [outcome.part[0] for outcome in kept]
     meshes = {
-        _file(number, part.name): each.mesh or part.solid
-        for number, (each, part) in enumerate(zip(kept, parts, strict=True), start=1)
+        _file(number, outcome.part[0].name): outcome.mesh or outcome.part[0].solid
+        for number, outcome in enumerate(kept, start=1)
     }
     geometry = tuple(
         Geometry(name=part.name, file=file, kind=part.kind, density_kg_m3=part.density_kg_m3)
         for part, file in zip(parts, meshes, strict=True)
     )
-    main, within = _strength_rules([each for each in kept if each.became == "member"])
+    main, within = _strength_rules(of_members)
     scenario = Scenario(
         title=_title(source),
         time=TimeSettings(duration_s=_DURATION_S),
         geometry=geometry,
         fracture=FractureSettings(shards=max(settings.shards, len(members))),
-        materials=_own_materials(kept),
+        materials=tuple({own.name: own for outcome in kept if (own := outcome.part[1].row.own)}.values()),
         connections=ConnectionSettings(type="FIXED", method="face", material=main, between=(*rules, *within)),
         supports=tuple(supports),
         site=site,
@@ -281,7 +252,7 @@ def _scenario(
 def _strength_rules(kept: Sequence[Outcome]) -> tuple[str, list[ConnectionBetween]]:
     """Return the strength of most of the bridge by volume, and the connections within members that have another."""
     volumes: dict[str, float] = {}
-    parts = [each.part for each in kept]
+    parts = [outcome.part for outcome in kept]
     for member, substance in parts:
         strength = substance.row.strength_name
         volumes[strength] = volumes.get(strength, 0.0) + member.volume_m3
@@ -299,39 +270,31 @@ def _strength_rules(kept: Sequence[Outcome]) -> tuple[str, list[ConnectionBetwee
     return main, rules
 
 
-def _own_materials(kept: Sequence[Outcome]) -> tuple[Material, ...]:
-    own = {material.name: material for each in kept if (material := each.part[1].row.own)}
-    return tuple(own.values())
-
-
 def _title(source: IfcSource) -> str:
     for name in ("IfcBridge", "IfcBuilding", "IfcProject"):
         try:
-            found = source.model.by_type(name)
+            entities = source.model.by_type(name)
         except RuntimeError:  # a class that the schema does not have
             continue
-        if found and (title := _plain(found[0].Name or "")):
+        if entities and (title := _plain(entities[0].Name or "")):
             return title
     return _plain(source.path.stem) or "Bridge from IFC"
 
 
-def _names(given: Sequence[str]) -> list[str]:
-    """Return names on one line of which no two are the same, and none is that of a kind or of the ground."""
-    taken, found = {*KINDS, GROUND_NAME}, []
-    for each in given:
-        plain = _plain(each) or "element"
-        name, number = plain, 1
-        while name in taken:
-            number += 1
-            name = f"{plain} {number}"
-        taken.add(name)
-        found.append(name)
-    return found
+def _names(texts: Sequence[str]) -> list[str]:
+    """Return different names, each on one line, and none of them that of a kind or of the ground."""
+    taken, names = {*KINDS, GROUND_NAME}, []
+    for text in texts:
+        plain = _plain(text) or "element"
+        choices = chain([plain], (f"{plain} {number}" for number in count(2)))
+        names.append(next(name for name in choices if name not in taken))
+        taken.add(names[-1])
+    return names
 
 
 def _plain(text: str) -> str:
     """Return a text on one line."""
-    return " ".join("".join(" " if category(each) in LINE_BREAKING_CATEGORIES else each for each in text).split())
+    return " ".join("".join(" " if category(sign) in LINE_BREAKING_CATEGORIES else sign for sign in text).split())
 
 
 def _file(number: int, name: str) -> str:

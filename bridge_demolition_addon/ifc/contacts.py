@@ -1,4 +1,4 @@
-"""Which members touch each other, and what lies under and over them."""
+"""Members that touch each other, and what lies under and over them."""
 
 from __future__ import annotations
 
@@ -15,17 +15,11 @@ TOUCHING_M = 1e-4
 """Gap up to which two members touch, as where connections are made."""
 
 NEAR_M = 0.5
-"""Gap up to which a neighbour is looked for."""
+"""Gap up to which a member is a neighbour."""
 
 
 class NearbyMembers:
-    """Members, and what is near each of them.
-
-    Parameters
-    ----------
-    solids : sequence of TriangleMesh
-        One for each member.
-    """
+    """Solids of members, and what is near each of them."""
 
     def __init__(self, solids: Sequence[TriangleMesh]) -> None:
         self._solids = tuple(solids)
@@ -38,8 +32,8 @@ class NearbyMembers:
         """Return gaps in m to all members within `NEAR_M` of a solid, and which they are, the nearest first."""
         own, (lowest, highest) = to_manifold(solid), solid.bounds
         may = ((self._lowest <= highest + NEAR_M) & (self._highest >= lowest - NEAR_M)).all(axis=1)
-        found = [(own.min_gap(self._manifolds[other], NEAR_M), other) for other in np.flatnonzero(may).tolist()]
-        return sorted((gap, other) for gap, other in found if gap < NEAR_M)
+        gaps = [(own.min_gap(self._manifolds[other], NEAR_M), other) for other in np.flatnonzero(may).tolist()]
+        return sorted((gap, other) for gap, other in gaps if gap < NEAR_M)
 
     def reached(self, solid: TriangleMesh, shift_m: float) -> dict[int, float]:
         """Return which members a solid reaches into when it is moved up by so much, and the volume of each, m³."""

@@ -1,9 +1,9 @@
-"""What elements are made of: the material that the IFC file names, its density there, and its row in the table."""
+"""Materials of elements: the name and density in the IFC file, and the row in the table of materials."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -23,18 +23,9 @@ _LISTED = 5
 
 @dataclass(frozen=True, slots=True)
 class Substance:
-    """What an element is made of.
+    """Material of an element: its name in the file or of the user's, its density in the file or table, and its row.
 
-    Attributes
-    ----------
-    name : str
-        As the IFC file or the user calls it.
-    density_kg_m3 : float
-        Of the file, or of the table.
-    row : MaterialRow
-        Its row of the table.
-    note : str
-        What is not as it seems; empty for nothing.
+    The note says what the import has assumed.
     """
 
     name: str
@@ -46,29 +37,30 @@ class Substance:
 def substances(
     source: IfcSource, elements: Sequence[Element], table: MaterialTable, settings: ImportSettings
 ) -> list[Substance]:
-    """Return what each element is made of."""
+    """Return the material of each element."""
     if settings.material is not None and table.row(settings.material) is None:
-        raise IfcError(f'material is "{settings.material}", which {_told(settings.materials)} does not know')
+        table_name = _table_name(settings.materials)
+        raise IfcError(f'material is "{settings.material}", which {table_name} does not know')
     reader = _Reader(source, table, settings.material)
-    found = []
+    known = []
     unknown: dict[str, list[str]] = {}
     for element in elements:
         substance = reader.substance(element.entity)
         if isinstance(substance, str):
             unknown.setdefault(substance, []).append(element.facts.name)
         else:
-            found.append(substance)
+            known.append(substance)
     if unknown:
         named = "; ".join(f"{name or 'no material'}: {_some(names)}" for name, names in unknown.items())
         raise IfcError(
-            f"{source.path}: {_told(settings.materials)} does not know the materials of {named}. Say by --material "
+            f"{source.path}: {_table_name(settings.materials)} does not know the materials of {named}. Say by --material "
             "concrete what such elements are, or write the table by bda import --write-materials FILE, add rows for "
             "these names, and give it by --materials FILE"
         )
-    return found
+    return known
 
 
-def _told(path: Path | None) -> str:
+def _table_name(path: Path | None) -> str:
     return str(path) if path else "the table of materials"
 
 
@@ -86,23 +78,22 @@ class _Reader:
     otherwise: str | None
 
     def substance(self, entity: Any) -> Substance | str:
-        """Return what an element is made of; the name of its material where that is not known, empty for none."""
+        """Return the material of an element; its name where the table lacks it, empty for no material."""
         material = library("util.element").get_material(entity, should_skip_usage=True)
         parts = _parts_of(material)
         if not parts:
             if self.otherwise and (row := self.table.row(self.otherwise)):
                 return Substance(self.otherwise, row.density_kg_m3, row, "the file gives no material")
             return ""
-        found = [self._one(part) for part, _ in parts]
-        known = [each for each in found if isinstance(each, Substance)]
+        all_parts = [self._one(part) for part, _ in parts]
+        known = [part for part in all_parts if isinstance(part, Substance)]
         if not known:
-            return found[0]
+            return all_parts[0]
         shares = [share for _, share in parts if share is not None]
-        if len(known) < len(found) or len(found) == 1 or len(shares) < len(parts):
-            more = f"made of {len(found)} materials, of which {known[0].name} counts" if len(found) > 1 else ""
-            note = "; ".join(each for each in (known[0].note, more) if each)
-            return Substance(known[0].name, known[0].density_kg_m3, known[0].row, note)
-        density = sum(each.density_kg_m3 * share for each, share in zip(known, shares, strict=True)) / sum(shares)
+        if len(known) < len(parts) or len(parts) == 1 or len(shares) < len(parts):
+            more = f"made of {len(parts)} materials, of which {known[0].name} counts" if len(parts) > 1 else ""
+            return replace(known[0], note="; ".join(note for note in (known[0].note, more) if note))
+        density = sum(part.density_kg_m3 * share for part, share in zip(known, shares, strict=True)) / sum(shares)
         main = known[shares.index(max(shares))]
         return Substance(main.name, density, main.row, f"the density is the mean of {len(known)} layers by thickness")
 
@@ -114,13 +105,13 @@ class _Reader:
             row, note = self.table.row(self.otherwise), f"{name or 'its material'} is taken for {self.otherwise}"
         if row is None:
             return name or "a material without a name"
-        given = self._density_of_file(material)
-        if given is None:
+        density = self._density_of_file(material)
+        if density is None:
             return Substance(name, row.density_kg_m3, row, note)
-        if not LEAST_KG_M3 <= given <= MOST_KG_M3:
-            unlikely = f"the file gives {given:.4g} kg/m³ for {name}, so the density is that of the table"
-            return Substance(name, row.density_kg_m3, row, "; ".join(each for each in (note, unlikely) if each))
-        return Substance(name, given, row, note)
+        if not LEAST_KG_M3 <= density <= MOST_KG_M3:
+            unlikely = f"the file gives {density:.4g} kg/m³ for {name}, so the density is that of the table"
+            return Substance(name, row.density_kg_m3, row, f"{note}; {unlikely}" if note else unlikely)
+        return Substance(name, density, row, note)
 
     def _density_of_file(self, material: Any) -> float | None:
         """Return the density that the file gives a material, kg/m³."""
@@ -128,7 +119,7 @@ class _Reader:
         values = [pset["MassDensity"] for pset in psets.values() if isinstance(pset.get("MassDensity"), int | float)]
         if not values and self.source.model.schema == "IFC2X3":
             general = self.source.model.by_type("IfcGeneralMaterialProperties")
-            values = [each.MassDensity for each in general if each.Material == material and each.MassDensity]
+            values = [row.MassDensity for row in general if row.Material == material and row.MassDensity]
         return float(values[0]) * _density_unit(self.source.model) if values else None
 
 
@@ -139,25 +130,17 @@ def _parts_of(material: Any) -> list[tuple[Any, float | None]]:
     if material.is_a("IfcMaterial"):
         return [(material, 1.0)]
     if material.is_a("IfcMaterialLayerSet"):
-        return [
-            (material_layer.Material, material_layer.LayerThickness)
-            for material_layer in material.MaterialLayers
-            if material_layer.Material
-        ]
+        return [(layer.Material, layer.LayerThickness) for layer in material.MaterialLayers if layer.Material]
     if material.is_a("IfcMaterialProfileSet"):
-        return [
-            (material_profile.Material, None)
-            for material_profile in material.MaterialProfiles
-            if material_profile.Material
-        ]
+        return [(profile.Material, None) for profile in material.MaterialProfiles if profile.Material]
     if material.is_a("IfcMaterialConstituentSet"):
-        return [(each.Material, each.Fraction) for each in material.MaterialConstituents or () if each.Material]
-    return [(each, None) for each in material.Materials]
+        return [(part.Material, part.Fraction) for part in material.MaterialConstituents or () if part.Material]
+    return [(part, None) for part in material.Materials]
 
 
 def _density_unit(model: Any) -> float:
     """Return the kg/m³ in the file's unit of density; 1 where it gives none."""
     units = model.by_type("IfcProject")[0].UnitsInContext
-    if not any(getattr(each, "UnitType", None) == "MASSDENSITYUNIT" for each in (units.Units if units else ())):
+    if not any(getattr(unit, "UnitType", None) == "MASSDENSITYUNIT" for unit in (units.Units if units else ())):
         return 1.0
     return library("util.unit").calculate_unit_scale(model, "MASSDENSITYUNIT") / _GRAMS

@@ -1,4 +1,4 @@
-"""The elements of an IFC file: which of them are members, and what each is."""
+"""The elements of an IFC file: which of them are members, and of which kind."""
 
 from __future__ import annotations
 
@@ -13,35 +13,16 @@ from .settings import ImportSettings, matches
 from .source import IfcSource
 
 _NO_BODIES = (
-    "Axis",
-    "FootPrint",
-    "Box",
-    "Annotation",
-    "Profile",
-    "Survey",
-    "Lighting",
-    "Reference",
-    "Clearance",
-    "CoG",
+    *("Axis", "FootPrint", "Box", "Annotation", "Profile", "Survey", "Lighting", "Reference", "Clearance", "CoG"),
 )
-"""Representations of an element that are none of its body."""
+"""Representations of an element that do not show its body."""
 
 _LISTED = 5
 
 
 @dataclass(frozen=True, slots=True)
 class Element:
-    """An element of an IFC file.
-
-    Attributes
-    ----------
-    entity : ifcopenshell.entity_instance
-        The element itself.
-    facts : ElementFacts
-        What the file says of it.
-    kind : str or LeftOut
-        What it is, or why it is left out.
-    """
+    """An element of an IFC file, an `ifcopenshell.entity_instance`, with its kind or why it is left out."""
 
     entity: Any
     facts: ElementFacts
@@ -54,40 +35,45 @@ class Element:
 
     @property
     def member_kind(self) -> str:
-        """What a member is."""
+        """Kind of a member."""
         assert isinstance(self.kind, str)
         return self.kind
 
     @property
+    def why_left_out(self) -> str:
+        """Why it is left out; empty for a member."""
+        return self.kind.why if isinstance(self.kind, LeftOut) else ""
+
+    @property
     def names(self) -> tuple[str, ...]:
-        """What a user may call it by, its kind included."""
+        """Names that a user may give it, its kind included."""
         return (*self.facts.names, self.member_kind) if self.is_member else self.facts.names
 
     @property
     def title(self) -> str:
-        """What it is called in messages."""
+        """Its name in messages."""
         return f"{self.facts.name} ({self.facts.classes[0]} #{self.entity.id()})"
 
 
 def elements_of(source: IfcSource, settings: ImportSettings) -> tuple[Element, ...]:
-    """Return all elements of a file in its order, openings and the like not among them."""
-    found = tuple(_elements(source.model, settings))
+    """Return all elements of a file in its order, without openings and virtual elements."""
+    elements = tuple(_elements(source.model, settings))
     for pattern in (*settings.without, *(pattern for pattern, _ in settings.kinds)):
-        if not any(matches(pattern, each.names) for each in found):
-            known = ", ".join(each.facts.name for each in found[:_LISTED])
+        if not any(matches(pattern, element.names) for element in elements):
+            known = ", ".join(element.facts.name for element in elements[:_LISTED])
             raise IfcError(
                 f'{source.path}: has no element "{pattern}": expected a name, a class such as IfcBeam, a kind or a '
-                f"GlobalId of one; it has {known}{' and more' if len(found) > _LISTED else ''}"
+                f"GlobalId of one; it has {known}{' and more' if len(elements) > _LISTED else ''}"
             )
-    found = tuple(_without(each, settings.without) for each in found)
-    if not any(each.is_member for each in found):
-        classes = sorted({each.facts.classes[0] for each in found})
-        seen = f"{', '.join(classes)} only" if classes else "no elements"
+    elements = tuple(_without(element, settings.without) for element in elements)
+    if not any(element.is_member for element in elements):
+        classes = sorted({element.facts.classes[0] for element in elements})
+        present = f"{', '.join(classes)} only" if classes else "no elements"
         raise IfcError(
-            f"{source.path}: has no element that is a member of a bridge, {seen}; say what they are by --kind, as in "
-            "--kind 'IfcBuildingElementProxy=deck'"
+            f"{source.path}: has no element that is a member of a bridge, {present}; say what they are by --kind, as "
+            "in --kind 'IfcBuildingElementProxy=deck'"
         )
-    return found
+    return elements
 
 
 def _without(element: Element, patterns: tuple[str, ...]) -> Element:
@@ -98,7 +84,7 @@ def _without(element: Element, patterns: tuple[str, ...]) -> Element:
 
 
 def _elements(model: Any, settings: ImportSettings) -> Iterator[Element]:
-    for entity in sorted(model.by_type("IfcElement"), key=lambda each: each.id()):
+    for entity in sorted(model.by_type("IfcElement"), key=lambda entity: entity.id()):
         if entity.is_a("IfcFeatureElement") or entity.is_a("IfcVirtualElement"):
             continue
         has_body = _has_body(entity)

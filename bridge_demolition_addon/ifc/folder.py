@@ -1,4 +1,4 @@
-"""The folder of an imported bridge: its scenario, a mesh for each element, and what became of all of them."""
+"""The folder of an imported bridge: its scenario, a mesh for each element, and a table of all elements."""
 
 from __future__ import annotations
 
@@ -7,10 +7,11 @@ import io
 import os
 import tempfile
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from ..errors import GeometryError, IfcError, OutputError, ScenarioError
+from ..model.bridge.member import Member
 from ..model.bridge.mesh_files import exported
 from ..model.bridge.preparation import prepared_members
 from ..model.scenario.file import read_scenario
@@ -29,7 +30,7 @@ _COLUMNS = (
 
 
 def check_new(folder: Path) -> None:
-    """Make sure that a folder is not there, or is empty."""
+    """Check that a folder does not exist, or is empty."""
     if folder.is_dir() and not any(folder.iterdir()):
         return
     if folder.exists() or folder.is_symlink():
@@ -37,7 +38,7 @@ def check_new(folder: Path) -> None:
 
 
 def write_bridge(bridge: ImportedBridge, folder: Path) -> list[str]:
-    """Write an imported bridge, whole or not at all, and return what there is to say of it, line by line."""
+    """Write an imported bridge, whole or not at all, and return the lines of its report."""
     check_new(folder)
     with writing(folder), tempfile.TemporaryDirectory(dir=_existing(folder), prefix=".bda-import-") as name:
         # One folder deeper: that of `tempfile` is for its owner alone, and is deleted by it.
@@ -61,7 +62,7 @@ def _existing(folder: Path) -> Path:
 
 
 def _cut_off(whole: Path) -> tuple[str, ...]:
-    """Return what is cut off where members overlap; refuses what `bda check` would refuse."""
+    """Return notes on what is cut off where members overlap; refuses what `bda check` would refuse."""
     try:
         return prepared_members(read_scenario(whole / SCENARIO_FILE)).notes
     except (GeometryError, ScenarioError) as error:
@@ -75,10 +76,9 @@ def _report(bridge: ImportedBridge, cut_off: tuple[str, ...]) -> Iterator[str]:
     yield ""
     yield "Members"
     for kind in sorted({member.kind for member in members}):
-        found = [member for member in members if member.kind == kind]
-        count = len({each.name for each in found})
-        yield _row(f"{count} {kind}", sum(each.volume_m3 for each in found), sum(each.mass_kg for each in found))
-    yield _row("all", sum(member.volume_m3 for member in members), sum(member.mass_kg for member in members))
+        of_kind = [member for member in members if member.kind == kind]
+        yield _row(f"{len({member.name for member in of_kind})} {kind}", of_kind)
+    yield _row("all", members)
     yield ""
     yield "Held and connected"
     connections = bridge.scenario.connections
@@ -87,14 +87,14 @@ def _report(bridge: ImportedBridge, cut_off: tuple[str, ...]) -> Iterator[str]:
         yield f"  {'held':<24}{support.member}{'' if support.face == 'all' else ', its underside'}"
     for rule in connections.between:
         free = f", free: {', '.join(rule.free)}" if rule.free else ""
-        what = f"strength of {rule.material}" if rule.material else f"bearing{free}"
-        yield f"  {'between':<24}{' and '.join(rule.members)}: {what}"
+        connection = f"strength of {rule.material}" if rule.material else f"bearing{free}"
+        yield f"  {'between':<24}{' and '.join(rule.members)}: {connection}"
     yield ""
     yield "Place"
     yield f"  {'ground':<24}at {bridge.ground_m:.3f} m in the file: {bridge.ground_source}"
     yield f"  {'site':<24}{_where(bridge)}"
     yield from _left_out(bridge.outcomes)
-    notes = dict.fromkeys((*bridge.notes, *_told(bridge.outcomes), *cut_off))
+    notes = dict.fromkeys((*bridge.notes, *_reasons(bridge.outcomes), *cut_off))
     if notes:
         yield ""
         yield "To know"
@@ -109,29 +109,28 @@ def _where(bridge: ImportedBridge) -> str:
     return f"{degrees}, x axis {site.bearing_deg:.2f}° from north, {bridge.site_source}"
 
 
-def _row(name: str, volume_m3: float, mass_kg: float) -> str:
+def _row(name: str, members: Sequence[Member]) -> str:
+    volume_m3, mass_kg = sum(member.volume_m3 for member in members), sum(member.mass_kg for member in members)
     return f"  {name:<24}{volume_m3:9.3f} m³ {mass_kg / 1000.0:10.3f} t"
 
 
 def _left_out(outcomes: tuple[Outcome, ...]) -> Iterator[str]:
-    found = Counter(
-        (outcome.element.facts.classes[0], outcome.why) for outcome in outcomes if outcome.became == "left out"
-    )
-    if found:
+    left_out = [outcome for outcome in outcomes if outcome.became == "left out"]
+    if left_out:
         yield ""
         yield "Left out"
-    for (name, why), count in found.items():
+    for (name, why), count in Counter((outcome.element.facts.classes[0], outcome.why) for outcome in left_out).items():
         yield f"  {f'{count} {name}':<24}{why}"
 
 
-def _told(outcomes: tuple[Outcome, ...]) -> Iterator[str]:
-    """Yield what there is to know of members, those of whom the same is said together."""
-    said: dict[str, list[str]] = {}
+def _reasons(outcomes: tuple[Outcome, ...]) -> Iterator[str]:
+    """Yield the notes on members and bearings, elements with the same note together."""
+    elements: dict[str, list[str]] = {}
     for outcome in outcomes:
-        what = outcome.why.rpartition("; ")[2] if outcome.became == "connection" else outcome.why
-        if outcome.became != "left out" and what:
-            said.setdefault(what, []).append(outcome.element.facts.name)
-    for why, names in said.items():
+        why = outcome.why.rpartition("; ")[2] if outcome.became == "connection" else outcome.why
+        if outcome.became != "left out" and why:
+            elements.setdefault(why, []).append(outcome.element.facts.name)
+    for why, names in elements.items():
         more = f" and {len(names) - 3} more" if len(names) > 3 else ""
         yield f"{', '.join(names[:3])}{more}: {why}"
 

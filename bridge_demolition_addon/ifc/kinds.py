@@ -1,4 +1,4 @@
-"""What an element of a bridge is: a kind of member, or nothing that bears, by its class, type, part and name."""
+"""Kinds of elements: members, or elements that carry nothing, by class, type, part of the bridge and name."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ class ElementFacts:
 
     Attributes
     ----------
-    name, global_id : str
-        As in the file; the name is the class where there is none.
-    classes : tuple of str
-        Its class, and those that this is one of.
-    predefined : str
+    name
+        Its class where the file gives no name.
+    classes
+        Its class, and the classes above it.
+    predefined
         Its predefined type, such as ``PIERCAP``; empty without one.
-    words : str
-        What else it is called: its name, object type and that of its type.
-    parts : tuple of str
+    words
+        Its name, object type, predefined type and the name of its type.
+    parts
         Parts of the bridge that it is in, the smallest first, each as its predefined type and its name.
     """
 
@@ -36,7 +36,7 @@ class ElementFacts:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Return what a user may call it by."""
+        """Names that a user may give it."""
         return (self.name, self.classes[0], self.global_id)
 
 
@@ -47,60 +47,39 @@ class LeftOut:
     why: str
 
 
-_IN_STRENGTH = "it is counted in the strength of reinforced concrete"
-_BEARS_NOTHING = "it bears nothing"
-_GROUND = "it is part of the ground"
-_SURFACING = "surfacing bears nothing; where its mass counts, raise the density of the deck"
-_CABLE = "cables are not modelled"
+_CARRIES_NOTHING = "it carries nothing"
 
 _OF_CLASS = {
-    "IfcReinforcingElement": _IN_STRENGTH,
-    "IfcPile": "it lies in the ground, which holds the footings",
-    "IfcRailing": _BEARS_NOTHING,
-    "IfcSign": _BEARS_NOTHING,
-    "IfcSignal": _BEARS_NOTHING,
-    "IfcFurnishingElement": _BEARS_NOTHING,
-    "IfcDistributionElement": _BEARS_NOTHING,
-    "IfcTransportElement": _BEARS_NOTHING,
-    "IfcTransportationDevice": _BEARS_NOTHING,
-    "IfcDoor": _BEARS_NOTHING,
-    "IfcWindow": _BEARS_NOTHING,
-    "IfcFastener": _BEARS_NOTHING,
-    "IfcMechanicalFastener": _BEARS_NOTHING,
-    "IfcDiscreteAccessory": _BEARS_NOTHING,
-    "IfcVibrationDamper": _BEARS_NOTHING,
-    "IfcVibrationIsolator": _BEARS_NOTHING,
-    "IfcCovering": _SURFACING,
-    "IfcCourse": _SURFACING,
-    "IfcPavement": _SURFACING,
-    "IfcKerb": _SURFACING,
-    "IfcRail": _SURFACING,
-    "IfcTrackElement": _SURFACING,
-    "IfcEarthworksElement": _GROUND,
-    "IfcGeographicElement": _GROUND,
-    "IfcGeotechnicalElement": _GROUND,
+    "it is counted in the strength of reinforced concrete": ("IfcReinforcingElement",),
+    "it lies in the ground, which holds the footings": ("IfcPile",),
+    _CARRIES_NOTHING: (
+        *("IfcRailing", "IfcSign", "IfcSignal", "IfcFurnishingElement", "IfcDistributionElement"),
+        *("IfcTransportElement", "IfcTransportationDevice", "IfcDoor", "IfcWindow", "IfcFastener"),
+        *("IfcMechanicalFastener", "IfcDiscreteAccessory", "IfcVibrationDamper", "IfcVibrationIsolator"),
+    ),
+    "surfacing carries nothing; where its mass counts, raise the density of the deck": (
+        "IfcCovering",
+        "IfcCourse",
+        "IfcPavement",
+        "IfcKerb",
+        "IfcRail",
+        "IfcTrackElement",
+    ),
+    "it is part of the ground": ("IfcEarthworksElement", "IfcGeographicElement", "IfcGeotechnicalElement"),
 }
-"""Why elements of a class are left out."""
+"""Classes that are left out, by the reason."""
 
-_OF_TYPE: dict[str, str | LeftOut] = {
-    "PIERCAP": "pier cap",
-    "GIRDER_SEGMENT": "girder",
-    "T_BEAM": "girder",
-    "DIAPHRAGM": "girder",
-    "PIERSTEM": "pier",
-    "PIERSTEM_SEGMENT": "pier",
-    "STANDCOLUMN": "pier",
-    "BASESLAB": "footing",
-    "PARAPET": "parapet",
-    "BRACE": "bracing",
-    "STRUT": "bracing",
-    "APPROACH_SLAB": LeftOut("it lies on the soil behind the abutment"),
-    "STAY_CABLE": LeftOut(_CABLE),
-    "SUSPENSION_CABLE": LeftOut(_CABLE),
-    "SUSPENDER": LeftOut(_CABLE),
-    "STRUCTURALCABLE": LeftOut(_CABLE),
+_OF_TYPE: dict[str | LeftOut, tuple[str, ...]] = {
+    "pier cap": ("PIERCAP",),
+    "girder": ("GIRDER_SEGMENT", "T_BEAM", "DIAPHRAGM"),
+    "pier": ("PIERSTEM", "PIERSTEM_SEGMENT", "STANDCOLUMN"),
+    "footing": ("BASESLAB",),
+    "parapet": ("PARAPET",),
+    "bracing": ("BRACE", "STRUT"),
+    LeftOut("it lies on the soil behind the abutment"): ("APPROACH_SLAB",),
+    LeftOut("cables are not modelled"): ("STAY_CABLE", "SUSPENSION_CABLE", "SUSPENDER", "STRUCTURALCABLE"),
 }
-"""Kinds by the predefined type, whatever the class."""
+"""Predefined types, whatever the class, by their kind."""
 
 _ALWAYS = {"IfcBearing": "bearing", "IfcFooting": "footing", "IfcCaissonFoundation": "footing", "IfcColumn": "pier"}
 """Kinds of classes that leave no doubt."""
@@ -113,7 +92,7 @@ _BY_PART = {
     "IfcMember": {"pier": "pier", "abutment": "abutment"},
     "": {"pier": "pier", "abutment": "abutment", "foundation": "footing", "deck": "deck", "superstructure": "deck"},
 }
-"""Kinds of a class by the part of the bridge; those under no name hold for all other classes."""
+"""Kinds of a class by the part of the bridge; an empty class stands for all other classes."""
 
 _ELSEWHERE = {"IfcBeam": "girder", "IfcSlab": "deck", "IfcWall": "wall", "IfcPlate": "girder", "IfcMember": "girder"}
 """Kinds of a class in all other parts."""
@@ -123,7 +102,7 @@ _NAMED = {
     "IfcSlab": ("footing",),
     "IfcWall": ("abutment", "pier", "parapet"),
 }
-"""Kinds that the name of an element of a class says, before its part is asked; of all other classes any."""
+"""Kinds that the name of an element decides before its part does; for all other classes any kind."""
 
 _WORDS = {
     "left out": r"railing|guard ?rail|hand ?rail|tendon|rebar|reinforc|drain|lamp|\blight|\bsign\b|cable",
@@ -138,7 +117,7 @@ _WORDS = {
     "girder": r"girder|\bbeam|stringer",
     "deck": r"\bdeck|\bslab|superstructure",
 }
-"""Words in names, in the order in which they are looked for."""
+"""Words in names; the first kind that matches counts."""
 
 _PARTS = {
     "pier": r"\bpiers?\b|pier_segment|pylon|\bbents?\b",
@@ -154,22 +133,17 @@ _OTHER = "neither its class nor its name says what it is: give its kind by --kin
 
 
 def kind_of(facts: ElementFacts, own: Sequence[tuple[str, str]] = ()) -> str | LeftOut:
-    """Return the kind of an element, or why it is left out.
-
-    Parameters
-    ----------
-    facts : ElementFacts
-        What the file says of it.
-    own : sequence of (str, str)
-        Names of elements and their kinds, as the user gives them.
-    """
-    for pattern, kind in own:
+    """Return the kind of an element, or why it is left out; names and kinds of the user's own come first."""
+    for pattern, own_kind in own:
         if matches(pattern, facts.names):
-            return kind
-    for name, why in _OF_CLASS.items():
-        if name in facts.classes:
+            return own_kind
+    for why, classes in _OF_CLASS.items():
+        if not set(classes).isdisjoint(facts.classes):
             return LeftOut(why)
-    return _OF_TYPE.get(facts.predefined) or _of_class(facts)
+    for kind, types in _OF_TYPE.items():
+        if facts.predefined in types:
+            return kind
+    return _of_class(facts)
 
 
 def _of_class(facts: ElementFacts) -> str | LeftOut:
@@ -179,7 +153,7 @@ def _of_class(facts: ElementFacts) -> str | LeftOut:
     known = next((cls for cls in facts.classes if cls in _ELSEWHERE), "")
     by_name = _named_kind(facts.words)
     if by_name and by_name in _NAMED.get(known, _WORDS):
-        return LeftOut(_BEARS_NOTHING) if by_name == "left out" else by_name.replace("diaphragm", "girder")
+        return LeftOut(_CARRIES_NOTHING) if by_name == "left out" else by_name.replace("diaphragm", "girder")
     part = _part_of(facts.parts)
     return _BY_PART[known].get(part) or _ELSEWHERE.get(known) or LeftOut(_OTHER)
 
@@ -190,8 +164,4 @@ def _named_kind(words: str) -> str | None:
 
 
 def _part_of(parts: tuple[str, ...]) -> str:
-    for each in parts:
-        for part, pattern in _PARTS.items():
-            if re.search(pattern, each.lower()):
-                return part
-    return ""
+    return next((kind for part in parts for kind, words in _PARTS.items() if re.search(words, part.lower())), "")

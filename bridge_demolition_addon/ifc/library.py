@@ -21,15 +21,15 @@ def library(part: str = "") -> ModuleType:
     """Return IfcOpenShell, or a part of it such as ``util.unit``."""
     try:
         whole = importlib.import_module("ifcopenshell")
-        found = importlib.import_module(f"ifcopenshell.{part}") if part else whole
+        module = importlib.import_module(f"ifcopenshell.{part}") if part else whole
     except ImportError as error:
         if missing := missing_reason():
             raise MissingLibraryError(missing) from error
         raise MissingLibraryError(f"IfcOpenShell cannot be loaded ({error}): {_HOW}") from error
-    version = tuple(int(each) for each in str(whole.version).split(".")[:2] if each.isdigit())
+    version = tuple(int(digits) for digits in str(whole.version).split(".")[:2] if digits.isdigit())
     if version < _OLDEST:
         raise MissingLibraryError(f"IfcOpenShell {whole.version} is too old, 0.8 is needed: {_HOW}")
-    return found
+    return module
 
 
 def missing_reason() -> str | None:

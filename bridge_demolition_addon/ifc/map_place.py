@@ -1,4 +1,4 @@
-"""Where on earth a bridge lies: by the map conversion of its file, or else by the place of its site."""
+"""Site of a bridge on earth: by the map conversion of its file, or else by latitude and longitude of its IfcSite."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _HALF_ZONE_M, _POLE_M = 400_000.0, 10_000_000.0
 
 
 def site_of(source: IfcSource, placement: Placement) -> tuple[Site | None, str]:
-    """Return the site of a bridge where the file tells it, and in words where that is from, or why there is none."""
+    """Return the site of a bridge if the file gives it, and a text on its source, or why there is none."""
     by_map, why = _by_map(source, placement)
     if by_map:
         return by_map, why
@@ -43,29 +43,26 @@ def _by_map(source: IfcSource, placement: Placement) -> tuple[Site | None, str]:
         return None, f"its map conversion is to {name or 'no reference system'}, of which only UTM zones are known"
     map_unit_m = _map_unit(source)
     turn = math.atan2(conversion.xao, conversion.xaa)
-    # The scale goes from the file's unit to that of the map: 0.001 from mm to m. What is left of 1 is the grid's own.
+    # The scale goes from the file's unit to that of the map: 0.001 from mm to m. Its difference from 1 is the grid's.
     factor = conversion.scale * map_unit_m / source.unit_m
     along = np.array((math.cos(placement.angle_rad), math.sin(placement.angle_rad)))
-    places = []
+    points = []
     for distance_m in (0.0, _STEP_M):
         x, y = (placement.origin_m[:2] + distance_m * along) * factor
         easting_m = conversion.e * map_unit_m + math.cos(turn) * x - math.sin(turn) * y
         northing_m = conversion.n * map_unit_m + math.sin(turn) * x + math.cos(turn) * y
         if not (abs(easting_m - 500_000.0) <= _HALF_ZONE_M and 0.0 <= northing_m <= _POLE_M):
-            return (
-                None,
-                f"its map conversion leads out of {name}, to {easting_m:.0f} m, {northing_m:.0f} m",
-            )
-        places.append(grid.place_on_earth(easting_m, northing_m))
-    (latitude, longitude), (next_latitude, next_longitude) = places
+            return None, f"its map conversion leads out of {name}, to {easting_m:.0f} m, {northing_m:.0f} m"
+        points.append(grid.place_on_earth(easting_m, northing_m))
+    (latitude, longitude), (next_latitude, next_longitude) = points
     east, north, _ = geodetic2enu(next_latitude, next_longitude, 0.0, latitude, longitude, 0.0)
     return _site(latitude, longitude, math.degrees(math.atan2(east, north))), f"by its map conversion to {name}"
 
 
 def _reference_system(model: Any) -> str:
     if model.schema != "IFC2X3":
-        found = model.by_type("IfcCoordinateReferenceSystem")
-        return (found[0].Name or "") if found else ""
+        systems = model.by_type("IfcCoordinateReferenceSystem")
+        return (systems[0].Name or "") if systems else ""
     psets = library("util.element").get_psets(model.by_type("IfcProject")[0])
     return str(psets.get("ePSet_ProjectedCRS", {}).get("Name") or "")
 
@@ -80,11 +77,11 @@ def _map_unit(source: IfcSource) -> float:
 
 
 def _by_site(source: IfcSource, placement: Placement) -> Site | None:
-    """Return the site by `IfcSite`, whose degrees are of the origin of its own placement."""
+    """Return the site by `IfcSite`, whose latitude and longitude are those of the origin of its own placement."""
     for site in source.model.by_type("IfcSite"):
         if not site.RefLatitude or not site.RefLongitude:
             continue
-        latitude, longitude = (_degrees(each) for each in (site.RefLatitude, site.RefLongitude))
+        latitude, longitude = _degrees(site.RefLatitude), _degrees(site.RefLongitude)
         if not (abs(latitude) <= 89.0 and abs(longitude) <= 180.0 and (latitude or longitude)):
             continue
         north_rad = math.radians(library("util.geolocation").get_true_north(source.model))

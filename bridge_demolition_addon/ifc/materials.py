@@ -1,4 +1,4 @@
-"""Density and strength of materials by their names: a table that the user can change."""
+"""Density and strength of materials by name: a table that the user can change."""
 
 from dataclasses import dataclass
 from importlib.resources import files
@@ -36,15 +36,15 @@ class MaterialRow(Table):
 
     @property
     def own(self) -> Material | None:
-        """Return the material with the strengths that the row gives, called as the row; None without them."""
+        """The material with the strengths of the row and its name; None without strengths."""
         if self.strength is not None:
             return None
         values = {name: getattr(self, name) for name in (*_OWN, "elastic_modulus_n_mm2")}
-        return Material(name=self.name.replace("*", "").strip() or "as told", **values)
+        return Material(name=self.name.replace("*", "").strip() or "own material", **values)
 
     @property
     def strength_name(self) -> str:
-        """Return the material that its connections break by, as a scenario calls it."""
+        """Name in a scenario of the material whose strength its connections have."""
         return self.strength or given(self.own).name
 
     def _check_together(self) -> None:
@@ -60,7 +60,7 @@ class MaterialRow(Table):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MaterialTable(Table):
-    """Materials by name: the first whose name is meant counts."""
+    """Materials by name: the first that matches counts."""
 
     table: ClassVar[str] = "material_table"
 

@@ -16,28 +16,28 @@ from .library import library
 from .source import IfcSource
 
 CHORD_M = 0.001
-"""How far the middle of a chord may lie off the curve that it stands for."""
+"""Largest distance of the middle of a chord from its curve."""
 
 _LISTED = 5
 
 
 def element_solids(source: IfcSource, elements: Sequence[Element]) -> tuple[list[Repaired], np.ndarray]:
-    """Return the bodies of elements as solids, and a point (3,) in m near them that they are given from.
+    """Return the bodies of elements as solids, and a point (3,), m, near them that their coordinates start at.
 
-    A file may lie thousands of kilometres from its origin, where single steps of numbers get coarse.
+    A bridge may lie thousands of kilometres from the origin of its file, where numbers have coarse steps.
     """
-    found = _meshes(source, elements)
-    missing = [each.title for each in elements if each.entity.id() not in found]
+    meshes = _meshes(source, elements)
+    missing = [element.title for element in elements if element.entity.id() not in meshes]
     if missing:
         more = f" and {len(missing) - _LISTED} more" if len(missing) > _LISTED else ""
         raise IfcError(
             f"{source.path}: the geometry of {', '.join(missing[:_LISTED])}{more} cannot be worked out; mend it in "
             "the program that it was made with, or leave such elements out by --without NAME"
         )
-    origin = np.floor(np.mean([mesh.bounds.mean(axis=0) for mesh in found.values()], axis=0))
+    origin = np.floor(np.mean([mesh.bounds.mean(axis=0) for mesh in meshes.values()], axis=0))
     solids, wrong = [], []
     for element in elements:
-        mesh = found[element.entity.id()]
+        mesh = meshes[element.entity.id()]
         try:
             solids.append(repaired_solid(replace(mesh, vertices=mesh.vertices - origin), element.facts.name))
         except GeometryError as error:

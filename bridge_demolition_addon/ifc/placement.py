@@ -14,24 +14,20 @@ from ..engineering.geometry.rotations import turn_in_plane
 from ..engineering.geometry.vectors import transformed
 
 _ON_AXIS_RAD = 1e-7
-"""Angle below which a bridge runs along an axis of its file, and its places are kept to the last digit."""
+"""Angle below which a bridge runs along an axis of its file, and its coordinates are kept to the last digit."""
 
 _QUARTERS = {0: ((1.0, 0.0), (0.0, 1.0)), 1: ((0.0, 1.0), (-1.0, 0.0)), -1: ((0.0, -1.0), (1.0, 0.0))}
-"""Turns back by a quarter, to the last digit."""
+"""Rotations back by a quarter, exact to the last digit."""
 
 _ALIKE = 1.0 - 1e-9
 
 
 @dataclass(frozen=True, slots=True)
 class Placement:
-    """How places in a file become places in the scenario.
+    """Transformation of positions in a file to positions in the scenario.
 
-    Attributes
-    ----------
-    angle_rad : float
-        Direction of the road in the file's plan, anticlockwise from its x axis, from -π/2 to π/2.
-    origin_m : (3,) float
-        What becomes the origin of the scenario.
+    The angle is that of the road in the file's plan, anticlockwise from its x axis, from -π/2 to π/2. The point (3,) of
+    the file is the origin of the scenario.
     """
 
     angle_rad: float
@@ -53,14 +49,9 @@ class Placement:
 
 
 def placement_of(along_road: Sequence[TriangleMesh], ground_m: float) -> Placement:
-    """Return where a bridge stands.
+    """Return where a bridge stands, with the height of the ground in the file, m.
 
-    Parameters
-    ----------
-    along_road : sequence of TriangleMesh
-        What carries the road. It runs along the longer side of the smallest rectangle around its plan.
-    ground_m : float
-        Height of the ground in the file, m.
+    The road runs along the longer side of the smallest rectangle around the plan of the members that carry it.
     """
     points = np.concatenate([solid.vertices[:, :2] for solid in along_road])
     angle = _longer_side(points)

@@ -1,4 +1,4 @@
-"""What the user says of an IFC file besides what is in it."""
+"""Settings of an import: what the user adds to an IFC file."""
 
 from __future__ import annotations
 
@@ -20,24 +20,22 @@ KINDS = (
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ImportSettings:
-    """What the user says of an IFC file besides what is in it.
+    """What the user adds to an IFC file.
 
     Attributes
     ----------
-    materials : Path, optional
+    materials
         Table of materials; that of the add-on unless given.
-    material : str, optional
-        Name of the material, as the table knows it, of elements without one.
-    unit : str, optional
+    material
+        Name in the table of the material of elements without one.
+    unit
         Unit of length, one of `UNITS`, in place of that of the file.
-    ground_m : float, optional
-        Height of the ground in the file, m; that of the lowest underside unless given.
-    shards : int
-        Into how many shards the bridge is cut.
-    without : tuple of str
+    ground_m
+        Height of the ground in the file; that of the lowest underside unless given.
+    without
         Names, classes, kinds or GlobalIds of elements that are left out, with ``*`` for anything.
-    kinds : tuple of (str, str)
-        Name, class or GlobalId of elements, with ``*`` for anything, and the kind that they are, one of `KINDS`.
+    kinds
+        Name, class or GlobalId of elements, with ``*`` for anything, and their kind, one of `KINDS`.
     """
 
     materials: Path | None = None
@@ -57,5 +55,5 @@ class ImportSettings:
 
 
 def matches(pattern: str, names: tuple[str, ...]) -> bool:
-    """Return whether one of the names is meant, whatever its capital letters; ``*`` stands for anything."""
+    """Return whether a pattern matches one of the names, whatever the case; ``*`` stands for anything."""
     return any(fnmatchcase(name.casefold(), pattern.casefold()) for name in names)

@@ -1,4 +1,4 @@
-"""An IFC file, opened: that it is one, is whole, and how long its unit of length is."""
+"""An IFC file, opened and checked, with its unit of length."""
 
 from __future__ import annotations
 
@@ -33,20 +33,9 @@ _BEYOND_ASCII = re.compile(r"[^\x00-\x7f]+")
 
 @dataclass(frozen=True, slots=True)
 class IfcSource:
-    """An IFC file.
+    """An IFC file: its content, an `ifcopenshell.file`, and notes on corrections.
 
-    Attributes
-    ----------
-    path : Path
-        Where it is.
-    model : ifcopenshell.file
-        What is in it.
-    scale : float
-        Factor on what IfcOpenShell takes for metres.
-    unit_m : float
-        Metres in the unit of length of what is in the file.
-    notes : tuple of str
-        What was put right in it.
+    `scale` is a factor on what IfcOpenShell takes for metres; `unit_m` is the length of the file's unit.
     """
 
     path: Path
@@ -58,10 +47,7 @@ class IfcSource:
 
 @contextmanager
 def naming_contradictions(path: Path) -> Iterator[None]:
-    """Say that a file contradicts its schema, where IfcOpenShell finds something else than it has to in it.
-
-    Errors of other code are let through: they are no fault of the file.
-    """
+    """Report that a file contradicts its schema where IfcOpenShell fails on it; errors of other code pass."""
     try:
         yield
     except (AttributeError, IndexError, KeyError, RuntimeError, TypeError, ValueError) as error:
@@ -79,7 +65,7 @@ def open_source(path: Path, settings: ImportSettings) -> IfcSource:
     content = _content(path)
     mended, count = _AMERICAN.subn(rb"\1METRE\2", content)
     try:
-        # By its text, as what is opened by its path is not closed before the interpreter ends.
+        # By its text, as a file opened by its path is not closed before the interpreter ends.
         model = openshell.file.from_string(_text(mended))
     except (RuntimeError, ValueError, openshell.Error) as error:
         raise IfcError(f"{path}: cannot be read as IFC ({error}); export it again") from error
@@ -117,22 +103,22 @@ def _content(path: Path) -> bytes:
         raise IfcError(f"{path}: is cut short, as {_END.decode()} is missing at its end; copy or export it again")
     schema = _SCHEMA.search(beginning)
     if not schema or schema.group(1).decode("latin-1").upper().split("_")[0] not in SCHEMAS:
-        found = f"of the schema {schema.group(1).decode('latin-1')}" if schema else "of no schema"
-        raise IfcError(f"{path}: is {found}: expected one of {', '.join(SCHEMAS)}; export it as one of them")
+        actual = f"of the schema {schema.group(1).decode('latin-1')}" if schema else "of no schema"
+        raise IfcError(f"{path}: is {actual}: expected one of {', '.join(SCHEMAS)}; export it as one of them")
     return content
 
 
 def _text(content: bytes) -> str:
-    """Return a file as text in which letters beyond ASCII are spelt as the standard, ISO 10303-21, wants them."""
+    """Return a file as text, with letters beyond ASCII spelt as in the standard, ISO 10303-21."""
     try:
         text = content.decode("utf-8-sig")
     except UnicodeDecodeError:  # against the standard, but what programs of some countries write
         text = content.decode("latin-1")
-    return _BEYOND_ASCII.sub(lambda found: f"\\X4\\{found.group().encode('utf-32-be').hex().upper()}\\X0\\", text)
+    return _BEYOND_ASCII.sub(lambda match: f"\\X4\\{match.group().encode('utf-32-be').hex().upper()}\\X0\\", text)
 
 
 def _unit_of_file(model: Any) -> float | None:
-    """Return the metres in the unit of length that the file gives; None for none, or one that is misspelt."""
+    """Return the metres in the file's unit of length; None where it has none, or a misspelt one."""
     units = model.by_type("IfcProject")[0].UnitsInContext
     for unit in units.Units if units else ():
         if getattr(unit, "UnitType", None) != "LENGTHUNIT":

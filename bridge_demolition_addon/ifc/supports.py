@@ -1,4 +1,4 @@
-"""What of a bridge never moves: its footings, and what else ends above the ground with nothing under it."""
+"""Members that never move: footings, and those that end above the ground with nothing under them."""
 
 from __future__ import annotations
 
@@ -16,16 +16,8 @@ _STANDING = ("pier", "abutment", "wall")
 
 
 def supports_of(members: Sequence[Member], contacts: NearbyMembers) -> tuple[list[Support], list[str]]:
-    """Return what never moves, and sentences on what is held though it is no footing.
-
-    Parameters
-    ----------
-    members : sequence of Member
-        In their places.
-    contacts : NearbyMembers
-        Between their solids.
-    """
-    held = [Support(member="footing")] if any(each.kind == "footing" for each in members) else []
+    """Return the supports of a bridge, and notes on members that are held though they are no footings."""
+    held = [Support(member="footing")] if any(member.kind == "footing" for member in members) else []
     notes = []
     for index, member in enumerate(members):
         height_m = float(member.solid.bounds[0, 2])
@@ -39,18 +31,11 @@ def supports_of(members: Sequence[Member], contacts: NearbyMembers) -> tuple[lis
 
 
 def loose_members(members: Sequence[Member], contacts: NearbyMembers, connected: Collection[str]) -> list[str]:
-    """Return sentences on members that touch neither the ground nor another member, and so fall at once.
+    """Return notes on members that touch neither the ground nor another member, and so fall at once.
 
-    Parameters
-    ----------
-    members : sequence of Member
-        In their places.
-    contacts : NearbyMembers
-        Between their solids.
-    connected : collection of str
-        Names and kinds of members that are held, or lie on bearings.
+    Members whose name or kind is connected are held, or lie on bearings.
     """
-    found = []
+    notes = []
     for index, member in enumerate(members):
         if member.solid.bounds[0, 2] <= _ON_GROUND_M or {member.name, member.kind} & set(connected):
             continue
@@ -58,5 +43,5 @@ def loose_members(members: Sequence[Member], contacts: NearbyMembers, connected:
         if near and near[0][0] <= TOUCHING_M:
             continue
         where = f"the nearest is {members[near[0][1]].name}, {1e3 * near[0][0]:.1f} mm off" if near else "none is near"
-        found.append(f"{member.name} touches no other member ({where}): it is not connected, and falls")
-    return found
+        notes.append(f"{member.name} touches no other member ({where}): it is not connected, and falls")
+    return notes

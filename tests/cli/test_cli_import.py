@@ -73,7 +73,7 @@ def test_all_that_can_be_told(path, tmp_path, capsys):
     kinds = {each.name: (each.kind, each.density_kg_m3) for each in read_scenario(folder / "scenario.toml").geometry}
     assert kinds["Column"] == ("pier", 2500.0)
     assert not any(name.startswith("Footing") for name in kinds)
-    assert "ground                  at 0.500 m in the file: as told" in capsys.readouterr().out
+    assert "ground                  at 0.500 m in the file: as given by --ground" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(

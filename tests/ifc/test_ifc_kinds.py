@@ -52,11 +52,11 @@ def test_kinds(said, kind):
     [
         (facts("IfcTendon", classes=("IfcReinforcingElement",)), "strength of reinforced concrete"),
         (facts("IfcReinforcingBar", classes=("IfcReinforcingElement",)), "strength of reinforced concrete"),
-        (facts("IfcRailing"), "bears nothing"),
+        (facts("IfcRailing"), "carries nothing"),
         (facts("IfcPile"), "in the ground"),
         (facts("IfcPavement"), "surfacing"),
         (facts("IfcMember", predefined="STAY_CABLE"), "cables"),
-        (facts("IfcBuildingElementProxy", "Handrail"), "bears nothing"),
+        (facts("IfcBuildingElementProxy", "Handrail"), "carries nothing"),
         (facts("IfcBuildingElementProxy", "Object 7"), "--kind"),
     ],
     ids=lambda value: "" if isinstance(value, str) else f"{value.classes[0]} {value.words}",
