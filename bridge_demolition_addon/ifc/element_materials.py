@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import Any
 
 from ..errors import IfcError
@@ -38,8 +37,8 @@ def substances(
     source: IfcSource, elements: Sequence[Element], table: MaterialTable, settings: ImportSettings
 ) -> list[Substance]:
     """Return the material of each element."""
+    table_name = str(settings.materials) if settings.materials else "the table of materials"
     if settings.material is not None and table.row(settings.material) is None:
-        table_name = _table_name(settings.materials)
         raise IfcError(f'material is "{settings.material}", which {table_name} does not know')
     reader = _Reader(source, table, settings.material)
     known = []
@@ -53,15 +52,11 @@ def substances(
     if unknown:
         named = "; ".join(f"{name or 'no material'}: {_some(names)}" for name, names in unknown.items())
         raise IfcError(
-            f"{source.path}: {_table_name(settings.materials)} does not know the materials of {named}. Say by --material "
+            f"{source.path}: {table_name} does not know the materials of {named}. Say by --material "
             "concrete what such elements are, or write the table by bda import --write-materials FILE, add rows for "
             "these names, and give it by --materials FILE"
         )
     return known
-
-
-def _table_name(path: Path | None) -> str:
-    return str(path) if path else "the table of materials"
 
 
 def _some(names: Sequence[str]) -> str:
