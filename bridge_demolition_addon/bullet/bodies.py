@@ -8,7 +8,7 @@ from ..model.results.removed_shards import OUT_OF_REACH_M
 from .body_motion import BodyMotionReader
 from .contacts import ContactReader
 from .layout import ASLEEP, AWAKE, DISABLED, SLEEPING, WANTS_SLEEP, Layout
-from .memory import Fields, add_vectors, gather_doubles, gather_integers, write_doubles, write_integers, write_vectors
+from .memory import DOUBLES, INTEGERS, Fields, add_vectors, gather_doubles, write_vectors
 
 _TRANSFORM = 8 * np.array([0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14])
 """Rotation matrix and origin in bytes from the start of a btTransform: four vectors of four doubles each."""
@@ -50,7 +50,7 @@ class BodyTable:
 
     def asleep(self) -> np.ndarray:
         """Return whether each body (n,) is asleep; one that can never move is not."""
-        states = gather_integers(self._fields(self._body.activation))
+        states = INTEGERS.gather(self._fields(self._body.activation))
         return np.isin(states, list(SLEEPING)) & self.can_move()
 
     def motion(self) -> BodyMotionReader:
@@ -98,7 +98,7 @@ class BodyTable:
     def push(self, bodies: np.ndarray, forces_n: np.ndarray) -> None:
         """Wake bodies (k,), each named once and in order, and add forces (k, 3) on them in the coming sub-step."""
         addresses = self.addresses[bodies]
-        states = gather_integers(addresses + np.uint64(self._body.activation))
+        states = INTEGERS.gather(addresses + np.uint64(self._body.activation))
         if ((states == ASLEEP) | (states == WANTS_SLEEP)).any():
             self.wake(bodies)
         add_vectors(addresses + np.uint64(self._body.total_force), forces_n)
@@ -109,10 +109,10 @@ class BodyTable:
         To be called before a sub-step: Bullet gives sleeping bodies no weight, so they get it here.
         """
         named = self._once(bodies)
-        states = gather_integers(self.addresses[named] + np.uint64(self._body.activation))
+        states = INTEGERS.gather(self.addresses[named] + np.uint64(self._body.activation))
         drowsy = self.addresses[named[(states == ASLEEP) | (states == WANTS_SLEEP)]]
-        write_integers(drowsy + np.uint64(self._body.activation), AWAKE)
-        write_doubles(drowsy + np.uint64(self._body.deactivation_time), 0.0)
+        INTEGERS.write(drowsy + np.uint64(self._body.activation), AWAKE)
+        DOUBLES.write(drowsy + np.uint64(self._body.deactivation_time), 0.0)
         sleeping = self.addresses[named[states == ASLEEP]]
         weights = gather_doubles(sleeping + np.uint64(self._body.gravity), 3)
         add_vectors(sleeping + np.uint64(self._body.total_force), weights)
@@ -129,7 +129,7 @@ class BodyTable:
         write_vectors(origins, gather_doubles(origins, 3) - (0.0, 0.0, OUT_OF_REACH_M))
         resting = np.zeros((len(bodies), 3))
         self.set_velocities(bodies, resting, resting)
-        write_integers(addresses + np.uint64(self._body.activation), DISABLED)
+        INTEGERS.write(addresses + np.uint64(self._body.activation), DISABLED)
         self.removed[bodies] = True
 
     def _once(self, bodies: np.ndarray) -> np.ndarray:

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..errors import LayoutError
 from .layout import SLEEPING, Layout
-from .memory import Fields, gather_integers, write_doubles
+from .memory import DOUBLES, INTEGERS, Fields
 
 _VECTOR = 8 * np.arange(3)
 
@@ -53,7 +53,7 @@ class BodyMotionReader:
     def read(self) -> BodyMotion:
         """Return how all bodies move."""
         values = self._motion.copy()
-        states = gather_integers(self._bodies + np.uint64(self._body.activation))
+        states = INTEGERS.gather(self._bodies + np.uint64(self._body.activation))
         rotations, asleep = values[:9].reshape(3, 3, -1), np.isin(states, list(SLEEPING))
         return BodyMotion(values[9:12], rotations, values[12:18], values[24], values[18:24], asleep)
 
@@ -79,4 +79,4 @@ class BodyMotionReader:
         self._write([self._body.transform + 32 * row + _VECTOR for row in range(4)], rows, transform)
 
     def _write(self, offsets: list[np.ndarray], rows: np.ndarray, values: np.ndarray) -> None:
-        write_doubles(np.concatenate(offsets).astype(np.uint64)[:, None] + self._bodies[rows], values)
+        DOUBLES.write(np.concatenate(offsets).astype(np.uint64)[:, None] + self._bodies[rows], values)

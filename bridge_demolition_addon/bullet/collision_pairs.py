@@ -15,7 +15,7 @@ import numpy as np
 
 from ..errors import LayoutError
 from .layout import Layout
-from .memory import gather_pointers, read_pointer, read_pointers, read_value, write_pointers
+from .memory import POINTERS, read_pointer, read_pointers, read_value
 
 _MOST_IGNORED = 1_000_000
 
@@ -38,9 +38,9 @@ class CollisionPairs:
         """Let the bodies of connections (k,) collide, where no other connection still forbids it."""
         for side in (0, 1):
             body, other = self._pairs[rows, side], self._pairs[rows, 1 - side]
-            entries = gather_pointers(body + self._list_offset) + 8 * self._slots[rows, side]
-            there = gather_pointers(entries) == other
-            write_pointers(entries[there], body[there])
+            entries = POINTERS.gather(body + self._list_offset) + 8 * self._slots[rows, side]
+            there = POINTERS.gather(entries) == other
+            POINTERS.write(entries[there], body[there])
 
 
 def let_collide(layout: Layout, first: int, second: int) -> None:
@@ -49,7 +49,7 @@ def let_collide(layout: Layout, first: int, second: int) -> None:
         ignored = _ignored_bodies(layout, body)
         if other in ignored:
             data = read_pointer(body + layout.body.ignored_bodies_data)
-            write_pointers(data + 8 * ignored.index(other), body)
+            POINTERS.write(data + 8 * ignored.index(other), body)
 
 
 def _ignored_bodies(layout: Layout, body: int) -> list[int]:

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..errors import LayoutError
 from .layout import ALL_ROWS_SET, SPRING_CORRECTION, SPRING_TYPE, Layout
-from .memory import gather_doubles, read, read_value, write_doubles, write_integers
+from .memory import DOUBLES, INTEGERS, gather_doubles, read, read_value
 
 _ROTATION = 1e-4
 """How far elements of two rotation matrices in single precision may differ."""
@@ -78,13 +78,13 @@ class ConstraintRows:
     def _hold_at(self, rows: np.ndarray, limits: np.ndarray) -> None:
         held, resists = self.held[:, rows], self._resists[:, rows]
         for offsets, when_free in ((self._layout.spring.lower, 1.0), (self._layout.spring.upper, -1.0)):
-            write_doubles(self._fields(offsets, rows)[held], np.where(resists, limits, when_free)[held])
+            DOUBLES.write(self._fields(offsets, rows)[held], np.where(resists, limits, when_free)[held])
 
     def _write(self, rows: np.ndarray, correction: float, softness: np.ndarray | float, flags: int) -> None:
         spring = self._layout.spring
-        write_doubles(self._fields(spring.correction, rows), correction)
-        write_doubles(self._fields(spring.softness, rows), softness)
-        write_integers(self._addresses[rows] + np.uint64(spring.flags), flags)
+        DOUBLES.write(self._fields(spring.correction, rows), correction)
+        DOUBLES.write(self._fields(spring.softness, rows), softness)
+        INTEGERS.write(self._addresses[rows] + np.uint64(spring.flags), flags)
 
     def _fields(self, offsets: Sequence[int], rows: np.ndarray | slice = slice(None)) -> np.ndarray:
         return np.array(offsets, np.uint64)[:, None] + self._addresses[rows]

@@ -7,7 +7,7 @@ import numpy as np
 from .collision_pairs import CollisionPairs
 from .constraint_rows import ConstraintRows
 from .layout import Layout
-from .memory import Fields, gather_doubles, gather_pointers, write_bytes, write_doubles, write_pointers
+from .memory import BYTES, DOUBLES, POINTERS, Fields, gather_doubles
 from .teardown import Fingerprints
 
 FEEDBACK_DOUBLES = 16
@@ -66,26 +66,27 @@ class ConstraintTable:
         self.write_loads(wanted=True)
 
     def write_loads(self, *, wanted: bool) -> None:
-        """Have Bullet write the loads after every sub-step, as it does from `prepare` on, or leave them as they are."""
+        """Have Bullet write the loads after every sub-step, as from `prepare` on, or leave them as they are."""
         starts = self.feedback.ctypes.data + 8 * FEEDBACK_DOUBLES * np.arange(len(self), dtype=np.uint64)
-        self._point_feedback_at(starts[self.exists] if wanted else np.uint64(0))
+        targets = starts[self.exists] if wanted else np.uint64(0)
+        POINTERS.write(self._fields(self._constraint.joint_feedback), targets)
 
     def intact(self) -> np.ndarray:
         """Return whether each connection (m,) exists and has not broken."""
         if self._enabled is None or not np.array_equal(self.exists, self._enabled[0]):
-            self._enabled = self.exists.copy(), Fields(self.existing, [self._constraint.enabled], np.uint8)
+            self._enabled = self.exists.copy(), Fields(self.existing, [self._constraint.enabled], BYTES)
         intact = np.zeros(len(self), bool)
         intact[self.exists] = self._enabled[1].copy()[0] != 0
         return intact
 
     def first_bodies(self) -> np.ndarray:
         """Return the addresses (e,) of Bullet's body A of those that exist."""
-        return gather_pointers(self._fields(self._constraint.body_a))
+        return POINTERS.gather(self._fields(self._constraint.body_a))
 
     def break_rows(self, rows: np.ndarray) -> None:
         """Break connections (k,), as Bullet does at their breaking thresholds."""
         rows = rows[self.exists[rows]]
-        write_bytes(self.addresses[rows] + np.uint64(self._constraint.enabled), 0)
+        BYTES.write(self.addresses[rows] + np.uint64(self._constraint.enabled), 0)
         self.feedback[rows] = 0.0  # Bullet would leave the last load of one whose bodies are not simulated any more
 
     def weaken(self, rows: np.ndarray, factor: float) -> None:
@@ -94,14 +95,9 @@ class ConstraintTable:
         self._thresholds[(np.cumsum(self.exists) - 1)[rows]] *= factor
         self._write_thresholds()
 
-    def hold_thresholds(self) -> None:
-        """Let no connection break at its threshold, until `release_thresholds`."""
-        self._holds = True
-        self._write_thresholds()
-
-    def release_thresholds(self) -> None:
-        """Let connections break at their thresholds again."""
-        self._holds = False
+    def hold_thresholds(self, *, held: bool) -> None:
+        """Let no connection break at its threshold, or let them break again."""
+        self._holds = held
         self._write_thresholds()
 
     def scale_thresholds(self, factor: float) -> None:
@@ -130,13 +126,9 @@ class ConstraintTable:
 
     def restore(self) -> None:
         """Take our buffer, and what was written to rows, out of those that exist."""
-        self.stop_loads()
+        self.write_loads(wanted=False)
         if self._rows:
             self._rows.restore(np.flatnonzero(self.exists))
-
-    def stop_loads(self) -> None:
-        """Have Bullet write loads nowhere."""
-        self._point_feedback_at(np.uint64(0))
 
     def _fields(self, offset: int) -> np.ndarray:
         """Addresses (e,) of a field of the connections that exist."""
@@ -144,7 +136,4 @@ class ConstraintTable:
 
     def _write_thresholds(self) -> None:
         values = np.inf if self._holds else self._thresholds * self._threshold_factor
-        write_doubles(self._fields(self._constraint.breaking_threshold), values)
-
-    def _point_feedback_at(self, targets: np.ndarray | np.uint64) -> None:
-        write_pointers(self._fields(self._constraint.joint_feedback), targets)
+        DOUBLES.write(self._fields(self._constraint.breaking_threshold), values)

@@ -11,16 +11,7 @@ import numpy as np
 from ..engineering.geometry.vectors import dot, length
 from ..errors import LayoutError
 from .layout import Layout
-from .memory import (
-    Fields,
-    copy_pointers,
-    gather_integers,
-    gather_pointers,
-    read,
-    read_pointers,
-    read_value,
-    write_integers,
-)
+from .memory import INTEGERS, POINTERS, Fields, copy_pointers, read, read_pointers, read_value
 
 _MOST_POINTS = 4
 """Bullet keeps no more of two bodies (MANIFOLD_CACHE_SIZE)."""
@@ -154,16 +145,16 @@ class ContactReader:
         It would take the distance that they were moved by for how deep they are in others, and push them apart.
         """
         manifolds, layout = self._checked_manifolds(), self._layout.manifold
-        pairs = [self._indices(gather_pointers(manifolds + np.uint64(side))) for side in (layout.body_a, layout.body_b)]
+        pairs = [self._indices(POINTERS.gather(manifolds + np.uint64(side))) for side in (layout.body_a, layout.body_b)]
         moved = np.isin(pairs, rows).any(axis=0)
-        write_integers(manifolds[moved] + np.uint64(layout.count), 0)
+        INTEGERS.write(manifolds[moved] + np.uint64(layout.count), 0)
 
     def _find(self, manifolds: np.ndarray) -> None:
         """Note where everything is in manifolds at these addresses."""
         layout = self._layout.manifold
         self._known_manifolds = manifolds
-        self._counts = Fields(manifolds, [layout.count], np.int32)
-        self._bodies = Fields(manifolds, [layout.body_a, layout.body_b], np.uint64)
+        self._counts = Fields(manifolds, [layout.count], INTEGERS)
+        self._bodies = Fields(manifolds, [layout.body_a, layout.body_b], POINTERS)
         self._impulses = Fields(manifolds, self._impulse_offsets)
         self._vectors = Fields(manifolds, self._vector_offsets)
 
@@ -171,11 +162,11 @@ class ContactReader:
         """Addresses of all manifolds, from Bullet's pool and from beyond it; checked when the first are there."""
         layout, address = self._layout.dispatcher, self._dispatcher
         count_field, data_field = address + layout.manifold_count, address + layout.manifold_data
-        count = int(gather_integers(np.array([count_field]))[0] if self._is_checked else read_value(count_field, "i"))
+        count = int(INTEGERS.gather(np.array([count_field]))[0] if self._is_checked else read_value(count_field, "i"))
         if not 0 <= count <= _MOST_MANIFOLDS:
             raise LayoutError(f"{count} contacts")
         if self._is_checked:
-            return copy_pointers(int(gather_pointers(np.array([data_field]))[0]), count)
+            return copy_pointers(int(POINTERS.gather(np.array([data_field]))[0]), count)
         manifolds = read_pointers(data_field, count, "the list of contacts")
         _check_contacts(self._layout, manifolds, set(self._sorted.tolist()))
         self._is_checked = count > 0

@@ -15,7 +15,7 @@ import numpy as np
 
 from ..errors import LayoutError
 from ..scene.world import evaluated_scenes
-from .memory import read, read_pointer, write_pointers
+from .memory import POINTERS, read, read_pointer
 
 INFLUENCES = (
     *("all", "force", "vortex", "magnetic", "wind", "curve_guide", "texture", "harmonic"),
@@ -49,4 +49,4 @@ def _limit(scene: bpy.types.Scene, collection: int) -> None:
     shown = np.array([getattr(weights, name) for name in INFLUENCES], np.float32)
     if read_pointer(address) != limited_to or raw != shown.tobytes():
         raise LayoutError("the limit of the rigid-body world's force fields is not where it is expected")
-    write_pointers(address, collection)
+    POINTERS.write(address, collection)

@@ -52,9 +52,54 @@ def read_pointers(field: int, count: int, name: str) -> np.ndarray:
     return np.frombuffer(raw, np.uint64)
 
 
+class Values:
+    """All values of a type in the address space of user programs, which numpy has as one array without a copy.
+
+    Methods take checked addresses, one or (n,).
+    """
+
+    def __init__(self, type_: str):
+        self.size = np.dtype(type_).itemsize
+        shape = ((_HIGHEST - _LOWEST) // self.size,)
+        self.__array_interface__ = {"data": (_LOWEST, False), "shape": shape, "typestr": type_, "version": 3}
+        self.everywhere = np.asarray(self)
+
+    def indices(self, addresses: np.ndarray | int) -> np.ndarray:
+        """Return where in the array the values at addresses are."""
+        shift = self.size.bit_length() - 1  # all sizes are powers of two
+        return (np.asarray(addresses).astype(np.int64) >> shift) - (_LOWEST >> shift)
+
+    def gather(self, addresses: np.ndarray) -> np.ndarray:
+        """Copy the values at addresses."""
+        return self.everywhere.take(self.indices(addresses))
+
+    def write(self, addresses: np.ndarray | int, values: np.ndarray | np.generic | float) -> None:
+        """Write values to addresses."""
+        self.everywhere[self.indices(addresses)] = values
+
+
+DOUBLES, FLOATS, BYTES, SHORTS, INTEGERS, POINTERS = map(Values, ("<f8", "<f4", "|u1", "<i2", "<i4", "<u8"))
+
+
 def gather_doubles(addresses: np.ndarray, count: int = 1) -> np.ndarray:
     """So many doubles in a row (n, count) at each of the checked addresses (n,)."""
-    return _DOUBLES.take(_indices(addresses, 8)[:, None] + np.arange(count))
+    return DOUBLES.everywhere.take(DOUBLES.indices(addresses)[:, None] + np.arange(count))
+
+
+def write_vectors(addresses: np.ndarray, vectors: np.ndarray) -> None:
+    """Write vectors (n, 3) of doubles to checked addresses (n,)."""
+    DOUBLES.everywhere[DOUBLES.indices(addresses)[:, None] + np.arange(3)] = vectors
+
+
+def add_vectors(addresses: np.ndarray, vectors: np.ndarray) -> None:
+    """Add vectors (n, 3) to those at checked addresses (n,), each of which is named once."""
+    write_vectors(addresses, gather_doubles(addresses, 3) + vectors)
+
+
+def copy_pointers(address: int, count: int) -> np.ndarray:
+    """So many pointers (count,) uint64 in a row, at a checked address."""
+    first = (address - _LOWEST) // 8
+    return POINTERS.everywhere[first : first + count].copy()
 
 
 class Fields:
@@ -63,104 +108,21 @@ class Fields:
     The structures begin at checked addresses (n,); the fields lie at offsets (c,) in bytes.
     """
 
-    def __init__(
-        self, addresses: np.ndarray, offsets: Sequence[int] | np.ndarray, type_: type[np.generic] = np.float64
-    ):
-        self._space = _SPACES[type_]
-        self._starts = _indices(addresses, self._space.itemsize)
-        self._offsets = np.asarray(offsets, np.int64)[:, None] // self._space.itemsize
+    def __init__(self, addresses: np.ndarray, offsets: Sequence[int] | np.ndarray, values: Values = DOUBLES):
+        self._values, self._size = values.everywhere, values.size
+        self._starts = values.indices(addresses)
+        self._offsets = np.asarray(offsets, np.int64)[:, None] // self._size
         self._indices: np.ndarray | None = None
 
     def copy(self) -> np.ndarray:
         """Return the values (c, n) as they are now."""
         if self._indices is None:
             self._indices = self._starts + self._offsets
-        return self._space.take(self._indices)
+        return self._values.take(self._indices)
 
     def copy_at(self, rows: np.ndarray, further: np.ndarray | int = 0) -> np.ndarray:
         """Return the values (c, k) in structures (k,), each so many bytes (k,) behind the offsets."""
-        return self._space.take(self._starts.take(rows) + further // self._space.itemsize + self._offsets)
-
-
-def copy_pointers(address: int, count: int) -> np.ndarray:
-    """So many pointers (count,) uint64 in a row, at a checked address."""
-    first = (address - _LOWEST) // 8
-    return _POINTERS[first : first + count].copy()
-
-
-def gather_pointers(addresses: np.ndarray) -> np.ndarray:
-    """Pointers (n,) uint64 at the checked addresses (n,)."""
-    return _POINTERS.take(_indices(addresses, 8))
-
-
-def gather_integers(addresses: np.ndarray) -> np.ndarray:
-    """32-bit integers (n,) at the checked addresses (n,)."""
-    return _INTEGERS.take(_indices(addresses, 4))
-
-
-def write_doubles(addresses: np.ndarray, values: np.ndarray | float) -> None:
-    """Write doubles to checked addresses (n,)."""
-    _DOUBLES[_indices(addresses, 8)] = values
-
-
-def write_float(address: int, value: float) -> None:
-    """Write one 32-bit float to a checked address."""
-    _FLOATS[_indices(address, 4)] = value
-
-
-def write_short(address: int, value: int) -> None:
-    """Write one 16-bit integer to a checked address."""
-    _SHORTS[_indices(address, 2)] = value
-
-
-def write_vectors(addresses: np.ndarray, vectors: np.ndarray) -> None:
-    """Write vectors (n, 3) of doubles to checked addresses (n,)."""
-    _DOUBLES[_indices(addresses, 8)[:, None] + np.arange(3)] = vectors
-
-
-def add_vectors(addresses: np.ndarray, vectors: np.ndarray) -> None:
-    """Add vectors (n, 3) to those at checked addresses (n,), each of which is named once."""
-    indices = _indices(addresses, 8)[:, None] + np.arange(3)
-    _DOUBLES[indices] = _DOUBLES.take(indices) + vectors
-
-
-def write_bytes(addresses: np.ndarray, value: int) -> None:
-    """Write one byte to each of the checked addresses (n,)."""
-    _BYTES[_indices(addresses, 1)] = value
-
-
-def write_integers(addresses: np.ndarray, values: np.ndarray | int) -> None:
-    """Write 32-bit integers to checked addresses (n,)."""
-    _INTEGERS[_indices(addresses, 4)] = values
-
-
-def write_pointers(addresses: np.ndarray | int, pointers: np.ndarray | np.uint64 | int) -> None:
-    """Write pointers to checked addresses."""
-    _POINTERS[_indices(addresses, 8)] = pointers
-
-
-class _AddressSpace:
-    """The whole address space of user programs, as one array of numpy without a copy."""
-
-    def __init__(self, type_: str, item_size: int):
-        shape = ((_HIGHEST - _LOWEST) // item_size,)
-        self.__array_interface__ = {"data": (_LOWEST, False), "shape": shape, "typestr": type_, "version": 3}
-
-
-_DOUBLES = np.asarray(_AddressSpace("<f8", 8))
-_BYTES = np.asarray(_AddressSpace("|u1", 1))
-_FLOATS = np.asarray(_AddressSpace("<f4", 4))
-_POINTERS = np.asarray(_AddressSpace("<u8", 8))
-_SHORTS = np.asarray(_AddressSpace("<i2", 2))
-_INTEGERS = np.asarray(_AddressSpace("<i4", 4))
-
-
-_SPACES = {np.float64: _DOUBLES, np.uint64: _POINTERS, np.int32: _INTEGERS, np.uint8: _BYTES}
-
-
-def _indices(addresses: np.ndarray | int, item_size: int) -> np.ndarray:
-    shift = item_size.bit_length() - 1  # all sizes are powers of two
-    return (np.asarray(addresses).astype(np.int64) >> shift) - (_LOWEST >> shift)
+        return self._values.take(self._starts.take(rows) + further // self._size + self._offsets)
 
 
 def _linux_reader() -> Callable[[int, int], bytes | None]:

@@ -16,7 +16,7 @@ from .bodies import BodyTable
 from .constraints import ConstraintTable
 from .contacts import ContactCopies, Contacts
 from .layout import Layout
-from .memory import Fields
+from .memory import BYTES, Fields
 
 _VECTOR = 8 * np.arange(3)
 _FEEDBACK_COLUMNS = np.array([0, 1, 2, 4, 5, 6])
@@ -121,7 +121,7 @@ class SnapshotTaker:
         self._existed = self._exists.copy()
         addresses = self._connections[self._existed]
         self._impulses = Fields(addresses, [self._constraint.applied_impulse])
-        self._enabled = Fields(addresses, [self._constraint.enabled], np.uint8)
+        self._enabled = Fields(addresses, [self._constraint.enabled], BYTES)
 
     def _of_all(self, values: np.ndarray) -> np.ndarray:
         """Values (m,), 0 for connections that do not exist, from those (e,) of the ones that do."""

@@ -17,7 +17,7 @@ from ..errors import LayoutError
 from .binding import bodies_in_use
 from .collision_pairs import let_collide
 from .layout import Layout
-from .memory import read, read_pointer, read_pointers, read_value, write_integers, write_pointers
+from .memory import INTEGERS, POINTERS, read, read_pointer, read_pointers, read_value
 
 _MOST_ENTRIES = 10_000_000
 _INERT_BYTES = 4096
@@ -45,8 +45,8 @@ class PointerArray:
         entries = np.array([entry for entry in self.entries if entry in kept], np.uint64)
         if len(entries) == len(self.entries):
             return
-        write_pointers(read_pointer(self._data_field) + 8 * np.arange(len(entries)), entries)
-        write_integers(np.array([self._count_field]), len(entries))
+        POINTERS.write(read_pointer(self._data_field) + 8 * np.arange(len(entries)), entries)
+        INTEGERS.write(np.array([self._count_field]), len(entries))
 
 
 class Fingerprints:
@@ -95,7 +95,7 @@ def take_bodies_from(layout: Layout, connections: np.ndarray, body_class: int = 
     """Give constraints at addresses (k,) an inert body in place of their own, which may be freed."""
     inert = _inert_body(body_class)
     for field in (layout.constraint.body_a, layout.constraint.body_b):
-        write_pointers(connections + np.uint64(field), inert)
+        POINTERS.write(connections + np.uint64(field), inert)
 
 
 def take_out_constraints(layout: Layout, dynamics: int, bodies: np.ndarray, known: set[int], gone: set[int]) -> None:

@@ -16,7 +16,7 @@ from ..errors import LayoutError
 from ..scene.world import evaluated_scenes
 from . import checks
 from .layout import platform_layout
-from .memory import read_value, write_float, write_short
+from .memory import FLOATS, SHORTS, read_value
 
 _NEVER = -2_000_000.0
 """No frame comes after this one: Blender's first is -1 048 574."""
@@ -34,7 +34,7 @@ def set_time_scale(scene: bpy.types.Scene, time_scale: float) -> None:
 def set_substeps(scene: bpy.types.Scene, substeps: int) -> None:
     """Let the coming frame have so many sub-steps."""
     for world in _evaluated_worlds(scene):
-        write_short(_field(world, "world_substeps"), substeps)
+        SHORTS.write(_field(world, "world_substeps"), substeps)
 
 
 def time_stands_still(depsgraph: bpy.types.Depsgraph) -> bool:
@@ -60,7 +60,7 @@ def stop_time(scene: bpy.types.Scene) -> None:
         last = read_value(field, "f")
         if last != _NEVER and not (abs(last) < -_NEVER and last == int(last)):
             raise LayoutError(f"last frame of the world is {last:g}")
-        write_float(field, _NEVER)
+        FLOATS.write(field, _NEVER)
 
 
 def _evaluated_worlds(scene: bpy.types.Scene) -> list[bpy.types.RigidBodyWorld]:
@@ -68,7 +68,7 @@ def _evaluated_worlds(scene: bpy.types.Scene) -> list[bpy.types.RigidBodyWorld]:
 
 
 def _write_time_scale(world: bpy.types.RigidBodyWorld, time_scale: float) -> None:
-    write_float(_field(world, "world_time_scale"), time_scale)
+    FLOATS.write(_field(world, "world_time_scale"), time_scale)
 
 
 def _field(world: bpy.types.RigidBodyWorld, name: str) -> int:

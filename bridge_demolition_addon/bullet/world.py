@@ -26,7 +26,7 @@ from .constraint_rows import ConstraintRows
 from .constraints import FEEDBACK_DOUBLES, ConstraintTable
 from .contacts import ContactReader
 from .layout import Layout, platform_layout
-from .memory import gather_doubles, read_pointer, read_value, write_doubles, write_pointers
+from .memory import DOUBLES, POINTERS, gather_doubles, read_pointer, read_value
 from .snapshots import SnapshotTaker
 from .teardown import detach_freed, take_bodies_from, take_out_constraints
 
@@ -117,7 +117,7 @@ class BulletWorld:
         self._bound = self._check(dynamics, depsgraph, to_read)
         self._bound.constraints.prepare()
         self._token = next(_tokens)
-        write_pointers(dynamics + self._layout.world.user_info, self._token)
+        POINTERS.write(dynamics + self._layout.world.user_info, self._token)
         return WorldState.NEW
 
     @property
@@ -146,7 +146,7 @@ class BulletWorld:
         world = self._layout.world
         for field, action in ((world.before_step, before), (world.after_step, after)):
             address = ctypes.cast(_callback(action), ctypes.c_void_p).value or 0 if action else 0
-            write_pointers(self._world.dynamics + field, address)
+            POINTERS.write(self._world.dynamics + field, address)
 
     def take_substep(self) -> float:
         """Return the length in s of the sub-steps since the last call, 0.0 where Bullet took none, and clear it.
@@ -156,7 +156,7 @@ class BulletWorld:
         """
         field = np.array([self._world.dynamics + self._layout.world.step])
         substep = float(gather_doubles(field)[0, 0])
-        write_doubles(field, 0.0)
+        DOUBLES.write(field, 0.0)
         return substep
 
     def snapshots(self, sides: np.ndarray) -> SnapshotTaker:
@@ -195,7 +195,7 @@ class BulletWorld:
             self.constraints.restore()
             world = self._layout.world
             for field in (world.before_step, world.after_step, world.user_info):
-                write_pointers(self._world.dynamics + field, 0)
+                POINTERS.write(self._world.dynamics + field, 0)
         self._bound = None
 
     def detach_freed(self, *, bodies_stay: bool = True) -> None:
@@ -209,7 +209,7 @@ class BulletWorld:
         bound, constraints = self._world, self.constraints
         connections = constraints.existing
         alive = constraints.forget_freed()
-        constraints.stop_loads()
+        constraints.write_loads(wanted=False)
         bodies = bound.bodies.addresses
         detach_freed(self._layout, bound.dynamics, bodies, connections, alive, bodies_stay=bodies_stay)
         constraints.exists[:] = False

@@ -6,6 +6,7 @@ The handlers are there while the add-on is on, or a scene is recorded, coloured 
 from __future__ import annotations
 
 import atexit
+from collections.abc import Callable
 
 import bpy
 from bpy.app.handlers import persistent
@@ -99,29 +100,14 @@ def _look_at_all() -> None:
         recorded_scene(scene).look()
 
 
-@persistent
-def _before_frame(scene: bpy.types.Scene, _depsgraph: bpy.types.Depsgraph | None = None) -> None:
-    recorded_scene(scene).before_frame()
+def _of_scene(act: Callable[..., None], *, with_depsgraph: bool = False) -> Callable[..., None]:
+    """Return the handler of an event that concerns one scene: a method of its owner."""
 
+    @persistent
+    def handler(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph | None = None) -> None:
+        act(recorded_scene(scene), *([depsgraph] if with_depsgraph else ()))
 
-@persistent
-def _after_frame(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
-    recorded_scene(scene).after_frame(depsgraph)
-
-
-@persistent
-def _before_update(scene: bpy.types.Scene, _depsgraph: bpy.types.Depsgraph | None = None) -> None:
-    recorded_scene(scene).before_update()
-
-
-@persistent
-def _after_update(scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph) -> None:
-    recorded_scene(scene).after_update(depsgraph)
-
-
-@persistent
-def _before_render(scene: bpy.types.Scene, *_: object) -> None:
-    recorded_scene(scene).before_render()
+    return handler
 
 
 @persistent
@@ -164,11 +150,11 @@ def _after_failed_load(*_: object) -> None:
 
 
 _HANDLERS = {
-    "frame_change_pre": _before_frame,
-    "frame_change_post": _after_frame,
-    "depsgraph_update_pre": _before_update,
-    "depsgraph_update_post": _after_update,
-    "render_init": _before_render,
+    "frame_change_pre": _of_scene(RecordedScene.before_frame),
+    "frame_change_post": _of_scene(RecordedScene.after_frame, with_depsgraph=True),
+    "depsgraph_update_pre": _of_scene(RecordedScene.before_update),
+    "depsgraph_update_post": _of_scene(RecordedScene.after_update, with_depsgraph=True),
+    "render_init": _of_scene(RecordedScene.before_render),
     "render_complete": _after_render,
     "render_cancel": _after_render,
     "undo_pre": _before_undo,

@@ -64,7 +64,7 @@ class WarmUp(Driver):
         self.is_over = breaking.warm_up_s <= 0.0
         self._world, self._shards, self._breaking, self._release = world, shards, breaking, release
         if not self.is_over:
-            world.constraints.hold_thresholds()
+            world.constraints.hold_thresholds(held=True)
 
     def before_substep(self, elapsed_s: float, substep_s: float) -> None:
         """Slow the shards down."""
@@ -78,7 +78,7 @@ class WarmUp(Driver):
         if not self.is_over and elapsed_s >= self._breaking.warm_up_s:
             self.is_over = True
             if self._release:
-                self._world.constraints.release_thresholds()
+                self._world.constraints.hold_thresholds(held=False)
 
 
 class ThresholdScale(Driver):

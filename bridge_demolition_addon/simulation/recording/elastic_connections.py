@@ -121,7 +121,7 @@ class ElasticConnections:
         self._built = motion
         self._substep_s = 0.0
         self._loads = np.zeros((2, 6, len(self._frames)))
-        world.constraints.hold_thresholds()
+        world.constraints.hold_thresholds(held=True)
 
     def reinforce(self, breaking: Breaking, left: np.ndarray) -> None:
         """Have reinforcement hold where connections break; to be called before any time passes.

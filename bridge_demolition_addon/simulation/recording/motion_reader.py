@@ -57,31 +57,31 @@ class MomentumReader:
     def read_frame(self, depsgraph: bpy.types.Depsgraph) -> Frame:
         """Return the frame just evaluated, the next after the last, without the impulses of a blast."""
         matrices = np.array([body.evaluated_get(depsgraph).matrix_world for body in self._bodies], float)
-        positions, axes = matrices[:, :3, 3], matrices[:, :3, :3]
+        positions_m, axes = matrices[:, :3, 3], matrices[:, :3, :3]
         rotations = axes / length(np.swapaxes(axes, 1, 2))[:, None]
         last, step = self._last, time_step_at(self._scene, self._scene.frame_current)
         time_s, substep_s, loads = 0.0, 0.0, self._no_loads
-        velocities = angular_velocities = np.zeros_like(positions)
+        velocities = angular_velocities = np.zeros_like(positions_m)
         if last:
             time_s, velocities, angular_velocities = last.time_s, last.velocities_m_s, last.angular_velocities_rad_s
         if last and step.frame_s > 0.0:
             time_s, substep_s = time_s + step.frame_s, step.substep_s
-            velocities = (positions - last.positions_m) / step.frame_s
+            velocities = (positions_m - last.positions_m) / step.frame_s
             angular_velocities = rotation_vectors(last.rotations, rotations) / step.frame_s
             loads = self._loads((velocities - last.velocities_m_s) / step.frame_s)
         self._last = Frame(
             number=self._scene.frame_current,
             time_s=time_s,
             substep_s=substep_s,
-            positions_m=positions,
+            positions_m=positions_m,
             rotations=rotations,
             velocities_m_s=velocities,
             angular_velocities_rad_s=angular_velocities,
-            asleep=np.zeros(len(positions), bool),
+            asleep=np.zeros(len(positions_m), bool),
             intact=np.zeros(0, bool),
-            blast_impulses_ns=np.zeros_like(positions),
+            blast_impulses_ns=np.zeros_like(positions_m),
             loads=loads,
-            work=FrameWork.unknown(len(positions)),
+            work=FrameWork.unknown(len(positions_m)),
         )
         return self._last
 

@@ -40,9 +40,9 @@ class Reinforcement(Driver):
             points_m = points_m + transformed(axes[:, :, 1:], self._offsets_m[rows])
             held = self._yield_n[rows] > 0.0
             rows, points_m = rows[held], points_m[held]
-        positions, rotations = self._bodies.positions()
+        positions_m, rotations = self._bodies.positions()
         pairs = self._inventory.pairs[rows]
-        anchors = transformed_back(rotations[pairs], points_m[:, None] - positions[pairs])
+        anchors = transformed_back(rotations[pairs], points_m[:, None] - positions_m[pairs])
         self._rows = np.concatenate((self._rows, rows))
         self._anchors = np.concatenate((self._anchors, anchors))
         self._holding_n = np.concatenate((self._holding_n, np.zeros(len(rows))))
@@ -53,9 +53,9 @@ class Reinforcement(Driver):
         if not len(self._rows):
             return
         pairs = self._inventory.pairs[self._rows]
-        positions, rotations = self._bodies.positions()
+        positions_m, rotations = self._bodies.positions()
         levers = transformed(rotations[pairs], self._anchors)
-        points = positions[pairs] + levers
+        points = positions_m[pairs] + levers
         speeds = self._bodies.velocities()[pairs] + np.cross(self._bodies.angular_velocities()[pairs], levers)
         distances, rates, directions = parting(points[:, 0], points[:, 1], speeds[:, 0], speeds[:, 1])
         masses = effective_masses(self._inventory.masses_kg, pairs, self._turning(pairs, levers, directions))
