@@ -115,11 +115,10 @@ def _interface() -> tuple:
     # The engineering and the checks of the command line work where there is no Blender to import.
     from .simulation import blender_events
     from .ui import registration, scene_settings
-    from .ui.contours import decorator, view
-    from .ui.ensemble import prop as ensemble_prop
+    from .ui.contours import decorator
     from .ui.ensemble import study
     from .ui.ground import decorator as ground_decorator
     from .ui.preview import decorator as preview_decorator
 
-    drawings = (decorator, ground_decorator, study, ensemble_prop, preview_decorator)
-    return (blender_events, scene_settings, view, registration, *drawings)
+    drawings = (module.drawing for module in (decorator, ground_decorator, study, preview_decorator))
+    return (blender_events, scene_settings, registration, *drawings)

@@ -1,4 +1,4 @@
-"""Messages that stay in the sidebar: what buttons warned of or refused last, until they are pressed again."""
+"""Messages that stay in the sidebar: warnings and refusals of buttons, until they are pressed again."""
 
 from __future__ import annotations
 
@@ -9,12 +9,14 @@ import bpy
 from .sidebar import draw_sentence
 
 _MOST = 6
-"""Of the newest that are drawn."""
+"""Newest messages that are drawn."""
+
+_ICONS = {"ERROR": "CANCEL", "WARNING": "ERROR"}
 
 
 @dataclass(frozen=True, slots=True)
 class Message:
-    """A sentence that a button said in a scene."""
+    """A message of an operator, in the scene in which it was pressed."""
 
     button: str
     scene_uid: int
@@ -32,35 +34,33 @@ def tell(operator: bpy.types.Operator, level: str, text: str) -> None:
 
 
 def clear(operator: bpy.types.Operator) -> None:
-    """Forget what a button said before, as it is pressed again."""
-    _kept[:] = [each for each in _kept if each.button != operator.bl_idname]
+    """Forget the messages of a button, as it is pressed again."""
+    _kept[:] = [message for message in _kept if message.button != operator.bl_idname]
 
 
 def clear_all() -> None:
-    """Forget all of them."""
+    """Forget all messages."""
     _kept.clear()
 
 
 def messages_of(scene: bpy.types.Scene) -> list[Message]:
-    """Return what there is to say in a scene, oldest first."""
-    return [each for each in _kept if each.scene_uid == scene.session_uid][-_MOST:]
+    """Return the newest messages of a scene, oldest first."""
+    return [message for message in _kept if message.scene_uid == scene.session_uid][-_MOST:]
 
 
 def draw_messages(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
-    """Draw what stays to be said, with a button that takes it away."""
-    found = messages_of(context.scene)
-    if not found:
+    """Draw the messages, with a button that removes them."""
+    kept = messages_of(context.scene)
+    if not kept:
         return
     box = layout.box()
-    for each in found:
-        draw_sentence(
-            box, context, each.text, icon="CANCEL" if each.level == "ERROR" else each.level.replace("WARNING", "ERROR")
-        )
+    for message in kept:
+        draw_sentence(box, context, message.text, icon=_ICONS.get(message.level, message.level))
     box.operator("bda.dismiss_messages", icon="X")
 
 
 class BDA_OT_dismiss_messages(bpy.types.Operator):
-    """Take these messages away"""
+    """Remove these messages"""
 
     bl_idname = "bda.dismiss_messages"
     bl_label = "Dismiss"
@@ -75,6 +75,3 @@ class BDA_OT_dismiss_messages(bpy.types.Operator):
     def execute(self, _context: bpy.types.Context) -> set[str]:
         clear_all()
         return {"FINISHED"}
-
-
-CLASSES = (BDA_OT_dismiss_messages,)

@@ -1,4 +1,4 @@
-"""Buttons whose work takes some seconds, beside Blender or as pictures that it renders: time left, and Esc to stop."""
+"""Buttons whose work takes some seconds: in steps in the window, with time left and Esc; in a script at once."""
 
 from __future__ import annotations
 
@@ -9,37 +9,121 @@ import bpy
 
 from ..errors import DemolitionError
 from . import messages, task_progress
-from .operators import Action, GuardedOperator, refused
+from .operators import GuardedOperator, refused
 from .stepped_thread import SteppedThread
 
-_TICK_S = 0.005
-LOOKING_ROUND = {
-    "MOUSEMOVE",
-    "INBETWEEN_MOUSEMOVE",
-    "MIDDLEMOUSE",
-    "WHEELUPMOUSE",
-    "WHEELDOWNMOUSE",
-    "WINDOW_DEACTIVATE",
-}
-"""Events that Blender still gets while something goes on; all others would change what it works on."""
+_LOOKING_ROUND = frozenset(
+    {"MOUSEMOVE", "INBETWEEN_MOUSEMOVE", "MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE", "WINDOW_DEACTIVATE"}
+)
+"""Events that Blender still gets meanwhile; all others would change what the task works on."""
 
 Work = Callable[[SteppedThread], str | None]
-"""Does the work, which needs no Blender, and returns a sentence on what was done."""
+"""Does the work, which needs no Blender, and returns a sentence on its result."""
 
 
-class ModalTask(Action):
-    """Base of operators that go on beside the window; from a script they work in one go.
+class SteppedTask(GuardedOperator):
+    """Base of operators that work in steps, between which Blender draws and reads mouse and keyboard.
 
     Attributes
     ----------
-    what, unit
-        What is done, and what its parts are, as its progress says it.
+    task, unit
+        The task and its parts as the progress names them, such as ``Rendering`` and ``pictures``.
+    tick_s
+        Pause between two steps, s.
+    passed_events
+        Types of events that Blender still gets while the work goes on.
     """
 
-    what: str
+    task: str
     unit: str
-    _thread: SteppedThread
+    tick_s = 0.005
+    passed_events: frozenset[str] = _LOOKING_ROUND
     _timer: bpy.types.Timer | None = None
+    _progress: task_progress.TaskProgress | None = None
+
+    def begin(self, context: bpy.types.Context) -> int:
+        """Prepare the work, and return how many parts it has."""
+        raise NotImplementedError
+
+    def step(self) -> bool:
+        """Do a step, and return whether there is more to do."""
+        raise NotImplementedError
+
+    def show_progress(self, progress: task_progress.TaskProgress) -> None:
+        """Say how far the work is."""
+        raise NotImplementedError
+
+    def finish(self, context: bpy.types.Context) -> set[str]:
+        """Keep the result, and report it."""
+        raise NotImplementedError
+
+    def interrupt(self) -> None:
+        """End the work where it is."""
+        raise NotImplementedError
+
+    def stopped(self, context: bpy.types.Context) -> set[str]:
+        """Report that the user has stopped the work."""
+        raise NotImplementedError
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        messages.clear(self)
+        try:
+            self.begin(context)
+            while self.step():
+                pass
+            return self.finish(context)
+        except (DemolitionError, OSError) as error:  # a full disk, for one
+            return refused(self, error)
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        messages.clear(self)
+        try:
+            if progress := task_progress.going_on():
+                raise DemolitionError(f"{progress.task} goes on: wait for it, or stop it with Esc")
+            total = self.begin(context)
+        except (DemolitionError, OSError) as error:
+            return refused(self, error)
+        self._progress = task_progress.begin(context, self.task, self.unit, total)
+        task_progress.show(context)
+        manager = context.window_manager
+        self._timer = manager.event_timer_add(self.tick_s, window=context.window)
+        manager.modal_handler_add(self)
+        _at_work[:] = [self]
+        return {"RUNNING_MODAL"}
+
+    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        if self not in _at_work:  # the extension was switched off
+            return {"CANCELLED"}
+        if event.type == "ESC":
+            self.cancel(context)
+            return self.stopped(context)
+        if event.type != "TIMER":
+            return {"PASS_THROUGH"} if event.type in self.passed_events else {"RUNNING_MODAL"}
+        try:
+            if self.step():
+                self.show_progress(self._progress)
+                task_progress.show(context)
+                return {"RUNNING_MODAL"}
+            self.cancel(context)
+            return self.finish(context)
+        except (DemolitionError, OSError) as error:
+            self.cancel(context)
+            return refused(self, error)
+
+    def cancel(self, context: bpy.types.Context) -> None:
+        """End the work and its progress; Blender calls this before it loads another file."""
+        _at_work.clear()
+        self.interrupt()
+        if self._timer:
+            context.window_manager.event_timer_remove(self._timer)
+            self._timer = None
+        task_progress.end(context)
+
+
+class ModalTask(SteppedTask):
+    """Base of operators whose work needs no Blender."""
+
+    _thread: SteppedThread
 
     def work(self, context: bpy.types.Context) -> Work:
         """Look up in Blender all that the work needs, and return it."""
@@ -49,157 +133,58 @@ class ModalTask(Action):
         """Return how much of the work is done."""
         return thread.done / thread.total if thread.total else 0.0
 
-    def act(self, context: bpy.types.Context) -> str | None:
-        thread = SteppedThread(self.work(context))
-        while not thread.is_finished:
-            thread.step()
-        return thread.outcome()
+    def begin(self, context: bpy.types.Context) -> int:
+        self._thread = SteppedThread(self.work(context))
+        return 1
 
-    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
-        messages.clear(self)
-        if reason := _what_goes_on():
-            return refused(self, DemolitionError(reason))
-        try:
-            self._thread = SteppedThread(self.work(context))
-        except (DemolitionError, OSError) as error:
-            return refused(self, error)
-        manager = context.window_manager
-        self._timer = manager.event_timer_add(_TICK_S, window=context.window)
-        manager.modal_handler_add(self)
-        task_progress.begin(context, self.what, self.unit, 1)
-        _at_work[:] = [self]
-        return {"RUNNING_MODAL"}
-
-    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        if self not in _at_work:  # the extension was switched off
-            return {"CANCELLED"}
-        if event.type == "ESC":
-            self.stop(context)
-            messages.tell(self, "WARNING", f"{self.bl_label}: stopped; files that were written whole are new")
-            return {"CANCELLED"}
-        if event.type != "TIMER":
-            return {"PASS_THROUGH"} if event.type in LOOKING_ROUND else {"RUNNING_MODAL"}
+    def step(self) -> bool:
         self._thread.step()
-        if self._thread.is_finished:
-            return self._finish(context)
-        self._show(context)
-        return {"RUNNING_MODAL"}
+        return not self._thread.is_finished
 
-    def cancel(self, context: bpy.types.Context) -> None:
-        """Called by Blender where it ends the work itself, as it does before another file is loaded."""
-        self.stop(context)
+    def show_progress(self, progress: task_progress.TaskProgress) -> None:
+        progress.total, progress.note = max(self._thread.total, 1), self._thread.stage_text
+        progress.reach(self.share_of(self._thread))
 
-    def stop(self, context: bpy.types.Context) -> None:
-        """End the work where it is."""
-        self._thread.stop()
-        self._take_back(context)
-
-    def _finish(self, context: bpy.types.Context) -> set[str]:
-        self._take_back(context)
-        try:
-            if done := self._thread.outcome():
-                self.report({"INFO"}, done)
-        except (DemolitionError, OSError) as error:
-            return refused(self, error)
+    def finish(self, context: bpy.types.Context) -> set[str]:
+        if done := self._thread.outcome():
+            self.report({"INFO"}, done)
         return {"FINISHED"}
 
-    def _show(self, context: bpy.types.Context) -> None:
-        going_on, thread = task_progress.going_on(), self._thread
-        going_on.total, going_on.note = max(thread.total, 1), thread.stage_text
-        going_on.reach(self.share_of(thread))
-        task_progress.show(context)
+    def interrupt(self) -> None:
+        self._thread.stop()
 
-    def _take_back(self, context: bpy.types.Context) -> None:
-        _at_work.clear()
-        if self._timer:
-            context.window_manager.event_timer_remove(self._timer)
-            self._timer = None
-        task_progress.end(context)
+    def stopped(self, context: bpy.types.Context) -> set[str]:
+        messages.tell(self, "WARNING", f"{self.bl_label}: stopped; files that were written whole are new")
+        return {"CANCELLED"}
 
 
-class RenderingTask(GuardedOperator):
-    """Base of operators that render pictures, between which Blender draws its window; from a script in one go."""
+class RenderingTask(SteppedTask):
+    """Base of operators that render pictures, one in a step."""
 
+    task, unit = "Rendering", "pictures"
+    passed_events = frozenset()
     _pictures: Iterator[Path]
-    _timer: bpy.types.Timer | None = None
-    _total = 0
 
-    def begin(self, context: bpy.types.Context) -> tuple[Iterator[Path], int]:
-        """Return the pictures, each rendered when it is asked for, and how many there are."""
-        raise NotImplementedError
+    def step(self) -> bool:
+        return next(self._pictures, None) is not None
 
-    def finish(self) -> set[str]:
-        """Keep what was rendered, and say so."""
-        raise NotImplementedError
+    def show_progress(self, progress: task_progress.TaskProgress) -> None:
+        progress.step()
 
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        try:
-            pictures, _ = self.begin(context)
-            for _ in pictures:
-                pass
-            return self.finish()
-        except (DemolitionError, OSError) as error:  # a full disk, for one
-            return refused(self, error)
+    def interrupt(self) -> None:
+        self._pictures.close()  # which leaves the scene as it was
 
-    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
-        if reason := _what_goes_on():
-            return refused(self, DemolitionError(reason))
-        try:
-            self._pictures, self._total = self.begin(context)
-        except (DemolitionError, OSError) as error:
-            return refused(self, error)
-        manager = context.window_manager
-        self._progress = task_progress.begin(context, "Rendering", "pictures", self._total)
-        task_progress.show(context)
-        self._timer = manager.event_timer_add(_TICK_S, window=context.window)
-        manager.modal_handler_add(self)
-        _at_work[:] = [self]
-        return {"RUNNING_MODAL"}
-
-    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        if self not in _at_work:  # the extension was switched off
-            return {"CANCELLED"}
-        if event.type == "ESC":
-            self.stop(context)
-            done = round(self._progress.share * self._total)
-            messages.tell(self, "WARNING", f"Stopped after {done} of {self._total} pictures")
-            return {"CANCELLED"}
-        if event.type != "TIMER":
-            return {"RUNNING_MODAL"}
-        try:
-            if next(self._pictures, None) is not None:
-                self._progress.step()
-                task_progress.show(context)
-                return {"RUNNING_MODAL"}
-            self.stop(context)
-            return self.finish()
-        except (DemolitionError, OSError) as error:
-            self.stop(context)
-            return refused(self, error)
-
-    def cancel(self, context: bpy.types.Context) -> None:
-        """Called by Blender where it ends the work itself, as it does before another file is loaded."""
-        self.stop(context)
-
-    def stop(self, context: bpy.types.Context) -> None:
-        """End the rendering where it is, and leave the scene as it was."""
-        _at_work.clear()
-        self._pictures.close()
-        context.window_manager.event_timer_remove(self._timer)
-        task_progress.end(context)
+    def stopped(self, context: bpy.types.Context) -> set[str]:
+        done, total = round(self._progress.share * self._progress.total), self._progress.total
+        messages.tell(self, "WARNING", f"Stopped after {done} of {total} pictures")
+        return {"CANCELLED"}
 
 
-def _what_goes_on() -> str:
-    """Return in a sentence what else goes on and has to end first; empty where nothing does."""
-    going_on = task_progress.going_on()
-    return f"{going_on.what} goes on: wait for it, or stop it with Esc" if going_on else ""
-
-
-_at_work: list[ModalTask | RenderingTask] = []
+_at_work: list[SteppedTask] = []
 """The one that goes on, if any does."""
 
 
 def unregister() -> None:
     """Stop what goes on."""
-    for each in list(_at_work):
-        each.stop(bpy.context)
+    for task in list(_at_work):
+        task.cancel(bpy.context)

@@ -1,5 +1,6 @@
-"""What the operators share: greyed buttons with a reason, errors as messages, and paths from the sidebar."""
+"""Parts that operators share: greyed buttons with a reason, errors as messages, and paths from the sidebar."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 import bpy
@@ -11,25 +12,37 @@ from ..system.disk import writing
 from . import messages
 from .sidebar import path_property
 
+Obstacle = Callable[[bpy.types.Context], str | None]
+"""Returns in a sentence why a button cannot work now, or None where it can."""
+
 
 class GuardedOperator:
     """Base of buttons that are greyed, with a reason in their tooltip, as long as they cannot work.
 
+    Each has the id that its class name says: `BDA_OT_run` is ``bda.run``.
+
     Attributes
     ----------
-    changes_scene : bool
+    changes_scene
         Whether the button changes the scene, which it then cannot do to one that is linked from another file.
-    changes_objects : bool
+    changes_objects
         Whether it makes or removes objects, for which Blender has to be in object mode.
+    blocked_by
+        Other obstacles, in the order in which they are asked.
     """
 
     changes_scene = True
     changes_objects = False
+    blocked_by: tuple[Obstacle, ...] = ()
+
+    def __init_subclass__(cls, **keywords: object) -> None:
+        super().__init_subclass__(**keywords)
+        cls.bl_idname = cls.__name__.replace("BDA_OT_", "bda.")
 
     @classmethod
     def disabled_reason(cls, context: bpy.types.Context) -> str | None:
-        """Return why the button cannot work now, in a sentence, or None where it can."""
-        return None
+        """Return why the button cannot work in this scene now, or None where it can."""
+        return next(filter(None, (obstacle(context) for obstacle in cls.blocked_by)), None)
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
@@ -47,7 +60,7 @@ class Action(GuardedOperator):
     """Base of operators that act in one go."""
 
     def act(self, context: bpy.types.Context) -> str | None:
-        """Do the work, and return a sentence on what was done, if there is any to report."""
+        """Do the work, and return a sentence on its result, if there is one to report."""
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         messages.clear(self)
@@ -60,8 +73,14 @@ class Action(GuardedOperator):
         return {"FINISHED"}
 
 
+class UndoableAction(Action):
+    """Base of those that Blender can undo."""
+
+    bl_options = {"REGISTER", "UNDO"}
+
+
 class FileWriter(ExportHelper):
-    """Base of operators that ask for a file to write; each gives the suffix as `filename_ext`, and a `filter_glob`."""
+    """Base of operators that ask for a file to write; each has the suffix as `filename_ext`, and a `filter_glob`."""
 
     filepath: path_property("File", "File to write")
 
@@ -74,29 +93,36 @@ class FileWriter(ExportHelper):
         return super().invoke(context, event)
 
 
+def unset(name: str, reason: str) -> Obstacle:
+    """Return what blocks a button as long as a setting of the scene is empty."""
+    return lambda context: None if getattr(context.scene.bda, name) else reason
+
+
 def no_world(context: bpy.types.Context) -> str | None:
-    """Return a sentence where the scene has no rigid-body world, else None."""
+    """Say that the scene has no rigid-body world."""
     world = context.scene.rigidbody_world
-    if world and world.collection:
-        return None
-    return "This scene has no rigid-body world: build a scenario first"
+    return None if world and world.collection else "This scene has no rigid-body world: build a scenario first"
 
 
 def recording_runs(_context: bpy.types.Context) -> str | None:
-    """Return a sentence where a recording runs, else None."""
+    """Say that a recording runs."""
     return "A recording runs: stop it first" if running_recording() else None
 
 
+def baked(context: bpy.types.Context) -> str | None:
+    """Say that the simulation is baked."""
+    is_baked = context.scene.rigidbody_world.point_cache.is_baked
+    return "The simulation is baked and only played back: delete the bake first" if is_baked else None
+
+
 def other_mode(context: bpy.types.Context) -> str | None:
-    """Return a sentence where Blender is in another mode than object mode, else None."""
+    """Say that Blender is in another mode than object mode."""
     return None if context.mode == "OBJECT" else "Go to object mode first"
 
 
 def _linked(context: bpy.types.Context) -> str | None:
     library = context.scene.library
-    if library is None:
-        return None
-    return f"This scene is linked from {Path(library.filepath).name}: open that file to change it"
+    return library and f"This scene is linked from {Path(library.filepath).name}: open that file to change it"
 
 
 def refused(operator: bpy.types.Operator, error: Exception) -> set[str]:
@@ -106,7 +132,7 @@ def refused(operator: bpy.types.Operator, error: Exception) -> set[str]:
 
 
 def absolute(path: str) -> Path:
-    """Return a path as the user gave it, where ``//`` is the folder of the saved file."""
+    """Return the path that the user wrote, where ``//`` is the folder of the saved file."""
     if path.startswith("//") and not bpy.data.filepath:
         raise OutputError(f"{path}: is relative to this file, which has no place yet; save it or give a full path")
     return Path(bpy.path.abspath(path))

@@ -6,19 +6,18 @@ from bpy.props import BoolProperty, PointerProperty, StringProperty
 from ..model.scenario import Scenario
 from .blast.prop import ChargeProperties
 from .contours.prop import ContourProperties
-from .ensemble.prop import EnsembleProperties
+from .ensemble.prop import EnsembleProperties, read_earlier_files
 from .ground.prop import GroundProperties
-from .preview.prop import PreviewProperties
 from .scenario import prop as scenario_properties
 from .sidebar import path_property
-from .stages.prop import StageProperties
+from .stages.shown import StageProperties
+from .viewport import redraw_views
 
 
 class BDA_PG_settings(
     ContourProperties,
     ChargeProperties,
     GroundProperties,
-    PreviewProperties,
     EnsembleProperties,
     StageProperties,
     bpy.types.PropertyGroup,
@@ -48,6 +47,13 @@ class BDA_PG_settings(
         "with the camera and size of Pictures in Scenario",
         default=True,
     )
+    show_preview: BoolProperty(
+        name="Preview",
+        description="While this tab is open, draw bridge and ball as the panels would build them, where nothing is "
+        "built or other values were, and show handles to drag the ball's target and the charges",
+        default=True,
+        update=redraw_views,
+    )
     debris_log_path: path_property("Debris Log", "File for the debris log; none for the folder of the results")
     force_log_path: path_property("Force Log", "File for the force log; none for the folder of the results")
 
@@ -60,10 +66,12 @@ def register() -> None:
         BDA_PG_settings.__annotations__[name] = PointerProperty(type=group, description=table.__doc__)
     bpy.utils.register_class(BDA_PG_settings)
     bpy.types.Scene.bda = PointerProperty(type=BDA_PG_settings)
+    bpy.app.handlers.load_post.append(read_earlier_files)
 
 
 def unregister() -> None:
     """Take the settings from all scenes."""
+    bpy.app.handlers.load_post.remove(read_earlier_files)
     del bpy.types.Scene.bda
     bpy.utils.unregister_class(BDA_PG_settings)
     scenario_properties.unregister()

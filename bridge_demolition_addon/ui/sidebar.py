@@ -1,4 +1,4 @@
-"""What all panels and settings of the sidebar share: the tab, sentences on several lines, and paths."""
+"""Parts that all panels and settings of the sidebar share: the tab, sentences on several lines, and paths."""
 
 from __future__ import annotations
 
@@ -21,6 +21,7 @@ class SidebarPanel:
     bl_space_type = "VIEW_3D"
     bl_region_type = "UI"
     bl_category = "BDA"
+    bl_options = {"DEFAULT_CLOSED"}
 
 
 def letters_of(context: bpy.types.Context) -> int:
@@ -30,7 +31,7 @@ def letters_of(context: bpy.types.Context) -> int:
 
 
 def draw_sentence(layout: bpy.types.UILayout, context: bpy.types.Context, text: str, icon: str = "ERROR") -> None:
-    """Draw a sentence on as many lines as it needs, as Blender cuts off what is wider than the sidebar."""
+    """Draw a sentence on as many lines as it needs, as Blender cuts off lines that are wider than the sidebar."""
     column, below = layout.column(align=True), "NONE" if icon == "NONE" else "BLANK1"
     for number, line in enumerate(textwrap.wrap(text, letters_of(context))):
         column.label(text=line, icon=below if number else icon)

@@ -14,21 +14,21 @@ class _StoppedError(BaseException):
 
 
 class SteppedThread(Progress):
-    """Work in a thread of its own, which goes on from one of its parts to the next only when it is its turn.
+    """Work in a thread of its own, which waits after each of its parts until `step` is called.
 
-    Blender waits meanwhile, so it is as if it did the work itself, but gets round to mouse and keyboard in between.
+    Blender waits during a step, as if it did the work itself, but reads mouse and keyboard in between.
 
     Parameters
     ----------
     work
-        Is given what tells stages and parts, as the progress of a report, and returns what comes of it.
+        Reports its stages and parts to this progress, and returns its result.
 
     Attributes
     ----------
-    stage, done, total
-        What was told last.
+    stage_text, done, total
+        The stage that was reported last, and how many of its parts are done.
     is_finished
-        Whether the work has ended, in whatever way.
+        Whether the work has ended, also by an error.
     """
 
     def __init__(self, work: Callable[[SteppedThread], Any]):
@@ -52,25 +52,25 @@ class SteppedThread(Progress):
         self._our_turn.acquire()
 
     def stop(self) -> None:
-        """End it where it is; what it writes whole or not at all stays so."""
+        """End the work where it is; a file that is written whole or not at all stays so."""
         self._is_stopped = True
         if self._thread.is_alive():
             self.step()
         self.is_finished = True
 
     def outcome(self) -> Any:
-        """Return what came of it; raise what it raised."""
+        """Return the result of the work; raise what it raised."""
         if self._error:
             raise self._error
         return self._outcome
 
     def stage(self, text: str) -> None:
-        """Take in what begins now; called by the work."""
+        """Note which stage begins; called by the work."""
         self.stage_text, self.done, self.total = text, 0, 0
         self._hand_over()
 
     def part(self, done: int, total: int, text: str = "") -> None:
-        """Take in how many parts of a stage are done; called by the work."""
+        """Note how many parts of a stage are done; called by the work."""
         self.done, self.total = done, total
         self._hand_over()
 

@@ -1,4 +1,4 @@
-"""What goes on and takes long: how far it is, the time left, and how to stop it; in the status bar and the sidebar."""
+"""Progress of a long task in the status bar and the sidebar: how far it is, the time left, and how to stop it."""
 
 from __future__ import annotations
 
@@ -13,25 +13,21 @@ from .sidebar import draw_sentence, redraw_sidebars
 
 @dataclass(slots=True)
 class TaskProgress:
-    """How far some work is.
+    """How far a task is.
 
     Attributes
     ----------
-    what
-        What is done: ``Running``.
-    unit
-        What its steps are: ``frames``.
-    total
-        How many there are.
+    task, unit
+        The task as a text, such as ``Running``, and its steps, such as ``frames``.
     note
-        What else there is to say of it now.
+        Another text of the lines.
     left_s
-        Time left on the clock; None while nothing can be said of it.
+        Time left on the clock; None while it is not known.
     share
         Part of the work that is done.
     """
 
-    what: str
+    task: str
     unit: str
     total: int
     note: str = ""
@@ -43,13 +39,13 @@ class TaskProgress:
 
     @property
     def lines(self) -> list[str]:
-        """What it says, each in a few words."""
+        """The progress in short lines."""
         done = f"{round(self.share * self.total)} of {self.total} {self.unit}"
         left = [] if self.left_s is None else [in_words(self.left_s)]
-        return [f"{self.what}: {done}", *left, *filter(None, [self.note]), "Esc: stop"]
+        return [f"{self.task}: {done}", *left, *filter(None, [self.note]), "Esc: stop"]
 
     def step(self) -> None:
-        """Note that one more step is done, of those that take alike long."""
+        """Note that one more step is done, of steps that take equally long."""
         now = time.perf_counter()
         self._pace.note(now - self._stepped_s)
         self._stepped_s = now
@@ -64,19 +60,19 @@ class TaskProgress:
 
 
 _going_on: list[TaskProgress] = []
-"""One at most: whoever begins another has ended the one before."""
+"""At most one: a task that begins ends the one before."""
 
 
-def begin(context: bpy.types.Context, what: str, unit: str, total: int) -> TaskProgress:
-    """Show from now on how far some work is."""
+def begin(context: bpy.types.Context, task: str, unit: str, total: int) -> TaskProgress:
+    """Show the progress of a task from now on."""
     end(context)
-    _going_on[:] = [TaskProgress(what, unit, total)]
+    _going_on[:] = [TaskProgress(task, unit, total)]
     context.window_manager.progress_begin(0, 1000)
     return _going_on[0]
 
 
 def show(context: bpy.types.Context) -> None:
-    """Show how far it is now."""
+    """Show how far the task is now."""
     progress = going_on()
     context.window_manager.progress_update(round(1000 * progress.share))
     if context.workspace:
@@ -85,7 +81,7 @@ def show(context: bpy.types.Context) -> None:
 
 
 def end(context: bpy.types.Context) -> None:
-    """Show nothing of it any more."""
+    """Show the progress no longer."""
     if not _going_on:
         return
     _going_on.clear()
@@ -95,13 +91,13 @@ def end(context: bpy.types.Context) -> None:
     redraw_sidebars(context)
 
 
-def going_on() -> TaskProgress | None:
-    """Return the work that goes on, None where none does."""
-    return _going_on[0] if _going_on else None
+def going_on(task: str | None = None) -> TaskProgress | None:
+    """Return the progress of the task that goes on, if it is the one that is asked for; None where there is none."""
+    return next((progress for progress in _going_on if task in (None, progress.task)), None)
 
 
 def draw_task_progress(layout: bpy.types.UILayout, context: bpy.types.Context, progress: TaskProgress) -> None:
-    """Draw how far some work is."""
+    """Draw a progress bar with its lines."""
     first, *others = progress.lines
     layout.progress(factor=min(progress.share, 1.0), text=first)
     for line in others:

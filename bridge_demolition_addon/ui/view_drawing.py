@@ -1,10 +1,22 @@
-"""Functions that draw over the 3D view, called by Blender at every redraw."""
+"""Drawing over the 3D view: lines, areas and texts, and the functions that Blender calls for them at every redraw."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 
+import blf
 import bpy
+import gpu
+import numpy as np
+from bpy_extras.view3d_utils import location_3d_to_region_2d
+from gpu_extras.batch import batch_for_shader
+
+from .viewport import covered_px
+
+FONT_PX = 12.0
+PANEL_COLOUR = (0.1, 0.1, 0.1, 0.8)
+TEXT_COLOUR = (1.0, 1.0, 1.0, 1.0)
+_FONT = 0
 
 Draw = Callable[[bpy.types.Context], None]
 
@@ -16,33 +28,100 @@ class ViewDrawing:
     ----------
     in_space, on_screen
         What draws in metres, and over it in pixels of the view; None for nothing.
+    forget
+        Forgets what was worked out for the drawing, once it ends.
     """
 
-    def __init__(self, in_space: Draw, on_screen: Draw | None = None):
+    def __init__(self, in_space: Draw, on_screen: Draw | None = None, forget: Callable[[], None] | None = None):
         self._draws = {"POST_VIEW": in_space} | ({"POST_PIXEL": on_screen} if on_screen else {})
+        self._forget = forget
         self._handles: list[object] = []
-        self._trouble: dict[str, str] = {}
+        self._errors: dict[str, str] = {}
 
     @property
-    def trouble(self) -> str:
+    def error(self) -> str:
         """Why something could not be drawn the last time, for the sidebar; empty where everything was."""
-        return next(iter(self._trouble.values()), "")
+        return next(iter(self._errors.values()), "")
 
-    def begin(self) -> None:
+    def register(self) -> None:
         """Draw from now on."""
         for when in self._draws:
             handle = bpy.types.SpaceView3D.draw_handler_add(self._draw, (when,), "WINDOW", when)
             self._handles.append(handle)
 
-    def end(self) -> None:
+    def unregister(self) -> None:
         """Stop drawing."""
         while self._handles:
             bpy.types.SpaceView3D.draw_handler_remove(self._handles.pop(), "WINDOW")
-        self._trouble.clear()
+        self._errors.clear()
+        if self._forget:
+            self._forget()
 
     def _draw(self, when: str) -> None:
         try:
             self._draws[when](bpy.context)
-            self._trouble.pop(when, None)
+            self._errors.pop(when, None)
         except Exception as error:  # the sidebar shows it
-            self._trouble[when] = str(error)
+            self._errors[when] = str(error)
+
+
+def draw_lines(context: bpy.types.Context, lines: np.ndarray, colour: tuple, width_px: float) -> None:
+    """Draw lines (2 k, 3), m, in the 3D view that Blender draws now."""
+    if not len(lines):
+        return
+    shader = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
+    batch = batch_for_shader(shader, "LINES", {"pos": lines.astype(np.float32)})
+    shader.bind()
+    shader.uniform_float("viewportSize", (context.region.width, context.region.height))
+    shader.uniform_float("lineWidth", width_px * context.preferences.system.ui_scale)
+    shader.uniform_float("color", colour)
+    batch.draw(shader)
+
+
+def draw_triangles(triangles: np.ndarray, colours: np.ndarray) -> None:
+    """Draw triangles (3 k, 3), m, that are transparent, with a colour (3 k, 4) at each corner."""
+    if not len(triangles):
+        return
+    shader = gpu.shader.from_builtin("SMOOTH_COLOR")
+    content = {"pos": triangles.astype(np.float32), "color": colours.astype(np.float32)}
+    gpu.state.blend_set("ALPHA")
+    gpu.state.depth_test_set("LESS_EQUAL")
+    batch_for_shader(shader, "TRIS", content).draw(shader)
+    gpu.state.depth_test_set("NONE")
+    gpu.state.blend_set("NONE")
+
+
+def draw_rectangle(left: float, bottom: float, right: float, top: float, colour: tuple) -> None:
+    """Draw a rectangle on the screen, px."""
+    shader = gpu.shader.from_builtin("UNIFORM_COLOR")
+    corners = ((left, bottom), (right, bottom), (left, top), (right, top))
+    gpu.state.blend_set("ALPHA")
+    shader.bind()
+    shader.uniform_float("color", colour)
+    batch_for_shader(shader, "TRI_STRIP", {"pos": corners}).draw(shader)
+    gpu.state.blend_set("NONE")
+
+
+def write(context: bpy.types.Context, x: float, y: float, text: str) -> None:
+    """Write a text on the screen, px."""
+    blf.size(_FONT, FONT_PX * context.preferences.system.ui_scale)
+    blf.color(_FONT, *TEXT_COLOUR)
+    blf.position(_FONT, round(x), round(y), 0.0)
+    blf.draw(_FONT, text)
+
+
+def write_at(context: bpy.types.Context, position_m: tuple, text: str, dot: tuple | None = None) -> None:
+    """Write a text beside a position, m, on a dark ground, so that it can be read over any colour; `dot` marks it."""
+    point = location_3d_to_region_2d(context.region, context.region_data, position_m)
+    if point is None:
+        return
+    scale = context.preferences.system.ui_scale
+    blf.size(_FONT, FONT_PX * scale)
+    width, height = blf.dimensions(_FONT, text)
+    edge = 4.0 * scale
+    most_right = context.region.width - covered_px(context, "UI") - width - 2.0 * edge
+    x, y = min(point.x + 2.0 * edge, most_right), point.y + 2.0 * edge
+    if dot:
+        draw_rectangle(point.x - edge, point.y - edge, point.x + edge, point.y + edge, dot)
+    draw_rectangle(x - edge, y - edge, x + width + edge, y + height + edge, PANEL_COLOUR)
+    write(context, x, y, text)

@@ -1,15 +1,37 @@
-"""Selecting objects, what the 3D view looks at, and drawing in it."""
+"""Selecting objects, and moving the 3D view."""
 
 from collections.abc import Iterable
 
 import bpy
-import gpu
-import numpy as np
 from bpy_extras.view3d_utils import region_2d_to_location_3d
-from gpu_extras.batch import batch_for_shader
+
+from ..scene.bodies import Kind, bodies_of, kind_of
 
 _MOST_COVERED = 0.8
 """Share of the view that the sidebar may cover before the rest is too narrow to show anything in."""
+
+
+def redraw_views(_settings: object = None, _context: object = None) -> None:
+    """Redraw all 3D views with their sidebars; also called by Blender when a setting changes."""
+    for manager in bpy.data.window_managers:
+        for window in manager.windows:
+            for area in window.screen.areas:
+                if area.type == "VIEW_3D":
+                    area.tag_redraw()
+
+
+def shards_in_view(context: bpy.types.Context) -> list[bpy.types.Object]:
+    """Return the shards that are in the view layer: Blender selects no others."""
+    in_layer = set(context.view_layer.objects)
+    return [body for body in bodies_of(context.scene) if kind_of(body) == Kind.SHARD and body in in_layer]
+
+
+def look_at_shards(context: bpy.types.Context) -> None:
+    """Let the view show all shards, and keep the selection: the ground is too large for Blender's View All."""
+    selected = list(context.selected_objects)
+    select_only(context, shards_in_view(context))
+    look_at_selected(context)
+    select_only(context, selected)
 
 
 def select_only(context: bpy.types.Context, objects: Iterable[bpy.types.Object]) -> None:
@@ -21,13 +43,13 @@ def select_only(context: bpy.types.Context, objects: Iterable[bpy.types.Object])
 
 
 def look_at_selected(context: bpy.types.Context, surroundings: float = 1.0) -> None:
-    """Make the 3D view that the mouse is in, if any, show what is selected, beside the sidebar.
+    """Make the 3D view under the mouse, if any, show the selected objects beside the sidebar.
 
     It looks from `surroundings` times as far away as needed.
     """
     if not context.area or context.area.type != "VIEW_3D":
         return
-    region = next(each for each in context.area.regions if each.type == "WINDOW")
+    region = region_of(context.area, "WINDOW")
     with context.temp_override(region=region):
         bpy.ops.view3d.view_selected()
     view, covered = context.space_data.region_3d, covered_px(context, "UI")
@@ -39,34 +61,13 @@ def look_at_selected(context: bpy.types.Context, surroundings: float = 1.0) -> N
     view.view_location += middle - edge
 
 
+def region_of(area: bpy.types.Area, kind: str) -> bpy.types.Region | None:
+    """Return the region of an editor that is of a kind, such as ``WINDOW``."""
+    return next((region for region in area.regions if region.type == kind), None)
+
+
 def covered_px(context: bpy.types.Context, kind: str) -> float:
     """Return the width of a region that covers a part of the 3D view, px."""
-    region = next((each for each in context.area.regions if each.type == kind), None)
+    region = region_of(context.area, kind)
     covers = region and context.preferences.system.use_region_overlap and region.width > 1
     return float(region.width) if covers else 0.0
-
-
-def draw_lines(context: bpy.types.Context, lines: np.ndarray, colour: tuple, width_px: float) -> None:
-    """Draw lines (2 k, 3) in the 3D view that is drawn just now."""
-    if not len(lines):
-        return
-    shader = gpu.shader.from_builtin("POLYLINE_UNIFORM_COLOR")
-    batch = batch_for_shader(shader, "LINES", {"pos": lines.astype(np.float32)})
-    shader.bind()
-    shader.uniform_float("viewportSize", (context.region.width, context.region.height))
-    shader.uniform_float("lineWidth", width_px * context.preferences.system.ui_scale)
-    shader.uniform_float("color", colour)
-    batch.draw(shader)
-
-
-def draw_triangles(triangles: np.ndarray, colours: np.ndarray) -> None:
-    """Draw triangles (3 k, 3) with a colour (3 k, 4) at each corner, which lets what is behind it shine through."""
-    if not len(triangles):
-        return
-    shader = gpu.shader.from_builtin("SMOOTH_COLOR")
-    content = {"pos": triangles.astype(np.float32), "color": colours.astype(np.float32)}
-    gpu.state.blend_set("ALPHA")
-    gpu.state.depth_test_set("LESS_EQUAL")
-    batch_for_shader(shader, "TRIS", content).draw(shader)
-    gpu.state.depth_test_set("NONE")
-    gpu.state.blend_set("NONE")

@@ -14,6 +14,7 @@ from .operators import Action
 from .results.operator import CHARTS
 from .results.shown_run import shown_run
 from .sidebar import SidebarPanel
+from .viewport import region_of
 
 NAME = "BDA"
 _MADE = "bda_is_made"
@@ -23,10 +24,10 @@ _LEAST_AREAS = 3
 _LOOK_EVERY_S = 0.05
 
 _LOOKS = 200
-"""How often it is tried to open the tab: Blender before 4.3 never lets an add-on do so."""
+"""Attempts to open the tab: Blender before 4.3 never lets an add-on do so."""
 
 _asked_for: list[str] = []
-"""Name of the workspace that is to be shown: Blender shows it only when the button has ended."""
+"""Name of the workspace to show: Blender shows it only when the button has ended."""
 
 _openings: list[partial] = []
 """The timer that opens the tab, if one does."""
@@ -34,27 +35,22 @@ _openings: list[partial] = []
 _LARGEST, _BESIDE, _BELOW = "VIEW_3D", "IMAGE_EDITOR", "TIMELINE"
 
 
+def _no_window(context: bpy.types.Context) -> str | None:
+    return None if context.window else "There is no window to make a workspace in"
+
+
 class BDA_OT_make_workspace(Action, bpy.types.Operator):
     """Go to the workspace BDA, made if there is none: bridge, timeline, and the chart of forces once it is drawn"""
 
-    bl_idname = "bda.make_workspace"
     bl_label = "BDA Workspace"
-
-    @classmethod
-    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
-        return None if context.window else "There is no window to make a workspace in"
+    blocked_by = (_no_window,)
 
     def act(self, context: bpy.types.Context) -> None:
-        workspace = made_workspace()
-        if workspace is None:
-            workspace = _copy_of_shown(context)
+        workspace = made_workspace() or _copy_of_shown(context)
         _asked_for[:] = [workspace.name]
         context.window.workspace = workspace
         if not bpy.app.timers.is_registered(_arrange_when_shown):
             bpy.app.timers.register(_arrange_when_shown, first_interval=_LOOK_EVERY_S)
-
-
-CLASSES = (BDA_OT_make_workspace,)
 
 
 def made_workspace() -> bpy.types.WorkSpace | None:
@@ -67,9 +63,9 @@ def arrange(screen: bpy.types.Screen) -> None:
 
     The largest is for the bridge, the widest of the others for the timeline.
     """
-    largest, *others = sorted(screen.areas, key=lambda each: each.width * each.height, reverse=True)
-    below = max(others, key=lambda each: each.width / each.height)
-    beside = max((other for other in others if other != below), key=lambda each: each.width * each.height)
+    largest, *others = sorted(screen.areas, key=_size, reverse=True)
+    below = max(others, key=lambda area: area.width / area.height)
+    beside = max((other for other in others if other != below), key=_size)
     for area, kind in ((largest, _LARGEST), (below, _BELOW), (beside, _BESIDE)):
         if area.ui_type != kind:
             area.ui_type = kind
@@ -78,8 +74,9 @@ def arrange(screen: bpy.types.Screen) -> None:
 
 def open_tab(screen: bpy.types.Screen) -> bool:
     """Open the tab of the add-on in the sidebar, and return whether it could be: Blender has to have drawn it."""
-    area = max((each for each in screen.areas if each.type == _LARGEST), key=lambda each: each.width, default=None)
-    sidebar = area and _region(area, "UI")
+    views = (area for area in screen.areas if area.type == _LARGEST)
+    area = max(views, key=lambda view: view.width, default=None)
+    sidebar = area and region_of(area, "UI")
     if not sidebar or sidebar.is_property_readonly("active_panel_category"):
         return False
     sidebar.active_panel_category = SidebarPanel.bl_category
@@ -97,7 +94,7 @@ def show_chart(window: bpy.types.Window) -> None:
     for area in window.screen.areas:
         if area.type == _BESIDE:
             area.spaces.active.image = image
-            with bpy.context.temp_override(window=window, area=area, region=_region(area, "WINDOW")):
+            with bpy.context.temp_override(window=window, area=area, region=region_of(area, "WINDOW")):
                 bpy.ops.image.view_all(fit_view=True)
 
 
@@ -111,8 +108,8 @@ def chart_of(scene: bpy.types.Scene) -> Path | None:
     return path if path and path.is_file() else None
 
 
-def _region(area: bpy.types.Area, kind: str) -> bpy.types.Region:
-    return next(region for region in area.regions if region.type == kind)
+def _size(area: bpy.types.Area) -> int:
+    return area.width * area.height
 
 
 def unregister() -> None:
@@ -139,11 +136,11 @@ def _arrange_when_shown() -> float | None:
     workspace = made_workspace()
     if not _asked_for or workspace is None or workspace.name != _asked_for[0]:
         return None
-    window = next((each for each in bpy.context.window_manager.windows if each.workspace == workspace), None)
+    window = next((shown for shown in bpy.context.window_manager.windows if shown.workspace == workspace), None)
     if window is None:
         return _LOOK_EVERY_S
     _asked_for.clear()
-    if len(window.screen.areas) >= _LEAST_AREAS:  # whoever joined some has made it their own
+    if len(window.screen.areas) >= _LEAST_AREAS:  # a user who joined some has made it their own
         arrange(window.screen)
     show_chart(window)
     _openings[:] = [partial(_open_tab_when_drawn, window.screen.name, iter(range(_LOOKS)))]
@@ -153,5 +150,5 @@ def _arrange_when_shown() -> float | None:
 
 def _open_tab_when_drawn(screen: str, looks: Iterator[int]) -> float | None:
     """Open the tab as soon as that is possible, if it ever is."""
-    found = bpy.data.screens.get(screen)
-    return None if found is None or next(looks, None) is None or open_tab(found) else _LOOK_EVERY_S
+    shown = bpy.data.screens.get(screen)
+    return None if shown is None or next(looks, None) is None or open_tab(shown) else _LOOK_EVERY_S

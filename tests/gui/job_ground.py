@@ -35,7 +35,7 @@ def steps(person: Person) -> Steps:
     texts = [each.text for each in drawn(person.scene, person.window.view_layer)]
     person.expect("the chosen shard has its name", shard.name in texts)
     person.expect("the exclusion zone is that of the run", "Exclusion zone of the last run" in texts)
-    person.expect("all was drawn", module("ui.ground.decorator").drawing.trouble, "")
+    person.expect("all was drawn", module("ui.ground.decorator").drawing.error, "")
     yield from person.picture("after_the_run")
     yield from dust(person)
     yield from panels.show_only("Post Processing")

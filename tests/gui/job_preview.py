@@ -49,7 +49,7 @@ def steps(person: Person) -> Steps:
     yield from panels.show_only("Scenario")
     yield from after_building(person)
     drawing = module("ui.preview.decorator").drawing
-    person.expect("all was drawn", drawing.trouble, "")
+    person.expect("all was drawn", drawing.error, "")
 
 
 def drag_target(person: Person) -> Steps:
@@ -145,7 +145,7 @@ def undo(person: Person) -> Steps:
 
 def place_of(person: Person, kind: str, is_upright: bool) -> tuple[float, float, float]:
     found = module("ui.preview.handles").handles(person.scene)
-    return next(each.place_m for each in found if (each.kind, each.is_upright) == (kind, is_upright))
+    return next(each.position_m for each in found if (each.kind, each.is_upright) == (kind, is_upright))
 
 
 def on_screen(person: Person, place: tuple[float, float, float]) -> tuple[int, int]:

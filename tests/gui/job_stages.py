@@ -41,7 +41,7 @@ def check_stages(person: Person) -> Steps:
     pulse = Pulse()
     yield 0.5
     yield from person.picture("checking")
-    found = module("ui.stages.checked")
+    found = module("ui.stages.shown")
     yield from person.wait_for("the stages are there", lambda: found.checked_in(person.scene) is not None, STAGES_S)
     pulse.stop()
     for what, waits in pulse.waits().items():
@@ -66,7 +66,7 @@ def show_utilisation(person: Person) -> Steps:
     person.expect("contours are shown", person.scene.bda.contours, True)
     colours = shown_colours(person)
     person.expect("shards have several colours", len(colours) > 20, True)
-    person.expect("nothing is in the way", view.trouble(person.scene), "")
+    person.expect("nothing is in the way", view.refusal(person.scene), "")
     yield from person.fill_in("stage_shown", "3")
     yield from person.move_to_view()
     yield from person.picture("stage_3")

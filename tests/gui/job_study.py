@@ -163,7 +163,7 @@ def look_at_the_findings(person: Person, panels: Panels) -> Steps:
     said = re.search(r"debris stayed within ([\d.]+) m", shown.sentences[0])
     # Of rank 1 is the largest; sentences round up.
     person.expect("it says the largest reach", said and float(said[1]), math.ceil(farthest * 10.0 - 1e-9) / 10.0)
-    person.expect("everything can be drawn", module("ui.ensemble.study").drawing.trouble, "")
+    person.expect("everything can be drawn", module("ui.ensemble.study").drawing.error, "")
     with_study = pixels(person)
     yield from person.click("show_study")
     yield from person.move_to_view()

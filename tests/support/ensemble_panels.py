@@ -7,6 +7,7 @@ from types import SimpleNamespace
 from support.panel_layouts import Layout, without_blender
 
 from bridge_demolition_addon.ui.ensemble.session import look_in
+from bridge_demolition_addon.ui.registration import classes_of
 
 PATIENCE_S = 300.0
 
@@ -21,8 +22,8 @@ def look_in_until(work, is_over=None):
         time.sleep(0.02)
 
 
-def drawn(blender, panels):
-    """What panels draw, all of them open: texts of labels, and names of buttons and properties."""
+def drawn(blender, module):
+    """What the panels of a module draw, all of them open: texts of labels, and names of buttons and properties."""
     found = []
 
     class Recorded(Layout):
@@ -41,6 +42,6 @@ def drawn(blender, panels):
         region=SimpleNamespace(width=100_000),  # a sentence on a line
         preferences=SimpleNamespace(system=SimpleNamespace(ui_scale=1.0)),
     )
-    for panel in panels:
+    for panel in (cls for cls in classes_of(module) if issubclass(cls, blender.types.Panel)):
         without_blender(panel)(Recorded(context)).draw(context)
     return found

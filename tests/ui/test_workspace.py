@@ -6,7 +6,7 @@ import runpy
 import pytest
 from support.checkout import ROOT, SMALL
 
-from bridge_demolition_addon.ui.first_help import SENTENCES, walkthrough
+from bridge_demolition_addon.ui.scenario.hints import SENTENCES, walkthrough
 from bridge_demolition_addon.ui.workspace import arrange, chart_of
 
 

@@ -10,7 +10,7 @@ from ...scene.blast.charges import charge_collection, charge_objects, create_cha
 from ...scene.blast.force_fields import build_force_objects
 from ...scene.bodies import Kind, bodies_of, kind_of
 from ...scene.visibility import hide_symbols, symbols_are_hidden
-from ..operators import Action, no_world
+from ..operators import UndoableAction, no_world
 from ..scenario.values import table_of
 from .prop import shown_charge
 
@@ -18,7 +18,7 @@ _NEW_CHARGE_KG = 10.0
 
 
 def keep_shown_blast(scene: bpy.types.Scene) -> None:
-    """Keep in the scene what the sidebar shows of the blast, for the next recording."""
+    """Keep the blast as the sidebar shows it in the scene, for the next recording."""
     keep_blast(scene, table_of(scene.bda.scenario.blast, BlastSettings))
 
 
@@ -28,12 +28,10 @@ def total_mass_kg(scene: bpy.types.Scene) -> float:
     return sum(body.rigid_body.mass for body in active if kind_of(body) != Kind.BALL)
 
 
-class BDA_OT_add_source_point(Action, bpy.types.Operator):
+class BDA_OT_add_source_point(UndoableAction, bpy.types.Operator):
     """Add a charge at the 3D cursor; it can be dragged like any object; called Add Source Point in 2019"""
 
-    bl_idname = "bda.add_source_point"
     bl_label = "Add Charge"
-    bl_options = {"REGISTER", "UNDO"}
     changes_objects = True
 
     def act(self, context: bpy.types.Context) -> None:
@@ -41,22 +39,21 @@ class BDA_OT_add_source_point(Action, bpy.types.Operator):
         number = len(charge_objects(scene)) + 1
         while f"Charge {number}" in bpy.data.objects:
             number += 1
-        place = tuple(scene.cursor.location)
-        create_charges(scene, [Charge(name=f"Charge {number}", place_m=place, mass_kg=_NEW_CHARGE_KG)])
+        position = tuple(scene.cursor.location)
+        create_charges(scene, [Charge(name=f"Charge {number}", place_m=position, mass_kg=_NEW_CHARGE_KG)])
         scene.bda.charge_index = len(charge_collection(scene).objects) - 1
 
 
-class BDA_OT_delete_source_point(Action, bpy.types.Operator):
+def _none_chosen(context: bpy.types.Context) -> str | None:
+    return "Choose a charge in the list first" if shown_charge(context.scene) is None else None
+
+
+class BDA_OT_delete_source_point(UndoableAction, bpy.types.Operator):
     """Delete the charge that is chosen in the list"""
 
-    bl_idname = "bda.delete_source_point"
     bl_label = "Delete"
-    bl_options = {"REGISTER", "UNDO"}
     changes_objects = True
-
-    @classmethod
-    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
-        return "Choose a charge in the list first" if shown_charge(context.scene) is None else None
+    blocked_by = (_none_chosen,)
 
     def act(self, context: bpy.types.Context) -> None:
         settings = context.scene.bda
@@ -64,15 +61,12 @@ class BDA_OT_delete_source_point(Action, bpy.types.Operator):
         settings.charge_index = min(settings.charge_index, max(len(charge_collection(context.scene).objects) - 1, 0))
 
 
-class BDA_OT_build_force_objects(Action, bpy.types.Operator):
+class BDA_OT_build_force_objects(UndoableAction, bpy.types.Operator):
     """Give every shard a force field, through which the blast pushes it; called Build Force Objects in 2019"""
 
-    bl_idname = "bda.build_force_objects"
     bl_label = "Build Force Fields"
-    bl_options = {"REGISTER", "UNDO"}
     changes_objects = True
-
-    disabled_reason = staticmethod(no_world)
+    blocked_by = (no_world,)
 
     def act(self, context: bpy.types.Context) -> str:
         scene, layer = context.scene, context.view_layer
@@ -84,24 +78,13 @@ class BDA_OT_build_force_objects(Action, bpy.types.Operator):
         return f"{built.made} force fields made, {built.kept} kept, {built.removed} removed"
 
 
-class BDA_OT_show_total_mass(Action, bpy.types.Operator):
+class BDA_OT_show_total_mass(UndoableAction, bpy.types.Operator):
     """Add up the masses of all active bodies but the ball; called Show Total Mass of Particles in 2019"""
 
-    bl_idname = "bda.show_total_mass"
     bl_label = "Total Mass"
-    bl_options = {"REGISTER", "UNDO"}
-
-    disabled_reason = staticmethod(no_world)
+    blocked_by = (no_world,)
 
     def act(self, context: bpy.types.Context) -> str:
         text = f"{total_mass_kg(context.scene):,.0f} kg".replace(",", " ")
         context.scene.bda.total_mass = text
         return f"Total mass: {text}"
-
-
-CLASSES = (
-    BDA_OT_add_source_point,
-    BDA_OT_delete_source_point,
-    BDA_OT_build_force_objects,
-    BDA_OT_show_total_mass,
-)

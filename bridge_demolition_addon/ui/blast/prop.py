@@ -1,4 +1,4 @@
-"""What the sidebar shows of the charge that is chosen in its list."""
+"""Properties of the charge that is chosen in the list of the sidebar."""
 
 from typing import Any
 
@@ -14,10 +14,10 @@ _EXPLOSIVES = [
     (
         name,
         name,
-        f"1 kg has the impulse of {each.tnt_by_impulse:g} kg of TNT, and the peak overpressure of "
-        f"{each.tnt_by_pressure:g} kg",
+        f"1 kg has the impulse of {explosive.tnt_by_impulse:g} kg of TNT, and the peak overpressure of "
+        f"{explosive.tnt_by_pressure:g} kg",
     )
-    for name, each in EXPLOSIVES.items()
+    for name, explosive in EXPLOSIVES.items()
 ]
 _BURSTS = [
     (Burst.AIR.value, "Air", "It detonates in the air"),

@@ -8,7 +8,7 @@ from ...scene.blast.charges import DELAY, EXPLOSIVE, MASS, charge_collection, is
 from ..sidebar import SidebarPanel, letters_of
 from .prop import shown_charge
 
-_LETTERS_FOR_PLACES = 65
+_LETTERS_FOR_POSITIONS = 65
 _LETTERS_FOR_ALL = 90
 """Width of the sidebar from which a row of the list shows more than name and mass."""
 _SHARE_OF_NAME = 0.35
@@ -27,7 +27,7 @@ class BDA_UL_charges(bpy.types.UIList):
         if not is_charge(item):
             row.label(text="no charge")
             return
-        if letters >= _LETTERS_FOR_PLACES:
+        if letters >= _LETTERS_FOR_POSITIONS:
             for axis in range(3):
                 row.prop(item, "location", index=axis, text="")
         row.prop(item, f'["{MASS}"]', text="kg")
@@ -40,7 +40,6 @@ class BDA_PT_explosion(SidebarPanel, bpy.types.Panel):
     """Charges, and whether they go off."""
 
     bl_label = "Explosion"
-    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, settings = self.layout, context.scene.bda
@@ -67,6 +66,3 @@ class BDA_PT_explosion(SidebarPanel, bpy.types.Panel):
         column.prop(charge, f'["{DELAY}"]', text="Delay")
         column.prop(settings, "charge_explosive")
         column.prop(settings, "charge_burst")
-
-
-CLASSES = (BDA_UL_charges, BDA_PT_explosion)

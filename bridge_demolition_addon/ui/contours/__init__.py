@@ -1,1 +1,1 @@
-"""Sidebar of contours, and what they draw in the viewport."""
+"""Sidebar of contours, and their drawings in the viewport."""

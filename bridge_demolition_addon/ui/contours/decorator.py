@@ -22,9 +22,17 @@ from ...model.blast.charges import Charge
 from ...model.blast.damage import THRESHOLDS, ring_radii
 from ...scene.blast.charges import blast_of, charges_of
 from ...simulation.blender_events import contours_of, shown_results
-from ..labels import FONT_PX, PANEL_COLOUR, TEXT_COLOUR, draw_rectangle, write, write_at
-from ..view_drawing import ViewDrawing
-from ..viewport import covered_px, draw_lines
+from ..view_drawing import (
+    FONT_PX,
+    PANEL_COLOUR,
+    TEXT_COLOUR,
+    ViewDrawing,
+    draw_lines,
+    draw_rectangle,
+    write,
+    write_at,
+)
+from ..viewport import covered_px
 from . import view as contour_view
 
 _LINE_PX = 17.0
@@ -48,17 +56,6 @@ _LEAST_SHARE = 0.02
 _rings: dict[tuple, np.ndarray] = {}
 
 
-def register() -> None:
-    """Draw from now on; what is drawn depends on the settings."""
-    drawing.begin()
-
-
-def unregister() -> None:
-    """Stop drawing."""
-    drawing.end()
-    _rings.clear()
-
-
 def vector_lines(scene: bpy.types.Scene) -> dict[str, np.ndarray]:
     """Return the lines of the arrows, (6 k, 3) float, m, for each kind of force that is shown."""
     settings, series = scene.bda, shown_results(scene).series
@@ -68,24 +65,24 @@ def vector_lines(scene: bpy.types.Scene) -> dict[str, np.ndarray]:
     frame, first = series.magnified(row, contours_of(scene).magnification), series.frame(0)
     frame_s = float(series.times_s[row] - series.times_s[row - 1]) if row else 0.0
     forces = {
-        "BODIES": lambda: _of_moving(series.moves, *body_forces(frame)),
+        "BODIES": lambda: (part[series.moves] for part in body_forces(frame)),
         "CONNECTIONS": lambda: connection_forces(frame, first, series.pairs, series.points_m),
-        "CONTACTS": lambda: _of_moving(series.moves, *contact_forces(frame, frame_s)),
+        "CONTACTS": lambda: (part[series.moves] for part in contact_forces(frame, frame_s)),
     }
-    found = {name: make() for name, make in forces.items() if name in settings.vectors}
-    lengths = [np.linalg.norm(force, axis=1) for _, force in found.values()]
+    shown = {name: tuple(work_out()) for name, work_out in forces.items() if name in settings.vectors}
+    lengths = [np.linalg.norm(force, axis=1) for _, force in shown.values()]
     largest = max((np.nanmax(length, initial=0.0) for length in lengths), default=0.0)
     if largest <= 0.0:
         return {}
     longest_m = settings.vector_length_m
     return {
         name: arrows(starts, force, longest_m / largest, _LEAST_SHARE * longest_m)
-        for name, (starts, force) in found.items()
+        for name, (starts, force) in shown.items()
     }
 
 
 def ring_lines(scene: bpy.types.Scene) -> list[tuple[np.ndarray, float]]:
-    """Return a ring at height 0 as lines (2 p, 3) float, m, and its radius for each charge whose damage gets there."""
+    """Return for each charge whose damage gets to height 0 a ring there, lines (2 p, 3) float, m, and its radius, m."""
     charges, number = charges_of(scene), int(scene.bda.ring_damage)
     factor = blast_of(scene).pressure_factor
     key = (charges, number, factor)
@@ -115,14 +112,16 @@ def _draw_in_space(context: bpy.types.Context) -> None:
 def _draw_on_screen(context: bpy.types.Context) -> None:
     scene = context.scene
     settings = contours_of(scene).settings
-    if settings and scene.bda.colour_bar:
-        found = contours_of(scene).shown_frame()
-        if found:
-            _draw_colour_bar(context, settings, found[0])
+    shown = contours_of(scene).shown_frame() if settings and scene.bda.colour_bar else None
+    if shown:
+        _draw_colour_bar(context, settings, shown[0])
     if scene.bda.show_charges:
-        _draw_charges(context)
+        for charge in charges_of(scene):
+            write_at(context, charge.place_m, charge_text(charge), dot=_RING_COLOUR)
     if scene.bda.show_rings:
-        _draw_ring_labels(context)
+        damage = THRESHOLDS[int(scene.bda.ring_damage)].damage
+        for lines, radius in ring_lines(scene):
+            write_at(context, lines[0], f"{damage}: {radius:.1f} m")
 
 
 @dataclass(frozen=True, slots=True)
@@ -158,7 +157,7 @@ class _BarLayout:
 
     @property
     def panel(self) -> tuple[float, float, float, float]:
-        """Left, bottom, right and top of the ground that all stands on."""
+        """Left, bottom, right and top of the background."""
         high = self.top + 1.5 * self.margin + self.heading_lines * self.line
         return self.left - self.margin / 2.0, self.bottom, self.left + _PANEL_PX * self.scale, high
 
@@ -167,7 +166,7 @@ def _draw_colour_bar(context: bpy.types.Context, settings: ContourSettings, fram
     scale = context.preferences.system.ui_scale
     bar = colour_bar(settings, frame)
     heading = [*filter(None, (bar.title, bar.subtitle)), bar.unit]
-    layout = _BarLayout(_tools_width(context) + _MARGIN_PX * scale, _BOTTOM_PX * scale, scale, len(heading))
+    layout = _BarLayout(covered_px(context, "TOOLS") + _MARGIN_PX * scale, _BOTTOM_PX * scale, scale, len(heading))
     left, foot, width, height = layout.bar
     draw_rectangle(*layout.panel, PANEL_COLOUR)
     _draw_gradient(left, foot, width, height, settings)
@@ -182,20 +181,9 @@ def _draw_colour_bar(context: bpy.types.Context, settings: ContourSettings, fram
         write(context, left, layout.bottom + layout.margin / 2.0 + number * layout.line, text)
 
 
-def _draw_charges(context: bpy.types.Context) -> None:
-    for charge in charges_of(context.scene):
-        write_at(context, charge.place_m, charge_text(charge), dot=_RING_COLOUR)
-
-
 def charge_text(charge: Charge) -> str:
-    """Return what a charge is: its name, mass and delay."""
+    """Return the name, mass and delay of a charge as text."""
     return f"{charge.name}: {charge.mass_kg:g} kg {charge.explosive}, {charge.delay_ms:g} ms"
-
-
-def _draw_ring_labels(context: bpy.types.Context) -> None:
-    damage = THRESHOLDS[int(context.scene.bda.ring_damage)].damage
-    for lines, radius in ring_lines(context.scene):
-        write_at(context, lines[0], f"{damage}: {radius:.1f} m")
 
 
 def _draw_gradient(left: float, bottom: float, width: float, height: float, settings: ContourSettings) -> None:
@@ -208,13 +196,4 @@ def _draw_gradient(left: float, bottom: float, width: float, height: float, sett
     batch_for_shader(shader, "TRI_STRIP", content).draw(shader)
 
 
-def _of_moving(moves: np.ndarray, starts: np.ndarray, forces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    return starts[moves], forces[moves]
-
-
-def _tools_width(context: bpy.types.Context) -> float:
-    """Return how much of the view's left the toolbar covers, px."""
-    return covered_px(context, "TOOLS")
-
-
-drawing = ViewDrawing(_draw_in_space, _draw_on_screen)
+drawing = ViewDrawing(_draw_in_space, _draw_on_screen, forget=_rings.clear)

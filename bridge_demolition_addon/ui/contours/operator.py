@@ -1,8 +1,5 @@
 """Operators of contours, films and symbols."""
 
-from collections.abc import Iterator
-from pathlib import Path
-
 import bpy
 
 from ...model.results.arrays import FRAMES_FILE, load_results, results_in
@@ -12,9 +9,8 @@ from ...scene.visibility import has_symbols, hide_symbols, symbols_are_hidden
 from ...scene.world import start_over
 from ...simulation.blender_events import recorded_scene, shown_results
 from ...simulation.display.film import FilmKind, FilmRendering, FilmSettings
-from .. import messages
 from ..modal_task import RenderingTask
-from ..operators import Action, absolute, recording_runs
+from ..operators import Action, UndoableAction, absolute, recording_runs, unset
 from ..scenario.values import table_of
 from . import view as contour_view
 
@@ -22,14 +18,8 @@ from . import view as contour_view
 class BDA_OT_load_results(Action, bpy.types.Operator):
     """Show contours of an earlier recording of this scene, kept in a file results.npz or in the folder of its run"""
 
-    bl_idname = "bda.load_results"
     bl_label = "Load Results"
-
-    @classmethod
-    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
-        return recording_runs(context) or (
-            None if context.scene.bda.results_path else "Choose a file results.npz first"
-        )
+    blocked_by = (recording_runs, unset("results_path", "Choose a file results.npz first"))
 
     def act(self, context: bpy.types.Context) -> str:
         scene = context.scene
@@ -38,20 +28,20 @@ class BDA_OT_load_results(Action, bpy.types.Operator):
         results = load_results(path)
         recorded_scene(scene).show_results(results)
         contour_view.follow(scene)
-        found = f"{len(results.frames)} frames of {len(results.inventory.body_names)} bodies"
-        return f"{found}, of a run that ended before its end" if path.name == FRAMES_FILE else found
+        text = f"{len(results.frames)} frames of {len(results.inventory.body_names)} bodies"
+        return f"{text}, of a run that ended before its end" if path.name == FRAMES_FILE else text
+
+
+def _not_loaded(context: bpy.types.Context) -> str | None:
+    is_loaded = shown_results(context.scene).are_loaded
+    return None if is_loaded else "No results were loaded: Blender's own motion is shown"
 
 
 class BDA_OT_forget_results(Action, bpy.types.Operator):
     """Show what Blender simulates, in place of results that were loaded or found with the file; their files stay"""
 
-    bl_idname = "bda.forget_results"
     bl_label = "Show Blender's Own Motion"
-
-    @classmethod
-    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
-        shows = shown_results(context.scene).are_loaded
-        return recording_runs(context) or (None if shows else "No results were loaded: Blender's own motion is shown")
+    blocked_by = (recording_runs, _not_loaded)
 
     def act(self, context: bpy.types.Context) -> None:
         scene = context.scene
@@ -60,58 +50,48 @@ class BDA_OT_forget_results(Action, bpy.types.Operator):
         contour_view.follow(scene)
 
 
+def _not_recorded(context: bpy.types.Context) -> str | None:
+    is_recorded = shown_results(context.scene).series is not None
+    return None if is_recorded else "Nothing was recorded in this scene: record it, or load its results"
+
+
 class BDA_OT_render_contours(RenderingTask, bpy.types.Operator):
     """Render the recorded frames with their contours, as a film or as pictures, to the folder; Esc stops"""
 
-    bl_idname = "bda.render_contours"
     bl_label = "Render Contours"
+    blocked_by = (recording_runs, unset("film_directory", "Choose a folder for the film first"), _not_recorded)
 
     _rendering: FilmRendering
 
-    @classmethod
-    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
-        if reason := recording_runs(context):
-            return reason
-        if not context.scene.bda.film_directory:
-            return "Choose a folder for the film first"
-        if shown_results(context.scene).series is None:
-            return "Nothing was recorded in this scene: record it, or load its results"
-        return None
-
-    def begin(self, context: bpy.types.Context) -> tuple[Iterator[Path], int]:
-        messages.clear(self)
+    def begin(self, context: bpy.types.Context) -> int:
         scene = context.scene
         self._rendering = FilmRendering(
             scene, absolute(scene.bda.film_directory), contour_view.settings_of(scene), _film_settings(scene)
         )
-        return self._rendering.pictures(), self._rendering.picture_count
+        self._pictures = self._rendering.pictures()
+        return self._rendering.picture_count
 
-    def finish(self) -> set[str]:
+    def finish(self, context: bpy.types.Context) -> set[str]:
         paths = self._rendering.finish()
-        place: Path = paths[0] if len(paths) == 1 else paths[0].parent
-        self.report({"INFO"}, f"{self._rendering.picture_count} pictures rendered: {place}")
+        path = paths[0] if len(paths) == 1 else paths[0].parent
+        self.report({"INFO"}, f"{self._rendering.picture_count} pictures rendered: {path}")
         return {"FINISHED"}
 
 
-class BDA_OT_toggle_symbols(Action, bpy.types.Operator):
+def _without_symbols(context: bpy.types.Context) -> str | None:
+    has = has_symbols(context.view_layer, context.scene)
+    return None if has else "This scene has neither connections nor force fields"
+
+
+class BDA_OT_toggle_symbols(UndoableAction, bpy.types.Operator):
     """Hide the empties of all connections and force fields, or show them; they work all the same"""
 
-    bl_idname = "bda.toggle_symbols"
     bl_label = "Show or Hide Connections and Forces"
-    bl_options = {"REGISTER", "UNDO"}
-
-    @classmethod
-    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
-        if not has_symbols(context.view_layer, context.scene):
-            return "This scene has neither connections nor force fields"
-        return None
+    blocked_by = (_without_symbols,)
 
     def act(self, context: bpy.types.Context) -> str | None:
         scene, layer = context.scene, context.view_layer
         hide_symbols(layer, scene, hidden=not symbols_are_hidden(layer, scene))
-
-
-CLASSES = (BDA_OT_load_results, BDA_OT_forget_results, BDA_OT_render_contours, BDA_OT_toggle_symbols)
 
 
 def _film_settings(scene: bpy.types.Scene) -> FilmSettings:

@@ -9,6 +9,7 @@ from ...display.contour_ranges import RangeKind
 from ...model.blast.damage import THRESHOLDS
 from ...simulation.display.film import FilmKind
 from ..sidebar import path_property
+from ..viewport import redraw_views
 from . import view as contour_view
 
 _QUANTITIES = tuple((quantity.name, quantity.title, quantity.tooltip) for quantity in ContourQuantity)
@@ -38,12 +39,8 @@ _KINDS = (
 )
 
 
-def _follow(_settings: bpy.types.PropertyGroup, context: bpy.types.Context) -> None:
-    contour_view.follow(_settings.id_data)
-
-
-def _redraw(_settings: bpy.types.PropertyGroup, _context: bpy.types.Context) -> None:
-    contour_view.redraw()
+def _follow(settings: bpy.types.PropertyGroup, _context: bpy.types.Context) -> None:
+    contour_view.follow(settings.id_data)
 
 
 class ContourProperties:
@@ -87,7 +84,7 @@ class ContourProperties:
     )
     contour_logarithmic: BoolProperty(
         name="Logarithmic",
-        description="Equal steps of colour stand for equal ratios, so that weight and impact are told apart in one "
+        description="Equal steps of colour stand for equal ratios, so that weight and impact can be seen in one "
         "picture; signs are left out",
         default=True,
         update=_follow,
@@ -131,11 +128,11 @@ class ContourProperties:
         update=_follow,
     )
     colour_bar: BoolProperty(
-        name="Colour Bar", description="Show the colour bar in the 3D view", default=True, update=_redraw
+        name="Colour Bar", description="Show the colour bar in the 3D view", default=True, update=redraw_views
     )
     results_path: path_property("Kept Results", "File results.npz of an earlier recording, or its folder")
     show_vectors: BoolProperty(
-        name="Force Vectors", description="Show forces as arrows in the 3D view", default=False, update=_redraw
+        name="Force Vectors", description="Show forces as arrows in the 3D view", default=False, update=redraw_views
     )
     vectors: EnumProperty(
         name="Vectors",
@@ -143,7 +140,7 @@ class ContourProperties:
         items=_VECTORS,
         options={"ENUM_FLAG"},
         default={"BODIES"},
-        update=_redraw,
+        update=redraw_views,
     )
     vector_length_m: FloatProperty(
         name="Longest",
@@ -151,19 +148,22 @@ class ContourProperties:
         default=2.0,
         min=0.01,
         unit="LENGTH",
-        update=_redraw,
+        update=redraw_views,
     )
     show_charges: BoolProperty(
-        name="Charges", description="Show names and masses of the charges in the 3D view", default=False, update=_redraw
+        name="Charges",
+        description="Show names and masses of the charges in the 3D view",
+        default=False,
+        update=redraw_views,
     )
     show_rings: BoolProperty(
         name="Stand-off Rings",
         description="Show how far from each charge a kind of damage reaches, on the ground at height 0",
         default=False,
-        update=_redraw,
+        update=redraw_views,
     )
     ring_damage: EnumProperty(
-        name="Damage", description="What the rings stand for", items=_DAMAGES, default="1", update=_redraw
+        name="Damage", description="What the rings stand for", items=_DAMAGES, default="1", update=redraw_views
     )
     film_directory: path_property("Film", "Folder for the pictures or the film; it is made if new", "DIR_PATH")
     film_kind: EnumProperty(name="Make", description="What is rendered", items=_KINDS)

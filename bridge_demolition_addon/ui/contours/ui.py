@@ -1,4 +1,4 @@
-"""Panel Post Processing: contours, what is drawn over the 3D view, and films."""
+"""Panels of contours, vectors and charges, and films, in the panel Post Processing."""
 
 import bpy
 
@@ -11,16 +11,17 @@ from . import view as contour_view
 
 
 class BDA_PT_contours(SidebarPanel, bpy.types.Panel):
-    """Contours of what was recorded."""
+    """Contours of the recorded bodies."""
 
     bl_label = "Contours"
+    bl_options = set()
     bl_parent_id = "BDA_PT_post_processing"
 
     def draw(self, context: bpy.types.Context) -> None:
         settings, layout = context.scene.bda, self.layout
         layout.prop(settings, "contours")
-        if trouble := contour_view.trouble(context.scene) or overlay.drawing.trouble:
-            draw_sentence(layout, context, trouble)
+        if reason := contour_view.refusal(context.scene) or overlay.drawing.error:
+            draw_sentence(layout, context, reason)
         column = layout.column()
         column.enabled = settings.contours
         column.use_property_split, column.use_property_decorate = True, False
@@ -39,10 +40,8 @@ class BDA_PT_contours(SidebarPanel, bpy.types.Panel):
             column.prop(settings, "contour_decades")
         if settings.contour_range != "FIXED":
             column.prop(settings, "contour_percentile")
-        column.prop(settings, "contour_map")
-        column.prop(settings, "contour_shaded")
-        column.prop(settings, "contour_magnification")
-        column.prop(settings, "colour_bar")
+        for name in ("contour_map", "contour_shaded", "contour_magnification", "colour_bar"):
+            column.prop(settings, name)
         layout.prop(settings, "results_path", text="", placeholder="results.npz of an earlier run")
         layout.operator("bda.load_results")
         if shown_results(context.scene).are_loaded:
@@ -52,11 +51,10 @@ class BDA_PT_contours(SidebarPanel, bpy.types.Panel):
 
 
 class BDA_PT_overlay(SidebarPanel, bpy.types.Panel):
-    """What is drawn over the 3D view."""
+    """Force vectors and charges over the 3D view."""
 
     bl_label = "Vectors and Charges"
     bl_parent_id = "BDA_PT_post_processing"
-    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: bpy.types.Context) -> None:
         settings, layout = context.scene.bda, self.layout
@@ -80,7 +78,6 @@ class BDA_PT_film(SidebarPanel, bpy.types.Panel):
 
     bl_label = "Film"
     bl_parent_id = "BDA_PT_post_processing"
-    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: bpy.types.Context) -> None:
         settings, layout = context.scene.bda, self.layout
@@ -95,6 +92,3 @@ class BDA_PT_film(SidebarPanel, bpy.types.Panel):
             column.prop(settings, "film_rate")
             column.prop(settings, "film_slowness")
         layout.operator("bda.render_contours")
-
-
-CLASSES = (BDA_PT_contours, BDA_PT_overlay, BDA_PT_film)

@@ -10,6 +10,7 @@ from ...display.contour_ranges import ContourSettings, RangeKind
 from ...errors import DemolitionError
 from ...scene.rendering.body_colours import SHADED_LIGHT
 from ...simulation.blender_events import contours_of, shown_results
+from ..viewport import redraw_views
 
 _COLOURS_BEFORE = "bda_colours_before"
 
@@ -18,7 +19,7 @@ _refusals: dict[int, str] = {}
 
 
 def settings_of(scene: bpy.types.Scene) -> ContourSettings:
-    """Return what the sidebar's settings ask for."""
+    """Return the contours that the sidebar's settings ask for."""
     settings = scene.bda
     quantity = ContourQuantity[settings.contour_quantity]
     size = quantity.units.of_range.size
@@ -50,10 +51,10 @@ def follow(scene: bpy.types.Scene) -> None:
     else:
         contours_of(scene).hide()
         _show_materials_in_views(scene)
-    redraw()
+    redraw_views()
 
 
-def trouble(scene: bpy.types.Scene) -> str:
+def refusal(scene: bpy.types.Scene) -> str:
     """Return why contours cannot be shown as asked for; empty where they can."""
     contours = contours_of(scene)
     shown = contours.settings
@@ -64,18 +65,9 @@ def trouble(scene: bpy.types.Scene) -> str:
 
 def follow_later(scene: bpy.types.Scene) -> None:
     """Follow settings that were undone, redone or loaded, once Blender has finished its present drawing."""
-    if scene.bda.contours != contours_of(scene).is_shown and scene.session_uid not in _refusals:
-        _schedule()
-
-
-def redraw() -> None:
-    """Redraw the 3D views."""
-    for area in _views(None):
-        area.tag_redraw()
-
-
-def register() -> None:
-    """Nothing is shown until the box is ticked."""
+    is_late = scene.bda.contours != contours_of(scene).is_shown and scene.session_uid not in _refusals
+    if is_late and not bpy.app.timers.is_registered(_follow_all):
+        bpy.app.timers.register(_follow_all, first_interval=0.0)
 
 
 def unregister() -> None:
@@ -89,11 +81,6 @@ def unregister() -> None:
     _refusals.clear()
 
 
-def _schedule() -> None:
-    if not bpy.app.timers.is_registered(_follow_all):
-        bpy.app.timers.register(_follow_all, first_interval=0.0)
-
-
 def _follow_all() -> None:
     for scene in bpy.data.scenes:
         if scene.bda.contours != contours_of(scene).is_shown:
@@ -101,23 +88,16 @@ def _follow_all() -> None:
 
 
 def _show_colours_in_views(scene: bpy.types.Scene) -> None:
-    """Make solid 3D views show the objects' colours, flat if asked for; each screen keeps what was set before."""
-    for area in _views(scene):
-        screen, number = area.id_data, str(list(area.id_data.areas).index(area))
-        before = screen.get(_COLOURS_BEFORE, {})
-        before = before if isinstance(before, dict) else before.to_dict()
-        shading = area.spaces.active.shading
+    """Make solid 3D views show the objects' colours, flat if asked for; each screen keeps its settings before."""
+    for screen, number, before, shading in _shadings(scene):
         if number not in before:
             screen[_COLOURS_BEFORE] = {**before, number: [shading.color_type, shading.light]}
         shading.color_type, shading.light = "OBJECT", SHADED_LIGHT if scene.bda.contour_shaded else "FLAT"
 
 
 def _show_materials_in_views(scene: bpy.types.Scene) -> None:
-    for area in _views(scene):
-        screen, number = area.id_data, str(list(area.id_data.areas).index(area))
-        before = screen[_COLOURS_BEFORE].to_dict() if _COLOURS_BEFORE in screen else {}
+    for screen, number, before, shading in _shadings(scene):
         if number in before:
-            shading = area.spaces.active.shading
             shading.color_type, shading.light = before.pop(number)
         if before:
             screen[_COLOURS_BEFORE] = before
@@ -125,9 +105,11 @@ def _show_materials_in_views(scene: bpy.types.Scene) -> None:
             del screen[_COLOURS_BEFORE]
 
 
-def _views(scene: bpy.types.Scene | None) -> Iterator[bpy.types.Area]:
-    """Return the 3D views that show a scene, or all of them for None."""
-    for manager in bpy.data.window_managers:
-        for window in manager.windows:
-            if scene is None or window.scene == scene:
-                yield from (area for area in window.screen.areas if area.type == "VIEW_3D")
+def _shadings(scene: bpy.types.Scene) -> Iterator[tuple[bpy.types.Screen, str, dict, bpy.types.View3DShading]]:
+    """Give screen, number, settings that were kept, and shading of each 3D view that shows a scene."""
+    windows = (window for manager in bpy.data.window_managers for window in manager.windows)
+    for screen in (window.screen for window in windows if window.scene == scene):
+        for number, area in enumerate(screen.areas):
+            if area.type == "VIEW_3D":
+                before = screen[_COLOURS_BEFORE].to_dict() if _COLOURS_BEFORE in screen else {}
+                yield screen, str(number), before, area.spaces.active.shading

@@ -13,7 +13,7 @@ from ...model.schema import key_fields
 from ...model.study.criteria import Criterion
 from ...model.study.file import Ensemble
 from ...model.study.settings import EnsembleSettings, StudySettings
-from ..operators import Action, absolute
+from ..operators import Action, UndoableAction, absolute
 from ..results.operator import open_path
 from ..scenario.prop import shown_tables
 from ..scenario.values import show_fields, show_scenario, show_table, table_of
@@ -22,21 +22,15 @@ from .session import Work
 
 
 class EnsembleAction(Action):
-    """Base of all of them.
-
-    Attributes
-    ----------
-    work
-        Of the kind that the button is for.
-    """
+    """Base of all of them, each for the work of a kind."""
 
     changes_scene = False
     work: Work
 
     @classmethod
-    def of_kind(cls, context: bpy.types.Context, what: str) -> str:
+    def of_kind(cls, context: bpy.types.Context, name: str) -> str:
         """Return a property of the scene, such as ``study_directory``."""
-        return getattr(context.scene.bda, f"{cls.work.key}_{what}")
+        return getattr(context.scene.bda, f"{cls.work.key}_{name}")
 
     @classmethod
     def folder(cls, context: bpy.types.Context) -> Path:
@@ -44,10 +38,9 @@ class EnsembleAction(Action):
         return absolute(cls.of_kind(context, "directory"))
 
 
-class LoadEnsemble(EnsembleAction):
+class LoadEnsemble(EnsembleAction, UndoableAction):
     """Base of buttons that show the values of a file in the panels."""
 
-    bl_options = {"REGISTER", "UNDO"}
     changes_scene = changes_objects = True
     read: Callable[[Path], Ensemble]
 
@@ -64,16 +57,15 @@ class LoadEnsemble(EnsembleAction):
 
 
 class StartEnsemble(EnsembleAction):
-    """Base of buttons that begin, or go on where the folder stands."""
+    """Base of buttons that begin, or go on where the folder stands; `shown` returns what the panels show."""
+
+    shown: Callable[[bpy.types.PropertyGroup], Ensemble]
 
     @classmethod
     def disabled_reason(cls, context: bpy.types.Context) -> str | None:
         if cls.work.session:
             return f"The {cls.work.name} is at work already"
         return None if cls.of_kind(context, "directory") else f"Choose a folder for the {cls.work.name} first"
-
-    shown: Callable[[bpy.types.PropertyGroup], Ensemble]
-    """Returns what the panels show."""
 
     def act(self, context: bpy.types.Context) -> str:
         path, settings = self.folder(context), context.scene.bda
@@ -107,12 +99,12 @@ class OpenPicture(EnsembleAction):
         open_path(self.work.result.picture)
 
 
-def show_ensemble(settings: bpy.types.PropertyGroup, work: Work, asked: EnsembleSettings) -> None:
+def show_ensemble(settings: bpy.types.PropertyGroup, work: Work, loaded: EnsembleSettings) -> None:
     """Show the settings of a file: its own in their panel, and those that all kinds share in the panel Study."""
-    show_table(getattr(settings, work.key), asked)
+    show_table(getattr(settings, work.key), loaded)
     if work.key == "study":
         return
-    show_fields(settings.study, asked, [*key_fields(EnsembleSettings), *shown_tables(EnsembleSettings)])
+    show_fields(settings.study, loaded, [*key_fields(EnsembleSettings), *shown_tables(EnsembleSettings)])
     setattr(settings, f"{work.key}_criterion", AS_IN_STUDY)
 
 

@@ -22,7 +22,7 @@ _TABLES = {item.name: item for item in shown_tables(OptimiseSettings)}
 
 
 def shown_result(session: EnsembleSession) -> SentencesAndPicture:
-    """Return what is shown of an optimisation that has ended."""
+    """Return the texts and the picture of an optimisation that has ended."""
     return SentencesAndPicture.of(session, optimise_sentences(session.planner.result()), TRADEOFF_PICTURE)
 
 
@@ -38,7 +38,6 @@ def shown_optimisation(settings: bpy.types.PropertyGroup) -> Optimisation:
 class BDA_OT_load_optimise(LoadEnsemble, bpy.types.Operator):
     """Show an optimisation file's values in the panels, with those of its scenario; nothing runs yet"""
 
-    bl_idname = "bda.load_optimise"
     bl_label = "Load Optimisation"
     work, read = WORK, staticmethod(read_optimisation)
 
@@ -46,7 +45,6 @@ class BDA_OT_load_optimise(LoadEnsemble, bpy.types.Operator):
 class BDA_OT_start_optimise(StartEnsemble, bpy.types.Operator):
     """Find the values that do best beside your work, and confirm them on fresh runs; goes on where the folder stands"""
 
-    bl_idname = "bda.start_optimise"
     bl_label = "Start Optimisation"
     work, shown = WORK, staticmethod(shown_optimisation)
 
@@ -60,7 +58,6 @@ class BDA_OT_start_optimise(StartEnsemble, bpy.types.Operator):
 class BDA_OT_stop_optimise(StopEnsemble, bpy.types.Operator):
     """Stop the optimisation; runs that are done are kept, and Start goes on with them"""
 
-    bl_idname = "bda.stop_optimise"
     bl_label = "Stop Optimisation"
     work = WORK
 
@@ -68,7 +65,6 @@ class BDA_OT_stop_optimise(StopEnsemble, bpy.types.Operator):
 class BDA_OT_open_tradeoff(OpenPicture, bpy.types.Operator):
     """Open the picture of charge against debris distance of all candidates"""
 
-    bl_idname = "bda.open_tradeoff"
     bl_label = "Open Trade-Off"
     work = WORK
 
@@ -79,12 +75,12 @@ class BDA_PT_optimise(OneValuePanel, bpy.types.Panel):
     bl_label = "Optimise"
     work, picture = WORK, "bda.open_tradeoff"
 
-    def draw_asked(self, context: bpy.types.Context) -> None:
+    def draw_settings(self, context: bpy.types.Context) -> None:
         draw_own_keys(self, context)
         self.draw_criterion(self.layout, context.scene.bda)
 
 
-def _table_panel(name: str, label: str) -> type[bpy.types.Panel]:
+def _list_panel(name: str, label: str) -> type[bpy.types.Panel]:
     """Return the sub-panel of a list of tables."""
 
     def draw(panel: bpy.types.Panel, context: bpy.types.Context) -> None:
@@ -94,16 +90,11 @@ def _table_panel(name: str, label: str) -> type[bpy.types.Panel]:
         "__doc__": f"{label} that may change.",
         "bl_label": label,
         "bl_parent_id": "BDA_PT_optimise",
-        "bl_options": {"DEFAULT_CLOSED"},
         "draw": draw,
     }
     return type(f"BDA_PT_optimise_{name}", (SidebarPanel, bpy.types.Panel), contents)
 
 
-OPERATORS = (BDA_OT_load_optimise, BDA_OT_start_optimise, BDA_OT_stop_optimise, BDA_OT_open_tradeoff)
-PANELS = (
-    BDA_PT_optimise,
-    _table_panel("quantities", "Quantities"),
-    _table_panel("places", "Positions"),
-    _table_panel("orders", "Orders"),
-)
+BDA_PT_optimise_quantities = _list_panel("quantities", "Quantities")
+BDA_PT_optimise_places = _list_panel("places", "Positions")
+BDA_PT_optimise_orders = _list_panel("orders", "Orders")

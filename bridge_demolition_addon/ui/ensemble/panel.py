@@ -1,4 +1,4 @@
-"""The shape of the panels Study, Search and Optimise: file and folder, what is asked, progress or Start, the result."""
+"""Parts of the panels Study, Search and Optimise: file and folder, settings, progress or Start, and the result."""
 
 from __future__ import annotations
 
@@ -11,22 +11,13 @@ from .session import Work
 
 
 class EnsemblePanel(SidebarPanel):
-    """Base of the three panels.
+    """Base of the three panels, each for the work of a kind; `can_pause` says that it has buttons for that."""
 
-    Attributes
-    ----------
-    work
-        Of the kind that the panel is for.
-    can_pause
-        Whether there are buttons to pause and resume.
-    """
-
-    bl_options = {"DEFAULT_CLOSED"}
     work: Work
     can_pause = False
 
-    def draw_asked(self, context: bpy.types.Context) -> None:
-        """Draw what is asked."""
+    def draw_settings(self, context: bpy.types.Context) -> None:
+        """Draw the settings."""
 
     def draw_result(self, context: bpy.types.Context) -> None:
         """Draw the result."""
@@ -37,7 +28,7 @@ class EnsemblePanel(SidebarPanel):
         row.prop(settings, f"{work.key}_path", text="", placeholder=f"{work.name.capitalize()} file")
         row.operator(f"bda.load_{work.key}", text="Load")
         layout.prop(settings, f"{work.key}_directory", text="", placeholder=f"Folder of the {work.name}")
-        self.draw_asked(context)
+        self.draw_settings(context)
         layout.prop(settings, "study_jobs")
         if work.session:
             self._draw_progress()

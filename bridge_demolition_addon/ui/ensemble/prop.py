@@ -6,6 +6,7 @@ import bpy
 from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
 from ..sidebar import path_property
+from ..viewport import redraw_views
 
 CHARGES, BALL_MASS, DROP_HEIGHT, ANOTHER_KEY = "CHARGES", "BALL_MASS", "DROP_HEIGHT", "ANOTHER_KEY"
 KEYS = {CHARGES: "charges.mass_kg", BALL_MASS: "ball.mass_kg", DROP_HEIGHT: "ball.drop_height_m"}
@@ -29,7 +30,7 @@ _EARLIER_NAMES = ("lowest", "highest", "probability", "confidence", "trials")
 
 
 def read_earlier_names(settings: bpy.types.PropertyGroup, _context: bpy.types.Context | None = None) -> None:
-    """Show what is set under an earlier name under its present one."""
+    """Move values that are set under an earlier name to the present one."""
     for name in _EARLIER_NAMES:
         if settings.is_property_set(f"search_{name}"):
             print(f"scene.bda.search_{name} is scene.bda.search.{name} now")
@@ -44,28 +45,10 @@ def read_earlier_files(*_arguments: object) -> None:
         read_earlier_names(scene.bda)
 
 
-def register() -> None:
-    """Read files with earlier names from now on."""
-    bpy.app.handlers.load_post.append(read_earlier_files)
-
-
-def unregister() -> None:
-    """Read them no longer."""
-    bpy.app.handlers.load_post.remove(read_earlier_files)
-
-
-def redraw_views(context: bpy.types.Context) -> None:
-    """Draw all 3D views again, with their sidebars."""
-    for window in context.window_manager.windows:
-        for area in window.screen.areas:
-            if area.type == "VIEW_3D":
-                area.tag_redraw()
-
-
-def _folder(what: str) -> object:
+def _folder(kind: str) -> object:
     return path_property(
         "Folder",
-        f"Folder of the {what}: made if new; in a folder that was begun it goes on, with more runs too",
+        f"Folder of the {kind}: made if new; in a folder that was begun it goes on, with more runs too",
         "DIR_PATH",
     )
 
@@ -90,7 +73,7 @@ class EnsembleProperties:
         name="Show Map and Limit",
         description="Show on the ground how likely debris gets to a position, and the limit as a line",
         default=True,
-        update=lambda _settings, context: redraw_views(context),
+        update=redraw_views,
     )
     search_quantity: EnumProperty(name="Quantity", description="What is changed from run to run", items=_QUANTITIES)
     search_criterion: EnumProperty(name="Criterion", description="What a success is", items=_CRITERIA)

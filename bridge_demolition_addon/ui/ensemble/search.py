@@ -5,7 +5,6 @@ from __future__ import annotations
 import bpy
 
 from ...errors import ScenarioError
-from ...model.scenario import Scenario
 from ...model.search.file import Search, read_search, search_of
 from ...model.search.settings import SearchSettings
 from ...model.study.files import CURVE_PICTURE
@@ -18,11 +17,11 @@ from .prop import ANOTHER_KEY, CHARGES, KEYS
 from .session import WORKS, SentencesAndPicture, Work
 
 _QUANTITY = ("key", "factor", "logarithmic")
-"""Keys that follow from a quantity of the menu."""
+"""Keys that a quantity of the menu sets."""
 
 
 def shown_result(session: EnsembleSession) -> SentencesAndPicture:
-    """Return what is shown of a search that has ended."""
+    """Return the texts and the picture of a search that has ended."""
     return SentencesAndPicture.of(session, search_sentences(session.planner.result()), CURVE_PICTURE)
 
 
@@ -36,20 +35,15 @@ def shown_search(settings: bpy.types.PropertyGroup) -> Search:
     of_quantity = {}
     if quantity != ANOTHER_KEY:
         of_quantity = {"key": KEYS[quantity], "factor": quantity == CHARGES, "logarithmic": True}
-    asked = with_shared(settings, WORK, **of_quantity)
-    _check_something_blasts(asked, scenario)
-    return search_of(asked, scenario)
-
-
-def _check_something_blasts(asked: SearchSettings, scenario: Scenario) -> None:
-    if asked.key == KEYS[CHARGES] and not (scenario.charges and scenario.blast.explosion):
+    search = with_shared(settings, WORK, **of_quantity)
+    if search.key == KEYS[CHARGES] and not (scenario.charges and scenario.blast.explosion):
         raise ScenarioError("the scenario has no charges that go off: add some, or choose another quantity")
+    return search_of(search, scenario)
 
 
 class BDA_OT_load_search(LoadEnsemble, bpy.types.Operator):
     """Show a search file's values in the panels, with those of its scenario; nothing runs yet"""
 
-    bl_idname = "bda.load_search"
     bl_label = "Load Search"
     work, read = WORK, staticmethod(read_search)
 
@@ -62,7 +56,6 @@ class BDA_OT_load_search(LoadEnsemble, bpy.types.Operator):
 class BDA_OT_start_search(StartEnsemble, bpy.types.Operator):
     """Find the value that succeeds as often as it has to"""
 
-    bl_idname = "bda.start_search"
     bl_label = "Find Smallest Charge"
     bl_description = (
         "Make runs of the scenario in the panels beside your work, with what varies in the panel Study, and find the "
@@ -74,7 +67,6 @@ class BDA_OT_start_search(StartEnsemble, bpy.types.Operator):
 class BDA_OT_stop_search(StopEnsemble, bpy.types.Operator):
     """Stop the search; runs that are done are kept, and Start goes on with them"""
 
-    bl_idname = "bda.stop_search"
     bl_label = "Stop Search"
     work = WORK
 
@@ -82,7 +74,6 @@ class BDA_OT_stop_search(StopEnsemble, bpy.types.Operator):
 class BDA_OT_open_search_curve(OpenPicture, bpy.types.Operator):
     """Open the picture of all runs, and of the probability of success over the quantity"""
 
-    bl_idname = "bda.open_search_curve"
     bl_label = "Open Curve"
     work = WORK
 
@@ -93,12 +84,8 @@ class BDA_PT_search(OneValuePanel, bpy.types.Panel):
     bl_label = "Search"
     work, picture = WORK, "bda.open_search_curve"
 
-    def draw_asked(self, context: bpy.types.Context) -> None:
+    def draw_settings(self, context: bpy.types.Context) -> None:
         settings = context.scene.bda
         self.layout.prop(settings, "search_quantity")
         draw_own_keys(self, context, without=() if settings.search_quantity == ANOTHER_KEY else _QUANTITY)
         self.draw_criterion(self.layout, settings)
-
-
-OPERATORS = (BDA_OT_load_search, BDA_OT_start_search, BDA_OT_stop_search, BDA_OT_open_search_curve)
-PANELS = (BDA_PT_search,)

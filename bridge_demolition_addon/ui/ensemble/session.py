@@ -22,17 +22,16 @@ from ...studies.run_process import RunLimits
 from ...studies.run_program import run_program_command
 from ...studies.session import EnsembleSession
 from ...studies.versions import versions_with
-from .prop import redraw_views
+from ..viewport import redraw_views
 
 _LOOK_EVERY_S = 0.3
 
 
 class ShownResult(Protocol):
-    """What a panel shows of a result."""
+    """Result of runs as sentences, which a panel shows."""
 
     @property
-    def sentences(self) -> tuple[str, ...]:
-        """What the runs state."""
+    def sentences(self) -> tuple[str, ...]: ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,27 +50,23 @@ class SentencesAndPicture:
 
 
 class Work:
-    """What is at work of one kind, and the result that is shown.
+    """The session of one kind that is at work, if any, and the result that is shown.
 
     Parameters
     ----------
     key
-        What its properties of the scene and its buttons are called after: ``optimise``.
+        Begin of the names of its properties in the scene, and end of those of its buttons: ``optimise``.
     name
-        What messages call it: ``optimisation``.
+        Its name in messages: ``optimisation``.
     settings_class
         Keys of its files.
     shown
-        What is shown of a session that has ended.
+        Returns what is shown of a session that has ended.
 
     Attributes
     ----------
-    session : EnsembleSession or None
-        What is at work.
-    result : ShownResult or None
-        What is shown.
     why_ended : str
-        Why the last one ended before its end; empty where it did not, or where the user stopped it.
+        Error that ended the last session; empty where there was none.
     """
 
     def __init__(
@@ -87,13 +82,7 @@ class Work:
         self.why_ended = ""
 
     def begin(self, ensemble: Ensemble, path: Path, jobs: int) -> None:
-        """Begin, or go on where the folder stands.
-
-        Raises
-        ------
-        DemolitionError
-            The folder is another's, or cannot be written; or a library is missing.
-        """
+        """Begin, or go on where the folder stands; a folder that cannot be used raises DemolitionError."""
         self.why_ended = ""
         self.session = EnsembleSession(ensemble, path, engine_for(ensemble, jobs))
         self.result = None
@@ -101,7 +90,7 @@ class Work:
             bpy.app.timers.register(look_in, persistent=True)
 
     def stop(self) -> None:
-        """End what is at work, if anything is; all runs that are done are kept."""
+        """End the session, if there is one; all runs that are done are kept."""
         self.why_ended = ""
         session, self.session = self.session, None
         if session:
@@ -122,10 +111,10 @@ class Work:
         except (DemolitionError, OSError) as error:
             self._end_for(error, session)
         if session.done != before or self.session is None:
-            redraw_views(bpy.context)
+            redraw_views()
 
     def _end_for(self, error: Exception, session: EnsembleSession) -> None:
-        """End a session that cannot go on; its folder is free then, whatever can still be written."""
+        """End a session that cannot go on, which unlocks its folder even if nothing more can be written."""
         self.session, self.why_ended = None, text_of(error)
         try:
             session.stop()
@@ -134,7 +123,7 @@ class Work:
 
     @property
     def progress(self) -> list[str]:
-        """How far it is, each line in a few words."""
+        """The progress in short lines."""
         session = self.session
         lines = [f"{session.done} of {session.total} runs" + (", paused" if session.is_paused else "")]
         if session.lost:
@@ -145,21 +134,21 @@ class Work:
 
 
 def look_in() -> float | None:
-    """Take the runs of all kinds that have ended; called by Blender's timer, which gets when to call again."""
+    """Take the runs of all kinds that have ended, and return when Blender's timer calls again, s."""
     for work in WORKS:
         work.look_in()
     return _LOOK_EVERY_S if any(work.session for work in WORKS) else None
 
 
 def engine_for(ensemble: Ensemble, jobs: int) -> LocalProcesses:
-    """Return what makes runs, each in a Blender like this one, some at a time."""
+    """Return processes that make runs, each in a Blender like this one, `jobs` at a time."""
     command = run_program_command(bpy.app.binary_path)  # an empty path where Blender is a module of Python
     versions = versions_with(".".join(map(str, bpy.app.version)))
     return LocalProcesses(jobs, RunLimits.of(ensemble.settings), command, versions)
 
 
 def unregister() -> None:
-    """End what is at work, and forget the results."""
+    """End all sessions, and forget the results."""
     if bpy.app.timers.is_registered(look_in):
         bpy.app.timers.unregister(look_in)
     for work in WORKS:

@@ -18,16 +18,15 @@ from ...model.study.settings import StudySettings
 from ...report.ensemble.study_runs import StudyRuns, read_study_runs
 from ...report.wording.study import study_sentences
 from ...studies.session import EnsembleSession
-from ..operators import Action
+from ..operators import UndoableAction
 from ..scenario.operator import BDA_OT_build_anew, build_and_show, stop_playing
 from ..scenario.ui import draw_keys, draw_tables
 from ..scenario.values import scenario_of, table_of
 from ..sidebar import SidebarPanel, draw_sentence
-from ..view_drawing import ViewDrawing
-from ..viewport import draw_lines, draw_triangles
+from ..view_drawing import ViewDrawing, draw_lines, draw_triangles
+from ..viewport import redraw_views
 from .operator import EnsembleAction, LoadEnsemble, StartEnsemble, StopEnsemble
 from .panel import EnsemblePanel
-from .prop import redraw_views
 from .session import WORKS, Work
 
 _LIMIT_COLOUR = (1.0, 0.2, 0.2, 1.0)
@@ -41,14 +40,10 @@ class ShownStudy:
 
     Attributes
     ----------
-    runs
-        The study and its runs.
-    sentences
-        What they state.
     triangles
         Cells that runs hit: corners (3 k, 3), m, and their colours (3 k, 4).
-    limit_lines : (2 k, 3) float
-        Lines around what holds the limit, m; none where there is no limit yet.
+    limit_lines
+        Lines (2 k, 3) around the area of the limit, m; none where there is no limit yet.
     """
 
     runs: StudyRuns
@@ -58,7 +53,7 @@ class ShownStudy:
 
     @classmethod
     def of(cls, runs: StudyRuns) -> ShownStudy:
-        """Work out what is shown of a study."""
+        """Work out map, limit and sentences of a study."""
         sentences = (f"{len(runs.table)} of {runs.ensemble.settings.runs} runs are there: the study goes on.",)
         if runs.conclusions:
             sentences = tuple(study_sentences(runs.ensemble, runs.conclusions))
@@ -67,7 +62,7 @@ class ShownStudy:
 
     @classmethod
     def of_session(cls, session: EnsembleSession) -> ShownStudy:
-        """Work out what is shown of a study that has ended."""
+        """Work them out for a study that has ended."""
         return cls.of(read_study_runs(session.folder.path))
 
 
@@ -76,15 +71,9 @@ WORKS.append(WORK)
 
 
 def show(path: Path) -> ShownStudy:
-    """Show the study in a folder, in place of any other.
-
-    Raises
-    ------
-    OutputError
-        There is none, or no run of it finished.
-    """
+    """Show the study in a folder, in place of any other; OutputError where none of its runs finished."""
     WORK.result = ShownStudy.of(read_study_runs(path))
-    redraw_views(bpy.context)
+    redraw_views()
     return WORK.result
 
 
@@ -96,24 +85,24 @@ def shown_study(settings: bpy.types.PropertyGroup) -> Study:
 class BDA_OT_load_study(LoadEnsemble, bpy.types.Operator):
     """Show a study file's values in the panels, with those of the scenario that it varies; nothing runs yet"""
 
-    bl_idname = "bda.load_study"
     bl_label = "Load Study"
     work, read = WORK, staticmethod(read_study)
 
 
 class BDA_OT_start_study(StartEnsemble, bpy.types.Operator):
-    """Run the scenario in the panels many times with what varies, beside your work; goes on where the folder stands,
-    also with more runs than before"""
+    """Run the scenario many times with what varies, beside your work; goes on where the folder stands"""
 
-    bl_idname = "bda.start_study"
     bl_label = "Start Study"
+    bl_description = (
+        "Run the scenario in the panels many times with what varies, beside your work; goes on where the folder "
+        "stands, also with more runs than before"
+    )
     work, shown = WORK, staticmethod(shown_study)
 
 
 class BDA_OT_stop_study(StopEnsemble, bpy.types.Operator):
     """Stop the study; runs that are done are kept, and Start goes on with them"""
 
-    bl_idname = "bda.stop_study"
     bl_label = "Stop Study"
     work = WORK
 
@@ -121,7 +110,6 @@ class BDA_OT_stop_study(StopEnsemble, bpy.types.Operator):
 class BDA_OT_pause_study(EnsembleAction, bpy.types.Operator):
     """Begin no further run; those under way are finished"""
 
-    bl_idname = "bda.pause_study"
     bl_label = "Pause Study"
     work = WORK
 
@@ -138,7 +126,6 @@ class BDA_OT_pause_study(EnsembleAction, bpy.types.Operator):
 class BDA_OT_resume_study(EnsembleAction, bpy.types.Operator):
     """Go on with the study"""
 
-    bl_idname = "bda.resume_study"
     bl_label = "Resume Study"
     work = WORK
 
@@ -153,7 +140,6 @@ class BDA_OT_resume_study(EnsembleAction, bpy.types.Operator):
 class BDA_OT_show_study(EnsembleAction, bpy.types.Operator):
     """Show the study in the folder: its map on the ground and, once all runs are there, its limit"""
 
-    bl_idname = "bda.show_study"
     bl_label = "Show Study"
     work = WORK
 
@@ -168,12 +154,10 @@ class BDA_OT_show_study(EnsembleAction, bpy.types.Operator):
         return f"{len(runs.table)} runs of {runs.ensemble.scenario.title}"
 
 
-class BDA_OT_open_worst_draw(Action, bpy.types.Operator):
-    """Build the run whose debris got farthest, in place of what is built and shown: run it to see what happened"""
+class BDA_OT_open_worst_draw(UndoableAction, bpy.types.Operator):
+    """Build the run with the largest debris distance, in place of what is built: run it to see what happened"""
 
-    bl_idname = "bda.open_worst_draw"
     bl_label = "Open Worst Run"
-    bl_options = {"REGISTER", "UNDO"}
     changes_objects = True
 
     @classmethod
@@ -196,41 +180,37 @@ class BDA_OT_open_worst_draw(Action, bpy.types.Operator):
 
 
 class BDA_PT_study(EnsemblePanel, bpy.types.Panel):
-    """Many runs of the scenario, with inputs drawn by chance, and what holds for such runs."""
+    """Many runs of the scenario with sampled inputs, and their debris distance."""
 
     bl_label = "Study"
     work, can_pause = WORK, True
 
 
 class BDA_PT_study_runs(SidebarPanel, bpy.types.Panel):
-    """How often the scenario is run, and what is to be stated. Searches and optimisations share the seed and the limits
-    of time and memory."""
+    """Number of runs, and the limit to state; searches and optimisations share the seed, time and memory limits."""
 
     bl_label = "Runs and Limit"
     bl_parent_id = "BDA_PT_study"
-    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: bpy.types.Context) -> None:
         draw_keys(self.layout, context, context.scene.bda.study, StudySettings)
 
 
 class BDA_PT_study_vary(SidebarPanel, bpy.types.Panel):
-    """What is drawn for each run, apart from the seed of the fracture; in searches and optimisations too."""
+    """Inputs that are sampled for each run, apart from the seed of the fracture; in searches and optimisations too."""
 
     bl_label = "What Varies"
     bl_parent_id = "BDA_PT_study"
-    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: bpy.types.Context) -> None:
         draw_tables(self.layout, context, context.scene.bda.study, _TABLES["vary"])
 
 
 class BDA_PT_study_criteria(SidebarPanel, bpy.types.Panel):
-    """What makes a run count as a success."""
+    """Conditions that a run meets where it is a success."""
 
     bl_label = "Criteria"
     bl_parent_id = "BDA_PT_study"
-    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: bpy.types.Context) -> None:
         draw_tables(self.layout, context, context.scene.bda.study, _TABLES["criteria"])
@@ -241,7 +221,6 @@ class BDA_PT_study_findings(SidebarPanel, bpy.types.Panel):
 
     bl_label = "Findings"
     bl_parent_id = "BDA_PT_study"
-    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout
@@ -252,30 +231,8 @@ class BDA_PT_study_findings(SidebarPanel, bpy.types.Panel):
             draw_sentence(layout, context, sentence, icon="NONE")
         layout.prop(context.scene.bda, "show_study")
         layout.operator("bda.open_worst_draw")
-        if drawing.trouble:
-            draw_sentence(layout, context, drawing.trouble)
-
-
-OPERATORS = (
-    BDA_OT_load_study,
-    BDA_OT_start_study,
-    BDA_OT_pause_study,
-    BDA_OT_resume_study,
-    BDA_OT_stop_study,
-    BDA_OT_show_study,
-    BDA_OT_open_worst_draw,
-)
-PANELS = (BDA_PT_study, BDA_PT_study_runs, BDA_PT_study_vary, BDA_PT_study_criteria, BDA_PT_study_findings)
-
-
-def register() -> None:
-    """Draw map and limit from now on; what is drawn depends on the settings."""
-    drawing.begin()
-
-
-def unregister() -> None:
-    """Stop drawing."""
-    drawing.end()
+        if drawing.error:
+            draw_sentence(layout, context, drawing.error)
 
 
 def _draw(context: bpy.types.Context) -> None:

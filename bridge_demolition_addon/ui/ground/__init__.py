@@ -1,1 +1,1 @@
-"""What is drawn on the ground and in the air of the 3D view."""
+"""Drawings on the ground and in the air of the 3D view."""

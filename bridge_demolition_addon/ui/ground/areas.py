@@ -21,13 +21,13 @@ from ...scene.bodies import Kind, bodies_of, is_uneven_ground, kind_of, triangle
 from ...scene.rendering.ground import ground_of as ground_in
 from ...simulation.blender_events import shown_results
 
-_found: dict[str, tuple[tuple, Any]] = {}
-"""What was worked out last, and what for."""
+_kept: dict[str, tuple[tuple, Any]] = {}
+"""Results that were worked out last, with the keys that they depend on."""
 
 
 def forget() -> None:
-    """Let go of what was worked out."""
-    _found.clear()
+    """Forget these results."""
+    _kept.clear()
 
 
 def results_of(scene: bpy.types.Scene) -> Results | None:
@@ -36,16 +36,16 @@ def results_of(scene: bpy.types.Scene) -> Results | None:
 
 
 def plan_of(scene: bpy.types.Scene) -> CrossSection | None:
-    """Return what the bridge covers in plan at first; None where there is none."""
+    """Return the area that the bridge covers in plan at first; None where there is no bridge."""
     results = results_of(scene)
     if results is not None and len(results.inventory.of_kind("shard")):
-        return _kept("plan", _key(scene), lambda: footprint(results, results.inventory.of_kind("shard"), 0))
+        return _cached("plan", _key(scene), lambda: footprint(results, results.inventory.of_kind("shard"), 0))
     world = scene.rigidbody_world
     if not world or not world.collection:
         return None
     shards = [body for body in bodies_of(scene) if kind_of(body) == Kind.SHARD]
     key = (scene.session_uid, len(shards), scene.bda.built_scenario)
-    return _kept("plan", key, lambda: _plan_as_built(shards)) if shards else None
+    return _cached("plan", key, lambda: _plan_as_built(shards)) if shards else None
 
 
 def rings_of(scene: bpy.types.Scene, spacing_m: float, number: int) -> list[tuple[float, np.ndarray]]:
@@ -53,25 +53,25 @@ def rings_of(scene: bpy.types.Scene, spacing_m: float, number: int) -> list[tupl
     plan = plan_of(scene)
     if plan is None:
         return []
-    return _kept("rings", (_found["plan"][0], spacing_m, number), lambda: distance_rings(plan, spacing_m, number))
+    return _cached("rings", (_kept["plan"][0], spacing_m, number), lambda: distance_rings(plan, spacing_m, number))
 
 
 def debris_of(scene: bpy.types.Scene) -> CrossSection | None:
-    """Return what shards cover in plan when the last run ends; None without one."""
+    """Return the area that shards cover in plan when the last run ends; None without a run."""
     results = results_of(scene)
     if results is None or not len(shards := results.inventory.of_kind("shard")):
         return None
-    return _kept("debris", _key(scene), lambda: footprint(results, shards, len(results.frames) - 1))
+    return _cached("debris", _key(scene), lambda: footprint(results, shards, len(results.frames) - 1))
 
 
 def zone_of(scene: bpy.types.Scene, settings: Exclusion) -> ExclusionZone | None:
-    """Return the exclusion zone of the last run, or as it is planned where there is none; None without a bridge."""
+    """Return the exclusion zone of the last run, or the planned one before a run; None without a bridge."""
     results, plan = results_of(scene), plan_of(scene)
     if plan is None:
         return None
     if results is None or not len(results.inventory.of_kind("shard")):
         return planned_zone(plan, settings)
-    return _kept("zone", (*_key(scene), settings), lambda: exclusion_zone(results, settings))
+    return _cached("zone", (*_key(scene), settings), lambda: exclusion_zone(results, settings))
 
 
 def ground_of(scene: bpy.types.Scene) -> RecordedGround:
@@ -80,11 +80,11 @@ def ground_of(scene: bpy.types.Scene) -> RecordedGround:
     bodies = bodies_of(scene) if world and world.collection else []
     built = [(body.name, len(body.data.vertices)) for body in bodies if is_uneven_ground(body)]
     key = (scene.session_uid, tuple(built), scene.bda.built_scenario)
-    return _kept("ground", key, lambda: ground_in(scene))
+    return _cached("ground", key, lambda: ground_in(scene))
 
 
-def way_of_ball(scene: bpy.types.Scene) -> list[np.ndarray]:
-    """Return the places (k, 3) float, m, that each ball of the last run came through."""
+def path_of_ball(scene: bpy.types.Scene) -> list[np.ndarray]:
+    """Return the positions (k, 3) float, m, of each ball of the last run."""
     results = results_of(scene)
     if results is None:
         return []
@@ -104,8 +104,7 @@ def _plan_as_built(shards: list[bpy.types.Object]) -> CrossSection:
     return united(plans)
 
 
-def _kept(name: str, key: tuple, work_out: Callable[[], Any]) -> Any:
-    kept = _found.get(name)
-    if kept is None or kept[0] != key:
-        kept = _found[name] = (key, work_out())
-    return kept[1]
+def _cached(name: str, key: tuple, work_out: Callable[[], Any]) -> Any:
+    if name not in _kept or _kept[name][0] != key:
+        _kept[name] = (key, work_out())
+    return _kept[name][1]

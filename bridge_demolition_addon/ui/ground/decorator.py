@@ -18,10 +18,8 @@ from ...scene.blast.charges import blast_of, charges_of
 from ...scene.bodies import Kind, kind_of
 from ...scene.time_scale import simulated_time_s
 from ...scene.world import FIRST_STEP_FRAME
-from ..labels import write_at
 from ..scenario.built import shown_site
-from ..view_drawing import ViewDrawing
-from ..viewport import draw_lines
+from ..view_drawing import ViewDrawing, draw_lines, write_at
 from . import areas
 from .prop import DEBRIS, EXCLUSION, FLASHES, NAMES, NEIGHBOURS, RINGS, WAY, ZONES
 
@@ -49,30 +47,18 @@ _WIDTHS_PX = {EXCLUSION: 3.0, WAY: 2.5, NAMES: 2.5, FLASHES: 3.0}
 _WIDTH_PX = 2.0
 
 _texts: list[tuple[tuple[float, float, float], str]] = []
-"""Places and texts of the view that is drawn just now."""
+"""Positions, m, and texts of the view that is drawn now."""
 
 
 @dataclass(frozen=True, slots=True)
 class Drawn:
-    """Lines (2 k, 3) float, m, with their colour and width, and a text at a place, which may be empty."""
+    """Lines (2 k, 3) float, m, with their colour and width, and a text at a position, which may be empty."""
 
     lines: np.ndarray
     colour: tuple[float, float, float, float]
     width_px: float = _WIDTH_PX
     text: str = ""
-    place_m: tuple[float, float, float] = (0.0, 0.0, 0.0)
-
-
-def register() -> None:
-    """Draw from now on; what is drawn depends on the settings."""
-    drawing.begin()
-
-
-def unregister() -> None:
-    """Stop drawing."""
-    drawing.end()
-    _texts.clear()
-    areas.forget()
+    position_m: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
 
 def drawn(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> Iterator[Drawn]:
@@ -87,12 +73,13 @@ def drawn(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> Iterator[Drawn]
 def _zones(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Drawn]:
     for zone in shown_site(scene.bda)["zones"]:
         lines = zone_lines(zone)
-        yield Drawn(lines, _ZONE_COLOURS[zone.kind], text=f"{zone.name} ({zone.kind})", place_m=tuple(lines[0]))
+        yield Drawn(lines, _ZONE_COLOURS[zone.kind], text=f"{zone.name} ({zone.kind})", position_m=tuple(lines[0]))
 
 
 def _neighbours(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Drawn]:
-    for each in shown_site(scene.bda)["neighbours"]:
-        yield Drawn(cross_lines(each.place_m, _NEIGHBOUR_M), _COLOURS[NEIGHBOURS], text=each.name, place_m=each.place_m)
+    for neighbour in shown_site(scene.bda)["neighbours"]:
+        position = neighbour.place_m
+        yield Drawn(cross_lines(position, _NEIGHBOUR_M), _COLOURS[NEIGHBOURS], text=neighbour.name, position_m=position)
 
 
 def _exclusion(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Drawn]:
@@ -113,9 +100,9 @@ def _rings(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Draw
         yield Drawn(lines, _COLOURS[RINGS], 1.0, f"{distance:g} m", tuple(lines[int(lines[:, 0].argmax())]))
 
 
-def _way(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Drawn]:
-    for places in areas.way_of_ball(scene):
-        yield Drawn(way_lines(places), _COLOURS[WAY], _WIDTHS_PX[WAY])
+def _path(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Drawn]:
+    for positions in areas.path_of_ball(scene):
+        yield Drawn(way_lines(positions), _COLOURS[WAY], _WIDTHS_PX[WAY])
 
 
 def _flashes(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Drawn]:
@@ -148,8 +135,8 @@ def _chosen(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> Iterator[Draw
 
 def _outlined(area: CrossSection, name: str, text: str) -> Drawn:
     corners = np.concatenate([np.zeros((0, 2)), *outlines(area)])
-    place = corners[corners[:, 0].argmax()] if len(corners) else (0.0, 0.0)
-    return Drawn(outline_lines(area), _COLOURS[name], _WIDTHS_PX.get(name, _WIDTH_PX), text, (*place, 0.0))
+    position = corners[corners[:, 0].argmax()] if len(corners) else (0.0, 0.0)
+    return Drawn(outline_lines(area), _COLOURS[name], _WIDTHS_PX.get(name, _WIDTH_PX), text, (*position, 0.0))
 
 
 _ON_GROUND = (EXCLUSION, ZONES, DEBRIS, RINGS)
@@ -160,7 +147,7 @@ _PARTS = {
     DEBRIS: _debris,
     RINGS: _rings,
     NEIGHBOURS: _neighbours,
-    WAY: _way,
+    WAY: _path,
     FLASHES: _flashes,
     NAMES: _chosen,
 }
@@ -168,16 +155,16 @@ _PARTS = {
 
 def _draw_lines(context: bpy.types.Context) -> None:
     _texts.clear()
-    for each in drawn(context.scene, context.view_layer):
-        draw_lines(context, each.lines, each.colour, each.width_px)
-        if each.text:
-            _texts.append((each.place_m, each.text))
+    for part in drawn(context.scene, context.view_layer):
+        draw_lines(context, part.lines, part.colour, part.width_px)
+        if part.text:
+            _texts.append((part.position_m, part.text))
 
 
 def _draw_texts(context: bpy.types.Context) -> None:
-    """Write what goes with the lines, which Blender has drawn in the same view just before."""
-    for place, text in _texts:
-        write_at(context, place, text)
+    """Write the texts of the lines, which Blender has drawn in the same view just before."""
+    for position, text in _texts:
+        write_at(context, position, text)
 
 
-drawing = ViewDrawing(_draw_lines, _draw_texts)
+drawing = ViewDrawing(_draw_lines, _draw_texts, forget=areas.forget)

@@ -13,9 +13,9 @@ from ...model.toml_tables import toml_value
 from ...scene.rendering.dust import raise_dust, remove_dust
 from ...scene.rendering.ground import lay_site_plan, terrain_under
 from ...simulation.blender_events import recorded_scene
-from ..contours import view as contour_view
-from ..operators import Action, GuardedOperator, absolute, recording_runs, refused
-from ..viewport import draw_lines
+from ..operators import GuardedOperator, UndoableAction, absolute, recording_runs, refused, unset
+from ..view_drawing import ViewDrawing, draw_lines
+from ..viewport import redraw_views, region_of
 from . import areas
 from .prop import ZONES
 
@@ -25,27 +25,30 @@ _LEAVE = {"MIDDLEMOUSE", "WHEELUPMOUSE", "WHEELDOWNMOUSE"}
 """Events with which the view is turned meanwhile."""
 
 
+_unfinished: list[ViewDrawing] = []
+"""Zones that are drawn now."""
+
+
+def _outside_view(context: bpy.types.Context) -> str | None:
+    is_view = context.area is not None and context.area.type == "VIEW_3D"
+    return None if is_view else "Zones are drawn in a 3D view"
+
+
 class BDA_OT_draw_zone(GuardedOperator, bpy.types.Operator):
     """Click the corners of a zone on the ground; Enter or a right click ends it, Backspace takes a corner back"""
 
-    bl_idname = "bda.draw_zone"
     bl_label = "Draw Zone"
     bl_options = {"REGISTER", "UNDO"}
+    blocked_by = (_outside_view, recording_runs)
 
     _corners: list[tuple[float, float]]
-    _handle = None
-
-    @classmethod
-    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
-        if context.area is None or context.area.type != "VIEW_3D":
-            return "Zones are drawn in a 3D view"
-        return recording_runs(context)
+    _drawing: ViewDrawing
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         self._corners = []
-        draw = _guarded(lambda: self._draw(bpy.context))
-        self._handle = bpy.types.SpaceView3D.draw_handler_add(draw, (), "WINDOW", "POST_VIEW")
-        _handles.append(self._handle)
+        self._drawing = ViewDrawing(self._draw)
+        self._drawing.register()
+        _unfinished.append(self._drawing)
         context.workspace.status_text_set("Zone: click its corners | Enter: done | Backspace: back | Esc: cancel")
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
@@ -60,16 +63,16 @@ class BDA_OT_draw_zone(GuardedOperator, bpy.types.Operator):
         if event.type == "BACK_SPACE":
             del self._corners[-1:]
         elif event.type == "LEFTMOUSE":
-            place = ground_under(context, event.mouse_x, event.mouse_y)
-            if place is None:
+            corner = ground_under(context, event.mouse_x, event.mouse_y)
+            if corner is None:
                 self.report({"WARNING"}, "There is no ground under the mouse: look down on it, click in the 3D view")
             else:
-                self._corners.append(place)
-        contour_view.redraw()
+                self._corners.append(corner)
+        redraw_views()
         return {"RUNNING_MODAL"}
 
     def cancel(self, context: bpy.types.Context) -> None:
-        """Called by Blender where it ends this itself, as it does before another file is loaded."""
+        """End the drawing; Blender calls this before it loads another file."""
         self._leave(context, {"CANCELLED"})
 
     def _add(self, context: bpy.types.Context) -> set[str]:
@@ -81,10 +84,12 @@ class BDA_OT_draw_zone(GuardedOperator, bpy.types.Operator):
         return {"FINISHED"}
 
     def _leave(self, context: bpy.types.Context, ended: set[str]) -> set[str]:
-        forget_handle(self._handle)
+        if self._drawing in _unfinished:  # the extension was not switched off meanwhile
+            _unfinished.remove(self._drawing)
+            self._drawing.unregister()
         if context.workspace:
             context.workspace.status_text_set(None)
-        contour_view.redraw()
+        redraw_views()
         return ended
 
     def _draw(self, context: bpy.types.Context) -> None:
@@ -95,17 +100,12 @@ class BDA_OT_draw_zone(GuardedOperator, bpy.types.Operator):
         draw_lines(context, np.stack((corners, ends), axis=1).reshape(-1, 3), _COLOUR, _WIDTH_PX)
 
 
-class BDA_OT_lay_site_plan(Action, bpy.types.Operator):
-    """Lay the picture under the bridge, so wide and turned as given. Material Preview and renders show it"""
+class BDA_OT_lay_site_plan(UndoableAction, bpy.types.Operator):
+    """Lay the picture under the bridge, with this width and bearing. Material Preview and renders show it"""
 
-    bl_idname = "bda.lay_site_plan"
     bl_label = "Lay Site Plan"
-    bl_options = {"REGISTER", "UNDO"}
     changes_objects = True
-
-    @classmethod
-    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
-        return recording_runs(context) or (None if context.scene.bda.plan_picture else "Choose a picture first")
+    blocked_by = (recording_runs, unset("plan_picture", "Choose a picture first"))
 
     def act(self, context: bpy.types.Context) -> str:
         settings = context.scene.bda
@@ -116,19 +116,16 @@ class BDA_OT_lay_site_plan(Action, bpy.types.Operator):
         return f"{path.name}: {width:g} m × {height:g} m on the ground"
 
 
-class BDA_OT_raise_dust(Action, bpy.types.Operator):
+def _no_results(context: bpy.types.Context) -> str | None:
+    return None if areas.results_of(context.scene) is not None else "Run the scene first, or load its results"
+
+
+class BDA_OT_raise_dust(UndoableAction, bpy.types.Operator):
     """Make clouds of dust where connections broke in the last run; they render in EEVEE and Cycles, and slowly"""
 
-    bl_idname = "bda.raise_dust"
     bl_label = "Raise Dust"
-    bl_options = {"REGISTER", "UNDO"}
     changes_objects = True
-
-    @classmethod
-    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
-        if reason := recording_runs(context):
-            return reason
-        return None if areas.results_of(context.scene) is not None else "Run the scene first, or load its results"
+    blocked_by = (recording_runs, _no_results)
 
     def act(self, context: bpy.types.Context) -> str:
         scene = context.scene
@@ -139,59 +136,43 @@ class BDA_OT_raise_dust(Action, bpy.types.Operator):
         return f"{len(clouds)} clouds of dust" if clouds else "No connection broke: there is no dust"
 
 
-class BDA_OT_settle_dust(Action, bpy.types.Operator):
+class BDA_OT_settle_dust(UndoableAction, bpy.types.Operator):
     """Remove the clouds of dust"""
 
-    bl_idname = "bda.settle_dust"
     bl_label = "Remove Dust"
-    bl_options = {"REGISTER", "UNDO"}
     changes_objects = True
-
-    disabled_reason = staticmethod(recording_runs)
+    blocked_by = (recording_runs,)
 
     def act(self, context: bpy.types.Context) -> str:
         return f"{remove_dust(context.scene)} clouds of dust removed"
 
 
-CLASSES = (BDA_OT_draw_zone, BDA_OT_lay_site_plan, BDA_OT_raise_dust, BDA_OT_settle_dust)
-
-_handles: list[object] = []
-"""Those of zones that are drawn just now."""
-
-
-def forget_handle(handle: object) -> None:
-    """Stop drawing a zone that is not finished; switching the extension off does so too."""
-    if handle in _handles:
-        _handles.remove(handle)
-        bpy.types.SpaceView3D.draw_handler_remove(handle, "WINDOW")
-
-
 def unregister() -> None:
     """Stop drawing zones that are not finished."""
-    for handle in list(_handles):
-        forget_handle(handle)
+    while _unfinished:
+        _unfinished.pop().unregister()
 
 
 def ground_under(context: bpy.types.Context, mouse_x: int, mouse_y: int) -> tuple[float, float] | None:
-    """Return the place on the ground that the mouse is over, x and y in m; None where it is over none."""
-    region = next(each for each in context.area.regions if each.type == "WINDOW")
+    """Return the point of the ground under the mouse, x and y in m; None where there is no ground."""
+    region = region_of(context.area, "WINDOW")
     x, y = mouse_x - region.x, mouse_y - region.y
     if not (0 <= x < region.width and 0 <= y < region.height):
         return None
     view = context.area.spaces.active.region_3d
     eye, ray = region_2d_to_origin_3d(region, view, (x, y)), region_2d_to_vector_3d(region, view, (x, y))
-    if (met := terrain_under(context.scene, eye, ray)) is not None:
-        return round(met.x, 2), round(met.y, 2)
-    if eye.z * ray.z >= 0.0:  # it looks away from the ground
-        return None
-    place = eye - ray * (eye.z / ray.z)
-    return round(place.x, 2), round(place.y, 2)
+    point = terrain_under(context.scene, eye, ray)
+    if point is None:
+        if eye.z * ray.z >= 0.0:  # it looks away from the ground
+            return None
+        point = eye - ray * (eye.z / ray.z)
+    return round(point.x, 2), round(point.y, 2)
 
 
 def add_zone(scene: bpy.types.Scene, corners_m: list[tuple[float, float]]) -> str:
     """Add a zone to those of the scenario, show it, and return its name."""
     group = scene.bda.scenario
-    taken = {each.name for each in group.zones}
+    taken = {zone.name for zone in group.zones}
     name = next(name for number in range(1, len(taken) + 2) if (name := f"Zone {number}") not in taken)
     zone = Zone(name=name, corners_m=tuple(corners_m))
     added = group.zones.add()
@@ -199,13 +180,3 @@ def add_zone(scene: bpy.types.Scene, corners_m: list[tuple[float, float]]) -> st
     group.zones_index = len(group.zones) - 1
     scene.bda.overlays |= {ZONES}
     return name
-
-
-def _guarded(draw):
-    def guarded() -> None:
-        try:
-            draw()
-        except ReferenceError:  # the operator has ended, and Blender draws once more
-            return
-
-    return guarded

@@ -1,14 +1,12 @@
-"""Settings of what is drawn on the ground and in the air, kept in the scene as part of ``scene.bda``."""
+"""Settings of the drawings on the ground and in the air, kept in the scene as part of ``scene.bda``."""
 
-import bpy
-from bpy.props import EnumProperty, FloatProperty, IntProperty
+from bpy.props import EnumProperty, FloatProperty, FloatVectorProperty, IntProperty
 
-from ..contours import view as contour_view
 from ..sidebar import path_property
+from ..viewport import redraw_views
 
-EXCLUSION, ZONES, DEBRIS, RINGS, NEIGHBOURS, WAY, FLASHES, NAMES = (
-    *("EXCLUSION", "ZONES", "DEBRIS", "RINGS", "NEIGHBOURS", "WAY", "FLASHES", "NAMES"),
-)
+EXCLUSION, ZONES, DEBRIS, RINGS = "EXCLUSION", "ZONES", "DEBRIS", "RINGS"
+NEIGHBOURS, WAY, FLASHES, NAMES = "NEIGHBOURS", "WAY", "FLASHES", "NAMES"
 _OVERLAYS = (
     (EXCLUSION, "Exclusion Zone", "The exclusion zone: of the last run, or as it is planned before there is one"),
     (ZONES, "Zones", "The zones of Scenario, with their names"),
@@ -21,12 +19,8 @@ _OVERLAYS = (
 )
 
 
-def _redraw(_settings: bpy.types.PropertyGroup, _context: bpy.types.Context) -> None:
-    contour_view.redraw()
-
-
 class GroundProperties:
-    """The part of the scene's settings on what is drawn on the ground and in the air."""
+    """Part of the settings of a scene."""
 
     overlays: EnumProperty(
         name="Show",
@@ -34,7 +28,7 @@ class GroundProperties:
         items=_OVERLAYS,
         options={"ENUM_FLAG"},
         default={ZONES, NEIGHBOURS, FLASHES, NAMES},
-        update=_redraw,
+        update=redraw_views,
     )
     distance_spacing_m: FloatProperty(
         name="Every",
@@ -43,15 +37,15 @@ class GroundProperties:
         min=0.5,
         max=1000.0,
         unit="LENGTH",
-        update=_redraw,
+        update=redraw_views,
     )
     distance_count: IntProperty(
-        name="Rings", description="How many rings of distance, such as 5", default=5, min=1, max=20, update=_redraw
+        name="Rings", description="How many rings of distance, such as 5", default=5, min=1, max=20, update=redraw_views
     )
     plan_picture: path_property("Site Plan", "Picture of a site plan, or one from the air, to lie under the bridge")
     plan_width_m: FloatProperty(
         name="Width",
-        description="How many metres on the ground the picture is wide, such as 200 m",
+        description="Width of the picture on the ground, such as 200 m",
         default=200.0,
         min=1.0,
         max=1e5,
@@ -65,7 +59,7 @@ class GroundProperties:
         min=-360.0,
         max=360.0,
     )
-    plan_origin: bpy.props.FloatVectorProperty(
+    plan_origin: FloatVectorProperty(
         name="Origin",
         description="Where the origin of the scenario lies in the picture, from its left and from its foot: 0.5 and "
         "0.5 for its middle",

@@ -1,4 +1,4 @@
-"""Panel Ground and Air: what is drawn there, zones by the mouse, and a site plan under the bridge."""
+"""Panel Ground and Air: drawings there, zones by the mouse, and a site plan under the bridge."""
 
 import bpy
 
@@ -8,16 +8,15 @@ from .prop import RINGS
 
 
 class BDA_PT_ground_and_air(SidebarPanel, bpy.types.Panel):
-    """What is drawn on the ground and in the air."""
+    """Drawings on the ground and in the air."""
 
     bl_label = "Ground and Air"
     bl_parent_id = "BDA_PT_post_processing"
-    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: bpy.types.Context) -> None:
         settings, layout = context.scene.bda, self.layout
-        if trouble := decorator.drawing.trouble:
-            draw_sentence(layout, context, trouble)
+        if error := decorator.drawing.error:
+            draw_sentence(layout, context, error)
         layout.column(align=True).prop(settings, "overlays")
         if RINGS in settings.overlays:
             row = layout.row(align=True)
@@ -26,15 +25,9 @@ class BDA_PT_ground_and_air(SidebarPanel, bpy.types.Panel):
         layout.operator("bda.draw_zone", icon="GREASEPENCIL")
         column = layout.column()
         column.use_property_split, column.use_property_decorate = True, False
-        column.prop(settings, "plan_picture")
-        column.prop(settings, "plan_width_m")
-        column.prop(settings, "plan_bearing_deg")
-        column.prop(settings, "plan_origin")
+        for name in ("plan_picture", "plan_width_m", "plan_bearing_deg", "plan_origin"):
+            column.prop(settings, name)
         layout.operator("bda.lay_site_plan")
         dust = layout.row(align=True)
         dust.operator("bda.raise_dust")
         dust.operator("bda.settle_dust", text="", icon="X")
-
-
-CLASSES = (BDA_PT_ground_and_air,)
-"""Below the panel of films."""

@@ -12,7 +12,7 @@ from ...ifc.folder import REPORT_FILE, SCENARIO_FILE, write_bridge
 from ...ifc.library import missing_reason
 from ...ifc.settings import UNITS, ImportSettings
 from ...model.scenario.file import read_scenario
-from ..operators import Action, absolute
+from ..operators import UndoableAction, absolute
 from ..scenario.values import show_scenario
 from ..sidebar import path_property
 
@@ -20,12 +20,11 @@ _UNIT_OF_FILE = "FILE"
 _UNIT_NAMES = {"m": "Metres", "cm": "Centimetres", "mm": "Millimetres", "ft": "Feet", "in": "Inches"}
 
 
-class BDA_OT_import_ifc(Action, ImportHelper, bpy.types.Operator):
+class BDA_OT_import_ifc(UndoableAction, ImportHelper, bpy.types.Operator):
     """Make a scenario of a bridge in an IFC file, with a mesh for each element, and show it in the panels"""
 
-    bl_idname = "bda.import_ifc"
     bl_label = "Import IFC"
-    bl_options = {"REGISTER", "UNDO"}
+    blocked_by = (lambda _context: missing_reason(),)
     changes_objects = True
 
     filename_ext = ".ifc"
@@ -46,7 +45,7 @@ class BDA_OT_import_ifc(Action, ImportHelper, bpy.types.Operator):
         ),
     )
     own_ground: BoolProperty(
-        name="Own Ground", description="Tell the height of the ground; otherwise it is that of the lowest underside"
+        name="Own Ground", description="Set the height of the ground; otherwise it is that of the lowest underside"
     )
     ground_m: FloatProperty(name="Ground", description="Height of the ground in the file", unit="LENGTH", precision=3)
     shards: IntProperty(name="Shards", description="Into how many shards the bridge is cut", default=300, min=1)
@@ -56,10 +55,6 @@ class BDA_OT_import_ifc(Action, ImportHelper, bpy.types.Operator):
     kinds: StringProperty(
         name="Kinds", description="What elements are, as in Proxy*=deck;IfcPlate=girder, where the file does not say it"
     )
-
-    @classmethod
-    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
-        return missing_reason()
 
     def draw(self, _context: bpy.types.Context) -> None:
         """Draw the choices beside the files."""
@@ -96,11 +91,8 @@ class BDA_OT_import_ifc(Action, ImportHelper, bpy.types.Operator):
         )
 
 
-CLASSES = (BDA_OT_import_ifc,)
-
-
 def _parts(text: str) -> tuple[str, ...]:
-    return tuple(each.strip() for each in text.split(";") if each.strip())
+    return tuple(part.strip() for part in text.split(";") if part.strip())
 
 
 def _kind(text: str) -> tuple[str, str]:
@@ -112,11 +104,8 @@ def _kind(text: str) -> tuple[str, str]:
 
 def _new_folder(path: Path) -> Path:
     """Return a folder beside the IFC file that is not there yet."""
-    folder, number = path.with_name(f"{path.stem}_scenario"), 1
-    while folder.exists():
-        number += 1
-        folder = path.with_name(f"{path.stem}_scenario_{number}")
-    return folder
+    folders = (path.with_name(f"{path.stem}_scenario{ending}") for ending in ("", *(f"_{n}" for n in range(2, 10_000))))
+    return next(folder for folder in folders if not folder.exists())
 
 
 def _done(bridge: ImportedBridge, folder: Path) -> str:

@@ -1,1 +1,1 @@
-"""What is about to be built, drawn in the 3D view, and handles there for places that the panels show."""
+"""Outlines in the 3D view of the bridge that the panels would build, and handles there for points in the panels."""

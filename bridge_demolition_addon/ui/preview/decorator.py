@@ -13,8 +13,7 @@ from ...model.scenario.file import scenario_from_text
 from ..scenario.prop import shown_tables
 from ..scenario.values import inner_of
 from ..sidebar import SidebarPanel
-from ..view_drawing import ViewDrawing
-from ..viewport import draw_lines
+from ..view_drawing import ViewDrawing, draw_lines
 
 _COLOUR = (0.45, 0.85, 1.0, 0.9)
 _WIDTH_PX = 1.5
@@ -22,25 +21,13 @@ _WIDTH_PX = 1.5
 _FIELDS = {item.name: item for item in shown_tables(Scenario) if item.name in ("bridge", "ball")}
 
 
-def register() -> None:
-    """Draw from now on; what is drawn depends on the settings."""
-    drawing.begin()
-
-
-def unregister() -> None:
-    """Stop drawing."""
-    drawing.end()
-    _lines.cache_clear()
-    _sizes_of.cache_clear()
-
-
 def is_wanted(context: bpy.types.Context) -> bool:
-    """Return whether a preview and its handles are to be seen: while the tab is open, and nothing plays."""
+    """Return whether a preview and its handles are shown: while the tab is open, and nothing plays."""
     return context.scene.bda.show_preview and not context.screen.is_animation_playing and _tab_is_open(context.screen)
 
 
 def preview_lines(settings: bpy.types.PropertyGroup) -> np.ndarray:
-    """Return what the panels would build as lines (2 k, 3) float, m; none where just that is built."""
+    """Return what the panels would build as lines (2 k, 3) float, m; none where it is built."""
     sizes = sizes_shown(settings)
     if settings.built_scenario and sizes == _sizes_of(settings.built_scenario):
         return np.zeros((0, 3))
@@ -48,7 +35,7 @@ def preview_lines(settings: bpy.types.PropertyGroup) -> np.ndarray:
 
 
 def sizes_shown(settings: bpy.types.PropertyGroup) -> tuple[Bridge | None, Ball | None, bool]:
-    """Return bridge and ball as the panels show them, and whether the bridge is all there is to fall on."""
+    """Return bridge and ball as the panels show them, and whether no meshes are added to the bridge."""
     group = settings.scenario
     return inner_of(group, _FIELDS["bridge"]), inner_of(group, _FIELDS["ball"]), not len(group.geometry)
 
@@ -80,4 +67,9 @@ def _draw(context: bpy.types.Context) -> None:
         draw_lines(context, preview_lines(context.scene.bda), _COLOUR, _WIDTH_PX)
 
 
-drawing = ViewDrawing(_draw)
+def _forget() -> None:
+    _lines.cache_clear()
+    _sizes_of.cache_clear()
+
+
+drawing = ViewDrawing(_draw, forget=_forget)

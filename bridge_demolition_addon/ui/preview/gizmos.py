@@ -20,13 +20,12 @@ _RING_SIZE, _ARROW_SIZE = 0.14, 0.6
 """As Blender sizes all gizmos: by what the user's preferences say, however far away they are."""
 
 _ARROW_FOOT = Matrix.Translation((0.0, 0.0, 0.5))
-"""Above the ring in the same place: the shaft of the arrow would take the mouse."""
+"""Above the ring at the same position: the shaft of the arrow would take the mouse."""
 
 
 class BDA_GGT_handles(bpy.types.GizmoGroup):
-    """A ring to drag a place level, and an arrow to drag it up and down."""
+    """A ring to drag a point level, and an arrow to drag it up and down."""
 
-    bl_idname = "BDA_GGT_handles"
     bl_label = "Targets and Charges"
     bl_space_type = "VIEW_3D"
     bl_region_type = "WINDOW"
@@ -37,11 +36,11 @@ class BDA_GGT_handles(bpy.types.GizmoGroup):
         return is_wanted(context) and context.mode == "OBJECT" and not recording_runs(context)
 
     def setup(self, context: bpy.types.Context) -> None:
-        """Make no gizmos yet: there are as many as there are places, which change."""
+        """Make no gizmos yet: there are as many as handles, which change."""
         self.made: dict[tuple, bpy.types.Gizmo] = {}
 
     def draw_prepare(self, context: bpy.types.Context) -> None:
-        """Put a gizmo at each place before all are drawn, and hide those of places that are gone."""
+        """Put a gizmo at each handle before all are drawn, and hide those of handles that are gone."""
         try:
             wanted = handles(context.scene)
         except ScenarioError:  # the panel Scenario says what is wrong
@@ -53,10 +52,7 @@ class BDA_GGT_handles(bpy.types.GizmoGroup):
             if key not in self.made:
                 self.made[key] = _new(self, handle)
             self.made[key].hide = False
-            self.made[key].matrix_basis = Matrix.Translation(handle.place_m)
-
-
-CLASSES = (BDA_GGT_handles,)
+            self.made[key].matrix_basis = Matrix.Translation(handle.position_m)
 
 
 def _new(group: BDA_GGT_handles, handle: Handle) -> bpy.types.Gizmo:

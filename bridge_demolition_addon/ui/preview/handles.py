@@ -1,4 +1,4 @@
-"""Places that can be dragged in the 3D view: the targets of the ball, and charges."""
+"""Points that can be dragged in the 3D view: the targets of the ball, and charges."""
 
 from __future__ import annotations
 
@@ -13,14 +13,13 @@ from ...scene.blast.charges import charge_objects
 from .decorator import sizes_shown
 
 _DECIMALS = 2
-"""Of a metre: nobody drags to the millimetre, and the panels show what was dragged to in full."""
-
+"""Of a metre: the mouse is no finer, and the panels show all digits."""
 
 _LEAST_DROP_M = 0.01
 
 
 class HandleKind(StrEnum):
-    """What is dragged."""
+    """The point that is dragged: target or drop of the ball, or charge."""
 
     TARGET = "TARGET"
     DROP = "DROP"
@@ -29,41 +28,26 @@ class HandleKind(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Handle:
-    """A place that can be dragged.
-
-    Attributes
-    ----------
-    kind, index
-        Which one: target or height of a drop of the ball, or a charge, each in their order.
-    is_upright
-        Whether it goes up and down, or level.
-    name
-        What it is, in words.
-    place_m
-        Where it is, m.
-    """
+    """A point that can be dragged, up and down or level: of the drop of the ball, or the charge, with an index."""
 
     kind: HandleKind
     index: int
     is_upright: bool
     name: str
-    place_m: tuple[float, float, float]
+    position_m: tuple[float, float, float]
 
 
 def handles(scene: bpy.types.Scene) -> list[Handle]:
-    """Return all places of a scene that can be dragged; without those of the ball where its drop cannot be told.
+    """Return all points of a scene that can be dragged; those of the ball only over a bridge of the panels.
 
-    Raises
-    ------
-    ScenarioError
-        A size in the panels cannot be used; the text names the key.
+    A size in the panels that cannot be used raises ScenarioError, which names the key.
     """
     return [*_of_ball(scene), *_of_charges(scene)]
 
 
-def drag(scene: bpy.types.Scene, kind: HandleKind, index: int, place_m: Sequence[float]) -> None:
-    """Set what the panels show of a place, where they have it: of a drop its target, or its height over the deck."""
-    x, y, z = (round(each, _DECIMALS) for each in place_m)
+def drag(scene: bpy.types.Scene, kind: HandleKind, index: int, position_m: Sequence[float]) -> None:
+    """Move a charge, or set the target of a drop, or its height over the deck, m."""
+    x, y, z = (round(coordinate, _DECIMALS) for coordinate in position_m)
     if kind == HandleKind.CHARGE:
         charge_objects(scene)[index].location = (x, y, z)
         return
@@ -72,7 +56,7 @@ def drag(scene: bpy.types.Scene, kind: HandleKind, index: int, place_m: Sequence
     if kind == HandleKind.TARGET:
         drop.target_m = (x, y)
     else:
-        height_m = place_m[2] - deck_top(sizes_shown(scene.bda)[0])
+        height_m = position_m[2] - deck_top(sizes_shown(scene.bda)[0])
         drop.drop_height_m = max(round(height_m, _DECIMALS), _LEAST_DROP_M)
 
 
@@ -89,8 +73,8 @@ def _of_ball(scene: bpy.types.Scene) -> Iterator[Handle]:
 
 
 def _of_charges(scene: bpy.types.Scene) -> Iterator[Handle]:
-    """Give those of charges that hang on nothing: others are where what they hang on leads them."""
-    for index, each in enumerate(charge_objects(scene)):
-        if not each.parent and not len(each.constraints) and not each.library:
+    """Give those of charges that have no parent and no constraint, which would move them back."""
+    for index, charge in enumerate(charge_objects(scene)):
+        if not charge.parent and not len(charge.constraints) and not charge.library:
             for is_upright in (False, True):
-                yield Handle(HandleKind.CHARGE, index, is_upright, each.name, tuple(each.location))
+                yield Handle(HandleKind.CHARGE, index, is_upright, charge.name, tuple(charge.location))

@@ -1,4 +1,4 @@
-"""Dragging a place of the scenario in the 3D view, called by its handle."""
+"""Dragging a point of the scenario in the 3D view, called by its handle."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from bpy_extras.view3d_utils import region_2d_to_origin_3d, region_2d_to_vector_
 
 from ...display.dragging import dragged_level, dragged_upright
 from ...errors import ScenarioError
-from ..contours import view as contour_view
 from ..operators import Action, recording_runs, refused
+from ..viewport import redraw_views
 from .handles import Handle, HandleKind, drag, handles
 
 _KINDS = [
@@ -23,16 +23,15 @@ _KINDS = [
 class BDA_OT_drag_handle(Action, bpy.types.Operator):
     """Drag to move it; Esc or a right click puts it back"""
 
-    bl_idname = "bda.drag_handle"
     bl_label = "Drag"
     bl_options = {"REGISTER", "UNDO", "INTERNAL"}
 
     kind: EnumProperty(name="What", description="What is moved", items=_KINDS)
     index: IntProperty(name="Number", description="Which of them, from 0", min=0, options={"HIDDEN"})
     is_upright: BoolProperty(name="Upright", description="Whether it goes up and down only", options={"HIDDEN"})
-    place_m: FloatVectorProperty(name="Place", description="Where to", size=3, subtype="XYZ", unit="LENGTH")
+    place_m: FloatVectorProperty(name="Position", description="Where to", size=3, subtype="XYZ", unit="LENGTH")
 
-    disabled_reason = staticmethod(recording_runs)
+    blocked_by = (recording_runs,)
 
     def act(self, context: bpy.types.Context) -> None:
         self._handle(context)
@@ -43,7 +42,7 @@ class BDA_OT_drag_handle(Action, bpy.types.Operator):
             handle = self._handle(context)
         except ScenarioError as error:
             return refused(self, error)
-        self._start, self._held = np.array(handle.place_m), None
+        self._start, self._held = np.array(handle.position_m), None
         self._follow(context, event)
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
@@ -60,7 +59,7 @@ class BDA_OT_drag_handle(Action, bpy.types.Operator):
         return {"RUNNING_MODAL"}
 
     def cancel(self, context: bpy.types.Context) -> None:
-        """Called by Blender where it ends this itself, as it does before another file is loaded."""
+        """End the dragging; Blender calls this before it loads another file."""
         self._leave(context, {"CANCELLED"})
 
     def _handle(self, context: bpy.types.Context) -> Handle:
@@ -71,29 +70,26 @@ class BDA_OT_drag_handle(Action, bpy.types.Operator):
         raise ScenarioError(f"there is no {self.kind.lower()} {self.index + 1} here to be dragged")
 
     def _follow(self, context: bpy.types.Context, event: bpy.types.Event) -> None:
-        """Move it as far as the mouse was moved since it was pressed: nobody presses in the very middle."""
-        under = _place_under(context, event, self._start, self.is_upright)
+        """Move it as far as the mouse was moved since it was pressed, which was beside the middle of the handle."""
+        under = _position_under(context, event, self._start, self.is_upright)
         if under is None:
             return
         self._held = under - self._start if self._held is None else self._held
         self.place_m = under - self._held
         drag(context.scene, HandleKind(self.kind), self.index, tuple(self.place_m))
-        place = ", ".join(f"{each:.2f} m" for each in self.place_m)
+        position = ", ".join(f"{coordinate:.2f} m" for coordinate in self.place_m)
         if context.area:
-            context.area.header_text_set(f"{place} | Let go: done | Esc: back")
-        contour_view.redraw()
+            context.area.header_text_set(f"{position} | Let go: done | Esc: back")
+        redraw_views()
 
     def _leave(self, context: bpy.types.Context, ended: set[str]) -> set[str]:
         if context.area:
             context.area.header_text_set(None)
-        contour_view.redraw()
+        redraw_views()
         return ended
 
 
-CLASSES = (BDA_OT_drag_handle,)
-
-
-def _place_under(
+def _position_under(
     context: bpy.types.Context, event: bpy.types.Event, start: np.ndarray, is_upright: bool
 ) -> np.ndarray | None:
     region, view = context.region, context.region_data

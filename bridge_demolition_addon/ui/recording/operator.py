@@ -8,13 +8,7 @@ from weakref import WeakKeyDictionary
 import bpy
 
 from ...errors import DemolitionError, OutputError, SimulationError
-from ...model.run_folder.folder import (
-    check_folder,
-    keep_scenario,
-    lock_in_place,
-    prepare_folder,
-    withdraw_folder,
-)
+from ...model.run_folder.folder import check_folder, keep_scenario, lock_in_place, prepare_folder, withdraw_folder
 from ...model.run_folder.summary import RunSummary
 from ...model.scenario import RecordingSettings, Scenario
 from ...model.scenario.recording import PictureSettings
@@ -32,37 +26,34 @@ from ...simulation.recording.recordable import check_recordable
 from ...simulation.recording.recorder import Recording
 from ...simulation.run_summary import RunContext, rest_watch, run_summary
 from ...system.folder_lock import FolderLock
-from .. import messages
+from .. import messages, task_progress
 from ..blast.operator import keep_shown_blast
-from ..operators import Action, GuardedOperator, absolute, no_world, recording_runs, refused
+from ..operators import Action, GuardedOperator, absolute, baked, no_world, recording_runs, refused
 from ..scenario.built import scenario_to_run
 from ..scenario.values import table_of
 from . import session
-from .new_folder import new_folder
+from .paths import new_folder
+
+RUNNING = "Running"
+"""What the progress of Run says."""
 
 _contexts: WeakKeyDictionary[Recording, RunContext] = WeakKeyDictionary()
-"""What each recording is of."""
+"""Scenario and scene of each recording."""
 
 _locks: WeakKeyDictionary[Recording, FolderLock] = WeakKeyDictionary()
-"""What keeps others out of each recording's folder, as long as it goes on."""
+"""Locks of the folders of recordings that go on."""
 
 
 def recording_disabled_reason(context: bpy.types.Context) -> str | None:
     """Return why a scene cannot be recorded now, in a sentence, or None where it can."""
-    if reason := no_world(context) or recording_runs(context):
-        return reason
-    if context.scene.rigidbody_world.point_cache.is_baked:
-        return "The simulation is baked and only played back: delete the bake first"
-    return None
+    return no_world(context) or recording_runs(context) or baked(context)
 
 
 class BDA_OT_register_handler(Action, bpy.types.Operator):
     """Go to the start frame, and record forces and debris while the timeline plays; called Register Handler in 2019"""
 
-    bl_idname = "bda.register_handler"
     bl_label = "Start Recording"
-
-    disabled_reason = staticmethod(recording_disabled_reason)
+    blocked_by = (recording_disabled_reason,)
 
     def act(self, context: bpy.types.Context) -> str:
         recording = new_recording(context.scene)
@@ -76,7 +67,6 @@ class BDA_OT_register_handler(Action, bpy.types.Operator):
 class BDA_OT_unregister_handler(GuardedOperator, bpy.types.Operator):
     """End the recording and write its results; called Unregister Handler in 2019"""
 
-    bl_idname = "bda.unregister_handler"
     bl_label = "Stop Recording"
     changes_scene = False
 
@@ -84,27 +74,18 @@ class BDA_OT_unregister_handler(GuardedOperator, bpy.types.Operator):
     def disabled_reason(cls, _context: bpy.types.Context) -> str | None:
         if not running_recording():
             return "No recording runs"
-        return "Run is at work: Esc stops it" if session.run_goes_on() else None
+        return "Run is at work: Esc stops it" if task_progress.going_on(RUNNING) else None
 
     def execute(self, context: bpy.types.Context) -> set[str]:
         return end_with_results(self, stop_recording())
 
 
-CLASSES = (BDA_OT_register_handler, BDA_OT_unregister_handler)
-
-
 def new_recording(scene: bpy.types.Scene) -> Recording:
-    """Return a recording of a scene as the sidebar asks for it, into a folder that is made or cleared for it.
-
-    Raises
-    ------
-    DemolitionError, OSError
-        A value, the folder or a file for a log cannot be used, or the scene cannot be recorded.
-    """
+    """Return a recording of a scene as the sidebar asks for it, into a folder that is made or cleared for it."""
     settings = scene.bda
     check_recordable(scene)
     table = table_of(settings.scenario.recording, RecordingSettings)
-    scenario, by_hand = _as_run(scene)
+    scenario, by_hand = _scenario_with_edits(scene)
     keep_shown_blast(scene)
     forces, debris = (
         _log_file(path, settings.overwrite) for path in (settings.force_log_path, settings.debris_log_path)
@@ -123,7 +104,8 @@ def new_recording(scene: bpy.types.Scene) -> Recording:
         contacts=table.contacts,
     )
     check_folder(folder, overwrite=settings.overwrite)
-    _let_go_of(folder, scene)
+    session.forget_recording(folder)  # Windows removes no file that is in use
+    shown_results(scene).forget()
     lock = prepare_folder(folder, overwrite=settings.overwrite)  # only now, as it clears away what an earlier run left
     _locks[recording] = lock
     if scenario:
@@ -135,8 +117,12 @@ def new_recording(scene: bpy.types.Scene) -> Recording:
 
 def warn_of_changed_bodies(operator: bpy.types.Operator, recording: Recording) -> None:
     """Name the bodies that are not as they were built, before anything is simulated."""
-    if recording.changed_bodies:
-        messages.tell(operator, "WARNING", f"Not as it was built: {'; '.join(recording.changed_bodies)}")
+    if text := _changed_bodies_text(recording):
+        messages.tell(operator, "WARNING", text)
+
+
+def _changed_bodies_text(recording: Recording) -> str:
+    return f"Not as it was built: {'; '.join(recording.changed_bodies)}" if recording.changed_bodies else ""
 
 
 def check_output(settings: bpy.types.PropertyGroup) -> None:
@@ -147,35 +133,21 @@ def check_output(settings: bpy.types.PropertyGroup) -> None:
         check_folder(absolute(settings.output_directory), overwrite=settings.overwrite)
 
 
-def _as_run(scene: bpy.types.Scene) -> tuple[Scenario | None, list[str]]:
-    """Return what a scene will run, and what of it no scenario can say; None where it was not built from one."""
+def _scenario_with_edits(scene: bpy.types.Scene) -> tuple[Scenario | None, list[str]]:
+    """Return what a scene will run, None where it was not built from a scenario, and edits that no scenario can say."""
     to_run = scenario_to_run(scene.bda)
     if to_run is None:
         return None, []
     setup = run_setup_of(scene)
-    scenario, unsaid = effective_scenario(setup, to_run)
-    return scenario, [*unsaid, *manual_edits(scene, setup)]
-
-
-def _let_go_of(folder: Path, scene: bpy.types.Scene) -> None:
-    """Let go of what was recorded into a folder that is to be cleared: Windows removes no file that is in use."""
-    session.forget_recording(folder)
-    shown_results(scene).forget()
+    scenario, others = effective_scenario(setup, to_run)
+    return scenario, [*others, *manual_edits(scene, setup)]
 
 
 def end_with_results(operator: bpy.types.Operator, recording: Recording, *, stopped: str = "") -> set[str]:
-    """Write what a recording that has ended has, keep it for the panel of results, and report how it ended.
+    """Write the results of a recording that has ended, keep it for the panel Results, and report how it ended.
 
-    Where nothing was recorded the folder is gone as well, if nothing else is in it: the next try finds it free.
-
-    Parameters
-    ----------
-    operator
-        What ended it, which this is the result of.
-    recording
-        The recording.
-    stopped
-        In a sentence, that the user has stopped it before its time; empty where that is not so.
+    Where nothing was recorded, its folder is removed if nothing else is in it. `stopped` says that the user has
+    stopped the recording before its time; it is empty otherwise.
     """
     messages.clear(operator)
     moved = not _locks[recording].in_place
@@ -183,34 +155,32 @@ def end_with_results(operator: bpy.types.Operator, recording: Recording, *, stop
         folder = _keep_recording(recording, completed=not (recording.error or stopped))
     except (DemolitionError, OSError) as error:  # a full disk, for one
         return refused(operator, recording.error or error)
-    if recording.error:
-        messages.tell(operator, "WARNING", f"The recording ended early: {recording.error}")
-    elif stopped:
-        messages.tell(operator, "WARNING", stopped)
-    if fall := self_collapse_text(session.last_recording().summary.values):
-        messages.tell(operator, "WARNING", fall)
-    warn_of_changed_bodies(operator, recording)
+    warnings = [
+        f"The recording ended early: {recording.error}" if recording.error else stopped,
+        self_collapse_text(session.last_recording().summary.values),
+        _changed_bodies_text(recording),
+    ]
     if by_hand := _contexts[recording].made_by_hand:
-        messages.tell(
-            operator, "WARNING", f"Changed in Blender, and not in the scenario of the run: {'; '.join(by_hand)}"
-        )
+        warnings.append(f"Changed in Blender, and not in the scenario of the run: {'; '.join(by_hand)}")
     if moved:
-        messages.tell(operator, "WARNING", f"{recording.folder} was moved or deleted, and the logs with it")
+        warnings.append(f"{recording.folder} was moved or deleted, and the logs with it")
     if recording.layout_error:
-        messages.tell(operator, "WARNING", f"Forces are estimated from motion: {recording.layout_error}")
+        warnings.append(f"Forces are estimated from motion: {recording.layout_error}")
     elif recording.rigid_because:
-        messages.tell(operator, "WARNING", f"Connections were rigid, not elastic: {recording.rigid_because}")
+        warnings.append(f"Connections were rigid, not elastic: {recording.rigid_because}")
+    for warning in filter(None, warnings):
+        messages.tell(operator, "WARNING", warning)
     messages.tell(operator, "INFO", f"Results are in {folder}")
     return {"FINISHED"}
 
 
 def withdraw_recording(recording: Recording) -> None:
-    """Take back the folder of a recording that came to nothing."""
+    """Remove the folder of a recording that has no results."""
     withdraw_folder(_locks.pop(recording))
 
 
 def _keep_recording(recording: Recording, *, completed: bool) -> Path:
-    """Write what was recorded, and return the folder that it is in: another one where the recording's was moved."""
+    """Write the results, and return their folder: another one where the recording's was moved."""
     try:
         results = recording.results()
     except SimulationError:

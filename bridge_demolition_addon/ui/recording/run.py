@@ -1,38 +1,45 @@
-"""Operators that simulate a scene in one go, keep it as a bake, and delete the bake."""
+"""Operators that simulate a scene in one go, render its pictures, keep it as a bake, and delete the bake."""
+
+from collections.abc import Iterator
+from pathlib import Path
 
 import bpy
 from bpy.props import BoolProperty
 
 from ...errors import DemolitionError, SimulationError
+from ...model.run_folder.files import PICTURES
 from ...scene.world import keep_played_frames
 from ...simulation.crash_guards.safe_render import frames_are_known
+from ...simulation.display.pictures import rendered_pictures
 from ...simulation.playback import Playing, frames_to_play
-from .. import messages, task_progress
-from ..modal_task import LOOKING_ROUND
-from ..operators import Action, GuardedOperator, no_world, other_mode, recording_runs, refused
-from ..scenario.operator import BDA_OT_build_anew, build
+from .. import messages
+from ..modal_task import RenderingTask, SteppedTask
+from ..operators import Action, no_world, other_mode, recording_runs
+from ..scenario.operator import BDA_OT_build_anew, build, stop_playing
+from ..task_progress import TaskProgress
 from . import session
 from .operator import (
+    RUNNING,
     check_output,
     end_with_results,
     new_recording,
     recording_disabled_reason,
     rest_to_stop_at,
+    view_of,
     warn_of_changed_bodies,
     withdraw_recording,
 )
 
-_TICK_S = 0.001
-"""Between two frames, for Blender to draw and to read mouse and keyboard."""
-
 _SLOW_FRAME_S = 0.5
 
 
-class BDA_OT_run(GuardedOperator, bpy.types.Operator):
+class BDA_OT_run(SteppedTask, bpy.types.Operator):
     """Simulate and record from the start frame to the last one, and write the results; Esc stops"""
 
-    bl_idname = "bda.run"
     bl_label = "Run"
+    task, unit = RUNNING, "frames"
+    tick_s = 0.001
+    blocked_by = (recording_disabled_reason,)
 
     build_anew: BoolProperty(
         name="Build Again",
@@ -44,85 +51,44 @@ class BDA_OT_run(GuardedOperator, bpy.types.Operator):
         name="Pictures", description="Render the run's pictures when it has ended", options={"SKIP_SAVE"}
     )
 
-    _progress: task_progress.TaskProgress | None = None
-
-    disabled_reason = staticmethod(recording_disabled_reason)
-
-    def execute(self, context: bpy.types.Context) -> set[str]:
-        """The whole run in one call, for scripts."""
-        if not self._begin(context):
-            return {"CANCELLED"}
-        try:
-            while not self._playing.finished:
-                self._playing.step()
-        except DemolitionError:
-            pass  # the recording knows why, and is reported with what it has
-        return self._end()
-
-    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
-        if context.screen.is_animation_playing:
-            bpy.ops.screen.animation_cancel(restore_frame=False)
-        if not self._begin(context):
-            return {"CANCELLED"}
-        self._progress = session.begin_run(context, _TICK_S, self._playing.total)
-        context.window_manager.modal_handler_add(self)
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        stop_playing(context)
+        begun = super().invoke(context, event)
         session.redraw_while_recording()
-        return {"RUNNING_MODAL"}
+        return begun
 
-    def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
-        if event.type == "ESC":
-            return self._leave(context)
-        if event.type != "TIMER":
-            return {"PASS_THROUGH"} if event.type in LOOKING_ROUND else {"RUNNING_MODAL"}
+    def begin(self, context: bpy.types.Context) -> int:
+        if self.build_anew:
+            self._build(context)
+        frames_to_play(context.scene)  # a recording changes the scene before it is played
+        recording = new_recording(context.scene)
+        warn_of_changed_bodies(self, recording)
+        try:
+            self._playing = Playing(recording, stop_at=rest_to_stop_at(recording))
+        except (DemolitionError, OSError):
+            withdraw_recording(recording)
+            raise
+        return self._playing.total
+
+    def step(self) -> bool:
         try:
             self._playing.step()
-        except (DemolitionError, ReferenceError):
-            return self._leave(context)
-        if self._playing.finished:
-            return self._leave(context)
-        self._show(context)
-        return {"RUNNING_MODAL"}
-
-    def cancel(self, context: bpy.types.Context) -> None:
-        """Called by Blender where it ends the run itself, as it does before another file is loaded."""
-        self._playing.end()
-        session.end_run(context)
-
-    def _begin(self, context: bpy.types.Context) -> bool:
-        recording = None
-        messages.clear(self)
-        try:
-            if self.build_anew:
-                self._build(context)
-            frames_to_play(context.scene)  # a recording changes the scene before it is played
-            recording = new_recording(context.scene)
-            warn_of_changed_bodies(self, recording)
-            self._playing = Playing(recording, stop_at=rest_to_stop_at(recording))
-        except (DemolitionError, OSError) as error:
-            if recording is not None:
-                withdraw_recording(recording)
-            refused(self, error)
+        except (DemolitionError, ReferenceError):  # the recording knows why, and is reported with what it has
             return False
-        return True
+        return not self._playing.finished
 
-    def _build(self, context: bpy.types.Context) -> None:
-        if reason := other_mode(context):
-            raise SimulationError(reason)
-        check_output(context.scene.bda)
-        self.report({"INFO"}, build(context.scene, again=True))
-        bpy.ops.ed.undo_push(message=BDA_OT_build_anew.bl_label)  # a run itself is nothing to undo
+    def show_progress(self, progress: TaskProgress) -> None:
+        progress.share = self._playing.done / self._playing.total
+        progress.left_s = self._playing.left_s
+        progress.note = note_of(self._playing, pictures=self.pictures)
 
-    def _show(self, context: bpy.types.Context) -> None:
-        self._progress.share = self._playing.done / self._playing.total
-        self._progress.left_s = self._playing.left_s
-        self._progress.note = note_of(self._playing, pictures=self.pictures)
-        task_progress.show(context)
+    def interrupt(self) -> None:
+        self._playing.end()
 
-    def _leave(self, context: bpy.types.Context) -> set[str]:
-        session.end_run(context)
-        return self._end()
+    def stopped(self, context: bpy.types.Context) -> set[str]:
+        return self.finish(context)
 
-    def _end(self) -> set[str]:
+    def finish(self, context: bpy.types.Context) -> set[str]:
         playing = self._playing
         playing.end()
         stopped = "" if playing.finished else f"Stopped after {playing.done} of {playing.total} frames"
@@ -130,6 +96,13 @@ class BDA_OT_run(GuardedOperator, bpy.types.Operator):
         if self.pictures and ended == {"FINISHED"} and playing.finished and not playing.recording.error:
             self._take_pictures()
         return ended
+
+    def _build(self, context: bpy.types.Context) -> None:
+        if reason := other_mode(context):
+            raise SimulationError(reason)
+        check_output(context.scene.bda)
+        self.report({"INFO"}, build(context.scene, again=True))
+        bpy.ops.ed.undo_push(message=BDA_OT_build_anew.bl_label)  # a run itself is nothing to undo
 
     def _take_pictures(self) -> None:
         """Render pictures as their own button does, in the window picture by picture."""
@@ -139,21 +112,47 @@ class BDA_OT_run(GuardedOperator, bpy.types.Operator):
             self.report({"WARNING"}, f"No pictures of the run: {error}")
 
 
+def _no_known_run(context: bpy.types.Context) -> str | None:
+    last = session.last_recording()
+    if last is None or last.recording.scene_uid != context.scene.session_uid:
+        return "Nothing was run in this scene since Blender started: run it first"
+    return None if frames_are_known(context.scene) else "Something has changed since the run: run it again first"
+
+
+class BDA_OT_render_run(RenderingTask, bpy.types.Operator):
+    """Render the bridge before, at the frame of the largest force and after the last run, into its folder; Esc stops"""
+
+    bl_label = "Pictures of the Run"
+    blocked_by = (no_world, recording_runs, _no_known_run)
+
+    _folder: Path
+
+    def begin(self, context: bpy.types.Context) -> int:
+        last = session.last_recording()
+        self._folder = last.folder
+        key_frame, last_frame = last.summary.key_frame, last.recording.last_frame
+        view = view_of(last.recording)
+        self._pictures: Iterator[Path] = rendered_pictures(context.scene, last.folder, view, key_frame, last_frame)
+        return len(PICTURES)
+
+    def finish(self, context: bpy.types.Context) -> set[str]:
+        messages.tell(self, "INFO", f"Pictures of the run are in {self._folder}")
+        return {"FINISHED"}
+
+
+def _nothing_to_bake(context: bpy.types.Context) -> str | None:
+    if context.scene.rigidbody_world.point_cache.is_baked:
+        return "The simulation is baked already"
+    if not frames_are_known(context.scene):
+        return "Nothing has been simulated since the last change: run or play it first"
+    return None
+
+
 class BDA_OT_bake(Action, bpy.types.Operator):
     """Keep the frames simulated so far as a bake: saved with the file, and played back instead of simulated"""
 
-    bl_idname = "bda.bake"
     bl_label = "Bake"
-
-    @classmethod
-    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
-        if reason := no_world(context) or recording_runs(context):
-            return reason
-        if context.scene.rigidbody_world.point_cache.is_baked:
-            return "The simulation is baked already"
-        if not frames_are_known(context.scene):
-            return "Nothing has been simulated since the last change: run or play it first"
-        return None
+    blocked_by = (no_world, recording_runs, _nothing_to_bake)
 
     def act(self, context: bpy.types.Context) -> str:
         keep_played_frames(context.scene)
@@ -163,7 +162,6 @@ class BDA_OT_bake(Action, bpy.types.Operator):
 class BDA_OT_delete_bake(Action, bpy.types.Operator):
     """Delete the bake, so that the scene is simulated again"""
 
-    bl_idname = "bda.delete_bake"
     bl_label = "Delete Bake"
 
     @classmethod
@@ -178,14 +176,11 @@ class BDA_OT_delete_bake(Action, bpy.types.Operator):
         context.scene.frame_set(cache.frame_start)
 
 
-CLASSES = (BDA_OT_run, BDA_OT_bake, BDA_OT_delete_bake)
-
-
 def note_of(playing: Playing, *, pictures: bool = False) -> str:
-    """Return what there is to say of a run besides how far it is; its pictures are no part of its time left."""
-    said = [f"{playing.recording.broken} connections broken"]
+    """Return what else the progress of a run says; its pictures are not part of its time left."""
+    notes = [f"{playing.recording.broken} connections broken"]
     if playing.longest_frame_s > _SLOW_FRAME_S:
-        said.append(f"one frame takes Blender up to {playing.longest_frame_s:.1f} s: it answers in between")
+        notes.append(f"one frame takes Blender up to {playing.longest_frame_s:.1f} s: it answers in between")
     if pictures:
-        said.append("pictures follow")
-    return " | ".join(said)
+        notes.append("pictures follow")
+    return " | ".join(notes)

@@ -9,13 +9,14 @@ from ...simulation.recording.recorder import Recording
 from ..scenario.built import changed_in_blender, changes
 from ..scenario.ui import draw_changes, draw_run
 from ..sidebar import SidebarPanel, draw_sentence
-from .log_paths import BDA_OT_set_debris_log, BDA_OT_set_force_log
+from .paths import BDA_OT_set_debris_log, BDA_OT_set_force_log
 
 
 class BDA_PT_handler(SidebarPanel, bpy.types.Panel):
     """Recording while the timeline plays; called Frame Change Event Handler in 2019."""
 
     bl_label = "Record"
+    bl_options = set()
 
     def draw(self, context: bpy.types.Context) -> None:
         settings, recording = context.scene.bda, running_recording()
@@ -26,8 +27,8 @@ class BDA_PT_handler(SidebarPanel, bpy.types.Panel):
         column.prop(settings, "pictures_of_run")
         if changed := [] if recording else changes(settings):
             draw_changes(self.layout, context, changed)
-        for each in changed_in_blender(context.scene):
-            text = f"{each.key} is {each.shown} in Blender, and runs so; built {each.built}"
+        for change in changed_in_blender(context.scene):
+            text = f"{change.key} is {change.shown} in Blender, and runs so; built {change.built}"
             draw_sentence(self.layout, context, text, icon="INFO")
         column = self.layout.column(align=True)
         column.operator("bda.register_handler")
@@ -55,7 +56,6 @@ class BDA_PT_post_processing(SidebarPanel, bpy.types.Panel):
     """Where the logs go."""
 
     bl_label = "Post Processing"
-    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: bpy.types.Context) -> None:
         settings = context.scene.bda
@@ -64,6 +64,3 @@ class BDA_PT_post_processing(SidebarPanel, bpy.types.Panel):
             column.enabled = running_recording() is None
             column.operator(operator.bl_idname)
             column.prop(settings, operator.setting, text="", placeholder="In the folder of the results")
-
-
-CLASSES = (BDA_PT_handler, BDA_PT_post_processing)

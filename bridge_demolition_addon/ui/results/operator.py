@@ -14,20 +14,18 @@ from ...model.run_folder.files import FORCE_CHART, REPORT_PAGE, REPORT_PDF
 from ...model.run_folder.folder import keep_site
 from ...simulation.kept_run import folder_of_run, has_run, is_run_of
 from ...system.disk import writing
-from ..bridge_view import look_at_shards, shards_in_view
 from ..modal_task import ModalTask, Work
-from ..operators import Action, absolute, no_world, recording_runs
+from ..operators import Action, UndoableAction, absolute, no_world, recording_runs
 from ..scenario.built import shown_site
 from ..stepped_thread import SteppedThread
-from ..viewport import look_at_selected, select_only
+from ..viewport import look_at_selected, look_at_shards, select_only, shards_in_view
 from .shown_run import shown_run
 
 CHARTS = "charts"
 _OPENER = "xdg-open"
 """Opens folders on Linux. Blender, where it is missing, only writes to the console."""
 _SURROUNDINGS = 3.0
-"""How many times as far away as needed the view stays from a body that is shown."""
-
+"""Distance of the view from a body that is shown, over the distance that is needed."""
 
 _SHARES = {
     "drawing": (0.12, 0.32),
@@ -38,21 +36,16 @@ _SHARES = {
 and two spans, with pictures. The first page of the PDF takes as long as four others."""
 
 
-class BDA_OT_go_to_body(Action, bpy.types.Operator):
+class BDA_OT_go_to_body(UndoableAction, bpy.types.Operator):
     """Go to that frame, select the body and look at it"""
 
-    bl_idname = "bda.go_to_body"
     bl_label = "Go to Body and Frame"
-    bl_options = {"REGISTER", "UNDO"}
     changes_scene = False
     changes_objects = True
+    blocked_by = (recording_runs,)
 
     body: StringProperty(name="Body", description="Name of the body")
     frame: IntProperty(name="Frame", description="Frame to go to", min=0)
-
-    @classmethod
-    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
-        return recording_runs(context)
 
     def act(self, context: bpy.types.Context) -> str | None:
         body = context.view_layer.objects.get(self.body)
@@ -64,17 +57,12 @@ class BDA_OT_go_to_body(Action, bpy.types.Operator):
         look_at_selected(context, _SURROUNDINGS)
 
 
-class BDA_OT_look_at_bridge(Action, bpy.types.Operator):
+class BDA_OT_look_at_bridge(UndoableAction, bpy.types.Operator):
     """Back from a body to the whole bridge: look at all shards as they stand at the start frame, and go there"""
 
-    bl_idname = "bda.look_at_bridge"
     bl_label = "Back to the Bridge"
-    bl_options = {"REGISTER", "UNDO"}
     changes_objects = True
-
-    @classmethod
-    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
-        return no_world(context) or recording_runs(context)
+    blocked_by = (no_world, recording_runs)
 
     def act(self, context: bpy.types.Context) -> None:
         if not shards_in_view(context):
@@ -84,35 +72,31 @@ class BDA_OT_look_at_bridge(Action, bpy.types.Operator):
         look_at_shards(context)
 
 
-class _OfShownRun(Action):
-    """Base of the buttons that work on the run whose results are shown."""
-
-    changes_scene = False
-
-    @classmethod
-    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
-        try:
-            return None if shown_run(context.scene) else "Nothing was recorded yet: run the scene first"
-        except OutputError as error:
-            return str(error)
+def _no_run(context: bpy.types.Context) -> str | None:
+    try:
+        return None if shown_run(context.scene) else "Nothing was recorded yet: run the scene first"
+    except OutputError as error:
+        return str(error)
 
 
-class BDA_OT_open_results(_OfShownRun, bpy.types.Operator):
+class BDA_OT_open_results(Action, bpy.types.Operator):
     """Open the folder of the last recording in the system's file manager"""
 
-    bl_idname = "bda.open_results"
     bl_label = "Open Folder"
+    changes_scene = False
+    blocked_by = (_no_run,)
 
     def act(self, context: bpy.types.Context) -> str | None:
         open_path(shown_run(context.scene).folder)
 
 
-class BDA_OT_draw_charts(ModalTask, _OfShownRun, bpy.types.Operator):
+class BDA_OT_draw_charts(ModalTask, bpy.types.Operator):
     """Draw forces over time into the folder of the run, and charts to choose charges by if it had any; Esc stops"""
 
-    bl_idname = "bda.draw_charts"
     bl_label = "Draw Charts"
-    what, unit = "Drawing charts", "charts"
+    changes_scene = False
+    task, unit = "Drawing charts", "charts"
+    blocked_by = (_no_run,)
 
     def work(self, context: bpy.types.Context) -> Work:
         # Loading matplotlib takes a second, which switching the extension on need not wait for.
@@ -134,22 +118,19 @@ class BDA_OT_draw_charts(ModalTask, _OfShownRun, bpy.types.Operator):
         return draw
 
 
-class BDA_OT_export_run(ModalTask, _OfShownRun, bpy.types.Operator):
+class BDA_OT_export_run(ModalTask, bpy.types.Operator):
     """Write the run into its folder for another program: all bodies in every frame; Esc stops"""
 
-    bl_idname = "bda.export_run"
     bl_label = "Export"
-    what, unit = "Exporting the run", "parts"
+    changes_scene = False
+    task, unit = "Exporting the run", "parts"
+    blocked_by = (_no_run, recording_runs)
 
     form: EnumProperty(
         name="Format",
         description="What the run is written for",
-        items=[(each.name, each.title, each.what) for each in FORMATS.values()],
+        items=[(form.name, form.title, form.what) for form in FORMATS.values()],
     )
-
-    @classmethod
-    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
-        return super().disabled_reason(context) or recording_runs(context)
 
     def work(self, context: bpy.types.Context) -> Work:
         from ...exports.write import export_run
@@ -164,22 +145,21 @@ class BDA_OT_export_run(ModalTask, _OfShownRun, bpy.types.Operator):
         return write
 
 
+def _nothing_to_report(context: bpy.types.Context) -> str | None:
+    is_there = context.scene.bda.output_directory or has_run(context.scene)
+    return None if is_there else "Run the scene first, or choose the folder with the results"
+
+
 class BDA_OT_make_report(ModalTask, bpy.types.Operator):
     """Make a report of the results, as a page and as a PDF, with zones and neighbours as shown here; Esc stops"""
 
-    bl_idname = "bda.make_report"
     bl_label = "Make Report"
     changes_scene = False
-    what, unit = "Making the report", "parts"
-
-    @classmethod
-    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
-        if not (context.scene.bda.output_directory or has_run(context.scene)):
-            return "Run the scene first, or choose the folder with the results"
-        return recording_runs(context)
+    task, unit = "Making the report", "parts"
+    blocked_by = (_nothing_to_report, recording_runs)
 
     def work(self, context: bpy.types.Context) -> Work:
-        # Loading matplotlib takes a second, which nobody should wait for when the add-on is switched on.
+        # Loading matplotlib takes a second, which switching the extension on need not wait for.
         from ...report.write import write_report
 
         scene, folder = context.scene, folder_to_report(context.scene)
@@ -200,13 +180,9 @@ class BDA_OT_make_report(ModalTask, bpy.types.Operator):
 class BDA_OT_open_report(Action, bpy.types.Operator):
     """Open the report that was made of the results in the folder, in the system's browser"""
 
-    bl_idname = "bda.open_report"
     bl_label = "Open Report"
     changes_scene = False
-
-    @classmethod
-    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
-        return BDA_OT_make_report.disabled_reason(context)
+    blocked_by = BDA_OT_make_report.blocked_by
 
     def act(self, context: bpy.types.Context) -> None:
         path = folder_to_report(context.scene) / REPORT_PAGE
@@ -223,7 +199,7 @@ def folder_to_report(scene: bpy.types.Scene) -> Path:
 
 def new_export(folder: Path, form: Format) -> Path:
     """Return a new file or folder for an export, in the folder of its run: ``export``, and counted up from 2."""
-    names = (f"export{number}{form.ending}" for number in ("", *(f"_{each}" for each in range(2, 10_000))))
+    names = (f"export{number}{form.ending}" for number in ("", *(f"_{n}" for n in range(2, 10_000))))
     return next(path for name in names if not (path := folder / name).exists())
 
 
@@ -234,14 +210,3 @@ def open_path(path: Path) -> None:
     if sys.platform.startswith("linux") and not shutil.which(_OPENER):
         raise OutputError(f"{path}: this system has no {_OPENER}, which opens folders and files")
     bpy.ops.wm.path_open(filepath=str(path))
-
-
-CLASSES = (
-    BDA_OT_go_to_body,
-    BDA_OT_look_at_bridge,
-    BDA_OT_open_results,
-    BDA_OT_draw_charts,
-    BDA_OT_export_run,
-    BDA_OT_make_report,
-    BDA_OT_open_report,
-)

@@ -1,4 +1,4 @@
-"""The run whose results the panels show: the last recording, or the one that a file which was opened again has."""
+"""The run whose results the panels show: the last recording, or the run that an opened file was saved with."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ...model.run_folder.files import SUMMARY_FILE
 from ...model.run_folder.summary import RunSummary, read_summary
 from ...model.sequence.undisturbed import self_collapse_text
 from ...simulation.kept_run import digest_of_run, folder_of_run, has_run, results_of_run
-from ..recording.session import LastRecording, last_recording
+from ..recording.session import last_recording
 
 _N_PER_KN = 1000.0
 _MS_PER_S = 1000.0
@@ -30,27 +30,23 @@ class LargestValue(NamedTuple):
 
 
 _read: dict[tuple[str, str], ShownRun] = {}
-"""The run that was read last, by its file and what its results are known by: panels are drawn many times a second."""
+"""The run that was read last, by its folder and digest: panels are drawn many times a second."""
 
 
 @dataclass(frozen=True, slots=True)
 class ShownRun:
-    """What the panels say of a run, in words.
+    """Texts of the panels on a run.
 
     Attributes
     ----------
-    folder, title, summary
-        Of the run.
     fall
         That the bridge fell before anything was done to it; empty where it did not.
     lines
-        Totals, each in a few words.
-    peak_force, largest_throw
-        None where there was none.
+        Totals, in short lines.
     explained_peak
         What the peak force is, and why the contours show another number.
     results
-        Gives what was recorded.
+        Loads what was recorded.
     """
 
     folder: Path
@@ -88,49 +84,37 @@ class ShownRun:
 def shown_run(scene: bpy.types.Scene) -> ShownRun | None:
     """Return the run whose results are shown; None before there was one.
 
-    Raises
-    ------
-    OutputError
-        A run is kept with the scene, and cannot be found or read.
+    A run that is kept with the scene, and cannot be found or read, raises OutputError.
     """
     last = last_recording()
     if has_run(scene) and not (last and last.summary.result_digest == digest_of_run(scene)):
         return _of_file(scene)
-    return _of_recording(last) if last else None
+    return ShownRun.of(last.folder, last.summary, last.recording.last_frame, last.recording.results) if last else None
 
 
 def forget_shown() -> None:
-    """Forget what was read."""
+    """Forget the run that was read."""
     _read.clear()
 
 
 def explained_peak(summary: Mapping[str, Any]) -> str:
     """Return in a sentence what the peak force is, and why the contours show another number."""
+    longest, shortest = summary["substep_s"], summary.get("shortest_substep_s") or summary["substep_s"]
+    shortened = f"{shortest * _MS_PER_S:.3g} to " if shortest < 0.999 * longest else ""  # frames have more or fewer
     return (
-        f"The resultant on a shard in its worst sub-step, of {_substep_text(summary)} ms. Contours show "
+        f"The resultant on a shard in its worst sub-step, of {shortened}{longest * _MS_PER_S:.3g} ms. Contours show "
         "the frame mean, or with Peak So Far this peak"
     )
 
 
-def _substep_text(summary: Mapping[str, Any]) -> str:
-    """Length of a sub-step, ms; the shortest and the longest where frames have more or fewer of them."""
-    longest, shortest = summary["substep_s"], summary.get("shortest_substep_s") or summary["substep_s"]
-    shortened = f"{shortest * _MS_PER_S:.3g} to " if shortest < 0.999 * longest else ""
-    return f"{shortened}{longest * _MS_PER_S:.3g}"
-
-
 def lines_of(summary: Mapping[str, Any]) -> list[str]:
-    """Return the totals of a summary, each in a few words."""
+    """Return the totals of a summary in short lines."""
     connections = summary["connections"]
     return [
         f"Total mass: {summary['mass_kg']['shard']:,.0f} kg".replace(",", " "),
         f"Broken: {connections['broken']} of {connections['count']} connections",
         f"{summary['frames']} frames, {summary['simulated_s']:.2f} s",
     ]
-
-
-def _of_recording(last: LastRecording) -> ShownRun:
-    return ShownRun.of(last.folder, last.summary, last.recording.last_frame, last.recording.results)
 
 
 def _of_file(scene: bpy.types.Scene) -> ShownRun:

@@ -1,4 +1,4 @@
-"""The panels Results, what the last recording came to, and Report."""
+"""The panels Results, with the results of the last recording, and Report."""
 
 import bpy
 
@@ -8,10 +8,9 @@ from .shown_run import LargestValue, shown_run
 
 
 class BDA_PT_results(SidebarPanel, bpy.types.Panel):
-    """What the last recording came to."""
+    """Results of the last recording."""
 
     bl_label = "Results"
-    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout
@@ -50,15 +49,11 @@ class BDA_PT_results(SidebarPanel, bpy.types.Panel):
 
 
 class BDA_PT_report(SidebarPanel, bpy.types.Panel):
-    """What is handed over of a run."""
+    """The report of a run."""
 
     bl_label = "Report"
-    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: bpy.types.Context) -> None:
         column = self.layout.column(align=True)
         column.operator("bda.make_report")
         column.operator("bda.open_report")
-
-
-CLASSES = (BDA_PT_results, BDA_PT_report)

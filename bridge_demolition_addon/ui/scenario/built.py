@@ -1,7 +1,6 @@
-"""What a scene was built from, and which values in the panels have changed since.
+"""The values that a scene was built from, and those in the panels that have changed since.
 
-A run is of what was built. Some values do not take part in building: those that the panels show when the run begins
-count for it. All others are kept as the panels showed them when the scene was built.
+A run takes the values that were built, and as the panels show them those that do not take part in building.
 """
 
 from __future__ import annotations
@@ -25,13 +24,13 @@ from .prop import USE, is_written_out, shown_tables, vector_length
 from .values import inner_of, list_of, scenario_of, show_inner
 
 _SITE = ("zones", "exclusion", "site", "neighbours", "equipment")
-"""What only reports and stages read of a scenario."""
+"""Parts of a scenario that only reports and stages read."""
 
 _AS_SHOWN = ("title", "charges", "blast", "recording", "pictures", *_SITE)
-"""What a run takes of a scenario as it is shown when it begins."""
+"""Parts of a scenario that a run takes as the panels show them when it begins."""
 
 _TIME_AS_SHOWN = ("stop_at_rest", "rest_speed_m_s", "rest_spin_rad_s", "rest_hold_s")
-"""The same of its time."""
+"""Keys of its time that a run takes so."""
 
 _LISTED_IN_MESSAGE = 3
 
@@ -43,12 +42,8 @@ Kept = dict[str, Any] | None
 class ChangedValue:
     """A value that has changed since the scene was built.
 
-    Attributes
-    ----------
-    key
-        Its name in a scenario, such as ``ball.mass_kg``.
-    shown, built
-        What the panel shows now, and what it was built with, in words and with the unit: ``with 10 000 kg``.
+    `key` is its name in a scenario, `shown` its text in the panel, and `built` the text of the built value, such as
+    ``with 10 000 kg``.
     """
 
     key: str
@@ -57,18 +52,18 @@ class ChangedValue:
 
 
 def keep_built(settings: bpy.types.PropertyGroup, scenario: Scenario) -> None:
-    """Keep what a scene was built from, which its panels show."""
+    """Keep the scenario that a scene was built from, which its panels show."""
     settings.built_scenario = scenario_text(scenario)
     settings.built_values = values_text(_values(settings.scenario, Scenario))
 
 
 def forget_built(settings: bpy.types.PropertyGroup) -> None:
-    """Nothing is built any more."""
+    """Note that nothing is built."""
     settings.built_scenario = settings.built_values = ""
 
 
 def show_built(settings: bpy.types.PropertyGroup) -> None:
-    """Show what the scene was built from, and leave what counts for the next run as it is shown."""
+    """Show the values that the scene was built from; those that a run takes from the panels stay."""
     built, group = scenario_from_text(settings.built_scenario), settings.scenario
     of_run = {name: getattr(group.time, name) for name in _TIME_AS_SHOWN}
     group.seed = built.seed
@@ -93,7 +88,9 @@ def changes(settings: bpy.types.PropertyGroup) -> list[ChangedValue]:
 def changes_in(group: bpy.types.PropertyGroup, table_class: type[Table], kept: Kept) -> Iterator[ChangedValue]:
     """Return the values of a table, and of those in it, that are not as they were when the scene was built."""
     if kept is not None:
-        for item, is_used, is_vector in _readings(table_class):  # for each redraw: nothing is looked up that is alike
+        for item, is_used, is_vector in _readings(
+            table_class
+        ):  # run at each redraw: only values that differ are looked up
             now = None if is_used and not getattr(group, is_used) else getattr(group, item.name)
             same = list(now) if is_vector and now is not None else now
             if same != kept.get(item.name) and (change := change_of(group, table_class, item, kept)):
@@ -111,25 +108,21 @@ def changes_of_table(group: bpy.types.PropertyGroup, item: Field, kept: Kept) ->
     if change:
         yield change
     if holds_many(item):
-        for number, (each, values) in enumerate(zip(now, then or [], strict=False), start=1):
-            for change in changes_in(each, inner_class, values):
+        for number, (inner, values) in enumerate(zip(now, then or [], strict=False), start=1):
+            for change in changes_in(inner, inner_class, values):
                 yield replace(change, key=f"{change.key} (number {number})")
     elif then is not None and not change:
         yield from changes_in(now, inner_class, then)
 
 
 def change_of_use(group: bpy.types.PropertyGroup, item: Field, kept: Kept) -> ChangedValue | None:
-    """Return whether a table is used where it was not, or the other way round, or how many more or less there are."""
+    """Return whether a table is used now and was not, or the other way round, or that a list has another length."""
     if not counts_in_building(item):
         return None
     table, then = subtable_class(item).table, (kept or {}).get(item.name)
     if holds_many(item):
-        now = len(getattr(group, item.name))
-        return (
-            None
-            if now == len(then or [])
-            else ChangedValue(table, f"a list of {now}", f"with {len(then or [])} of them")
-        )
+        now, built = len(getattr(group, item.name)), len(then or [])
+        return None if now == built else ChangedValue(table, f"a list of {now}", f"with {built} of them")
     is_used = not is_optional(item) or getattr(group, USE + item.name)
     if is_used == (then is not None):
         return None
@@ -137,14 +130,14 @@ def change_of_use(group: bpy.types.PropertyGroup, item: Field, kept: Kept) -> Ch
 
 
 def change_of(group: bpy.types.PropertyGroup, table_class: type[Table], item: Field, kept: Kept) -> ChangedValue | None:
-    """Return how one value differs from what was built; None where it does not, or there was no such table."""
+    """Return how one value differs from the built one; None where it does not, or there was no such table."""
     if kept is None or not counts_in_building(item):
         return None
     now, then = _value(group, item), kept.get(item.name)
     if now == then or (is_written_out(item) and _listed(now, item) == _listed(then, item)):
         return None
-    built = "without" if then is None else f"with {_in_words(item, then)}"
-    return ChangedValue(key_name(table_class, item), "not given" if now is None else _in_words(item, now), built)
+    built = "without" if then is None else f"with {_value_text(item, then)}"
+    return ChangedValue(key_name(table_class, item), "not given" if now is None else _value_text(item, now), built)
 
 
 @cache
@@ -156,26 +149,30 @@ def counts_in_building(item: Field) -> bool:
 
 
 def shown_site(settings: bpy.types.PropertyGroup) -> dict[str, Any]:
-    """Return what only reports read of a scenario, as the panels show it."""
+    """Return the parts of a scenario that only reports read, as the panels show them."""
     fields = {item.name: item for item in shown_tables(Scenario)}
     return {name: inner_of(settings.scenario, fields[name]) for name in _SITE}
 
 
 def changed_in_blender(scene: bpy.types.Scene) -> list[ChangedValue]:
-    """Return how the scene cuts time otherwise than it was built; a run goes by the scene."""
+    """Return what of frames and sub-steps was changed in Blender since the scene was built; a run takes the scene's."""
     kept = built_values(scene.bda)
     if kept is None or scene.rigidbody_world is None:
         return []
-    fields, found = {item.name: item for item in key_fields(TimeSettings)}, []
-    for name, value in time_settings(scene).items():
-        if value != kept["time"][name]:
-            built = f"with {_in_words(fields[name], kept['time'][name])}"
-            found.append(ChangedValue(key_name(TimeSettings, fields[name]), _in_words(fields[name], value), built))
-    return found
+    fields = {item.name: item for item in key_fields(TimeSettings)}
+    return [
+        ChangedValue(
+            key_name(TimeSettings, fields[name]),
+            _value_text(fields[name], value),
+            f"with {_value_text(fields[name], kept['time'][name])}",
+        )
+        for name, value in time_settings(scene).items()
+        if value != kept["time"][name]
+    ]
 
 
 def scenario_to_run(settings: bpy.types.PropertyGroup) -> Scenario | None:
-    """Return what a scene was built from, with all that a run takes as it is shown; None where it was not built."""
+    """Return the scenario of a run: as built, and as shown where a run takes that; None where nothing is built."""
     if not settings.built_scenario:
         return None
     built, shown = scenario_from_text(settings.built_scenario), scenario_of(settings)
@@ -189,15 +186,13 @@ def scenario_to_run(settings: bpy.types.PropertyGroup) -> Scenario | None:
 
 
 def _sentence(changed: list[ChangedValue]) -> str:
-    listed = [f"{each.key} ({each.shown}, built {each.built})" for each in changed[:_LISTED_IN_MESSAGE]]
+    listed = [f"{change.key} ({change.shown}, built {change.built})" for change in changed[:_LISTED_IN_MESSAGE]]
     if len(changed) > _LISTED_IN_MESSAGE:
         listed.append(f"{len(changed) - _LISTED_IN_MESSAGE} more")
-    what = (
-        f"values have changed since the scene was built: {', '.join(listed)}"
-        if listed
-        else ("the scene was built from other values than the panels show")
-    )
-    return f"{what}; build it again, or show the values that it was built with"
+    reason = "the scene was built from other values than the panels show"
+    if listed:
+        reason = f"values have changed since the scene was built: {', '.join(listed)}"
+    return f"{reason}; build it again, or show the values that it was built with"
 
 
 @cache
@@ -211,21 +206,21 @@ def _built_tables(table_class: type[Table]) -> tuple[Field, ...]:
 
 
 def _values(group: bpy.types.PropertyGroup, table_class: type[Table]) -> dict[str, Any]:
-    """Return what a group shows of all that counts in building, as JSON can hold it."""
-    found = {item.name: _value(group, item) for item in _built_keys(table_class)}
+    """Return all values of a group that count in building, as JSON can hold them."""
+    values = {item.name: _value(group, item) for item in _built_keys(table_class)}
     for item in _built_tables(table_class):
         inner, inner_class = getattr(group, item.name), subtable_class(item)
         if holds_many(item):
-            found[item.name] = [_values(each, inner_class) for each in inner]
+            values[item.name] = [_values(part, inner_class) for part in inner]
         elif is_optional(item) and not getattr(group, USE + item.name):
-            found[item.name] = None
+            values[item.name] = None
         else:
-            found[item.name] = _values(inner, inner_class)
-    return found
+            values[item.name] = _values(inner, inner_class)
+    return values
 
 
 def _value(group: bpy.types.PropertyGroup, item: Field) -> Any:
-    """Return what Blender holds of a key; None where it is not used."""
+    """Return the value of a key in Blender; None where it is not used."""
     is_used, is_vector = _reading(item)
     if is_used and not getattr(group, is_used):
         return None
@@ -250,7 +245,7 @@ def _parsed(text: str) -> dict[str, Any]:
 
 
 def _listed(text: str | None, item: Field) -> Any:
-    """Return the list that a text in the syntax of TOML says; the text itself where it says none."""
+    """Return the list of a text in TOML; the text itself where it is no list."""
     if text is None:
         return None
     try:
@@ -259,7 +254,7 @@ def _listed(text: str | None, item: Field) -> Any:
         return text
 
 
-def _in_words(item: Field, value: Any) -> str:
+def _value_text(item: Field, value: Any) -> str:
     if isinstance(value, bool):
         return "on" if value else "off"
     if isinstance(value, list):

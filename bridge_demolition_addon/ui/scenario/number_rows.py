@@ -15,7 +15,7 @@ from ...engineering.single_precision import shortest
 from ...errors import ScenarioError
 from ...model.schema import holds_many, key_of, value_type
 from ...model.toml_tables import toml_value
-from ..operators import Action
+from ..operators import UndoableAction
 
 MOST_ROWS = 24
 """Longer lists are shown as a text."""
@@ -30,7 +30,7 @@ _DECIMALS = 3
 def numbers_in_row(item: Field) -> int:
     """Return how many numbers a row of a key's list has; 0 for a key without rows.
 
-    Numbers without a unit have none: those of a place on a map have more digits than Blender's single precision.
+    Numbers without a unit have none: those of a position on a map have more digits than Blender's single precision.
     """
     if not holds_many(item) or get_args(value_type(item))[-1] is not Ellipsis:
         return 0
@@ -48,8 +48,8 @@ def row_name(name: str, number: int) -> str:
 
 def rows_in(text: str, length: int) -> list[list[float]] | None:
     """Return the rows of a list in the syntax of TOML; None for a text that holds none of that length."""
-    found = _parsed(text, length)
-    return None if found is None else [list(each) for each in found]
+    rows = _parsed(text, length)
+    return None if rows is None else [list(row) for row in rows]
 
 
 def list_in(text: str) -> list | None:
@@ -88,10 +88,8 @@ def draw_rows(layout: bpy.types.UILayout, group: bpy.types.PropertyGroup, item: 
     return True
 
 
-class _RowOperator(Action):
+class _RowOperator(UndoableAction):
     """Base of the operators on the rows of one list."""
-
-    bl_options = {"REGISTER", "UNDO"}
 
     path: StringProperty(name="List", description="Where it is, from the scene: bda.scenario.bridge.span_lengths_m")
     length: IntProperty(name="Length", description="How many numbers a row has: 1 for lengths, 2 for points", default=1)
@@ -115,7 +113,6 @@ class _RowOperator(Action):
 class BDA_OT_add_row(_RowOperator, bpy.types.Operator):
     """Add one more to the list, with the value of the last"""
 
-    bl_idname = "bda.add_row"
     bl_label = "Add"
 
     def change(self, rows: list[list[float]]) -> list[list[float]]:
@@ -127,7 +124,6 @@ class BDA_OT_add_row(_RowOperator, bpy.types.Operator):
 class BDA_OT_remove_row(_RowOperator, bpy.types.Operator):
     """Remove this one from the list"""
 
-    bl_idname = "bda.remove_row"
     bl_label = "Remove"
 
     number: IntProperty(name="Number", description="Which one, from 0", min=0)
@@ -137,10 +133,7 @@ class BDA_OT_remove_row(_RowOperator, bpy.types.Operator):
             raise ScenarioError(f"the list has {len(rows)}: there is no number {self.number + 1} to remove")
         if len(rows) == 1:
             raise ScenarioError("the last one cannot be removed: the list has to have one or more")
-        return [each for number, each in enumerate(rows) if number != self.number]
-
-
-CLASSES = (BDA_OT_add_row, BDA_OT_remove_row)
+        return rows[: self.number] + rows[self.number + 1 :]
 
 
 def _row_property(item: Field, number: int, words: dict[str, str]) -> Any:
@@ -154,7 +147,7 @@ def _row_property(item: Field, number: int, words: dict[str, str]) -> Any:
     def choose(group: bpy.types.PropertyGroup, value: Any) -> None:
         rows = rows_in(getattr(group, item.name), length) or []
         if number < len(rows):
-            rows[number] = [shortest(each) for each in (value if length > 1 else [value])]
+            rows[number] = [shortest(part) for part in (value if length > 1 else [value])]
             setattr(group, item.name, _text(rows))
 
     limits = {name: limit for name, limit in (("min", rule.at_least), ("max", rule.at_most)) if limit is not None}
@@ -169,10 +162,10 @@ def _text(rows: list[list[float]]) -> str:
 
 @lru_cache(maxsize=64)
 def _parsed(text: str, length: int) -> tuple[tuple[float, ...], ...] | None:
-    found = list_in(text) if text.strip() else []
-    if found is None:
+    parsed = list_in(text) if text.strip() else []
+    if parsed is None:
         return None
-    rows = tuple(tuple(each) if isinstance(each, list) else (each,) for each in found)
+    rows = tuple(tuple(part) if isinstance(part, list) else (part,) for part in parsed)
     return rows if all(len(row) == length and all(map(_is_number, row)) for row in rows) else None
 
 

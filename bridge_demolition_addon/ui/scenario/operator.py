@@ -1,4 +1,4 @@
-"""Loading, saving and building scenarios, and removing what was built."""
+"""Loading, saving, building and removing scenarios."""
 
 import bpy
 from bpy.props import StringProperty
@@ -14,8 +14,18 @@ from ...scene.removal import remove_demolition, remove_loose_connections
 from ...scene.rendering.staging import stage
 from ...simulation.blender_events import shown_results
 from ...simulation.kept_run import forget_run
-from ..bridge_view import look_at_shards
-from ..operators import Action, FileWriter, absolute, no_world, recording_runs, write_file
+from ..operators import (
+    Action,
+    FileWriter,
+    UndoableAction,
+    absolute,
+    baked,
+    no_world,
+    recording_runs,
+    unset,
+    write_file,
+)
+from ..viewport import look_at_shards
 from .built import forget_built, keep_built, show_built
 from .preset_menu import preset_files
 from .prop import PRESETS, default_scenario
@@ -24,17 +34,12 @@ from .values import scenario_of, show_scenario
 _SUFFIX = ".toml"
 
 
-class BDA_OT_load_scenario(Action, bpy.types.Operator):
+class BDA_OT_load_scenario(UndoableAction, bpy.types.Operator):
     """Show the scenario file's values in the panels, and its charges in the scene; nothing is built yet"""
 
-    bl_idname = "bda.load_scenario"
     bl_label = "Load Scenario"
-    bl_options = {"REGISTER", "UNDO"}
     changes_objects = True
-
-    @classmethod
-    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
-        return None if context.scene.bda.scenario_path else "Choose a scenario file first"
+    blocked_by = (unset("scenario_path", "Choose a scenario file first"),)
 
     def act(self, context: bpy.types.Context) -> str:
         settings = context.scene.bda
@@ -47,7 +52,6 @@ class BDA_OT_load_scenario(Action, bpy.types.Operator):
 class BDA_OT_save_scenario(Action, FileWriter, bpy.types.Operator):
     """Save what the panels show, and the charges of the scene, as a scenario file"""
 
-    bl_idname = "bda.save_scenario"
     bl_label = "Save Scenario"
     bl_options = {"REGISTER"}
 
@@ -66,24 +70,20 @@ class BDA_OT_save_scenario(Action, FileWriter, bpy.types.Operator):
         return f"Saved {path}"
 
 
-class BDA_OT_new_scenario(Action, bpy.types.Operator):
+class BDA_OT_new_scenario(UndoableAction, bpy.types.Operator):
     """Set all values in the panels to their defaults, and remove the charges"""
 
-    bl_idname = "bda.new_scenario"
     bl_label = "New Scenario"
-    bl_options = {"REGISTER", "UNDO"}
     changes_objects = True
 
     def act(self, context: bpy.types.Context) -> str | None:
         _show(context.scene.bda, default_scenario())
 
 
-class BDA_OT_load_preset(Action, bpy.types.Operator):
+class BDA_OT_load_preset(UndoableAction, bpy.types.Operator):
     """Show the values of this preset in the panels, and its charges in the scene"""
 
-    bl_idname = "bda.load_preset"
     bl_label = "Load Preset"
-    bl_options = {"REGISTER", "UNDO"}
     changes_objects = True
 
     preset: StringProperty(name="Preset", description="Name of the preset")
@@ -93,22 +93,21 @@ class BDA_OT_load_preset(Action, bpy.types.Operator):
         _show(context.scene.bda, read_scenario(path))
 
 
-class BDA_OT_build_scenario(Action, bpy.types.Operator):
+def _has_world(context: bpy.types.Context) -> str | None:
+    if context.scene.rigidbody_world:
+        return "This scene has a rigid-body world already: build it again, or use a new scene"
+    return None
+
+
+class BDA_OT_build_scenario(UndoableAction, bpy.types.Operator):
     """Build the bridge that the panels show, its shards, connections, ground and ball in this scene"""
 
-    bl_idname = "bda.build_scenario"
     bl_label = "Build Scenario"
-    bl_options = {"REGISTER", "UNDO"}
     changes_objects = True
-
-    @classmethod
-    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
-        if context.scene.rigidbody_world:
-            return "This scene has a rigid-body world already: build it again, or use a new scene"
-        return None
+    blocked_by = (_has_world,)
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
-        """Build it, and let the view show the bridge: its ground is too large for Blender's View All."""
+        """Build it, and let the view show the bridge."""
         done = self.execute(context)
         if "FINISHED" in done:
             look_at_shards(context)
@@ -118,60 +117,42 @@ class BDA_OT_build_scenario(Action, bpy.types.Operator):
         return build(context.scene)
 
 
-class BDA_OT_build_anew(Action, bpy.types.Operator):
+def _nothing_built(context: bpy.types.Context) -> str | None:
+    return "Nothing is built here yet: build the scenario" if no_world(context) else None
+
+
+class BDA_OT_build_anew(UndoableAction, bpy.types.Operator):
     """Remove what was built here but the charges, with all changes by hand, and build what the panels show"""
 
-    bl_idname = "bda.build_anew"
     bl_label = "Build Again"
-    bl_options = {"REGISTER", "UNDO"}
     changes_objects = True
-
-    @classmethod
-    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
-        if no_world(context):
-            return "Nothing is built here yet: build the scenario"
-        if context.scene.rigidbody_world.point_cache.is_baked:
-            return "The simulation is baked and only played back: delete the bake first"
-        return recording_runs(context)
+    blocked_by = (_nothing_built, baked, recording_runs)
 
     def act(self, context: bpy.types.Context) -> str:
         stop_playing(context)
         return build(context.scene, again=True)
 
 
-class BDA_OT_show_built(Action, bpy.types.Operator):
+class BDA_OT_show_built(UndoableAction, bpy.types.Operator):
     """Set values that have changed since the scene was built back to those that it was built with"""
 
-    bl_idname = "bda.show_built"
     bl_label = "Show as Built"
-    bl_options = {"REGISTER", "UNDO"}
-
-    @classmethod
-    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
-        return None if context.scene.bda.built_scenario else "Nothing is built here yet: build the scenario"
+    blocked_by = (unset("built_scenario", "Nothing is built here yet: build the scenario"),)
 
     def act(self, context: bpy.types.Context) -> None:
         show_built(context.scene.bda)
 
 
-class _Removal(Action):
-    """Base of the operators that remove something."""
-
-    bl_options = {"REGISTER", "UNDO"}
-    changes_objects = True
-
-    @classmethod
-    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
-        if no_world(context):
-            return "This scene has no rigid-body world: there is nothing to remove"
-        return recording_runs(context)
+def _nothing_to_remove(context: bpy.types.Context) -> str | None:
+    return "This scene has no rigid-body world: there is nothing to remove" if no_world(context) else None
 
 
-class BDA_OT_remove_demolition(_Removal, bpy.types.Operator):
+class BDA_OT_remove_demolition(UndoableAction, bpy.types.Operator):
     """Remove all that was built here but the charges, so that the scenario can be built again"""
 
-    bl_idname = "bda.remove_demolition"
     bl_label = "Remove Demolition"
+    changes_objects = True
+    blocked_by = (_nothing_to_remove, recording_runs)
 
     def act(self, context: bpy.types.Context) -> str:
         scene = context.scene
@@ -187,46 +168,27 @@ class BDA_OT_remove_demolition(_Removal, bpy.types.Operator):
         return f"{removed} bodies removed"
 
 
-class BDA_OT_remove_loose_connections(_Removal, bpy.types.Operator):
+def _ground_is_gone(context: bpy.types.Context) -> str | None:
+    if lacks_ground(context.scene):
+        return "The ground is gone: undo what took it away, or build again; without it the bridge hangs in the air"
+    return None
+
+
+class BDA_OT_remove_loose_connections(UndoableAction, bpy.types.Operator):
     """Remove connections that lack a body, as those of deleted shards do: nothing can be recorded with them"""
 
-    bl_idname = "bda.remove_loose_connections"
     bl_label = "Remove Loose Connections"
-
-    @classmethod
-    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
-        if reason := super().disabled_reason(context):
-            return reason
-        if lacks_ground(context.scene):
-            return "The ground is gone: undo what took it away, or build again; without it the bridge hangs in the air"
-        return None
+    changes_objects = True
+    blocked_by = (_nothing_to_remove, recording_runs, _ground_is_gone)
 
     def act(self, context: bpy.types.Context) -> str:
         return f"{remove_loose_connections(context.scene)} loose connections removed"
 
 
-CLASSES = (
-    BDA_OT_load_scenario,
-    BDA_OT_save_scenario,
-    BDA_OT_new_scenario,
-    BDA_OT_load_preset,
-    BDA_OT_build_scenario,
-    BDA_OT_build_anew,
-    BDA_OT_show_built,
-    BDA_OT_remove_demolition,
-    BDA_OT_remove_loose_connections,
-)
-
-
 def build(scene: bpy.types.Scene, *, again: bool = False) -> str:
     """Build the scenario that the panels show, or that is in a file which was not loaded yet, and say how large it is.
 
-    Parameters
-    ----------
-    scene
-        Where to.
-    again
-        Whether it takes the place of what was built there before.
+    `again` says that it replaces what was built before.
     """
     settings = scene.bda
     is_new = settings.scenario_path not in ("", settings.loaded_path)
@@ -237,18 +199,9 @@ def build(scene: bpy.types.Scene, *, again: bool = False) -> str:
 
 
 def build_and_show(scene: bpy.types.Scene, scenario: Scenario, *, is_shown: bool = False, again: bool = False) -> str:
-    """Build a scenario, show it in the panels where it is not yet, and say how large it is.
+    """Build a scenario, show it in the panels unless they show it already, and say how large it is.
 
-    Parameters
-    ----------
-    scene
-        Where to.
-    scenario
-        What to build.
-    is_shown
-        Whether the panels show it already.
-    again
-        Whether it takes the place of what was built there before.
+    `again` says that it replaces what was built before.
     """
     settings, model = scene.bda, checked_model(scenario)
     if again:
@@ -267,12 +220,12 @@ def build_and_show(scene: bpy.types.Scene, scenario: Scenario, *, is_shown: bool
 
 
 def stop_playing(context: bpy.types.Context) -> None:
-    """Stop the timeline, if it plays: what is to be removed must not be simulated meanwhile."""
+    """Stop the timeline, if it plays: bodies that are removed must not be simulated meanwhile."""
     if context.screen and context.screen.is_animation_playing:
         bpy.ops.screen.animation_cancel(restore_frame=False)
 
 
 def _show(settings: bpy.types.PropertyGroup, scenario: Scenario) -> None:
-    """Show a scenario that comes from no file of the user's."""
+    """Show a scenario that is not from a file of the user."""
     show_scenario(settings, scenario)
     settings.scenario_path = settings.loaded_path = ""

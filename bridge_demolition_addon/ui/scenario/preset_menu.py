@@ -38,9 +38,6 @@ class BDA_MT_presets(bpy.types.Menu):
                 column.operator("bda.load_preset", text=label_of_preset(name)).preset = name
 
 
-CLASSES = (BDA_MT_presets,)
-
-
 def preset_files() -> dict[str, Path]:
     """Return the file of each preset by its name: those made for the sidebar, then the examples."""
     folders = (PRESETS, next((example for example in _EXAMPLES if example.is_dir()), None))
@@ -59,7 +56,7 @@ def label_of_preset(name: str) -> str:
 
 
 def unregister() -> None:
-    """Let go of the pictures."""
+    """Remove the pictures."""
     while _pictures:
         bpy.utils.previews.remove(_pictures.pop())
 

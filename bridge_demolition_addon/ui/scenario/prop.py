@@ -7,7 +7,7 @@ it, ``use_`` and its name; a list of tables is a collection with the index of it
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import MISSING, Field, fields
 from functools import cache
 from pathlib import Path
@@ -55,7 +55,7 @@ PRESETS = Path(__file__).parent / "presets"
 DEFAULT_PRESET = PRESETS / "one_span_wrecking_ball.toml"
 
 ENSEMBLES = {"study": StudySettings, "search": SearchSettings, "optimise": OptimiseSettings}
-"""Groups of the scene besides that of the scenario."""
+"""Groups of the scene in addition to that of the scenario."""
 
 _SHARED = {item.name for item in fields(EnsembleSettings)}
 
@@ -76,7 +76,7 @@ BLENDER_UNITS = {
 """Units that Blender shows beside a number itself, and turns into others where the user prefers them."""
 
 _PER_SECOND = "1/s"
-"""A unit that the names of its keys say in words."""
+"""A unit that the names of its keys spell out."""
 
 _DECIMALS = 3
 _WORDS = {
@@ -148,33 +148,31 @@ def group_name(table_class: type[Table]) -> str:
 @cache
 def all_tables() -> tuple[type[Table], ...]:
     """Return all tables that have a property group, inner ones first."""
-    found: list[type[Table]] = []
-    for root in (Scenario, *ENSEMBLES.values()):
-        _gather(root, found)
-    return tuple(found)
+    roots = (Scenario, *ENSEMBLES.values())
+    return tuple(dict.fromkeys(table for root in roots for table in _with_inner(root)))
 
 
 @cache
 def default_scenario() -> Scenario:
-    """Return what the sidebar of a new scene shows."""
+    """Return the scenario of a new scene."""
     return read_scenario(DEFAULT_PRESET)
 
 
 def _default_ensembles() -> tuple[EnsembleSettings, ...]:
-    """Return what the sidebar of a new scene shows of studies, searches and optimisations."""
-    asked: dict[str, Any] = {"scenario": SCENARIO_FILE, "criteria": (Criterion(name="collapsed", kind="collapsed"),)}
+    """Return the study, search and optimisation of a new scene."""
+    shared: dict[str, Any] = {"scenario": SCENARIO_FILE, "criteria": (Criterion(name="collapsed", kind="collapsed"),)}
     quantity: dict[str, Any] = {"key": "charges.mass_kg", "factor": True, "logarithmic": True}
     quantity |= {"lowest": 0.1, "highest": 4.0}
-    search = SearchSettings(trials=40, **asked, **quantity)
-    optimise = OptimiseSettings(objective="reach", quantities=(ChosenQuantity(**quantity),), **asked)
+    search = SearchSettings(trials=40, **shared, **quantity)
+    optimise = OptimiseSettings(objective="reach", quantities=(ChosenQuantity(**quantity),), **shared)
     return StudySettings(scenario=SCENARIO_FILE), search, optimise
 
 
 def register() -> None:
-    """Register all groups with Blender, those of a whole scenario, and of studies and their like, last."""
+    """Register all groups with Blender: those of a whole scenario, study, search and optimisation last."""
     defaults: dict[type[Table], Table] = {}
-    for each in (default_scenario(), *_default_ensembles()):
-        _gather_defaults(each, defaults)
+    for table in (default_scenario(), *_default_ensembles()):
+        defaults |= _default_tables(table)
     groups: dict[type[Table], type[bpy.types.PropertyGroup]] = {}
     for table_class in all_tables():
         groups[table_class] = _group(table_class, defaults.get(table_class), groups)
@@ -192,19 +190,18 @@ def registered_group(name: str) -> type[bpy.types.PropertyGroup]:
     return bpy.types.PropertyGroup.bl_rna_get_subclass_py(name)
 
 
-def _gather(table_class: type[Table], found: list[type[Table]]) -> None:
+def _with_inner(table_class: type[Table]) -> Iterator[type[Table]]:
     for item in shown_tables(table_class):
-        _gather(subtable_class(item), found)
-    if table_class not in found:
-        found.append(table_class)
+        yield from _with_inner(subtable_class(item))
+    yield table_class
 
 
-def _gather_defaults(table: Table, found: dict[type[Table], Table]) -> None:
-    found[type(table)] = table
+def _default_tables(table: Table) -> dict[type[Table], Table]:
+    defaults = {type(table): table}
     for item in shown_tables(type(table)):
-        inner = getattr(table, item.name)
-        if isinstance(inner, Table):
-            _gather_defaults(inner, found)
+        if isinstance(inner := getattr(table, item.name), Table):
+            defaults |= _default_tables(inner)
+    return defaults
 
 
 def _group(
@@ -238,8 +235,8 @@ def _key_properties(table_class: type[Table], item: Field, default: Any) -> dict
     rule = key_of(item)
     name = key_name(table_class, item)
     typical = typical_words(table_class, item)
-    said = f"{rule.description} {typical}." if typical else rule.description
-    meaning = _tooltip(f"{said} In a scenario file: {name}, {expected(item)}")
+    description = f"{rule.description} {typical}." if typical else rule.description
+    meaning = _tooltip(f"{description} In a scenario file: {name}, {expected(item)}")
     words = {"name": label, "description": meaning}
     propose = _PROPOSED.get(name)
     properties = {item.name: _proposing(rule, default, propose, words) if propose else _property(item, default, words)}
@@ -267,10 +264,10 @@ def _property(item: Field, default: Any, words: dict[str, str]) -> Any:
 def _proposing(
     rule: Key, default: Any, propose: Callable[[bpy.types.PropertyGroup, Key], Iterable[str]], words: dict[str, str]
 ) -> Any:
-    """Return a property for a text, of which some are proposed as the user types."""
+    """Return a property for a text, with texts that it proposes as the user types."""
 
     def search(group: bpy.types.PropertyGroup, _context: bpy.types.Context, typed: str) -> list[str]:
-        return [each for each in propose(group, rule) if typed.casefold() in each.casefold()]
+        return [text for text in propose(group, rule) if typed.casefold() in text.casefold()]
 
     return StringProperty(default=default or next(iter(rule.choices), ""), search=search, **words)
 
@@ -285,7 +282,7 @@ _PROPOSED = {
     "connections.between.material": materials_to_propose,
     **{f"{table}.key": lambda _group, _rule: names_to_propose() for table in ("vary", "search", "quantities")},
 }
-"""Keys that take other texts than those that are proposed."""
+"""Keys that propose texts, and take others too."""
 
 
 def _number_property(item: Field, default: Any, words: dict[str, str]) -> Any:

@@ -7,17 +7,15 @@ from bpy.props import EnumProperty, StringProperty
 
 from ...errors import ScenarioError
 from ...model.schema import is_optional, key_fields
-from ..operators import Action
+from ..operators import UndoableAction
 from .prop import INDEX, USE, all_tables, group_name
 
 LIST = "BDA_UL_tables"
 _MOST_NUMBERS = 3
 
 
-class _ListOperator(Action):
+class _ListOperator(UndoableAction):
     """Base of the operators on one list."""
-
-    bl_options = {"REGISTER", "UNDO"}
 
     path: StringProperty(name="List", description="Where the list is, from the scene: bda.scenario.fracture.members")
 
@@ -38,7 +36,6 @@ class _ListOperator(Action):
 class BDA_OT_add_table(_ListOperator, bpy.types.Operator):
     """Add one more to the list"""
 
-    bl_idname = "bda.add_table"
     bl_label = "Add"
 
     def change(self, tables: bpy.types.bpy_prop_collection, index: int) -> int:
@@ -49,7 +46,6 @@ class BDA_OT_add_table(_ListOperator, bpy.types.Operator):
 class BDA_OT_remove_table(_ListOperator, bpy.types.Operator):
     """Remove the chosen one from the list"""
 
-    bl_idname = "bda.remove_table"
     bl_label = "Remove"
 
     def change(self, tables: bpy.types.bpy_prop_collection, index: int) -> int:
@@ -62,7 +58,6 @@ class BDA_OT_remove_table(_ListOperator, bpy.types.Operator):
 class BDA_OT_move_table(_ListOperator, bpy.types.Operator):
     """Move the chosen one up or down in the list"""
 
-    bl_idname = "bda.move_table"
     bl_label = "Move"
 
     direction: EnumProperty(name="Direction", items=[("UP", "Up", ""), ("DOWN", "Down", "")])
@@ -83,9 +78,6 @@ class BDA_UL_tables(bpy.types.UIList):
         layout.label(text=f"{index + 1}  {_summary(item)}")
 
 
-CLASSES = (BDA_OT_add_table, BDA_OT_remove_table, BDA_OT_move_table, BDA_UL_tables)
-
-
 def draw_list(layout: bpy.types.UILayout, group: bpy.types.PropertyGroup, item: Field) -> None:
     """Draw the list of a field with its buttons."""
     path = group.path_from_id(item.name)
@@ -100,7 +92,7 @@ def draw_list(layout: bpy.types.UILayout, group: bpy.types.PropertyGroup, item: 
 
 
 def _summary(group: bpy.types.PropertyGroup) -> str:
-    """Return the first value of a table, in words."""
+    """Return the first value of a table as text."""
     table_class = next(table for table in all_tables() if group_name(table) == type(group).__name__)
     for item in key_fields(table_class):
         if is_optional(item) and not getattr(group, USE + item.name):

@@ -1,6 +1,6 @@
 """A typical value of each number that has no default, for its tooltip: of the examples, or of common practice.
 
-Names are those of a scenario; a key that several tables share is given once, without its table.
+Names are those of a scenario; a key that several tables share stands here once, without its table.
 """
 
 from __future__ import annotations

@@ -7,17 +7,16 @@ from dataclasses import Field, dataclass
 from functools import cache
 
 import bpy
+from bpy.types import Context, PropertyGroup, UILayout
 
 from ...model.scenario import Scenario
 from ...model.schema import Table, holds_many, is_optional, key_name, subtable_class, value_type
 from ...scene.visibility import has_symbols, symbols_are_hidden
-from ..first_help import draw_first_help
 from ..messages import draw_messages
 from ..sidebar import SidebarPanel, draw_sentence, letters_of
 from ..task_progress import draw_task_progress, going_on
-from .breaking_note import breaking_note
 from .built import ChangedValue, Kept, built_values, change_of, change_of_use, changes, changes_of_table
-from .next_step import next_step
+from .hints import breaking_note, draw_first_help, next_step
 from .number_rows import draw_rows, numbers_in_row
 from .prop import INDEX, USE, label_of, shown_keys, shown_tables, vector_length
 from .table_list import draw_list
@@ -53,7 +52,7 @@ _LISTED = 4
 """Changed values that are listed above the buttons; each is marked in its own panel as well."""
 
 _PROMINENT = 1.5
-"""How many times as high as others the buttons are that most people need."""
+"""Height of the buttons that most people need, over that of others."""
 
 CHANGED = "ERROR"
 """Icon of values that have changed since the scene was built."""
@@ -78,15 +77,16 @@ class BDA_PT_scenario(SidebarPanel, bpy.types.Panel):
     """Where a scenario comes from, and building it."""
 
     bl_label = "Scenario"
+    bl_options = set()
 
-    def draw_header_preset(self, context: bpy.types.Context) -> None:
+    def draw_header_preset(self, context: Context) -> None:
         """Show the preview's switch, and an eye for connections and force fields once there are any."""
         self.layout.prop(context.scene.bda, "show_preview", text="", icon="MOD_WIREFRAME", emboss=False)
         if has_symbols(context.view_layer, context.scene):
             hidden = symbols_are_hidden(context.view_layer, context.scene)
             self.layout.operator("bda.toggle_symbols", text="", icon="HIDE_ON" if hidden else "HIDE_OFF", emboss=False)
 
-    def draw(self, context: bpy.types.Context) -> None:
+    def draw(self, context: Context) -> None:
         layout, settings = self.layout, context.scene.bda
         if progress := going_on():
             draw_task_progress(layout, context, progress)
@@ -114,12 +114,11 @@ class BDA_PT_scenario(SidebarPanel, bpy.types.Panel):
 
 
 class BDA_PT_sequence(SidebarPanel, bpy.types.Panel):
-    """What is done to the bridge."""
+    """Ball, charges and other actions on the bridge."""
 
     bl_label = "Ball and Sequence"
-    bl_options = {"DEFAULT_CLOSED"}
 
-    def draw(self, _context: bpy.types.Context) -> None:
+    def draw(self, _context: Context) -> None:
         """Draw nothing: its sub-panels have everything."""
 
 
@@ -129,14 +128,14 @@ class _TablePanel(SidebarPanel):
     item: Field
     names: tuple[str, ...]
 
-    def draw_header(self, context: bpy.types.Context) -> None:
+    def draw_header(self, context: Context) -> None:
         owner = self._owner(context)
         if is_optional(self.item):
             self.layout.prop(owner, USE + self.item.name, text="")
         if self._changes(context, owner):
             self.layout.label(icon=CHANGED)
 
-    def draw(self, context: bpy.types.Context) -> None:
+    def draw(self, context: Context) -> None:
         owner, kept = self._owner(context), self._kept(context)
         layout = self.layout
         if not self.names and self.item.name in _BUTTONS:
@@ -151,37 +150,37 @@ class _TablePanel(SidebarPanel):
         if not self.names and self.item.name == "connections" and (note := breaking_note(owner)):
             draw_sentence(layout, context, note, icon="INFO")
 
-    def _owner(self, context: bpy.types.Context) -> bpy.types.PropertyGroup:
+    def _owner(self, context: Context) -> PropertyGroup:
         group = context.scene.bda.scenario
         for name in self.names:
             group = getattr(group, name)
         return group
 
-    def _kept(self, context: bpy.types.Context) -> Kept:
-        """Return what was built of the table that this one stands in."""
+    def _kept(self, context: Context) -> Kept:
+        """Return the built values of the table that this one stands in."""
         kept = built_values(context.scene.bda)
         for name in self.names:
             kept = kept and kept.get(name)
         return kept
 
-    def _changes(self, context: bpy.types.Context, owner: bpy.types.PropertyGroup) -> bool:
+    def _changes(self, context: Context, owner: PropertyGroup) -> bool:
         kept = self._kept(context)
         return kept is not None and any(True for _ in changes_of_table(owner, self.item, kept))
 
 
-def draw_run(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup, *, has_changed: bool) -> None:
+def draw_run(layout: UILayout, settings: PropertyGroup, *, has_changed: bool) -> None:
     """Draw the button Run, which builds again first where values have changed since the scene was built."""
     text = "Build Again and Run" if has_changed else "Run"
     run = layout.operator("bda.run", text=text, icon="PLAY")
     run.build_anew, run.pictures = has_changed, settings.pictures_of_run
 
 
-def draw_changes(layout: bpy.types.UILayout, context: bpy.types.Context, changed: Sequence[ChangedValue]) -> None:
-    """Draw which values have changed since the scene was built, and what can be done about it."""
+def draw_changes(layout: UILayout, context: Context, changed: Sequence[ChangedValue]) -> None:
+    """Draw which values have changed since the scene was built, with buttons that build or show them."""
     box = layout.box()
     draw_sentence(box, context, "Values have changed since this was built:", icon=CHANGED)
-    for each in changed[:_LISTED]:
-        draw_sentence(box, context, f"{each.key}: {each.shown}, built {each.built}", icon="NONE")
+    for change in changed[:_LISTED]:
+        draw_sentence(box, context, f"{change.key}: {change.shown}, built {change.built}", icon="NONE")
     if len(changed) > _LISTED:
         box.label(text=f"and {len(changed) - _LISTED} more")
     row = box.row(align=True)
@@ -190,9 +189,9 @@ def draw_changes(layout: bpy.types.UILayout, context: bpy.types.Context, changed
 
 
 def draw_keys(
-    layout: bpy.types.UILayout,
-    context: bpy.types.Context,
-    group: bpy.types.PropertyGroup,
+    layout: UILayout,
+    context: Context,
+    group: PropertyGroup,
     table_class: type[Table],
     kept: Kept = None,
     *,
@@ -209,25 +208,13 @@ def draw_keys(
             draw_sentence(column, context, f"built {change.built}", icon=CHANGED)
 
 
-def draw_change_of_table(
-    layout: bpy.types.UILayout,
-    context: bpy.types.Context,
-    group: bpy.types.PropertyGroup,
-    item: Field,
-    kept: Kept,
-) -> None:
+def draw_change_of_table(layout: UILayout, context: Context, group: PropertyGroup, item: Field, kept: Kept) -> None:
     """Draw whether a table, or another number of tables, was used when the scene was built."""
     if kept is not None and (change := change_of_use(group, item, kept)):
         draw_sentence(layout, context, f"built {change.built}", icon=CHANGED)
 
 
-def draw_tables(
-    layout: bpy.types.UILayout,
-    context: bpy.types.Context,
-    group: bpy.types.PropertyGroup,
-    item: Field,
-    kept: Kept = None,
-) -> None:
+def draw_tables(layout: UILayout, context: Context, group: PropertyGroup, item: Field, kept: Kept = None) -> None:
     """Draw a list of tables, and below it the keys and tables of the chosen one."""
     draw_list(layout, group, item)
     draw_change_of_table(layout, context, group, item, kept)
@@ -273,14 +260,14 @@ def panels() -> tuple[type[bpy.types.Panel], ...]:
 
 def inner_panels() -> tuple[type[bpy.types.Panel], ...]:
     """Return the panels of all other tables, to be registered after those that they stand in."""
-    found: list[type[bpy.types.Panel]] = []
+    panels: list[type[bpy.types.Panel]] = []
     for item in shown_tables(Scenario):
         if item.name in _MAIN:
-            found += _inner(item, (item.name,), _PANEL + item.name)
+            panels += _inner(item, (item.name,), _PANEL + item.name)
         else:
             panel = _panel(item, (), _PARENTS.get(item.name, BDA_PT_sequence.__name__), label_of(Scenario, item))
-            found += [panel, *_inner(item, (item.name,), panel.__name__)]
-    return tuple(found)
+            panels += [panel, *_inner(item, (item.name,), panel.__name__)]
+    return tuple(panels)
 
 
 def _inner(item: Field, names: tuple[str, ...], parent: str) -> Iterator[type[bpy.types.Panel]]:
@@ -298,7 +285,6 @@ def _panel(item: Field, names: tuple[str, ...], parent: str | None, label: str) 
     contents = {
         "__doc__": subtable_class(item).__doc__,
         "bl_label": label,
-        "bl_options": {"DEFAULT_CLOSED"},
         "item": item,
         "names": names,
     }
@@ -307,7 +293,7 @@ def _panel(item: Field, names: tuple[str, ...], parent: str | None, label: str) 
     return type(_PANEL + "_".join((*names, item.name)), (_TablePanel, bpy.types.Panel), contents)
 
 
-def _draw_key(layout: bpy.types.UILayout, letters: int, group: bpy.types.PropertyGroup, row: Row) -> None:
+def _draw_key(layout: UILayout, letters: int, group: PropertyGroup, row: Row) -> None:
     if row.is_check_box and not row.is_optional:
         layout.prop(group, row.name, text=row.label)
         return
@@ -328,13 +314,7 @@ def _draw_key(layout: bpy.types.UILayout, letters: int, group: bpy.types.Propert
     line.prop(group, row.name, text=row.label if fits else "")
 
 
-def _draw_inner(
-    layout: bpy.types.UILayout,
-    context: bpy.types.Context,
-    group: bpy.types.PropertyGroup,
-    item: Field,
-    kept: Kept,
-) -> None:
+def _draw_inner(layout: UILayout, context: Context, group: PropertyGroup, item: Field, kept: Kept) -> None:
     draw_change_of_table(layout, context, group, item, kept)
     if is_optional(item):
         layout.prop(group, USE + item.name, text="Use")

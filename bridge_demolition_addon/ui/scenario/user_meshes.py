@@ -15,20 +15,24 @@ from ...errors import GeometryError, OutputError
 from ...model.bridge.mesh_files import exported
 from ...model.structure.point_files import paint_text
 from ...scene.user_meshes import painted_points, solid_of_object
-from ..operators import Action, FileWriter, absolute, write_file
+from ..operators import FileWriter, UndoableAction, absolute, write_file
 from ..sidebar import path_property
 
 _CONCRETE_KG_M3 = 2400.0
 _MESH_SUFFIX, _PAINT_SUFFIX = ".ply", ".csv"
 
 
-class BDA_OT_add_selected_members(Action, bpy.types.Operator):
+def _no_mesh_selected(context: bpy.types.Context) -> str | None:
+    is_selected = any(selected_object.type == "MESH" for selected_object in context.selected_objects)
+    return None if is_selected else "Select the meshes that are to be members first"
+
+
+class BDA_OT_add_selected_members(UndoableAction, bpy.types.Operator):
     """Add the selected meshes to the scenario as members, each in a file of a folder, and hide them"""
 
-    bl_idname = "bda.add_selected_members"
     bl_label = "Add Selected Meshes"
-    bl_options = {"REGISTER", "UNDO"}
     changes_objects = True
+    blocked_by = (_no_mesh_selected,)
 
     directory: path_property("Folder", "Folder that the meshes are written to", "DIR_PATH")
     filter_folder: BoolProperty(default=True, options={"HIDDEN"})
@@ -42,12 +46,6 @@ class BDA_OT_add_selected_members(Action, bpy.types.Operator):
         default=False,
     )
 
-    @classmethod
-    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
-        if not any(selected_object.type == "MESH" for selected_object in context.selected_objects):
-            return "Select the meshes that are to be members first"
-        return None
-
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         context.window_manager.fileselect_add(self)
         return {"RUNNING_MODAL"}
@@ -55,16 +53,16 @@ class BDA_OT_add_selected_members(Action, bpy.types.Operator):
     def act(self, context: bpy.types.Context) -> str:
         scenario, selected = context.scene.bda.scenario, context.selected_objects
         tables = scenario.geometry
-        solids = {each.name: solid_of_object(each) for each in selected}
-        files = _new_files(absolute(self.directory), list(solids), {absolute(each.file) for each in tables})
+        solids = {member.name: solid_of_object(member) for member in selected}
+        files = _new_files(absolute(self.directory), list(solids), {absolute(table.file) for table in tables})
         for name, path in files.items():
             write_file(path, exported(solids[name].solid, _MESH_SUFFIX), new_folder=True)
-        for name, path in files.items():
-            table = next((each for each in tables if each.name == name), None) or tables.add()
+        for name, path in files.items():  # only now, as writing may fail
+            table = next((table for table in tables if table.name == name), None) or tables.add()
             table.name, table.file = name, str(path)
             table.use_density_kg_m3, table.density_kg_m3, table.use_mass_kg = True, self.density_kg_m3, False
-        for each in selected:
-            each.hide_set(True)
+        for member in selected:
+            member.hide_set(True)
         scenario.geometry_index = len(tables) - 1
         switched_off = scenario.use_bridge and not self.with_bridge
         scenario.use_bridge = scenario.use_bridge and self.with_bridge
@@ -75,22 +73,20 @@ class BDA_OT_add_selected_members(Action, bpy.types.Operator):
         return f"{done}; the panel Bridge is switched off" if switched_off else done
 
 
-class BDA_OT_use_paint(Action, FileWriter, bpy.types.Operator):
+def _no_paint(context: bpy.types.Context) -> str | None:
+    body = context.active_object
+    is_painted = body is not None and body.type == "MESH" and body.vertex_groups
+    return None if is_painted else "Choose a mesh with a vertex group first, such as one that was painted with weights"
+
+
+class BDA_OT_use_paint(UndoableAction, FileWriter, bpy.types.Operator):
     """Cut the bridge finer where the active mesh is painted: its active vertex group is written to a file"""
 
-    bl_idname = "bda.use_paint"
     bl_label = "Cut Finer Where Painted"
-    bl_options = {"REGISTER", "UNDO"}
+    blocked_by = (_no_paint,)
 
     filename_ext = _PAINT_SUFFIX
     filter_glob: StringProperty(default="*" + _PAINT_SUFFIX, options={"HIDDEN"})
-
-    @classmethod
-    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
-        body = context.active_object
-        if body is None or body.type != "MESH" or not body.vertex_groups:
-            return "Choose a mesh with a vertex group first, such as one that was painted with weights"
-        return None
 
     def usual_path(self, context: bpy.types.Context) -> str:
         return f"{_file_name(context.active_object.name)} painted{_PAINT_SUFFIX}"
@@ -107,9 +103,6 @@ class BDA_OT_use_paint(Action, FileWriter, bpy.types.Operator):
         write_file(path, paint_text(points, weights).encode(), new_folder=True)
         fracture.use_painted_file, fracture.painted_file = True, str(path)
         return f"{int((weights > 0.0).sum())} of {len(weights)} vertices are painted in {group!r}"
-
-
-CLASSES = (BDA_OT_add_selected_members, BDA_OT_use_paint)
 
 
 def _new_files(folder: Path, names: list[str], ours: set[Path]) -> dict[str, Path]:

@@ -43,9 +43,9 @@ def scenario_of(settings: bpy.types.PropertyGroup) -> Scenario:
 
 
 def table_of(group: bpy.types.PropertyGroup, table_class: type[Table], **others: Any) -> Table:
-    """Return the table that a property group shows; values that are given take the place of those that it shows."""
-    given = values_from_text(getattr(group, GIVEN), {})
-    values = {item.name: _value(group, table_class, item, given.get(item.name)) for item in shown_keys(table_class)}
+    """Return the table that a property group shows, with `others` in place of the values that it shows."""
+    loaded = values_from_text(getattr(group, GIVEN), {})
+    values = {item.name: _value(group, table_class, item, loaded.get(item.name)) for item in shown_keys(table_class)}
     for item in shown_tables(table_class):
         values[item.name] = inner_of(group, item)
     return table_class(**values | others)
@@ -57,15 +57,15 @@ def inner_of(group: bpy.types.PropertyGroup, item: Field) -> Table | tuple[Table
     inner = getattr(group, item.name)
     if not holds_many(item):
         return None if is_optional(item) and not getattr(group, USE + item.name) else table_of(inner, table_class)
-    return numbered_tables(table_class, inner, lambda each: table_of(each, table_class))
+    return numbered_tables(table_class, inner, lambda part: table_of(part, table_class))
 
 
 def show_scenario(settings: bpy.types.PropertyGroup, scenario: Scenario) -> None:
     """Show a scenario in the sidebar, and its charges in the scene in place of those that were there."""
     show_table(settings.scenario, scenario)
     empties = replace_charges(settings.id_data, scenario.charges)
-    given = {each.name: table_values(charge) for each, charge in zip(empties, scenario.charges, strict=True)}
-    settings.charges_given = values_text(given)
+    loaded = {empty.name: table_values(charge) for empty, charge in zip(empties, scenario.charges, strict=True)}
+    settings.charges_given = values_text(loaded)
     settings.charge_index = 0
 
 
@@ -77,7 +77,7 @@ def show_table(group: bpy.types.PropertyGroup, table: Table) -> None:
 
 def show_fields(group: bpy.types.PropertyGroup, table: Table, items: Sequence[Field]) -> None:
     """Show some keys and tables of a table in a property group that has them."""
-    given = values_from_text(getattr(group, GIVEN), {})
+    loaded = values_from_text(getattr(group, GIVEN), {})
     for item in items:
         value = getattr(table, item.name)
         if subtable_class(item):
@@ -88,9 +88,9 @@ def show_fields(group: bpy.types.PropertyGroup, table: Table, items: Sequence[Fi
         if value is None:
             continue
         if value_type(item) is float or vector_length(item):
-            given[item.name] = value
+            loaded[item.name] = value
         setattr(group, item.name, toml_value(value) if is_written_out(item) else value)
-    setattr(group, GIVEN, values_text(given))
+    setattr(group, GIVEN, values_text(loaded))
 
 
 def show_inner(group: bpy.types.PropertyGroup, item: Field, inner: Table | tuple[Table, ...] | None) -> None:
@@ -98,8 +98,8 @@ def show_inner(group: bpy.types.PropertyGroup, item: Field, inner: Table | tuple
     shown_in = getattr(group, item.name)
     if holds_many(item):
         shown_in.clear()
-        for each in inner:
-            show_table(shown_in.add(), each)
+        for table in inner:
+            show_table(shown_in.add(), table)
         return
     if is_optional(item):
         setattr(group, USE + item.name, inner is not None)
@@ -123,46 +123,40 @@ def reset(group: bpy.types.PropertyGroup) -> None:
 
 
 def list_of(text: str, name: str, item: Field) -> list:
-    """Return a list from TOML; brackets around it may be left out.
-
-    Raises
-    ------
-    ScenarioError
-        The text is no list; the error says `name`.
-    """
-    if (found := list_in(text)) is not None:
-        return found
+    """Return a list from TOML; brackets around it may be left out. The error of a text that is no list says `name`."""
+    if (values := list_in(text)) is not None:
+        return values
     raise ScenarioError(f"{name} is {shown(text)}: expected {expected(item)}")
 
 
-def _value(group: bpy.types.PropertyGroup, table_class: type[Table], item: Field, given: Any) -> Any:
+def _value(group: bpy.types.PropertyGroup, table_class: type[Table], item: Field, loaded: Any) -> Any:
     if is_optional(item) and not getattr(group, USE + item.name):
         return None
     value = getattr(group, item.name)
     if is_written_out(item):
         return list_of(value, key_name(table_class, item), item)
     if vector_length(item):
-        return tuple(map(as_given, value, given or [None] * len(value)))
-    return as_given(value, given) if value_type(item) is float else value
+        return tuple(map(as_given, value, loaded or [None] * len(value)))
+    return as_given(value, loaded) if value_type(item) is float else value
 
 
 def _charges(settings: bpy.types.PropertyGroup) -> Iterable[Charge]:
-    given = values_from_text(settings.charges_given, {})
+    loaded = values_from_text(settings.charges_given, {})
     scene = settings.id_data
     scene.view_layers[0].update()  # a script may have moved one just now
     try:
         charges = charges_of(scene)
     except BlastError as error:
         raise ScenarioError(str(error)) from error
-    return tuple(_as_given(charge, given.get(charge.name, {})) for charge in charges)
+    return tuple(_as_loaded(charge, loaded.get(charge.name, {})) for charge in charges)
 
 
-def _as_given(charge: Charge, given: dict[str, Any]) -> Charge:
-    """Return a charge of the scene; what did not change since it was loaded is exactly what was loaded."""
-    delay_ms = given.get("delay_ms", charge.delay_ms)
+def _as_loaded(charge: Charge, loaded: dict[str, Any]) -> Charge:
+    """Return a charge of the scene, with all digits of the values that did not change since it was loaded."""
+    delay_ms = loaded.get("delay_ms", charge.delay_ms)
     return replace(
         charge,
-        name=given.get("name") or charge.name,
-        place_m=tuple(map(as_given, charge.place_m, given.get("place_m", (None,) * 3))),
+        name=loaded.get("name") or charge.name,
+        place_m=tuple(map(as_given, charge.place_m, loaded.get("place_m", (None,) * 3))),
         delay_ms=delay_ms if math.isclose(delay_ms, charge.delay_ms, rel_tol=_ROUNDING) else charge.delay_ms,
     )

@@ -10,13 +10,12 @@ from ...model.sequence.checked_model import checked_model
 from ...model.stages.stages import criticality, stages_of
 from ...model.stages.standing import StandingBridge, made_elastic
 from ...model.stages.tables import criticality_sentences, stage_row, stage_sentences, write_tables
-from ...simulation.blender_events import contours_of
 from ...system.disk import writing
 from ..modal_task import ModalTask, Work
-from ..operators import Action, absolute, no_world
+from ..operators import UndoableAction, absolute, no_world
 from ..scenario.values import scenario_of
 from ..stepped_thread import SteppedThread
-from .checked import CheckedStages, checked_in, keep
+from .shown import CheckedStages, checked_in, keep, show_checked
 
 _STAGES, _MEMBERS = "stages", "without each member"
 _SHARES = {_STAGES: (0.0, 0.83), _MEMBERS: (0.83, 1.0)}
@@ -26,17 +25,16 @@ _SHARES = {_STAGES: (0.0, 0.83), _MEMBERS: (0.83, 1.0)}
 class BDA_OT_check_stages(ModalTask, bpy.types.Operator):
     """Work out how the bridge in the panels stands before each step and after the last; Esc stops"""
 
-    bl_idname = "bda.check_stages"
     bl_label = "Check Stages"
     bl_description = (
         "Work out how the bridge in the panels stands before each step and after the last, and without each of its "
         "members, by its stiffness and without a simulation; Esc stops"
     )
-    what, unit = "Checking stages", "parts"
+    task, unit = "Checking stages", "parts"
 
     def work(self, context: bpy.types.Context) -> Work:
         settings = context.scene.bda
-        scenario, scene = scenario_of(settings), context.scene.session_uid
+        scenario, scene_uid = scenario_of(settings), context.scene.session_uid
         folder = absolute(settings.stages_directory) if settings.stages_directory else None
 
         def check(thread: SteppedThread) -> str:
@@ -52,9 +50,9 @@ class BDA_OT_check_stages(ModalTask, bpy.types.Operator):
             else:
                 with writing(folder):
                     rows = write_tables(folder, stages, members, bridge)
-            said = tuple(tuple(stage_sentences(stage, row)) for stage, row in zip(stages, rows, strict=True))
+            sentences = tuple(tuple(stage_sentences(stage, row)) for stage, row in zip(stages, rows, strict=True))
             contours = StageContours.of_stages(model, stages)
-            keep(CheckedStages(scene, tuple(rows), said, tuple(criticality_sentences(members)), contours))
+            keep(CheckedStages(scene_uid, tuple(rows), sentences, tuple(criticality_sentences(members)), contours))
             return f"{len(rows)} stages" + (f", with tables in {folder}" if folder else "")
 
         return check
@@ -63,40 +61,23 @@ class BDA_OT_check_stages(ModalTask, bpy.types.Operator):
         begun, ended = _SHARES.get(thread.stage_text, (0.0, 0.0))
         return begun + (ended - begun) * super().share_of(thread)
 
-    def act(self, context: bpy.types.Context) -> str | None:
-        done = super().act(context)
-        show_checked(context.scene)
-        return done
-
-    def _finish(self, context: bpy.types.Context) -> set[str]:
-        finished = super()._finish(context)
+    def finish(self, context: bpy.types.Context) -> set[str]:
+        finished = super().finish(context)
         show_checked(context.scene)
         return finished
 
 
-class BDA_OT_show_utilisation(Action, bpy.types.Operator):
+def _not_checked(context: bpy.types.Context) -> str | None:
+    return None if checked_in(context.scene) else "Check the stages first"
+
+
+class BDA_OT_show_utilisation(UndoableAction, bpy.types.Operator):
     """Colour the shards by how much of their strength their connections use at rest, in the stage that is shown"""
 
-    bl_idname = "bda.show_utilisation"
     bl_label = "Show Utilisation"
-    bl_options = {"REGISTER", "UNDO"}
-
-    @classmethod
-    def disabled_reason(cls, context: bpy.types.Context) -> str | None:
-        return no_world(context) or (None if checked_in(context.scene) else "Check the stages first")
+    blocked_by = (no_world, _not_checked)
 
     def act(self, context: bpy.types.Context) -> None:
         settings = context.scene.bda
         settings.contour_quantity = ContourQuantity.UTILISATION.name
         settings.contours = True
-
-
-CLASSES = (BDA_OT_check_stages, BDA_OT_show_utilisation)
-
-
-def show_checked(scene: bpy.types.Scene) -> None:
-    """Hand what was checked for a scene to its contours."""
-    if found := checked_in(scene):
-        display = contours_of(scene)
-        display.stages = found.contours
-        scene.bda.stage_shown = min(scene.bda.stage_shown, len(found.contours))

@@ -8,39 +8,33 @@ import bpy
 
 from ..sidebar import SidebarPanel, draw_sentence
 from ..task_progress import draw_task_progress, going_on
-from .checked import checked_in
 from .operator import BDA_OT_check_stages
+from .shown import checked_in
 
 
 class BDA_PT_stages(SidebarPanel, bpy.types.Panel):
     """How the bridge stands between the steps of its demolition, by its stiffness and without a simulation."""
 
     bl_label = "Stages"
-    bl_options = {"DEFAULT_CLOSED"}
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, settings = self.layout, context.scene.bda
         layout.prop(settings, "stages_directory", text="", placeholder="Folder for tables")
         layout.operator("bda.check_stages")
-        if (progress := going_on()) and progress.what == BDA_OT_check_stages.what:
+        if progress := going_on(BDA_OT_check_stages.task):
             draw_task_progress(layout, context, progress)
-        found = checked_in(context.scene)
-        if found is None:
+        checked = checked_in(context.scene)
+        if checked is None:
             return
         grid = layout.column(align=True)
-        for row in [{}, *found.rows]:
+        for row in [{}, *checked.rows]:
             line = grid.row(align=True)
             for text in cells_of(row):
                 line.label(text=text)
         layout.operator("bda.show_utilisation")
         layout.prop(settings, "stage_shown")
-        for sentence in found.sentences[min(settings.stage_shown, len(found.rows)) - 1]:
+        for sentence in (*checked.sentences[min(settings.stage_shown, len(checked.rows)) - 1], *checked.members):
             draw_sentence(layout, context, sentence, icon="NONE")
-        for sentence in found.members:
-            draw_sentence(layout, context, sentence, icon="NONE")
-
-
-CLASSES = (BDA_PT_stages,)
 
 
 def cells_of(row: dict) -> tuple[str, ...]:

@@ -111,14 +111,14 @@ def test_a_range_that_is_none_is_told_and_changes_nothing(recorded):
     before = shown(recorded)
     settings.contour_high = -1.0
     settings.contour_range = "FIXED"
-    assert "has to be below" in contour_view.trouble(recorded.scene)
+    assert "has to be below" in contour_view.refusal(recorded.scene)
     assert shown(recorded) == before
     settings.contour_high = 2.0
-    assert contour_view.trouble(recorded.scene) == ""
+    assert contour_view.refusal(recorded.scene) == ""
     settings.contour_low = 0.0
-    assert "has to begin above 0" in contour_view.trouble(recorded.scene)
+    assert "has to begin above 0" in contour_view.refusal(recorded.scene)
     settings.contour_logarithmic = False
-    assert contour_view.trouble(recorded.scene) == ""
+    assert contour_view.refusal(recorded.scene) == ""
 
 
 def test_switching_the_add_on_off_puts_everything_back(blender, tmp_path):

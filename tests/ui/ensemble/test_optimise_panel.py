@@ -11,7 +11,8 @@ from support.scenarios import SHORT_RUN
 
 from bridge_demolition_addon.model.scenario import BlastSettings, Charge
 from bridge_demolition_addon.model.study.runs_table import read_runs
-from bridge_demolition_addon.ui.ensemble.optimise import PANELS, WORK, shown_optimisation
+from bridge_demolition_addon.ui.ensemble import optimise as sidebar
+from bridge_demolition_addon.ui.ensemble.optimise import WORK, shown_optimisation
 from bridge_demolition_addon.ui.scenario.values import show_scenario
 
 CHARGE = Charge(name="one", place_m=(6.0, 0.0, 1.0), mass_kg=20.0)
@@ -41,11 +42,11 @@ def panel(extension, tmp_path):
 
 def test_an_optimisation_is_stopped_goes_on_and_shows_its_result(blender, panel, tmp_path):
     ops, folder = blender.ops.bda, tmp_path / "optimised"
-    assert {"bda.start_optimise", "objective", "candidates", "optimise_criterion"} <= set(drawn(blender, PANELS))
+    assert {"bda.start_optimise", "objective", "candidates", "optimise_criterion"} <= set(drawn(blender, sidebar))
     assert not ops.stop_optimise.poll() and not ops.open_tradeoff.poll()
     assert ops.start_optimise() == {"FINISHED"}
     assert not ops.start_optimise.poll()
-    running = drawn(blender, PANELS)
+    running = drawn(blender, sidebar)
     assert "bda.stop_optimise" in running and "0 of 12 runs" in running
     look_in_until(WORK, lambda: WORK.session.done >= 1)
     assert ops.stop_optimise() == {"FINISHED"}
@@ -58,7 +59,7 @@ def test_an_optimisation_is_stopped_goes_on_and_shows_its_result(blender, panel,
     assert len(table) == 12 and [row.inputs for row in table.rows[: len(kept)]] == [row.inputs for row in kept.rows]
     best = json.loads((folder / "optimise.json").read_text(encoding="utf-8"))
     assert 1.0 <= best["values"]["charges.mass_kg"] <= 40.0
-    found = drawn(blender, PANELS)
+    found = drawn(blender, sidebar)
     assert f"Candidate {best['candidate']} of 10 did best:" in found and "bda.open_tradeoff" in found
     assert WORK.result.picture == folder / "tradeoff.png" and ops.open_tradeoff.poll()
 

@@ -10,8 +10,9 @@ from support.scenarios import SHORT_RUN
 
 from bridge_demolition_addon.model.scenario import BlastSettings, Charge
 from bridge_demolition_addon.model.study.runs_table import read_runs
+from bridge_demolition_addon.ui.ensemble import search as sidebar
 from bridge_demolition_addon.ui.ensemble import session
-from bridge_demolition_addon.ui.ensemble.search import PANELS, WORK, shown_search
+from bridge_demolition_addon.ui.ensemble.search import WORK, shown_search
 from bridge_demolition_addon.ui.scenario.values import show_scenario
 
 VERY_SHORT = replace(SHORT_RUN, time=replace(SHORT_RUN.time, duration_s=0.1))
@@ -31,10 +32,10 @@ def panel(extension, tmp_path):
 
 def test_a_search_is_stopped_gone_on_with_and_told(blender, panel, tmp_path):
     ops, folder = blender.ops.bda, tmp_path / "search"
-    assert "bda.start_search" in drawn(blender, PANELS)
+    assert "bda.start_search" in drawn(blender, sidebar)
     assert not ops.stop_search.poll() and not ops.open_search_curve.poll()
     assert ops.start_search() == {"FINISHED"}
-    assert not ops.start_search.poll() and "bda.stop_search" in drawn(blender, PANELS)
+    assert not ops.start_search.poll() and "bda.stop_search" in drawn(blender, sidebar)
     look_in_until(WORK, lambda: WORK.session.done >= 1)
     assert ops.stop_search() == {"FINISHED"}
     kept = read_runs(folder / "trials.csv")
@@ -47,7 +48,7 @@ def test_a_search_is_stopped_gone_on_with_and_told(blender, panel, tmp_path):
     heights = [row.inputs["ball.drop_height_m"] for row in table.rows]
     assert all(0.05 <= height <= 0.1 for height in heights) and len(set(heights)) > 1
     assert json.loads((folder / "search.json").read_text(encoding="utf-8"))["successes"] == 0
-    told = drawn(blender, PANELS)
+    told = drawn(blender, sidebar)
     assert "0 of 8 runs met all criteria: the criteria were never met in the range." in told
     assert "bda.open_search_curve" in told and (folder / "curve.png").stat().st_size > 0
     session.unregister()
@@ -98,9 +99,9 @@ def test_values_under_earlier_names_are_read(extension, panel, capsys):
 
 
 def test_any_key_of_the_scenario_is_searched_along(blender, panel):
-    assert "key" not in drawn(blender, PANELS) and "lowest" in drawn(blender, PANELS)
+    assert "key" not in drawn(blender, sidebar) and "lowest" in drawn(blender, sidebar)
     panel.search_quantity, panel.search.key, panel.search.factor = "ANOTHER_KEY", "time.gravity_m_s2", False
-    assert "key" in drawn(blender, PANELS)
+    assert "key" in drawn(blender, sidebar)
 
 
 def test_a_search_file_is_shown_with_its_scenario(blender, panel, tmp_path):

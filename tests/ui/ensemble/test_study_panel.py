@@ -20,7 +20,8 @@ from bridge_demolition_addon.studies.run_process import RunLimits, RunProcess
 from bridge_demolition_addon.studies.run_program import run_program_command
 from bridge_demolition_addon.studies.versions import versions_with
 from bridge_demolition_addon.ui.ensemble import session
-from bridge_demolition_addon.ui.ensemble.study import PANELS, WORK, shown_study
+from bridge_demolition_addon.ui.ensemble import study as sidebar
+from bridge_demolition_addon.ui.ensemble.study import WORK, shown_study
 from bridge_demolition_addon.ui.scenario.values import show_scenario, show_table
 
 HEIGHT = Vary(key="ball.drop_height_m", distribution="uniform", lowest=0.05, highest=2.0)
@@ -176,17 +177,17 @@ def test_draws_run_in_blenders_own_program_where_there_is_one(blender, tmp_path)
 
 
 def test_the_panels_show_what_varies_the_course_and_the_findings(blender, panel):
-    assert {"bda.start_study", "1  ball.drop_height_m"} <= set(drawn(blender, PANELS))
+    assert {"bda.start_study", "1  ball.drop_height_m"} <= set(drawn(blender, sidebar))
     blender.ops.bda.start_study()
-    running = drawn(blender, PANELS)
+    running = drawn(blender, sidebar)
     assert {"0 of 3 runs", "bda.pause_study", "bda.stop_study"} <= set(running)
     assert "bda.start_study" not in running
     assert running.index("bda.stop_study") < running.index("0 of 3 runs")  # lines that come move no button
     blender.ops.bda.pause_study()
-    assert {"0 of 3 runs, paused", "bda.resume_study"} <= set(drawn(blender, PANELS))
+    assert {"0 of 3 runs, paused", "bda.resume_study"} <= set(drawn(blender, sidebar))
     blender.ops.bda.resume_study()
     look_in_until(WORK)
-    found = drawn(blender, PANELS)
+    found = drawn(blender, sidebar)
     assert found[-len(WORK.result.sentences) - 2 : -2] == list(WORK.result.sentences)
     assert found[-2:] == ["show_study", "bda.open_worst_draw"]
 
@@ -202,7 +203,7 @@ def test_the_panels_say_why_a_study_ended_before_its_end(blender, panel, tmp_pat
         session.look_in()
         time.sleep(0.05)
     assert str(draws) in WORK.why_ended
-    assert WORK.why_ended in drawn(blender, PANELS)
+    assert WORK.why_ended in drawn(blender, sidebar)
 
 
 def test_switching_the_extension_off_ends_a_study(blender, tmp_path):

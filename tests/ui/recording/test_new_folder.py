@@ -5,8 +5,8 @@ import pytest
 from support.checkout import SMALL
 
 from bridge_demolition_addon.model.results.arrays import RESULTS_FILE
-from bridge_demolition_addon.ui.recording.new_folder import documents_folder, new_folder
-from bridge_demolition_addon.ui.scenario.next_step import next_step
+from bridge_demolition_addon.ui.recording.paths import documents_folder, new_folder
+from bridge_demolition_addon.ui.scenario.hints import next_step
 
 
 @pytest.fixture

@@ -13,7 +13,7 @@ from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.scenario import Charge
 from bridge_demolition_addon.model.scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
 from bridge_demolition_addon.model.scenario.file import read_scenario
-from bridge_demolition_addon.ui.scenario.breaking_note import breaking_note
+from bridge_demolition_addon.ui.scenario.hints import breaking_note
 from bridge_demolition_addon.ui.scenario.prop import PRESETS, default_scenario
 from bridge_demolition_addon.ui.scenario.values import scenario_of, show_scenario
 

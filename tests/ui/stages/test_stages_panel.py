@@ -16,8 +16,8 @@ from bridge_demolition_addon.model.scenario import Equipment
 from bridge_demolition_addon.simulation.blender_events import contours_of
 from bridge_demolition_addon.ui.contours import view as contour_view
 from bridge_demolition_addon.ui.scenario.values import show_scenario
-from bridge_demolition_addon.ui.stages.checked import checked_in
-from bridge_demolition_addon.ui.stages.ui import CLASSES
+from bridge_demolition_addon.ui.stages.shown import checked_in
+from bridge_demolition_addon.ui.stages.ui import BDA_PT_stages
 
 EXCAVATOR = Equipment(name="excavator", mass_kg=10_000.0, place_m=(6.0, 0.0), footprint_m=(2.0, 2.0), from_s=0.5)
 STANDS = replace(
@@ -54,8 +54,7 @@ def drawn(blender):
         region=SimpleNamespace(width=100_000),  # a sentence on a line
         preferences=SimpleNamespace(system=SimpleNamespace(ui_scale=1.0)),
     )
-    for panel in CLASSES:
-        without_blender(panel)(Told(context)).draw(context)
+    without_blender(BDA_PT_stages)(Told(context)).draw(context)
     return found
 
 
@@ -100,7 +99,7 @@ def test_stages_are_checked_told_and_shown_before_anything_is_run(blender, panel
     # Every shard has the utilisation of the connection of its own that is used most: the largest is that of the table.
     assert np.nanmax(contours.used[1]) == pytest.approx(float(rows[1]["largest_utilisation"]), rel=1e-4)
     frame, _ = contours_of(scene).shown_frame()
-    assert frame.frame == 1 and contour_view.trouble(scene) == ""
+    assert frame.frame == 1 and contour_view.refusal(scene) == ""
     panel.contours = False
 
 
@@ -110,13 +109,13 @@ def test_stages_of_another_bridge_are_not_shown(blender, panel):
     panel.scenario.seed += 1
     ops.build_scenario()
     ops.show_utilisation()
-    assert contour_view.trouble(scene).startswith("stages: they are of another bridge than the scene has")
+    assert contour_view.refusal(scene).startswith("stages: they are of another bridge than the scene has")
 
 
 def test_utilisation_without_stages_says_what_to_do(blender, panel):
     blender.ops.bda.build_scenario()
     panel.contour_quantity, panel.contours = ContourQuantity.UTILISATION.name, True
-    assert contour_view.trouble(blender.context.scene).startswith("Utilisation at rest is that of stages: check them")
+    assert contour_view.refusal(blender.context.scene).startswith("Utilisation at rest is that of stages: check them")
     assert contours_of(blender.context.scene).shown_frame() is None
 
 
