@@ -26,18 +26,9 @@ _CIRCLE_SEGMENTS = 64
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ExclusionZone:
-    """Areas of an exclusion zone, each on its own, and the whole.
+    """Areas of an exclusion zone: the bridge's plan, the designed drop area with it, and debris at any time of the run.
 
-    Attributes
-    ----------
-    plan
-        What the bridge covers at first.
-    drop
-        The designed drop area, the plan included.
-    debris
-        What shards and balls cover at any time of the run.
-    whole
-        All of these with the buffer around them.
+    The whole is all of these with the buffer around them.
     """
 
     plan: CrossSection
@@ -47,13 +38,13 @@ class ExclusionZone:
 
     @property
     def largest_distance_m(self) -> float:
-        """Largest distance of the zone's edge from the bridge's plan."""
+        """Return the largest distance of the zone's edge from the bridge's plan."""
         corners = np.concatenate(outlines(self.whole))
         return float(distances_outside(self.plan, corners).max())
 
     @property
     def bounds_m(self) -> tuple[float, float, float, float]:
-        """Smallest x and y, largest x and y."""
+        """Return smallest x and y, largest x and y."""
         return tuple(self.whole.bounds())
 
 

@@ -1,4 +1,4 @@
-"""The ground plan of bodies: what their convex hulls cover, before, after and on the way."""
+"""The area that convex hulls of bodies cover in plan, and how far they get from it."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _STRAIGHT_M = 0.01
 
 
 def corners_at(results: Results, step: int, bodies: Rows) -> list[np.ndarray]:
-    """Vertices (v, 3) of each of the bodies in the world at a recorded step, m."""
+    """Return vertices (v, 3) of each of the bodies in the world at a recorded step, m."""
     if not len(bodies):
         return []
     own = results.inventory.vertices_by_body()
@@ -33,33 +33,27 @@ def corners_at(results: Results, step: int, bodies: Rows) -> list[np.ndarray]:
 
 
 def footprint(results: Results, bodies: Rows, step: int) -> CrossSection:
-    """What the convex hulls of bodies cover in plan at a recorded step; where they overlap it counts once."""
+    """Return the area that the convex hulls of bodies cover in plan at a recorded step, overlaps once."""
     return united(plan_hulls(results, bodies, step))
 
 
 def plan_hulls(results: Results, bodies: Rows, step: int) -> list[CrossSection]:
-    """What the convex hull of each of the bodies covers in plan at a recorded step."""
+    """Return the area that the convex hull of each body covers in plan at a recorded step."""
     return [CrossSection.hull_points(corners[:, :2]) for corners in corners_at(results, step, bodies)]
 
 
 def check_covers_ground(results: Results) -> None:
-    """Make sure that a bridge covers an area in plan at first, which distances are measured from.
-
-    Raises
-    ------
-    OutputError
-        All its shards are flat or points in plan.
-    """
+    """Check that a bridge covers an area in plan at first, which distances are measured from."""
     shards = results.inventory.of_kind("shard")
     if len(shards) and footprint(results, shards, 0).is_empty():
         raise OutputError("vertices_m: expected shards that cover an area in plan, found lines and points")
 
 
 def swept_footprint(results: Results, bodies: Rows) -> CrossSection:
-    """What the convex hulls of bodies cover in plan at any time.
+    """Return the area that the convex hulls of bodies cover in plan at any time.
 
     Between two recorded steps the hull of both positions is taken: all that a body sweeps which keeps its direction,
-    and a little more of one that turns.
+    and a little more of one that rotates.
     """
     own = results.inventory.vertices_by_body()
     at_first = footprint(results, bodies, 0)
@@ -73,7 +67,7 @@ def swept_footprint(results: Results, bodies: Rows) -> CrossSection:
 
 
 def plans_of(results: Results, body: int, corners: np.ndarray) -> np.ndarray:
-    """Corners (k, v, 2) of a body in plan at all recorded steps."""
+    """Return the corners (k, v, 2) of a body in plan at all recorded steps."""
     places, rotations = results.frames.positions_m[:, body, :2], results.frames.rotations[:, body, :2]
     return transformed(rotations[:, None], corners) + places[:, None]
 
@@ -85,20 +79,20 @@ def straightened(area: CrossSection) -> CrossSection:
 
 
 def _covers_box(area: CrossSection, points: np.ndarray) -> bool:
-    """Whether an area covers the box around points (..., 2)."""
+    """Return whether an area covers the box around points (..., 2)."""
     lowest, highest = points.min(axis=(0, 1)), points.max(axis=(0, 1))
     box = CrossSection.square((highest - lowest).tolist()).translate(lowest.tolist())
     return (box - area).is_empty()
 
 
 def _sweeps(plans: np.ndarray) -> list[CrossSection]:
-    """What plans (k, v, 2) cover on each straight part of a way, and where it rests."""
+    """Return the areas that plans (k, v, 2) cover on each straight part of a path, and at rest."""
     steps = _ends_of_parts(plans)
     return [CrossSection.hull_points(np.concatenate(plans[start : end + 1])) for start, end in pairwise(steps)]
 
 
 def _ends_of_parts(plans: np.ndarray) -> list[int]:
-    """Steps at which parts of a way (k, v, 2) meet, and the first and last."""
+    """Return the steps at which parts of a path (k, v, 2) meet, and the first and last."""
     last = len(plans) - 1
     bends = np.zeros(last + 1)
     bends[1:-1] = np.abs(np.diff(plans, 2, axis=0)).max(axis=(1, 2), initial=0.0)
@@ -114,6 +108,5 @@ def _ends_of_parts(plans: np.ndarray) -> list[int]:
 
 
 def _first_above(distances_m: np.ndarray) -> int:
-    """How many distances (k,) come before the first that counts."""
     counts = distances_m > _STRAIGHT_M
     return int(counts.argmax()) if counts.any() else len(counts)

@@ -1,4 +1,4 @@
-"""What debris comes to lie on: surfaces such as water or the carriageway below, and what is under the ground."""
+"""Debris on surfaces such as water or the carriageway below, and bodies under the ground."""
 
 from __future__ import annotations
 
@@ -17,18 +17,9 @@ _BELOW_M = 0.1
 
 @dataclass(frozen=True, slots=True)
 class SurfaceDebris:
-    """Debris on a surface.
+    """Debris on a surface: `bodies` (d,) whose centres lie over it in plan in the end, and not below it.
 
-    Attributes
-    ----------
-    name, kind : str
-        What the surface is called, and what it is.
-    bodies : (d,) int
-        Shards whose centres lie over it in plan in the end, and not below it.
-    mass_kg : float
-        What they weigh together.
-    covered_m2 : float
-        Part of its area that debris covers.
+    `covered_m2` is the part of its area that debris covers.
     """
 
     name: str
@@ -54,7 +45,7 @@ def debris_on_surfaces(results: Results, debris: Debris) -> tuple[SurfaceDebris,
 
 
 def bodies_under_ground(results: Results) -> np.ndarray:
-    """Return the shards and balls that are all below the ground in the end: they went through it, or off its edge."""
+    """Return shards and balls that lie wholly below the ground in the end: they fell through it, or off its edge."""
     results = relative_to_ground(results)
     inventory, ground = results.inventory, results.ground()
     bodies = np.concatenate([inventory.of_kind("shard"), inventory.of_kind("ball")])

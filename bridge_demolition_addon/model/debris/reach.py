@@ -14,13 +14,13 @@ from .footprint import plans_of, straightened
 
 
 def bodies_that_moved(results: Results, bodies: np.ndarray) -> np.ndarray:
-    """Return those of the bodies that were farther than `MOVED_M` from their first place at a recorded time."""
+    """Return the bodies that were farther than `MOVED_M` from their first position at a recorded time."""
     places = results.frames.positions_m[:, bodies]
     return bodies[distance(places, places[0]).max(axis=0, initial=0.0) > MOVED_M]
 
 
 def reaches_on_the_way(results: Results, bodies: Rows, plan: CrossSection) -> np.ndarray:
-    """Return how far each body sticks out of a plan at any recorded time, at most, m (b,); 0 where it stays within."""
+    """Return the debris distance of each body from a plan at any recorded time, m (b,); 0 within it."""
     own, sides = results.inventory.vertices_by_body(), straightened(plan)
     farthest = np.zeros(len(bodies))
     for row, body in enumerate(bodies):
@@ -30,7 +30,7 @@ def reaches_on_the_way(results: Results, bodies: Rows, plan: CrossSection) -> np
 
 
 def _steps_with_news(results: Results, body: int) -> np.ndarray:
-    """Which recorded steps (k,) find a body elsewhere, or turned otherwise, than the one before."""
+    """Return which recorded steps (k,) show a body in another position or rotation than the one before."""
     places, rotations = results.frames.positions_m[:, body], results.frames.rotations[:, body]
     news = np.ones(len(places), bool)
     news[1:] = (np.diff(places, axis=0) != 0.0).any(axis=1) | (np.diff(rotations, axis=0) != 0.0).any(axis=(1, 2))

@@ -25,22 +25,14 @@ class Debris:
 
     Attributes
     ----------
-    bodies : (d,) int
-        Indices of the shards.
-    throws_m : (d,) float
-        Horizontal distance of each from where it was at first, between centres of mass.
+    bodies, throws_m, masses_kg : (d,) int, (d,) float, (d,) float
+        Indices of the shards, horizontal distances between their first and last centres of mass, and masses.
     reaches_m : (d,) float
-        How far each sticks out of the bridge's first outline in plan, 0 for one that lies within it.
-    masses_kg : (d,) float
-        Their masses.
-    area
-        What they cover in plan.
-    outline
-        What all shards covered at first.
+        Debris distance of each from the bridge's first outline in plan, 0 for one that lies within it.
+    area, outline
+        Areas that debris covers in plan, and that all shards covered at first.
     highest_m
         Largest height of any of them above the ground below; nan without debris.
-    ground
-        What they lie on.
     """
 
     bodies: np.ndarray
@@ -54,7 +46,6 @@ class Debris:
 
 
 def debris_of(results: Results) -> Debris:
-    """Return the debris at the last recorded step, by places on the ground."""
     results = relative_to_ground(results)
     shards = results.inventory.of_kind("shard")
     first, last = results.frames.positions_m[0], results.frames.positions_m[-1]
@@ -74,13 +65,13 @@ def debris_of(results: Results) -> Debris:
 
 
 def _above(ground: RecordedGround, corners: Sequence[np.ndarray]) -> Iterator[np.ndarray]:
-    """Give the heights (v,) of corners, d times (v, 3), above the ground below each."""
+    """Yield the heights (v,) of corners, d times (v, 3), above the ground below each."""
     for corner in corners:
         yield corner[:, 2] if ground.is_flat else corner[:, 2] - ground.heights_at(corner[:, :2])
 
 
 def _reaches(outline: CrossSection, corners: Sequence[np.ndarray]) -> np.ndarray:
-    """Return how far bodies with these corners, d times (v, 3), stick out of an outline in plan, (d,)."""
+    """Return the debris distances (d,) of corners, d times (v, 3), from an outline in plan."""
     if not len(corners):
         return np.zeros(0)
     distances = distances_outside(straightened(outline), np.concatenate(corners)[:, :2])
@@ -101,15 +92,7 @@ def percentiles_by_mass(values: np.ndarray, masses_kg: np.ndarray, percents: Seq
 
 @dataclass(frozen=True, eq=False, slots=True)
 class HeightMap:
-    """Heights of a pile over a grid in plan.
-
-    Attributes
-    ----------
-    xs_m, ys_m : (i,) and (j,) float
-        Middles of the cells.
-    heights_m : (j, i) float
-        Height of the highest surface over the middle of each cell, above the ground there; nan where there is none.
-    """
+    """Heights (j, i) of a pile above the ground, over middles (i,) and (j,) of cells in plan; nan without debris."""
 
     xs_m: np.ndarray
     ys_m: np.ndarray
@@ -117,7 +100,7 @@ class HeightMap:
 
     @property
     def volume_m3(self) -> float:
-        """Volume between the ground and the surface of the pile, holes under it included."""
+        """Return the volume between the ground and the surface of the pile, holes under it included."""
         if not len(self.xs_m):
             return 0.0
         cell = (self.xs_m[1] - self.xs_m[0]) * (self.ys_m[1] - self.ys_m[0])

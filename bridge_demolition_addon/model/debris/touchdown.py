@@ -46,16 +46,8 @@ _NEAREST_M = 1.0
 class Landings:
     """Bodies (b,) that fell and were stopped, in the order in which they were.
 
-    Attributes
-    ----------
-    bodies : (b,) int
-    times_s : (b,) float
-        When each was fastest on its way down: the frame before it was slowed.
-    masses_kg : (b,) float
-    energies_j : (b,) float
-        Kinetic energy of its fall then.
-    places_m : (b, 3) float
-        Where it was then.
+    Each has the time at which it was fastest on its way down, the frame before it was slowed, and the kinetic energy of
+    its fall and its position (b, 3) then.
     """
 
     bodies: np.ndarray
@@ -68,25 +60,16 @@ class Landings:
         return len(self.bodies)
 
     def together(self) -> list[slice]:
-        """Return what lands within `TOGETHER_S` from each landing on, as slices of these."""
+        """Return the landings within `TOGETHER_S` from each one on, as slices."""
         ends = np.searchsorted(self.times_s, self.times_s + TOGETHER_S, side="right")
         return [slice(begin, int(end)) for begin, end in enumerate(ends)]
 
 
 @dataclass(frozen=True, slots=True)
 class Shaking:
-    """How the ground is shaken at a place by what shakes it most.
+    """How the ground is shaken at a position by bodies that land together from a time on.
 
-    Attributes
-    ----------
-    velocity_m_s : float
-        Peak particle velocity by Zhou's formula.
-    time_s : float
-        When what shakes it begins to land.
-    mass_kg, energy_j : float
-        Mass and energy of what lands together.
-    distance_m : float
-        To the middle of that, by energy, in plan.
+    `velocity_m_s` is the peak particle velocity by Zhou's formula, `distance_m` in plan to their middle by energy.
     """
 
     velocity_m_s: float
@@ -97,10 +80,10 @@ class Shaking:
 
 
 def landings(results: Results) -> Landings:
-    """Return what fell and was stopped: all shards and balls, each at its fastest on the way down.
+    """Return the shards and balls that fell and were stopped.
 
-    A frame lies between that moment and the one in which it is stopped, so that it may land with one frame of gravity
-    more: this is counted as if it did.
+    A frame lies between the fastest moment of a body and the one in which it is stopped, so that it may land with one
+    frame of gravity more: this is counted as if it did.
     """
     inventory, frames = results.inventory, relative_to_ground(results).frames
     bodies = np.concatenate((inventory.of_kind("shard"), inventory.of_kind("ball")))
@@ -120,7 +103,7 @@ def landings(results: Results) -> Landings:
 
 
 def shaking_at(place_m: ArrayLike, landed: Landings) -> Shaking | None:
-    """Return what shakes the ground most at a place (3,), m; None where nothing landed."""
+    """Return the largest shaking of the ground at a position (3,), m; None where nothing landed."""
     return max((_shaking(place_m, landed, each) for each in landed.together()), key=_velocity, default=None)
 
 
@@ -146,16 +129,7 @@ def _velocity(shaking: Shaking) -> float:
 
 @dataclass(frozen=True, slots=True)
 class VibrationLimit:
-    """A limit of the peak particle velocity.
-
-    Attributes
-    ----------
-    building : str
-        What it is for.
-    velocity_m_s : float
-    source : str
-        Where it is from.
-    """
+    """A limit of the peak particle velocity for a kind of building."""
 
     building: str
     velocity_m_s: float

@@ -1,4 +1,4 @@
-"""Who enters a zone, and when: convex hulls of moving bodies against a prism over a polygon."""
+"""Bodies that enter a zone, and when: convex hulls of moving bodies against a prism over a polygon."""
 
 from __future__ import annotations
 
@@ -29,17 +29,7 @@ _FAR_M = 1e5
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """A body that enters a zone.
-
-    Attributes
-    ----------
-    body
-        Its index.
-    time_s
-        When its hull first reaches into the zone.
-    stays
-        Whether it reaches into it at the end as well.
-    """
+    """A body that enters a zone: when its hull first extends into it, and whether it does so at the end as well."""
 
     body: int
     time_s: float
@@ -48,18 +38,9 @@ class Entry:
 
 @dataclass(frozen=True, slots=True)
 class ZoneWatch:
-    """What happened in a zone.
+    """Bodies that entered a zone, in order, and those that extended into it from the beginning, such as a pier.
 
-    Attributes
-    ----------
-    zone
-        The zone.
-    entries
-        Bodies that entered it, the first one first.
-    there_before
-        Indices of bodies that reached into it from the beginning, such as a pier that stands in it.
-    mass_within_kg
-        Mass of all bodies that reach into it at the end and were not there before, whole bodies counted.
+    `mass_within_kg` is that of all bodies in it at the end that were not there before, whole bodies counted.
     """
 
     zone: Zone
@@ -69,10 +50,10 @@ class ZoneWatch:
 
 
 def watch_zone(results: Results, zone: Zone, bodies: Rows) -> ZoneWatch:
-    """Follow bodies through a whole run.
+    """Return the entries of bodies into a zone over a whole run.
 
-    Between two recorded steps a body is taken to move and turn evenly. Touching is not entering: some volume has to be
-    within.
+    Between two recorded steps a body is taken to move and rotate evenly. Touching is not entering: some volume has to
+    be within.
     """
     prism = _Prism.of(zone)
     there_before, entries = [], []
@@ -106,11 +87,11 @@ class _Prism:
         return cls(solid, np.append(corners.min(axis=0), bottom), np.append(corners.max(axis=0), top))
 
     def may_meet(self, low: np.ndarray, high: np.ndarray) -> np.ndarray:
-        """Whether boxes, given by corners (k, 3), overlap the one around the prism."""
+        """Return whether boxes, given by corners (k, 3), overlap the one around the prism."""
         return ((low < self.high) & (high > self.low)).all(axis=-1)
 
     def meets(self, corners: np.ndarray) -> bool:
-        """Whether the convex hull of corners (v, 3) reaches into the prism."""
+        """Return whether the convex hull of corners (v, 3) extends into the prism."""
         if not self.may_meet(corners.min(axis=0), corners.max(axis=0)):
             return False
         return (hull(corners) ^ self.solid).volume() > 0.0
@@ -128,7 +109,7 @@ def _coming_near(results: Results, prism: _Prism, bodies: np.ndarray) -> np.ndar
 
 
 def _first_entry(results: Results, prism: _Prism, body: int) -> float | None:
-    """When a body that is outside at first reaches into a zone, s."""
+    """Return when a body that is outside at first extends into a zone, s."""
     corners = results.inventory.vertices_of(body)
     radius = float(length(corners).max(initial=0.0))
     places = results.frames.positions_m[:, body]
@@ -165,13 +146,13 @@ class _Motion:
         return transformed(rotated(self.rotation, share * self.turn), self.corners) + self.place + share * self.shift
 
     def bulge_m(self, share: float) -> float:
-        """How far a corner's path between two positions so many shares apart leaves the straight line, at most."""
+        """Return the largest distance of a corner's path, between positions a share apart, from a straight line."""
         angle = min(share * float(length(self.turn)), math.pi)
         return float(length(self.corners).max()) * (1.0 - float(cosine(angle / 2.0)))
 
 
 def _entry_between(motion: _Motion, prism: _Prism, first: float, last: float) -> float | None:
-    """When a body reaches into a zone between two shares of its motion, by halving what may hold the moment."""
+    """Return when a body enters a zone between two shares of its motion, by halving."""
     before, after = motion.at(first), motion.at(last)
     swept = np.concatenate([before, after])
     bulge = motion.bulge_m(last - first)

@@ -1,4 +1,4 @@
-"""Layers of reinforcing bars: what the user says of them, and what a section of a member with them bears."""
+"""Layers of reinforcing bars, and the moments that sections with them resist."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -56,12 +56,10 @@ class BarLayer(Table):
 
     @property
     def area_m2(self) -> float:
-        """Return the area of steel, m²."""
         return _SQUARE_METRE_PER_SQUARE_MILLIMETRE * self.area_mm2
 
     @property
     def yield_pa(self) -> float:
-        """Return the yield strength, Pa."""
         return NEWTON_PER_SQUARE_MILLIMETRE * self.yield_n_mm2
 
     @property
@@ -87,14 +85,8 @@ class BarLayer(Table):
 class ReinforcedSection:
     """A rectangular section with layers of bars.
 
-    Attributes
-    ----------
-    height_m, width_m : float
-        Across and along the layers.
-    compressive_pa : float
-        Strength of its concrete in compression.
-    depths_m, areas_m2, yields_pa : sequence of float
-        Of each layer: depth below the first edge, area and yield strength.
+    `compressive_pa` is the strength of its concrete. Each layer has a depth below the first edge, an area and a yield
+    strength; the width is that along the layers.
     """
 
     height_m: float
@@ -107,7 +99,7 @@ class ReinforcedSection:
     def moments_nm(self) -> tuple[float, float]:
         """Return the plastic moments with the first and with the other edge pressed.
 
-        Sections stay plane, concrete that is pulled bears nothing, and there is no axial force: EN 1992-1-1:2004, 6.1
+        Sections stay plane, concrete in tension resists nothing, and there is no axial force: EN 1992-1-1:2004, 6.1
         (2). With one layer that yields, this is M = A_s f_y (d - a / 2) with a = A_s f_y / (b f_c).
         """
         return self._moment(self.depths_m), self._moment([self.height_m - depth_m for depth_m in self.depths_m])
@@ -115,9 +107,9 @@ class ReinforcedSection:
     def across_cracks_n(self) -> list[float]:
         """Return the force at which each layer yields across a crack that closes at one of its edges.
 
-        A crack between rigid bodies turns about its pressed edge, and all bars pull; in a section concrete is pressed
-        over some depth, and bars there do not pull. With these forces both plastic moments are those of the section.
-        In pure tension they bear somewhat less than the bars.
+        A crack between rigid bodies rotates about its pressed edge, and all bars are in tension; in a section concrete
+        is pressed over some depth, and bars there are not. With these forces both plastic moments are those of the
+        section. In pure tension they resist somewhat less than the bars.
         """
         first, other = self.moments_nm()
         pulls = [area * strength for area, strength in zip(self.areas_m2, self.yields_pa, strict=True)]
@@ -135,7 +127,7 @@ class ReinforcedSection:
     def _shares(
         self, first: float, other: float, near: tuple[float, float], far: tuple[float, float]
     ) -> tuple[float, float]:
-        """Parts of the forces of the near and of the far layers that bear both moments."""
+        """Return parts of the forces of near and far layers that resist both moments."""
         (of_near, by_near), (of_far, by_far) = near, far
         from_near, from_far = self.height_m * of_near - by_near, self.height_m * of_far - by_far
         whole = by_near * from_far - by_far * from_near
@@ -145,12 +137,11 @@ class ReinforcedSection:
         return (of_near, of_far) if of_far >= 0.0 else (other / from_near, 0.0)
 
     def _resultant(self, pulls: Sequence[float], chosen: Sequence[bool]) -> tuple[float, float]:
-        """Force of the chosen layers, and its moment about the first edge."""
         rows = [(pull, depth) for pull, depth, each in zip(pulls, self.depths_m, chosen, strict=True) if each]
         return sum(pull for pull, _ in rows), sum(pull * depth for pull, depth in rows)
 
     def _moment(self, depths_m: Sequence[float]) -> float:
-        """Plastic moment with the edge pressed that depths count from."""
+        """Return the plastic moment with the edge pressed that depths count from."""
         low, high = 0.0, self.height_m / _BLOCK
         for _ in range(_HALVINGS):
             neutral = 0.5 * (low + high)
@@ -166,7 +157,7 @@ class ReinforcedSection:
         return _BLOCK * neutral_m * self.width_m * self.compressive_pa
 
     def _pulls(self, neutral_m: float, depths_m: Sequence[float]) -> list[float]:
-        """Forces of the layers with the neutral axis so deep, as concrete is crushed at the edge; tension positive."""
+        """Return forces of the layers with the neutral axis so deep, as concrete is crushed; tension positive."""
         strains = [_CRUSHING_STRAIN * (depth - neutral_m) / neutral_m for depth in depths_m]
         return [
             area * min(max(MODULUS_PA * strain, -strength), strength)

@@ -46,7 +46,6 @@ class Material(Table):
 
     @property
     def strength(self) -> Strength:
-        """Return its strengths."""
         return Strength.in_n_mm2(
             self.compression_n_mm2, self.tension_n_mm2, self.shear_n_mm2, self.torsion_n_mm2, self.bending_n_mm2
         )
@@ -74,7 +73,6 @@ def strengths(materials: Iterable[Material]) -> Mapping[str, Strength]:
 
 
 def moduli(materials: Iterable[Material], name: str) -> ElasticModuli:
-    """Return how the material of a name deforms."""
     own = {material.name: material for material in materials}
     if name not in own:
         return ELASTIC_MODULI[name]

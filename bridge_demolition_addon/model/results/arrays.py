@@ -92,21 +92,10 @@ _UNREADABLE = (
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Results:
-    """A run.
+    """A run: bodies and connections, motion and loads, hits of the balls.
 
-    Attributes
-    ----------
-    load_sampling : str
-        Which sub-steps the loads come from. ``every sub-step``: loads are those of the whole frame. Otherwise they are
-        those of its last sub-step.
-    inventory : Inventory
-        Bodies and connections.
-    frames : FrameSeries
-        Motion and loads.
-    balls : BallHistory
-        Hits of the balls.
-    contacts : ContactHistory or None
-        Contacts in the last sub-step of each frame; None where they were not recorded.
+    Where `load_sampling` is ``every sub-step``, loads are those of the whole frame, otherwise of its last sub-step.
+    `contacts` are those in the last sub-step of each frame; None where they were not recorded.
     """
 
     load_sampling: str
@@ -117,16 +106,16 @@ class Results:
 
     @classmethod
     def of_arrays(cls, arrays: Mapping[str, np.ndarray]) -> Results:
-        """Results from what `arrays` gives."""
+        """Return the results in arrays by their names in the files."""
         parts = _part(Inventory, arrays), frames_of(arrays), balls_of(arrays), contacts_of(arrays)
         return cls(str(arrays["reading"]), *parts)
 
     def arrays(self) -> dict[str, np.ndarray]:
-        """All arrays by their names in the file."""
+        """Return all arrays by their names in the files."""
         return dict(named_arrays(self))
 
     def ground(self) -> RecordedGround:
-        """The ground that the run was on, as it lay at first."""
+        """Return the ground that the run was on, as it lay at first."""
         inventory, terrain, surfaces = self.inventory, None, []
         for body in inventory.of_kind("ground"):
             triangles = inventory.triangles_of(body)
@@ -153,15 +142,9 @@ _STORED_NAMES[Results] = {"load_sampling": "reading"}
 
 
 def load_results(path: Path) -> Results:
-    """Read what `Results.save` wrote, or the frames that a run left which ended before its end.
+    """Read what `Results.save` wrote, or the frames of a run that was killed, by its file or the folder of the run.
 
-    Large arrays are mapped from copies: only what is looked at is read, and they stay as they are, whatever becomes of
-    the files.
-
-    Parameters
-    ----------
-    path : Path
-        File of the results, or of the frames; or the folder of the run.
+    Large arrays are mapped from copies: they are read as far as needed, and stay as they are when the files change.
 
     Raises
     ------
@@ -179,13 +162,13 @@ def load_results(path: Path) -> Results:
 
 
 def results_in(folder: Path) -> Path:
-    """Return the file in the folder of a run that its results are read from: that of a whole run, if it is there."""
+    """Return the file in the folder of a run that its results are read from: that of a whole run, if there is one."""
     left = folder / FRAMES_FILE
     return left if left.exists() and not (folder / RESULTS_FILE).exists() else folder / RESULTS_FILE
 
 
 def named_arrays(part: Any) -> Iterator[tuple[str, np.ndarray]]:
-    """Give the arrays of a dataclass and of those in it, by their names in the files; what is None is left out."""
+    """Yield the arrays of a dataclass and of those in it, by their names in the files; None is left out."""
     for field in fields(part):
         value = getattr(part, field.name)
         if is_dataclass(value):
@@ -221,7 +204,7 @@ def columns(rows: np.ndarray) -> dict[str, np.ndarray]:
 
 
 def _left_arrays(path: Path) -> dict[str, np.ndarray]:
-    """Return the arrays that a run has left on its way; of sub-steps and contacts, those of whole frames."""
+    """Return the arrays that a run was writing; of sub-steps and contacts, those of whole frames."""
     frames, inventory, balls = stored_rows(path), path.with_name(INVENTORY_FILE), path.with_name(BALLS_FILE)
     check_file(inventory)
     arrays = read_archive(inventory) | columns(frames) | _left_contacts(path.with_name(CONTACTS_FILE), frames)
@@ -243,7 +226,7 @@ def _left_contacts(path: Path, frames: np.ndarray) -> dict[str, np.ndarray]:
 
 
 def _part(kind: type[_Part], arrays: Mapping[str, np.ndarray], **known: Any) -> _Part:
-    """A part of the results, with the fields that are known already; arrays that may be None need not be there."""
+    """Return a part of the results, with the fields that are known already; arrays that may be None may be missing."""
     missing = {
         field.name for field in fields(kind) if field.default is None and _stored_name(kind, field.name) not in arrays
     }
@@ -252,7 +235,7 @@ def _part(kind: type[_Part], arrays: Mapping[str, np.ndarray], **known: Any) -> 
 
 
 def _work(arrays: Mapping[str, np.ndarray]) -> FrameWork:
-    """Work, which earlier versions did not record."""
+    """Return the work, which earlier versions did not record."""
     if _STORED_NAMES[FrameWork]["made_j"] in arrays:
         return _part(FrameWork, arrays)
     return FrameWork.unknown(len(arrays["frames"]), len(arrays["body_names"]))

@@ -1,4 +1,4 @@
-"""Checks that arrays read from the files of a run can be those of a run, before anything is calculated from them."""
+"""Checks of arrays read from the files of a run, before anything is calculated from them."""
 
 from __future__ import annotations
 
@@ -106,7 +106,7 @@ _KNOWN = (
 
 
 def check_arrays(arrays: Mapping[str, np.ndarray]) -> None:
-    """Make sure that arrays by their names in the file have the kinds, shapes and sizes of a run's."""
+    """Check that arrays by their names in the file have the kinds, shapes and sizes of a run's."""
     lengths: dict[str, tuple[int, str]] = {}
     for name, (kind, shape) in _SHAPES.items():
         if name in arrays:
@@ -127,7 +127,7 @@ def check_arrays(arrays: Mapping[str, np.ndarray]) -> None:
 
 
 def _check_triangles(arrays: Mapping[str, np.ndarray]) -> None:
-    """See that triangles, which only runs on ground that is not flat have, are of vertices of their own bodies."""
+    """Check that triangles, which only ground that is not flat has, are of vertices of their own bodies."""
     if "triangles" not in arrays and "triangle_counts" not in arrays:
         return
     for name in ("triangles", "triangle_counts"):
@@ -143,7 +143,7 @@ def _check_triangles(arrays: Mapping[str, np.ndarray]) -> None:
 
 
 def _check_contacts(arrays: Mapping[str, np.ndarray]) -> None:
-    """See that contacts, which only runs have that were asked for them, are of bodies that there are, in order."""
+    """Check that contacts, where they were recorded, are of existing bodies, in order."""
     if "contact_frames" not in arrays:
         return
     _expect("contact_frames", np.diff(arrays["contact_frames"]), lambda each: each >= 0, "numbers that do not fall")
@@ -161,7 +161,7 @@ def _check_kind(name: str, array: np.ndarray, kind: str) -> None:
 
 
 def _check_shape(name: str, array: np.ndarray, shape: str, lengths: dict[str, tuple[int, str]]) -> None:
-    """See that an array has a shape, and each letter of it the length that it has in the arrays before."""
+    """Check the shape of an array, in which a letter is the same length as in the arrays before."""
     if array.ndim != len(shape):
         raise OutputError(f"{name}: expected {len(shape)} axes, found {array.ndim}")
     for axis, (letter, found) in enumerate(zip(shape, array.shape, strict=True)):

@@ -21,18 +21,10 @@ _WHOLE = "whole structure"
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Span:
-    """Height of one span over time.
+    """Height of one span over k recorded steps; `bodies` (b,) are its shards.
 
-    Attributes
-    ----------
-    name
-        What it is called.
-    bodies : (b,) int
-        Indices of its shards.
-    heights_m, lowest_m : (k,) float
-        Height of its shards above the ground below each, the mean by mass and the least, between centres of mass.
-    levels_m : (k,) float
-        Height of its centre of mass above the scenario's origin.
+    `heights_m` and `lowest_m` (k,) are the heights of its shards' centres of mass above the ground below each, the mean
+    by mass and the least; `levels_m` (k,) that of its own centre of mass above the scenario's origin.
     """
 
     name: str
@@ -43,20 +35,15 @@ class Span:
 
     @property
     def drop_m(self) -> float:
-        """Height by which its centre of mass came down."""
+        """Return the height by which its centre of mass came down."""
         return float(self.levels_m[0] - self.levels_m[-1])
 
 
 def spans_of(results: Results, span_lengths_m: Sequence[float] = ()) -> tuple[Span, ...]:
-    """Return the spans of the deck, divided by where their shards were at first.
+    """Return the spans of the deck, with lengths from x = 0 on, divided by where their shards were at first.
 
-    Parameters
-    ----------
-    results
-        What was recorded.
-    span_lengths_m
-        Lengths of the spans from x = 0 on. Shards beyond the first or last axis belong to the nearest span. Without
-        them, or where no shard is of the deck, everything is one span.
+    Shards beyond the first or last axis belong to the nearest span. Without lengths, or where no shard is of the deck,
+    everything is one span.
     """
     results = relative_to_ground(results)
     shards, ground = results.inventory.of_kind("shard"), results.ground()
@@ -89,16 +76,9 @@ def collapse_progress(results: Results) -> np.ndarray:
 
 @dataclass(frozen=True, slots=True)
 class ShardRest:
-    """When the shards came to rest.
+    """When a shard first moved, and from when on none did; None where that never was.
 
-    Attributes
-    ----------
-    first_motion_s
-        When a shard first moved; None where none did.
-    at_rest_s
-        From when on no shard moved; None where some still did at the end, or none ever did.
-    moving_at_end
-        How many moved at the end.
+    `moving_at_end` counts those that still moved then.
     """
 
     first_motion_s: float | None
@@ -126,7 +106,7 @@ def _span(results: Results, ground: RecordedGround, name: str, bodies: np.ndarra
 
 
 def _above(ground: RecordedGround, places: np.ndarray) -> np.ndarray:
-    """Heights (k, b) of places (k, b, 3) above the ground below each; looked up again only where a body has moved."""
+    """Return heights (k, b) of positions (k, b, 3) above the ground; looked up again only where a body has moved."""
     if ground.is_flat:
         return places[..., 2]
     moved = np.ones(places.shape[:2], bool)
@@ -139,5 +119,5 @@ def _above(ground: RecordedGround, places: np.ndarray) -> np.ndarray:
 
 
 def _mean_by_mass(heights: np.ndarray, masses: np.ndarray) -> np.ndarray:
-    """Mean (k,) of heights (k, b), each body's counting by its mass (b,)."""
+    """Return the mean (k,) of heights (k, b), weighted by masses (b,)."""
     return (heights * masses).sum(axis=1) / masses.sum()

@@ -17,16 +17,9 @@ _SPHERE = 0.4
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Energy:
-    """Energies of all bodies that can move, over k recorded steps, J.
+    """Energies of all bodies that can move, over k recorded steps, (k,) J.
 
-    Attributes
-    ----------
-    times_s : (k,) float
-        Times.
-    potential_j : (k,) float
-        Above that of the lowest of all steps, so that it is never negative.
-    translation_j, rotation_j : (k,) float
-        Of the motion of centres of mass, and of rotation about them.
+    `potential_j` is above that of the lowest of all steps, so that it is never negative.
     """
 
     times_s: np.ndarray
@@ -36,26 +29,20 @@ class Energy:
 
     @property
     def kinetic_j(self) -> np.ndarray:
-        """Both parts of the kinetic energy, (k,)."""
         return self.translation_j + self.rotation_j
 
     @property
     def dissipated_j(self) -> np.ndarray:
-        """Energy lost since the first step, (k,): into impacts, friction, damping and breaking.
+        """Return the energy lost since the first step, (k,): into impacts, friction, damping and breaking.
 
-        Negative where something else than gravity does work, such as charges, a prescribed motion, or the solver
-        itself as it presses bodies apart.
+        Negative where something else than gravity does work, such as charges, a prescribed motion, or the solver.
         """
         total = self.potential_j + self.kinetic_j
         return total[0] - total
 
 
 def energy_of(results: Results, gravity_m_s2: float = STANDARD_GRAVITY_M_S2) -> Energy:
-    """Return the energies of the bodies that can move.
-
-    Those of rotation are calculated with the moments of inertia that Bullet gives its bodies, so that they are the
-    simulation's own; see `moments_of_inertia`.
-    """
+    """Return the energies of the bodies that can move, rotation by the `moments_of_inertia` of the simulation."""
     masses, frames = results.inventory.masses_kg, results.frames
     potentials = (gravity_m_s2 * frames.positions_m[:, :, 2] * masses).sum(axis=1)
     angular_velocities_rad_s = transformed_back(frames.rotations, frames.angular_velocities_rad_s)

@@ -1,8 +1,7 @@
-"""Digests by which two people see at once whether they have the same run.
+"""Digests by which two people see whether they have the same run: the same bits give the same digest.
 
-The same bits give the same digest. One digest is of what was built, one of how everything moved and broke, and one of
-all that came out. Where the first differs, something else was simulated. Where only the others do, Blender's own
-arithmetic differs.
+One is of what was built, one of how everything moved and broke, and one of all results. Where the first differs,
+something else was simulated. Where only the others do, Blender's own arithmetic differs.
 """
 
 from __future__ import annotations
@@ -44,7 +43,7 @@ def digest(parts: Mapping[str, Any]) -> str:
 
 
 def known_parts(record: Any) -> dict[str, Any]:
-    """Return the fields of a dataclass by their names, without those that are None."""
+    """Return the fields of a dataclass that are not None, by name."""
     parts = {item.name: getattr(record, item.name) for item in fields(record)}
     return {name: values for name, values in parts.items() if values is not None}
 

@@ -12,17 +12,16 @@ from .arrays import Results
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ContactForces:
-    """Contact forces over k recorded steps, each the mean over its frame.
+    """Contact forces over k recorded steps, (k,), each the mean over its frame.
 
     Attributes
     ----------
-    times_s : (k,) float
-    total_n : (k,) float
+    total_n
         Over all pairs of bodies in contact, as far as recorded: half the sum of the resultants of the contacts on
         every body. Contacts that press a body from two sides cancel in its resultant, so that it is a lower bound.
-    largest_n : (k,) float
+    largest_n
         Largest of these resultants on a shard.
-    ground_n : (k,) float
+    ground_n
         Upward force of the ground by contacts; foundations that still hold are connections and not in it.
     """
 
@@ -33,7 +32,7 @@ class ContactForces:
 
 
 def contact_forces(results: Results) -> ContactForces:
-    """Contact forces from the impulses of contacts in each frame; nan where nothing is known of them."""
+    """Return the contact forces from the impulses of contacts in each frame; nan where these are unknown."""
     durations = np.diff(results.frames.time_s, prepend=results.frames.time_s[0])
     impulses = results.frames.loads.body_contact_impulses_ns
     known = durations > 0.0
@@ -48,23 +47,13 @@ def contact_forces(results: Results) -> ContactForces:
 
 
 def largest_on_a_shard(results: Results, magnitudes: np.ndarray) -> np.ndarray:
-    """Largest of the magnitudes (k, n) of all bodies on any shard, (k,); 0 where there are none."""
+    """Return the largest of the magnitudes (k, n) of all bodies on any shard, (k,); 0 without shards."""
     return magnitudes[:, results.inventory.of_kind("shard")].max(axis=1, initial=0.0)
 
 
 @dataclass(frozen=True, slots=True)
 class Peak:
-    """The largest load of a body or connection.
-
-    Attributes
-    ----------
-    row
-        Index of the body or connection.
-    step
-        Recorded step in which it was.
-    force_n
-        The load.
-    """
+    """The largest load of a body or connection, the row, in a recorded step."""
 
     row: int
     step: int
@@ -72,16 +61,9 @@ class Peak:
 
 
 def most_loaded(magnitudes_n: np.ndarray, rows: np.ndarray, count: int = 10) -> list[Peak]:
-    """The rows with the largest load of the whole run, the largest first.
+    """Return those of the rows (r,) with the largest load of the whole run, the largest first.
 
-    Parameters
-    ----------
-    magnitudes_n : (k, n) float
-        Largest load of each row in each step; nan where it is not known.
-    rows : (r,) int
-        Which of the n rows are asked for.
-    count : int
-        How many at most.
+    `magnitudes_n` (k, n) is the largest load of each row in each step; nan where it is not known.
     """
     if not len(rows) or not len(magnitudes_n):
         return []
@@ -95,16 +77,9 @@ def most_loaded(magnitudes_n: np.ndarray, rows: np.ndarray, count: int = 10) -> 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class BreakingByKind:
-    """Connections of one kind over time.
+    """How many connections of a kind there are, and how many are broken at each recorded step, (k,).
 
-    Attributes
-    ----------
-    kind
-        Which members they join, such as ``deck - pier cap``, or ``foundation``.
-    count
-        How many there are.
-    broken
-        (k,) how many are broken at each recorded step.
+    The kind says which members they join, such as ``deck - pier cap``, or ``foundation``.
     """
 
     kind: str
@@ -113,7 +88,7 @@ class BreakingByKind:
 
 
 def breaking_by_kind(results: Results) -> list[BreakingByKind]:
-    """Connections by what they join, the most numerous kind first."""
+    """Return connections by what they join, the most numerous kind first."""
     kinds = _kinds(results)
     found = []
     for kind in np.unique(kinds):
@@ -123,7 +98,7 @@ def breaking_by_kind(results: Results) -> list[BreakingByKind]:
 
 
 def _kinds(results: Results) -> np.ndarray:
-    """What each of the connections joins, (m,) str."""
+    """Return the kind of each connection, (m,) str."""
     inventory, pairs = results.inventory, results.inventory.pairs
     if not len(pairs):
         return np.zeros(0, str)

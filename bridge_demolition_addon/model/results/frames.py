@@ -24,10 +24,8 @@ class _Recorded(Generic[_Count, _Number]):
     ----------
     number : int
         Blender's frame.
-    time_s : float
-        Simulated time since the start.
-    substep_s : float
-        Length of the sub-steps that led here; 0 for the first frame, in which no time passes.
+    time_s, substep_s : float
+        Simulated time since the start, and length of the sub-steps before; 0 for the first frame.
     positions_m, rotations : (n, 3) float, (n, 3, 3) float
         Centres of mass and rotation matrices.
     velocities_m_s, angular_velocities_rad_s : (n, 3) float
@@ -37,10 +35,6 @@ class _Recorded(Generic[_Count, _Number]):
         Whether each connection holds.
     blast_impulses_ns : (n, 3) float
         Impulse of all blasts in the frame; it is no part of the loads.
-    loads : FrameLoads
-        Loads by connections and contacts.
-    work : FrameWork
-        Work in the frame.
     """
 
     number: _Count
@@ -58,8 +52,6 @@ class _Recorded(Generic[_Count, _Number]):
 
 
 class Frame(_Recorded[int, float]):
-    """One frame."""
-
     __slots__ = ()
 
 
@@ -82,18 +74,9 @@ class FrameSeries(_Recorded[IntArray, FloatArray]):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class BallHistory:
-    """What hit b balls in each of s sub-steps.
+    """Impulses (s, b, 3) of the contacts of b balls in each of s sub-steps, and their velocities (s, b, 3) after it.
 
-    Attributes
-    ----------
-    bodies : (b,) int
-        Indices of the balls.
-    times_s : (s,) float
-        Simulated time at the end of each sub-step.
-    impulses_ns : (s, b, 3) float
-        Impulses of their contacts in it.
-    velocities_m_s : (s, b, 3) float
-        Velocities after it.
+    `bodies` (b,) are indices of the balls, `times_s` (s,) the ends of sub-steps.
     """
 
     bodies: np.ndarray
@@ -103,7 +86,6 @@ class BallHistory:
 
     @classmethod
     def unknown(cls) -> BallHistory:
-        """Return the history of no ball."""
         return cls(np.zeros(0, int), np.zeros(0), np.zeros((0, 0, 3)), np.zeros((0, 0, 3)))
 
 
@@ -111,20 +93,9 @@ class BallHistory:
 class ContactHistory:
     """The c contact points that carried a load in the last sub-steps of frames.
 
-    Attributes
-    ----------
-    frames : (c,) int
-        Blender's frame of each, in ascending order.
-    bodies : (c, 2) int
-        First and second body.
-    places_m : (c, 3) float
-        Where they touched as the sub-step began, on the second body.
-    normals : (c, 3) float
-        Unit vectors from the second body to the first.
-    normal_impulses_ns : (c,) float
-        Impulses in the sub-step along the normals, on the first bodies; the second ones get the opposite.
-    friction_impulses_ns : (c, 3) float
-        Impulses of friction on the first bodies.
+    `frames` (c,) are Blender's, in ascending order. Two `bodies` (c, 2) touch at `places_m` (c, 3), as the sub-step
+    began, on the second body. `normals` (c, 3) point from the second body to the first. The impulses, along the normals
+    (c,) and of friction (c, 3), are those on the first bodies; the second ones get the opposite.
     """
 
     frames: np.ndarray
@@ -136,13 +107,12 @@ class ContactHistory:
 
     @classmethod
     def none(cls) -> ContactHistory:
-        """Return no contacts."""
         vectors = np.zeros((0, 3))
         return cls(np.zeros(0, int), np.zeros((0, 2), int), vectors, vectors, np.zeros(0), vectors)
 
     @property
     def impulses_ns(self) -> np.ndarray:
-        """Whole impulses (c, 3) on the first bodies."""
+        """Return the whole impulses (c, 3) on the first bodies."""
         return self.normal_impulses_ns[:, None] * self.normals + self.friction_impulses_ns
 
     def of_frame(self, number: int) -> ContactHistory:
@@ -155,7 +125,7 @@ class ContactHistory:
 
 
 def _stacked(parts: Sequence[Any]) -> Any:
-    """Numbers, arrays, or dataclasses of them: the same with one more axis in front."""
+    """Put numbers, arrays, or dataclasses of them into arrays with one more axis in front."""
     if not is_dataclass(parts[0]):
         return np.array(parts)
     kind: type[Any] = type(parts[0])
@@ -163,7 +133,6 @@ def _stacked(parts: Sequence[Any]) -> Any:
 
 
 def _row(series: Any, row: int) -> Any:
-    """One entry of what `_stacked` gave."""
     if not is_dataclass(series):
         return series[row]
     kind: type[Any] = type(series)

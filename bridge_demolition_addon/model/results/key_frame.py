@@ -16,11 +16,10 @@ RESTING_WEIGHTS = 3.0
 
 
 def key_step(results: Results, gravity_m_s2: np.ndarray) -> tuple[int, str]:
-    """Return the recorded step that shows most, and which moment it is.
+    """Return the recorded step that shows most, and which moment it is, with the acceleration of gravity (3,).
 
     It is the impact of the ball; without one, shortly after the blast; without that, when half of all connections that
-    broke in the course of the run had broken; where none did, that of the largest force on a shard. The acceleration of
-    gravity is a vector (3,).
+    broke in the run had broken; where none did, that of the largest force on a shard.
     """
     frames = results.frames
     impact = impact_step(results, gravity_m_s2)

@@ -1,4 +1,4 @@
-"""What can be read off the motion of bodies: travel, throw, and when a falling body is hit."""
+"""Motion of bodies as it is read for results: from the ground, without removed shards; travel, throw and first hit."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ MOVED_M = 0.1
 
 
 def relative_to_ground(results: Results) -> Results:
-    """Return a run as who stands on the ground sees it: the same where the ground rests, or is not there."""
+    """Return a run in the axes of the ground: the same where the ground rests, or is not there."""
     frames = results.frames
     for body in results.inventory.of_kind("ground"):
         shifts = frames.positions_m[:, body] - frames.positions_m[0, body]
@@ -33,31 +33,19 @@ def relative_to_ground(results: Results) -> Results:
 
 
 def travel(first: np.ndarray, last: np.ndarray) -> np.ndarray:
-    """Straight-line distance (n,) between first and last places (n, 3), m."""
+    """Return the straight-line distance (n,) between first and last positions (n, 3), m."""
     return distance(last, first)
 
 
 def throw(first: np.ndarray, last: np.ndarray) -> np.ndarray:
-    """Horizontal distance (n,) between first and last places (n, 3), m."""
+    """Return the horizontal distance (n,) between first and last positions (n, 3), m."""
     return distance(last[:, :2], first[:, :2])
 
 
 def first_hit(velocities: np.ndarray, times: np.ndarray, gravity: np.ndarray) -> int | None:
-    """First step in which something other than gravity acted on a falling body.
+    """Return the first step in which something other than gravity acted on a falling body; None if nothing did.
 
-    Parameters
-    ----------
-    velocities
-        (k, 3) velocity of the body at its release and after each step since then, m/s.
-    times
-        (k,) simulated time of each, s.
-    gravity
-        (3,) acceleration of gravity, m/s².
-
-    Returns
-    -------
-    int or None
-        Index of that step, None where the body fell freely throughout.
+    Velocities (k, 3) and times (k,) are those at its release and after each step since then.
     """
     steps = np.diff(times)
     departures = length(np.diff(velocities, axis=0) - steps[:, None] * gravity)

@@ -31,10 +31,8 @@ class Throws:
 
     Attributes
     ----------
-    bodies : (d,) int
-        Indices of the shards.
-    throws_m : (d,) float
-        How far they lie on plan from where they were at first.
+    bodies, throws_m : (d,) int, (d,) float
+        Indices of the shards, and the horizontal distances of their last positions from the first.
     made_j, largest_kinetic_j : (d,) float
         Energy that each got from the solver, and the largest kinetic energy of its translation at the end of a frame.
     on_solver_energy : (d,) bool
@@ -52,18 +50,17 @@ class Throws:
 
     @property
     def made_shares(self) -> np.ndarray:
-        """(d,) energy that each got from the solver, over its largest kinetic energy."""
+        """Return the energy (d,) that each got from the solver, over its largest kinetic energy."""
         kinetic = self.largest_kinetic_j
         return np.divide(self.made_j, kinetic, out=np.zeros_like(kinetic), where=kinetic > 0.0)
 
     @property
     def doubtful(self) -> np.ndarray:
-        """(d,) throws that a real shard would not make."""
+        """Return which throws (d,) a real shard would not make."""
         return self.on_solver_energy | self.beyond_fall
 
 
 def throws_of(results: Results) -> Throws:
-    """Return the throws of all shards."""
     frames, shards = results.frames, results.inventory.of_kind("shard")
     first, last = frames.positions_m[0, shards], frames.positions_m[-1, shards]
     throws = throw(first, last)
@@ -82,15 +79,12 @@ def throws_of(results: Results) -> Throws:
 
 
 def flies_on_solver_energy(throws_m: np.ndarray, made_j: np.ndarray, largest_kinetic_j: np.ndarray) -> np.ndarray:
-    """Whether bodies (n,) were thrown at all, and got at least half of their largest kinetic energy from the solver."""
+    """Return whether bodies (n,) were thrown, with at least half of their kinetic energy from the solver."""
     return (throws_m > MOVED_M) & (made_j >= DOUBTFUL_SHARE * largest_kinetic_j)
 
 
 def energy_summary(results: Results) -> dict[str, Any] | None:
-    """Return works and energies of a run in J, and those of the shards thrown farthest, ready for JSON.
-
-    None where the sub-steps were not all read.
-    """
+    """Return the energies of a run, J, and of the shards thrown farthest, ready for JSON; None if unknown."""
     if not is_known(results):
         return None
     work = results.frames.work
@@ -125,7 +119,7 @@ def energy_summary(results: Results) -> dict[str, Any] | None:
 
 
 def is_known(results: Results) -> bool:
-    """Whether the work of every frame after the first is known."""
+    """Return whether the work of every frame after the first is known."""
     return bool(np.isfinite(results.frames.work.gravity_j[1:]).all()) and len(results.frames) > 1
 
 

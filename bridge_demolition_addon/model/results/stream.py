@@ -33,16 +33,7 @@ _FRACTIONS = np.float32
 class FrameStream(Sequence[Frame]):
     """The frames of a recording, each of which is on the disk as soon as it is added, and none in memory.
 
-    Parameters
-    ----------
-    folder : Path
-        Existing folder. What another stream has left in it is replaced.
-    load_sampling : str
-        As that of `Results`.
-    inventory : Inventory
-        Bodies and connections.
-    contacts : bool
-        Whether contacts are kept as well.
+    What another stream has left in the folder, which exists, is replaced. `contacts` says whether contacts are kept.
     """
 
     def __init__(self, folder: Path, load_sampling: str, inventory: Inventory, *, contacts: bool = False):
@@ -68,7 +59,6 @@ class FrameStream(Sequence[Frame]):
     def __getitem__(self, row: slice) -> list[Frame]: ...
 
     def __getitem__(self, row: int | slice) -> Frame | list[Frame]:
-        """Return a frame as it is kept, or several."""
         if isinstance(row, slice):
             return [self[each] for each in range(len(self))[row]]
         number = range(len(self))[row]

@@ -1,4 +1,4 @@
-"""What a run came to, in the few numbers that a planner asks for first."""
+"""The main numbers of a run for a planner."""
 
 from __future__ import annotations
 
@@ -18,16 +18,9 @@ from .solver_energy import energy_summary
 
 
 def summarise(results: Results, gravity_m_s2: np.ndarray, contact_time_s: float | None = None) -> dict[str, Any]:
-    """Masses, counts, breaking over time, largest force and largest throw of a run, ready for JSON.
+    """Return masses, counts, breaking over time, largest force and largest throw of a run, ready for JSON.
 
-    Parameters
-    ----------
-    results
-        What was recorded.
-    gravity_m_s2
-        (3,) acceleration of gravity.
-    contact_time_s
-        How long hits of the ball last; by default as long as elastic ones.
+    Gravity is a vector (3,), m/s². Hits of the ball last `contact_time_s`; by default as long as elastic ones.
     """
     left, _ = without_removed(results)
     key, reason = key_step(results, gravity_m_s2)
@@ -53,9 +46,9 @@ def summarise(results: Results, gravity_m_s2: np.ndarray, contact_time_s: float 
 
 
 def first_hit_s(summary: Mapping[str, Any]) -> float | None:
-    """When the falling ball first hit, by a run's summary: to a sub-step where hits were recorded, or else to a frame.
+    """Return when the falling ball first hit, by a run's summary: by its hits if recorded, or else to a frame.
 
-    What hits the ball while it is still held is none of its hits.
+    Contacts of the ball while it is still held are no hits.
     """
     impact = summary.get("impact")
     if not impact:
@@ -65,7 +58,7 @@ def first_hit_s(summary: Mapping[str, Any]) -> float | None:
 
 
 def settling(results: Results, warm_up_s: float) -> dict[str, float] | None:
-    """When the warm-up had ended, and the largest speed of any shard then; None without one, or before its end."""
+    """Return when the warm-up ended, and the largest speed of a shard then; None without one, or before its end."""
     after = np.flatnonzero(results.frames.time_s >= warm_up_s - 1e-6 * max(warm_up_s, 1.0))
     if not warm_up_s or not len(after):
         return None
@@ -74,14 +67,14 @@ def settling(results: Results, warm_up_s: float) -> dict[str, float] | None:
 
 
 def impact_of(results: Results, gravity_m_s2: np.ndarray) -> dict[str, Any] | None:
-    """Return frame and time in which the ball first hit, None where it did not, ready for JSON."""
+    """Return frame and time in which the ball first hit, ready for JSON; None where it did not."""
     return _moment(results, impact_step(results, gravity_m_s2))
 
 
 def hits_of_balls(
     results: Results, gravity_m_s2: np.ndarray, contact_time_s: float | None = None
 ) -> list[dict[str, Any]]:
-    """Every hit of every ball: its impulse, the raw force with the step it depends on, and estimates that do not.
+    """Return all hits of balls: impulse, the raw force with the step that it depends on, and estimates that do not.
 
     Parameters are those of `summarise`.
     """
@@ -112,7 +105,7 @@ def hits_of_balls(
 
 
 def _estimated_forces(hit: Hit, speed: float, contact: Contact, contact_time_s: float | None) -> dict[str, float]:
-    """Forces that do not depend on the step; none for a ball that was hit from behind."""
+    """Return forces that do not depend on the step; none for a ball that was hit from behind."""
     if speed <= 0.0:
         return {}
     estimated = estimate(hit.impulse_magnitude_ns, speed, contact, contact_time_s)
@@ -124,7 +117,7 @@ def _estimated_forces(hit: Hit, speed: float, contact: Contact, contact_time_s: 
 
 
 def _connections(results: Results) -> dict[str, Any]:
-    """How many there are, and how many hold in the first frame, in each in which that changes, and in the last."""
+    """Return how many connections hold in the first frame, in each in which that changes, and in the last."""
     count, intact = len(results.inventory.connection_names), results.frames.intact.sum(axis=1)
     changed = np.flatnonzero(np.diff(intact, prepend=-1))
     shown = np.union1d(changed, len(intact) - 1)
@@ -141,7 +134,7 @@ def _connections(results: Results) -> dict[str, Any]:
 
 
 def _blast(results: Results) -> dict[str, Any] | None:
-    """Impulse of the blast on all bodies together and on the one that got most; None where there was none."""
+    """Return the impulse of the blast on all bodies, and the largest on one; None without a blast."""
     impulses = results.frames.blast_impulses_ns.sum(axis=0, dtype=float)
     sizes = length(impulses)
     if not sizes.any():
@@ -167,7 +160,7 @@ def _moment(results: Results, step: int | None) -> dict[str, Any] | None:
 
 
 def _largest_force(results: Results, magnitudes: np.ndarray) -> dict[str, Any] | None:
-    """Largest of the magnitudes (k, n) on any shard, in any frame whose forces are known."""
+    """Return the largest of the magnitudes (k, n) on any shard, in any frame whose forces are known."""
     known = np.flatnonzero(np.isfinite(magnitudes).all(axis=1))
     shards = results.inventory.of_kind("shard")
     candidates = magnitudes[np.ix_(known, shards)]

@@ -14,23 +14,10 @@ from ..scenario.connections import GROUND_NAME, ConnectionBetween
 def rules_of_pairs(
     rules: Sequence[ConnectionBetween], members: Sequence[Member], member_of_shard: np.ndarray, pairs: np.ndarray
 ) -> np.ndarray:
-    """Which rule each pair of shards follows: the first that names both of their members.
+    """Return which rule pairs of shards follow, (k,) int: 0 for none, 1 for the first, and so on.
 
-    Parameters
-    ----------
-    rules : sequence of ConnectionBetween
-        The rules.
-    members : sequence of Member
-        All members.
-    member_of_shard : (n,) int
-        Index of the member of each shard.
-    pairs : (k, 2) int
-        Indices of shards, or -1 for the ground.
-
-    Returns
-    -------
-    (k,) int
-        0 for a pair that follows none, 1 for the first rule, and so on.
+    The first rule counts that names both members. `member_of_shard` (n,) holds indices of members, `pairs` (k, 2) those
+    of shards, or -1 for the ground.
     """
     ground = len(members)
     rule_between = np.zeros((ground + 1, ground + 1), int)

@@ -23,7 +23,7 @@ from .model import Model
 
 
 def sag_m(model: Model, rest: Equilibrium) -> float:
-    """Return how far the shard goes down that goes down farthest, of those that are held."""
+    """Return the largest deflection of a shard that is held, m."""
     shards = len(model.shards)
     held = rest.held[:shards]
     fallen = model.centres_m[held, 2] - rest.positions_m[2, :shards][held]
@@ -31,7 +31,7 @@ def sag_m(model: Model, rest: Equilibrium) -> float:
 
 
 def overloaded(model: Model, rest: Equilibrium, joints: Sequence[Joint]) -> np.ndarray:
-    """Return which connections (m,) of a model at rest bear more than they can, so that the bridge does not stand.
+    """Return which connections (m,) of a model at rest are overloaded, so that the bridge does not stand.
 
     A breaking force is compared with each direction by itself, moments included, as Bullet does.
     """
@@ -44,17 +44,17 @@ def overloaded(model: Model, rest: Equilibrium, joints: Sequence[Joint]) -> np.n
 
 
 def used_of_forces(model: Model, rest: Equilibrium, joints: Sequence[Joint]) -> np.ndarray:
-    """Return which part of its breaking force each connection (m,) of a model at rest bears; nan where it has none.
+    """Return the utilisation of the breaking force of each connection (m,) of a model at rest; nan without one.
 
-    It is that of the direction that bears most: Bullet compares forces along three axes, and moments about them in N·m,
-    one by one with the same number.
+    It is the largest of all directions: Bullet compares forces along three axes, and moments about them in N·m, one by
+    one with the same number.
     """
     forces = np.array([np.nan if joint.breaking_force_n is None else joint.breaking_force_n for joint in joints])
     return abs(rest.loads).max(axis=0, initial=0.0) / forces[model.joint_of_connection]
 
 
 def _beyond_strength(model: Model, rest: Equilibrium, rows: np.ndarray, strength: Strength) -> np.ndarray:
-    """Return which connections (r,) with a strength would break (k,) in a simulation, before what breaks there."""
+    """Return which connections (r,) with a strength would break first in a simulation, as indices (k,)."""
     loads = ConnectionLoads(rest.loads[:3].T, rest.loads[3:].T, model.connections.points)
     axes = section_axes(model.connections.normals[rows])
     whole, together = np.ones(len(model.connections)), np.zeros(len(model.connections), int)
@@ -75,12 +75,11 @@ def member_sections_of(model: Model) -> MemberSections:
 
 
 def overloads_of(model: Model, strength: Strength, sections: MemberSections) -> Overloads:
-    """Return what judges the connections of a model by a strength."""
     return Overloads(_faces(model), _moves(model), strength, sections)
 
 
 def _faces(model: Model) -> ConnectedFaces:
-    """The faces of the connections of a model; the ground is the last body."""
+    """Return the faces of the connections; the ground is the last body."""
     connections = model.connections
     pairs = connections.pairs % (len(model.fixed) + 1)
     return ConnectedFaces(pairs, connections.points, connections.normals, connections.areas, model.second_moments_m4)
@@ -102,7 +101,7 @@ def model_at_rest(model: Model, joints: Sequence[Joint]) -> Equilibrium:
 
 
 def held_motions(model: Model, joints: Sequence[Joint]) -> np.ndarray:
-    """Return whether the connections of a model hold shifts along and turns about the axes of the world, (6, m)."""
+    """Return whether connections hold displacements along and rotations about the axes of the world, (6, m)."""
     held = np.array([[motion not in joint.free for motion in MOTIONS] for joint in joints]).T
     return held[:, model.joint_of_connection]
 
@@ -129,25 +128,16 @@ def at_rest(
     gravity_m_s2: tuple[float, float, float] = (0.0, 0.0, -STANDARD_GRAVITY_M_S2),
     loads: np.ndarray | None = None,
 ) -> Equilibrium:
-    """Return where bodies rest under their own weight.
+    """Return where n bodies rest under their own weight, and the ground as the last body.
 
     Parameters
     ----------
-    connections, stiffness : Connections, SectionStiffness
-        The m connections, and how stiff they are.
     masses_kg, inertias_kg_m2, centres_m : (n,), (n, 3), (n, 3) float
-        Masses of the shards, 0 for those that never move, moments of inertia about the axes of the world, and centres
-        of mass.
+        Masses, 0 for those that never move, moments of inertia about the axes of the world, and centres of mass.
     held : (6, m) bool, optional
-        Whether connections hold shifts along and turns about the axes of the world; all by default.
-    gravity_m_s2 : three float
+        Whether connections hold displacements along and rotations about the axes of the world; all by default.
     loads : (6, n) float, optional
         Further forces on the shards, N, and moments about their centres, N·m.
-
-    Returns
-    -------
-    Equilibrium
-        Of the n shards, and of the ground as the last body.
     """
     sections = components_first(section_axes(connections.normals))
     held = np.ones((6, len(connections)), bool) if held is None else held

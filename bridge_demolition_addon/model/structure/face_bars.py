@@ -23,17 +23,8 @@ from ..materials.bar_layers import AXES, BarLayer, ReinforcedSection
 class LayersOfMember:
     """Layers of bars of a member that run the same way, beside the same two sides.
 
-    Attributes
-    ----------
-    member : int
-        Index of the member.
-    layers : tuple of BarLayer
-    lowest, highest : float
-        Where the member begins and ends along the axis across the layers, m.
-    width_m : float
-        Its extent along the layers.
-    levels_m, widths_m : tuple of float
-        Where the layers are along the axis across them, and how wide the member is there.
+    The member lies between `lowest` and `highest` along the axis across the layers, m, and the layers at `levels_m`,
+    where it is as wide as `widths_m`; `width_m` is its whole width.
     """
 
     member: int
@@ -62,7 +53,7 @@ class LayersOfMember:
 
 
 def layers_of_members(layers: Sequence[BarLayer], members: Sequence[Member]) -> Iterator[LayersOfMember]:
-    """Yield the layers of each member, together as far as they bear the same moments."""
+    """Yield the layers of each member, together if they resist the same moments."""
     for layer in layers:
         for name in layer.members:
             if not any(name in (each.name, each.kind) for each in members):
@@ -91,7 +82,6 @@ def _together(index: int, member: Member, layers: tuple[BarLayer, ...], axes: tu
 
 
 def _width(solid: TriangleMesh, across: int, beside: int, level: float) -> float:
-    """Return the extent of a solid where it has a level."""
     _, points = _crossings(solid.corners, across, level)
     return float(np.ptp(points[..., beside])) if len(points) else 0.0
 
@@ -124,19 +114,10 @@ def face_bars(
     joint_of_connection: np.ndarray,
     factor: float,
 ) -> FaceBars:
-    """Return what of layers crosses the faces of m connections; bars end where their member does.
+    """Return the bars of layers that cross the faces of m connections; bars end where their member does.
 
-    Parameters
-    ----------
-    layers, members
-        The layers, and the members of the bridge.
-    member_of_shard : (n,) int
-    shards : n TriangleMesh
-        Before gaps are made.
-    connections, joints, joint_of_connection
-        Where shards are connected, and what each of them has in common with others, (m,) int.
-    factor : float
-        How many times as strong the bars are.
+    `member_of_shard` (n,) and `joint_of_connection` (m,) are indices, `shards` have no gaps yet, and bars are `factor`
+    times as strong as their layers say.
     """
     count = len(connections)
     yield_n, by_place = np.zeros(count), np.zeros((count, 3))

@@ -1,4 +1,4 @@
-"""What a planner wants to know of a model before a run: shards, connections, and how the bridge stands at rest."""
+"""Facts about a model before a run: shards, connections, and how the bridge stands at rest."""
 
 from __future__ import annotations
 
@@ -65,7 +65,6 @@ def connection_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
 
 
 def _bar_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
-    """Yield the moments at which sections with layers of bars yield."""
     for group in layers_of_members(scenario.reinforcement, model.members):
         compression_pa = float(given(scenario.joints[0].strength).compression_pa)
         section = group.section(compression_pa, scenario.connections.strength_factor)
@@ -103,7 +102,7 @@ def rest_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
 
 
 def foundation_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
-    """Yield how footings press on their soil by the bridge's own weight."""
+    """Yield the pressure of footings on their soil by the bridge's own weight."""
     rest, soil = model_at_rest(model, scenario.joints), given(model.soil)
     forces_n = np.abs(rest.loads[2, soil.rows])
     areas = model.connections.areas[soil.rows]
@@ -121,7 +120,7 @@ def foundation_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
 
 
 def _stress_facts(force_n: float, scenario: Scenario, model: Model) -> Iterator[Fact]:
-    """Yield the stress that one breaking force for all comes to, which grows with the number of shards."""
+    """Yield the mean stress at one breaking force for all, which grows with the number of shards."""
     alike = np.array([joint.breaking_force_n == force_n for joint in scenario.joints])
     holds = alike[model.joint_of_connection]
     if area_m2 := float(model.connections.areas[holds].sum()):
@@ -136,7 +135,6 @@ def _rule_facts(scenario: Scenario) -> Iterator[Fact]:
 
 
 def _joint_text(rule: ConnectionBetween, joint: Joint) -> str:
-    """Return what a connection of a rule holds, and what breaks it where that is not as elsewhere."""
     words = [joint.type]
     if joint.free:
         words.append(f"free: {', '.join(joint.free)}")

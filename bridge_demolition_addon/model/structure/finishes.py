@@ -22,8 +22,6 @@ _BELOW_TOP = 0.5
 
 
 class Finish(IntEnum):
-    """What a face looks like."""
-
     CAST = 0
     BROKEN = 1
     ROAD = 2
@@ -32,19 +30,10 @@ class Finish(IntEnum):
 def finishes(
     shards: Sequence[TriangleMesh], members: Sequence[Member], member_of_shard: np.ndarray
 ) -> list[np.ndarray]:
-    """Return the finish (t,) int of the triangles of each shard.
+    """Return the finish (t,) int of the triangles of each shard, before gaps are made.
 
     A face is broken where it does not lie in the surface of its member, and a road where it is level and near the top
     of a member that carries one.
-
-    Parameters
-    ----------
-    shards : sequence of length n
-        Where they were cut.
-    members : sequence of Member
-        What they were cut from.
-    member_of_shard : (n,) int
-        Index of the member of each shard.
     """
     return [_finish(shard, members[row]) for shard, row in zip(shards, member_of_shard.tolist(), strict=True)]
 

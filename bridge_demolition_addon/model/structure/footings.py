@@ -1,4 +1,4 @@
-"""Which connections of a model are footings on soil that gives, and the springs under them."""
+"""Connections of a model that are footings on soil, and the springs under them."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def soil_springs(
     shards: Sequence[TriangleMesh],
     connections: Connections,
 ) -> SoilSprings | None:
-    """Return the springs under a model's footings; None where it stands on ground that does not give."""
+    """Return the springs under a model's footings; None where it stands on unyielding ground."""
     found: dict[int, tuple[Foundation, np.ndarray, np.ndarray]] = {}
     for foundation in foundations:
         for index in _chosen(foundation, members):
@@ -100,7 +100,6 @@ def _chosen(foundation: Foundation, members: Sequence[Member]) -> list[int]:
 
 
 def _standing_rows(connections: Connections, member_of_shard: np.ndarray, member: int) -> np.ndarray:
-    """Connections (k,) of a member with the ground."""
     first, second = connections.pairs.T
     return np.flatnonzero((second == GROUND) & (member_of_shard[first] == member))
 
@@ -112,7 +111,7 @@ def _places(
     shards: Sequence[TriangleMesh],
     connections: Connections,
 ) -> list[tuple[int, np.ndarray, np.ndarray]]:
-    """Connection, places (p, 3) and their areas (p,) of all footings of a member."""
+    """Return connection, positions (p, 3) and their areas (p,) of all footings of a member."""
     faces = [_standing_triangles(shards[connections.pairs[row, 0]], connections.points[row, 2]) for row in rows]
     if not all(map(len, faces)):
         raise ScenarioError(f"{member.name} stands on a slope: expected level ground under members with foundations")
@@ -136,13 +135,12 @@ def _places(
 
 
 def _standing_triangles(shard: TriangleMesh, height_m: float) -> np.ndarray:
-    """Triangles (t, 3, 3) of a shard that lie at a height."""
     corners = shard.corners
     return corners[(abs(corners[:, :, 2] - height_m) <= _LEVEL_M).all(axis=1)]
 
 
 def _divided(triangles: np.ndarray, count: int) -> np.ndarray:
-    """Each of t triangles (t, 3, 3) as count² smaller ones, alike: (t count², 3, 3)."""
+    """Divide each of t triangles (t, 3, 3) into count² smaller ones, alike: (t count², 3, 3)."""
     steps = [(i, j) for i in range(count) for j in range(count - i)]
     upright = [((i, j), (i + 1, j), (i, j + 1)) for i, j in steps]
     turned = [((i + 1, j + 1), (i, j + 1), (i + 1, j)) for i, j in steps if i + j + 2 <= count]
@@ -153,7 +151,6 @@ def _divided(triangles: np.ndarray, count: int) -> np.ndarray:
 
 
 def _middles(soil: SoilSprings) -> np.ndarray:
-    """Centres (f, 3) of the footings."""
     whole = _summed(soil, soil.areas_m2)
     return np.stack([_summed(soil, soil.areas_m2 * each) / whole for each in soil.places_m.T], axis=1)
 

@@ -30,22 +30,10 @@ shards."""
 
 @dataclass(frozen=True, slots=True)
 class FracturedMembers:
-    """Shards of all members, one member after the other.
+    """The n shards of all members, one member after the other, without gaps.
 
-    Attributes
-    ----------
-    shards : tuple of TriangleMesh
-        The n shards' closed meshes, in the bridge's coordinates, without gaps.
-    member_of_shard : (n,) int
-        Index of the member that each shard was cut from.
-    masses_kg : (n,) float
-        Mass of each shard.
-    centres_m : (n, 3) float
-        Centre of mass of each shard.
-    points_m : (n, 3) float
-        The point whose Voronoi cell each shard is.
-    faces : SharedFaces
-        What neighbouring shards have in common.
+    `member_of_shard` (n,) holds indices of members, `centres_m` (n, 3) centres of mass, and `points_m` (n, 3) the
+    points whose Voronoi cells the shards are. `faces` are those that neighbouring shards share.
     """
 
     shards: tuple[TriangleMesh, ...]
@@ -57,15 +45,7 @@ class FracturedMembers:
 
 
 def fractured_members(scenario: Scenario, members: Sequence[Member]) -> FracturedMembers:
-    """Members in shards as a scenario asks for; the same seed gives the same shards.
-
-    Parameters
-    ----------
-    scenario : Scenario
-        Says how many shards, and how they are cut.
-    members : sequence of Member
-        What is cut.
-    """
+    """Return members in shards as a scenario asks for; the same seed gives the same shards."""
     settings = scenario.fracture
     density = _density(settings)
     own_points = _points_by_member(settings, members)
@@ -95,7 +75,7 @@ def fractured_members(scenario: Scenario, members: Sequence[Member]) -> Fracture
 
 
 def shards_with_gaps(fractured: FracturedMembers, members: Sequence[Member], gap_m: float) -> tuple[TriangleMesh, ...]:
-    """The shards with gaps between those of one member."""
+    """Return the shards with gaps between those of one member."""
     bounds = np.searchsorted(fractured.member_of_shard, np.arange(len(members) + 1))
     return tuple(
         shard
@@ -105,7 +85,7 @@ def shards_with_gaps(fractured: FracturedMembers, members: Sequence[Member], gap
 
 
 def shards_per_member(volumes: np.ndarray, shard_count: int) -> np.ndarray:
-    """How many shards each member (k,) is cut into: by volume, at least one each, `shard_count` together."""
+    """Return how many shards each member (k,) is cut into: by volume, at least one, `shard_count` together."""
     if shard_count < len(volumes):
         raise GeometryError(
             f"fracture.shards is {shard_count}: expected at least {len(volumes)}, one for each member of the bridge"
@@ -118,7 +98,6 @@ def shards_per_member(volumes: np.ndarray, shard_count: int) -> np.ndarray:
 
 
 def _density(settings: FractureSettings) -> PointDensity | None:
-    """Where the points lie closer: around places, and where it is painted."""
     found = []
     if settings.finer:
         places = np.array([place.place_m for place in settings.finer])
@@ -146,7 +125,7 @@ def _fractured(member: Member, count: int, points: np.ndarray, seed: int, option
 
 
 def _fractured_in_parts(member: Member, count: int, seed: int, options: FractureOptions) -> Fracture:
-    """Each convex part of a member by itself, so that no shard reaches around a corner."""
+    """Cut each convex part by itself, so that no shard extends around a corner."""
     amounts = np.array([_amount(part, options.density, seed) for part in member.parts])
     seeds = np.random.SeedSequence(seed).generate_state(len(member.parts))
     counts = shards_per_member(amounts, count)
@@ -168,7 +147,7 @@ def _recursion(settings: FractureSettings) -> Recursion | None:
 
 
 def _rules(settings: FractureSettings, members: Sequence[Member]) -> list[MemberFracture | None]:
-    """What is said of each member by its name, or else of its kind."""
+    """Return the table for each member by its name, or else for its kind."""
     by_name = {each.member: each for each in settings.members}
     known = {member.name for member in members} | {member.kind for member in members}
     for name in by_name:
@@ -187,7 +166,6 @@ def _counts(
     own_points: Sequence[np.ndarray],
     density: PointDensity | None,
 ) -> np.ndarray:
-    """How many shards each member (k,) gets: its points, what is said of it, or its share of what is left."""
     settings = scenario.fracture
     amounts = np.array([_amount(member.solid, density, scenario.seed) for member in members])
     counts = _explicit_counts(rules, own_points)
@@ -196,7 +174,7 @@ def _counts(
 
 
 def _explicit_counts(rules: Sequence[MemberFracture | None], own_points: Sequence[np.ndarray]) -> np.ndarray:
-    """Shards (k,) of members that have points of their own, or a given number; 0 of any other."""
+    """Return shards (k,) of members with points or a number of their own; 0 of any other."""
     given = [rule.shards or 0 if rule else 0 for rule in rules]
     return np.array([len(points) or number for points, number in zip(own_points, given, strict=True)])
 
@@ -204,7 +182,7 @@ def _explicit_counts(rules: Sequence[MemberFracture | None], own_points: Sequenc
 def _shared_counts(
     counts: np.ndarray, settings: FractureSettings, rules: Sequence[MemberFracture | None], amounts: np.ndarray
 ) -> np.ndarray:
-    """The counts (k,), with those of members (k,) that together get a given share of all shards."""
+    """Return the counts (k,), with those of members (k,) that together get a share of all shards."""
     counts = counts.copy()
     for rule in settings.members:
         alike = np.array([each is rule for each in rules]) & (counts == 0)
@@ -215,7 +193,7 @@ def _shared_counts(
 
 
 def _distribute_rest(counts: np.ndarray, amounts: np.ndarray, wanted: int) -> np.ndarray:
-    """The counts (k,), with the rest of the wanted shards distributed by volume among members that have none yet."""
+    """Return the counts (k,), with the rest distributed by volume among members that have none yet."""
     is_open, taken = counts == 0, int(counts.sum())
     if is_open.all():
         return shards_per_member(amounts, wanted)
@@ -236,7 +214,7 @@ def _distribute_rest(counts: np.ndarray, amounts: np.ndarray, wanted: int) -> np
 
 
 def _amount(solid: TriangleMesh, density: PointDensity | None, seed: int) -> float:
-    """Volume of a solid, m³; where points lie closer it counts as many times."""
+    """Return the volume of a solid, m³; where points lie closer it counts as many times."""
     if density is None:
         return solid.volume
     samples = random_points(solid, _DENSITY_SAMPLES, np.random.default_rng(seed))
@@ -244,7 +222,7 @@ def _amount(solid: TriangleMesh, density: PointDensity | None, seed: int) -> flo
 
 
 def _points_by_member(settings: FractureSettings, members: Sequence[Member]) -> list[np.ndarray]:
-    """Points of the user's own in each member, (p, 3) in m."""
+    """Return the points of the user's own in each member, (p, 3) in m."""
     places = [point.place_m for point in settings.points]
     if settings.points_file is not None:
         places += points_from_file(Path(settings.points_file)).tolist()
@@ -263,7 +241,6 @@ def _points_by_member(settings: FractureSettings, members: Sequence[Member]) -> 
 
 
 def _all_faces(within: list[SharedFaces], shards: tuple[TriangleMesh, ...], member_of_shard: np.ndarray) -> SharedFaces:
-    """Faces shared within each member, and those where two members touch."""
     first_shards = np.searchsorted(member_of_shard, np.arange(len(within)))
     numbered = [replace(faces, pairs=faces.pairs + first) for faces, first in zip(within, first_shards, strict=True)]
     return joined_faces([*numbered, touching_faces(shards, member=member_of_shard)])

@@ -32,36 +32,24 @@ from .supports import fixed_shards
 
 @dataclass(frozen=True, slots=True)
 class Model:
-    """A bridge cut into shards, and its connections.
+    """A bridge cut into n shards, and its m connections.
 
     Attributes
     ----------
     members : tuple of Member
-        Members of the bridge before they were fractured.
+        Members before they were cut.
     shards : tuple of TriangleMesh
-        The n shards' closed meshes, in the bridge's coordinates.
-    member_of_shard : (n,) int
-        Index of the member that each shard was cut from.
-    masses_kg : (n,) float
-        Mass of each shard.
-    centres_m : (n, 3) float
-        Centre of mass of each shard.
-    connections : Connections
-        Connections between shards and to the ground.
+        Closed meshes, in the bridge's coordinates.
+    member_of_shard, masses_kg, centres_m : (n,) int, (n,) float, (n, 3) float
+        Index of the member that each shard was cut from, its mass and centre of mass.
     joint_of_connection : (m,) int
-        What each connection has in common with others: index of one of the scenario's joints.
+        Index of one of the scenario's joints, which says what a connection has in common with others.
     second_moments_m4 : (m, 2, 2) float
         Second moments of area of the connections' faces; 0 for one without a face.
     fixed : (n,) bool
         Whether each shard never moves, as supports hold it; no connection lies between two of these.
-    stiffness : SectionStiffness or None
-        Of the connections; None where they are rigid.
-    ground : BuiltGround
-        What it stands on.
-    soil : SoilSprings or None
-        What footings stand on; None where the ground does not give.
-    bars : FaceBars or None
-        Layers of reinforcement across the connections; None where the scenario has none.
+    stiffness, soil, bars
+        None where connections are rigid, where the ground does not settle, and without layers of reinforcement.
     """
 
     members: tuple[Member, ...]
@@ -79,14 +67,14 @@ class Model:
     bars: FaceBars | None = None
 
     def thicknesses_m(self) -> np.ndarray:
-        """Thickness (m,) of the thinner of the members that each connection is between."""
+        """Return the thickness (m,) of the thinner of the members that each connection is between."""
         of_members = np.array([member.thickness_m for member in self.members])
         of_shards = np.append(of_members[self.member_of_shard], np.inf)  # the ground, at index -1
         return of_shards[self.connections.pairs].min(axis=1)
 
     @property
     def breakable(self) -> np.ndarray:
-        """Which connections (m,) can break: not those that are footings on soil."""
+        """Return which connections (m,) can break: not those that are footings on soil."""
         can = np.ones(len(self.connections), bool)
         if self.soil:
             can[self.soil.rows] = False
@@ -94,20 +82,12 @@ class Model:
 
     @property
     def density_kg_m3(self) -> float:
-        """Mean density of all members, kg/m³."""
+        """Return the mean density of all members."""
         return mean_density(self.members)
 
 
 def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> Model:
-    """Members, shards and connections of a scenario; the same scenario gives the same model.
-
-    Parameters
-    ----------
-    scenario : Scenario
-        What to build.
-    members : sequence of Member, optional
-        What is cut into shards, without overlap; by default all members that the scenario names.
-    """
+    """Return the model of a scenario, always the same; of members without overlap, by default all its own."""
     members = prepared_members(scenario).members if members is None else tuple(members)
     solids = [(member.name, member.solid) for member in members]
     ground = built_ground(scenario, solids, room_around(scenario, members))
@@ -175,7 +155,7 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
 
 
 def _middles(fractured: FracturedMembers) -> np.ndarray:
-    """Return the points (n, 3) from which shards reach to their faces, each half way to the next one.
+    """Return the points (n, 3) from which the stiffness of shards is measured to their faces.
 
     A member that was not cut has its centre of mass: its point, around which it would have been, is anywhere in it.
     """
@@ -191,7 +171,7 @@ def _connections(
     allowed: Callable[[np.ndarray], np.ndarray],
     heights_at: Callable[[np.ndarray], np.ndarray] | None,
 ) -> Connections:
-    """Connections between shards and to the ground, flat or of such heights; of pairs (k, 2) that are allowed (k,)."""
+    """Return the connections of allowed pairs (k, 2), and to the ground, flat or with such heights."""
     match settings.method:
         case "face":
             pairs, distances = connecting.neighbours_by_face(faces)

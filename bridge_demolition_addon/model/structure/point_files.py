@@ -21,12 +21,12 @@ _NUMBER = re.compile(r"""[\s"']*[-+]?(\.?\d|(nan|inf|infinity)\s*$)""", re.IGNOR
 
 
 def points_from_file(path: Path) -> np.ndarray:
-    """Points in a CSV file, (n, 3) in m: x, y and z in a row; a first row without a number is a skipped heading."""
+    """Return the points of a CSV file, (n, 3) in m: x, y and z in a row; a first row without a number is skipped."""
     return _numbers(path, "points_file", 3)
 
 
 def paint_from_file(path: Path) -> tuple[np.ndarray, np.ndarray]:
-    """Painted places in a CSV file, (n, 3) in m, and their weights (n,): x, y, z and weight in a row."""
+    """Return painted positions of a CSV file, (n, 3) in m, and their weights (n,): x, y, z and weight in a row."""
     rows = _numbers(path, "painted_file", 4)
     if not len(rows) or (rows[:, 3] < 0.0).any() or (rows[:, 3] > 1.0).any():
         raise ScenarioError(f"{path}: expected rows of x, y, z (m) and a weight from 0 to 1")
@@ -34,7 +34,7 @@ def paint_from_file(path: Path) -> tuple[np.ndarray, np.ndarray]:
 
 
 def paint_text(points_m: np.ndarray, weights: np.ndarray) -> str:
-    """Painted places (n, 3) in m and their weights (n,), as `paint_from_file` reads them."""
+    """Write painted positions (n, 3) in m and their weights (n,), as `paint_from_file` reads them."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(("x_m", "y_m", "z_m", "weight"))
@@ -53,7 +53,7 @@ def _numbers(path: Path, key: str, columns: int) -> np.ndarray:
 
 
 def _row(path: Path, number: int, row: list[str], columns: int) -> list[float] | None:
-    """The numbers in a row; None for a first row of names, in none of which there is a number, not even a wrong one."""
+    """Return the numbers in a row; None for a first row of names."""
     if number == 1 and not any(map(_begins_with_number, row)):
         return None
     try:

@@ -1,4 +1,4 @@
-"""How far footings on soil have settled, leant and slid at the end of a run."""
+"""How far footings on soil have settled, tilted and slid at the end of a run."""
 
 from __future__ import annotations
 
@@ -15,13 +15,10 @@ from ..results.motion import relative_to_ground
 
 
 def settlements(results: Results, foundations: Sequence[Foundation]) -> list[dict[str, Any]]:
-    """Return what became of the footings of each member that stands on soil, by its name, ready for JSON.
+    """Return how the footings of each member on soil have moved, ready for JSON.
 
-    Returns
-    -------
-    list of dict
-        ``member``; ``settled_m``, downwards in the mean of its shards that stand on the ground, and ``most_settled_m``,
-        the largest in any frame; ``slid_m``, along the ground; ``tilt_rad`` of the shard that leans most at the end.
+    ``settled_m`` is the mean downwards over its shards that stand on the ground, ``most_settled_m`` the largest in any
+    frame, ``slid_m`` along the ground, and ``tilt_rad`` that of the shard that leans most at the end.
     """
     inventory, seen = results.inventory, relative_to_ground(results)
     ground = set(inventory.of_kind("ground").tolist())
@@ -54,7 +51,7 @@ def _names(results: Results, body: int) -> tuple[str, str]:
 
 
 def _moved(results: Results, bodies: np.ndarray, points_m: np.ndarray) -> np.ndarray:
-    """How far points (b, 3) that are fixed in bodies (b,) have moved by each frame, (k, b, 3)."""
+    """Return the displacement of points (b, 3) that are fixed in bodies (b,) by each frame, (k, b, 3)."""
     places, rotations = results.frames.positions_m[:, bodies], results.frames.rotations[:, bodies]
     own = transformed_back(rotations[0], points_m - places[0])
     return places + transformed(rotations, np.broadcast_to(own, places.shape)) - points_m

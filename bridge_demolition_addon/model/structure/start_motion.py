@@ -12,9 +12,9 @@ from .model import Model
 
 
 def start_motions(tables: Sequence[Geometry], model: Model) -> tuple[np.ndarray, np.ndarray]:
-    """Return velocities (n, 3), m/s, and angular velocities (n, 3), rad/s, of the shards of a model.
+    """Return velocities (n, 3), m/s, and angular velocities (n, 3), rad/s, of the shards of a model as it begins.
 
-    Of members in several files, the first says how they move. Shards that are held do not.
+    Of members in several files, the first says how they move, as one body. Shards that are held do not.
     """
     velocities, angular_velocities = np.zeros((2, len(model.shards), 3))
     names = np.array([member.name for member in model.members])[model.member_of_shard]

@@ -1,4 +1,4 @@
-"""How stiff the connections of a model are, by their faces, materials, and how far shards reach behind them."""
+"""How stiff the connections of a model are, by their faces, materials, and the length of shards behind them."""
 
 from __future__ import annotations
 
@@ -32,18 +32,8 @@ def connection_stiffness(
 ) -> SectionStiffness:
     """Return the stiffness of m connections.
 
-    Parameters
-    ----------
-    connections, second_moments_m4 : Connections, (m, 2, 2) float
-        The connections, and second moments of their faces.
-    joints, joint_of_connection : sequence of Joint, (m,) int
-        What they have in common, with the moduli of their material, and which of these each is.
-    shards, points_m : n TriangleMesh, (n, 3) float
-        The shards, and the points from which they reach to their faces: those whose Voronoi cells they are.
-    members, member_of_shard : sequence of Member, (n,) int
-        What they were cut from.
-    fixed : (n,) bool
-        Shards that never move: like the ground, they do not give way.
+    `points_m` (n, 3) are those whose Voronoi cells the shards are: from there the shards' length to a face counts.
+    `member_of_shard` (n,) and `joint_of_connection` (m,) are indices; `fixed` (n,) shards do not deform.
     """
     without = np.flatnonzero(connections.areas <= 0.0)
     if len(without):
@@ -74,7 +64,7 @@ def _is_deep(
     members: Sequence[Member],
     member_of_shard: np.ndarray,
 ) -> np.ndarray:
-    """Whether shards (m,) are as deep as their members along axes (m, 3, 2); the ground is."""
+    """Return whether shards (m,) are as deep as their members along axes (m, 3, 2); the ground is."""
     deep = np.ones((len(chosen), 2), bool)
     for row, shard in enumerate(chosen.tolist()):
         if shard == GROUND:

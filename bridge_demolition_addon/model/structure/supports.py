@@ -31,19 +31,7 @@ _SAME_LEANING = 1e-6
 def fixed_shards(
     supports: Sequence[Support], members: Sequence[Member], shards: Sequence[TriangleMesh], member_of_shard: np.ndarray
 ) -> np.ndarray:
-    """Whether each shard is fixed, (n,) bool.
-
-    Parameters
-    ----------
-    supports : sequence of Support
-        What is fixed.
-    members : sequence of Member
-        The k members.
-    shards : n TriangleMesh
-        Before gaps are made.
-    member_of_shard : (n,) int
-        Index of the member of each shard.
-    """
+    """Return whether each shard, before gaps are made, is fixed, (n,) bool."""
     fixed = np.zeros(len(shards), dtype=bool)
     for support in supports:
         chosen = [index for index, each in enumerate(members) if support.member in (each.name, each.kind)]
@@ -66,7 +54,7 @@ def fixed_shards(
 
 
 def on_outermost_face(solid: TriangleMesh, shards: Sequence[TriangleMesh], direction: np.ndarray) -> np.ndarray:
-    """Which of a solid's shards (n,) are part of its outermost face that looks most in a direction (3,)."""
+    """Return which shards (n,) are part of a solid's outermost face that looks most in a direction (3,)."""
     corners = solid.corners
     areas, normals = triangle_areas_and_normals(corners)
     heights = dot(normals, corners[:, 0])
@@ -79,7 +67,7 @@ def on_outermost_face(solid: TriangleMesh, shards: Sequence[TriangleMesh], direc
 
 
 def _has_face_in(shard: TriangleMesh, planes: np.ndarray, tolerance: float) -> bool:
-    """Whether a triangle with an area lies in one of the planes (p, 4), given by their normals and heights."""
+    """Return whether a triangle with an area lies in one of the planes (p, 4): normals and heights."""
     corners = shard.corners
     areas, normals = triangle_areas_and_normals(corners)
     lies = np.abs(dot(corners[:, :, None], planes[:, :3]) - planes[:, 3]).max(axis=1) <= tolerance

@@ -19,15 +19,7 @@ _EXPECTED = "expected ncols, nrows, xllcorner and yllcorner (or xllcenter and yl
 
 
 def read_ascii_grid(path: Path, no_data: float | None) -> Raster:
-    """Read a grid.
-
-    Raises
-    ------
-    UnreadableError
-        The file cannot be read.
-    GeometryError
-        It is no such grid; the text does not name the file.
-    """
+    """Read a grid; a `GeometryError` says what is wrong with it, without the name of the file."""
     header, numbers = _header_and_rest(file_text(path, _MOST_BYTES))
     columns, rows = (_count(header, name) for name in ("ncols", "nrows"))
     dx, dy = (_number(header, name, "cellsize") for name in ("dx", "dy"))
@@ -80,7 +72,6 @@ def _count(header: dict[str, float], name: str) -> int:
 
 
 def _first(header: dict[str, float], axis: str, step: float) -> float:
-    """Return where the middle of the first cell lies along an axis."""
     if (centre := f"{axis}llcenter") in header:
         return header[centre]
     return _number(header, f"{axis}llcorner") + step / 2.0

@@ -33,30 +33,19 @@ _COMMON = 95.0
 
 @dataclass(frozen=True, slots=True)
 class TerrainFacts:
-    """What became of a file of terrain.
+    """What the ground was made of, and how exactly.
 
     Attributes
     ----------
-    name : str
-        Of the file.
-    heights : int
-        How many of its heights lie on the site.
-    triangles : int
-        What they were made.
-    step_m : float
-        Side of the smallest of these.
-    largest_error_m : float
-        How far the ground lies above or below a height of the file at most, where it was not levelled.
-    error_place_m : (2,) tuple of float
-        Where that is.
-    common_error_m : float
-        What 95 % of the heights do not exceed.
-    lowest_m, highest_m : float
-        Of the ground.
-    filled_in_share : float
+    heights, triangles, step_m
+        Heights of the file on the site, triangles made of them, and the side of the smallest.
+    largest_error_m, error_place_m, common_error_m
+        Largest distance of the ground from a height of the file, where it was not levelled, its position (2,), and the
+        distance that 95 % of the heights do not exceed.
+    filled_in_share
         Part of the site without data, level on from the nearest.
-    levelled : tuple of Levelled
-        What was done to it for members.
+    levelled
+        What was dug and filled for members.
     """
 
     name: str
@@ -74,17 +63,7 @@ class TerrainFacts:
 
 @dataclass(frozen=True, slots=True)
 class BuiltGround:
-    """The ground of a model.
-
-    Attributes
-    ----------
-    terrain : Surface or None
-        The ground; None where it is flat, at height 0.
-    facts : TerrainFacts or None
-        How it was made.
-    surfaces : tuple of BuiltSurface
-        What lies on it.
-    """
+    """The ground of a model, how it was made, and the surfaces on it; without a terrain it is flat, at height 0."""
 
     terrain: Surface | None = None
     facts: TerrainFacts | None = None
@@ -92,7 +71,6 @@ class BuiltGround:
 
     @property
     def is_plain(self) -> bool:
-        """Whether it is flat, with nothing on it."""
         return self.terrain is None and not self.surfaces
 
     def recorded(self) -> RecordedGround:
@@ -104,22 +82,12 @@ class BuiltGround:
         return RecordedGround(self.terrain, tuple(surfaces))
 
     def heights_at(self, places_m: np.ndarray) -> np.ndarray:
-        """Heights (n,) of the ground at places (n, 2), m; nan beyond its edge."""
+        """Return heights (n,) of the ground at positions (n, 2), m; nan beyond its edge."""
         return np.zeros(len(places_m)) if self.terrain is None else self.terrain.heights_at(places_m)
 
 
 def built_ground(scenario: Scenario, members: Sequence[tuple[str, TriangleMesh]], half_size_m: float) -> BuiltGround:
-    """Return the ground of a scenario, from the origin `half_size_m` to every side.
-
-    Parameters
-    ----------
-    scenario : Scenario
-        What is to be built.
-    members : sequence of (str, TriangleMesh)
-        Names and solids of its members.
-    half_size_m : float
-        How far it reaches from the origin to every side.
-    """
+    """Return the ground of a scenario under members, `half_size_m` from the origin to every side."""
     terrain = terrain_of(scenario)
     if terrain is None:
         ground = BuiltGround()
@@ -129,7 +97,7 @@ def built_ground(scenario: Scenario, members: Sequence[tuple[str, TriangleMesh]]
 
 
 def check_under(terrain: Terrain, members: Sequence[tuple[str, TriangleMesh]]) -> None:
-    """Make sure that a terrain has data somewhere under a bridge."""
+    """Check that a terrain has data somewhere under a bridge."""
     vertices = np.concatenate([solid.vertices[:, :2] for _, solid in members])
     low, high = vertices.min(axis=0), vertices.max(axis=0)
     x, y = (np.linspace(low[axis], high[axis], 33) for axis in (0, 1))
@@ -178,7 +146,7 @@ def _cut(
 
 
 def _sampled(terrain: Terrain, half_m: float) -> Grid:
-    """Heights of a terrain on a grid around the origin, as fine as its own where that is needed; nan where unknown."""
+    """Sample a terrain around the origin, as finely as its own heights where needed; nan where unknown."""
     step = min(terrain.spacing_m or COARSEST_STEP_M, COARSEST_STEP_M)
     halvings = next((k for k in range(_FEWEST_HALVINGS, _MOST_HALVINGS) if 2.0 * half_m <= step * (1 << k)), None)
     cells = 1 << (_MOST_HALVINGS if halvings is None else halvings)
@@ -197,7 +165,7 @@ def _without_gaps(grid: Grid, known: np.ndarray) -> Grid:
 
 
 def _near(kept: np.ndarray, grid: Grid, points: np.ndarray) -> np.ndarray:
-    """Whether points (n, 3) lie in a cell with a node that was levelled."""
+    """Return whether points (n, 3) lie in a cell with a node that was levelled."""
     cells = np.clip(np.floor((points[:, :2] - grid.low) / grid.step_m).astype(np.int64), 0, grid.size - 2)
     corners = [kept[cells[:, 1] + down, cells[:, 0] + right] for down in (0, 1) for right in (0, 1)]
     return np.any(corners, axis=0)

@@ -21,15 +21,7 @@ SURFACE_FILES = (*MESH_FILES, *LANDXML_FILES)
 
 
 def read_terrain(name: str, ground: Ground) -> Raster | Surface:
-    """Read the heights of a file, in its own coordinates and units.
-
-    Parameters
-    ----------
-    name : str
-        Its path.
-    ground : Ground
-        How it is read: what stands for no data, which way is up.
-    """
+    """Read the heights of a file, in its own coordinates and units."""
     path = _checked(name, "ground.file", TERRAIN_FILES)
     suffix = path.suffix.lower()
     try:
@@ -47,7 +39,7 @@ def read_terrain(name: str, ground: Ground) -> Raster | Surface:
 
 
 def read_surface(name: str, ground: Ground) -> TriangleMesh:
-    """Read the mesh of a surface on the ground, in its own coordinates and units; errors are as of `read_terrain`."""
+    """Read the mesh of a surface on the ground, in its own coordinates and units."""
     path = _checked(name, "ground.surfaces.file", SURFACE_FILES)
     try:
         return _surface_mesh(path, ground)

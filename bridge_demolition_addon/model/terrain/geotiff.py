@@ -26,23 +26,9 @@ _FEET = {9002: 0.3048, 9003: 0.304800609601}
 
 
 def read_geotiff(path: Path, no_data: float | None, scale: float) -> Raster:
-    """Read the heights of a GeoTIFF.
+    """Read the heights of a GeoTIFF; `scale` is what the user takes for metres in one unit of the file.
 
-    Parameters
-    ----------
-    path : Path
-        The file.
-    no_data : float, optional
-        Height that stands for no data; by default what the file says.
-    scale : float
-        What the user takes for metres in one unit of the file.
-
-    Raises
-    ------
-    UnreadableError
-        The file cannot be read.
-    GeometryError
-        It is no height model, is in degrees, or in feet that the scale does not know of.
+    A `GeometryError` says what is wrong: no height model, in degrees, or in feet that the scale does not know of.
     """
     check_file(path, _MOST_BYTES)
     import tifffile  # no other ground needs it

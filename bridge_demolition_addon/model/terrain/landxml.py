@@ -19,15 +19,7 @@ _METRES = {"millimeter": 0.001, "centimeter": 0.01, "kilometer": 1000.0}
 
 
 def read_landxml(path: Path, scale: float) -> Surface:
-    """Read the one surface of a file.
-
-    Parameters
-    ----------
-    path : Path
-        The file.
-    scale : float
-        What the user takes for metres in one unit of the file.
-    """
+    """Read the one surface of a file; `scale` is what the user takes for metres in one unit of it."""
     check_file(path, _MOST_BYTES)
     try:
         root = ElementTree.parse(path).getroot()

@@ -28,14 +28,8 @@ _EAST_DEG = 90.0
 class Placing:
     """Where a file's coordinates are in a scenario.
 
-    Attributes
-    ----------
-    origin : (3,) float
-        Easting, northing and height of the scenario's origin, in the file's units.
-    turn : (2, 2) float
-        Turns easting and northing into x and y.
-    scale : float
-        Metres in one unit of the file.
+    `origin` (3,) is that of the scenario in the file's units, `turn` (2, 2) rotates easting and northing into x and y,
+    and `scale` is metres in one unit of the file.
     """
 
     origin: np.ndarray
@@ -44,7 +38,6 @@ class Placing:
 
     @classmethod
     def of(cls, scenario: Scenario) -> Placing:
-        """Return the placing of a scenario's terrain."""
         ground = scenario.ground
         bearing = ground.bearing_deg
         if bearing is None:
@@ -53,28 +46,18 @@ class Placing:
         return cls(np.array(ground.origin or (0.0, 0.0, 0.0)), turn, ground.scale)
 
     def to_scenario(self, points: np.ndarray) -> np.ndarray:
-        """Places (n, 3) of the file in the scenario, m."""
+        """Return positions (n, 3) of the file in the scenario, m."""
         moved = (points - self.origin) * self.scale
         return np.column_stack((transformed(self.turn, moved[:, :2]), moved[:, 2]))
 
     def to_file(self, places_m: np.ndarray) -> np.ndarray:
-        """Eastings and northings (n, 2) of places (n, 2) of the scenario."""
+        """Return eastings and northings (n, 2) of positions (n, 2) of the scenario."""
         return transformed_back(self.turn, np.asarray(places_m, float)) / self.scale + self.origin[:2]
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Terrain:
-    """Heights of a file, at places of a scenario.
-
-    Attributes
-    ----------
-    name : str
-        Of the file.
-    source : Raster or Surface
-        What the file holds.
-    placing : Placing
-        Where that is.
-    """
+    """Heights of a file, at positions of a scenario."""
 
     name: str
     source: Raster | Surface
@@ -82,23 +65,23 @@ class Terrain:
 
     @property
     def spacing_m(self) -> float | None:
-        """Distance of neighbouring heights, m; None where they lie anywhere."""
+        """Return the distance of neighbouring heights, m; None where they lie anywhere."""
         spacing = self.source.spacing
         return None if spacing is None else spacing * self.placing.scale
 
     def heights_at(self, places_m: np.ndarray) -> np.ndarray:
-        """Heights (n,) at places (n, 2), m; nan where there are no data."""
+        """Return heights (n,) at positions (n, 2), m; nan where there are no data."""
         places_m = np.asarray(places_m, float).reshape(-1, 2)
         heights = self.source.heights_at(self.placing.to_file(places_m))
         return (heights - self.placing.origin[2]) * self.placing.scale
 
     def points_within(self, low_m: np.ndarray, high_m: np.ndarray) -> np.ndarray:
-        """Places (n, 3) in a box (2,) (2,) in plan at which the file gives heights, m."""
+        """Return positions (n, 3) in a box (2,) (2,) in plan at which the file gives heights, m."""
         points = self.placing.to_scenario(self.source.points)
         return points[((points[:, :2] >= low_m) & (points[:, :2] <= high_m)).all(axis=1)]
 
     def told_place(self, place_m: np.ndarray) -> str:
-        """Return in words where a place (2,) is in the file."""
+        """Return easting and northing of a position (2,), as text."""
         easting, northing = self.placing.to_file(place_m)
         return f"easting {easting:.10g}, northing {northing:.10g}"
 
@@ -122,7 +105,7 @@ def surface_mesh(scenario: Scenario, name: str) -> TriangleMesh:
 
 @lru_cache(maxsize=1)
 def _read_once(name: str, ground: Ground, _state: tuple[int, int]) -> Raster | Surface:
-    """Read a file that is as it was then once, however often it is asked for: for the piers, the ground, the view."""
+    """Read a file once until it changes, as the piers, the ground and the view all ask for it."""
     return read_terrain(name, ground)
 
 

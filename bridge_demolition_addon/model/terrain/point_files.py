@@ -25,15 +25,7 @@ _CELLS_PER_POINT = 3
 
 
 def read_points(path: Path, no_data: float | None) -> Raster | Surface:
-    """Read points: on a grid where they lie on one, else the triangles of Delaunay between them.
-
-    Raises
-    ------
-    UnreadableError
-        The file cannot be read.
-    GeometryError
-        It holds no such points.
-    """
+    """Read points: as a grid where they lie on one, else with the triangles of Delaunay between them."""
     points = _numbers(file_text(path, _MOST_BYTES))
     if no_data is not None:
         points = points[points[:, 2] != no_data]
@@ -43,7 +35,7 @@ def read_points(path: Path, no_data: float | None) -> Raster | Surface:
 
 
 def on_grid(points: np.ndarray) -> Raster | None:
-    """Return points (n, 3) as a grid; None where they lie on none."""
+    """Return points (n, 3) as a grid; None where they do not lie on one."""
     along_x, along_y = (_regular(points[:, axis]) for axis in (0, 1))
     if along_x is None or along_y is None:
         return None
@@ -101,7 +93,7 @@ def _are_numbers(line: str) -> bool:
 
 
 def _regular(values: np.ndarray) -> tuple[np.ndarray, float, float] | None:
-    """Return number (n,) of each value in a regular row, its first value and its step; None where there is no step."""
+    """Return number (n,) of each value in a regular row, its first value and its step; None without a step."""
     different = np.unique(values)
     gaps = np.diff(different)
     scale = float(np.abs(values).max())

@@ -28,15 +28,7 @@ _WITHIN_M = 1e-3
 
 @dataclass(frozen=True, slots=True)
 class BuiltSurface:
-    """A surface as it is built.
-
-    Attributes
-    ----------
-    settings : GroundSurface
-        Its name, kind, friction and restitution.
-    mesh : TriangleMesh
-        Its triangles, in the scenario's coordinates.
-    """
+    """A surface as it is built, with its triangles in the scenario's coordinates."""
 
     settings: GroundSurface
     mesh: TriangleMesh
@@ -47,17 +39,7 @@ def built_surfaces(
     members: Sequence[tuple[str, TriangleMesh]],
     ground_at: Callable[[np.ndarray], np.ndarray],
 ) -> tuple[BuiltSurface, ...]:
-    """Return all surfaces of a scenario.
-
-    Parameters
-    ----------
-    scenario : Scenario
-        What is to be built.
-    members : sequence of (str, TriangleMesh)
-        Names and solids of its members; level surfaces leave room for them.
-    ground_at : callable
-        Heights (n,) of the ground at places (n, 2).
-    """
+    """Return all surfaces of a scenario, on ground with heights (n,) at positions (n, 2); level ones spare members."""
     found = []
     for settings in scenario.ground.surfaces:
         if settings.file is None:
@@ -84,7 +66,7 @@ def _level(settings: GroundSurface, members: Sequence[tuple[str, TriangleMesh]])
 
 
 def _plan_between(solid: TriangleMesh, name: str, bottom: float, top: float) -> CrossSection:
-    """What a solid covers in plan between two heights."""
+    """Return the area that a solid covers in plan between two heights."""
     low, high = solid.bounds[:, 2]
     if low >= top or high <= bottom:
         return CrossSection()
