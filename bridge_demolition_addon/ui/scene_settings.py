@@ -9,7 +9,7 @@ from .contours.prop import ContourProperties
 from .ensemble.prop import EnsembleProperties, read_earlier_files
 from .ground.prop import GroundProperties
 from .scenario import prop as scenario_properties
-from .sidebar import path_property
+from .sidebar import path_property, tooltip
 from .stages.shown import StageProperties
 from .viewport import redraw_views
 
@@ -63,7 +63,7 @@ def register() -> None:
     scenario_properties.register()
     for name, table in {"scenario": Scenario, **scenario_properties.ENSEMBLES}.items():
         group = scenario_properties.registered_group(scenario_properties.group_name(table))
-        BDA_PG_settings.__annotations__[name] = PointerProperty(type=group, description=table.__doc__)
+        BDA_PG_settings.__annotations__[name] = PointerProperty(type=group, description=tooltip(table.__doc__))
     bpy.utils.register_class(BDA_PG_settings)
     bpy.types.Scene.bda = PointerProperty(type=BDA_PG_settings)
     bpy.app.handlers.load_post.append(read_earlier_files)

@@ -15,13 +15,22 @@ _EDGES_PX = 75
 _RELATIVE_PATHS = {"PATH_SUPPORTS_BLEND_RELATIVE"} if bpy.app.version >= (5, 0, 0) else set()
 
 
+def tooltip(text: str) -> str:
+    """Return a description on one line, without backticks, nor its full stop, which Blender adds."""
+    return " ".join(text.replace("`", "").split()).rstrip(".")
+
+
 class SidebarPanel:
-    """Base of all panels in the tab BDA of the 3D view's sidebar."""
+    """Base of all panels in the tab BDA of the 3D view's sidebar; their docstrings are their tooltips."""
 
     bl_space_type = "VIEW_3D"
     bl_region_type = "UI"
     bl_category = "BDA"
     bl_options = {"DEFAULT_CLOSED"}
+
+    def __init_subclass__(cls, **keywords: object) -> None:
+        super().__init_subclass__(**keywords)
+        cls.bl_description = tooltip(cls.__doc__ or "")
 
 
 def letters_of(context: bpy.types.Context) -> int:

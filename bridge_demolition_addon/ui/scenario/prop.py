@@ -48,6 +48,7 @@ from ...model.study.criteria import Criterion
 from ...model.study.keys import names_to_propose
 from ...model.study.settings import EnsembleSettings, StudySettings
 from ...model.toml_tables import toml_value
+from ..sidebar import tooltip
 from .number_rows import row_properties
 from .typical_values import typical_words
 
@@ -217,7 +218,7 @@ def _group(
 
 
 def _table_properties(item: Field, defaults: Table | None, group: type[bpy.types.PropertyGroup]) -> dict[str, Any]:
-    meaning = _tooltip(" ".join(subtable_class(item).__doc__.split()))
+    meaning = tooltip(subtable_class(item).__doc__)
     if holds_many(item):
         return {
             item.name: CollectionProperty(type=group, name=_titled(item.name), description=meaning),
@@ -236,7 +237,7 @@ def _key_properties(table_class: type[Table], item: Field, default: Any) -> dict
     name = key_name(table_class, item)
     typical = typical_words(table_class, item)
     description = f"{rule.description} {typical}." if typical else rule.description
-    meaning = _tooltip(f"{description} In a scenario file: {name}, {expected(item)}")
+    meaning = tooltip(f"{description} In a scenario file: {name}, {expected(item)}")
     words = {"name": label, "description": meaning}
     propose = _PROPOSED.get(name)
     properties = {item.name: _proposing(rule, default, propose, words) if propose else _property(item, default, words)}
@@ -329,8 +330,3 @@ def _titled(name: str) -> str:
 def _in_names(unit: str) -> str:
     """Return a unit as it ends the names of keys."""
     return unit.lower().translate({ord("/"): "_", ord("³"): "3", ord("²"): "2", ord("°"): "deg", ord("·"): None})
-
-
-def _tooltip(text: str) -> str:
-    """Return a description without its full stop, which Blender adds."""
-    return text.replace("`", "").rstrip(".")

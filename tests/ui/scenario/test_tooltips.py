@@ -4,11 +4,14 @@
 import re
 
 import pytest
+from support.checkout import ROOT
 
 from bridge_demolition_addon.model.schema import expected, key_name, key_of
+from bridge_demolition_addon.ui.registration import classes
 from bridge_demolition_addon.ui.scenario.prop import all_tables, group_name, registered_group, shown_keys
 from bridge_demolition_addon.ui.scenario.typical_values import TYPICAL, typical_value
 
+FROM_2019 = (ROOT / "docs" / "from_2019.md").read_text(encoding="utf-8")
 NUMBERS = ("FLOAT", "INT")
 
 
@@ -32,6 +35,26 @@ def test_every_field_has_a_tooltip(extension):
     found = shown_properties(extension)
     assert len(found) > 300
     assert [f"{group}.{each.identifier}" for group, each in found if len(each.description) < 10] == []
+
+
+def test_no_tooltip_ends_with_a_full_stop(extension):
+    """Blender adds one."""
+    fields = [(f"{group}.{prop.identifier}", prop.description) for group, prop in shown_properties(extension)]
+    panels = [(cls.__name__, cls.bl_description) for cls in classes() if issubclass(cls, extension.types.Panel)]
+    buttons = [
+        (cls.__name__, getattr(cls, "bl_description", None) or cls.__doc__)
+        for cls in classes()
+        if issubclass(cls, extension.types.Operator)
+    ]
+    assert [name for name, text in (*fields, *panels, *buttons) if text.endswith(".") or not text] == []
+
+
+def test_buttons_and_panels_of_2019_say_their_old_names(extension):
+    rows = re.findall(r"^\| ([A-Z][^|]*) \| [^|]* \| `bda\.(\w+)`", FROM_2019, flags=re.M)
+    assert len(rows) > 6
+    named = {idname: getattr(extension.types, f"BDA_OT_{idname}") for _, idname in rows}
+    for old_name, idname in rows:
+        assert old_name == named[idname].bl_label or f"called {old_name} in 2019" in named[idname].__doc__
 
 
 def test_every_number_says_a_value(extension):
