@@ -20,6 +20,7 @@ from typing import TypeVar
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
+from .equations import summed_on_bodies
 from .gaps import Gaps, SolvedTangents, motion_of_points
 from .joint_rows import cross_products, dot_products, matrix_products, transposed, turned, turned_back
 from .steel_bars import Bars, Steel, bar_response
@@ -273,8 +274,7 @@ class CrackStep:
     def of_bodies(self, loads: tuple[FloatArray, FloatArray], count: int) -> FloatArray:
         """Return the sums (6, n) of loads (6, c) on the first and on the second bodies, for n bodies."""
         cracks = len(self.rows)
-        bodies = np.concatenate((self._gaps.first[:cracks], self._gaps.second[:cracks]))
-        return np.stack([np.bincount(bodies, each, count) for each in np.concatenate(loads, axis=1)])
+        return summed_on_bodies(self._gaps.first[:cracks], self._gaps.second[:cracks], loads, count)
 
     def _begin_at(self, opening: FloatArray) -> None:
         """Take forces for linear about cracks that have opened further (3, 4 c)."""

@@ -9,7 +9,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
 from ..arrays import BoolArray, FloatArray, IntArray
-from .joint_rows import JointFrames, JointRows, matrix_products, transposed
+from .joint_rows import JointRows, matrix_products, transposed
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -39,9 +39,9 @@ class RigidBodies:
         return matrices
 
 
-def summed_on_bodies(frames: JointFrames, loads: tuple[FloatArray, FloatArray], count: int) -> FloatArray:
-    """Return the sums (6, n) of loads (6, m) on the first and on the second bodies of connections, for n bodies."""
-    bodies = np.concatenate((frames.first, frames.second))
+def summed_on_bodies(first: IntArray, second: IntArray, loads: tuple[FloatArray, FloatArray], count: int) -> FloatArray:
+    """Return the sums (6, n) of loads (6, m) on first and second bodies (m,), for n bodies."""
+    bodies = np.concatenate((first, second))
     return np.stack([np.bincount(bodies, component, count) for component in np.concatenate(loads, axis=1)])
 
 

@@ -97,7 +97,7 @@ def _part_at_rest(
         own = bodies.mass_matrices(rotations, members)
         system.factor(slack * own, *stiffness_blocks(rows, stiffness))
         holding = rows.loads(stressed(stiffness, places.deformations() - unloaded))
-        left = (weights + summed_on_bodies(frames, holding, count))[:, members]
+        left = (weights + summed_on_bodies(frames.first, frames.second, holding, count))[:, members]
         if abs(left[:3]).max() <= _AT_REST * abs(weights).max():
             break
         moved = np.zeros((6, count))

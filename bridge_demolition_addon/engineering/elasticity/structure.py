@@ -172,30 +172,32 @@ class ElasticStructure:
             self._substep_s = substep_s
             self._stale[:-1] = True
         awake = self._awake_parts(start)
-        acting = self._acting(awake)
+        are_awake = awake[self.part_of_connection]
+        acts = self._intact & are_awake
+        acting = np.flatnonzero(acts)
         frames = self._frames.only(acting)
         places, deformations = self._deformed(acting, start.positions_m, start.rotations)
-        cracks, soil = self._acting_cracks(start, awake), self._acting_soil(start, awake)
-        nonlinear = [each for each in (cracks, soil) if each is not None]
+        cracks, soil = self._acting_terms(self._cracks, are_awake, start), self._acting_terms(self._soil, acts, start)
+        nonlinear = [terms for terms in (cracks, soil) if terms is not None]
         self._refresh(start, awake, acting, places, nonlinear)
         rows, stiffness = self._rows.only(acting), self._stiffness[..., acting]
-        first, second = (start.velocities.take(each, axis=1) for each in (frames.first, frames.second))
+        first, second = (start.velocities.take(ends, axis=1) for ends in (frames.first, frames.second))
         rates = rows.rates(first, second)
         implicit = substep_s * (substep_s + self._damping_s)
         strains = substep_s * (deformations - self._offsets[:, acting]) - implicit * rates
         amounts = stressed(stiffness, strains)
-        loads = summed_on_bodies(frames, rows.loads(amounts), self._count)
+        loads = summed_on_bodies(frames.first, frames.second, rows.loads(amounts), self._count)
         changes = self._solved(awake, self._with_nonlinear(loads, nonlinear, start.velocities))
         for _ in range(_MOST_GUESSES if nonlinear else 0):
-            if all([each.agrees(start.velocities + changes) for each in nonlinear]):  # a list: all guess again
+            if all([terms.agrees(start.velocities + changes) for terms in nonlinear]):  # a list: all guess again
                 break
             self._refresh(start, awake, acting, places, nonlinear)
             changes = self._solved(awake, self._with_nonlinear(loads, nonlinear, start.velocities))
-        first, second = (changes.take(each, axis=1) for each in (frames.first, frames.second))
+        first, second = (changes.take(ends, axis=1) for ends in (frames.first, frames.second))
         slowing = rows.rates(first, second)
         amounts -= stressed(stiffness, implicit * slowing)
         of_first, of_second = rows.loads(amounts)
-        of_bodies = summed_on_bodies(frames, (of_first, of_second), self._count)
+        of_bodies = summed_on_bodies(frames.first, frames.second, (of_first, of_second), self._count)
         of_cracks = np.zeros((6, 0)), np.zeros((6, 0))
         if cracks is not None:
             of_cracks = cracks.loads(start.velocities + changes)
@@ -277,7 +279,7 @@ class ElasticStructure:
         self.part_of_connection = np.full(len(self._frames), -1)  # (m,); -1 stays for connections that had broken
         self._parts = []
         within = np.full(self._count, -1)
-        of_bodies, of_connections = (_grouped(each, numbers) for each in (label, part_of_connection))
+        of_bodies, of_connections = _grouped(label, numbers), _grouped(part_of_connection, numbers)
         for number, (bodies, rows) in enumerate(zip(of_bodies, of_connections, strict=True)):
             connections = kept[rows]
             within[bodies] = np.arange(len(bodies))
@@ -310,35 +312,21 @@ class ElasticStructure:
         awake[self._part_of_body[mine & ~start.asleep]] = True
         return awake
 
-    def _acting(self, awake: BoolArray) -> IntArray:
-        """Connections (k,) that are intact, and in awake parts (p + 1,)."""
-        return np.flatnonzero(self._intact & awake[self.part_of_connection])
-
-    def _acting_soil(self, start: StepInput, awake: BoolArray) -> NonlinearTerms | None:
-        """Footings in awake parts (p + 1,) that stand on soil; None where there is none."""
-        if self._soil is None:
+    def _acting_terms(
+        self, springs: Cracks | SoilSpringLaw | None, acts: BoolArray, start: StepInput
+    ) -> NonlinearTerms | None:
+        """Cracks that reinforcement holds, or footings, of connections that act (m,); None where there is none."""
+        if springs is None or not acts[springs.rows].any():
             return None
-        rows = self._soil.rows
-        chosen = np.flatnonzero(self._intact[rows] & awake[self.part_of_connection[rows]])
-        if not len(chosen):
-            return None
-        return self._soil.in_substep(chosen, start.positions_m, start.rotations, self._substep_s)
-
-    def _acting_cracks(self, start: StepInput, awake: BoolArray) -> NonlinearTerms | None:
-        """Cracks in awake parts (p + 1,) that reinforcement holds; None where there is none."""
-        if self._cracks is None:
-            return None
-        chosen = np.flatnonzero(awake[self.part_of_connection[self._cracks.rows]])
-        if not len(chosen):
-            return None
-        return self._cracks.in_substep(chosen, start.positions_m, start.rotations, self._substep_s)
+        chosen = np.flatnonzero(acts[springs.rows])
+        return springs.in_substep(chosen, start.positions_m, start.rotations, self._substep_s)
 
     def _with_nonlinear(
         self, loads: FloatArray, nonlinear: Sequence[NonlinearTerms], velocities: FloatArray
     ) -> FloatArray:
         """Impulses (6, n) with those of nonlinear terms, on bodies that have velocities (6, n) at the end."""
-        for each in nonlinear:
-            loads = loads + each.of_bodies(each.loads(velocities), self._count)
+        for terms in nonlinear:
+            loads = loads + terms.of_bodies(terms.loads(velocities), self._count)
         return loads
 
     def _refresh(
@@ -350,8 +338,8 @@ class ElasticStructure:
         nonlinear: Sequence[NonlinearTerms],
     ) -> None:
         """Make rows and equations again of parts that have turned, lost a connection, or have what yields."""
-        for each in nonlinear:
-            self._stale[self.part_of_connection[each.rows[each.changed()]]] = True
+        for terms in nonlinear:
+            self._stale[self.part_of_connection[terms.rows[terms.changed()]]] = True
         turned = abs(start.rotations - self._rotations).max(axis=(0, 1)) > TURNED_RAD
         turned &= self._part_of_body >= 0
         self._stale[self._part_of_body[turned]] = True
@@ -368,10 +356,10 @@ class ElasticStructure:
         blocks: Sequence[FloatArray] = stiffness_blocks(rows, implicit * self._stiffness[..., connections])
         own = self._bodies.mass_matrices(start.rotations, np.flatnonzero(bodies))
         row_of_body = np.cumsum(bodies) - 1
-        for each in nonlinear:
-            of_stale = np.flatnonzero(stale[self.part_of_connection[each.rows]])
-            blocks = [np.concatenate(pair, axis=2) for pair in zip(blocks, each.blocks(of_stale), strict=True)]
-            connections = np.concatenate((connections, each.rows[of_stale]))
+        for terms in nonlinear:
+            of_stale = np.flatnonzero(stale[self.part_of_connection[terms.rows]])
+            blocks = [np.concatenate(pair, axis=2) for pair in zip(blocks, terms.blocks(of_stale), strict=True)]
+            connections = np.concatenate((connections, terms.rows[of_stale]))
         place_of = np.full(len(self._frames), len(connections))
         place_of[connections] = np.arange(len(connections))
         blocks = [np.concatenate((block, np.zeros((6, 6, 1))), axis=2) for block in blocks]  # what broke since has none

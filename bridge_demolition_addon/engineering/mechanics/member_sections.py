@@ -13,7 +13,7 @@ from scipy.spatial import cKDTree
 
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..geometry.vectors import dot
-from .section_cuts import ConnectedFaces, cut_loads
+from .section_cuts import ConnectedFaces, ConnectionLoads, cut_loads
 from .section_forces import SectionForces
 
 SPREAD = 7.0
@@ -44,46 +44,35 @@ class MemberSections:
         kinds: IntArray,
         thicknesses_m: FloatArray,
     ):
-        self._points, self._normals, self._areas = faces.points_m, faces.normals, faces.areas_m2
-        self._second_moments, self._kinds, self._thicknesses = faces.second_moments_m4, kinds, thicknesses_m
-        self._reaches = np.where(np.isfinite(thicknesses_m), SPREAD * thicknesses_m, 0.0)
-        beyond = 2.0 * self._reaches[:, None] * faces.normals
+        self._connected, self._kinds, self._thicknesses = faces, kinds, thicknesses_m
+        self._extents = np.where(np.isfinite(thicknesses_m), SPREAD * thicknesses_m, 0.0)
+        beyond = 2.0 * self._extents[:, None] * faces.normals
         first, second = faces.pairs.T
-        self._before = np.where(moves[first, None], centres_m[first], self._points - beyond)
-        self._behind = np.where(moves[second, None], centres_m[second], self._points + beyond)
-        self._tree = cKDTree(self._points)
+        self._before = np.where(moves[first, None], centres_m[first], faces.points_m - beyond)
+        self._behind = np.where(moves[second, None], centres_m[second], faces.points_m + beyond)
+        self._tree = cKDTree(faces.points_m)
         self._known: dict[int, tuple[FloatArray, FloatArray, FloatArray]] = {}
 
     def are_whole(self, rows: IntArray) -> BoolArray:
         """Whether the sections of some connections (k,) are those of their members, as they were built: (k,) bool."""
-        areas = np.array(
-            [(self._areas[faces] * cosines).sum() for faces, _, cosines in map(self._faces, rows.tolist())]
-        )
+        in_sections = map(self._faces, rows.tolist())
+        areas = np.array([(self._connected.areas_m2[faces] * cosines).sum() for faces, _, cosines in in_sections])
         return areas >= WHOLE * np.square(self._thicknesses[rows])
 
     def sections(
-        self,
-        rows: IntArray,
-        parts: IntArray,
-        forces: FloatArray,
-        moments: FloatArray,
-        points: FloatArray,
-        axes: FloatArray,
+        self, rows: IntArray, parts: IntArray, loads: ConnectionLoads, axes: FloatArray
     ) -> tuple[SectionForces, FloatArray, FloatArray]:
-        """Return loads, areas (k,) and second moments (k, 2, 2) of the sections of some intact connections `rows` (k,).
+        """Return loads, areas (k,) and second moments (k, 2, 2) of the sections of intact connections `rows` (k,).
 
         `parts` (m,) are numbers of what hangs together, which no section goes beyond; negative for broken connections.
-        Forces, moments and points (m, 3) are on the first body of each connection, about its own point, in the axes of
-        the world. `axes` (k, 3, 3) are those of the sections, as columns.
+        `axes` (k, 3, 3) are those of the sections, as columns.
         """
         in_sections = [self._faces(row) for row in rows.tolist()]
         owners = np.repeat(np.arange(len(rows)), [len(faces) for faces, _, _ in in_sections])
         faces, signs, cosines = (np.concatenate(arrays) for arrays in zip(*in_sections, strict=True))
         holds = parts[faces] == parts[rows][owners]
         owners, faces, signs, cosines = owners[holds], faces[holds], signs[holds], cosines[holds]
-        return cut_loads(
-            owners, faces, signs, cosines, forces, moments, points, axes, self._areas, self._second_moments
-        )
+        return cut_loads(self._connected, loads, owners, faces, signs, cosines, axes)
 
     def _faces(self, row: int) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Connections (e,) in the section of one, on which side of it their first bodies are, and their cosines.
@@ -91,14 +80,14 @@ class MemberSections:
         Where the section doubles back, a face carries a load, and has no area.
         """
         if row not in self._known:
-            point, normal = self._points[row], self._normals[row]
-            near = np.array(sorted(self._tree.query_ball_point(point, self._reaches[row])))
+            point, normal = self._connected.points_m[row], self._connected.normals[row]
+            near = np.array(sorted(self._tree.query_ball_point(point, self._extents[row])))
             near = near[(self._kinds[near] == self._kinds[row]) | (near == row)]
             before, behind = dot(self._before[near] - point, normal), dot(self._behind[near] - point, normal)
             parted = (before * behind < 0.0) | (near == row)
             near, before, behind = near[parted], before[parted], behind[parted]
             signs = np.where((before < behind) | (near == row), 1.0, -1.0)
-            cosines = np.maximum(signs * dot(self._normals[near], normal), 0.0)
+            cosines = np.maximum(signs * dot(self._connected.normals[near], normal), 0.0)
             self._known[row] = near, signs, cosines
         return self._known[row]
 

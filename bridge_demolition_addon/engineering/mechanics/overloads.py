@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..geometry.vectors import length
 from .member_sections import MemberSections
-from .section_cuts import ConnectedFaces, SectionCuts, worst_around
-from .section_forces import SectionForces, section_forces
+from .section_cuts import ConnectedFaces, ConnectionLoads, SectionCuts, worst_around
+from .section_forces import SectionForces
 from .strength import Strength, largest_utilisations, rectangular_sections, sections_at, strength_at, utilisation
 
 _SINGLE_PRECISION = 1e-6
@@ -21,21 +19,6 @@ _MOST_REDISTRIBUTED = 3.0
 A section evens out peaks of stress beside notches and edges, two to three times the mean. A sliver that is stretched
 further has torn, whatever the faces beside it carry. Rigid connections share a load by chance: only the cut counts.
 """
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class ConnectionLoads:
-    """Loads of m connections at one moment, in the axes of the world, on the first bodies, about the connections'
-    points.
-    """
-
-    forces_n: FloatArray  # (m, 3)
-    moments_nm: FloatArray
-    points_m: FloatArray
-
-    def in_sections(self, rows: IntArray, axes: FloatArray) -> SectionForces:
-        """Loads of some connections (r,) in the axes (r, 3, 3) of their sections."""
-        return section_forces(axes, self.forces_n[rows], self.moments_nm[rows])
 
 
 class Overloads:
@@ -58,11 +41,10 @@ class Overloads:
         member_sections: MemberSections | None,
     ):
         self._pairs, self._moves, self._strength = faces.pairs, moves, strength
-        self._areas, self._second_moments = faces.areas_m2, faces.second_moments_m4
         self._member_sections = member_sections
-        self._sections = rectangular_sections(self._areas, self._second_moments)
+        self._sections = rectangular_sections(faces.areas_m2, faces.second_moments_m4)
         self._largest_utilisations = largest_utilisations(self._sections, strength)
-        self._cuts = SectionCuts.between(faces.pairs, faces.normals, faces.areas_m2, moves)
+        self._cuts = SectionCuts.through(faces, moves)
 
     def candidates(self, loads: FloatArray, lever_arms_m: FloatArray, left: FloatArray) -> IntArray:
         """Return the connections (k,) whose loads are large enough to break them, whatever they act on.
@@ -135,9 +117,7 @@ class Overloads:
 
     def _in_cuts(self, rows: IntArray, loads: ConnectionLoads, axes: FloatArray, intact: BoolArray) -> FloatArray:
         """Mean utilisations (r,), of whole strengths, of the cuts through the two shards of some connections."""
-        cut_loads, areas, second_moments = self._cuts.sections(
-            rows, intact, loads.forces_n, loads.moments_nm, loads.points_m, axes, self._areas, self._second_moments
-        )
+        cut_loads, areas, second_moments = self._cuts.sections(rows, intact, loads, axes)
         of_both_cuts = strength_at(self._strength, np.concatenate((rows, rows)))
         used = utilisation(cut_loads, rectangular_sections(areas, second_moments), of_both_cuts)
         return used.reshape(2, -1).mean(axis=0)
@@ -156,9 +136,7 @@ class Overloads:
         used = np.empty(len(rows))
         if whole.any():
             holding = np.where(intact, parts, -1)
-            of_sections, areas, second_moments = members.sections(
-                rows[whole], holding, loads.forces_n, loads.moments_nm, loads.points_m, axes[whole]
-            )
+            of_sections, areas, second_moments = members.sections(rows[whole], holding, loads, axes[whole])
             sections = rectangular_sections(areas, second_moments)
             used[whole] = utilisation(of_sections, sections, strength_at(self._strength, rows[whole]))
         if not whole.all():

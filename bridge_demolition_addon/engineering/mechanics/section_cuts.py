@@ -33,24 +33,38 @@ class ConnectedFaces:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
+class ConnectionLoads:
+    """Loads of m connections on their first bodies, about the connections' points, in the axes of the world."""
+
+    forces_n: FloatArray  # (m, 3)
+    moments_nm: FloatArray
+    points_m: FloatArray
+
+    def in_sections(self, rows: IntArray, axes: FloatArray) -> SectionForces:
+        """Loads of some connections (r,) in the axes (r, 3, 3) of their sections."""
+        return section_forces(axes, self.forces_n[rows], self.moments_nm[rows])
+
+
+@dataclass(frozen=True, eq=False, slots=True)
 class SectionCuts:
     """Two cuts for each of m connections, through its first and through its second shard."""
 
+    connected: ConnectedFaces
     starts: IntArray  # (2 m + 1,), first face of each cut, first all cuts through first shards; last the number of all
     faces: IntArray  # (e,), connections whose faces are in a cut
     signs: FloatArray  # (e,), 1 where the load of that connection's first body counts, -1 where its opposite does
     cosines: FloatArray  # (e,), between the normals of a face and of its cut
 
     @classmethod
-    def between(cls, pairs: IntArray, normals: FloatArray, areas: FloatArray, is_shard: BoolArray) -> SectionCuts:
-        """The cuts of connections of pairs (m, 2), with unit normals (m, 3) from the first body, and areas (m,), m².
+    def through(cls, connected: ConnectedFaces, is_shard: BoolArray) -> SectionCuts:
+        """The cuts of connections between n bodies.
 
         `is_shard` (n,): bodies with faces all around. Through any other, such as the ground, a cut has one face only.
         """
-        count = len(pairs)
+        count = len(connected.pairs)
         # A half is a connection as one of its bodies sees it: first those of the first bodies, then of the second.
-        body = pairs.T.ravel()
-        outwards = np.concatenate((normals, -normals))
+        body = connected.pairs.T.ravel()
+        outwards = np.concatenate((connected.normals, -connected.normals))
         order = np.argsort(body, kind="stable")
         per_body = np.bincount(body, minlength=len(is_shard))
         first_of_body = np.cumsum(per_body) - per_body
@@ -58,71 +72,54 @@ class SectionCuts:
         half = order[place]
         cosines = dot(outwards[cut], outwards[half])
         own = cut == half
-        together = own | (is_shard[body[cut]] & (cosines > SAME_WAY) & (areas[half % count] > 0.0))
+        together = own | (is_shard[body[cut]] & (cosines > SAME_WAY) & (connected.areas_m2[half % count] > 0.0))
         cut, half, cosines = cut[together], half[together], cosines[together]
         starts = np.searchsorted(cut, np.arange(2 * count + 1))
         signs = np.where((cut < count) == (half < count), 1.0, -1.0)
-        return cls(starts, half % count, signs, cosines)
+        return cls(connected, starts, half % count, signs, cosines)
 
     def sections(
-        self,
-        rows: IntArray,
-        intact: BoolArray,
-        forces: FloatArray,
-        moments: FloatArray,
-        points: FloatArray,
-        axes: FloatArray,
-        areas: FloatArray,
-        second_moments: FloatArray,
+        self, rows: IntArray, intact: BoolArray, loads: ConnectionLoads, axes: FloatArray
     ) -> tuple[SectionForces, FloatArray, FloatArray]:
         """Loads, areas (2 k,) and second moments (2 k, 2, 2) of the cuts of intact connections `rows` (k,).
 
-        First are the cuts through the first bodies. `intact` (m,): a broken face is in no cut. Forces, moments and
-        points (m, 3) are on the first body of each connection, about its own point, in the axes of the world; N, N·m,
-        m. `axes` (k, 3, 3) are those of the sections, as columns; areas (m,), m², and second moments (m, 2, 2), m⁴,
-        those of all faces.
+        First are the cuts through the first bodies. `intact` (m,): a broken face is in no cut. `axes` (k, 3, 3) are
+        those of the sections, as columns.
         """
         cuts = np.concatenate((rows, rows + len(intact)))
         owners, entries = ranges(self.starts[cuts], np.diff(self.starts)[cuts])
         holds = intact[self.faces[entries]]
         owners, entries = owners[holds], entries[holds]
-        faces, cosines = self.faces[entries], self.cosines[entries]
-        axes = np.concatenate((axes, axes))
-        return cut_loads(
-            owners, faces, self.signs[entries], cosines, forces, moments, points, axes, areas, second_moments
-        )
+        faces, signs, cosines = self.faces[entries], self.signs[entries], self.cosines[entries]
+        return cut_loads(self.connected, loads, owners, faces, signs, cosines, np.concatenate((axes, axes)))
 
 
 def cut_loads(
+    connected: ConnectedFaces,
+    loads: ConnectionLoads,
     owners: IntArray,
     faces: IntArray,
     signs: FloatArray,
     cosines: FloatArray,
-    forces: FloatArray,
-    moments: FloatArray,
-    points: FloatArray,
     axes: FloatArray,
-    areas: FloatArray,
-    second_moments: FloatArray,
 ) -> tuple[SectionForces, FloatArray, FloatArray]:
     """Loads, areas (k,) and second moments (k, 2, 2) of k cuts through faces that stay plane together.
 
     `owners` and `faces` (e,): cuts, from 0 to k - 1 in order, and the connections whose faces are in them. `signs` and
-    `cosines` (e,) are as in `SectionCuts`, the arrays of all m connections as in `SectionCuts.sections`.
+    `cosines` (e,) are as in `SectionCuts`, `axes` (k, 3, 3) those of the cuts, as columns.
     """
     firsts = np.searchsorted(owners, np.arange(len(axes)))
 
     def total(values: FloatArray) -> FloatArray:
         return np.add.reduceat(values, firsts, axis=0) if len(values) else values[:0]
 
-    shares = areas[faces] * cosines
+    shares, points = connected.areas_m2[faces] * cosines, loads.points_m[faces]
     cut_areas = total(shares)
-    centres = total(shares[:, None] * points[faces]) / cut_areas[:, None]
-    levers = points[faces] - centres[owners]
-    pulls = signs[:, None] * forces[faces]
-    turns = signs[:, None] * moments[faces] + np.cross(levers, pulls)
+    levers = points - (total(shares[:, None] * points) / cut_areas[:, None])[owners]
+    pulls = signs[:, None] * loads.forces_n[faces]
+    turns = signs[:, None] * loads.moments_nm[faces] + np.cross(levers, pulls)
     across = transformed_back(axes[owners], levers)[:, 1:]
-    own = second_moments[faces] * cosines[:, None, None]
+    own = connected.second_moments_m4[faces] * cosines[:, None, None]
     cut_moments = total(own + shares[:, None, None] * _moved_axes(across))
     return section_forces(axes, total(pulls), total(turns)), cut_areas, cut_moments
 

@@ -11,8 +11,8 @@ import numpy as np
 from ...engineering.elasticity.equations import connected_parts
 from ...engineering.elasticity.section_stiffness import SectionStiffness
 from ...engineering.mechanics.joint import Joint
-from ...engineering.mechanics.overloads import ConnectionLoads, Overloads
-from ...engineering.mechanics.section_cuts import worst_around
+from ...engineering.mechanics.overloads import Overloads
+from ...engineering.mechanics.section_cuts import ConnectionLoads, worst_around
 from ...engineering.mechanics.section_forces import SectionForces, section_axes
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...errors import ScenarioError

@@ -8,7 +8,8 @@ import numpy as np
 
 from ...bullet.constraints import ConstraintTable
 from ...engineering.mechanics.frame_loads import Moment
-from ...engineering.mechanics.overloads import ConnectionLoads, Overloads
+from ...engineering.mechanics.overloads import Overloads
+from ...engineering.mechanics.section_cuts import ConnectionLoads
 from ...engineering.mechanics.section_forces import SectionForces
 from ...model.schema import given
 from .drivers import Driver, WarmUp

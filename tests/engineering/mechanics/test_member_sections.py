@@ -11,8 +11,8 @@ from bridge_demolition_addon.engineering.fracture.shards import fracture
 from bridge_demolition_addon.engineering.geometry.solids import box
 from bridge_demolition_addon.engineering.mechanics.joint import Joint
 from bridge_demolition_addon.engineering.mechanics.member_sections import SPREAD, MemberSections, kinds_of
-from bridge_demolition_addon.engineering.mechanics.overloads import ConnectionLoads, Overloads
-from bridge_demolition_addon.engineering.mechanics.section_cuts import ConnectedFaces
+from bridge_demolition_addon.engineering.mechanics.overloads import Overloads
+from bridge_demolition_addon.engineering.mechanics.section_cuts import ConnectedFaces, ConnectionLoads
 from bridge_demolition_addon.engineering.mechanics.section_forces import SectionForces, section_axes
 from bridge_demolition_addon.engineering.mechanics.strength import Strength
 from bridge_demolition_addon.engineering.structure.connections import (
@@ -99,9 +99,7 @@ class PulledSlab:
     def sections(self, rows: np.ndarray) -> tuple[SectionForces, np.ndarray, np.ndarray]:
         """Loads and sizes of sections through connections."""
         one_part = np.zeros(len(self.connections), int)
-        loads = self.loads
-        of_all = loads.forces_n, loads.moments_nm, loads.points_m
-        return self.member_sections().sections(rows, one_part, *of_all, self.axes[rows])
+        return self.member_sections().sections(rows, one_part, self.loads, self.axes[rows])
 
     def overloads(self, tension_pa: float, sections: MemberSections | None) -> Overloads:
         """What judges it by a strength that cracks in tension and bending."""
@@ -143,10 +141,7 @@ def test_a_section_does_not_reach_from_one_part_to_another():
     slab = PulledSlab.cut(200, 1)
     rows = np.flatnonzero(~slab.moves[slab.pairs[:, 1]])
     parts = (slab.connections.points[:, 1] > 0.0).astype(int)
-    loads = slab.loads
-    _, areas, _ = slab.member_sections().sections(
-        rows, parts, loads.forces_n, loads.moments_nm, loads.points_m, slab.axes[rows]
-    )
+    _, areas, _ = slab.member_sections().sections(rows, parts, slab.loads, slab.axes[rows])
     ground = slab.connections.areas[rows]
     assert areas == pytest.approx(np.where(parts[rows], ground[parts[rows] == 1].sum(), ground[parts[rows] == 0].sum()))
 

@@ -4,7 +4,12 @@
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.engineering.mechanics.section_cuts import SectionCuts, worst_around
+from bridge_demolition_addon.engineering.mechanics.section_cuts import (
+    ConnectedFaces,
+    ConnectionLoads,
+    SectionCuts,
+    worst_around,
+)
 from bridge_demolition_addon.engineering.mechanics.section_forces import section_axes
 from bridge_demolition_addon.engineering.mechanics.strength import Strength, rectangular_sections, utilisation
 
@@ -23,14 +28,15 @@ DIRECTIONS = np.array([(1.0, 0, 0), (1.0, 0, 0), (1.0, 0, 0), (-1.0, 0, 0)])
 SECOND_MOMENTS = np.zeros((4, 2, 2))
 SECOND_MOMENTS[:, 0, 0] = WIDTH * HEIGHTS**3 / 12.0
 SECOND_MOMENTS[:, 1, 1] = WIDTH**3 * HEIGHTS / 12.0
+FACES = ConnectedFaces(PAIRS, POINTS, DIRECTIONS, AREAS, SECOND_MOMENTS)
 INTACT = np.ones(4, bool)
 
 
 def cut_sections(rows, forces, moments, intact=INTACT):
-    cuts = SectionCuts.between(PAIRS, DIRECTIONS, AREAS, IS_SHARD)
+    cuts = SectionCuts.through(FACES, IS_SHARD)
     rows = np.array(rows)
     axes = section_axes(DIRECTIONS[rows])
-    return cuts.sections(rows, intact, forces, moments, POINTS, axes, AREAS, SECOND_MOMENTS)
+    return cuts.sections(rows, intact, ConnectionLoads(forces, moments, POINTS), axes)
 
 
 def test_faces_of_one_side_make_the_whole_section():
@@ -77,19 +83,19 @@ def test_through_what_is_no_shard_goes_one_face():
 def test_slanted_faces_count_with_what_they_show():
     pairs = np.array([(0, 1), (0, 2), (0, 3)])
     slanted = np.array([(1.0, 0, 0), (0.6, 0.8, 0), (0.0, 1.0, 0)])
-    cuts = SectionCuts.between(pairs, slanted, np.array([1.0, 1.0, 1.0]), np.ones(4, bool))
     zero = np.zeros((3, 3))
+    cuts = SectionCuts.through(ConnectedFaces(pairs, zero, slanted, np.ones(3), np.zeros((3, 2, 2))), np.ones(4, bool))
     row = np.array([0])
-    _, areas, _ = cuts.sections(
-        row, np.ones(3, bool), zero, zero, zero, section_axes(slanted[:1]), np.ones(3), np.zeros((3, 2, 2))
-    )
+    _, areas, _ = cuts.sections(row, np.ones(3, bool), ConnectionLoads(zero, zero, zero), section_axes(slanted[:1]))
     assert areas.tolist() == [1.6, 1.0]
 
 
 def test_no_rows_and_no_connections():
     loads, areas, moments = cut_sections(np.zeros(0, int), np.zeros((4, 3)), np.zeros((4, 3)))
     assert len(areas) == len(moments) == len(loads.axial_n) == 0
-    empty = SectionCuts.between(np.zeros((0, 2), int), np.zeros((0, 3)), np.zeros(0), np.ones(2, bool))
+    none = np.zeros((0, 3))
+    no_faces = ConnectedFaces(np.zeros((0, 2), int), none, none, np.zeros(0), np.zeros((0, 2, 2)))
+    empty = SectionCuts.through(no_faces, np.ones(2, bool))
     assert empty.starts.tolist() == [0]
 
 
