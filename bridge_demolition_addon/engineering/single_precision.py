@@ -15,7 +15,7 @@ def shortest(number: float) -> float:
 def as_given(value: Any, given: Any) -> Any:
     """Return the number that was given, where Blender holds just that, else the shortest decimal of what it holds.
 
-    Whatever is no fraction is returned as it is.
+    A value that is no float is returned as it is.
     """
     if not isinstance(value, float):
         return value

@@ -6,6 +6,7 @@ import io
 import os
 import platform
 import sys
+from contextlib import suppress
 from datetime import datetime
 from pathlib import Path
 from types import TracebackType
@@ -64,7 +65,8 @@ class FolderLock:
             self._path.unlink(missing_ok=True)
         self._file.close()
         if in_place and sys.platform == "win32":
-            _remove_closed(self._path)
+            with suppress(PermissionError):  # another process has opened it in between, and owns it now
+                self._path.unlink(missing_ok=True)
 
     def __enter__(self) -> Self:
         return self
@@ -125,10 +127,3 @@ def _take(descriptor: int, path: Path) -> None:
 
 def _holder(path: Path) -> str:
     return path.read_text(encoding="utf-8", errors="replace") or "a process that has just begun"
-
-
-def _remove_closed(path: Path) -> None:
-    try:
-        path.unlink(missing_ok=True)
-    except PermissionError:  # another process has opened it in between, and owns it now
-        return

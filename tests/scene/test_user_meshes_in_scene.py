@@ -7,7 +7,7 @@ import bpy
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.engineering.fracture.density import painted_density
+from bridge_demolition_addon.engineering.fracture.options import painted_density
 from bridge_demolition_addon.engineering.geometry.mesh import triangle_areas_and_normals, volumes_and_centres
 from bridge_demolition_addon.engineering.geometry.solids import box
 from bridge_demolition_addon.errors import GeometryError

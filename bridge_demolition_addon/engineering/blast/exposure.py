@@ -22,10 +22,10 @@ GRAZING_M = 1e-3
 """Hulls stop rays this much inside their faces, so that none is stopped between bodies that touch, or by rounding."""
 
 _HALF_WAY = 0.5
-"""Where between centre and vertices rays end: well inside the body, so that no body that touches it hides it."""
+"""End of rays between centre and vertices: well inside the body, so that no body that touches it hides it."""
 
 PAIRS_AT_ONCE = 1_000_000
-"""Ray-and-body or ray-and-face pairs looked at in one array operation: some tens of megabytes."""
+"""Ray-and-body or ray-and-face pairs in one array operation: some tens of megabytes."""
 
 
 def lines_of_blast(sources: FloatArray, centres: FloatArray) -> tuple[FloatArray, FloatArray]:

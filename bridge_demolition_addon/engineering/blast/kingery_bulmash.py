@@ -40,7 +40,7 @@ class Quantity(StrEnum):
 
 
 _SI = {"kPa": 1e3, "kPa ms/kg^(1/3)": 1.0, "ms/kg^(1/3)": 1e-3, "km/s": 1e3}
-"""What the tables' units are in Pa, Pa·s/kg^(1/3), s/kg^(1/3) and m/s."""
+"""The tables' units in Pa, Pa·s/kg^(1/3), s/kg^(1/3) and m/s."""
 
 _FALLING_AS_SOUND = {
     Quantity.PEAK_OVERPRESSURE,

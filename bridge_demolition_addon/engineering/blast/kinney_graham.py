@@ -21,7 +21,7 @@ from .wave import (
 )
 
 GROUND_REFLECTION = 1.8
-"""A charge on the ground acts like so many in the air: 2 on unyielding ground, less what goes into the crater
+"""Number of charges in the air that act like one on the ground: 2 on unyielding ground, less the work of the crater
 (Smith and Hetherington 1994, section 3.4). Kinney and Graham have no surface burst of their own."""
 
 SHORTEST_DURATION_DISTANCE = 0.5095

@@ -36,7 +36,7 @@ _MOST_STEPS = 50
 
 
 class BlastModel(NamedChoice):
-    """Where peak, impulse, arrival and duration come from."""
+    """Source of peak, impulse, arrival and duration."""
 
     KINGERY_BULMASH = "kingery-bulmash"
     """Fits to tests, for either burst: what the field uses."""
@@ -75,7 +75,7 @@ def blast_wave(
 
 
 class Loading(NamedChoice):
-    """Which pressure loads a body."""
+    """Pressure that loads a body."""
 
     INCIDENT = "incident"
     """The pressure beside the wave's path, as in the report."""
@@ -238,7 +238,7 @@ def fitted(peak: FloatArray, duration: FloatArray, impulse: FloatArray) -> tuple
 def decay_of(share: FloatArray) -> FloatArray:
     """Return the decay b ≥ 0 at which the impulse is a share of p₀ t_d, from above 0 to `LARGEST_SHARE`.
 
-    The share falls with b and is convex, and at b = 1/share - 2 it is not below what is asked for. So Newton's steps
+    The share falls with b and is convex, and at b = 1/share - 2 it is not below the wanted one. So Newton's steps
     from there go one way, never overshoot, and are done after a handful.
     """
     share = np.asarray(share, float)

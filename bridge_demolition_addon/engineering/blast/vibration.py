@@ -21,7 +21,7 @@ DAMAGE_LIMIT_M_S = 0.0508
 
 @dataclass(frozen=True, slots=True)
 class VibratingGround:
-    """How ground carries vibration."""
+    """Constants of ground that carries vibration."""
 
     name: str
     velocity_m_s: float  # K: peak particle velocity at a scaled distance of 1 m/kg^(1/2)

@@ -39,10 +39,10 @@ class NamedChoice(StrEnum):
 
 
 class Burst(NamedChoice):
-    """Where a charge detonates."""
+    """Surroundings of a detonation."""
 
     AIR = "air"
-    """Free of any surface: the wave is a sphere."""
+    """Far from any surface: the wave is a sphere."""
 
     SURFACE = "surface"
     """On the ground, which sends back what goes down: the wave is a hemisphere."""

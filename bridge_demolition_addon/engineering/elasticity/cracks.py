@@ -1,4 +1,4 @@
-"""Cracks that reinforcement holds together: what they resist in a sub-step, in the equations of the structure.
+"""Cracks that reinforcement holds together: their resistance in a sub-step, in the equations of the structure.
 
 A connection that broke leaves four places at the corners of the rectangle with the same second moments as its face. In
 each is a quarter of the bars, or what resists the same moments as bars in their layers. There the sides of the crack
@@ -41,10 +41,10 @@ Bars pull less hard along an inclined crack than across it: otherwise cracks tha
 _COUNT = len(CORNERS)
 
 _HALVINGS = 12
-"""How finely the way from one guess to the next is searched."""
+"""Halvings of the way from one guess to the next."""
 
 _AGREES = 1e-4
-"""Part of its yield force by which the force of a bar may be off."""
+"""Largest error of the force of a bar, by its yield force."""
 
 
 class Cracks:
@@ -151,7 +151,7 @@ class Cracks:
         return CrackStep(self.rows[chosen], between, law, SolvedTangents(self._solved_for, which), substep_s)
 
     def _bars(self) -> Bars:
-        """All bars, with what is left of them."""
+        """Return all bars, with their remaining area."""
         whole = self._yield_n[:, self.rows] * self._shares[self.rows]
         return Bars.of(whole.ravel(), self._steel, self._elongation_m)
 
@@ -185,7 +185,7 @@ class Cracks:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CrackLaw:
-    """What b bars, and the sides of their cracks, resist, in the axes of the world."""
+    """Resistance of b bars, and of the sides of their cracks, in the axes of the world."""
 
     bars: Bars
     slips_m: FloatArray  # (3, b), deformation that stays
@@ -205,7 +205,7 @@ class CrackLaw:
 
 
 class CrackStep:
-    """What c cracks, in place of connections `rows` (c,), with 4 c bars do in a sub-step."""
+    """Forces of c cracks, in place of connections `rows` (c,), with 4 c bars in a sub-step."""
 
     def __init__(self, rows: IntArray, gaps: Gaps, law: CrackLaw, solved: SolvedTangents, substep_s: float):
         self.rows = rows
@@ -215,7 +215,7 @@ class CrackStep:
         self._begin_at(np.zeros_like(gaps.widths_m))
 
     def changed(self) -> BoolArray:
-        """Which cracks (c,) have other tangents than their equations."""
+        """Return whether each crack (c,) has other tangents than its equations."""
         return self._solved.differ(self._tangents).reshape(_COUNT, -1).any(axis=0)
 
     def blocks(self, chosen: IntArray) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -254,7 +254,7 @@ class CrackStep:
         return False
 
     def _out_of_balance(self, opening: FloatArray, balance: FloatArray) -> FloatArray:
-        """What cracks that opened so far would resist (3, 4 c) beyond what is in balance with all else."""
+        """Resistance (3, 4 c) of cracks with this opening, less the forces that are in balance with all else."""
         return self._law.resisted(self._gaps.widths_m + opening)[0] - balance
 
     def _least(
@@ -299,7 +299,7 @@ def corner_shares(places_m: FloatArray, sides_m: FloatArray) -> FloatArray:
 
 
 def _as_bars(gaps_m: FloatArray, normals: FloatArray) -> FloatArray:
-    """How far bars are stretched (3, b) by gaps (3, b) of cracks with normals (3, b): along these less, as dowels."""
+    """Stretches of bars (3, b) by gaps (3, b) of cracks with normals (3, b): less along the crack, as dowels."""
     stretches: FloatArray = DOWEL_SHARE * gaps_m + (1.0 - DOWEL_SHARE) * dot_products(gaps_m, normals) * normals
     return stretches
 

@@ -1,4 +1,4 @@
-"""The elastic structure at rest: how far it deforms under its own weight, and how fast it swings about that."""
+"""The elastic structure at rest: its deformation under its own weight, and its first frequency about that."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from .joint_rows import JointFrames, components_first, components_last, joint_pl
 from .sparse_system import BlockSystem
 
 _SLOWEST_S = 60.0
-"""What would swing slower than in this period is not held: a mechanism, or a part without a support."""
+"""Longest period of a part that is held; slower ones are mechanisms, or have no support."""
 
 _LARGEST_M = 0.5
-"""What deforms more has no equilibrium near the shape in which it was built."""
+"""Largest deformation; beyond it there is no equilibrium near the shape in which the part was built."""
 
 _SOLUTIONS = 8
-"""Linear solutions, one after another, of which each takes off what turning has left: two or three are enough."""
+"""Linear solutions, one after another, each of which corrects the turning of the last: two or three are enough."""
 
 _AT_REST = 1e-9
 """Unbalanced load, as a share of the largest weight, at which the structure rests."""
@@ -80,7 +80,7 @@ def _part_at_rest(
     gravity_m_s2: FloatArray,
     loads: FloatArray | None,
 ) -> tuple[FloatArray, FloatArray, float] | None:
-    """Where bodies (b,) that hang together by connections rest, and their first frequency; None for a mechanism."""
+    """Positions, rotations and first frequency of connected bodies (b,) at rest; None for a mechanism."""
     count, positions_m, rotations = len(bodies), bodies.positions_m, bodies.rotations
     unknown = np.full(count, -1)
     unknown[members] = np.arange(len(members))

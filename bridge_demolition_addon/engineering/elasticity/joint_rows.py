@@ -1,4 +1,4 @@
-"""How connections are deformed, and how the motion of their bodies deforms them further.
+"""Deformations of connections, and their rates by the motion of the bodies.
 
 Each connection has six rows, as Bullet's own constraint between two frames: three shifts of the second frame against
 the first, along the axes of the first, and three turns, the angles of Euler in the order x, y, z. Only with these rows
@@ -38,7 +38,7 @@ class JointFrames:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class JointPlaces:
-    """Where the frames of m connections are in the world."""
+    """Positions of the frames of m connections in the world."""
 
     first_axes: FloatArray  # (3, 3, m), axes of the frames as columns
     second_axes: FloatArray
@@ -80,7 +80,7 @@ class JointPlaces:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class JointRows:
-    """How fast the deformations of m connections shrink when bodies move: velocities of the first against the second.
+    """Rates at which deformations of m connections shrink: velocities of the first bodies against the second.
 
     The first index of each array (3, 3, m) is the row.
     """
@@ -92,7 +92,7 @@ class JointRows:
 
     @classmethod
     def empty(cls, count: int) -> JointRows:
-        """Return rows of so many connections, all 0."""
+        """Return rows of `count` connections, all 0."""
         return cls(*(np.zeros((3, 3, count)) for _ in fields(cls)))
 
     def set(self, connections: IntArray, rows: JointRows) -> None:

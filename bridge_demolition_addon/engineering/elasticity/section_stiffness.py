@@ -1,4 +1,4 @@
-"""How stiff connections are: the faces that shards share, as far as the two shards extend behind them.
+"""Stiffness of connections: that of the faces that shards share, as far as the two shards extend behind them.
 
 Between two Voronoi cells, springs with the same stiffness along a face as across it, E by the distance between the
 cells' points, deform evenly under every even stress, however irregular the cells are: J. E. Bolander and S. Saito
@@ -36,7 +36,7 @@ SHORTEST = 0.02
 
 @dataclass(frozen=True, slots=True)
 class ElasticModuli:
-    """How a material deforms: modulus of elasticity and Poisson's ratio."""
+    """Modulus of elasticity and Poisson's ratio of a material."""
 
     young_pa: float
     poisson: float

@@ -1,4 +1,4 @@
-"""How reinforcing bars stretch: elastic up to their yield force, then with hardening, and elastic again when unloaded.
+"""Law of reinforcing bars: elastic up to their yield force, then with hardening, and elastic again when unloaded.
 
 The law is bilinear: EN 1992-1-1:2004, 3.2.7 (2) a. It is meant for bars that are pulled along their axis. Across a
 crack they are also pulled askew: their force then has the direction in which the sides of the crack have parted, and
@@ -28,7 +28,7 @@ RUPTURE_STRAIN = 0.05
 
 @dataclass(frozen=True, slots=True)
 class Steel:
-    """How bars yield, harden and rupture, whatever their number and length."""
+    """Yielding, hardening and rupture of bars, whatever their number and length."""
 
     yield_pa: float = YIELD_PA  # f_y
     hardening: float = HARDENING  # tensile strength over yield strength, f_t / f_y
@@ -80,7 +80,7 @@ class Bars:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class BarResponse:
-    """What b bars do when they are stretched."""
+    """Forces and deformations of b bars that are stretched."""
 
     forces_n: FloatArray  # (3, b), along the stretch; they pull its ends together
     slips_m: FloatArray  # (3, b), part of the stretch that stays

@@ -25,15 +25,15 @@ from .joint_rows import JointFrames, JointPlaces, JointRows, joint_places
 from .sparse_system import BlockSystem
 
 _MOST_GUESSES = 40
-"""How often the equations are solved for bars that yield; what is out of balance then goes into the next sub-step."""
+"""Largest number of solutions for bars that yield; forces out of balance then go into the next sub-step."""
 
 TURNED_RAD = 1e-4
-"""How far bodies may turn before rows and equations are made again: loads are then off by as much, relative."""
+"""Rotation of bodies after which rows and equations are made again: loads are then off by as much, relative."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class StepInput:
-    """How n bodies stand before a sub-step, and would move in it without connections."""
+    """Positions of n bodies before a sub-step, and their motion in it without connections."""
 
     positions_m: FloatArray  # (3, n), centres of mass
     rotations: FloatArray  # (3, 3, n)
@@ -43,7 +43,7 @@ class StepInput:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class ElasticStep:
-    """What k of the elastic connections do in a sub-step; the others are broken, or asleep.
+    """Effects of k elastic connections in a sub-step; the others are broken, or asleep.
 
     Impulses are on the first and on the second bodies, and about their centres.
     """
@@ -65,7 +65,7 @@ class NonlinearTerms(Protocol):
     rows: IntArray
 
     def changed(self) -> BoolArray:
-        """Which of `rows` (c,) have other tangents than their equations."""
+        """Return whether each of `rows` (c,) has other tangents than its equations."""
 
     def blocks(self, chosen: IntArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return what some (k,) add to the equations of their first and second bodies, and between, (6, 6, k)."""
@@ -74,7 +74,7 @@ class NonlinearTerms(Protocol):
         """Return the impulses (6, c) on the first and second bodies, with velocities (6, n) then."""
 
     def agrees(self, velocities: FloatArray) -> bool:
-        """Whether the forces are those that follow from velocities (6, n); if not, guess again."""
+        """Return whether the forces are those that follow from velocities (6, n); if not, guess again."""
 
     def of_bodies(self, loads: tuple[FloatArray, FloatArray], count: int) -> FloatArray:
         """Return the sums (6, n) of loads (6, c) on the first and on the second bodies, for n bodies."""
@@ -117,7 +117,7 @@ class _Part:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _RowCache:
-    """Where connections (r,), in order, were when bodies were there last."""
+    """Positions of connections (r,), in order, and of their bodies, as they were last."""
 
     positions_m: FloatArray
     rotations: FloatArray
@@ -247,7 +247,7 @@ class ElasticStructure:
             self._has_broken = True
 
     def end_substep(self) -> None:
-        """Find again which bodies hang together, if any connection broke since this was done last."""
+        """Find the parts again, if a connection broke since this was done last."""
         if self._has_broken:
             self._partition()
 
@@ -306,7 +306,7 @@ class ElasticStructure:
             self._has_broken = True
 
     def _awake_parts(self, start: StepInput) -> BoolArray:
-        """Parts (p + 1,) of which a body is awake."""
+        """Whether a body of each part (p + 1,) is awake."""
         mine = self._part_of_body >= 0
         awake = np.zeros(len(self._stale), bool)
         awake[self._part_of_body[mine & ~start.asleep]] = True
@@ -379,7 +379,7 @@ class ElasticStructure:
 
 
 def _grouped(labels: IntArray, numbers: IntArray) -> list[IntArray]:
-    """Where labels (n,) have each of some ascending numbers."""
+    """Rows of labels (n,) that are equal to each of some ascending numbers."""
     order = np.argsort(labels, kind="stable")
     starts, ends = (np.searchsorted(labels[order], numbers, side) for side in ("left", "right"))
     return [order[start:end] for start, end in zip(starts.tolist(), ends.tolist(), strict=True)]

@@ -1,4 +1,4 @@
-"""Footings on springs: what they resist in a sub-step, in the equations of the elastic structure.
+"""Footings on springs: their resistance in a sub-step, in the equations of the elastic structure.
 
 Each part of a footing's area is a spring. It presses by stiffness, area and settlement, and never pulls: E. Winkler
 (1867), Die Lehre von der Elastizität und Festigkeit. At the largest pressure that the soil resists, it settles for
@@ -22,7 +22,7 @@ from ..elasticity.gaps import Gaps, SolvedTangents, motion_of_points
 from ..elasticity.joint_rows import cross_products, matrix_products, transposed, turned, turned_back
 
 _AGREES = 1e-4
-"""Part of the mean force of a footing's springs by which that of one may be off."""
+"""Largest error of the force of a spring, by the mean force of the footing's springs."""
 
 _EVEN_M = 1e-10
 """Settlement up to this counts as none."""
@@ -143,7 +143,7 @@ class Footings:
 
 
 class FootingStep:
-    """What c footings with q springs do in a sub-step.
+    """Forces of c footings with q springs in a sub-step.
 
     `rows` and `stands_first` (c,): connections, and whether the first body of each stands on the ground. `footings`
     (q,): footing of each spring. `gaps` are from the ground to the body, and from where a spring resists nothing.
@@ -168,7 +168,7 @@ class FootingStep:
         self._begin_at(np.zeros_like(gaps.widths_m))
 
     def changed(self) -> BoolArray:
-        """Which footings (c,) have other tangents than their equations."""
+        """Return whether each footing (c,) has other tangents than its equations."""
         return np.bincount(self._of, self._solved.differ(self._tangents), len(self.rows)) > 0
 
     def blocks(self, chosen: IntArray) -> tuple[FloatArray, FloatArray, FloatArray]:

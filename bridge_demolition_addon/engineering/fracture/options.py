@@ -1,10 +1,26 @@
-"""Options of cutting a solid, beyond the number of its shards."""
+"""Options of cutting a solid: density of its points, finer near positions or where painted, stretch and recursion."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from .density import PointDensity
+import numpy as np
+
+from ...errors import GeometryError
+from ..arrays import FloatArray
+from ..geometry.vectors import distance
+
+_PAIRS_PER_BLOCK = 2_000_000
+"""Distances computed in one go; bounds the memory."""
+
+
+@dataclass(frozen=True, slots=True)
+class PointDensity:
+    """Relative density of points: `at` gives it (n,) at positions (n, 3) in m; it is above 0 and at most `largest`."""
+
+    at: Callable[[FloatArray], FloatArray]
+    largest: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -18,7 +34,7 @@ class Recursion:
 
 @dataclass(frozen=True, slots=True)
 class FractureOptions:
-    """How a solid is cut."""
+    """Density, disorder and stretch of the shards of a solid, and which are cut again."""
 
     density: PointDensity | None = None  # where points lie closer; evenly by default
     # How far points are moved at random, as a part of a shard's mean size (volume / shards)^(1/3): sampled points stay
@@ -30,3 +46,54 @@ class FractureOptions:
 
 PLAIN = FractureOptions()
 """Points sampled evenly, and nothing else."""
+
+
+def density_around(places_m: FloatArray, radii_m: Sequence[float], factors: Sequence[float]) -> PointDensity:
+    """Density `factor`, at least 1, in each position (k, 3), that falls evenly to 1 at its radius.
+
+    Where several overlap, the largest counts.
+    """
+    places = np.asarray(places_m, dtype=float).reshape(-1, 3)
+    radii, surplus = np.asarray(radii_m, dtype=float), np.asarray(factors, dtype=float) - 1.0
+
+    def at(points: FloatArray) -> FloatArray:
+        distances = distance(points[:, None], places)
+        densities: FloatArray = 1.0 + (surplus * np.maximum(0.0, 1.0 - distances / radii)).max(axis=1, initial=0.0)
+        return densities
+
+    return PointDensity(at, 1.0 + float(surplus.max(initial=0.0)))
+
+
+def densest(densities: Sequence[PointDensity]) -> PointDensity:
+    """The largest of one or more densities, everywhere."""
+    return PointDensity(
+        lambda points: np.array([density.at(points) for density in densities]).max(axis=0),
+        max(density.largest for density in densities),
+    )
+
+
+def painted_density(points_m: FloatArray, weights: FloatArray, factor: float) -> PointDensity:
+    """Density between 1, where nothing is painted, and `factor`, at least 1, where the paint is full.
+
+    Weights (k,), from 0 to 1, are known at points (k, 3), such as a mesh's vertices. Between these they are
+    interpolated by inverse squared distances: D. Shepard (1968), A two-dimensional interpolation function for
+    irregularly-spaced data, Proc. 23rd ACM National Conference, 517-524.
+    """
+    known, weights = np.asarray(points_m, dtype=float).reshape(-1, 3), np.asarray(weights, dtype=float)
+    if not len(known) or len(known) != len(weights):
+        raise GeometryError(f"{len(known)} painted points have {len(weights)} weights; give each point one.")
+    if not ((weights >= 0.0) & (weights <= 1.0)).all() or not factor >= 1.0:
+        raise GeometryError("Painted weights go from 0 to 1, and the factor of the density is at least 1.")
+
+    def at(points: FloatArray) -> FloatArray:
+        rows = max(1, _PAIRS_PER_BLOCK // len(known))
+        blocks = [_shepard(points[first : first + rows], known, weights) for first in range(0, len(points), rows)]
+        return 1.0 + (factor - 1.0) * np.concatenate([np.zeros(0), *blocks])
+
+    return PointDensity(at, factor)
+
+
+def _shepard(points: FloatArray, known: FloatArray, weights: FloatArray) -> FloatArray:
+    # A place on a painted point takes its weight: the least distance keeps the division finite.
+    pull = 1.0 / np.square(np.maximum(distance(points[:, None], known), 1e-9))
+    return np.clip((pull * weights).sum(axis=1) / pull.sum(axis=1), 0.0, 1.0)

@@ -12,7 +12,7 @@ from ..arrays import FloatArray, IntArray
 from ..geometry.mesh import TriangleMesh
 from ..geometry.solids import bodies, contains, from_manifold, to_manifold
 from ..geometry.vectors import dot
-from .density import PointDensity
+from .options import PointDensity
 
 _MOST_MOVES = 20
 """Tries to move a point without leaving the solid, before it stays: points in corners rarely need more."""
@@ -86,7 +86,7 @@ def _uniform(solid: Manifold, count: int, generator: np.random.Generator) -> Flo
 
 
 def _shared_out(count: int, volumes: Sequence[float], generator: np.random.Generator) -> IntArray:
-    """How many of some points (k,) fall into each part, at random by volume.
+    """Numbers of points (k,) in each part, at random by volume.
 
     The generator's own multinomial numbers come from logarithms that differ by processor.
     """

@@ -41,7 +41,7 @@ _BOX_MARGIN = 1e-3
 """The box around the cells is larger than the solid by this part of its longest extent: its sides must cut nothing."""
 
 _SAME_CUT_M = 1e-7
-"""How far apart the two sides of one cut may lie: only rounding is between them."""
+"""Largest distance of the two sides of one cut: only rounding is between them."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -202,7 +202,7 @@ def _pieces(solid: TriangleMesh, points: FloatArray, stretch: FloatArray | None)
     for index, cell in enumerate(convex_cells(points, lower - margin, upper + margin)):
         if stretch is not None:
             cell = replace(cell, mesh=replace(cell.mesh, vertices=cell.mesh.vertices * stretch))
-        # Its triangles are known by the number `cut`, and by their neighbours, in what is left of it in the solid.
+        # In the solid its triangles are known by the number `cut`, and by their neighbours.
         convex = to_manifold(cell.mesh, "A Voronoi cell", cut, cell.neighbours)
         parts = bodies(convex ^ whole, smallest_volume=smallest)
         pieces += [
@@ -244,7 +244,7 @@ def _faces_between(pieces: Sequence[_Piece], cell_count: int) -> SharedFaces:
 
 
 def _laid_over(triangles: _Triangles, candidates: IntArray) -> tuple[IntArray, IntArray, FloatArray, FloatArray]:
-    """Which two of the candidates lie on either side of one cut, and area and centre of what they have in common."""
+    """Pairs of candidates on the two sides of one cut, and areas and centres of what they have in common."""
     candidates = candidates[triangles.areas[candidates] > 0]
     near = candidates[triangles.facing[candidates] > triangles.cell[candidates]]
     far = candidates[(triangles.facing[candidates] >= 0) & (triangles.facing[candidates] < triangles.cell[candidates])]

@@ -1,4 +1,4 @@
-"""Volumes that solids have in common: cut off where members are made, and looked for where nothing may overlap."""
+"""Common volumes of solids: cut off where members are made, and searched for where nothing may overlap."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def hulls(shards: Sequence[TriangleMesh]) -> list[TriangleMesh]:
 def separated(solids: Sequence[TriangleMesh], names: Sequence[str]) -> tuple[list[TriangleMesh], FloatArray]:
     """Closed solids without what they have in common with those before them, and the volumes (n,) cut off them, m³.
 
-    A solid of which nothing was cut off is the same object.
+    An unchanged solid is the same object.
     """
     whole = [to_manifold(solid, name) for solid, name in zip(solids, names, strict=True)]
     result, removed = list(solids), np.zeros(len(solids))
@@ -76,5 +76,5 @@ def separated(solids: Sequence[TriangleMesh], names: Sequence[str]) -> tuple[lis
 def _manifold(mesh: TriangleMesh, index: int) -> Manifold:
     solid = to_manifold(mesh, f"Mesh {index}")
     if solid.is_empty():
-        raise GeometryError(f"Mesh {index} holds no volume; it cannot be looked at for overlap.")
+        raise GeometryError(f"Mesh {index} holds no volume; it cannot be checked for overlap.")
     return solid

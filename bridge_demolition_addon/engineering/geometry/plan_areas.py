@@ -26,7 +26,7 @@ def signed_area(corners: FloatArray) -> FloatArray:
 
 
 def united(areas: Iterable[CrossSection]) -> CrossSection:
-    """What at least one of the areas covers."""
+    """Area that at least one of the areas covers."""
     # Neighbours first: hundreds of areas that all overlap take fifteen times as long at once.
     areas = sorted(areas, key=lambda area: area.bounds())
     while len(areas) > 1:
@@ -41,7 +41,7 @@ def outlines(area: CrossSection) -> list[FloatArray]:
 
 
 def distances_outside(area: CrossSection, points: FloatArray) -> FloatArray:
-    """How far points (p, 2) are outside an area, m (p,); 0 within it."""
+    """Distances (p,) of points (p, 2) from an area, m; 0 within it."""
     if not area.num_contour():
         raise ValueError("an empty area has no distance to anything")
     rings = outlines(area)
@@ -67,7 +67,7 @@ def _distances_to_sides(points: FloatArray, starts: FloatArray, ends: FloatArray
 
 
 def _windings(points: FloatArray, starts: FloatArray, ends: FloatArray) -> IntArray:
-    """How often an outline winds around each of the points (p,), from the sides that a ray to the right meets.
+    """Winding numbers (p,) of an outline around points, from the sides that a ray to the right meets.
 
     D. Sunday (2021), Practical Geometry Algorithms: the winding number of a point in a polygon, without angles.
     """

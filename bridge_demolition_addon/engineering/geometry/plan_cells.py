@@ -13,7 +13,7 @@ from .plan_areas import united
 
 _SIZES_M = tuple(step * decade for decade in (0.1, 1.0, 10.0, 100.0, 1000.0) for step in (1.0, 2.0, 5.0))
 _ON_A_LINE = 1e-9
-"""What is so near to a line between cells, in sides of a cell, lies on it."""
+"""Distance from a line between cells, in sides of a cell, up to which a point lies on it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,7 +49,7 @@ class PlanCells:
         return self.side_m * np.arange(self.first_row, self.first_row + self.rows + 1, dtype=float)
 
     def touched(self, rings: Sequence[FloatArray]) -> BoolArray:
-        """Return the cells (rows, columns) of which an area covers a part, even the smallest.
+        """Return the cells (rows, columns) that an area covers wholly or in part, even the smallest.
 
         Its outlines (k, 2), as `outlines` gives them, lie within the cells; those of holes run the other way round.
         """
@@ -64,7 +64,7 @@ class PlanCells:
         return self._crossed(starts, ends) | self._centres_within(starts, ends)
 
     def area_of(self, chosen: BoolArray) -> CrossSection:
-        """Return what the chosen ones (rows, columns) of the cells cover."""
+        """Return the area of chosen cells (rows, columns)."""
         steps = np.diff(np.pad(chosen.astype(int), ((0, 0), (1, 1))), axis=1)
         rows, firsts = np.nonzero(steps == 1)
         _, lasts = np.nonzero(steps == -1)

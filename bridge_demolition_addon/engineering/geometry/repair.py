@@ -30,7 +30,7 @@ WELDING_TOLERANCE = 1e-6
 """Part of the mesh's longest extent within which corners on open edges are one: single precision keeps seven digits."""
 
 FLATNESS_TOLERANCE = 1e-3
-"""Part of a hole's extent by which its rim may leave a plane and the hole still be closed by it."""
+"""Distance of the rim of a hole from a plane, by its extent, up to which the hole is closed by it."""
 
 _SLIT_TOLERANCE = 1e-12
 """Part of the square of a hole's extent below which its area is rounding, and its rim lies along a line."""

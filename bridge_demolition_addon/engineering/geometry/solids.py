@@ -205,7 +205,7 @@ def _enclosing(cavity: Manifold, outer_meshes: list[TriangleMesh], volumes: Floa
 
 
 def _winding_numbers(corners: FloatArray, points: FloatArray) -> FloatArray:
-    """How often triangles (t, 3, 3) wind around each of the points (n, 3): 1 inside, 0 outside."""
+    """Winding numbers (n,) of triangles (t, 3, 3) around points (n, 3): 1 inside, 0 outside."""
     a, b, c = (corners[None, :, index] - points[:, None] for index in range(3))
     length_a, length_b, length_c = length(a), length(b), length(c)
     numerator = dot(a, np.cross(b, c))

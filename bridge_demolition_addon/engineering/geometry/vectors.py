@@ -56,12 +56,12 @@ def cross(first: FloatArray, second: FloatArray) -> FloatArray:
 
 
 def by_component(x: FloatArray, y: FloatArray, z: FloatArray) -> FloatArray:
-    """Vectors (..., 3) with components (...), each of which lies together in memory."""
+    """Vectors (..., 3) whose components (...) each lie together in memory."""
     return np.moveaxis(np.stack((x, y, z)), 0, -1)
 
 
 def cross_by_component(first: FloatArray, second: FloatArray) -> FloatArray:
-    """Cross products (..., 3) of vectors (..., 3), each component of which lies together in memory."""
+    """Cross products (..., 3) of vectors (..., 3), whose components each lie together in memory."""
     product = np.empty((3, *np.broadcast_shapes(first.shape, second.shape)[:-1]))
     taken_off = np.empty(product.shape[1:])
     for axis, (one, other) in enumerate(((1, 2), (2, 0), (0, 1))):
@@ -72,7 +72,7 @@ def cross_by_component(first: FloatArray, second: FloatArray) -> FloatArray:
 
 
 def taken(vectors: FloatArray, rows: IntArray) -> FloatArray:
-    """Some vectors (s, k, c), each component of which lies together in memory, of vectors (s, n, c) in rows (k,)."""
+    """Rows (k,) of vectors (s, n, c) as vectors (s, k, c), whose components each lie together in memory."""
     return np.moveaxis(np.moveaxis(vectors, -1, 0).take(rows, axis=-1), 0, -1)
 
 

@@ -37,7 +37,7 @@ class GroundRecord:
 
     @property
     def duration_s(self) -> float:
-        """How long it lasts."""
+        """Duration of the record."""
         return float(self.times_s[-1])
 
     def displacement_at(self, time_s: float) -> FloatArray:

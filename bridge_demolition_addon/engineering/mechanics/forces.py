@@ -36,7 +36,7 @@ class PairSums:
         return self._of(self.first, values) + self._of(self.second, values)
 
     def differences(self, values: FloatArray) -> FloatArray:
-        """Sums (s, n) of values over pairs of which a body is the first, less those of which it is the second."""
+        """Sums (s, n) of values over pairs with a body as the first, less those with it as the second."""
         return self._of(self.first, values) - self._of(self.second, values)
 
     def resultants(self, forces: FloatArray) -> FloatArray:

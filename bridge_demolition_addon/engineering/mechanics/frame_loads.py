@@ -104,7 +104,7 @@ class FrameLoads:
     connection_peak_moments_nm: FloatArray  # (m, 3)
 
     def unknown(self) -> FrameLoads:
-        """Return loads of the same shape of which nothing is known: nan throughout."""
+        """Return unknown loads of the same shape: nan throughout."""
         return FrameLoads(*(np.full_like(getattr(self, field.name), np.nan) for field in fields(self)))
 
 

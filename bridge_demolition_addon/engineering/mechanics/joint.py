@@ -14,7 +14,7 @@ all but what is free, and GENERIC_SPRING has springs in what is free."""
 
 
 class JointMotion(StrEnum):
-    """How one body can move against the other: along and about the axes of the world, as they are built."""
+    """Motions of one body against the other: along and about the axes of the world, as they are built."""
 
     MOVE_X = "move x"
     MOVE_Y = "move y"
@@ -30,7 +30,7 @@ class JointMotion(StrEnum):
 
 
 MOTIONS = tuple(motion.value for motion in JointMotion)
-"""What a scenario calls these motions."""
+"""Names of these motions in a scenario."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,7 +17,7 @@ from .section_cuts import ConnectedFaces, ConnectionLoads, cut_loads
 from .section_forces import SectionForces
 
 SPREAD = 7.0
-"""How far a section extends from its middle, by the thickness of the member.
+"""Extent of a section from its middle, by the thickness of the member.
 
 A ball of 1 m that punches through a plate of 0.25 m is resisted along 4 × 1 m + 4 π × 0.25 m, the control perimeter of
 EN 1992-1-1:2004, 6.4.2. Two sections, one on either side, have that length if they extend by seven thicknesses.

@@ -1,4 +1,4 @@
-"""Which connections carry more than their strength: judged face by face, and with the sections they are part of."""
+"""Connections that carry more than their strength: judged face by face, and with the sections they are part of."""
 
 from __future__ import annotations
 

@@ -137,6 +137,6 @@ def worst_around(pairs: IntArray, used: FloatArray, is_shard: BoolArray) -> Bool
 
 
 def _moved_axes(across: FloatArray) -> FloatArray:
-    """What a unit of area adds to second moments (e, 2, 2) by its distance (e, 2), y and z, from the axes."""
+    """Second moments (e, 2, 2) of a unit of area by its distance (e, 2), y and z, from the axes."""
     y, z = across.T
     return np.stack((np.stack((z * z, -y * z), axis=1), np.stack((-y * z, y * y), axis=1)), axis=1)

@@ -12,7 +12,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from ...errors import ScenarioError
-from ..arrays import BoolArray, FloatArray, IntArray
+from ..arrays import FloatArray, IntArray
 from ..geometry.vectors import length, symmetric_eigenvectors_2d, transformed_back
 from .section_forces import SectionForces
 
@@ -20,7 +20,7 @@ NEWTON_PER_SQUARE_MILLIMETRE = 1e6
 """1 N/mm² in Pa."""
 
 _ROUNDING = 1e-9
-"""Part by which principal second moments of a square may differ that was cut from a mesh."""
+"""Largest difference of principal second moments of a square that was cut from a mesh, as a part of the larger."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -116,26 +116,21 @@ def rectangular_sections(areas: FloatArray, second_moments: FloatArray) -> Secti
 
     The edges of a section of any shape are taken to be as far from its middle as those of the rectangle with the same
     area and second moments: √(3 I / A). That is exact for rectangles, whichever way they are turned, but for squares,
-    whose second moments do not say it: these lie along the section's axes.
+    whose second moments do not say it: these lie along the section's axes, as those of upright columns and level beams
+    do.
 
     Torsion of a rectangle b > c: stress = T / (b c²) × (3 + 1.8 c/b), within 5 % (S. Timoshenko, 1955, Strength of
     Materials, part I, 3rd edition, section 62).
     """
     areas = np.where(np.asarray(areas) > 0.0, areas, np.nan)
     moments, directions = symmetric_eigenvectors_2d(second_moments)
-    directions = np.where(_are_square(moments)[:, None, None], np.eye(2), directions)
+    # Of squares, second moments are equal but for rounding, which alone would then turn the section.
+    are_square = moments[:, 1] - moments[:, 0] <= _ROUNDING * moments[:, 1]
+    directions = np.where(are_square[:, None, None], np.eye(2), directions)
     sides = np.sqrt(12.0 * moments / areas[:, None])
     short, long = sides.T
     torsion_moduli = areas * short / (3.0 + 1.8 * short / long)
     return Sections(areas, directions, 2.0 * moments / sides, torsion_moduli)
-
-
-def _are_square(moments: FloatArray) -> BoolArray:
-    """Whether principal second moments (m, 2) are equal but for rounding, which alone would then turn the section.
-
-    Sections of upright columns and level beams lie along their y and z axes, and so squares are taken to.
-    """
-    return moments[:, 1] - moments[:, 0] <= _ROUNDING * moments[:, 1]
 
 
 def sections_at(sections: Sections, rows: IntArray) -> Sections:

@@ -81,7 +81,7 @@ class FrameWork(Generic[_Energy]):
 
     @classmethod
     def unknown(cls, *shape: int) -> FrameWork[Any]:
-        """Return work of which nothing is known, nan throughout, on n bodies in one frame, or in frames (k, n)."""
+        """Return unknown work, nan throughout, on n bodies in one frame, or in frames (k, n)."""
         shapes = {item.name: shape[:-1] for item in fields(cls)} | {"made_j": shape}
         values: dict[str, Any] = {name: np.full(of_values, np.nan) for name, of_values in shapes.items()}
         return cls(**values)
@@ -230,7 +230,7 @@ class WorkAccumulator:
         )
 
     def _after_storing(self, work_j: FloatArray, stored_j: FloatArray) -> FloatArray:
-        """Return what is left of the work (s k,) of elastic connections when they have stored and given back theirs.
+        """Return the rest of the work (s k,) of elastic connections after they have stored and given back theirs.
 
         Each has an account: of what it takes from its bodies it keeps as much as it can have stored (s, k), and what it
         gives back comes from there. More than that is made; what it cannot keep is dissipated.
@@ -306,6 +306,6 @@ def _dot(first: Sequence[FloatArray], second: Sequence[FloatArray]) -> FloatArra
 
 
 def _joined(first: FloatArray, second: FloatArray) -> FloatArray:
-    """Vectors (s, n, 3) of earlier and later sub-steps, each component of which lies together in memory."""
+    """Vectors (s, n, 3) of earlier and later sub-steps, whose components each lie together in memory."""
     parts = [np.moveaxis(vectors, -1, 0) for vectors in (first, second)]
     return np.moveaxis(np.concatenate(parts, axis=1), 0, -1)

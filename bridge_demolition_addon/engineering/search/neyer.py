@@ -47,7 +47,7 @@ class NeyerTest:
         self.rounded, self.pending = rounded, pending
 
     def levels(self, outcomes: Sequence[bool], count: int) -> FloatArray:
-        """Return the levels (count,) of the first runs, of which the outcomes of the first n are known.
+        """Return the levels (count,) of the first runs, when the outcomes of the first n are known.
 
         Each was chosen when the outcomes of all runs but the last `pending` before it were known, so that count is at
         most n + pending + 1.

@@ -1,1 +1,1 @@
-"""What independent runs say about the next one: limits that hold with a confidence, whatever the distribution."""
+"""Conclusions from independent runs about the next one: limits with a confidence, whatever the distribution."""

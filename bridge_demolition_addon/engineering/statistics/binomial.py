@@ -39,7 +39,7 @@ _SERIES_TERMS = 9
 
 
 def binomial_cdf(happened: ArrayLike, runs: ArrayLike, chance: ArrayLike) -> FloatArray:
-    """Probability that something with a chance happens at most `happened` times in so many independent runs.
+    """Probability that something with a chance happens at most `happened` times in `runs` independent runs.
 
     It is within 1e-12 of the exact probability for up to a million runs. Numbers, or arrays of one shape.
     """
@@ -66,12 +66,12 @@ def binomial_cdf_inverse(happened: ArrayLike, runs: ArrayLike, probability: Arra
 
 
 def upper_limit(happened: ArrayLike, runs: int, confidence: float) -> FloatArray:
-    """Largest probability that so many of the independent runs leave possible, with a one-sided confidence."""
+    """Largest probability of what happened in this many independent runs, with a one-sided confidence."""
     return binomial_cdf_inverse(happened, runs, 1.0 - confidence)
 
 
 def lower_limit(happened: ArrayLike, runs: int, confidence: float) -> FloatArray:
-    """Smallest probability that so many of the independent runs leave possible, with a one-sided confidence."""
+    """Smallest probability of what happened in this many independent runs, with a one-sided confidence."""
     return 1.0 - upper_limit(runs - np.asarray(happened), runs, confidence)
 
 
@@ -91,7 +91,7 @@ def _end_sum(happened: FloatArray, runs: FloatArray, chance: FloatArray) -> Floa
 
 
 def _probability_of(happened: FloatArray, runs: FloatArray, chance: FloatArray) -> FloatArray:
-    """Probability of exactly so many."""
+    """Probability of exactly this number."""
     missed, rest = runs - happened, 1.0 - chance
     inside = (happened > 0.0) & (missed > 0.0) & (chance > 0.0) & (rest > 0.0)
     k, m, n = np.where(inside, happened, 1.0), np.where(inside, missed, 1.0), np.where(inside, runs, 2.0)

@@ -3,7 +3,7 @@
 Runs have to be independent and of one distribution, and their number and the rank have to be fixed before they are
 seen.
 
-One count serves three questions, because in each of them so many runs of all touch the limit, and the part of the
+One count serves three questions, because in each of them this number of runs touches the limit, and the part of the
 distribution that lies outside is then at most theirs:
 
 - the k-th largest of one quantity as its limit (Wilks 1941): k runs;
@@ -28,7 +28,7 @@ from .binomial import binomial_cdf, upper_limit
 def achieved_confidence(support_count: int, runs: int, quantile: float) -> float:
     """Return how sure it is that at least a share `quantile` of all runs to come stays within a limit.
 
-    So many of the runs set the limit: for the k-th largest as limit of one quantity, k.
+    `support_count` runs set the limit: for the k-th largest as limit of one quantity, k.
     """
     return float(1.0 - binomial_cdf(support_count - 1, runs, 1.0 - quantile))
 
@@ -49,7 +49,7 @@ def least_runs(quantile: float, confidence: float, support_count: int = 1) -> in
 
 
 def most_support(runs: int, quantile: float, confidence: float) -> int:
-    """Return the rank to use, from the largest: the highest that so many runs allow; 0 where they are too few."""
+    """Return the rank to use, from the largest: the highest that the runs allow; 0 where they are too few."""
     return int(most_support_by_runs(np.array([runs]), quantile, confidence)[0])
 
 
@@ -65,7 +65,7 @@ def most_support_by_runs(runs: IntArray, quantile: float, confidence: float) -> 
 
 
 def coverage(support_count: int, runs: int, confidence: float) -> float:
-    """Return the largest share of all runs to come of which it is so sure that they stay within."""
+    """Return the largest share of all runs to come that stays within the limit with the confidence."""
     return 1.0 - float(upper_limit(support_count - 1, runs, confidence))
 
 
@@ -75,7 +75,7 @@ def nth_largest(values: FloatArray, rank: int) -> float:
 
 
 def limits_by_runs(values: FloatArray, quantile: float, confidence: float, rank: int) -> tuple[IntArray, FloatArray]:
-    """Return numbers of runs (m,), and the limit (m,) by so many first runs, of values (n,) in the order of the runs.
+    """Return numbers of runs (m,), and the limit (m,) by these first runs, of values (n,) in the order of the runs.
 
     The numbers are up to `_MOST_POINTS` of those that allow a limit, all included. `rank` is the highest from the
     largest that is used: with many runs the one fixed beforehand, with few a lower one.

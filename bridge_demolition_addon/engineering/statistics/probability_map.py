@@ -55,7 +55,7 @@ class ProbabilityMap:
         return least_runs(1.0 - probability, self.confidence)
 
     def area_above(self, probability: float) -> CrossSection:
-        """Return the cells of which it is not sure that a run hits them with a smaller probability.
+        """Return the cells that runs may hit with more than a probability.
 
         Beyond the map as well nothing is sure where the runs do not resolve the probability.
         """

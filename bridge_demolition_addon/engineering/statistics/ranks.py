@@ -28,7 +28,7 @@ def rank_correlation(first: FloatArray, second: FloatArray) -> float:
 
 
 def correlation_by_chance(pairs: int) -> float:
-    """Return the size that rank correlations of so many pairs, at least 2, stay below by chance in 19 cases of 20.
+    """Return the size that rank correlations of at least 2 pairs stay below by chance in 19 cases of 20.
 
     Of quantities that have nothing to do with each other they scatter by 1 / √(n - 1) (Kendall and Gibbons 1990, Rank
     Correlation Methods, 5th edition), and nearly as a normal variable.

@@ -18,10 +18,10 @@ def chances_above(rank: int, runs: int) -> FloatArray:
 
     The rank counts from the largest, which is 1. The chances increase.
     """
-    # From the largest down, the new value of that rank comes after `rank` - 1 new ones and so many known ones.
+    # From the largest down, the new value of that rank comes after `rank` - 1 new ones and `before` known ones.
     before = np.arange(1.0, runs)
     none_before = (runs - np.arange(rank)) / (2.0 * runs - np.arange(rank))
-    # Every order of known and new values is as likely as any other; so much rarer or commoner is one more before it.
+    # Every order of known and new values is as likely as any other: the ratio of chances with one more before it.
     ratios = (rank - 1.0 + before) / before * (runs + 1.0 - before) / (2.0 * runs + 1.0 - rank - before)
     # By logarithms: of a thousandth rank no known value before it is too rare for a number.
     sizes = logarithm(none_before).sum() + np.concatenate([[0.0], np.cumsum(logarithm(ratios))])

@@ -1,4 +1,4 @@
-"""Which shards are connected, and where: neighbours by distance or by shared face, and foundations on the ground."""
+"""Connections of shards: neighbours by distance or by shared face, and foundations on the ground."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ GROUND = -1
 """Stands for the ground where a connection names its second body."""
 
 _LEVEL_TOLERANCE_M = 1e-6
-"""How far a face may lie off the ground and still stand on it: rounding of coordinates of some hundred metres."""
+"""Distance from the ground up to which a face stands on it: rounding of coordinates of some hundred metres."""
 
 _ROUNDING = 1e-9
-"""How much further than a radius vertices are looked at, in m and as a part of the radius."""
+"""Addition to a radius in the search for vertices, in m and as a part of the radius."""
 
 
 @dataclass(frozen=True, slots=True)

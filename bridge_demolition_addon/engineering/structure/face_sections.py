@@ -14,10 +14,10 @@ from ..geometry.vectors import dot, outer, transformed_back
 from ..mechanics.section_forces import section_axes
 
 _SAME_PLANE_M = 1e-6
-"""How far a corner may lie off the plane of a face and still belong to it: rounding of coordinates of a bridge."""
+"""Distance from the plane of a face up to which a corner belongs to it: rounding of coordinates of a bridge."""
 
 _SAME_AREA = 1e-3
-"""Part by which the area in a shard's mesh may differ from the face's, before it is taken for another face's."""
+"""Largest difference of the area in a shard's mesh from that of the face, as a part of it."""
 
 
 def second_moments(
@@ -66,9 +66,9 @@ def triangles_in_faces(
 
 
 def _about_own_centres(corners: FloatArray, areas: FloatArray) -> tuple[FloatArray, BoolArray]:
-    """Second moments (k, 2, 2) of k faces of t triangles each, by corners (k, t, 3, 2), and whether each is alone (k,).
+    """Second moments (k, 2, 2) of faces by corners (k, t, 3, 2) of triangles, and whether they are alone (k,).
 
-    It is not where the triangles' area is not the face's own (k,).
+    They are not where the triangles' area differs from the face's own (k,).
     """
     triangle_areas = signed_area(corners)
     whole = triangle_areas.sum(axis=1)

@@ -24,7 +24,7 @@ def contour_lines(corners: FloatArray) -> FloatArray:
 
 
 def _lines_at(corners: FloatArray, level_m: float) -> FloatArray:
-    """Where triangles (t, 3, 3) have a height, from one of their sides to another, (s, 2, 3)."""
+    """Lines (s, 2, 3) at a height in triangles (t, 3, 3), from one of their sides to another."""
     above = corners[:, :, 2] > level_m
     cut = above.any(axis=1) & ~above.all(axis=1)
     corners, above = corners[cut], above[cut]

@@ -14,7 +14,7 @@ from .surface import Surface
 from .thinning import Grid
 
 STANDS_M = 1e-3
-"""How far below a foot the ground may be for it to stand there: rounding, and what mesh files are exact to."""
+"""Largest depth of the ground below a foot that stands on it: rounding, and the precision of mesh files."""
 
 _SAMPLES_PER_STEP = 2
 """Samples of a member in a cell of the grid, along each side."""

@@ -12,7 +12,7 @@ from ..geometry.proximity import blocks, ranges
 from ..geometry.vectors import cross_2d
 
 _ON_EDGE = 1e-9
-"""How far outside a triangle, as a part of it, a position may lie and still be on it."""
+"""Distance outside a triangle, as a part of it, up to which a position is on it."""
 
 _MOST_CELLS_ALONG = 1024
 

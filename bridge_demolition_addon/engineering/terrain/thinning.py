@@ -29,7 +29,7 @@ class Grid:
 
     @property
     def size(self) -> int:
-        """How many nodes a side has."""
+        """Number of nodes along a side."""
         return len(self.heights)
 
     def places(self) -> FloatArray:

@@ -19,7 +19,7 @@ _SLOWING_S = 0.4
 ball and with explosives, is within a factor of 1.5 in most looks."""
 
 _MOST_TIMES = 60
-"""Times to come that are looked at."""
+"""Number of times to come for which speeds are calculated."""
 
 
 class Pace:
@@ -35,7 +35,7 @@ class Pace:
         self.work.append(work)
 
     def left_s(self, work: float) -> float | None:
-        """Return how long so much work still takes, s; None before a step is done."""
+        """Return how long the work that is left takes, s; None before a step is done."""
         earlier = len(self.work) // 2
         done = sum(self.work[earlier:])
         return sum(self.took_s[earlier:]) / done * max(work, 0.0) if done else None

@@ -55,7 +55,7 @@ class TimeStep:
 def substeps_within(
     frame_s: ArrayLike, fewest: ArrayLike, farthest_m: float, speed_m_s: float | FloatArray, acceleration_m_s2: float
 ) -> FloatArray:
-    """Return sub-steps as `TimeStep.substeps_within`, of frames of these lengths that have so many at least."""
+    """Return sub-steps as `TimeStep.substeps_within`, of frames of these lengths that have at least the fewest."""
     lengths_s = np.asarray(frame_s, float)
     way_m = (speed_m_s + acceleration_m_s2 * lengths_s) * lengths_s
     substeps: FloatArray = np.maximum(fewest, np.ceil(np.minimum(way_m / farthest_m, MOST_SUBSTEPS)))

@@ -8,9 +8,15 @@ from pathlib import Path
 
 import numpy as np
 
-from ...engineering.fracture.density import PointDensity, densest, density_around, painted_density
 from ...engineering.fracture.gaps import with_gaps
-from ...engineering.fracture.options import FractureOptions, Recursion
+from ...engineering.fracture.options import (
+    FractureOptions,
+    PointDensity,
+    Recursion,
+    densest,
+    density_around,
+    painted_density,
+)
 from ...engineering.fracture.seeds import random_points
 from ...engineering.fracture.shards import Fracture, fracture, joined_fractures, voronoi_cells
 from ...engineering.fracture.shared_faces import SharedFaces, joined_faces, touching_faces

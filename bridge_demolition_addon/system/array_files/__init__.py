@@ -1,1 +1,1 @@
-"""Files of arrays: tables that grow row by row, and archives of which a part can be read."""
+"""Files of arrays: tables that grow row by row, and archives that can be read in part."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 import threading
 import weakref
+from contextlib import suppress
 from functools import lru_cache
 from pathlib import Path
 from typing import BinaryIO
@@ -75,7 +76,7 @@ class GrowingTable:
         return row
 
     def rows(self) -> np.ndarray:
-        """Return all rows (k,) so far, mapped: only what is looked at is read."""
+        """Return all rows (k,) so far, mapped: only the rows in use are read."""
         with self._lock:
             return _mapped(self._file, self.row_type, self._start, self._count)
 
@@ -141,7 +142,5 @@ def _finish(file: BinaryIO, path: Path, unwanted: list[bool]) -> None:
     is_to_go = unwanted and is_in_place(file.fileno(), path)
     file.close()
     if is_to_go:
-        try:
+        with suppress(PermissionError):  # Windows removes no mapped file either: the next run in the folder does
             path.unlink(missing_ok=True)
-        except PermissionError:  # Windows removes no mapped file either: the next run in the folder does
-            return

@@ -7,9 +7,14 @@ import trimesh
 from manifold3d import Manifold
 from support.meshes import as_trimesh
 
-from bridge_demolition_addon.engineering.fracture.density import PointDensity, density_around, painted_density
 from bridge_demolition_addon.engineering.fracture.gaps import with_gaps
-from bridge_demolition_addon.engineering.fracture.options import FractureOptions, Recursion
+from bridge_demolition_addon.engineering.fracture.options import (
+    FractureOptions,
+    PointDensity,
+    Recursion,
+    density_around,
+    painted_density,
+)
 from bridge_demolition_addon.engineering.fracture.seeds import random_points
 from bridge_demolition_addon.engineering.fracture.shards import fracture, voronoi_cells
 from bridge_demolition_addon.engineering.geometry.mesh import volumes_and_centres
