@@ -4,7 +4,8 @@ import argparse
 from collections.abc import Iterable, Iterator
 
 from ..model.actions import Fact, PlannedAction
-from ..model.bridge.facts import bridge_facts, member_facts
+from ..model.bridge.layout import bridge_facts
+from ..model.bridge.member import member_facts
 from ..model.bridge.preparation import prepared_members
 from ..model.scenario import Charge, Scenario
 from ..model.scenario.file import read_scenario

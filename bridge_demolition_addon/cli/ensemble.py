@@ -9,9 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import OutputError
-from ..model.ensemble.folder import RETRIED
+from ..model.ensemble.folder import RETRIED, EnsembleResult
 from ..model.study.file import Ensemble
-from ..model.study.planner import EnsembleResult
 from ..studies.engine import Engine, LocalProcesses, cores
 from ..studies.run_process import RunLimits
 from ..studies.session import EnsembleSession
@@ -66,10 +65,10 @@ def _run(ensemble: Ensemble, arguments: argparse.Namespace) -> tuple[EnsembleSes
     with signals_noted() as signals:
         session = EnsembleSession(ensemble, arguments.output, _engine(ensemble, arguments))
         try:
-            while not session.is_finished:
+            while not session.planner.is_finished:
                 session.step(_LOOK_EVERY_S)
-                progress.runs(session.done, session.total, session.lost)
-                if signals and not session.is_finished:
+                progress.runs(session.planner.done, session.planner.total, session.planner.lost)
+                if signals and not session.planner.is_finished:
                     raise Interrupted(signals[0])
             progress.finish()
             return session, *session.finish()

@@ -25,21 +25,13 @@ def from_y_up(vertices: np.ndarray) -> np.ndarray:
 
 
 def read_mesh(path: Path) -> TriangleMesh:
-    """The mesh in a file that ends in one of `MESH_FILES`, as it is.
-
-    Raises
-    ------
-    UnreadableError
-        It is no file, or too large.
-    GeometryError
-        The file cannot be read as what its name says, or has no faces.
-    """
+    """Return the mesh in a file that ends in one of `MESH_FILES`, as it is."""
     check_file(path, MOST_BYTES)
     import trimesh  # loading it takes half of what all else takes, and most scenarios have no mesh
 
     try:
         mesh = trimesh.load(path, force="mesh", process=False)
-    except Exception as error:  # each reader has its own for a file that is not what its name says
+    except Exception as error:  # each reader has its own errors
         raise GeometryError(f"{path}: cannot be read as {path.suffix[1:].upper()}: {error}") from error
     if not isinstance(mesh, trimesh.Trimesh) or not len(mesh.faces):
         raise GeometryError(f"{path}: has no faces; export a closed surface.")

@@ -1,7 +1,7 @@
 """Keys and tables of a scenario: what they mean, and which values they take.
 
-A table is a dataclass. Its fields are made by `key`, or hold other tables. This one declaration gives the check of the
-values (`Table`), the words of the messages (`expected`), the reference of all keys and the sidebar.
+A table is a dataclass. Its fields are made by `key`, or hold other tables. The check of the values (`Table`), the
+messages (`expected`), the reference of all keys and the sidebar follow from this one declaration.
 """
 
 import json
@@ -35,7 +35,7 @@ SHORTEST_LENGTH_M = 0.001
 """Least size of anything solid: Bullet mixes up the contacts of smaller bodies."""
 
 FARTHEST_M = 10_000.0
-"""How far from the origin anything solid may reach: Blender's single precision keeps places there to a millimetre."""
+"""Largest distance of anything solid from the origin: Blender's single precision keeps it to a millimetre."""
 
 SIZE = {"unit": "m", "at_least": SHORTEST_LENGTH_M, "at_most": FARTHEST_M}
 """Unit and limits of a size of anything solid."""
@@ -49,35 +49,19 @@ LINE_BREAKING_CATEGORIES = {"Cc", "Cs", "Zl", "Zp"}
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Key:
-    """What a key means, and the unit and the limits of its value.
-
-    Parameters
-    ----------
-    description : str
-        What the value says, as a contractor would.
-    unit : str
-        SI symbol, empty for a plain number.
-    above : float or None
-        The value has to be larger than this.
-    at_least, at_most : float or None
-        Smallest and largest value.
-    choices : tuple of str
-        The only texts that are taken; empty for any text.
-    or_else : str
-        What else is taken besides the choices, in words, where a table further out checks that.
-    """
+    """What a key means, as a contractor would say it, and the unit and the limits of its value."""
 
     description: str
-    unit: str = ""
+    unit: str = ""  # SI symbol, empty for a plain number
     above: float | None = None
     at_least: float | None = None
     at_most: float | None = None
-    choices: tuple[str, ...] = ()
-    or_else: str = ""
+    choices: tuple[str, ...] = ()  # empty for any text
+    or_else: str = ""  # text for other values, which the table around this one checks
 
     @property
     def limits(self) -> str:
-        """Return the limits in words, such as ``above 0`` or ``from 1 to 1000``; empty if there are none."""
+        """Limits as text, such as ``above 0`` or ``from 1 to 1000``; empty if there are none."""
         if self.at_least is not None and self.at_most is not None:
             return f"from {self.at_least} to {self.at_most}"
         words = {"above": self.above, "of at least": self.at_least, "up to": self.at_most}
@@ -94,17 +78,7 @@ class Key:
 
 
 def key(description: str, *, default: Any = MISSING, **limits: Any) -> Any:
-    """Return the dataclass field of a key; without a default the key is required.
-
-    Parameters
-    ----------
-    description : str
-        What the value says.
-    default : object
-        Value of a key that is left out.
-    **limits
-        The other parameters of `Key`.
-    """
+    """Return the dataclass field of a key, by the fields of `Key`; without a default the key is required."""
     return field(default=default, metadata={"key": Key(description=description, **limits)})
 
 
@@ -132,7 +106,7 @@ class Table:
 
 
 def given(value: _Value | None) -> _Value:
-    """Return a value that may be missing elsewhere; the check of its table has made sure that it is there."""
+    """Return a value that the check of its table has found to be given."""
     assert value is not None
     return value
 
@@ -142,9 +116,9 @@ def numbered_tables(
 ) -> tuple[_Table, ...]:
     """Make the tables of a list; an error gives the number of the table that it is about."""
     tables = []
-    for number, each in enumerate(values, start=1):
+    for number, value in enumerate(values, start=1):
         try:
-            tables.append(make(each))
+            tables.append(make(value))
         except ScenarioError as error:
             raise ScenarioError(f"[[{table_class.table}]] number {number}: {error}") from error
     return tuple(tables)
@@ -207,7 +181,7 @@ def checked(item: Field[Any], name: str, value: Any) -> Any:
         return None
     table_class = subtable_class(item)
     if table_class and holds_many(item):
-        if not isinstance(value, list | tuple) or not all(isinstance(each, table_class) for each in value):
+        if not isinstance(value, list | tuple) or not all(isinstance(inner, table_class) for inner in value):
             raise _unexpected(item, name, value)
         return tuple(value)
     return _checked(item, name, value_type(item), value)
@@ -220,7 +194,7 @@ def _checked(item: Field[Any], name: str, kind: Any, value: Any) -> Any:
         if not isinstance(value, list | tuple) or len(value) != (length or max(len(value), 1)):
             raise _unexpected(item, name, value)
         element = get_args(kind)[0]
-        return tuple(_checked(item, f"{name}[{place}]", element, each) for place, each in enumerate(value))
+        return tuple(_checked(item, f"{name}[{index}]", element, inner) for index, inner in enumerate(value))
     if kind in (int, float):
         return _checked_number(item, name, kind, value)
     if kind is Scalar:
@@ -252,10 +226,10 @@ def _is_text(text: str, rule: Key) -> bool:
 
 def check_exactly_one(table: Table, *names: str) -> None:
     """Check that one of several keys is given."""
-    given = [name for name in names if getattr(table, name) is not None]
-    if len(given) != 1:
-        state = "given together" if given else "all missing"
-        listed = " and ".join(f"{table.table}.{name}" for name in given or names)
+    present = [name for name in names if getattr(table, name) is not None]
+    if len(present) != 1:
+        state = "given together" if present else "all missing"
+        listed = " and ".join(f"{table.table}.{name}" for name in present or names)
         raise ScenarioError(f"{listed} are {state}: expected exactly one of {', '.join(names)}")
 
 
@@ -264,7 +238,7 @@ def _unexpected(item: Field[Any], name: str, value: Any) -> ScenarioError:
 
 
 def expected(item: Field[Any]) -> str:
-    """Return what a key takes, in words, such as ``a number above 0 (m)``."""
+    """Return what a key takes, such as ``a number above 0 (m)``."""
     if subtable_class(item):
         return "tables" if holds_many(item) else "a table"
     rule, kind = key_of(item), value_type(item)
@@ -281,7 +255,7 @@ def expected(item: Field[Any]) -> str:
 
 
 def _nouns(kind: Any) -> tuple[str, str]:
-    """Return what a kind of value is called, one and several of them."""
+    """Return the name of a kind of value, in singular and plural."""
     if get_origin(kind) is tuple:
         of = f"of {_list_length(kind) or 'one or more'} {_nouns(get_args(kind)[0])[1]}"
         return f"a list {of}", f"lists {of}"
@@ -294,7 +268,7 @@ def _nouns(kind: Any) -> tuple[str, str]:
 
 
 def _list_length(kind: Any) -> int | None:
-    """Return the length that a list has to have, None where it may have any but 0."""
+    """Return the length of a list, None where it may have any but 0."""
     return None if Ellipsis in get_args(kind) else len(get_args(kind))
 
 
@@ -303,7 +277,7 @@ def _listed(choices: Sequence[str]) -> str:
 
 
 def shown(value: Any) -> str:
-    """Return a value found in a scenario as a short text on one line."""
+    """Return a value of a scenario as a short text on one line."""
     if value is None:
         return "missing"
     if isinstance(value, bool):

@@ -1,7 +1,6 @@
 """Tables in TOML: read strictly into their classes, and written back without loss.
 
-The file of a class holds the keys of the class itself under its own heading, and the tables that it is made of beside
-that.
+The file of a class holds its own keys under its heading, and the tables in it beside that.
 """
 
 import json
@@ -37,29 +36,17 @@ BARE_KEY = re.compile(r"[A-Za-z0-9_-]{1,60}")
 _Root = TypeVar("_Root", bound=Table)
 
 
-def document_of_file(path: Path, what: str, most_bytes: int = MEGABYTE) -> dict[str, Any]:
-    """Return what a TOML file says.
-
-    Raises
-    ------
-    ScenarioError
-        The file cannot be read, is larger than that or is not TOML. The text does not name it.
-    """
+def document_of_file(path: Path, description: str, most_bytes: int = MEGABYTE) -> dict[str, Any]:
+    """Return the content of a TOML file; errors do not name it."""
     try:
         text = file_text(path, most_bytes)
     except UnreadableError as error:
-        raise ScenarioError(f"{error}: expected {what} in TOML") from error
+        raise ScenarioError(f"{error}: expected {description} in TOML") from error
     return toml_document(text)
 
 
 def toml_document(text: str) -> dict[str, Any]:
-    """Return what a text in TOML says.
-
-    Raises
-    ------
-    ScenarioError
-        It is not TOML.
-    """
+    """Return the content of a text in TOML."""
     try:
         return tomllib.loads(text)
     except (ValueError, RecursionError) as error:  # tomllib lets too long numbers and too deep lists through as these
@@ -67,13 +54,7 @@ def toml_document(text: str) -> dict[str, Any]:
 
 
 def table_of_document(root: type[_Root], document: dict[str, Any]) -> _Root:
-    """Return the table in a document, where its own keys stand under its heading beside the tables it is made of.
-
-    Raises
-    ------
-    ScenarioError
-        A key is unknown, missing or has a wrong value.
-    """
+    """Return the table in a document, where its own keys stand under its heading beside the tables in it."""
     _refuse_unknown(root, "", document, [root.table, *(item.name for item in subtable_fields(root))])
     heading = document.get(root.table, {})
     if not isinstance(heading, dict):
@@ -83,14 +64,9 @@ def table_of_document(root: type[_Root], document: dict[str, Any]) -> _Root:
 
 
 def tables_text(root: Table, *, defaults: bool = True) -> str:
-    """Write a table, and the tables that it is made of, as TOML; `table_of_document` gives an equal one back.
+    """Write a table, and the tables in it, as TOML, with or without what is as by default.
 
-    Parameters
-    ----------
-    root : Table
-        What is written.
-    defaults : bool
-        Whether keys and tables that are as they are without being given are written, too.
+    `table_of_document` gives an equal one back.
     """
     return "\n".join(_table_lines(root, defaults=defaults))
 
@@ -141,7 +117,7 @@ def _tables(root: type[Table], table_class: type[Table], values: Any) -> tuple[T
         raise ScenarioError(
             f"{table_class.table} is {shown(values)}: expected tables, each under [[{table_class.table}]]"
         )
-    return numbered_tables(table_class, values, lambda each: _table(root, table_class, each))
+    return numbered_tables(table_class, values, lambda value: _table(root, table_class, value))
 
 
 def _refuse_unknown(root: type[Table], table: str, values: dict[str, Any], known: Iterable[str]) -> None:
@@ -152,7 +128,7 @@ def _refuse_unknown(root: type[Table], table: str, values: dict[str, Any], known
 
 
 def _suggestion(root: type[Table], table: str, name: str, known: list[str]) -> str:
-    """Return what an unknown name may mean: one like it in its table, the same elsewhere, or any of its table."""
+    """Return the meaning of an unknown name: one like it in its table, the same elsewhere, or any of its table."""
     alike = [dotted(table, match) for match in get_close_matches(name, known, n=1, cutoff=LIKENESS)]
     elsewhere = [full for full in _full_names(root) if full.rpartition(".")[2] == name]
     if alike or elsewhere:
@@ -168,7 +144,7 @@ def _full_names(table_class: type[Table]) -> Iterator[str]:
 
 
 def _table_lines(table: Table, heading: str = "[{}]", *, defaults: bool) -> Iterator[str]:
-    """Return the lines of a table and of the tables in it; what is not given has no line."""
+    """Yield the lines of a table and of the tables in it; a key without a value has no line."""
     yield heading.format(table.table)
     for item in key_fields(type(table)):
         value = getattr(table, item.name)
@@ -178,7 +154,7 @@ def _table_lines(table: Table, heading: str = "[{}]", *, defaults: bool) -> Iter
     for item in subtable_fields(type(table)):
         inner = getattr(table, item.name)
         if holds_many(item):
-            for each in inner:
-                yield from _table_lines(each, "[[{}]]", defaults=defaults)
+            for one in inner:
+                yield from _table_lines(one, "[[{}]]", defaults=defaults)
         elif inner and (defaults or item.default_factory is MISSING or inner != item.default_factory()):
             yield from _table_lines(inner, defaults=defaults)

@@ -20,21 +20,11 @@ _Item = TypeVar("_Item")
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Task:
-    """A run to be made.
+    """A run to be made."""
 
-    Attributes
-    ----------
-    cache_key : str
-        Digest of all that its result depends on.
-    request : dict
-        What its program is asked, ready for JSON.
-    folder : Path
-        Where its files are to be once it has ended.
-    """
-
-    cache_key: str
-    request: Mapping[str, Any]
-    folder: Path
+    cache_key: str  # digest of all that its result depends on
+    request: Mapping[str, Any]  # what its program is asked, ready for JSON
+    folder: Path  # where its files are to be once it has ended
 
 
 class Engine(Protocol):

@@ -52,18 +52,10 @@ _VMSTAT = Path("/proc/vmstat")
 
 @dataclass(frozen=True, slots=True)
 class RunLimits:
-    """When a run is ended.
+    """When a run is ended."""
 
-    Attributes
-    ----------
-    time_s : float or None
-        Wall time.
-    memory_mb : float or None
-        Memory of its process in MB.
-    """
-
-    time_s: float | None = None
-    memory_mb: float | None = None
+    time_s: float | None = None  # wall time
+    memory_mb: float | None = None  # memory of its process in MB
 
     @classmethod
     def of(cls, settings: EnsembleSettings) -> Self:

@@ -6,7 +6,7 @@ import time
 from collections import Counter
 from pathlib import Path
 
-from ..model.ensemble.folder import EnsembleFolder
+from ..model.ensemble.folder import EnsembleFolder, EnsembleResult, result_of_runs
 from ..model.optimise.conclusions import Best
 from ..model.optimise.file import Optimisation
 from ..model.optimise.planner import OptimisePlanner
@@ -15,7 +15,7 @@ from ..model.search.file import Search
 from ..model.search.planner import SearchPlanner
 from ..model.study.file import Ensemble, Study
 from ..model.study.files import CURVE_PICTURE, TRADEOFF_PICTURE
-from ..model.study.planner import EnsembleResult, Planner, StudyPlanner
+from ..model.study.planner import Planner, StudyPlanner
 from .engine import Engine
 from .proposals import OptunaProposals, check_optuna
 from .run_queue import RunQueue
@@ -25,25 +25,9 @@ _MOST_LOOKED_UP = 25
 
 
 class EnsembleSession:
-    """Makes the runs of an ensemble, in steps. It goes on where its folder stands.
+    """Makes the runs of an ensemble, in steps, from where its folder stands. It closes the engine that makes the runs.
 
-    Parameters
-    ----------
-    ensemble
-        A study, a search or an optimisation.
-    path
-        Its folder.
-    engine
-        Makes the runs. The session closes it.
-
-    Attributes
-    ----------
-    planner : Planner
-        Says which runs are needed.
-    folder : EnsembleFolder
-        Keeps them.
-    is_paused : bool
-        Whether no further run begins.
+    While `is_paused`, no further run begins.
     """
 
     def __init__(self, ensemble: Ensemble, path: Path, engine: Engine):
@@ -61,48 +45,22 @@ class EnsembleSession:
         self._queue = RunQueue(self.folder, engine)
 
     @property
-    def total(self) -> int:
-        """How many runs there are, at most."""
-        return self.planner.total
-
-    @property
-    def done(self) -> int:
-        """How many runs count so far, whether they finished or not."""
-        return self.planner.done
-
-    @property
-    def lost(self) -> int:
-        """How many of these did not finish."""
-        return self.planner.lost
-
-    @property
-    def is_finished(self) -> bool:
-        """Whether all runs that are needed have ended."""
-        return self.planner.is_finished
-
-    @property
     def reasons(self) -> dict[int, str]:
         """Why runs did not finish, by their numbers in the table."""
         return {row.number: row.reason for row in self.planner.rows() if row.reason}
 
     @property
     def statuses(self) -> dict[str, int]:
-        """How many runs have ended in each way."""
+        """Number of runs that ended in each way."""
         return dict(Counter(row.status for row in self.planner.rows()))
 
     @property
     def remaining_s(self) -> float:
-        """Wall time that is left if runs go on as so far, pauses apart; 0 as long as that is not known."""
-        return self._worked_s / self._collected * (self.total - self.done) if self._collected else 0.0
+        """Wall time that is left if runs go on as so far, without pauses; 0 as long as that is not known."""
+        return self._worked_s / self._collected * (self.planner.total - self.planner.done) if self._collected else 0.0
 
     def step(self, timeout_s: float) -> None:
-        """Begin as many runs as there is room for, and take those that have ended; wait for one up to a time.
-
-        Raises
-        ------
-        DemolitionError, OSError
-            Runs cannot be made at all, or their outcomes not be kept.
-        """
+        """Begin as many runs as there is room for, and take those that have ended; wait for one up to a time."""
         self._count_time()
         looked_up = 0 if self.is_paused else self._begin_runs()
         for run, outcome in self._queue.collect(timeout_s if looked_up < _MOST_LOOKED_UP else 0.0):
@@ -110,13 +68,7 @@ class EnsembleSession:
             self._collected += 1
 
     def stop(self) -> list[Path]:
-        """End all runs under way, write the tables of those that count, and let others write to the folder.
-
-        Returns
-        -------
-        list of Path
-            The tables; none where the session had ended.
-        """
+        """End all runs under way, release the folder, and return the tables; none where the session had ended."""
         if self._has_ended:
             return []
         self._has_ended = True
@@ -126,17 +78,13 @@ class EnsembleSession:
         finally:
             self.folder.release()
 
-    def finish(self) -> tuple[EnsembleResult, list[Path]]:
-        """Write what all runs state, with pictures, and end the session.
+    def result(self) -> EnsembleResult:
+        """Return the result of all runs."""
+        return result_of_runs(self.planner.ensemble, self.planner.table)
 
-        Returns
-        -------
-        EnsembleResult
-            Conclusions, an answer or the best candidate.
-        list of Path
-            All files that were written.
-        """
-        result = self.planner.result()
+    def finish(self) -> tuple[EnsembleResult, list[Path]]:
+        """Write the result of all runs, with pictures; end the session, and return result and files."""
+        result = self.result()
         paths = self.folder.write_result(result) + save_pictures(result, self.folder.path)
         return result, self.stop() + paths
 

@@ -112,7 +112,7 @@ def search(person: Person, panels: Panels) -> Steps:
         yield from person.fill_in(name, f"{value:g}")
     yield from person.click("bda.start_search")
     person.expect_reports("the start is reported", f"The search runs in {folder}")
-    yield from person.wait_for("a run ends", lambda: work.session.done >= 1, SEARCH_S)
+    yield from person.wait_for("a run ends", lambda: work.session.planner.done >= 1, SEARCH_S)
     yield from person.picture("at_work")
     yield from person.wait_for("the search ends", lambda: work.session is None, SEARCH_S)
     yield 1.0

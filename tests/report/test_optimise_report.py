@@ -9,6 +9,7 @@ from support.optimise_files import optimise_file
 
 from bridge_demolition_addon.cli.main import main
 from bridge_demolition_addon.model.ensemble.folder import EnsembleFolder
+from bridge_demolition_addon.model.optimise.conclusions import best_of
 from bridge_demolition_addon.model.optimise.file import read_optimisation
 from bridge_demolition_addon.model.optimise.planner import OptimisePlanner
 from bridge_demolition_addon.model.study.runs_table import RunOutcome
@@ -44,7 +45,7 @@ def optimised(folder, *changes, most=None, fails_at_last=False):
             planner.take(run, RunOutcome("done", "", {**outputs, "came_to_rest_s": 0.2}))
         kept.write_tables(planner.table)
         if planner.is_finished:
-            kept.write_result(planner.result())
+            kept.write_result(best_of(planner.ensemble, planner.table))
     return path, planner
 
 
@@ -59,7 +60,7 @@ def table(folder, name):
 
 def test_the_report_has_the_winner_on_fresh_runs_the_candidates_and_the_trade_off(tmp_path):
     folder, planner = optimised(tmp_path, REACH)
-    page, best = page_of(folder), planner.result()
+    page, best = page_of(folder), best_of(planner.ensemble, planner.table)
     assert f"Candidate {best.candidate} of 20 did best:" in page and "fresh runs" in page
     assert "Report of an optimisation with 42 simulated demolitions" in page
     rounds = table(folder, "chosen_candidate")
@@ -76,7 +77,7 @@ def test_the_report_has_the_winner_on_fresh_runs_the_candidates_and_the_trade_of
 
 def test_luck_of_the_search_is_warned_of(tmp_path):
     folder, planner = optimised(tmp_path, REACH)
-    assert planner.result().looked_better_by > 0.0
+    assert best_of(planner.ensemble, planner.table).looked_better_by > 0.0
     assert "Winner&#x27;s curse: in the search the chosen candidate looked better by" in page_of(folder)
 
 

@@ -121,7 +121,7 @@ def test_a_search_makes_a_report_of_its_answer_its_curve_and_its_trials(tmp_path
     folder, successes = search_folder(tmp_path / "search")
     assert main(["report", str(folder), "--quiet"]) == 0
     page = page_of(folder / "report")
-    assert f"{successes} of 20 runs met all criteria: all trials were made." in page
+    assert f"{successes} of 20 runs met all criteria: all runs were made." in page
     assert "ball.mass_kg: half of all runs meet them at" in page and "data:image/" in page
     rows = list(csv.DictReader((folder / "report" / "tables" / "trials.csv").open(encoding="utf-8")))
     assert len(rows) == 20 and rows[-1]["success"] == "not met" and float(rows[0]["value"]) == 200.0

@@ -89,7 +89,7 @@ def test_median_and_spread_of_a_known_strength_are_found(tmp_path, capfd):
     path, output = search_file(tmp_path), tmp_path / "out"
     assert main(["search", str(path), "--output", str(output), "--jobs", "2"]) == 0
     answer = json.loads((output / "search.json").read_text(encoding="utf-8"))
-    assert answer["trials"] == 40 and answer["ended_as"] == "all trials were made"
+    assert answer["trials"] == 40 and answer["ended_as"] == "all runs were made"
     low, high = answer["median_limits"]
     assert low <= torn_off_at_kg_m3() <= high < 2.0 * low
     assert answer["limit"] >= torn_off_at_kg_m3() * np.exp(1.2816 * SPREAD)

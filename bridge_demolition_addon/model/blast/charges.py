@@ -1,4 +1,4 @@
-"""Charges, and what other explosives are worth in TNT."""
+"""Charges, and the TNT equivalents of explosives."""
 
 import math
 from collections.abc import Iterator, Sequence
@@ -21,23 +21,15 @@ LARGEST_CHARGE_KG = 1_000_000
 
 @dataclass(frozen=True, slots=True)
 class Explosive:
-    """An explosive.
+    """An explosive, and how much TNT a unit of its mass is worth.
 
-    Attributes
-    ----------
-    name : str
-        What it is called.
-    tnt_by_pressure, tnt_by_impulse : float
-        Mass of TNT with the peak overpressure, and with the impulse, of a unit of mass. Where only one is known, or the
-        heat of detonation, it stands for both.
-    source : str
-        What was measured, and who published it.
+    Where only one equivalent is known, or the heat of detonation, it stands for both.
     """
 
     name: str
-    tnt_by_pressure: float
-    tnt_by_impulse: float
-    source: str
+    tnt_by_pressure: float  # mass of TNT with the same peak overpressure
+    tnt_by_impulse: float  # mass of TNT with the same impulse
+    source: str  # what was measured, and who published it
 
 
 EXPLOSIVES = {
@@ -60,13 +52,7 @@ EXPLOSIVES = {
 
 
 def explosive_named(name: str) -> Explosive:
-    """Return the explosive of a name, in capitals or not.
-
-    Raises
-    ------
-    BlastError
-        There is none of that name.
-    """
+    """Return the explosive of a name, in capitals or not."""
     for known, explosive in EXPLOSIVES.items():
         if isinstance(name, str) and known.casefold() == name.strip().casefold():
             return explosive
@@ -81,7 +67,7 @@ class Charge(PlannedAction):
     heading: ClassVar[str] = "Charges"
 
     name: str | None = key("What it is called in the logs; by default Charge and its number.", default=None)
-    place_m: tuple[float, float, float] = key("Where it is: along the road, across it, and above the ground.", unit="m")
+    place_m: tuple[float, float, float] = key("Position: along the road, across it, and above the ground.", unit="m")
     mass_kg: float = key("Mass of the explosive itself.", unit="kg", at_least=0, at_most=LARGEST_CHARGE_KG)
     explosive: str = key("What it is made of.", default="TNT", choices=tuple(EXPLOSIVES))
     delay_ms: float = key(

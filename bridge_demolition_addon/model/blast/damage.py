@@ -1,4 +1,4 @@
-"""Damage of peak overpressures to buildings and people, and how far from the charges they are reached."""
+"""Damage of peak overpressures to buildings and people, and how far from the charges it is to be expected."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -50,35 +50,17 @@ def ring_radii(
     model: BlastModel | str = BlastModel.KINGERY_BULMASH,
     pressure_factor: float = 1.0,
 ) -> np.ndarray:
-    """Return the radii of the rings around the charges, on plan at a level, within which a threshold is reached.
+    """Return the radii (t, c), m, around the charges on plan at a level within which a threshold is reached, else 0.
 
     Each charge is taken by itself. Where waves of several meet, their pressures can add up, so that the damage reaches
-    farther there than any ring.
-
-    Parameters
-    ----------
-    charges : (c,) Charge
-        The charges.
-    level_m : float
-        Height of the plan, m: a charge above it has smaller rings.
-    thresholds : (t,) Threshold
-        The thresholds.
-    model : BlastModel
-        Where the waves come from.
-    pressure_factor : float
-        Factor on their pressures.
-
-    Returns
-    -------
-    (t, c) float
-        Radii, m; 0 where the threshold is not reached at that level.
+    farther there than any ring. A charge above the level has smaller rings.
     """
     radii = np.zeros((len(thresholds), len(charges)))
     for row, threshold in enumerate(thresholds):
         for column, charge in enumerate(charges):
-            reach = stand_off_for_overpressure(
+            stand_off_m = stand_off_for_overpressure(
                 threshold.overpressure_pa / pressure_factor, charge.tnt_for_pressure_kg, charge.burst, model
             )
             height = charge.place_m[2] - level_m
-            radii[row, column] = np.sqrt(max(reach * reach - height * height, 0.0))
+            radii[row, column] = np.sqrt(max(stand_off_m * stand_off_m - height * height, 0.0))
     return radii

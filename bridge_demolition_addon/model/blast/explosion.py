@@ -1,4 +1,4 @@
-"""Loads of several charges on several bodies in every step of a simulation, while the bodies move and turn."""
+"""Loads of several charges on several bodies in every step of a simulation, while the bodies move and rotate."""
 
 from __future__ import annotations
 
@@ -17,35 +17,17 @@ from .settings import BlastSettings
 
 @dataclass(frozen=True, eq=False, slots=True)
 class StepLoads:
-    """Loads of one step of time: k pairs of a body and a charge that loads it, structure of arrays.
+    """Loads of one step of time: k pairs of a body and a charge that loads it, structure of arrays."""
 
-    Attributes
-    ----------
-    bodies, charges : (k,) int
-        Which body and which charge.
-    stand_offs_m, scaled_distances : (k,) float
-        From the charge to the body's centre when the charge detonated, in m and m/kg^(1/3).
-    areas_m2 : (k,) float
-        Area that the body shows to the charge, times the share of it that the charge sees.
-    directions : (k, 3) float
-        Unit vectors from the charge to the body when the charge detonated.
-    peaks_pa : (k,) float
-        Peak overpressure of the pulse.
-    pressure_impulses_pa_s : (k,) float
-        The overpressure's integral over this step.
-    impulses_ns : (k,) float
-        Impulse that the body gets along the direction in this step.
-    """
-
-    bodies: np.ndarray
-    charges: np.ndarray
-    stand_offs_m: np.ndarray
-    scaled_distances: np.ndarray
-    areas_m2: np.ndarray
-    directions: np.ndarray
-    peaks_pa: np.ndarray
-    pressure_impulses_pa_s: np.ndarray
-    impulses_ns: np.ndarray
+    bodies: np.ndarray  # (k,), rows of bodies
+    charges: np.ndarray  # (k,), rows of charges
+    stand_offs_m: np.ndarray  # (k,), from the charge to the body's centre at the detonation
+    scaled_distances: np.ndarray  # (k,), m/kg^(1/3)
+    areas_m2: np.ndarray  # (k,), area of the body towards the charge, times the share that the charge sees
+    directions: np.ndarray  # (k, 3), unit vectors from the charge to the body at the detonation
+    peaks_pa: np.ndarray  # (k,), peak overpressures
+    pressure_impulses_pa_s: np.ndarray  # (k,), integrals of the overpressure over this step
+    impulses_ns: np.ndarray  # (k,), impulses on the bodies along the directions in this step
 
     def __len__(self) -> int:
         return len(self.bodies)
@@ -59,17 +41,8 @@ class StepLoads:
 class Explosion:
     """Charges and the bodies around them, through time.
 
-    Stand-offs and directions are those at the detonation: the front is faster than the bodies by far. The areas that
-    they show to the charge follow their turning.
-
-    Parameters
-    ----------
-    charges : (c,) Charge
-        The charges.
-    hulls : ConvexHulls
-        Convex hulls of n bodies.
-    settings : BlastSettings
-        When the charges go off, and how their loads are computed.
+    Stand-offs and directions are those at the detonation: the front is faster than the bodies by far. The projected
+    areas follow the rotation of the bodies.
     """
 
     def __init__(self, charges: Sequence[Charge], hulls: ConvexHulls, settings: BlastSettings):
@@ -86,16 +59,10 @@ class Explosion:
         self._shares = np.ones(shape)
 
     def loads(self, start_s: float, end_s: float, centres: np.ndarray, rotations: np.ndarray) -> StepLoads:
-        """Return the exact loads of a step of time.
+        """Return the exact loads of a step of simulated time.
 
-        Parameters
-        ----------
-        start_s, end_s : float
-            Simulated time at its beginning and at its end.
-        centres : (n, 3) float
-            Centres of mass at its beginning, m.
-        rotations : (n, 3, 3) float
-            From the axes of each body to those of the world.
+        Centres of mass (n, 3), m, and rotations (n, 3, 3) from the axes of each body to those of the world are those
+        at its beginning.
         """
         self._detonate(np.flatnonzero(~self._detonated & (self._detonations_s < end_s)), centres, rotations)
         pulses = self._pulses
@@ -160,7 +127,7 @@ def no_loads() -> StepLoads:
 def sum_of_loads(steps: Sequence[StepLoads]) -> StepLoads:
     """Return the loads of steps of time that follow each other, as those of one step.
 
-    The area, which changes from step to step, is the mean that the impulses have met.
+    The area, which changes from step to step, is the mean weighted by pressure impulse.
     """
     if not steps:
         return no_loads()

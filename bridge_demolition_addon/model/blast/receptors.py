@@ -24,7 +24,7 @@ _NEAREST_M = 1e-3
 def charges_per_delay(charges: Sequence[Charge]) -> list[tuple[Charge, ...]]:
     """Group charges that shake the ground together, in order of time: each within `ONE_DELAY_S` from its first."""
     groups: list[list[Charge]] = []
-    for charge in sorted(charges, key=lambda each: each.delay_s):
+    for charge in sorted(charges, key=lambda charge: charge.delay_s):
         if charge.mass_kg <= 0.0:
             continue
         if groups and charge.delay_s - groups[-1][0].delay_s < ONE_DELAY_S:
@@ -36,31 +36,15 @@ def charges_per_delay(charges: Sequence[Charge]) -> list[tuple[Charge, ...]]:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class PlaceLoads:
-    """Loads at one position.
+    """Loads at one position."""
 
-    Attributes
-    ----------
-    distance_m : float
-        To the nearest charge.
-    arrival_s : float
-        When the first wave arrives, from the start of the blasting.
-    times_s, pressures_pa : (t,) float
-        Times from the start of the blasting, and the incident overpressures of all charges added up.
-    peak_pa : float
-        Largest of these.
-    impulse_pa_s : float
-        Impulse per area of the positive phases of all charges.
-    peak_velocity_m_s : float
-        Largest peak particle velocity of the ground, of all groups of charges that detonate together.
-    """
-
-    distance_m: float
-    arrival_s: float
-    times_s: np.ndarray
-    pressures_pa: np.ndarray
+    distance_m: float  # to the nearest charge
+    arrival_s: float  # of the first wave, from the start of the blasting
+    times_s: np.ndarray  # (t,), from the start of the blasting
+    pressures_pa: np.ndarray  # (t,), incident overpressures of all charges added up
     peak_pa: float
-    impulse_pa_s: float
-    peak_velocity_m_s: float
+    impulse_pa_s: float  # per area, of the positive phases of all charges
+    peak_velocity_m_s: float  # of the ground: the largest of all groups of charges that detonate together
 
 
 def loads_at(
@@ -124,7 +108,7 @@ def _times(pulses: Pulses) -> np.ndarray:
 
 
 def _peak_velocity(place_m: Sequence[float], charges: Sequence[Charge]) -> float:
-    """Return the largest of all groups, each at the distance of its nearest charge, which is on the safe side."""
+    """Return the largest of all groups, by the distance of the nearest charge of each, which is on the safe side."""
     velocities = []
     for group in charges_per_delay(charges):
         nearest = distance(np.array(place_m), np.array([charge.place_m for charge in group])).min()

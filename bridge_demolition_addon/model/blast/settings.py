@@ -48,7 +48,7 @@ class BlastSettings(Table):
     )
     pressure_factor: float = key(
         "Factor on all pressures, and so on all impulses; times and the vibration of the ground stay. Tests scatter "
-        "about the curves: a study may draw it.",
+        "about the curves: a study may sample it.",
         default=1.0,
         above=0,
         at_most=100,
@@ -79,7 +79,7 @@ class BlastSettings(Table):
     )
 
     def facts(self, charges: Sequence[Charge], shards: int) -> Iterator[Fact]:
-        """Yield what charges come to together, and how their blast acts on so many shards."""
+        """Yield the total of the charges, and how their blast acts on so many shards."""
         yield "all", f"{sum(charge.mass_kg for charge in charges):g} kg"
         if not self.explosion:
             yield "explosion", "not ticked: nothing goes off"

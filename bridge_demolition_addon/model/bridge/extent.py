@@ -1,4 +1,4 @@
-"""How far members reach, and how high they are at a place."""
+"""The box around members, and how high they are at a position."""
 
 from __future__ import annotations
 
@@ -16,24 +16,19 @@ _DEBRIS_ROOM = 10.0
 """Ground to each side of the bridge, as a multiple of its height; debris of a felled bridge stays well inside."""
 
 _ON_EDGE = 1e-9
-"""How far outside a triangle, as a part of it, a place may lie and still be on it."""
+"""How far outside a triangle, as a part of it, a position may lie and still be on it."""
 
 
 def extent(members: Sequence[Member]) -> np.ndarray:
-    """Lowest and highest corner of the box around all members, (2, 3) in m."""
+    """Return the lowest and the highest corner (2, 3), m, of the box around all members."""
     boxes = np.array([member.solid.bounds for member in members])
     return np.stack([boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)])
 
 
 def ground_half_size(members: Sequence[Member], clear_height_m: float) -> float:
-    """How far the ground reaches from the origin to every side, m, with room for debris.
+    """Return how far the ground extends from the origin to every side, m, with room for debris.
 
-    Parameters
-    ----------
-    members : sequence of Member
-        What stands on the ground.
-    clear_height_m : float
-        How high above it a ball hangs, m; 0 without one.
+    A ball hangs `clear_height_m` above the members; 0 without one.
     """
     lower, upper = extent(members)
     farthest = float(length(np.maximum(abs(lower[:2]), abs(upper[:2]))))
@@ -43,21 +38,14 @@ def ground_half_size(members: Sequence[Member], clear_height_m: float) -> float:
 
 
 def room_around(scenario: Scenario, members: Sequence[Member]) -> float:
-    """How far the ground of a scenario with these members reaches from the origin to every side, m."""
+    """Return how far the ground of a scenario with these members extends from the origin to every side, m."""
     return ground_half_size(members, scenario.ball.largest_height_m(0.0) if scenario.ball else 0.0)
 
 
 def surface_height(scenario: Scenario, members: Sequence[Member], place_m: tuple[float, float]) -> float:
-    """Height above the ground of what something that falls on a place meets first, m.
+    """Return the height of the top of all members at a position along and across the road, m.
 
-    Parameters
-    ----------
-    scenario : Scenario
-        Of a bridge alone the deck's top is taken, which joints do not interrupt.
-    members : sequence of Member
-        All members of the scenario.
-    place_m : (2,) float
-        Along the road, and across it.
+    Of a bridge alone it is that of the deck, which joints do not interrupt.
     """
     if scenario.bridge and not scenario.geometry:
         return deck_top(scenario.bridge)
@@ -65,13 +53,13 @@ def surface_height(scenario: Scenario, members: Sequence[Member], place_m: tuple
     heights = _heights_above(corners, np.asarray(place_m, dtype=float))
     if not len(heights):
         raise GeometryError(
-            f"No member lies under {list(place_m)}; aim the ball at a place that has something under it."
+            f"No member lies under {list(place_m)}; aim the ball at a position that has something under it."
         )
     return float(heights.max())
 
 
 def _heights_above(corners: np.ndarray, place: np.ndarray) -> np.ndarray:
-    """Heights of the triangles (t, 3, 3) that lie over or under a place (2,)."""
+    """Return the heights of the triangles (t, 3, 3) that lie over or under a position (2,)."""
     origin = corners[:, 0]
     first, second = corners[:, 1] - origin, corners[:, 2] - origin
     area = cross_2d(first, second)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import replace
 from itertools import pairwise
 
@@ -11,6 +12,7 @@ import numpy as np
 from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.rotations import turn_in_plane
 from ...engineering.geometry.vectors import transformed
+from ..actions import Fact
 from ..scenario import Bridge
 from ..schema import given
 
@@ -50,8 +52,15 @@ def deck_ends(bridge: Bridge) -> list[tuple[float, float]]:
     return list(pairwise([first, *joints, last]))[::2]
 
 
+def bridge_facts(bridge: Bridge, *, is_flat: bool) -> Iterator[Fact]:
+    """Yield what a planner wants to know of a bridge before a run."""
+    yield "length", f"{bridge.length_m:.2f} m"
+    yield "spans", " + ".join(f"{span:.2f}" for span in bridge.span_lengths_m) + " m"
+    yield "deck top above ground" if is_flat else "height of deck top", f"{deck_top(bridge):.2f} m"
+
+
 def skewed(bridge: Bridge, solid: TriangleMesh) -> TriangleMesh:
-    """A solid sheared along the road as the skew asks for; its volume and its sections along the road stay the same."""
+    """Return a solid sheared along the road by the skew; its volume and its sections along the road stay the same."""
     if bridge.skew_deg == 0.0:
         return solid
     vertices = solid.vertices.copy()
@@ -60,7 +69,7 @@ def skewed(bridge: Bridge, solid: TriangleMesh) -> TriangleMesh:
 
 
 def turned_with_axis(bridge: Bridge, solid: TriangleMesh, along: float, across: float) -> TriangleMesh:
-    """A solid that stands at a place on an unskewed axis, moved to the skewed axis and turned with it, in shape."""
+    """Return a solid at a position on an unskewed axis, moved to the skewed axis and rotated with it."""
     if bridge.skew_deg == 0.0:
         return solid
     rotation = turn_in_plane(-math.radians(bridge.skew_deg))

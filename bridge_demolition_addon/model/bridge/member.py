@@ -1,9 +1,12 @@
-"""A structural member: a closed solid with a name, a kind and a density."""
+"""Structural members: closed solids with a name, a kind and a density."""
 
-from collections.abc import Sequence
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from ...engineering.geometry.mesh import TriangleMesh, triangle_areas_and_normals
+from ..actions import Fact
 from ..schema import given
 
 
@@ -11,28 +14,16 @@ from ..schema import given
 class Member:
     """A structural member.
 
-    Attributes
-    ----------
-    name : str
-        What the member is called; no two of a model have the same name.
-    kind : str
-        What it is: ``deck``, ``girder``, ``pier cap``, ``pier``, ``abutment``, ``bridge`` for all of these in one, or
-        whatever a user's own geometry is called.
-    solid : TriangleMesh
-        Closed, in m.
-    density_kg_m3 : float, optional
-        Density, kg/m³; None as long as it is not known.
-    parts : tuple of TriangleMesh
-        Convex solids that the member consists of, touching without overlap, where it is not convex itself and they are
-        known. Cut within them its shards are convex. Bullet takes every shard for its convex hull, and a shard that
-        is joined from pieces around a hollow reaches into its neighbours with its hull, and is thrown off them as soon
-        as their connection breaks.
+    Its kind is ``deck``, ``girder``, ``pier cap``, ``pier``, ``abutment``, ``bridge`` for all of these in one, or a
+    word of the user. Its parts are known where it is not convex itself: convex solids that touch without overlap. Cut
+    within them its shards are convex. Bullet takes every shard for its convex hull, and that of a shard around a
+    hollow overlaps its neighbours, which throws it off as soon as their connection breaks.
     """
 
-    name: str
+    name: str  # no two of a model have the same
     kind: str
-    solid: TriangleMesh
-    density_kg_m3: float | None = None
+    solid: TriangleMesh  # closed, in m
+    density_kg_m3: float | None = None  # None as long as it is not known
     parts: tuple[TriangleMesh, ...] = ()
 
     @property
@@ -48,7 +39,7 @@ class Member:
 
     @property
     def mass_kg(self) -> float:
-        """Mass of the member, kg."""
+        """Mass of the solid."""
         return self.volume_m3 * given(self.density_kg_m3)
 
 
@@ -58,3 +49,18 @@ def mean_density(members: Sequence[Member]) -> float:
     if len(densities) == 1:
         return given(densities.pop())
     return sum(member.mass_kg for member in members) / sum(member.volume_m3 for member in members)
+
+
+def member_facts(members: Sequence[Member]) -> Iterator[Fact]:
+    """Yield what a planner wants to know of members before a run."""
+    alike = len({member.density_kg_m3 for member in members}) == 1
+    for member in members:
+        own = "" if alike else f", {member.density_kg_m3:.0f} kg/m³"
+        yield member.name, _volume_and_mass(member.volume_m3, member.mass_kg) + own
+    volume, mass = (sum(getattr(member, name) for member in members) for name in ("volume_m3", "mass_kg"))
+    yield "all", _volume_and_mass(volume, mass)
+    yield "density" if alike else "mean density", f"{mean_density(members):.0f} kg/m³"
+
+
+def _volume_and_mass(volume_m3: float, mass_kg: float) -> str:
+    return f"{volume_m3:9.3f} m³ {mass_kg / 1000.0:10.3f} t"

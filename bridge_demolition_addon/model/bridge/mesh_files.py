@@ -22,25 +22,20 @@ from ..schema import FARTHEST_M, SHORTEST_LENGTH_M, given
 from .member import Member
 
 _BELOW_GROUND_M = 1e-3
-"""How far a member may reach below the ground: what is deeper would be thrown out of it at the start."""
+"""How far a member may extend below the ground: what is deeper would be thrown out of it at the start."""
 
 _PLANES = ([1, 2], [2, 0], [0, 1])
-"""Axes of the planes in which turns about x, y and z are, each from the first to the second."""
+"""Axes of the planes of rotations about x, y and z, each from the first to the second."""
 
 
 def geometry_members(tables: Sequence[Geometry], *, is_flat: bool = True) -> tuple[tuple[Member, ...], tuple[str, ...]]:
-    """Members from files, those of the same name united, and sentences on what was repaired.
+    """Return members from files, those of the same name united, and sentences on what was repaired.
 
-    Parameters
-    ----------
-    tables : sequence of Geometry
-        Which files, and how they are placed.
-    is_flat : bool
-        Whether the ground is flat, so that nothing may reach below it; elsewhere it is dug away.
+    On flat ground nothing may extend below it; elsewhere it is dug away.
     """
     members, notes = [], []
-    ordered = sorted(tables, key=lambda each: [other.name for other in tables].index(each.name))
-    for name, group in groupby(ordered, key=lambda each: each.name):
+    ordered = sorted(tables, key=lambda table: [other.name for other in tables].index(table.name))
+    for name, group in groupby(ordered, key=lambda table: table.name):
         same_name = list(group)
         solids = []
         for table in same_name:
@@ -56,7 +51,7 @@ def geometry_members(tables: Sequence[Geometry], *, is_flat: bool = True) -> tup
 
 
 def placed_mesh(table: Geometry) -> TriangleMesh:
-    """The mesh in a file as it is, scaled, turned and moved to its place."""
+    """Return the mesh in a file, scaled, rotated and moved to its position."""
     path = Path(table.file)
     mesh = _file_mesh(path)
     vertices = mesh.vertices * table.scale
@@ -71,7 +66,7 @@ def placed_mesh(table: Geometry) -> TriangleMesh:
 
 
 def exported(mesh: TriangleMesh, suffix: str) -> bytes:
-    """The mesh as the content of a file whose name ends in that suffix, such as ``.stl``."""
+    """Return the mesh as the content of a file whose name ends in that suffix, such as ``.stl``."""
     import trimesh
 
     content: Any = trimesh.Trimesh(mesh.vertices, mesh.triangles, process=False).export(file_type=suffix[1:])

@@ -23,7 +23,7 @@ _SAME_LEVEL_M = 1e-9
 
 
 def bridge_members(bridge: Bridge, ground: GroundHeight = level_ground) -> tuple[Member, ...]:
-    """Solids of all members, touching without overlap: decks and girders, abutments, each pier's cap and columns."""
+    """Return all members, touching without overlap: decks and girders, abutments, each pier's cap and columns."""
     members = [*superstructure(bridge), *substructure(bridge, ground)]
     if bridge.merge:
         convex = tuple(part for member in members for part in member.parts or (member.solid,))
@@ -33,12 +33,13 @@ def bridge_members(bridge: Bridge, ground: GroundHeight = level_ground) -> tuple
 
 
 def bridge_density(bridge: Bridge, members: Sequence[Member]) -> float:
-    """Density of the members without one of their own, kg/m³: as given, or what the total mass leaves for them."""
+    """Return the density of members without one of their own, kg/m³: as given, or by the rest of the total mass."""
     if bridge.density_kg_m3 is not None:
         return bridge.density_kg_m3
     own = [_own_density(bridge, member.kind) for member in members]
-    known_kg = sum(each.volume_m3 * density for each, density in zip(members, own, strict=True) if density is not None)
-    rest = sum(each.volume_m3 for each, density in zip(members, own, strict=True) if density is None)
+    pairs = list(zip(members, own, strict=True))
+    known_kg = sum(member.volume_m3 * density for member, density in pairs if density is not None)
+    rest = sum(member.volume_m3 for member, density in pairs if density is None)
     if not rest:
         raise ScenarioError(
             f"bridge.mass_kg is {bridge.mass_kg}: expected bridge.density_kg_m3 instead, as every member has a density "

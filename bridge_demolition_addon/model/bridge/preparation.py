@@ -28,16 +28,7 @@ class PreparedMembers:
 
 
 def prepared_members(scenario: Scenario) -> PreparedMembers:
-    """All members of a scenario: those of the bridge first, then those from files, cut by all before them.
-
-    Raises
-    ------
-    ScenarioError
-        Two members have the same name, or a file is not there.
-    GeometryError
-        A file cannot be made into a solid, or nothing is left of it, or nothing lies under the ball or a tool; the
-        terrain misses the bridge, has no data under a pier or is too high there.
-    """
+    """Return all members of a scenario: those of the bridge first, then those from files, cut by all before them."""
     terrain = terrain_of(scenario)
     of_bridge = _bridge_on(terrain, scenario) if scenario.bridge else ()
     if not scenario.geometry:
@@ -56,20 +47,20 @@ def _bridge_on(terrain: Terrain | None, scenario: Scenario) -> tuple[Member, ...
     check_under(terrain, [(bridge_member.name, bridge_member.solid) for bridge_member in bridge_members(bridge)])
 
     def height(name: str, x_m: float, y_m: float) -> float:
-        found = float(terrain.heights_at(np.array([[x_m, y_m]]))[0])
-        if not np.isfinite(found):
+        height_m = float(terrain.heights_at(np.array([[x_m, y_m]]))[0])
+        if not np.isfinite(height_m):
             where = terrain.told_place(np.array([x_m, y_m]))
             raise GeometryError(
                 f"{terrain.name}: the terrain has no data under {name}, at {where}; give it heights there, or move the "
                 "bridge by ground.origin; ground.scale is metres in a unit of the file."
             )
-        return found
+        return height_m
 
     return bridge_members(bridge, height)
 
 
 def without_overlap(members: Sequence[Member]) -> PreparedMembers:
-    """Members of which each has lost what it had in common with those before it."""
+    """Cut off each member what it has in common with those before it."""
     names = [member.name for member in members]
     for name in names:
         if names.count(name) > 1:

@@ -19,7 +19,7 @@ GroundHeight = Callable[[str, float, float], float]
 """How high the ground is, m, under a member of a name with its middle at x and y."""
 
 _SHORTEST_M = 0.1
-"""Height of what stands on the ground, at least."""
+"""Least height of what stands on the ground."""
 
 
 def level_ground(_name: str, _x_m: float, _y_m: float) -> float:
@@ -28,9 +28,9 @@ def level_ground(_name: str, _x_m: float, _y_m: float) -> float:
 
 
 def substructure(bridge: Bridge, ground: GroundHeight = level_ground) -> list[Member]:
-    """Every abutment, pier cap, column and wall; piers are numbered along the road.
+    """Return every abutment, pier cap, column and wall, down to the ground under their middles.
 
-    Columns, walls and abutments reach down to the ground under their middles.
+    Piers are numbered along the road.
     """
     axes = pier_axes(bridge)
     if bridge.abutments is None:

@@ -10,7 +10,7 @@ from .layout import deck_ends, deck_top, deck_underside, skewed, slab_underside
 from .member import Member
 
 _BEYOND_M = 1.0
-"""How far what is cut out of a box girder reaches beyond its ends: any length does that leaves no skin there."""
+"""How far what is cut out of a box girder extends beyond its ends: any length does that leaves no skin there."""
 
 
 def superstructure(bridge: Bridge) -> list[Member]:
@@ -20,8 +20,7 @@ def superstructure(bridge: Bridge) -> list[Member]:
     for number, (begin, end) in enumerate(ends, start=1):
         prefix = f"span {number} " if len(ends) > 1 else ""
         parts.append(_deck(bridge, f"{prefix}deck", begin, end))
-        girders = range(bridge.girders.number if bridge.girders else 0)
-        for girder in girders:
+        for girder in range(bridge.girders.number if bridge.girders else 0):
             solid = skewed(bridge, _girder(bridge, begin, end, girder))
             parts.append(Member(f"{prefix}girder {girder + 1}", "girder", solid))
     return parts

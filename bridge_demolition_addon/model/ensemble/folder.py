@@ -43,8 +43,6 @@ from ..study.files import (
     VERSIONS_FILE,
 )
 from ..study.outcome import Outlines
-from ..study.planner import EnsembleResult
-from ..study.runs_sheet import write_sheet
 from ..study.runs_table import (
     DONE,
     KILLED,
@@ -55,10 +53,14 @@ from ..study.runs_table import (
     cells_of,
     read_runs,
     write_runs,
+    write_sheet,
 )
 
+EnsembleResult = Conclusions | Answer | Best
+"""Statements of an ensemble: numbers, which ``report/wording`` puts into sentences."""
+
 RETRIED = (KILLED, OUT_OF_MEMORY)
-"""Outcomes that are worth retrying: a user, or a lack of memory, ended the run. All others stay as they are."""
+"""Outcomes that are worth retrying: a user, or a lack of memory, ended the run. All others stay."""
 
 _READERS: dict[str, Callable[[Path], Ensemble]] = {
     STUDY_FILE: read_study,
@@ -72,22 +74,10 @@ _GO_ON = "go on with the command that started the"
 
 
 class EnsembleFolder:
-    """The folder of an ensemble, which only its holder writes to until it is released.
+    """The folder of an ensemble, new or begun, which only its holder writes to until it is released.
 
-    Parameters
-    ----------
-    path
-        Where it is or is to be.
-    ensemble
-        A study, a search or an optimisation.
-    versions
-        What its runs are made with.
-
-    Raises
-    ------
-    OutputError
-        It is another's or another version's, is no such folder, or cannot be written; or another process is at work in
-        it. Nothing in it is changed then.
+    Its runs are made with `versions`. Nothing is changed in a folder of another ensemble or version, or of a process
+    that is at work in it.
     """
 
     def __init__(self, path: Path, ensemble: Ensemble, versions: Mapping[str, str]):
@@ -99,13 +89,13 @@ class EnsembleFolder:
         try:
             with writing(path):
                 self._clear_parts()
-                self._write_what_is_asked()
+                self._write_settings()
         except BaseException:
             self._lock.release()
             raise
 
     def work_folder(self, cache_key: str) -> Path:
-        """Return where a run's files are written while it is under way; unique per process: leftovers are not used."""
+        """Return where a run's files are written while it is under way, unique to this process."""
         return self._runs / f"{cache_key}-{os.getpid()}{_PART}"
 
     def outcome_of(self, cache_key: str) -> RunOutcome | None:
@@ -128,7 +118,7 @@ class EnsembleFolder:
             "wall_time_s": round(outcome.wall_time_s, 3),
         }
         write_whole_text(part / OUTCOME_FILE, json.dumps(kept, indent=1) + "\n")
-        if target.exists():  # what is damaged there, as by a loss of power
+        if target.exists():  # damaged, as by a loss of power
             shutil.rmtree(target)
         os.replace(part, target)
 
@@ -145,7 +135,7 @@ class EnsembleFolder:
         return paths
 
     def write_result(self, result: EnsembleResult) -> list[Path]:
-        """Write what all runs state, and return the paths of the files."""
+        """Write the result of all runs, and return the paths of the files."""
         paths = [self.path / self.ensemble.result_file]
         write_whole_text(paths[0], json.dumps({**result.as_json(), "versions": self.versions}, indent=2) + "\n")
         if isinstance(result, Answer) and result.curve is not None:
@@ -170,8 +160,8 @@ class EnsembleFolder:
     def _runs(self) -> Path:
         return self.path / RUNS_FOLDER
 
-    def _write_what_is_asked(self) -> None:
-        """Write what a new folder holds, or the number of runs where it was raised."""
+    def _write_settings(self) -> None:
+        """Write the settings of a new folder, or the number of runs where it was raised."""
         settings_path = self.path / self.ensemble.file_name
         if not settings_path.exists():
             write_whole_text(self.path / VERSIONS_FILE, json.dumps(self.versions, indent=2) + "\n")
@@ -214,7 +204,7 @@ def check_folder(path: Path, ensemble: Ensemble, versions: Mapping[str, str]) ->
 
 
 def holds_ensemble(folder: Path, file_name: str = "") -> bool:
-    """Return whether a folder is one of a study, a search or an optimisation, or of that with a file of settings."""
+    """Return whether a folder is that of an ensemble, of any kind or of the one with this file of settings."""
     return _file_name_in(folder) in ((file_name,) if file_name else _READERS)
 
 
@@ -239,44 +229,26 @@ def study_in(folder: Path) -> Study:
 
 @dataclass(frozen=True, eq=False)
 class EnsembleRuns:
-    """An ensemble and the runs of it that count so far, as read from its folder.
-
-    Attributes
-    ----------
-    folder : Path
-        Where they are.
-    ensemble : Study, Search or Optimisation
-        What was asked.
-    table : RunsTable
-        All runs that count.
-    versions : dict
-        What the runs were made with: version by name.
-    """
+    """An ensemble and those of its runs that count so far, as read from its folder."""
 
     folder: Path
     ensemble: Ensemble
     table: RunsTable
-    versions: Mapping[str, str]
+    versions: Mapping[str, str]  # that they were made with, by name
 
     @property
     def name(self) -> str:
         """Name of the folder."""
         return self.folder.resolve().name
 
-    def result(self) -> Conclusions | Answer | Best:
-        """Return what the runs state.
-
-        Raises
-        ------
-        OutputError
-            Not all runs are there.
-        """
+    def result(self) -> EnsembleResult:
+        """Return the result of the runs; all of them have to be there."""
         return result_of_runs(self.ensemble, self.table)
 
     def run_folders(self) -> dict[int, Path]:
         """Return the folders of all runs that finished, by their numbers.
 
-        They are known by their inputs: their cache keys depend on the version that made them, which may be another.
+        Their inputs identify them: cache keys depend on the version that made the runs, which may be another.
         """
         names, by_inputs = self.table.inputs, {}
         for path in (self.folder / RUNS_FOLDER).glob(f"*/{OUTCOME_FILE}"):
@@ -331,8 +303,8 @@ def read_ensemble(folder: Path) -> EnsembleRuns:
     return EnsembleRuns(folder, ensemble, table, versions_of(folder))
 
 
-def result_of_runs(ensemble: Ensemble, table: RunsTable) -> Conclusions | Answer | Best:
-    """Return what all runs of an ensemble state."""
+def result_of_runs(ensemble: Ensemble, table: RunsTable) -> EnsembleResult:
+    """Return the result of all runs of an ensemble."""
     try:
         match ensemble:
             case Study():

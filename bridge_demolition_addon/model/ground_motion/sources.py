@@ -11,7 +11,7 @@ from ...engineering.ground_motion.record import LARGEST_ACCELERATION_M_S2, Groun
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...errors import ScenarioError
 from ..schema import given
-from .accelerogram_file import accelerogram_from_file
+from .record_files import accelerogram_from_file
 from .settings import DIRECTIONS, GroundMotion, Sweep
 from .spectral_record import spectral_record
 

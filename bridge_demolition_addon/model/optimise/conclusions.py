@@ -1,11 +1,11 @@
-"""Result of an optimisation: the values that did best, their objective, and by how much they had looked better."""
+"""Result of an optimisation: the best values, their objective, and by how much they had looked better in the search."""
 
 from __future__ import annotations
 
 import csv
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
@@ -14,75 +14,46 @@ import numpy as np
 from ...engineering.statistics.binomial import lower_limit
 from ...engineering.statistics.order_limits import most_support, nth_largest
 from ...system.disk import whole_file
+from ..study.conclusions import finite
 from ..study.runs_table import REACH, RunsTable
 from .file import Optimisation
 from .rounds import CONFIRMATION, FINAL, SEARCH, CandidateResult, objective_values, quantile_of, result_of
 from .settings import CHARGE
 
 CANDIDATE, ROUND = "candidate", "round"
-"""Inputs of the table of runs that say what a run is for."""
+"""Inputs of the table of runs that say which candidate runs, and why."""
+
+_STATED_SETTINGS = ("objective", "unit", "quantile", "probability", "confidence")
 
 
 @dataclass(frozen=True, slots=True)
 class TriedCandidate:
-    """A candidate all of whose runs of the search have ended.
+    """A candidate all of whose runs of the search have ended."""
 
-    Attributes
-    ----------
-    number : int
-        From 1.
-    values : dict
-        What was tried, by name.
-    result : CandidateResult
-        Of its runs in the search.
-    charge_kg, reach_m : float
-        Mass of its charges, and the quantile of its debris distance; infinite where not known.
-    holds : bool
-        Whether it met all criteria as often as they have to be met.
-    on_front : bool
-        Whether no other that holds has both less charge and a smaller debris distance.
-    """
-
-    number: int
-    values: dict[str, Any]
-    result: CandidateResult
-    charge_kg: float
-    reach_m: float
-    holds: bool
-    on_front: bool
+    number: int  # from 1
+    values: dict[str, Any]  # by name
+    result: CandidateResult  # of its runs in the search
+    charge_kg: float  # infinite where not known
+    reach_m: float  # quantile of its debris distance; infinite where not known
+    holds: bool  # whether it met all criteria as often as they have to be met
+    on_front: bool  # whether no other that holds has both less charge and a smaller debris distance
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Best:
-    """The candidate that was chosen.
+    """The candidate that was chosen, with limits that hold with the confidence of the optimisation.
 
-    Attributes
-    ----------
-    optimisation
-        What was asked.
-    tried : tuple of TriedCandidate
-        All candidates.
-    candidate : int
-        Number of the chosen one, from 1.
-    values : dict
-        What was chosen, by name.
-    searched, final, confirmed : CandidateResult
-        Its result in each round.
-    limit : float or None
-        The objective of that quantile is at most this, with the confidence that was asked for; None where there are
-        too few runs to state one, or not all of them finished.
-    least_probability : float
-        All criteria are met with at least this, with that confidence.
+    The quantile of its objective is at most `limit`; it meets all criteria with at least `least_probability`.
     """
 
     optimisation: Optimisation
     tried: tuple[TriedCandidate, ...]
-    candidate: int
-    values: dict[str, Any]
-    searched: CandidateResult
+    candidate: int  # its number, from 1
+    values: dict[str, Any]  # by name
+    searched: CandidateResult  # its result in each round
     final: CandidateResult
     confirmed: CandidateResult
-    limit: float | None
+    limit: float | None  # None where there are too few runs to state one, or not all of them finished
     least_probability: float
 
     @property
@@ -96,26 +67,23 @@ class Best:
         return self.least_probability >= self.optimisation.settings.probability
 
     def as_json(self) -> dict[str, Any]:
-        """Return it as ``optimise.json`` has it; what is infinite is not known, and null."""
+        """Return it as ``optimise.json`` has it."""
         settings = self.optimisation.settings
         confirmed = {
             "limit": self.limit,
             "least_probability": self.least_probability,
             "meets_the_probability": self.is_confirmed,
         }
-        return {
-            "objective": settings.objective,
-            "unit": settings.unit,
-            "quantile": settings.quantile,
-            "probability": settings.probability,
-            "confidence": settings.confidence,
+        values = {
+            **{name: getattr(settings, name) for name in _STATED_SETTINGS},
             "candidate": self.candidate,
             "values": self.values,
-            "confirmed": _result_as_json(self.confirmed) | confirmed,
-            "in_the_final": _result_as_json(self.final),
-            "in_the_search": _result_as_json(self.searched),
-            "looked_better_by": _finite(self.looked_better_by),
+            "confirmed": asdict(self.confirmed) | confirmed,
+            "in_the_final": asdict(self.final),
+            "in_the_search": asdict(self.searched),
+            "looked_better_by": self.looked_better_by,
         }
+        return finite(values)
 
 
 def best_of(optimisation: Optimisation, table: RunsTable) -> Best:
@@ -161,7 +129,7 @@ def tried_candidates(optimisation: Optimisation, table: RunsTable) -> list[Tried
 
 
 def front_of(charges_kg: np.ndarray, reaches_m: np.ndarray, holds: np.ndarray) -> np.ndarray:
-    """Return which candidates (n,) hold and are not beaten: no other that holds is less in one and not more in both."""
+    """Return which candidates (n,) hold, while no other that holds is less in one and not more in both."""
     counts = holds & np.isfinite(reaches_m)
     less = (charges_kg[:, None] <= charges_kg) & (reaches_m[:, None] <= reaches_m)
     better = less & ((charges_kg[:, None] < charges_kg) | (reaches_m[:, None] < reaches_m))
@@ -182,7 +150,7 @@ def write_candidates(tried: Sequence[TriedCandidate], path: Path) -> None:
 
 
 def _outputs(table: RunsTable, candidate: int, of_round: str) -> list[Mapping[str, Any]]:
-    """Outputs of the runs of a candidate in a round."""
+    """Return the outputs of the runs of a candidate in a round."""
     return [row.outputs for row in table.rows if row.inputs[CANDIDATE] == candidate and row.inputs[ROUND] == of_round]
 
 
@@ -192,11 +160,3 @@ def _cell(value: Any) -> str:
     if isinstance(value, float):
         return f"{value:.9g}" if math.isfinite(value) else ""
     return str(value)
-
-
-def _result_as_json(result: CandidateResult) -> dict[str, Any]:
-    return {"value": _finite(result.value), "successes": result.successes, "runs": result.runs}
-
-
-def _finite(value: float) -> float | None:
-    return value if math.isfinite(value) else None

@@ -15,18 +15,12 @@ from .settings import OptimiseSettings
 from .space import Shares, Space, space_of
 
 _PER_DIMENSION = 5
-"""Candidates for each number that may change, at least: with fewer, chance finds as much."""
+"""Least number of candidates for each number that may change: with fewer, chance does as well."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Optimisation(Ensemble):
-    """An optimisation: a scenario, what may change in it, and what is best.
-
-    Attributes
-    ----------
-    space : Space
-        What may change.
-    """
+    """An optimisation: a scenario, what may change in it, and the objective."""
 
     kind: ClassVar[str] = "optimisation"
     file_name: ClassVar[str] = OPTIMISE_FILE
@@ -63,7 +57,5 @@ def optimisation_of(settings: OptimiseSettings, scenario: Scenario) -> Optimisat
 def _check_objective(settings: OptimiseSettings, scenario: Scenario) -> None:
     if settings.objective in ("charge", "vibration") and not (scenario.charges and scenario.blast.explosion):
         raise settings.unexpected("objective", "another one, as the scenario has no charges that go off")
-    if settings.neighbour is not None and settings.neighbour not in [
-        neighbour.name for neighbour in scenario.neighbours
-    ]:
+    if settings.neighbour not in (None, *(neighbour.name for neighbour in scenario.neighbours)):
         raise settings.unexpected("neighbour", "the name of one of [[neighbours]] of the scenario")

@@ -1,6 +1,6 @@
 """The rounds of an optimisation: candidates are tried, the best of them run again, and the chosen one confirmed.
 
-In runs of one number all candidates have the same inputs by chance, so that they differ by what was chosen, not by luck
+In runs of one number all candidates have the same inputs by chance, so that they differ by their values, not by luck
 (common random numbers). Choosing the best of noisy results chooses luck as well: so the choice among finalists, and the
 result that is stated, each rest on runs with new numbers.
 """
@@ -39,18 +39,10 @@ class CandidateRun:
 
 @dataclass(frozen=True, slots=True)
 class CandidateResult:
-    """Result of some runs of a candidate.
+    """Result of some runs of a candidate."""
 
-    Attributes
-    ----------
-    value : float
-        The objective; infinite where not enough of them finished.
-    successes, runs : int
-        How many met all criteria, of how many.
-    """
-
-    value: float
-    successes: int
+    value: float  # of the objective; infinite where not enough runs finished
+    successes: int  # runs that met all criteria
     runs: int
 
     @property
@@ -61,58 +53,33 @@ class CandidateResult:
 
 @dataclass(slots=True, eq=False)
 class Candidate:
-    """Values that were tried.
+    """Values that were tried, and the outputs of their runs by number; empty for a run that did not finish."""
 
-    Attributes
-    ----------
-    shares : (d,) float
-        What was proposed.
-    outputs : dict
-        Outputs of its runs by their numbers; empty for a run that did not finish.
-    """
-
-    shares: np.ndarray
+    shares: np.ndarray  # (d,), as proposed
     outputs: dict[int, Mapping[str, Any]] = field(default_factory=dict)
 
 
 class Rounds:
-    """Says which runs are to be made, and which candidates do best.
-
-    Parameters
-    ----------
-    settings
-        How many runs there are, and what is best.
-    proposals
-        Where candidates come from.
-
-    Attributes
-    ----------
-    candidates : list of Candidate
-        All that were proposed so far.
-    finalists : list of int
-        The best of them, once all were tried; the first is the best.
-    chosen : int or None
-        The best of these, once all were run again.
-    """
+    """Says which runs are to be made, and which candidates do best."""
 
     def __init__(self, settings: OptimiseSettings, proposals: Proposals):
-        self.candidates: list[Candidate] = []
-        self.finalists: list[int] = []
-        self.chosen: int | None = None
+        self.candidates: list[Candidate] = []  # all that were proposed so far
+        self.finalists: list[int] = []  # the best of them, once all were tried; the first is the best
+        self.chosen: int | None = None  # the best of these, once all were run again
         self._settings, self._proposals, self._recorded = settings, proposals, 0
 
     @property
     def done(self) -> int:
-        """How many runs have ended."""
+        """Number of runs that have ended."""
         return sum(len(candidate.outputs) for candidate in self.candidates)
 
     @property
     def is_finished(self) -> bool:
-        """Whether all have."""
+        """Whether all runs have ended."""
         return self.chosen is not None and self._has_all(self.chosen, CONFIRMATION)
 
     def open(self) -> Iterator[CandidateRun]:
-        """Give the runs that may be made now and have not ended, in their order."""
+        """Yield the runs that may be made now and have not ended, in their order."""
         self._go_on()
         for number in range(self._recorded, len(self.candidates)):
             yield from self._missing(number, SEARCH)
@@ -134,19 +101,16 @@ class Rounds:
         """Return the numbers of the runs of a round: no other round has them."""
         settings = self._settings
         counts = {SEARCH: settings.runs_each, FINAL: settings.finalist_runs, CONFIRMATION: settings.confirmation_runs}
-        begin = 1
-        for name, count in counts.items():
-            if name == of_round:
-                return range(begin, begin + count)
-            begin += count
-        raise KeyError(of_round)
+        names = list(counts)
+        begin = 1 + sum(counts[name] for name in names[: names.index(of_round)])
+        return range(begin, begin + counts[of_round])
 
     def round_of(self, number: int) -> str:
         """Return the round of a run, by its number."""
         return next(name for name in (SEARCH, FINAL, CONFIRMATION) if number in self.run_numbers(name))
 
     def _go_on(self) -> None:
-        """Take stock of what is complete, in the order of candidates: what is proposed depends on nothing else."""
+        """Record complete candidates in their order, and propose others: proposals depend on nothing else."""
         settings = self._settings
         while True:
             while len(self.candidates) < min(settings.candidates, self._recorded + settings.at_once):
@@ -158,11 +122,8 @@ class Rounds:
             self._recorded += 1
         if self._recorded == settings.candidates and not self.finalists:
             self.finalists = self._best_that_differ()
-        if (
-            self.chosen is None
-            and self.finalists
-            and all(self._has_all(finalist, FINAL) for finalist in self.finalists)
-        ):
+        is_run_again = self.finalists and all(self._has_all(finalist, FINAL) for finalist in self.finalists)
+        if self.chosen is None and is_run_again:
             self.chosen = self._in_order(self.finalists, FINAL)[0]
 
     def _best_that_differ(self) -> list[int]:
@@ -172,10 +133,13 @@ class Rounds:
         return list(first.values())[: self._settings.finalists]
 
     def _in_order(self, numbers: Sequence[int], of_round: str) -> list[int]:
-        """Candidates that succeed often enough by their objective, then the others by how often they do."""
+        """Order candidates that succeed often enough by their objective, then the others by how often they do."""
         results = {number: self.result(number, of_round) for number in numbers}
-        shortfalls = {number: max(self._settings.probability - each.share, 0.0) for number, each in results.items()}
-        return sorted(numbers, key=lambda number: (shortfalls[number], results[number].value, number))
+
+        def rank(number: int) -> tuple[float, float, int]:
+            return max(self._settings.probability - results[number].share, 0.0), results[number].value, number
+
+        return sorted(numbers, key=rank)
 
     def _missing(self, number: int, of_round: str) -> Iterator[CandidateRun]:
         outputs = self.candidates[number].outputs
@@ -202,12 +166,12 @@ def quantile_of(values: np.ndarray, quantile: float) -> float:
     """Return a quantile of the distribution of values (n,), the eighth of R. J. Hyndman and Y. Fan.
 
     Its median is about the true one whatever the distribution: Sample quantiles in statistical packages, The American
-    Statistician 50 (1996), 361-365. Infinite values may be among them.
+    Statistician 50 (1996), 361-365. Values may be infinite.
     """
     ordered, count = np.sort(values), len(values)
-    place = min(max((count + 1.0 / 3.0) * quantile + 1.0 / 3.0, 1.0), float(count))
-    below = int(place)
-    value, share = float(ordered[below - 1]), place - below
+    rank = min(max((count + 1.0 / 3.0) * quantile + 1.0 / 3.0, 1.0), float(count))
+    below = int(rank)
+    value, share = float(ordered[below - 1]), rank - below
     if share < 1e-12 or not np.isfinite(ordered[below]):
         return value if share < 1e-12 else np.inf
     return value + share * (float(ordered[below]) - value)

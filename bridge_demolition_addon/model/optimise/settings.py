@@ -49,7 +49,7 @@ class ChosenQuantity(Table):
 
     def value(self, share: float) -> float:
         """Return the value at a share of the range, 0 to 1."""
-        low, high = (math.log(each) if self.logarithmic else each for each in (self.lowest, self.highest))
+        low, high = (math.log(end) if self.logarithmic else end for end in (self.lowest, self.highest))
         value = low + share * (high - low)
         value = math.exp(value) if self.logarithmic else value
         if self.step is not None:
@@ -59,11 +59,11 @@ class ChosenQuantity(Table):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ChosenPlace(Table):
-    """A place of the scenario that may change within a box along the axes."""
+    """A position of the scenario that may change within a box along the axes."""
 
     table: ClassVar[str] = "places"
 
-    key: str = schema.key('Which place: `charges."mid pier".place_m`, `ball.target_m`.')
+    key: str = schema.key('Which position: `charges."mid pier".place_m`, `ball.target_m`.')
     lowest_corner_m: tuple[float, ...] = schema.key("Lowest coordinates that are tried.", unit="m")
     highest_corner_m: tuple[float, ...] = schema.key(
         "Highest coordinates that are tried; one that is as its lowest does not change.", unit="m"
@@ -82,8 +82,7 @@ class ChosenPlace(Table):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ChosenOrder(Table):
-    """Numbers of the scenario that change places with each other: times of steps or delays of charges, whose order is
-    looked for."""
+    """Numbers of the scenario that are exchanged: times of steps or delays of charges, whose order is looked for."""
 
     table: ClassVar[str] = "orders"
 
@@ -98,7 +97,7 @@ class ChosenOrder(Table):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OptimiseSettings(EnsembleSettings):
-    """What is to be as small as can be, what has to hold, and how many runs it takes."""
+    """What is to be as small as can be, what has to hold, and the numbers of runs."""
 
     table: ClassVar[str] = "optimise"
     raised_later: ClassVar[tuple[str, ...]] = ("candidates", "confirmation_runs")
@@ -110,7 +109,7 @@ class OptimiseSettings(EnsembleSettings):
     )
     neighbour: str | None = schema.key("Whose `vibration`, by its name in `[[neighbours]]`.", default=None)
     quantile: float = schema.key(
-        "Of what scatters from run to run, the objective is this quantile.", default=0.9, at_least=0.5, at_most=0.99
+        "Quantile of what scatters from run to run: the objective.", default=0.9, at_least=0.5, at_most=0.99
     )
     probability: float = schema.key(
         "With which probability all criteria have to be met.", default=0.9, at_least=0.01, at_most=0.999
@@ -130,7 +129,7 @@ class OptimiseSettings(EnsembleSettings):
     )
     finalist_runs: int = schema.key("Fresh runs of each finalist.", default=20, at_least=1, at_most=100_000)
     confirmation_runs: int = schema.key(
-        "Fresh runs of the one that was chosen: what is said of it rests on these alone.",
+        "Fresh runs of the chosen candidate: its result rests on these alone.",
         default=59,
         at_least=1,
         at_most=100_000,
@@ -148,7 +147,7 @@ class OptimiseSettings(EnsembleSettings):
 
     @property
     def output(self) -> str:
-        """Name of the output of each run that the objective is made of."""
+        """Output of each run that is the objective."""
         if self.objective == "vibration":
             return neighbour_output(schema.given(self.neighbour), "vibration_mm_s")
         return _OUTPUTS[self.objective][0]
@@ -160,7 +159,7 @@ class OptimiseSettings(EnsembleSettings):
 
     @property
     def runs(self) -> int:
-        """How many runs there are in all."""
+        """Number of runs in all."""
         return self.candidates * self.runs_each + self.finalists * self.finalist_runs + self.confirmation_runs
 
     def _check_together(self) -> None:

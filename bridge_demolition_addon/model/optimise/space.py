@@ -1,9 +1,10 @@
-"""All that may change in an optimisation, as numbers from 0 to 1, and what a scenario gets for them."""
+"""All that may change in an optimisation, as numbers from 0 to 1, and the values of a scenario for them."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import accumulate
 from typing import Any, Protocol, TypeVar
 
 from ...engineering.arrays import FloatArray
@@ -22,27 +23,18 @@ _Table = TypeVar("_Table", bound=Table)
 
 
 class Dimension(Protocol):
-    """A part of what may change.
-
-    Attributes
-    ----------
-    keys : tuple of ScenarioKey
-        Where it is in the scenario.
-    size : int
-        How many numbers from 0 to 1 say what it is.
-    """
+    """A part of what may change: keys of the scenario that `size` numbers from 0 to 1 decide."""
 
     @property
     def keys(self) -> tuple[ScenarioKey, ...]: ...
-
     @property
     def size(self) -> int: ...
 
     def values(self, shares: Shares) -> dict[ScenarioKey, Any]:
-        """Return what the scenario gets."""
+        """Return the values for the scenario."""
 
     def shown(self, shares: Shares) -> dict[str, Any]:
-        """Return what a table says, by names of columns."""
+        """Return the values for a table, by names of columns."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,8 +63,8 @@ class Dealt:
         return len(self.keys)
 
     def values(self, shares: Shares) -> dict[ScenarioKey, Any]:
-        order = sorted(range(self.size), key=lambda each: shares[each])
-        return {self.keys[place]: key.value for place, key in zip(order, self.keys, strict=True)}
+        order = sorted(range(self.size), key=lambda index: shares[index])
+        return {self.keys[index]: key.value for index, key in zip(order, self.keys, strict=True)}
 
     def shown(self, shares: Shares) -> dict[str, Any]:
         values = self.values(shares)
@@ -81,13 +73,13 @@ class Dealt:
 
 @dataclass(frozen=True, slots=True)
 class Space:
-    """All of it."""
+    """All that may change."""
 
     dimensions: tuple[Dimension, ...]
 
     @property
     def size(self) -> int:
-        """How many numbers from 0 to 1 make a candidate."""
+        """Number of numbers from 0 to 1 of a candidate."""
         return sum(dimension.size for dimension in self.dimensions)
 
     @property
@@ -96,40 +88,29 @@ class Space:
         return list(self.shown([0.5] * self.size))
 
     def values(self, shares: Shares) -> dict[ScenarioKey, Any]:
-        """Return what a scenario gets for shares (size,)."""
-        return {key: value for each, own in self._parts(shares) for key, value in each.values(own).items()}
+        """Return the values for the scenario by shares (size,)."""
+        return {key: value for part, own in self._parts(shares) for key, value in part.values(own).items()}
 
     def shown(self, shares: Shares) -> dict[str, Any]:
-        """Return the values of shares (size,) by their names in a table."""
-        return {name: value for each, own in self._parts(shares) for name, value in each.shown(own).items()}
+        """Return the values for a table by shares (size,)."""
+        return {name: value for part, own in self._parts(shares) for name, value in part.shown(own).items()}
 
     def _parts(self, shares: Shares) -> list[tuple[Dimension, Shares]]:
-        found, begin = [], 0
-        for dimension in self.dimensions:
-            found.append((dimension, shares[begin : begin + dimension.size]))
-            begin += dimension.size
-        return found
+        ends = list(accumulate(dimension.size for dimension in self.dimensions))
+        return [(part, shares[end - part.size : end]) for part, end in zip(self.dimensions, ends, strict=True)]
 
 
-def space_of(settings: OptimiseSettings, scenario: Scenario, drawn: Sequence[str]) -> Space:
-    """Return what may change in a scenario.
-
-    Parameters
-    ----------
-    settings, scenario
-        Which keys, and where.
-    drawn : sequence of str
-        Names of keys that vary by chance: they cannot be chosen.
-    """
+def space_of(settings: OptimiseSettings, scenario: Scenario, sampled: Sequence[str]) -> Space:
+    """Return what may change in a scenario, without the keys that are sampled, by their names."""
     dimensions: list[Dimension] = []
-    named: set[str] = set(drawn)
+    named: set[str] = set(sampled)
 
     def add(tables: Sequence[_Table], make: Callable[[_Table, Scenario], list[Dimension]]) -> None:
         for number, table in enumerate(tables, start=1):
             try:
                 made = make(table, scenario)
                 for dimension in made:
-                    _check_new(dimension.keys, named, drawn)
+                    _check_new(dimension.keys, named, sampled)
                     _check_ends(scenario, dimension)
                 dimensions.extend(made)
             except ScenarioError as error:
@@ -144,7 +125,7 @@ def space_of(settings: OptimiseSettings, scenario: Scenario, drawn: Sequence[str
 def _along(quantity: ChosenQuantity, scenario: Scenario) -> list[Dimension]:
     keys = keys_named(scenario, quantity.key)
     for key in keys:
-        if not _is_number(key.value) and (quantity.factor or key.value is not None):
+        if not key.has_number and (quantity.factor or key.value is not None):
             raise ScenarioError(f"{key.name} has no number in the scenario: expected a key that has one")
     return [Along(quantity, keys)]
 
@@ -167,7 +148,7 @@ def _in_box(place: ChosenPlace, scenario: Scenario) -> list[Dimension]:
 
 
 def _coordinates(place: ChosenPlace, scenario: Scenario) -> int:
-    """How many numbers a place has in the scenario."""
+    """Return the number of coordinates of a position in the scenario."""
     keys = keys_named(scenario, f"{place.key}.1")
     if len(keys) > 1:
         raise place.unexpected("key", f"one of them, such as {keys[0].name.removesuffix('.1')}")
@@ -180,23 +161,19 @@ def _coordinates(place: ChosenPlace, scenario: Scenario) -> int:
 def _dealt(order: ChosenOrder, scenario: Scenario) -> list[Dimension]:
     keys = [key for name in order.keys for key in keys_named(scenario, name)]
     for key in keys:
-        if not _is_number(key.value):
+        if not key.has_number:
             raise ScenarioError(f"{key.name} has no number in the scenario: expected a key that has one")
     if len({key.value for key in keys}) < 2:
         raise order.unexpected("keys", f"numbers that differ; all of them are {keys[0].value:g}")
     return [Dealt(tuple(keys))]
 
 
-def _is_number(value: Any) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool)
-
-
-def _check_new(keys: Sequence[ScenarioKey], named: set[str], drawn: Sequence[str]) -> None:
+def _check_new(keys: Sequence[ScenarioKey], named: set[str], sampled: Sequence[str]) -> None:
     for key in keys:
         if key.name == SEED:
-            raise ScenarioError(f"{SEED} is drawn for each run: expected a quantity of the bridge or its demolition")
-        if key.name in drawn:
-            raise ScenarioError(f"{key.name} is chosen and drawn as well: leave out its table [[vary]]")
+            raise ScenarioError(f"{SEED} is sampled for each run: expected a quantity of the bridge or its demolition")
+        if key.name in sampled:
+            raise ScenarioError(f"{key.name} is chosen and sampled as well: leave out its table [[vary]]")
         if key.name in named:
             raise ScenarioError(f"{key.name} is named more than once: expected one table for it")
         named.add(key.name)
@@ -204,7 +181,9 @@ def _check_new(keys: Sequence[ScenarioKey], named: set[str], drawn: Sequence[str
 
 def _check_ends(scenario: Scenario, dimension: Dimension) -> None:
     for end in (0.0, 1.0):
-        shares = [end] if dimension.size == 1 else [abs(end - each / dimension.size) for each in range(dimension.size)]
+        shares = (
+            [end] if dimension.size == 1 else [abs(end - index / dimension.size) for index in range(dimension.size)]
+        )
         values = dimension.values(shares)
         try:
             changed(scenario, values)

@@ -12,7 +12,7 @@ from ...engineering.ground_motion.record import GroundRecord
 from ...errors import OutputError
 from ...system.disk import part_of, write_whole_text, writing
 from ...system.folder_lock import LOCK_FILE, FolderLock, check_unlocked, writer_in
-from ..ground_motion.record_file import record_text
+from ..ground_motion.record_files import record_text
 from ..results.arrays import FRAMES_FILE, RESULTS_FILE
 from ..scenario import Scenario
 from ..scenario.file import read_scenario, scenario_text

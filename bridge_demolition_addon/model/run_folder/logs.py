@@ -31,22 +31,12 @@ _XYZ = ("x", "y", "z")
 
 @dataclass(frozen=True, slots=True)
 class LogColumn(Generic[Source]):
-    """A value of a log. One that has parts, such as a vector, takes a column of the file for each.
+    """A value of a log. One that has parts, such as a vector, takes a column of the file for each."""
 
-    Attributes
-    ----------
-    name, unit
-        Both stand in the header; empty where there is none.
-    value
-        Returns (n,) or (n, parts) values for n lines.
-    parts
-        What stands in the header between name and unit.
-    """
-
-    name: str
-    unit: str
-    value: Callable[[Source], np.ndarray]
-    parts: tuple[str, ...] = ("",)
+    name: str  # both stand in the header; empty where there is none
+    unit: str  # both stand in the header; empty where there is none
+    value: Callable[[Source], np.ndarray]  # returns (n,) or (n, parts) values for n lines
+    parts: tuple[str, ...] = ("",)  # what stands in the header between name and unit
 
     @property
     def headers(self) -> list[str]:
@@ -78,20 +68,12 @@ class LogTable(Generic[Source]):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Flights:
-    """Where n bodies are, and what may have moved them.
+    """Where n bodies are, and what may have moved them."""
 
-    Attributes
-    ----------
-    first_m, last_m : (n, 3) float
-        Positions in the first frame and now.
-    made_j, largest_kinetic_j : (n,) float
-        Energy that the solver made, and the largest kinetic energy so far.
-    """
-
-    first_m: np.ndarray
-    last_m: np.ndarray
-    made_j: np.ndarray
-    largest_kinetic_j: np.ndarray
+    first_m: np.ndarray  # (n, 3), positions in the first frame and now
+    last_m: np.ndarray  # (n, 3), positions in the first frame and now
+    made_j: np.ndarray  # (n,), energy that the solver made, and the largest kinetic energy so far
+    largest_kinetic_j: np.ndarray  # (n,), energy that the solver made, and the largest kinetic energy so far
 
     @property
     def throws_m(self) -> np.ndarray:
@@ -231,22 +213,12 @@ def _csv_text(*texts: str) -> str:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class LoggedForces:
-    """What a force log holds without results.
+    """What a force log holds without results."""
 
-    Attributes
-    ----------
-    times_s : (k,) float
-        Times of the frames.
-    sums_n, resultants_n : (k,) float
-        Largest sum of magnitudes and largest resultant on any body but the ground.
-    is_cut
-        Whether the log ends within a frame, which is left out.
-    """
-
-    times_s: np.ndarray
-    sums_n: np.ndarray
-    resultants_n: np.ndarray
-    is_cut: bool
+    times_s: np.ndarray  # (k,), times of the frames
+    sums_n: np.ndarray  # (k,), largest sum of magnitudes and largest resultant on any body but the ground
+    resultants_n: np.ndarray  # (k,), largest sum of magnitudes and largest resultant on any body but the ground
+    is_cut: bool  # whether the log ends within a frame, which is left out
 
 
 def read_logged_forces(folder: Path) -> LoggedForces | None:

@@ -33,15 +33,9 @@ class BodyValue(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RunSummary:
-    """A summary, for those who read it. Earlier versions wrote less, and only some values are checked.
+    """A summary, for those who read it. Earlier versions wrote less, and only some values are checked."""
 
-    Attributes
-    ----------
-    values
-        All that it holds, by its keys in the file.
-    """
-
-    values: Mapping[str, Any]
+    values: Mapping[str, Any]  # all that it holds, by its keys in the file
 
     @property
     def title(self) -> str | None:

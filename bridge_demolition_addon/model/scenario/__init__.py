@@ -7,9 +7,9 @@ tables.
 
 from ..blast.charges import Charge
 from ..blast.settings import BlastSettings
-from ..foundations.settings import Foundation
+from ..foundations import Foundation
 from ..ground_motion.settings import DesignSpectrum, GroundMotion, Sweep
-from ..loads.load import Load
+from ..loads import Load
 from ..materials.bar_layers import BarLayer
 from ..materials.materials import Material
 from .ball import Ball, BallCable, BallHit

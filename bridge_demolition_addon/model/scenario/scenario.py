@@ -13,10 +13,10 @@ from ...errors import ScenarioError
 from ..actions import PlannedAction
 from ..blast.charges import Charge, named_charges
 from ..blast.settings import BlastSettings
-from ..foundations.settings import Foundation
+from ..foundations import Foundation
 from ..ground_motion.settings import GroundMotion
 from ..ground_motion.sources import ground_record
-from ..loads.load import Load
+from ..loads import Load
 from ..materials.bar_layers import BarLayer
 from ..materials.materials import Material, check_materials
 from ..schema import (

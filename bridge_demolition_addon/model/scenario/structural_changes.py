@@ -6,7 +6,7 @@ from typing import ClassVar
 
 from ...errors import ScenarioError
 from ..actions import Fact, Plan, Worksite
-from ..loads.part import Part
+from ..loads import Part
 from ..schema import key, shown
 
 

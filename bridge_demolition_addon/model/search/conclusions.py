@@ -1,4 +1,4 @@
-"""Answer of a search: where success has the probability that was asked for, with its confidence, in numbers."""
+"""Answer of a search: where success has the probability that was asked for, with its confidence."""
 
 from __future__ import annotations
 
@@ -14,11 +14,12 @@ import numpy as np
 from ...engineering.search.bisection import median_interval
 from ...engineering.search.probit import LevelOutcomes, fitted, limit
 from ...system.disk import whole_file
+from ..study.conclusions import finite
 from ..study.outcome import SUCCESS
 from ..study.runs_table import RunsTable
 from .file import Search
 
-CLOSE_ENOUGH, OUT_OF_TRIALS = "the limit is as close as was asked for", "all trials were made"
+CLOSE_ENOUGH, OUT_OF_RUNS = "the limit is as close as was asked for", "all runs were made"
 NEVER, ALWAYS = "the criteria were never met in the range", "the criteria were always met in the range"
 FALLING = "the criteria are met less often where they should be met more often"
 
@@ -31,68 +32,43 @@ PROBABILITIES = (0.01, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 0.95, 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SearchCurve:
-    """Values of the quantity for k probabilities of success.
+    """Values of the quantity for k probabilities of success."""
 
-    Attributes
-    ----------
-    probabilities, values : (k,) float
-        Probabilities, and where success most likely has them.
-    lows, highs : (k,) float
-        Limits with the confidence of the search, one from either side; nan where the runs set none.
-    """
-
-    probabilities: np.ndarray
-    values: np.ndarray
-    lows: np.ndarray
-    highs: np.ndarray
+    probabilities: np.ndarray  # (k,)
+    values: np.ndarray  # (k,), where success most likely has them
+    lows: np.ndarray  # (k,), one-sided limits with the confidence of the search; nan where the runs set none
+    highs: np.ndarray  # (k,), also
 
 
 @dataclass(frozen=True, eq=False)
 class Answer:
-    """What is known after some runs, in the unit of the quantity.
+    """Result of some runs of a search, in the unit of the quantity.
 
-    Attributes
-    ----------
-    search
-        What was asked.
-    values : (n,) float
-        Where each run was made.
-    trials
-        The same as levels, and which of the runs met all criteria.
-    median, value : float or None
-        Where half of all runs meet the criteria, and where as many as were asked for do, most likely; None if unknown.
-    spread : float or None
-        Standard deviation about the median, of the natural logarithm where the search is logarithmic; 0 where successes
-        and failures do not overlap.
-    median_limits : (float, float)
-        Limits of the median, each with the confidence that was asked for; infinite where unknown.
-    limit : float
-        Beyond it, away from failure, the criteria are met with at least that probability, with that confidence.
-    without_model : (float, float, float)
-        Median by probabilistic bisection, and the interval about it that has that confidence.
-    ended_as : str or None
-        Why there are no more runs; None as long as the search goes on.
+    `spread` is the standard deviation about the median, of the natural logarithm where the search is logarithmic; 0
+    where successes and failures do not overlap. Beyond `limit`, away from failure, the criteria are met with at least
+    the probability of the search, with its confidence. `without_model` is the median by probabilistic bisection, and
+    the interval about it that has that confidence. `ended_as` is None as long as the search goes on.
     """
 
     search: Search
-    values: np.ndarray
-    trials: LevelOutcomes
-    median: float | None
+    values: np.ndarray  # (n,), of the runs
+    trials: LevelOutcomes  # the same as levels, and which of the runs met all criteria
+    median: float | None  # where half of all runs meet the criteria, most likely; None if unknown
     spread: float | None
-    value: float | None
-    median_limits: tuple[float, float]
+    value: float | None  # where as many as were asked for meet them, most likely; None if unknown
+    median_limits: tuple[float, float]  # each with the confidence of the search; infinite where unknown
     limit: float
     without_model: tuple[float, float, float]
     ended_as: str | None
 
     @property
     def runs(self) -> int:
-        """How many runs there are."""
+        """Number of runs."""
         return len(self.trials)
 
     @property
     def successes(self) -> int:
-        """How many of them met all criteria."""
+        """Number of runs that met all criteria."""
         return int(self.trials.successes.sum())
 
     @property
@@ -111,15 +87,15 @@ class Answer:
         ends = [
             [scale.value(limit(self.trials, share, confidence, side)) for side in (-1, 1)] for share in PROBABILITIES
         ]
-        finite = np.array([[end if math.isfinite(end) else np.nan for end in pair] for pair in ends])
+        known = np.where(np.isfinite(ends), ends, np.nan)
         low, high = (1, 0) if scale.is_falling else (0, 1)
-        return SearchCurve(np.array(PROBABILITIES), np.array(values), finite[:, low], finite[:, high])
+        return SearchCurve(np.array(PROBABILITIES), np.array(values), known[:, low], known[:, high])
 
     def as_json(self) -> dict[str, Any]:
-        """Return it as ``search.json`` has it; what is infinite is not known, and null."""
+        """Return it as ``search.json`` has it."""
         settings = self.search.settings
         middle, *interval = self.without_model
-        return {
+        values = {
             "key": settings.key,
             "unit": self.search.unit,
             "success": settings.success,
@@ -128,13 +104,10 @@ class Answer:
             "ended_as": self.ended_as,
             "trials": self.runs,
             "successes": self.successes,
-            "median": self.median,
-            "median_limits": [end if math.isfinite(end) else None for end in self.median_limits],
-            "spread": self.spread,
-            "value": self.value,
-            "limit": self.limit if math.isfinite(self.limit) else None,
+            **{name: getattr(self, name) for name in ("median", "median_limits", "spread", "value", "limit")},
             "without_a_model": {"median": middle, "interval": interval},
         }
+        return finite(values)
 
 
 def answer_of(search: Search, table: RunsTable) -> Answer:
@@ -171,7 +144,7 @@ def reason_to_stop(search: Search, trials: LevelOutcomes) -> str | None:
         if math.isfinite(end) and abs(end - scale.value(normal.quantile(settings.probability))) <= settings.within:
             return CLOSE_ENOUGH
     if len(trials) >= settings.trials:
-        return FALLING if fitted(trials) is None else OUT_OF_TRIALS
+        return FALLING if fitted(trials) is None else OUT_OF_RUNS
     return None
 
 

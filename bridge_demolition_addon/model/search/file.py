@@ -13,19 +13,12 @@ from ..study.file import SEED, Ensemble, read_ensemble_file, variations_of
 from ..study.files import ANSWER_FILE, SEARCH_FILE, TRIALS_FILE
 from ..study.keys import ScenarioKey, changed, keys_named
 from ..study.sampled_runs import SampledRun, sampled_run
-from .scale import LevelScale
-from .settings import SearchSettings
+from .settings import LevelScale, SearchSettings
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Search(Ensemble):
-    """A search: a scenario, the quantity that is changed in it, and what is a success.
-
-    Attributes
-    ----------
-    keys : tuple of ScenarioKey
-        Where the quantity is; several where all tables of a list get it.
-    """
+    """A search: a scenario, the quantity that is changed in it, and the criteria of success."""
 
     kind: ClassVar[str] = "search"
     file_name: ClassVar[str] = SEARCH_FILE
@@ -33,16 +26,16 @@ class Search(Ensemble):
     result_file: ClassVar[str] = ANSWER_FILE
 
     settings: SearchSettings
-    keys: tuple[ScenarioKey, ...]
+    keys: tuple[ScenarioKey, ...]  # where the quantity is; several where all tables of a list get it
 
     @property
     def scale(self) -> LevelScale:
-        """Return the scale on which it goes."""
+        """Scale of the search."""
         return LevelScale(self.settings)
 
     @property
     def unit(self) -> str:
-        """Return the unit of the quantity, empty for a plain number."""
+        """Unit of the quantity, empty for a plain number."""
         return "" if self.settings.factor else self.keys[0].unit
 
     def run_at(self, number: int, value: float) -> SampledRun:
@@ -53,12 +46,9 @@ class Search(Ensemble):
 
 
 def values_of(keys: tuple[ScenarioKey, ...], value: float, *, factor: bool) -> dict[ScenarioKey, float]:
-    """Return the values of keys for a value of the quantity, or for a factor on what they have; whole ones rounded."""
-    return {key: _of_kind(key, value * key.value if factor else value) for key in keys}
-
-
-def _of_kind(key: ScenarioKey, value: float) -> float | int:
-    return round(value) if type(key.value) is int else value
+    """Return the values of keys for a value of the quantity, or for a factor on their values; whole ones rounded."""
+    values = {key: value * key.value if factor else value for key in keys}
+    return {key: round(own) if type(key.value) is int else own for key, own in values.items()}
 
 
 def read_search(path: str | PathLike[str]) -> Search:
@@ -75,8 +65,8 @@ def search_of(settings: SearchSettings, scenario: Scenario) -> Search:
         if key.name == SEED:
             raise ScenarioError(f"search.key is {SEED}: expected a quantity of the bridge or its demolition")
         if key.name in [variation.key.name for variation in variations]:
-            raise ScenarioError(f"{key.name} is searched along and drawn as well: leave out its table [[vary]]")
-        if settings.factor and (isinstance(key.value, bool) or not isinstance(key.value, int | float)):
+            raise ScenarioError(f"{key.name} is searched along and sampled as well: leave out its table [[vary]]")
+        if settings.factor and not key.has_number:
             raise ScenarioError(f"search.factor is true: {key.name} has no number in the scenario to multiply")
     for name in ("lowest", "highest"):
         value = getattr(settings, name)

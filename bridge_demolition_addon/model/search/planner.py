@@ -12,24 +12,19 @@ from ..study.outcome import SUCCESS
 from ..study.planner import Planner
 from ..study.runs_table import RunOutcome, RunRow
 from ..study.sampled_runs import SampledRun
-from .conclusions import Answer, answer_of, reason_to_stop
+from .conclusions import reason_to_stop
 from .file import Search
 
 
-class SearchPlanner(Planner[Search, Answer]):
+class SearchPlanner(Planner[Search]):
     """Plans the runs of a search, some of which are under way while the next is chosen.
 
     A run counts once all earlier ones have ended.
-
-    Attributes
-    ----------
-    ended_as : str or None
-        Why the search has ended; None as long as it goes on.
     """
 
     def __init__(self, search: Search):
         super().__init__(search)
-        self.ended_as: str | None = None
+        self.ended_as: str | None = None  # None as long as the search goes on
         self._successes: list[bool] = []
         self._levels: list[float] = []
         self._ended: dict[int, RunRow] = {}
@@ -45,10 +40,6 @@ class SearchPlanner(Planner[Search, Answer]):
     def is_finished(self) -> bool:
         return self.ended_as is not None
 
-    @property
-    def done(self) -> int:
-        return len(self._successes)
-
     def next_runs(self) -> Iterator[SampledRun]:
         search = self.ensemble
         while not self.is_finished and len(self._levels) < min(self.total, self.done + search.settings.at_once):
@@ -57,13 +48,8 @@ class SearchPlanner(Planner[Search, Answer]):
 
     def take(self, run: SampledRun, outcome: RunOutcome) -> None:
         self._ended[run.number] = RunRow(run.number, outcome.status, run.inputs, outcome.outputs, outcome.reason)
-        while not self.is_finished and self.done + 1 in self._ended:
-            self._successes.append(bool(self._ended[self.done + 1].outputs.get(SUCCESS)))
-            trials = LevelOutcomes(np.array(self._levels[: self.done]), np.array(self._successes, bool))
-            self.ended_as = reason_to_stop(self.ensemble, trials)
-
-    def rows(self) -> list[RunRow]:
-        return [self._ended[number] for number in range(1, self.done + 1)]
-
-    def result(self) -> Answer:
-        return answer_of(self.ensemble, self.table)
+        while not self.is_finished and (row := self._ended.pop(self.done + 1, None)):
+            self._rows[row.number] = row
+            self._successes.append(bool(row.outputs.get(SUCCESS)))
+            runs = LevelOutcomes(np.array(self._levels[: self.done]), np.array(self._successes, bool))
+            self.ended_as = reason_to_stop(self.ensemble, runs)

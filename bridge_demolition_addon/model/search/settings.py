@@ -1,5 +1,6 @@
-"""The tables of a search file, as checked values."""
+"""The tables of a search file, as checked values, and the scale that they say."""
 
+import math
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -8,6 +9,11 @@ from ..study.settings import EnsembleSettings
 
 FEWEST_TRIALS = 10
 """Runs that a search has at least: with fewer, successes and failures hardly ever overlap."""
+
+_LARGEST_EXPONENT = 700.0
+
+_DIGITS = 9
+"""Of the values that are tried: rounding that differs from library to library is not among them."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -76,3 +82,52 @@ class SearchSettings(EnsembleSettings):
             raise self.unexpected("step", "at most a third of the range")
         if not self.criteria:
             raise self.unexpected("criteria", "at least one table [[criteria]]: what is a success")
+
+
+@dataclass(frozen=True, slots=True)
+class LevelScale:
+    """From the values of a quantity to levels, and back: higher levels succeed more often."""
+
+    settings: SearchSettings
+
+    @property
+    def is_falling(self) -> bool:
+        """Whether lower values of the quantity succeed more often."""
+        return self.settings.success == "below"
+
+    @property
+    def ends(self) -> tuple[float, float]:
+        """Lowest and highest level."""
+        low, high = sorted((self.level(self.settings.lowest), self.level(self.settings.highest)))
+        return low, high
+
+    @property
+    def spread(self) -> float:
+        """Guess of the spread of levels."""
+        low, high = self.ends
+        return (high - low) / 6.0 if self.settings.spread is None else self.settings.spread
+
+    def level(self, value: float) -> float:
+        """Level of a value."""
+        level = math.log(value) if self.settings.logarithmic else value
+        return -level if self.is_falling else level
+
+    def value(self, level: float) -> float:
+        """Value of a level; ± ∞ where it is infinite or too large."""
+        level = -level if self.is_falling else level
+        if not self.settings.logarithmic or not math.isfinite(level):
+            return level
+        return math.exp(level) if abs(level) < _LARGEST_EXPONENT else math.copysign(math.inf, level)
+
+    def tried(self, level: float) -> float:
+        """Value that is tried for a level: within the range, and a multiple of the step."""
+        settings = self.settings
+        value = self.value(level)
+        if settings.step is not None and math.isfinite(value):
+            value = round(value / settings.step) * settings.step
+        value = float(f"{value:.{_DIGITS}g}")
+        return min(max(value, settings.lowest), settings.highest)
+
+    def rounded(self, level: float) -> float:
+        """Level of the value that is tried for a level."""
+        return self.level(self.tried(level))

@@ -1,4 +1,4 @@
-"""Check of a scenario as far as its model shows it, without Blender."""
+"""Check of planned actions against the model of their scenario, without Blender."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ...engineering.geometry.solids import to_manifold
 from ..actions import Affected, Place, PlannedAction, Point
 from ..bridge.extent import surface_height
 from ..bridge.member import Member
-from ..loads.load import Load
+from ..loads import Load
 from ..scenario import Change, Scenario
 from ..structure.model import Model, build_model
 from .events import Structure, model_structure, schedule
@@ -25,7 +25,7 @@ _SPHERE_FACETS = 64
 
 @dataclass(frozen=True)
 class ModelWorksite:
-    """What planned actions find: a scenario's bridge as its model has it. A `Worksite` of `model.actions`."""
+    """The `Worksite` of planned actions: a scenario's bridge by its model."""
 
     plan: Scenario
     model: Model
@@ -67,13 +67,7 @@ class ModelWorksite:
 
 
 def checked_model(scenario: Scenario, members: Sequence[Member] | None = None) -> Model:
-    """Return the model of a scenario in which every planned action acts on something.
-
-    Parameters
-    ----------
-    members : sequence of Member, optional
-        Those of the scenario, where they are prepared already.
-    """
+    """Return the model of a scenario, maybe of prepared members; every planned action has to act on something."""
     model = build_model(scenario, members)
     check_actions(scenario, model)
     return model

@@ -1,6 +1,6 @@
-"""Events: which shards and connections each change of a scenario concerns, and when.
+"""Events: the shards and connections of each change of a scenario, and its time.
 
-Members, boxes and planes mean the bridge as it was built, wherever its shards are by then.
+Members, boxes and planes refer to the bridge as it was built, wherever its shards are by then.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import numpy as np
 
 from ...engineering.geometry.vectors import dot
 from ...errors import ScenarioError
-from ..loads.part import Part
+from ..loads import Part
 from ..results.inventory import Inventory
 from ..scenario import Change, Removal, SawCut, Weakening
 from ..structure.model import Model
@@ -21,53 +21,29 @@ from ..structure.model import Model
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Structure:
-    """Bodies and connections as they were built, among which those are found that a change concerns.
+    """Bodies and connections as they were built, among which changes select theirs."""
 
-    Attributes
-    ----------
-    centres_m : (n, 3) float
-        Centres of mass.
-    member_names, member_kinds : (n,) str
-        Name and kind of the member that each body was cut from; empty for one that was not.
-    is_shard : (n,) bool
-        Whether each body is a shard that can move.
-    pairs : (m, 2) int
-        Bodies of the connections.
-    points_m : (m, 3) float
-        Where the connections are.
-    """
-
-    centres_m: np.ndarray
-    member_names: np.ndarray
-    member_kinds: np.ndarray
-    is_shard: np.ndarray
-    pairs: np.ndarray
-    points_m: np.ndarray
+    centres_m: np.ndarray  # (n, 3), centres of mass
+    member_names: (  # (n,), of the members that bodies were cut from; empty for one that was not
+        np.ndarray
+    )  # (n,), name and kind of the member that each body was cut from; empty for one that was not
+    member_kinds: (  # (n,), as above
+        np.ndarray
+    )  # (n,), name and kind of the member that each body was cut from; empty for one that was not
+    is_shard: np.ndarray  # (n,), shards that can move
+    pairs: np.ndarray  # (m, 2), bodies of the connections
+    points_m: np.ndarray  # (m, 3), positions of the connections
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Event:
-    """A change as rows of bodies that it removes, and of connections.
-
-    Attributes
-    ----------
-    time_s : float
-        When it happens.
-    kind : str
-        ``removal``, ``saw cut`` or ``weakening``.
-    bodies : (b,) int
-        Bodies that are removed.
-    connections : (c,) int
-        Connections that are cut or weakened.
-    factor : float
-        Part of the strength of these that is left: 0 for those that are cut.
-    """
+    """A change as rows of bodies that it removes, and of connections."""
 
     time_s: float
-    kind: str
-    bodies: np.ndarray
-    connections: np.ndarray
-    factor: float
+    kind: str  # ``removal``, ``saw cut`` or ``weakening``
+    bodies: np.ndarray  # (b,), removed bodies
+    connections: np.ndarray  # (c,), those that are cut or weakened
+    factor: float  # on their strength; 0 for those that are cut
 
 
 def model_structure(model: Model) -> Structure:
@@ -97,14 +73,12 @@ def recorded_structure(inventory: Inventory, centres_m: np.ndarray) -> Structure
 
 
 def schedule(changes: Sequence[Change], structure: Structure) -> tuple[Event, ...]:
-    """Return changes as events, in order of time; those of the same time in the order in which they are given."""
+    """Return changes as events, in order of time; those of the same time keep their order."""
     return tuple(sorted((_event(change, structure) for change in changes), key=lambda event: event.time_s))
 
 
 def _event(change: Change, structure: Structure) -> Event:
-    nothing = np.zeros(0, int)
-    bodies = nothing
-    factor = 0.0
+    bodies, factor = np.zeros(0, int), 0.0
     match change:
         case Removal():
             inside = in_box(change, structure.centres_m)
@@ -115,8 +89,8 @@ def _event(change: Change, structure: Structure) -> Event:
         case Weakening():
             factor = change.factor
             connections = np.flatnonzero(_selected(change, structure))
-    if not len(bodies if isinstance(change, Removal) else connections):
-        things = "shard" if isinstance(change, Removal) else "connection"
+    things, rows = ("shard", bodies) if isinstance(change, Removal) else ("connection", connections)
+    if not len(rows):
         raise ScenarioError(
             f"{change.table} at {change.time_s:g} s: no {things} of the bridge is there; "
             "expected members, a box or a plane that meet some"
@@ -154,7 +128,7 @@ def in_box(part: Part, positions_m: np.ndarray) -> np.ndarray:
 def _crosses(cut: SawCut, structure: Structure) -> np.ndarray:
     """Return whether the two bodies of each connection (m,) lie on the two sides of the plane.
 
-    The ground has no centre that means anything: on its side stands the shard's, mirrored in the connection's point.
+    The ground has no meaningful centre: the shard's, mirrored in the connection's point, stands for it.
     """
     ends = structure.centres_m[structure.pairs]
     solid = structure.is_shard[structure.pairs]

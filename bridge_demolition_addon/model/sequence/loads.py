@@ -1,4 +1,4 @@
-"""Which shards bear each load of a scenario, and how much of it."""
+"""Which shards carry each load of a scenario, and how much of it."""
 
 from __future__ import annotations
 
@@ -9,47 +9,27 @@ import numpy as np
 
 from ...engineering.geometry.vectors import distance, length
 from ...errors import ScenarioError
-from ..loads.load import Load
+from ..loads import Load
 from ..structure.model import Model
 from .events import Structure, in_box, of_members
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class PlacedLoad:
-    """A load on shards as they were built.
-
-    Attributes
-    ----------
-    load : Load
-        How large it is, and where to.
-    bodies : (b,) int
-        Shards that bear it.
-    shares : (b,) float
-        Part of it that each bears.
-    arm_m : (3,) float or None
-        From the centre of mass of the one shard that bears it to where it acts; None where that is the centre.
-    """
+    """A load on shards as they were built."""
 
     load: Load
-    bodies: np.ndarray
-    shares: np.ndarray
-    arm_m: np.ndarray | None
+    bodies: np.ndarray  # (b,), shards that carry it
+    shares: np.ndarray  # (b,), part of it on each
+    arm_m: (  # (3,), from the centre of mass of its one shard; None where it acts there
+        np.ndarray | None
+    )  # (3,), from the centre of mass of the one shard that bears it to where it acts; None where that is the centre
 
 
 def placed_loads(
     loads: Sequence[Load], structure: Structure, masses_kg: np.ndarray, boxes_m: np.ndarray
 ) -> tuple[PlacedLoad, ...]:
-    """Place loads on the bodies (n,) of a structure.
-
-    Parameters
-    ----------
-    loads, structure
-        What to place, and on what.
-    masses_kg : (n,) float
-        Masses; 0 for those that cannot move.
-    boxes_m : (n, 2, 3) float
-        Lowest and highest corners of the boxes along the axes that the bodies fill.
-    """
+    """Place loads on the bodies of a structure, by their masses (n,), 0 where they cannot move, and boxes (n, 2, 3)."""
     return tuple(_placed(number, load, structure, masses_kg, boxes_m) for number, load in enumerate(loads, start=1))
 
 

@@ -13,25 +13,13 @@ from ..scenario import Scenario
 class Rest:
     """Find frame by frame whether all bodies rest, and since when.
 
-    Speeds come from positions and rotations of two frames, so that a solver's trembling within a frame is not motion.
-
-    Parameters
-    ----------
-    speed_m_s, angular_velocity_rad_s : float
-        Below both of these a body rests; one that sleeps rests anyway.
-    hold_s : float
-        For how long all have to rest.
-    not_before_s : float
-        Time before which no rest counts, as something is still to happen.
-
-    Attributes
-    ----------
-    since_s : float or None
-        Since when everything rests now; None while anything moves.
+    Below both limits, of speed and angular velocity, a body rests; one that sleeps rests anyway. All have to rest for
+    `hold_s`; before `not_before_s` no rest counts, as something is still to happen. Speeds come from positions and
+    rotations of two frames, so that a solver's trembling within a frame is not motion.
     """
 
     def __init__(self, speed_m_s: float, angular_velocity_rad_s: float, hold_s: float, not_before_s: float):
-        self.since_s: float | None = None
+        self.since_s: float | None = None  # None while anything moves
         self._limits = speed_m_s, angular_velocity_rad_s
         self._hold_s, self._not_before_s = hold_s, not_before_s
         self._last: tuple[float, np.ndarray, np.ndarray] | None = None
@@ -67,9 +55,6 @@ class Rest:
 
 
 def last_event_s(scenario: Scenario, motion_end_s: float = 0.0) -> float:
-    """Return the time after which a scenario plans nothing more, s: what moves then only comes to rest.
-
-    From `motion_end_s` on the ground does not move any more, as the record of the scene says.
-    """
+    """Return the time after which a scenario plans nothing more, s; the ground stops moving at `motion_end_s`."""
     ends_s = (action.ends_s(scenario) for action in scenario.actions)
     return max(motion_end_s, scenario.connections.warm_up_s, *filter(math.isfinite, ends_s))

@@ -22,13 +22,7 @@ def fell_by_itself(results: Results, scenario: Scenario) -> dict[str, Any] | Non
     """Return what broke and moved before anything was done to a bridge, ready for JSON; None where it stood.
 
     It stood where no connection broke and no shard moved by more than `MOVED_M`. Shards that sleep until something hits
-    them stand in any case.
-
-    Returns
-    -------
-    dict or None
-        ``until_s``, when something was done, None where nothing ever was; ``first_break_s``; how many were ``broken``
-        of all ``connections``; and ``largest_move_m``.
+    them stand in any case. ``until_s`` is None where nothing was ever done.
     """
     first_s = first_event_s(scenario)
     rows = np.flatnonzero(results.frames.time_s <= first_s)

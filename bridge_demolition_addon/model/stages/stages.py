@@ -1,4 +1,4 @@
-"""The stages of a demolition: the bridge at rest before each of its steps, and after the last."""
+"""The stages of a demolition: the bridge at rest before each of its steps, and after the last, under its equipment."""
 
 from __future__ import annotations
 
@@ -8,78 +8,47 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...engineering.units import STANDARD_GRAVITY_M_S2
-from ..scenario import Scenario
+from ...errors import ScenarioError
+from ..scenario import Equipment, Scenario
 from ..sequence.events import Event, model_structure, schedule
 from ..structure.model import Model
-from .equipment_loads import equipment_loads
 from .standing import Standing, StandingBridge
 
 _BUILT, _MACHINES = "as it was built", "equipment comes or goes"
-"""What is done where nothing is done to the bridge."""
+"""Steps without an event."""
+
+_AT_THE_TOP = 0.05
+"""Of the depth of the bridge there, m: shards whose top is that close to the highest one carry what stands on it."""
+
+_GRID = 8
+"""Along each side of a footprint: its weight stands on a grid of so many by so many points."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Stage:
-    """The bridge between two steps.
+    """The bridge between two steps."""
 
-    Attributes
-    ----------
-    time_s : float
-        When it begins.
-    step : str
-        What was done then.
-    standing : Standing
-        How it stands.
-    removed : (n,) bool
-        Shards that were taken away by then.
-    loose : (n,) bool
-        Shards that nothing holds: they fall, or lie on others by contact alone.
-    equipment : tuple of str
-        What stands on it.
-    equipment_n : float
-        Weight of that.
-    collapse_factor : float
-        At how many times all its loads it begins to come down.
-    """
-
-    time_s: float
-    step: str
+    time_s: float  # when it begins
+    step: str  # what was done then
     standing: Standing
-    removed: np.ndarray
-    loose: np.ndarray
-    equipment: tuple[str, ...]
-    equipment_n: float
-    collapse_factor: float
+    removed: np.ndarray  # (n,), shards that were taken away by then
+    loose: np.ndarray  # (n,), shards without support: they fall, or lie on others by contact alone
+    equipment: tuple[str, ...]  # names
+    equipment_n: float  # its weight
+    collapse_factor: float  # load factor at which it collapses
 
 
 @dataclass(frozen=True, slots=True)
 class Criticality:
-    """What becomes of the bridge, as it was built, without one of its members.
-
-    Attributes
-    ----------
-    member : str
-    falls_kg : float
-        Mass of what comes down then, without the member itself.
-    share : float
-        Part of the mass of all that was held.
-    """
+    """Effect of taking one member from the bridge as it was built."""
 
     member: str
-    falls_kg: float
-    share: float
+    falls_kg: float  # mass that comes down then, without the member itself
+    share: float  # part of the mass of all that was held
 
 
-def stages_of(scenario: Scenario, bridge: StandingBridge, told: Callable[[int, int], None]) -> list[Stage]:
-    """Return the stages of a scenario.
-
-    Parameters
-    ----------
-    scenario, bridge
-        What is done, and to what.
-    told
-        Is told how many stages are done, of how many.
-    """
+def stages_of(scenario: Scenario, bridge: StandingBridge, progress: Callable[[int, int], None]) -> list[Stage]:
+    """Return the stages of a scenario; after each, call `progress` with the numbers of those done and of all."""
     model = bridge.model
     steps = _steps(scenario, schedule(scenario.changes, model_structure(model)))
     intact, left = np.ones(len(model.connections), bool), np.ones(len(model.connections))
@@ -89,33 +58,33 @@ def stages_of(scenario: Scenario, bridge: StandingBridge, told: Callable[[int, i
             removed[event.bodies] = True
             left[event.connections] *= event.factor
             intact[event.connections] &= event.factor > 0.0
-        stands_there = [each for each in scenario.equipment if each.stands_at(time_s)]
-        loads = equipment_loads(model, stands_there, removed)
+        machines = [machine for machine in scenario.equipment if machine.stands_at(time_s)]
+        loads = equipment_loads(model, machines, removed)
         safe = np.where(left > 0.0, left, 1.0)
         standing = bridge.rest(intact, safe, loads)
         stages.append(
             Stage(
                 time_s=time_s,
-                step=", ".join(_told(event, model) for event in events) or (_MACHINES if number else _BUILT),
+                step=", ".join(_described(event, model) for event in events) or (_MACHINES if number else _BUILT),
                 standing=standing,
                 removed=removed.copy(),
                 loose=~standing.held & ~removed & ~model.fixed,
-                equipment=tuple(each.name for each in stands_there),
-                equipment_n=STANDARD_GRAVITY_M_S2 * sum(each.mass_kg for each in stands_there),
+                equipment=tuple(machine.name for machine in machines),
+                equipment_n=STANDARD_GRAVITY_M_S2 * sum(machine.mass_kg for machine in machines),
                 collapse_factor=bridge.collapse_factor(intact, safe, loads),
             )
         )
-        told(number + 1, len(steps))
+        progress(number + 1, len(steps))
     return stages
 
 
-def criticality(bridge: StandingBridge, told: Callable[[int, int], None]) -> list[Criticality]:
-    """Return what comes down without each of the members; parameters are those of `stages_of`."""
+def criticality(bridge: StandingBridge, progress: Callable[[int, int], None]) -> list[Criticality]:
+    """Return what comes down without each of the members, as `stages_of` does."""
     model = bridge.model
     count, ones = len(model.connections), np.ones(len(model.connections))
     nothing = np.zeros((6, len(model.shards)))
     held = bridge.rest(ones > 0.0, ones, nothing).held
-    found = []
+    effects = []
     for number, member in enumerate(model.members):
         own = model.member_of_shard == number
         gone = np.isin(model.connections.pairs, np.flatnonzero(own)).any(axis=1)
@@ -123,9 +92,53 @@ def criticality(bridge: StandingBridge, told: Callable[[int, int], None]) -> lis
         loose = held & ~own & ~bridge.rest(intact, ones, nothing).held
         loose |= bridge.comes_down(intact, ones, nothing, 1.0) & ~own
         falls_kg = float(model.masses_kg[loose].sum())
-        found.append(Criticality(member.name, falls_kg, falls_kg / float(model.masses_kg[held].sum() or 1.0)))
-        told(number + 1, len(model.members))
-    return found
+        effects.append(Criticality(member.name, falls_kg, falls_kg / float(model.masses_kg[held].sum() or 1.0)))
+        progress(number + 1, len(model.members))
+    return effects
+
+
+def equipment_loads(model: Model, equipment: Sequence[Equipment], removed: np.ndarray) -> np.ndarray:
+    """Return forces and moments (6, n) on the shards by what stands on them.
+
+    Each part of a footprint stands on the highest shard under it. A force at the edge of a shard rotates it as well.
+    """
+    loads = np.zeros((6, len(model.shards)))
+    boxes = np.array([shard.bounds for shard in model.shards])
+    for machine in equipment:
+        weight_n = STANDARD_GRAVITY_M_S2 * machine.mass_kg / _GRID**2
+        for point in _grid(machine):
+            shard = _highest_under(point, boxes, removed)
+            if shard is None:
+                where = ", ".join(f"{number:.2f}" for number in point)
+                raise ScenarioError(
+                    f"equipment {machine.name!r}: nothing of the bridge is under [{where}] m; move it, or take it "
+                    "away before what it stands on"
+                )
+            arm_x, arm_y = point - model.centres_m[shard, :2]
+            loads[2, shard] -= weight_n
+            loads[3, shard] -= arm_y * weight_n
+            loads[4, shard] += arm_x * weight_n
+    return loads
+
+
+def _grid(equipment: Equipment) -> np.ndarray:
+    """Middles (k, 2) of the parts of a footprint."""
+    steps = (np.arange(_GRID) + 0.5) / _GRID - 0.5
+    length_m, width_m = equipment.footprint_m
+    x, y = np.meshgrid(steps * length_m, steps * width_m)
+    return np.column_stack((x.ravel(), y.ravel())) + np.array(equipment.place_m)
+
+
+def _highest_under(point: np.ndarray, boxes: np.ndarray, removed: np.ndarray) -> int | None:
+    """Return the shard whose box (2, 3) is under a point (2,) and highest; of several the nearest on plan."""
+    over = (boxes[:, 0, :2] <= point).all(axis=1) & (point <= boxes[:, 1, :2]).all(axis=1) & ~removed
+    rows = np.flatnonzero(over)
+    if not len(rows):
+        return None
+    tops = boxes[rows, 1, 2]
+    rows = rows[tops >= tops.max() - _AT_THE_TOP]
+    middles = boxes[rows, :, :2].mean(axis=1)
+    return int(rows[np.argmin(np.square(middles - point).sum(axis=1))])
 
 
 def reactions_n(model: Model, stage: Stage) -> np.ndarray:
@@ -137,15 +150,15 @@ def reactions_n(model: Model, stage: Stage) -> np.ndarray:
 
 
 def _steps(scenario: Scenario, events: Sequence[Event]) -> list[tuple[float, list[Event]]]:
-    """Times at which something changes, from 0 on, and the changes."""
+    """Return times at which something changes, from 0 on, and the changes."""
     times = {0.0, *(event.time_s for event in events)}
-    for each in scenario.equipment:
-        times |= {each.from_s} | ({each.until_s} if each.until_s is not None else set())
+    for machine in scenario.equipment:
+        times |= {machine.from_s} | ({machine.until_s} if machine.until_s is not None else set())
     return [(time_s, [event for event in events if event.time_s == time_s]) for time_s in sorted(times)]
 
 
-def _told(event: Event, model: Model) -> str:
+def _described(event: Event, model: Model) -> str:
     if len(event.bodies):
-        names = {model.members[each].name for each in model.member_of_shard[event.bodies]}
+        names = {model.members[member].name for member in model.member_of_shard[event.bodies]}
         return f"{event.kind} of {', '.join(sorted(names))}"
     return f"{event.kind} of {len(event.connections)} connections"

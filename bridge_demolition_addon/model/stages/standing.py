@@ -1,4 +1,4 @@
-"""How a bridge stands with some of its connections gone, and at how many times its load it begins to come down."""
+"""Statics of a bridge with some of its connections gone, and its collapse load factor."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ from ..structure.equilibrium import at_rest, held_motions, inertias_of, member_s
 from ..structure.model import Model
 
 _MOST_ROUNDS = 200
-"""Breaks one after another after which a bridge that still breaks is one that comes down."""
+"""A bridge that still breaks after so many breaks, one after another, comes down."""
 
 _FALLEN_SHARE = 0.005
-"""Part of the mass that is held: what is less, such as a splinter that comes loose, is no collapse."""
+"""Least part of the held mass for a collapse: a splinter that comes loose is not one."""
 
 _LARGEST_FACTOR = 64.0
 _PRECISION = 0.01
@@ -38,50 +38,32 @@ DIRECTIONS = TENSION, COMPRESSION, SHEAR, TORSION, BENDING, FORCE = (
     "bending",
     "force",
 )
-"""What a connection is used by; the last where one force in any direction breaks it."""
+"""Directions of load effects on a connection; the last where one force in any direction breaks it."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Standing:
-    """A bridge at rest.
+    """A bridge at rest."""
 
-    Attributes
-    ----------
-    held : (n,) bool
-        Shards that connections to a support hold.
-    loads : ConnectionLoads
-        Of all m connections, in the axes of the world; 0 for those that are gone.
-    alone, together : (m,) float
-        Utilisation of each connection by itself, and of the section of its member; nan for those that are gone.
-    sag_m, frequency_hz : float
-        How far the shard goes down that goes down farthest, and the first frequency.
-    """
-
-    held: np.ndarray
-    loads: ConnectionLoads
-    alone: np.ndarray
-    together: np.ndarray
-    sag_m: float
-    frequency_hz: float
+    held: np.ndarray  # (n,), shards that connections to a support hold
+    loads: ConnectionLoads  # of all m connections, in the axes of the world; 0 for those that are gone
+    alone: (  # (m,), utilisation of each connection by itself; nan for those that are gone
+        np.ndarray
+    )  # (m,), utilisation of each connection by itself, and of the section of its member; nan for those that are gone
+    together: (  # (m,), utilisation of the sections of their members; nan as above
+        np.ndarray
+    )  # (m,), utilisation of each connection by itself, and of the section of its member; nan for those that are gone
+    sag_m: float  # largest downward displacement of a shard
+    frequency_hz: float  # first natural frequency
 
     @property
     def used(self) -> np.ndarray:
-        """Utilisation of each connection (m,): above 1 it breaks, as it and its section are overloaded."""
+        """Utilisation (m,): above 1 a connection breaks, as it and its section are overloaded."""
         return np.minimum(self.alone, self.together)
 
 
 class StandingBridge:
-    """Works out how a model stands, whatever of it is gone.
-
-    Parameters
-    ----------
-    model : Model
-        With elastic connections.
-    joints : sequence of Joint
-        What its connections have in common, and what breaks them; a force by itself where that is what does.
-    pause : callable, optional
-        Is called before each solution, of which there are many.
-    """
+    """Solves a model with elastic connections at rest, whatever of it is gone; calls `pause` before each solution."""
 
     def __init__(self, model: Model, joints: Sequence[Joint], pause: Callable[[], None] = lambda: None):
         self.model, self._joints, self._pause = model, joints, pause
@@ -102,24 +84,15 @@ class StandingBridge:
         *,
         every_section: bool = True,
     ) -> Standing:
-        """Return how it stands.
+        """Return the bridge at rest with the connections that are `intact` (m,), and `left` (m,) of their strength.
 
-        Parameters
-        ----------
-        intact, left : (m,) bool, (m,) float
-            Connections that hold, and what is left of the strength of each.
-        loads : (6, n) float
-            Forces and moments on the shards, besides their weight.
-        factor : float
-            How many times as heavy all is.
-        every_section : bool
-            Whether the sections of all connections are judged, or of those alone that are overloaded by themselves: no
-            other breaks.
+        Loads (6, n) are forces and moments on the shards, beside their weight; all are times the load factor. Without
+        `every_section`, only sections of connections that are overloaded by themselves are judged: no other breaks.
         """
         self._pause()
         model, rows = self.model, np.flatnonzero(intact)
         kept = model.connections.only(intact)
-        found = at_rest(
+        solution = at_rest(
             kept,
             SectionStiffness(*(getattr(model.stiffness, field.name)[rows] for field in fields(SectionStiffness))),
             self._masses,
@@ -129,38 +102,37 @@ class StandingBridge:
             (0.0, 0.0, -factor * STANDARD_GRAVITY_M_S2),
             factor * loads,
         )
-        borne = np.zeros((6, len(intact)))
-        borne[:, rows] = found.loads
-        of_connections = ConnectionLoads(borne[:3].T, borne[3:].T, model.connections.points)
-        held = found.held[:-1]
+        carried = np.zeros((6, len(intact)))
+        carried[:, rows] = solution.loads
+        of_connections = ConnectionLoads(carried[:3].T, carried[3:].T, model.connections.points)
+        held = solution.held[:-1]
         alone, together = self._utilisations(of_connections, intact, left, every_section)
-        fallen = model.centres_m[held, 2] - found.positions_m[2, :-1][held]
-        return Standing(held, of_connections, alone, together, float(fallen.max(initial=0.0)), found.frequency_hz)
+        deflections_m = model.centres_m[held, 2] - solution.positions_m[2, :-1][held]
+        deflection_m = float(deflections_m.max(initial=0.0))
+        return Standing(held, of_connections, alone, together, deflection_m, solution.frequency_hz)
 
     def comes_down(self, intact: np.ndarray, left: np.ndarray, loads: np.ndarray, factor: float) -> np.ndarray:
-        """Return which shards (n,) come down at so many times the load: what is overloaded breaks, and so on.
+        """Return which shards (n,) come down at a load factor, as overloaded connections break one after another.
 
         Splinters that come loose do not count.
         """
         first = standing = self.rest(intact, left, loads, factor, every_section=False)
-        intact, weights = intact.copy(), self._masses
-        least = _FALLEN_SHARE * weights[first.held].sum()
-        for _ in range(_MOST_ROUNDS):
+        intact, is_collapse = intact.copy(), False
+        least = _FALLEN_SHARE * self._masses[first.held].sum()
+        rounds = 0
+        while rounds < _MOST_ROUNDS:
             broken = self._broken(standing, intact)
             if not len(broken):
-                return np.zeros(len(weights), bool)
+                return first.held & ~standing.held & is_collapse
             intact[broken] = False
             standing = self.rest(intact, left, loads, factor, every_section=False)
-            loose = first.held & ~standing.held
-            if weights[loose].sum() > least:
-                return self._all_that_falls(intact, left, loads, factor, first.held)
-        return first.held
+            rounds += 1
+            if not is_collapse and self._masses[first.held & ~standing.held].sum() > least:
+                is_collapse, rounds = True, 0
+        return first.held & ~standing.held if is_collapse else first.held
 
     def collapse_factor(self, intact: np.ndarray, left: np.ndarray, loads: np.ndarray) -> float:
-        """Return at how many times its load it begins to come down, within 1 %.
-
-        ∞ where it bears 64 times its load, nan where nothing is held.
-        """
+        """Return the collapse load factor, within 1 %: ∞ above 64, nan where nothing is held."""
         if not self.rest(intact, left, loads, every_section=False).held.any():
             return np.nan
         low, high = 0.0, 1.0
@@ -177,24 +149,24 @@ class StandingBridge:
         return (low + high) / 2.0
 
     def governed_by(self, standing: Standing) -> np.ndarray:
-        """Return which of `DIRECTIONS` uses most of each connection (m,); empty where one is gone."""
-        found = np.full(len(standing.alone), "", dtype=object)
+        """Return which of `DIRECTIONS` has the largest utilisation of each connection (m,); empty where it is gone."""
+        directions = np.full(len(standing.alone), "", dtype=object)
         there = np.isfinite(standing.alone) & self.model.breakable
         for number, judge in enumerate(self._judges):
             rows = np.flatnonzero(there & (self.model.joint_of_connection == number))
             if judge is None:
-                found[rows] = FORCE
+                directions[rows] = FORCE
             elif len(rows):
-                found[rows] = _directions(judge, rows, standing.loads.in_sections(rows, self._axes[rows]))
-        return found
+                directions[rows] = _directions(judge, rows, standing.loads.in_sections(rows, self._axes[rows]))
+        return directions
 
     def parts(self, intact: np.ndarray) -> np.ndarray:
         """Return which part each connection (m,) holds together; -1 for those that are gone."""
         first, second = self._pairs[intact].T
         label = connected_parts(self._moves, first, second)
-        found = np.full(len(intact), -1)
-        found[intact] = np.where(self._moves[first], label[first], label[second])
-        return found
+        parts = np.full(len(intact), -1)
+        parts[intact] = np.where(self._moves[first], label[first], label[second])
+        return parts
 
     def _utilisations(
         self, loads: ConnectionLoads, intact: np.ndarray, left: np.ndarray, every_section: bool
@@ -221,44 +193,31 @@ class StandingBridge:
         return alone, together
 
     def _broken(self, standing: Standing, intact: np.ndarray) -> np.ndarray:
-        """Connections (k,) that are overloaded, each the worst around."""
+        """Return the overloaded connections (k,), each the worst around."""
         rows = np.flatnonzero(intact & (standing.used > 1.0))
         if not len(rows):
             return rows
         return rows[worst_around(self._pairs[rows], standing.together[rows], self._moves)]
 
-    def _all_that_falls(
-        self, intact: np.ndarray, left: np.ndarray, loads: np.ndarray, factor: float, held: np.ndarray
-    ) -> np.ndarray:
-        """Shards (n,) that come down once a part has begun to: what is overloaded goes on breaking."""
-        standing = self.rest(intact, left, loads, factor, every_section=False)
-        for _ in range(_MOST_ROUNDS):
-            broken = self._broken(standing, intact)
-            if not len(broken):
-                break
-            intact[broken] = False
-            standing = self.rest(intact, left, loads, factor, every_section=False)
-        return held & ~standing.held
 
-
-def _directions(judge: Overloads, rows: np.ndarray, borne: SectionForces) -> np.ndarray:
-    """Which direction uses most of connections (r,) that a strength breaks, each direction by itself."""
-    nothing = {item.name: np.zeros_like(getattr(borne, item.name)) for item in fields(SectionForces)}
+def _directions(judge: Overloads, rows: np.ndarray, carried: SectionForces) -> np.ndarray:
+    """Return the direction with the largest utilisation of connections (r,) with a strength, each by itself."""
+    nothing = {item.name: np.zeros_like(getattr(carried, item.name)) for item in fields(SectionForces)}
     used = [
-        judge.of_forces(rows, SectionForces(**nothing | {name: getattr(borne, name)}))
+        judge.of_forces(rows, SectionForces(**nothing | {name: getattr(carried, name)}))
         for name in ("axial_n", "shear_n", "torsion_nm", "bending_nm")
     ]
     names = np.array((TENSION, SHEAR, TORSION, BENDING))[np.argmax(used, axis=0)]
-    return np.where((names == TENSION) & (borne.axial_n < 0.0), COMPRESSION, names)
+    return np.where((names == TENSION) & (carried.axial_n < 0.0), COMPRESSION, names)
 
 
 def made_elastic(scenario: Scenario) -> Scenario:
-    """Return a scenario with elastic connections, where they break by a force as stiff as the others.
+    """Return a scenario with elastic connections; those that break by a force become as stiff as the others.
 
     Where all do, they are as stiff as reinforced concrete.
     """
     between = tuple(
-        replace(each, breaking_force_n=None, breaking_force_kgf=None) for each in scenario.connections.between
+        replace(table, breaking_force_n=None, breaking_force_kgf=None) for table in scenario.connections.between
     )
     changes: dict[str, Any] = {"stiffness": "elastic", "between": between}
     if scenario.connections.material is None and scenario.connections.method == "face":

@@ -1,4 +1,4 @@
-"""Tables of the stages of a demolition: a row a stage, a row a connection, a row a member; and what they say."""
+"""Tables of the stages of a demolition, with a row for each stage, connection or member; and sentences on them."""
 
 from __future__ import annotations
 
@@ -111,62 +111,48 @@ def stage_row(number: int, stage: Stage, bridge: StandingBridge) -> dict[str, An
 
 
 def utilisation_rows(number: int, stage: Stage, bridge: StandingBridge) -> Iterable[dict[str, Any]]:
-    """Give the rows of all connections that are there in a stage."""
+    """Yield the rows of all connections that are there in a stage."""
     model, standing = bridge.model, stage.standing
     governed_by = bridge.governed_by(standing)
     for row in np.flatnonzero(np.isfinite(standing.used)).tolist():
-        x, y, z = model.connections.points[row]
-        yield {
-            "stage": number,
-            "connection": row,
-            "between": between(model, row),
-            "x_m": x,
-            "y_m": y,
-            "z_m": z,
-            "utilisation": standing.used[row],
-            "of_the_face": standing.alone[row],
-            "of_the_section": standing.together[row],
-            "governed_by": governed_by[row],
-        }
+        utilisations = standing.used[row], standing.alone[row], standing.together[row]
+        values = number, row, between(model, row), *model.connections.points[row], *utilisations, governed_by[row]
+        yield dict(zip(UTILISATION_COLUMNS, values, strict=True))
 
 
-def criticality_row(found: Criticality) -> dict[str, Any]:
+def criticality_row(effect: Criticality) -> dict[str, Any]:
     """Return the row of a member."""
-    return {
-        "member": found.member,
-        "stands": "true" if found.falls_kg == 0.0 else "false",
-        "falls_kg": found.falls_kg,
-        "share_of_the_bridge": found.share,
-    }
+    stands = "true" if effect.falls_kg == 0.0 else "false"
+    return dict(zip(CRITICALITY_COLUMNS, (effect.member, stands, effect.falls_kg, effect.share), strict=True))
 
 
 def stage_sentences(stage: Stage, row: Mapping[str, Any]) -> list[str]:
-    """Return what is said of a stage, by its row in the table: first which it is."""
-    told = [f"stage {row['stage']}, from {stage.time_s:g} s: {stage.step}"]
+    """Return sentences on a stage, by its row in the table: first which it is."""
+    sentences = [f"stage {row['stage']}, from {stage.time_s:g} s: {stage.step}"]
     if stage.equipment:
-        told.append(f"with {row['equipment']}")
+        sentences.append(f"with {row['equipment']}")
     if row["not_held"]:
-        told.append(
+        sentences.append(
             f"{row['not_held']} shards, {row['not_held_kg'] / 1000.0:.1f} t, held by no connection to a support"
         )
     if row["largest_utilisation"] is not None:
-        told.append(
+        sentences.append(
             f"used most: {row['largest_utilisation']:.0%} by {row['governed_by']}, in {row['between']} at "
             f"[{row['at_x_m']:.1f}, {row['at_y_m']:.1f}, {row['at_z_m']:.1f}] m"
         )
-    return [*told, factor_in_words(stage.collapse_factor)]
+    return [*sentences, factor_in_words(stage.collapse_factor)]
 
 
 def criticality_sentences(members: Sequence[Criticality]) -> list[str]:
     """Return what comes down without which member, the most first."""
-    falls = sorted((member for member in members if member.falls_kg), key=lambda one: -one.falls_kg)
+    falls = sorted((member for member in members if member.falls_kg), key=lambda member: -member.falls_kg)
     if not falls:
         return ["without any one member the others stand"]
     return [f"without {fall.member}: {fall.falls_kg / 1000.0:.1f} t come down, {fall.share:.0%}" for fall in falls]
 
 
 def factor_in_words(factor: float) -> str:
-    """Return at how many times its load a stage comes down."""
+    """Return the collapse load factor of a stage as a sentence."""
     if math.isnan(factor):
         return "no connection to a support holds anything"
     return f"comes down at {f'{factor:.2f} times' if math.isfinite(factor) else 'more than 64 times'} its load"
@@ -182,7 +168,7 @@ def between(model: Model, row: int) -> str:
 
 
 def write_table(path: Path, columns: Sequence[str], rows: Iterable[dict[str, Any]]) -> None:
-    """Write a table as CSV; what is not known is empty, and what has no end is ``inf``."""
+    """Write a table as CSV; an unknown value is empty, an infinite one ``inf``."""
     with whole_file(path) as part, part.open("w", newline="", encoding="utf-8") as file:
         table = csv.writer(file)
         table.writerow(columns)

@@ -13,7 +13,7 @@ from ...engineering.geometry.mesh import TriangleMesh, triangle_areas_and_normal
 from ...engineering.structure.connections import GROUND, Connections
 from ...errors import ScenarioError
 from ..bridge.member import Member
-from ..foundations.settings import Foundation
+from ..foundations import Foundation
 
 _PLACES = 128
 """Fewest places under a footing: with them a rectangular one resists turning within 2 %."""

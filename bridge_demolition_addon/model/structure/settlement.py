@@ -9,7 +9,7 @@ import numpy as np
 
 from ...engineering.arithmetic import arctangent
 from ...engineering.geometry.vectors import length, transformed, transformed_back
-from ..foundations.settings import Foundation
+from ..foundations import Foundation
 from ..results.arrays import Results
 from ..results.motion import relative_to_ground
 

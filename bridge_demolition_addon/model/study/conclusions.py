@@ -15,13 +15,7 @@ from typing import Any
 import numpy as np
 
 from ...engineering.statistics.binomial import lower_limit, upper_limit
-from ...engineering.statistics.order_limits import (
-    achieved_confidence,
-    coverage,
-    least_runs,
-    most_support,
-    nth_largest,
-)
+from ...engineering.statistics.order_limits import achieved_confidence, coverage, least_runs, most_support, nth_largest
 from ...engineering.statistics.repetition import repeated_limit
 from ...errors import OutputError
 from .file import Study
@@ -44,45 +38,21 @@ _JSON_NAMES = {
 
 @dataclass(frozen=True, slots=True)
 class DebrisLimit:
-    """Limit of the distance of debris from the bridge's plan.
-
-    Attributes
-    ----------
-    runs, unfinished : int
-        Number of runs, and of those that did not finish.
-    quantile, confidence, rank
-        What was asked beforehand: the part of all runs that the limit is for, its confidence, and which of the largest
-        distances it is.
-    runs_needed : int
-        Number of runs that it takes at least.
-    limit_m : float
-        Infinite where there are too few runs, or too many that did not finish.
-    exceedances : int
-        Number of runs beyond the limit, unfinished ones included.
-    achieved_confidence : float
-        Confidence that the quantile stays within the limit.
-    coverage : float
-        Part of all runs that stays within the limit with the confidence asked.
-    repeat_above_m, repeat_below_m : float
-        A study of as many other runs has its limit above the first, and not above the second, each with the confidence;
-        minus infinity and infinity where there are too few runs to tell.
-    repeat_exceedance : float
-        Probability that its limit is larger than every distance of these runs.
-    """
+    """Limit of the distance of debris from the bridge's plan."""
 
     runs: int
-    unfinished: int
-    quantile: float
-    confidence: float
-    rank: int
-    runs_needed: int
-    limit_m: float
-    exceedances: int
-    achieved_confidence: float
-    coverage: float
-    repeat_above_m: float
-    repeat_below_m: float
-    repeat_exceedance: float
+    unfinished: int  # runs that did not finish
+    quantile: float  # asked beforehand: part of all runs that the limit is for
+    confidence: float  # asked beforehand: its confidence
+    rank: int  # asked beforehand: which of the largest distances it is
+    runs_needed: int  # least number of runs for a limit
+    limit_m: float  # infinite where there are too few runs, or too many that did not finish
+    exceedances: int  # runs beyond the limit, unfinished ones included
+    achieved_confidence: float  # that the quantile stays within the limit
+    coverage: float  # part of all runs that stays within the limit with the confidence asked
+    repeat_above_m: float  # a study of as many other runs has its limit above this with the confidence; -inf if unknown
+    repeat_below_m: float  # and not above this; inf if unknown
+    repeat_exceedance: float  # probability that its limit is larger than every distance of these runs
 
     @property
     def has_enough_runs(self) -> bool:
@@ -97,71 +67,35 @@ class DebrisLimit:
 
 @dataclass(frozen=True, slots=True)
 class Proportion:
-    """How often runs do something that was fixed beforehand, such as meet a criterion or leave a zone.
-
-    Attributes
-    ----------
-    what : str
-        What they do: ``runs that …``.
-    count, runs : int
-        How many of the runs did it, and how many there are.
-    confidence : float
-        Of each limit by itself.
-    at_least, at_most : float
-        Limits of the probability, after Clopper and Pearson.
-    """
+    """How often runs do something that was fixed beforehand: `what` ends ``runs that …``."""
 
     what: str
-    count: int
+    count: int  # how many of the runs did it
     runs: int
-    confidence: float
-    at_least: float
-    at_most: float
+    confidence: float  # of each limit by itself
+    at_least: float  # limit of the probability, after Clopper and Pearson
+    at_most: float  # also
 
 
 @dataclass(frozen=True, slots=True)
 class SimultaneousLimits:
-    """Limits of several outputs that hold together, after Guba, Makai and Pál.
+    """Limits of several outputs that hold together, after Guba, Makai and Pál."""
 
-    Attributes
-    ----------
-    quantile, confidence
-        Part of all runs that stays below all limits at once, and its confidence.
-    limits : dict
-        Of each output by its name.
-    ranks : dict
-        Which of its largest values each limit is.
-    """
-
-    quantile: float
-    confidence: float
-    limits: dict[str, float]
-    ranks: dict[str, int]
+    quantile: float  # part of all runs that stays below all limits at once
+    confidence: float  # of that
+    limits: dict[str, float]  # by name of the output
+    ranks: dict[str, int]  # which of its largest values each limit is
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Conclusions:
-    """What a study states.
+    """What a study states."""
 
-    Attributes
-    ----------
-    statuses : dict
-        How many runs ended in each way.
-    reach
-        Limit of the debris distance.
-    criteria
-        How often runs meet each criterion, in the order of the study.
-    success
-        How often they meet all of them; None where there are none.
-    at_once
-        Limits of several outputs that hold together; None where there are too few runs.
-    """
-
-    statuses: dict[str, int]
+    statuses: dict[str, int]  # number of runs that ended in each way
     reach: DebrisLimit
-    criteria: tuple[Proportion, ...]
-    success: Proportion | None
-    at_once: SimultaneousLimits | None
+    criteria: tuple[Proportion, ...]  # in the order of the study
+    success: Proportion | None  # all criteria at once; None without criteria
+    at_once: SimultaneousLimits | None  # None where there are too few runs
 
     def as_json(self) -> dict[str, Any]:
         """Return them as ``study.json`` has them."""
@@ -198,15 +132,7 @@ def conclusions(study: Study, table: RunsTable) -> Conclusions:
 
 
 def debris_limit(distances_m: np.ndarray, quantile: float, confidence: float, rank: int) -> DebrisLimit:
-    """Return the limit of the debris distance.
-
-    Parameters
-    ----------
-    distances_m : (n,) float
-        Of all runs; infinity for each that did not finish.
-    quantile, confidence, rank
-        What was asked beforehand.
-    """
+    """Return the limit of distances (n,) of all runs; infinity for each that did not finish."""
     runs, needed = len(distances_m), least_runs(quantile, confidence, rank)
     limit_m = nth_largest(distances_m, rank) if runs >= needed else math.inf
     has_rank = runs >= rank
@@ -229,7 +155,7 @@ def debris_limit(distances_m: np.ndarray, quantile: float, confidence: float, ra
 
 
 def proportion(what: str, which: np.ndarray, confidence: float) -> Proportion:
-    """Return how often runs do something, from which (n,) of them did."""
+    """Return how often runs do something, by which (n,) of them did."""
     count, runs = int(which.sum()), len(which)
     at_least, at_most = (float(limit(count, runs, confidence)) for limit in (lower_limit, upper_limit))
     return Proportion(what, count, runs, confidence, at_least, at_most)
@@ -240,12 +166,7 @@ def simultaneous_limits(
 ) -> SimultaneousLimits | None:
     """Return limits of several outputs that hold together; None where there are too few runs for so many.
 
-    Parameters
-    ----------
-    outputs : dict of (n,) float
-        Values in all runs by name, infinity where a run did not finish. Choose the outputs before the runs.
-    quantile, confidence
-        What the limits have to hold together.
+    Values (n,) of all runs are infinite where a run did not finish. Choose the outputs before the runs.
     """
     runs = min(map(len, outputs.values()), default=0)
     support = most_support(runs, quantile, confidence) if runs else 0
@@ -259,11 +180,14 @@ def simultaneous_limits(
 
 
 def as_json(statement: Any) -> dict[str, Any]:
-    """Return a statement as JSON has it: what has no end is null."""
-    return {_JSON_NAMES.get(name, name): _finite(value) for name, value in asdict(statement).items()}
+    """Return a statement as JSON has it."""
+    return {_JSON_NAMES.get(name, name): finite(value) for name, value in asdict(statement).items()}
 
 
-def _finite(value: Any) -> Any:
+def finite(value: Any) -> Any:
+    """Return a value as JSON has it, also one in a dictionary or a list: a number that is not finite is null."""
     if isinstance(value, dict):
-        return {name: _finite(inner) for name, inner in value.items()}
+        return {name: finite(inner) for name, inner in value.items()}
+    if isinstance(value, list | tuple):
+        return [finite(inner) for inner in value]
     return None if isinstance(value, float) and not math.isfinite(value) else value

@@ -15,24 +15,12 @@ COLLAPSED = "collapsed_share"
 
 @dataclass(frozen=True, slots=True)
 class CriterionKind:
-    """What a kind of criterion asks.
+    """What a kind of criterion asks."""
 
-    Attributes
-    ----------
-    needs
-        Keys that it cannot do without.
-    output
-        Returns the name of the output that it is judged from.
-    holds
-        Returns whether a value of that output meets the criterion.
-    share
-        Share where none is given; None for a kind that takes none.
-    """
-
-    needs: tuple[str, ...]
-    output: Callable[["Criterion"], str]
-    holds: Callable[[Any, "Criterion"], bool]
-    share: float | None = None
+    needs: tuple[str, ...]  # keys that it cannot do without
+    output: Callable[["Criterion"], str]  # name of the output that it is judged from
+    holds: Callable[[Any, "Criterion"], bool]  # whether a value of that output meets the criterion
+    share: float | None = None  # where none is given; None for a kind that takes none
 
 
 KINDS = {
@@ -121,7 +109,7 @@ class Criterion(Table):
         return KINDS[self.kind].share if self.share is None else self.share
 
     def check_against(self, scenario: Scenario) -> None:
-        """Check that the scenario has what is asked about."""
+        """Check that the scenario has the span, zone or neighbour."""
         spans = len(scenario.bridge.span_lengths_m) if scenario.bridge else 1
         if self.span is not None and self.span > spans:
             raise self.unexpected("span", f"a whole number up to {spans}, as the scenario has no more spans")
@@ -142,27 +130,27 @@ class Criterion(Table):
 
 
 def check_criteria(criteria: tuple[Criterion, ...], scenario: Scenario) -> None:
-    """Check that criteria differ by name, and that the scenario has what they ask about."""
-    names = [each.name for each in criteria]
-    for number, each in enumerate(criteria, start=1):
+    """Check that criteria differ by name, and fit the scenario."""
+    names = [criterion.name for criterion in criteria]
+    for number, criterion in enumerate(criteria, start=1):
         try:
-            if names.count(each.name) > 1:
-                raise each.unexpected("name", "another name for each")
-            each.check_against(scenario)
+            if names.count(criterion.name) > 1:
+                raise criterion.unexpected("name", "another name for each")
+            criterion.check_against(scenario)
         except ScenarioError as error:
             raise ScenarioError(f"[[{Criterion.table}]] number {number}: {error}") from error
 
 
-def span_output(span: int, what: str) -> str:
+def span_output(span: int, quantity: str) -> str:
     """Return the name of an output about a span, by its number from 1."""
-    return f"spans.{span}.{what}"
+    return f"spans.{span}.{quantity}"
 
 
-def zone_output(zone: str, what: str) -> str:
+def zone_output(zone: str, quantity: str) -> str:
     """Return the name of an output about a zone."""
-    return f"{dotted('zones', zone)}.{what}"
+    return f"{dotted('zones', zone)}.{quantity}"
 
 
-def neighbour_output(neighbour: str, what: str) -> str:
+def neighbour_output(neighbour: str, quantity: str) -> str:
     """Return the name of an output about a neighbour."""
-    return f"{dotted('neighbours', neighbour)}.{what}"
+    return f"{dotted('neighbours', neighbour)}.{quantity}"

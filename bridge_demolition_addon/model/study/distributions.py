@@ -1,8 +1,8 @@
 """Distributions that inputs are sampled from, each by the inverse of its cumulative distribution.
 
 A value begins as a probability, a multiple of 2⁻⁵³ above 0 and below 1. So the values of each distribution have ends,
-also of a normal one: none lies further from its mean than `FARTHEST_DEVIATION` deviations. What comes out has the same
-bits on every processor.
+also of a normal one: none lies further from its mean than `FARTHEST_DEVIATION` deviations. Values have the same bits on
+every processor.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import Field, dataclass
-from functools import cached_property
+from functools import cached_property, reduce
 from typing import Any, ClassVar, Protocol
 
 from ...engineering.arithmetic import coefficients, exponential, logarithm
@@ -55,10 +55,8 @@ _TAIL = (
 
 
 def normal_quantile(probability: float) -> float:
-    """Return what a standard normal variable stays below with a probability, above 0 and below 1.
+    """Return the value that a standard normal variable stays below with a probability, above 0 and below 1.
 
-    References
-    ----------
     M. J. Wichura (1988), Algorithm AS 241: The percentage points of the normal distribution, Applied Statistics 37,
     477-484, PPND16: within about 1e-16, relative.
     """
@@ -86,24 +84,17 @@ def normal_probability(value: float) -> float:
 
 
 def _ratio(polynomials: tuple[Sequence[float], Sequence[float]], x: float) -> float:
-    upper, lower = (_polynomial(coefficients, x) for coefficients in polynomials)
+    """Return the ratio of two polynomials, by Horner."""
+    upper, lower = (reduce(lambda value, part: part + x * value, reversed(parts), 0.0) for parts in polynomials)
     return upper / lower
 
 
-def _polynomial(coefficients: Sequence[float], x: float) -> float:
-    """Value of a polynomial, by Horner; coefficients from the constant upwards."""
-    value = 0.0
-    for coefficient in reversed(coefficients):
-        value = coefficient + x * value
-    return value
-
-
 FARTHEST_DEVIATION = -normal_quantile(LEAST_PROBABILITY)
-"""How far from its mean a value of a normal distribution may lie, in deviations: 8.2."""
+"""Largest distance of a value of a normal distribution from its mean, in deviations: 8.2."""
 
 
 class Distribution(Protocol):
-    """A distribution that can be drawn from: a dataclass of what it was given."""
+    """A distribution that can be sampled: a dataclass of its parameters."""
 
     __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
 
@@ -217,7 +208,7 @@ class Lognormal:
 
     @cached_property
     def _of_logarithm(self) -> Normal:
-        """Distribution of the logarithm of a value by the median."""
+        """Distribution of the logarithm of value over median."""
         deviation = math.sqrt(float(logarithm(1.0 + self.variation * self.variation)))
         lowest, highest = (float(logarithm(end / self.median)) for end in (self.lowest, self.highest))
         return Normal(0.0, deviation, lowest, highest)

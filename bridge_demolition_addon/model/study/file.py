@@ -21,7 +21,7 @@ from .keys import ScenarioKey, changed, keys_named
 from .settings import EnsembleSettings, StudySettings, Vary
 
 SEED = f"{Scenario.table}.seed"
-"""Key that is sampled for each run, and that no table varies."""
+"""Key that is sampled for each run, and has no table."""
 
 _Settings = TypeVar("_Settings", bound=EnsembleSettings)
 _Ensemble = TypeVar("_Ensemble", bound="Ensemble")
@@ -29,40 +29,20 @@ _Ensemble = TypeVar("_Ensemble", bound="Ensemble")
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Variation:
-    """A key of the scenario, and how it is drawn.
-
-    Attributes
-    ----------
-    key : ScenarioKey
-        Which key.
-    distribution : Distribution
-        What is drawn.
-    factor : bool
-        Whether that is a factor on the scenario's value.
-    """
+    """A key of the scenario, and how it is sampled."""
 
     key: ScenarioKey
-    distribution: Distribution
-    factor: bool
+    distribution: Distribution  # of the value or of the factor
+    factor: bool  # whether a factor on the scenario's value is sampled
 
-    def value(self, drawn: Any) -> Any:
-        """Return the value of the key for what was drawn."""
-        return drawn * self.key.value if self.factor else drawn
+    def value(self, sampled: Any) -> Any:
+        """Return the value of the key for a sampled value or factor."""
+        return sampled * self.key.value if self.factor else sampled
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Ensemble:
-    """Many runs of one scenario: a study, a search or an optimisation.
-
-    Attributes
-    ----------
-    settings : EnsembleSettings
-        What the file says.
-    scenario : Scenario
-        What is run.
-    variations : tuple of Variation
-        One for each key that varies by chance, `SEED` apart, in the order of the file.
-    """
+    """Many runs of one scenario: a study, a search or an optimisation."""
 
     kind: ClassVar[str]
     file_name: ClassVar[str]
@@ -71,11 +51,11 @@ class Ensemble:
 
     settings: EnsembleSettings
     scenario: Scenario
-    variations: tuple[Variation, ...]
+    variations: tuple[Variation, ...]  # one for each key that varies by chance, `SEED` apart, in the order of the file
 
     @property
     def criteria(self) -> tuple[Criterion, ...]:
-        """What makes a run count as a success."""
+        """Criteria of success."""
         return self.settings.criteria
 
     @property
@@ -91,7 +71,7 @@ class Ensemble:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Study(Ensemble):
-    """A study: what varies in a scenario, and what is to be stated about its runs."""
+    """A study: what varies in a scenario, and which limits its runs are to state."""
 
     kind: ClassVar[str] = "study"
     file_name: ClassVar[str] = STUDY_FILE
@@ -105,12 +85,12 @@ def read_ensemble_file(
     path: str | PathLike[str],
     settings_class: type[_Settings],
     ensemble_of: Callable[[_Settings, Scenario], _Ensemble],
-    what: str,
+    description: str,
 ) -> _Ensemble:
     """Read a file of settings, and the scenario that goes with it."""
     path = Path(path)
     try:
-        settings = table_of_document(settings_class, document_of_file(path, what))
+        settings = table_of_document(settings_class, document_of_file(path, description))
         return ensemble_of(settings, read_scenario(path.parent / settings.scenario))
     except (ScenarioError, ValueError) as error:  # a NUL in a path, for one
         raise ScenarioError(f"{fspath(path)}: {error}") from error
@@ -132,39 +112,35 @@ def variations_of(tables: Sequence[Vary], scenario: Scenario) -> tuple[Variation
     variations: dict[str, Variation] = {}
     for number, vary in enumerate(tables, start=1):
         try:
-            found = _variations(scenario, vary)
-            _check_not_twice(found, variations)
-            _check_range(scenario, found)
+            added = _variations(scenario, vary, variations)
+            _check_range(scenario, added)
         except ScenarioError as error:
             raise ScenarioError(f"[[{Vary.table}]] number {number}: {error}") from error
-        variations |= {each.key.name: each for each in found}
+        variations |= {variation.key.name: variation for variation in added}
     return tuple(variations.values())
 
 
-def _variations(scenario: Scenario, vary: Vary) -> list[Variation]:
-    found = [Variation(key, vary.drawn_from, vary.factor) for key in keys_named(scenario, vary.key)]
-    for each in found:
-        if each.key.name == SEED:
-            raise ScenarioError(f"vary.key is {SEED}, which is always drawn: leave it out")
-        if vary.factor and (isinstance(each.key.value, bool) or not isinstance(each.key.value, int | float)):
-            raise ScenarioError(f"vary.factor is true: {each.key.name} has no number in the scenario to multiply")
-    return found
+def _variations(scenario: Scenario, vary: Vary, earlier: dict[str, Variation]) -> list[Variation]:
+    keys = keys_named(scenario, vary.key)
+    for key in keys:
+        if key.name == SEED:
+            raise ScenarioError(f"vary.key is {SEED}, which is always sampled: leave it out")
+        if vary.factor and not key.has_number:
+            raise ScenarioError(f"vary.factor is true: {key.name} has no number in the scenario to multiply")
+        if key.name in earlier:
+            raise ScenarioError(f"{key.name} is sampled more than once: expected one table for it")
+    return [Variation(key, vary.sampled_from, vary.factor) for key in keys]
 
 
-def _check_not_twice(found: list[Variation], earlier: dict[str, Variation]) -> None:
-    for each in found:
-        if each.key.name in earlier:
-            raise ScenarioError(f"{each.key.name} is drawn more than once: expected one table for it")
-
-
-def _check_range(scenario: Scenario, found: list[Variation]) -> None:
+def _check_range(scenario: Scenario, variations: list[Variation]) -> None:
     """Check that the scenario may have the ends of a distribution, all keys of a list together, or each choice."""
-    for drawn in found[0].distribution.tried:
-        values = {each.key: each.value(drawn) for each in found}
+    for sampled in variations[0].distribution.tried:
+        values = {variation.key: variation.value(sampled) for variation in variations}
         try:
             changed(scenario, values)
         except ScenarioError as error:
-            first = f"{found[0].key.name} = {shown(values[found[0].key])}"
+            key, value = next(iter(values.items()))
+            first = f"{key.name} = {shown(value)}"
             raise ScenarioError(
                 f"the value may come to {first}, which the scenario cannot have: {error}. Set lowest and highest, or "
                 "take another distribution"

@@ -22,29 +22,22 @@ _NAMES = ("name", "member")
 
 @dataclass(frozen=True, slots=True)
 class ScenarioKey:
-    """A key of a scenario that holds one value.
+    """A key of a scenario that holds one value."""
 
-    Attributes
-    ----------
-    name : str
-        Its dotted name, such as ``charges."mid pier".mass_kg``.
-    steps : tuple of str and int
-        The way to it: names of fields, and places in lists.
-    item : Field
-        The key, with its limits.
-    value : object
-        What the scenario has there; None where the key is not given.
-    """
-
-    name: str
-    steps: tuple[str | int, ...]
-    item: Field
-    value: Any
+    name: str  # dotted, such as ``charges."mid pier".mass_kg``
+    steps: tuple[str | int, ...]  # the way to it: names of fields, and indices in lists
+    item: Field  # its declaration, with its limits
+    value: Any  # None where the scenario does not give it
 
     @property
     def unit(self) -> str:
         """Unit of the value, empty for a plain number."""
         return key_of(self.item).unit
+
+    @property
+    def has_number(self) -> bool:
+        """Whether the scenario has a number there."""
+        return isinstance(self.value, int | float) and not isinstance(self.value, bool)
 
 
 def keys_named(scenario: Scenario, name: str) -> tuple[ScenarioKey, ...]:
@@ -62,14 +55,8 @@ def keys_named(scenario: Scenario, name: str) -> tuple[ScenarioKey, ...]:
 
 
 def changed(scenario: Scenario, values: Mapping[ScenarioKey, Any]) -> Scenario:
-    """Return a scenario with other values of some keys, checked as a whole.
-
-    Raises
-    ------
-    ScenarioError
-        A key may not have its value, or values contradict each other.
-    """
-    return _changed(scenario, {found.steps: value for found, value in values.items()})
+    """Return a scenario with other values of some keys, checked as a whole."""
+    return _changed(scenario, {key.steps: value for key, value in values.items()})
 
 
 @cache
@@ -90,7 +77,7 @@ def _names_to_propose(table_class: type[Table]) -> Iterator[str]:
 
 
 def _way_to_a_value(item: Field) -> str | None:
-    """Return what leads from a key to one value that can be drawn: empty for a single one, None where there is none."""
+    """Return what leads from a key to one value to sample: empty for a single one, None where there is none."""
     kind, ending = value_type(item), ""
     while get_origin(kind) is tuple:
         kind, ending = get_args(kind)[0], f"{ending}.1"
@@ -144,7 +131,7 @@ def _in_list(tables: tuple[Table, ...], name: str, parts: list[str], before: str
         raise ScenarioError(f"{name} is a list: expected a key after it, such as {name}.1.{_first_key(tables)}")
     names = [_name_of(table) or str(number) for number, table in enumerate(tables, start=1)]
     first, *rest = parts
-    chosen = [place for place, each in enumerate(names) if each == first]
+    chosen = [index for index, own_name in enumerate(names) if own_name == first]
     if not chosen and first.isascii() and first.isdigit() and 1 <= int(first[:9]) <= len(tables):
         chosen = [int(first) - 1]
     if not chosen and first in [item.name for item in fields(tables[0])]:
@@ -153,9 +140,9 @@ def _in_list(tables: tuple[Table, ...], name: str, parts: list[str], before: str
         raise ScenarioError(f"{name} is not in the scenario: [[{before}]] has {', '.join(map(shown, names))}")
     if not rest:
         raise ScenarioError(f"{name} is a table: expected a key of it, such as {name}.{_first_key(tables)}")
-    for place in chosen:
-        label = names[place] if names.count(names[place]) == 1 else str(place + 1)
-        yield from _keys(tables[place], name, rest, _dotted(before, label), (*steps, place))
+    for index in chosen:
+        label = names[index] if names.count(names[index]) == 1 else str(index + 1)
+        yield from _keys(tables[index], name, rest, _dotted(before, label), (*steps, index))
 
 
 def _values(item: Field, value: Any, name: str, parts: list[str], before: str, steps: tuple) -> Iterator[ScenarioKey]:
@@ -191,8 +178,8 @@ def _changed(value: Any, changes: Mapping[tuple, Any]) -> Any:
     if () in changes:
         return changes[()]
     inner: dict[Any, dict[tuple[Any, ...], Any]] = {}
-    for (first, *rest), each in changes.items():
-        inner.setdefault(first, {})[tuple(rest)] = each
+    for (first, *rest), changed_value in changes.items():
+        inner.setdefault(first, {})[tuple(rest)] = changed_value
     if isinstance(value, tuple):
-        return tuple(_changed(each, inner[place]) if place in inner else each for place, each in enumerate(value))
+        return tuple(_changed(item, inner[index]) if index in inner else item for index, item in enumerate(value))
     return replace(value, **{name: _changed(getattr(value, name), rest) for name, rest in inner.items()})

@@ -29,37 +29,27 @@ SUCCESS = "success"
 """Output that says whether all criteria are met; only where there are some."""
 
 _STRAIGHT_M = 1e-3
-"""How far kept outlines may stray from what was covered."""
+"""Tolerance of kept outlines."""
 
 _NO_OUTLINES = np.zeros((0, 2), np.float32)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Outlines:
-    """What is kept of a run on plan: closed outlines (k, 2), m; those of holes run clockwise.
+    """What is kept of a run on plan: closed outlines (k, 2), m; those of holes run clockwise."""
 
-    Attributes
-    ----------
-    bridge
-        What all shards covered at first.
-    resting
-        What each hazardous body that moved covers at the end; where several overlap, each has its own.
-    swept
-        What these covered at any time, all together.
-    """
-
-    bridge: tuple[np.ndarray, ...]
-    resting: tuple[np.ndarray, ...]
-    swept: tuple[np.ndarray, ...]
+    bridge: tuple[np.ndarray, ...]  # of all shards at first
+    resting: tuple[np.ndarray, ...]  # of the hazardous bodies that moved, at the end; those that overlap are not united
+    swept: tuple[np.ndarray, ...]  # of these bodies at any time, united
 
     def arrays(self) -> dict[str, np.ndarray]:
         """All outlines as arrays by name, in single precision: ``bridge_m`` (c, 2), ``bridge_counts`` (o,), …"""
-        found = {}
+        arrays = {}
         for field in fields(self):
             rings = getattr(self, field.name)
-            found[f"{field.name}_m"] = np.concatenate([_NO_OUTLINES, *rings]).astype(np.float32)
-            found[f"{field.name}_counts"] = np.array([len(ring) for ring in rings], np.int32)
-        return found
+            arrays[f"{field.name}_m"] = np.concatenate([_NO_OUTLINES, *rings]).astype(np.float32)
+            arrays[f"{field.name}_counts"] = np.array([len(ring) for ring in rings], np.int32)
+        return arrays
 
     @classmethod
     def of_arrays(cls, arrays: Mapping[str, np.ndarray]) -> Self:
@@ -69,17 +59,9 @@ class Outlines:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RunEvaluation:
-    """What a run that finished came to.
+    """Result of a run that finished."""
 
-    Attributes
-    ----------
-    outputs : dict
-        Numbers, whole numbers, truth values, or None for what is not known, by name, with units in the names.
-    outlines : Outlines
-        Debris on plan.
-    """
-
-    outputs: dict[str, float | int | bool | None]
+    outputs: dict[str, float | int | bool | None]  # by name with unit; None for unknown values
     outlines: Outlines
 
 
@@ -90,20 +72,9 @@ def evaluate(
     criteria: Sequence[Criterion] = (),
     least_mass_kg: float = 0.0,
 ) -> RunEvaluation:
-    """Evaluate a run.
+    """Evaluate a run, by what was recorded and its summary, as in ``summary.json``.
 
-    Hazardous are shards of some mass or more, and balls, that moved; shards that were removed on purpose are none.
-
-    Parameters
-    ----------
-    results, summary
-        What was recorded, and its summary, as in ``summary.json``.
-    scenario
-        What was run.
-    criteria
-        What makes it a success.
-    least_mass_kg
-        Of the lightest shard that is a hazard.
+    Shards of `least_mass_kg` or more, and balls, are hazards if they moved; removed shards are not.
     """
     left = relative_to_ground(without_removed(results)[0])
     shards, balls = left.inventory.of_kind("shard"), left.inventory.of_kind("ball")
@@ -116,7 +87,7 @@ def evaluate(
         **_course(left, summary, scenario),
         **_surroundings(left, scenario, np.concatenate([shards, balls])),
     }
-    met = {each.output: each.is_met(outputs) for each in criteria}
+    met = {criterion.output: criterion.is_met(outputs) for criterion in criteria}
     outputs |= met | ({SUCCESS: all(met.values())} if met else {})
     return RunEvaluation(outputs, _outlines(left, hazards, plan))
 
@@ -125,7 +96,7 @@ def _check(results: Results, plan: CrossSection) -> None:
     if not plan.area() > 0.0:
         raise OutputError("the bridge covers no area in plan: distances from it are not known")
     if not (np.isfinite(results.frames.positions_m).all() and np.isfinite(results.frames.rotations).all()):
-        raise OutputError("a body was lost: Blender has no finite place for it")
+        raise OutputError("a body was lost: Blender has no finite position for it")
 
 
 def _throws(results: Results, hazards: np.ndarray, plan: CrossSection) -> dict[str, Any]:
@@ -142,7 +113,7 @@ def _throws(results: Results, hazards: np.ndarray, plan: CrossSection) -> dict[s
 
 def _course(results: Results, summary: Mapping[str, Any], scenario: Scenario) -> dict[str, Any]:
     force, energy = summary["largest_resultant"], summary["energy"]
-    found = {
+    outputs = {
         COLLAPSED: float(collapse_progress(results)[-1]),
         "broken": summary["connections"]["broken"],
         "came_to_rest_s": summary.get("came_to_rest_s"),
@@ -153,8 +124,8 @@ def _course(results: Results, summary: Mapping[str, Any], scenario: Scenario) ->
     lengths = scenario.bridge.span_lengths_m if scenario.bridge else ()
     for span in spans_of(results, lengths):
         number = int(span.name.removeprefix("span ")) if span.name.startswith("span ") else 1
-        found |= _span(number, span)
-    return found
+        outputs |= _span(number, span)
+    return outputs
 
 
 def _span(number: int, span: Span) -> dict[str, Any]:
@@ -167,20 +138,20 @@ def _span(number: int, span: Span) -> dict[str, Any]:
 
 
 def _surroundings(results: Results, scenario: Scenario, bodies: np.ndarray) -> dict[str, Any]:
-    found: dict[str, Any] = {}
+    outputs: dict[str, Any] = {}
     for zone in scenario.zones:
         watched = watch_zone(results, zone, bodies)
-        found[zone_output(zone.name, "entered")] = bool(watched.entries)
-        found[zone_output(zone.name, "bodies_entered")] = len(watched.entries)
+        outputs[zone_output(zone.name, "entered")] = bool(watched.entries)
+        outputs[zone_output(zone.name, "bodies_entered")] = len(watched.entries)
     charges = [charge for charge in scenario.charges if charge.mass_kg > 0.0] if scenario.blast.explosion else []
     model, landed = BlastModel(scenario.blast.model), landings(results)
     for neighbour in scenario.neighbours:
         loads = loads_at(neighbour.place_m, charges, model, scenario.blast.pressure_factor) if charges else None
-        found[neighbour_output(neighbour.name, "pressure_kPa")] = loads.peak_pa / 1e3 if loads else 0.0
-        found[neighbour_output(neighbour.name, "vibration_mm_s")] = loads.peak_velocity_m_s * 1e3 if loads else 0.0
+        outputs[neighbour_output(neighbour.name, "pressure_kPa")] = loads.peak_pa / 1e3 if loads else 0.0
+        outputs[neighbour_output(neighbour.name, "vibration_mm_s")] = loads.peak_velocity_m_s * 1e3 if loads else 0.0
         shaking = shaking_at(neighbour.place_m, landed)
-        found[neighbour_output(neighbour.name, "touchdown_mm_s")] = shaking.velocity_m_s * 1e3 if shaking else 0.0
-    return found
+        outputs[neighbour_output(neighbour.name, "touchdown_mm_s")] = shaking.velocity_m_s * 1e3 if shaking else 0.0
+    return outputs
 
 
 def _outlines(results: Results, hazards: np.ndarray, plan: CrossSection) -> Outlines:
@@ -188,7 +159,7 @@ def _outlines(results: Results, hazards: np.ndarray, plan: CrossSection) -> Outl
     swept = swept_footprint(results, hazards).simplify(_STRAIGHT_M)
     return Outlines(
         tuple(outlines(plan.simplify(_STRAIGHT_M))),
-        tuple(ring for each in resting for ring in outlines(each)),
+        tuple(ring for hull in resting for ring in outlines(hull)),
         tuple(outlines(swept)),
     )
 

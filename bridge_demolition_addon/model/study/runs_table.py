@@ -1,7 +1,7 @@
-"""Table of runs: a row for each run, with its inputs and outputs.
+"""Table of runs: a row for each run, with its inputs and outputs; also as a sheet, where XlsxWriter is installed.
 
 ``pandas.read_csv("runs.csv")`` reads it. Columns of inputs begin with ``in.``, those of outputs with ``out.``, and both
-end in their unit. A cell of a run that did not finish, or of what it does not know, is empty.
+end in their unit. A cell of a run that did not finish, or of an unknown value, is empty.
 """
 
 from __future__ import annotations
@@ -9,9 +9,11 @@ from __future__ import annotations
 import csv
 import io
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from datetime import datetime
 from functools import cached_property
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -34,28 +36,18 @@ REACH = "reach_m"
 
 _MOST_BYTES = 1000 * MEGABYTE
 _TRUTHS = {"true": True, "false": False}
+_NO_TIME = datetime(2000, 1, 1)
+"""Date of the sheet: the same rows give the same bytes."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RunOutcome:
-    """How a run ended.
+    """How a run ended."""
 
-    Attributes
-    ----------
-    status : str
-        One of `STATUSES`.
-    reason : str
-        Why it is not done.
-    outputs, fingerprint : dict
-        Values, and digests of the run, where it is done.
-    wall_time_s : float
-        How long it took.
-    """
-
-    status: str
-    reason: str = ""
-    outputs: Mapping[str, Any] = field(default_factory=dict)
-    fingerprint: Mapping[str, str] = field(default_factory=dict)
+    status: str  # one of `STATUSES`
+    reason: str = ""  # why it is not done
+    outputs: Mapping[str, Any] = field(default_factory=dict)  # values by name, where it is done
+    fingerprint: Mapping[str, str] = field(default_factory=dict)  # digests, where it is done
     wall_time_s: float = 0.0
 
 
@@ -63,23 +55,14 @@ class RunOutcome:
 class RunRow:
     """A run in the table.
 
-    Attributes
-    ----------
-    number : int
-        From 1 on.
-    status : str
-        One of `STATUSES`.
-    inputs, outputs : dict
-        Values by name, without the beginning of their columns: numbers, texts, truths, or None for what is not known.
-    reason : str
-        Why it is not done. The file does not hold it.
+    Inputs and outputs are numbers, texts, truths or None for what is not known, by names without `INPUT` or `OUTPUT`.
     """
 
-    number: int
-    status: str
+    number: int  # from 1
+    status: str  # one of `STATUSES`
     inputs: Mapping[str, Any]
     outputs: Mapping[str, Any]
-    reason: str = field(default="", compare=False)
+    reason: str = field(default="", compare=False)  # why it is not done; the file does not hold it
 
 
 @dataclass(frozen=True)
@@ -146,20 +129,39 @@ class RunsTable:
 
 
 def cells_of(inputs: Mapping[str, Any], names: Sequence[str]) -> tuple[str, ...]:
-    """Return values as they stand in the table, by which a run is known: no other has the same inputs."""
+    """Return inputs as they stand in the table, which identify a run: no other has the same."""
     return tuple(_cell(inputs.get(name)) for name in names)
 
 
 def write_runs(table: RunsTable, path: Path) -> None:
     """Write a table of runs, whole or not at all; the same rows give the same bytes."""
     with whole_file(path) as part, part.open("w", encoding="utf-8", newline="") as file:
-        writer = csv.writer(file, lineterminator="\n")
-        writer.writerow(
-            [RUN, STATUS, *(INPUT + name for name in table.inputs), *(OUTPUT + name for name in table.outputs)]
-        )
-        for row in table.rows:
-            values = [*map(row.inputs.get, table.inputs), *map(row.outputs.get, table.outputs)]
-            writer.writerow([row.number, row.status, *map(_cell, values)])
+        csv.writer(file, lineterminator="\n").writerows(map(_cell, line) for line in _lines(table))
+
+
+def write_sheet(table: RunsTable, path: Path) -> bool:
+    """Write the table as a sheet, with the columns of the CSV; return False where XlsxWriter is not installed."""
+    if find_spec("xlsxwriter") is None:
+        return False
+    import xlsxwriter
+
+    with whole_file(path) as part:
+        book = xlsxwriter.Workbook(str(part), {"strings_to_formulas": False, "strings_to_urls": False})
+        book.set_properties({"created": _NO_TIME})
+        sheet = book.add_worksheet("runs")
+        bold = book.add_format({"bold": True})
+        sheet.freeze_panes(1, 2)
+        for number, line in enumerate(_lines(table)):
+            sheet.write_row(number, 0, map(_sheet_cell, line), None if number else bold)
+        book.close()
+    return True
+
+
+def _lines(table: RunsTable) -> Iterator[list[Any]]:
+    """Yield the header, then the values of each row."""
+    yield [RUN, STATUS, *(INPUT + name for name in table.inputs), *(OUTPUT + name for name in table.outputs)]
+    for row in table.rows:
+        yield [row.number, row.status, *map(row.inputs.get, table.inputs), *map(row.outputs.get, table.outputs)]
 
 
 def read_runs(path: Path) -> RunsTable:
@@ -190,6 +192,13 @@ def _cell(value: Any) -> str:
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 
+def _sheet_cell(value: Any) -> Any:
+    """Return a value that a sheet can hold: it knows neither infinity nor nan."""
+    if isinstance(value, float) and not math.isfinite(value):
+        return None if math.isnan(value) else str(value)
+    return value
+
+
 def _value(cell: str) -> Any:
     if cell in _TRUTHS or not cell:
         return _TRUTHS.get(cell)
@@ -202,7 +211,7 @@ def _value(cell: str) -> Any:
 
 
 def _names(mappings: Iterable[Mapping[str, Any]]) -> tuple[str, ...]:
-    """Names in the order in which they come first."""
+    """Return names in the order in which they come first."""
     return tuple(dict.fromkeys(name for mapping in mappings for name in mapping))
 
 

@@ -28,69 +28,32 @@ _WORDS_OF_NAME = 4
 
 @dataclass(frozen=True, eq=False)
 class SampledRun:
-    """One run, as it is to be made.
+    """One run, as it is to be made."""
 
-    Attributes
-    ----------
-    number : int
-        From 1 on. It fixes what varies by chance.
-    inputs : dict
-        Value of each input by its name, `SEED` first.
-    changes : dict
-        Values of the scenario's keys in this run.
-    ensemble : Ensemble
-        What it is a run of.
-    """
-
-    number: int
-    inputs: Mapping[str, Any]
-    changes: Mapping[ScenarioKey, Any]
+    number: int  # from 1; it fixes what varies by chance
+    inputs: Mapping[str, Any]  # by name, `SEED` first
+    changes: Mapping[ScenarioKey, Any]  # values of the scenario's keys
     ensemble: Ensemble
 
     @cached_property
     def scenario(self) -> Scenario:
-        """The scenario with these values.
-
-        Raises
-        ------
-        ScenarioError
-            It cannot have them together.
-        """
+        """The scenario with these values."""
         return replace(changed(self.ensemble.scenario, self.changes), seed=self.inputs[SEED])
 
     @property
     def request(self) -> dict[str, str]:
-        """What the program of runs is asked, ready for JSON."""
+        """The request to the program of runs, ready for JSON."""
         return {"scenario": scenario_text(self.scenario), "study": self.ensemble.settings.shared_text}
 
     def cache_key(self, versions: Mapping[str, str]) -> str:
-        """Return the SHA-256, in hexadecimal digits, of all that the result of the run depends on.
-
-        Parameters
-        ----------
-        versions
-            What it is run with, such as Blender's version.
-
-        Raises
-        ------
-        ScenarioError
-            The scenario cannot have these values, or a file that it names cannot be read.
-        """
+        """Return the SHA-256, in hexadecimal digits, of all that the result of the run depends on."""
         parts = [scenario_text(self.scenario), evaluation_settings(self.ensemble), *_file_digests(self.scenario)]
         parts += [f"{name} {version}" for name, version in sorted(versions.items())]
         return _digest(*(part.encode() for part in parts)).hex()
 
 
 def sampled_run(ensemble: Ensemble, number: int, chosen: Mapping[ScenarioKey, Any] | None = None) -> SampledRun:
-    """Return a run, from 1 on.
-
-    Parameters
-    ----------
-    ensemble, number
-        What it is a run of, and which.
-    chosen
-        Values of keys that are not left to chance.
-    """
+    """Return a run by its number, from 1, with the values of keys that are chosen and do not vary by chance."""
     changes = {
         variation.key: variation.value(variation.distribution.quantile(_probability(ensemble, number, variation.key)))
         for variation in ensemble.variations
@@ -101,7 +64,7 @@ def sampled_run(ensemble: Ensemble, number: int, chosen: Mapping[ScenarioKey, An
 
 
 def evaluation_settings(ensemble: Ensemble) -> str:
-    """Return the settings that decide what is recorded of a run, in one way of writing."""
+    """Return the settings that decide what is recorded of a run, as text."""
     settings = ensemble.settings
     return json.dumps([settings.least_mass_kg, settings.keep, [asdict(criterion) for criterion in settings.criteria]])
 
@@ -130,7 +93,7 @@ def _file_digests(scenario: Scenario) -> list[str]:
 
 
 def _digest(*parts: bytes) -> bytes:
-    """SHA-256 of parts, each with its length, so that no two lists of parts give the same bytes."""
+    """Return the SHA-256 of parts, each with its length, so that no two lists of parts have the same bytes."""
     digest = hashlib.sha256()
     for part in parts:
         digest.update(f"{len(part)}:".encode())

@@ -16,7 +16,7 @@ _NEEDED = {
     "triangular": ("lowest", "most_likely", "highest"),
     "choice": ("values",),
 }
-"""Keys that a distribution cannot do without."""
+"""Keys that a distribution needs."""
 
 _TAKEN = _NEEDED | {name: (*_NEEDED[name], "lowest", "highest") for name in ("normal", "lognormal")}
 """Keys that a distribution may have."""
@@ -35,7 +35,7 @@ class Vary(Table):
     key: str = schema.key(
         "Which key, with its table: `ball.drop_height_m`. In lists, a name or a number from 1 says which: "
         '`charges."mid pier".mass_kg`, `removals.2.time_s`, `ball.target_m.1`. Without it, the key of all tables of '
-        "the list is drawn, of each for itself: `charges.delay_ms`."
+        "the list is sampled, of each for itself: `charges.delay_ms`."
     )
     distribution: str = schema.key("How it scatters.", choices=tuple(_NEEDED))
     mean: float | None = schema.key("Mean of a `normal` distribution.", default=None)
@@ -56,12 +56,12 @@ class Vary(Table):
     highest: float | None = schema.key("Highest value, as with `lowest`.", default=None)
     values: tuple[Scalar, ...] | None = schema.key("Values of a `choice`, all equally likely.", default=None)
     factor: bool = schema.key(
-        "Whether what is drawn is a factor on the scenario's own value, instead of a value in the key's unit.",
+        "Whether a factor on the scenario's own value is sampled, instead of a value in the key's unit.",
         default=False,
     )
 
     @property
-    def drawn_from(self) -> Distribution:
+    def sampled_from(self) -> Distribution:
         """Return the distribution."""
         ends = {name: getattr(self, name) for name in ("lowest", "highest") if getattr(self, name) is not None}
         match self.distribution:
@@ -86,7 +86,7 @@ class Vary(Table):
         self._check_order()
         if self.factor and self.values and not all(type(value) in (int, float) for value in self.values):
             raise self.unexpected("factor", "false where values are not numbers")
-        _ = self.drawn_from  # refuses ends that leave nothing
+        _ = self.sampled_from  # refuses ends that leave nothing
 
     def _check_order(self) -> None:
         if self.lowest is not None and self.highest is not None and not self.lowest < self.highest:
@@ -147,7 +147,7 @@ class EnsembleSettings(Table):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StudySettings(EnsembleSettings):
-    """What is run, how often, and what is to be stated."""
+    """What is run, how often, and which limits are stated."""
 
     table: ClassVar[str] = "study"
     raised_later: ClassVar[tuple[str, ...]] = ("runs",)

@@ -16,7 +16,7 @@ from ..scenario import Zone
 from .conclusions import Proportion, proportion
 
 _BEYOND_M2 = 1e-4
-"""Area beyond a zone that counts; what is kept of a run may stray by a millimetre."""
+"""Area beyond a zone that counts; outlines are kept to a millimetre."""
 
 
 def zone_area(zone: Zone) -> CrossSection:
@@ -31,17 +31,10 @@ def holds(zone: Zone, area: CrossSection) -> bool:
 
 
 def proportion_leaving(zone: Zone, swept: Iterable[Sequence[np.ndarray] | None], confidence: float) -> Proportion:
-    """Return how often debris leaves a zone in plan.
+    """Return how often debris leaves a zone in plan that was fixed before the runs.
 
-    Parameters
-    ----------
-    zone
-        The zone, which was fixed before the runs.
-    swept
-        Of each run the outlines (k, 2) of all that its debris covered at any time; None of a run that did not finish,
-        which counts as one that left it.
-    confidence
-        Of the limits.
+    Each run has outlines (k, 2) of all that its debris covered at any time, or None where it did not finish, which
+    counts as one that left the zone.
     """
     left = [rings is None or (bool(len(rings)) and not holds(zone, CrossSection(list(rings)))) for rings in swept]
     return proportion(f"left the zone {zone.name}", np.array(left, bool), confidence)

@@ -8,7 +8,7 @@ from ...charts.ground_motion import ground_motion_history, moving_directions, re
 from ...engineering.ground_motion.record import GroundRecord
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...errors import ScenarioError
-from ...model.ground_motion.record_file import read_record
+from ...model.ground_motion.record_files import read_record
 from ...model.ground_motion.settings import DIRECTIONS, GroundMotion
 from ...model.results.arrays import Results
 from ...model.run_folder.files import GROUND_MOTION_FILE

@@ -83,7 +83,7 @@ class StopEnsemble(EnsembleAction):
     def act(self, _context: bpy.types.Context) -> str:
         session = self.work.session
         self.work.stop()
-        return f"Stopped after {session.done} of {session.total} runs"
+        return f"Stopped after {session.planner.done} of {session.planner.total} runs"
 
 
 class OpenPicture(EnsembleAction):

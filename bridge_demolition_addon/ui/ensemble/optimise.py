@@ -23,7 +23,7 @@ _TABLES = {item.name: item for item in shown_tables(OptimiseSettings)}
 
 def shown_result(session: EnsembleSession) -> SentencesAndPicture:
     """Return the texts and the picture of an optimisation that has ended."""
-    return SentencesAndPicture.of(session, optimise_sentences(session.planner.result()), TRADEOFF_PICTURE)
+    return SentencesAndPicture.of(session, optimise_sentences(session.result()), TRADEOFF_PICTURE)
 
 
 WORK = Work("optimise", "optimisation", OptimiseSettings, shown_result)

@@ -42,7 +42,9 @@ class EnsemblePanel(SidebarPanel):
     def _draw_progress(self) -> None:
         """Draw the buttons above the lines that come and go: so they stay under the mouse."""
         layout, work = self.layout, self.work
-        layout.progress(factor=work.session.done / work.session.total, text=work.session.folder.path.name)
+        layout.progress(
+            factor=work.session.planner.done / work.session.planner.total, text=work.session.folder.path.name
+        )
         row = layout.row(align=True)
         if self.can_pause:
             step = "resume" if work.session.is_paused else "pause"

@@ -22,7 +22,7 @@ _QUANTITY = ("key", "factor", "logarithmic")
 
 def shown_result(session: EnsembleSession) -> SentencesAndPicture:
     """Return the texts and the picture of a search that has ended."""
-    return SentencesAndPicture.of(session, search_sentences(session.planner.result()), CURVE_PICTURE)
+    return SentencesAndPicture.of(session, search_sentences(session.result()), CURVE_PICTURE)
 
 
 WORK = Work("search", "search", SearchSettings, shown_result)

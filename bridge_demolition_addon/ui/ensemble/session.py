@@ -44,7 +44,7 @@ class SentencesAndPicture:
     @classmethod
     def of(cls, session: EnsembleSession, sentences: Iterable[str], picture: str) -> SentencesAndPicture:
         """Return the result of a session that has ended; the picture is there where it was drawn."""
-        lost = [f"{session.lost} runs did not finish, and count as no success"] if session.lost else []
+        lost = [f"{session.planner.lost} runs did not finish, and count as no success"] if session.planner.lost else []
         path = session.folder.path / picture
         return cls((*sentences, *lost), path if path.exists() else None)
 
@@ -101,16 +101,16 @@ class Work:
         session = self.session
         if session is None:
             return
-        before = session.done
+        before = session.planner.done
         try:
             session.step(0.0)
-            if session.is_finished:
+            if session.planner.is_finished:
                 self.session = None
                 session.finish()
                 self.result = self._shown(session)
         except (DemolitionError, OSError) as error:
             self._end_for(error, session)
-        if session.done != before or self.session is None:
+        if session.planner.done != before or self.session is None:
             redraw_views()
 
     def _end_for(self, error: Exception, session: EnsembleSession) -> None:
@@ -125,9 +125,9 @@ class Work:
     def progress(self) -> list[str]:
         """The progress in short lines."""
         session = self.session
-        lines = [f"{session.done} of {session.total} runs" + (", paused" if session.is_paused else "")]
-        if session.lost:
-            lines.append(f"{session.lost} of them did not finish")
+        lines = [f"{session.planner.done} of {session.planner.total} runs" + (", paused" if session.is_paused else "")]
+        if session.planner.lost:
+            lines.append(f"{session.planner.lost} of them did not finish")
         if not session.is_paused and session.remaining_s:
             lines.append(in_words(session.remaining_s))
         return lines

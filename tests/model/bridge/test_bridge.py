@@ -8,7 +8,8 @@ import pytest
 from support.meshes import is_closed
 
 from bridge_demolition_addon.engineering.geometry.solids import bodies, to_manifold, union
-from bridge_demolition_addon.model.bridge import bridge_density, bridge_members, deck_top, deck_underside, pier_axes
+from bridge_demolition_addon.model.bridge import bridge_density, bridge_members, deck_top, deck_underside
+from bridge_demolition_addon.model.bridge.layout import pier_axes
 from bridge_demolition_addon.model.scenario import Bridge, Deck, PierCaps, Piers
 
 DECK = Deck(width_m=8.5, thickness_m=0.25, overhang_m=0.5)

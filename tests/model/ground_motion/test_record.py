@@ -11,7 +11,7 @@ from support.checkout import EXAMPLES
 from bridge_demolition_addon.engineering.ground_motion.record import corrected, integrated
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.errors import ScenarioError
-from bridge_demolition_addon.model.ground_motion.record_file import read_record, record_text
+from bridge_demolition_addon.model.ground_motion.record_files import read_record, record_text
 from bridge_demolition_addon.model.ground_motion.settings import GroundMotion, Sweep
 from bridge_demolition_addon.model.ground_motion.sources import ground_record
 from bridge_demolition_addon.model.scenario.file import files_of, read_scenario

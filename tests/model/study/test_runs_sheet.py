@@ -6,8 +6,7 @@ import math
 import pandas
 import pytest
 
-from bridge_demolition_addon.model.study.runs_sheet import write_sheet
-from bridge_demolition_addon.model.study.runs_table import RunRow, RunsTable, write_runs
+from bridge_demolition_addon.model.study.runs_table import RunRow, RunsTable, write_runs, write_sheet
 
 TABLE = RunsTable(
     (

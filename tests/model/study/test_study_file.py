@@ -85,8 +85,8 @@ def test_a_study_is_written_and_read_back_with_the_same_draws(tmp_path):
             "vary.lowest is -1.0: expected at least 0 with a lognormal distribution",
         ),
         (vary(**NORMAL, lowest=8, highest=9), "less than 1e-06 of this distribution lies from lowest to highest"),
-        (vary(**NORMAL) + vary(**NORMAL), "number 2: ball.drop_height_m is drawn more than once"),
-        (vary("scenario.seed", **NORMAL), "vary.key is scenario.seed, which is always drawn: leave it out"),
+        (vary(**NORMAL) + vary(**NORMAL), "number 2: ball.drop_height_m is sampled more than once"),
+        (vary("scenario.seed", **NORMAL), "vary.key is scenario.seed, which is always sampled: leave it out"),
         (vary("ball.height_m", **NORMAL), "number 1: ball.height_m is unknown: expected one of"),
         (
             vary(**NORMAL | {"deviation": 1.0}),

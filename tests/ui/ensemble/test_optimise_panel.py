@@ -48,7 +48,7 @@ def test_an_optimisation_is_stopped_goes_on_and_shows_its_result(blender, panel,
     assert not ops.start_optimise.poll()
     running = drawn(blender, sidebar)
     assert "bda.stop_optimise" in running and "0 of 12 runs" in running
-    look_in_until(WORK, lambda: WORK.session.done >= 1)
+    look_in_until(WORK, lambda: WORK.session.planner.done >= 1)
     assert ops.stop_optimise() == {"FINISHED"}
     kept = read_runs(folder / "trials.csv")
     assert WORK.session is None and len(kept) >= 1

@@ -36,7 +36,7 @@ def test_a_search_is_stopped_gone_on_with_and_told(blender, panel, tmp_path):
     assert not ops.stop_search.poll() and not ops.open_search_curve.poll()
     assert ops.start_search() == {"FINISHED"}
     assert not ops.start_search.poll() and "bda.stop_search" in drawn(blender, sidebar)
-    look_in_until(WORK, lambda: WORK.session.done >= 1)
+    look_in_until(WORK, lambda: WORK.session.planner.done >= 1)
     assert ops.stop_search() == {"FINISHED"}
     kept = read_runs(folder / "trials.csv")
     assert WORK.session is None and len(kept) >= 1

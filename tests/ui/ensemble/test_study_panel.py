@@ -44,7 +44,7 @@ def test_a_study_that_runs_beside_blender_is_paused_stopped_gone_on_with_and_sho
     ops = blender.ops.bda
     assert ops.start_study() == {"FINISHED"}
     assert not ops.start_study.poll()
-    look_in_until(WORK, lambda: WORK.session.done >= 1)
+    look_in_until(WORK, lambda: WORK.session.planner.done >= 1)
     assert ops.pause_study() == {"FINISHED"}
     run = WORK.session
     assert not ops.pause_study.poll() and ops.resume_study.poll()

@@ -10,7 +10,7 @@ from bridge_demolition_addon.engineering.elasticity.structure import ElasticStru
 from bridge_demolition_addon.engineering.foundations.footings import Footings, SoilSprings
 from bridge_demolition_addon.engineering.foundations.soils import SOILS
 from bridge_demolition_addon.errors import ScenarioError
-from bridge_demolition_addon.model.foundations.settings import Foundation
+from bridge_demolition_addon.model.foundations import Foundation
 from bridge_demolition_addon.model.scenario import Scenario
 from bridge_demolition_addon.model.scenario.file import scenario_from_text
 

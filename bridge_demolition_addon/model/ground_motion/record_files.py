@@ -1,4 +1,4 @@
-"""CSV files with an accelerogram: the time, and one to three accelerations."""
+"""CSV files of ground motion: accelerograms of the user, and the record of a run."""
 
 from __future__ import annotations
 
@@ -8,22 +8,34 @@ from pathlib import Path
 
 import numpy as np
 
+from ...engineering.ground_motion.record import GroundRecord, integrated
 from ...errors import ScenarioError, UnreadableError
 from ...system.reading import MEGABYTE, file_text
+from .settings import DIRECTIONS
 
-MOST_BYTES = 50 * MEGABYTE
+_MOST_BYTES = 50 * MEGABYTE
 """Size up to which a record is read: half an hour of three components at 200 a second has 20 MB."""
+
+_MOST_RECORD_BYTES = 200 * MEGABYTE
 
 _LEAST_ROWS = 4
 
 _GAP = 1.5
 """A step longer than the middle one by this factor is a gap: sampling is even but for the rounding of the times."""
 
+_QUANTITIES = (
+    ("acceleration", "m_s2", "accelerations_m_s2"),
+    ("velocity", "m_s", "velocities_m_s"),
+    ("displacement", "m", "displacements_m"),
+)
+
+_HEADING = ("time_s", *(f"{name}_{direction}_{unit}" for name, unit, _ in _QUANTITIES for direction in DIRECTIONS))
+
 
 def accelerogram_from_file(path: Path, columns: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return times (k,) in s and accelerations (k, columns) in the file's unit."""
+    """Return times (k,) in s and accelerations (k, columns) in the file's unit, from rows of these."""
     try:
-        text = file_text(path, MOST_BYTES)
+        text = file_text(path, _MOST_BYTES)
     except UnreadableError as error:
         raise ScenarioError(f'ground_motion.file is "{path}": {error}') from error
     separator = ";" if ";" in text else ","
@@ -48,7 +60,7 @@ def _row(path: Path, number: int, row: list[str], columns: int) -> list[float]:
             "for each of ground_motion.directions, with a point in decimals"
         )
     try:
-        numbers = [float(each) for each in row]
+        numbers = list(map(float, row))
     except ValueError as error:
         raise ScenarioError(f"{path}, row {number}: expected numbers, found {', '.join(row)}") from error
     if not np.isfinite(numbers).all():
@@ -81,3 +93,25 @@ def _is_number(text: str) -> bool:
     except ValueError:
         return False
     return True
+
+
+def record_text(record: GroundRecord, start_s: float) -> str:
+    """Return a record as CSV: simulated time, then acceleration, velocity and displacement along, across and up."""
+    columns = [start_s + record.times_s, *(getattr(record, name) for _, _, name in _QUANTITIES)]
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(_HEADING)
+    writer.writerows(np.column_stack(columns).tolist())
+    return text.getvalue()
+
+
+def read_record(path: Path) -> tuple[GroundRecord, float]:
+    """Return a record that `record_text` wrote, and the time at which it begins."""
+    try:
+        rows = list(csv.reader(io.StringIO(file_text(path, _MOST_RECORD_BYTES))))
+        values = np.array(rows[1:], float)
+    except (UnreadableError, csv.Error, ValueError) as error:
+        raise ScenarioError(f"{path}: expected the motion of the ground ({error})") from error
+    if not rows or tuple(rows[0]) != _HEADING or len(values) < 2 or not np.isfinite(values).all():
+        raise ScenarioError(f"{path}: expected the motion of the ground")
+    return integrated(values[:, 0], values[:, 1:4]), float(values[0, 0])

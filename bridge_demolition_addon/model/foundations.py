@@ -1,10 +1,10 @@
-"""What a bridge stands on, as the user says it."""
+"""Foundations: the soil under members, as a scenario gives it."""
 
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ...engineering.foundations.soils import HORIZONTAL_SHARE, SOILS, Soil
-from ..schema import SIZE, Table, given, key
+from ..engineering.foundations.soils import HORIZONTAL_SHARE, SOILS, Soil
+from .schema import SIZE, Table, given, key
 
 _NEWTON_PER_MEGANEWTON = 1e6
 _PASCAL_PER_KILOPASCAL = 1e3
@@ -12,9 +12,9 @@ _PASCAL_PER_KILOPASCAL = 1e3
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Foundation(Table):
-    """Soil that gives under the shards of a member that stand on the ground: a bed of springs, which do not pull, bear
-    up to a pressure and settle for good beyond it, and slide where friction ends. It needs `connections.stiffness`
-    `elastic`."""
+    """Soil that deforms under the shards of a member that stand on the ground: a bed of springs, which do not pull,
+    resist up to a pressure and settle for good beyond it, and slide where friction ends. It needs
+    `connections.stiffness` `elastic`."""
 
     table: ClassVar[str] = "foundations"
 
@@ -53,7 +53,7 @@ class Foundation(Table):
 
     @property
     def ground(self) -> Soil:
-        """Return stiffness and friction."""
+        """Stiffness and friction."""
         of_class = SOILS[self.soil] if self.soil else None
         stiffness = None if self.stiffness_mn_m3 is None else _NEWTON_PER_MEGANEWTON * self.stiffness_mn_m3
         return Soil(
@@ -63,7 +63,7 @@ class Foundation(Table):
 
     @property
     def capacity_pa(self) -> float:
-        """Return the pressure at which it settles for good; infinite where there is none."""
+        """Pressure at which it settles for good; infinite where there is none."""
         if self.capacity_kpa is not None:
             return _PASCAL_PER_KILOPASCAL * self.capacity_kpa
         return float("inf") if self.soil is None else SOILS[self.soil].capacity_pa

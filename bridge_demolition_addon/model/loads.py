@@ -1,4 +1,4 @@
-"""A load on a part of the bridge, as a scenario gives it: how large it is, at which time."""
+"""Loads: forces on parts of the bridge that grow with time, as a scenario gives them."""
 
 from bisect import bisect_right
 from collections.abc import Iterator
@@ -7,16 +7,53 @@ from itertools import pairwise
 from math import sqrt
 from typing import ClassVar
 
-from ...errors import ScenarioError
-from ..actions import Fact, Plan, Worksite
-from ..schema import key, shown
-from .part import Part
+from ..errors import ScenarioError
+from .actions import Fact, Plan, PlannedAction, Worksite
+from .schema import key, shown
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Part(PlannedAction):
+    """An action on a part of the bridge: some members, what lies in a box, or what of the members lies in the box."""
+
+    table: ClassVar[str] = "parts"
+
+    members: tuple[str, ...] | None = key(
+        'Members that it happens to, by the names that `bda check` lists or by kind: `["pier 1", "pier cap"]`.',
+        default=None,
+    )
+    lowest_corner_m: tuple[float, float, float] | None = key(
+        "Lowest x, y and z of the box that it happens in, as the bridge was built. Give both corners or none.",
+        default=None,
+        unit="m",
+    )
+    highest_corner_m: tuple[float, float, float] | None = key("Highest x, y and z of that box.", default=None, unit="m")
+
+    @property
+    def where(self) -> str:
+        """Members and box as text; empty where there are none."""
+        members = ", ".join(self.members or ())
+        corners = zip(self.lowest_corner_m or (), self.highest_corner_m or (), strict=True)
+        box = " by ".join(f"{low:g} to {high:g}" for low, high in corners)
+        return " in ".join(part for part in (members, box and f"{box} m") if part)
+
+    def _check_together(self) -> None:
+        lowest, highest = self.lowest_corner_m, self.highest_corner_m
+        if (lowest is None) != (highest is None):
+            given, missing = ("lowest", "highest") if highest is None else ("highest", "lowest")
+            raise self.unexpected(f"{missing}_corner_m", f"it with {self.table}.{given}_corner_m")
+        for axis, (low, high) in enumerate(zip(lowest or (), highest or (), strict=True)):
+            if not low < high:
+                raise ScenarioError(
+                    f"{self.table}.highest_corner_m[{axis}] is {high}: expected more than that of the lowest "
+                    f"corner, {low} (m)"
+                )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Load(Part):
     """A force that grows with time, such as that of jacks in a load test, or of a machine that pushes or pulls: on
-    members, on the shards whose centres of mass lie in a box, or at a point. It is shared out by mass and acts at the
+    members, on the shards whose centres of mass lie in a box, or at a point. It is distributed by mass and acts at the
     centres of mass; with a point, it acts there, on the shard that is nearest. It goes with the shards, and its
     direction stays. A run has it; `bda stages` does not.
     """
@@ -45,7 +82,7 @@ class Load(Part):
 
     @property
     def unit_direction(self) -> tuple[float, float, float]:
-        """Return the direction, 1 long."""
+        """Unit vector of the direction."""
         x, y, z = self.direction
         size = sqrt(sum(component * component for component in self.direction))
         return x / size, y / size, z / size
@@ -94,8 +131,8 @@ class Load(Part):
             raise ScenarioError(f"{self.table}.direction is {shown(self.direction)}, all 0: expected a direction")
         if len(self.forces_n) != len(self.times_s):
             raise self.unexpected("forces_n", f"as many as loads.times_s, {len(self.times_s)}")
-        for place, (before_s, time_s) in enumerate(pairwise(self.times_s), start=1):
+        for number, (before_s, time_s) in enumerate(pairwise(self.times_s), start=1):
             if not before_s < time_s:
                 raise ScenarioError(
-                    f"{self.table}.times_s[{place}] is {time_s}: expected more than the one before, {before_s} (s)"
+                    f"{self.table}.times_s[{number}] is {time_s}: expected more than the one before, {before_s} (s)"
                 )

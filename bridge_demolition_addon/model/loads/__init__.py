@@ -1,1 +1,0 @@
-"""Forces on parts of the bridge that grow with time."""
