@@ -152,7 +152,7 @@ def test_a_search_stops_when_its_limit_is_close_enough(tmp_path):
         (("highest = 16000", "highest = 700"), "more than search.lowest, 800"),
         (("trials = 40", "trials = 5"), "search.trials is 5"),
         (('key = "geometry.block.density_kg_m3"', 'key = "ball.mass_kg"'), "ball.mass_kg is not in the scenario"),
-        (('key = "geometry.block.density_kg_m3"', 'key = "connections.strength_factor"'), "searched along and drawn"),
+        (('key = "geometry.block.density_kg_m3"', 'key = "connections.strength_factor"'), "searched along and sampled"),
         (("[[criteria]]", "[[criterion]]"), "criterion"),
         (('scenario = "scenario.toml"', 'scenario = "none.toml"'), "none.toml"),
     ],

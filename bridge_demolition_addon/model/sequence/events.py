@@ -24,12 +24,8 @@ class Structure:
     """Bodies and connections as they were built, among which changes select theirs."""
 
     centres_m: np.ndarray  # (n, 3), centres of mass
-    member_names: (  # (n,), of the members that bodies were cut from; empty for one that was not
-        np.ndarray
-    )  # (n,), name and kind of the member that each body was cut from; empty for one that was not
-    member_kinds: (  # (n,), as above
-        np.ndarray
-    )  # (n,), name and kind of the member that each body was cut from; empty for one that was not
+    member_names: np.ndarray  # (n,), of the members that bodies were cut from; empty for one that was not
+    member_kinds: np.ndarray  # (n,), as above
     is_shard: np.ndarray  # (n,), shards that can move
     pairs: np.ndarray  # (m, 2), bodies of the connections
     points_m: np.ndarray  # (m, 3), positions of the connections

@@ -21,9 +21,7 @@ class PlacedLoad:
     load: Load
     bodies: np.ndarray  # (b,), shards that carry it
     shares: np.ndarray  # (b,), part of it on each
-    arm_m: (  # (3,), from the centre of mass of its one shard; None where it acts there
-        np.ndarray | None
-    )  # (3,), from the centre of mass of the one shard that bears it to where it acts; None where that is the centre
+    arm_m: np.ndarray | None  # (3,), from the centre of mass of its one shard; None where it acts there
 
 
 def placed_loads(

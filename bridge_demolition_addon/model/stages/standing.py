@@ -47,12 +47,8 @@ class Standing:
 
     held: np.ndarray  # (n,), shards that connections to a support hold
     loads: ConnectionLoads  # of all m connections, in the axes of the world; 0 for those that are gone
-    alone: (  # (m,), utilisation of each connection by itself; nan for those that are gone
-        np.ndarray
-    )  # (m,), utilisation of each connection by itself, and of the section of its member; nan for those that are gone
-    together: (  # (m,), utilisation of the sections of their members; nan as above
-        np.ndarray
-    )  # (m,), utilisation of each connection by itself, and of the section of its member; nan for those that are gone
+    alone: np.ndarray  # (m,), utilisation of each connection by itself; nan for those that are gone
+    together: np.ndarray  # (m,), utilisation of the sections of their members; nan as above
     sag_m: float  # largest downward displacement of a shard
     frequency_hz: float  # first natural frequency
 
