@@ -67,7 +67,7 @@ def test_the_smallest_charge_is_found_and_confirmed_and_a_stopped_one_goes_on(tm
         (("finalists = 2", "finalists = 21"), "optimise.finalists is 21: expected at most optimise.candidates, 20"),
         (('"charges.mass_kg"', '"charges.mass"'), "[[quantities]] number 1: charges.mass is"),
         (('"charges.mass_kg"', '"ball.mass_kg"'), "[[quantities]] number 1: ball.mass_kg is not in the scenario"),
-        (('"charges.mass_kg"', '"connections.strength_factor"'), "connections.strength_factor is chosen and drawn"),
+        (('"charges.mass_kg"', '"connections.strength_factor"'), "connections.strength_factor is chosen and sampled"),
         (("lowest = 0.001", "lowest = 200.0"), "quantities.highest is 100.0: expected more than"),
         (("highest = 100.0", "highest = 1e30"), "may come to 1e+30, which the scenario cannot have"),
         (("[1.0, 0.0, 9.5]", "[9.5, 0.0, 9.5]"), "expected no coordinate below that of places.lowest_corner_m"),
