@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..model.results.removed_shards import OUT_OF_REACH_M
+from ..model.results.motion import OUT_OF_REACH_M
 from .body_motion import BodyMotionReader
 from .contacts import ContactReader
 from .layout import ASLEEP, AWAKE, DISABLED, SLEEPING, WANTS_SLEEP, Layout

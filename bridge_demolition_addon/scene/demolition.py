@@ -18,8 +18,7 @@ from ..model.blast.settings import Apply
 from ..model.bridge.extent import room_around, surface_height
 from ..model.scenario import Ball, Change, Jackhammer, Load, Scenario
 from ..model.sequence.checked_model import check_actions
-from ..model.structure.model import Model
-from ..model.structure.start_motion import start_motions
+from ..model.structure.model import Model, start_motions
 from .as_built import keep_built_bodies
 from .blast.charges import charge_objects, create_charges, keep_blast
 from .blast.force_fields import build_force_objects

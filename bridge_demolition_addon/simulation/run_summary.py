@@ -16,7 +16,7 @@ from ..model.debris.throws import debris_of
 from ..model.debris.touchdown import landings, shaking_at
 from ..model.results.arrays import Results
 from ..model.results.fingerprint import motion_digest, result_digest
-from ..model.results.removed_shards import without_removed
+from ..model.results.motion import without_removed
 from ..model.results.summary import settling, summarise
 from ..model.scenario import Scenario
 from ..model.schema import given

@@ -117,7 +117,7 @@ def draw(run: Path) -> None:
     from bridge_demolition_addon.charts.plan_maps import debris_map
     from bridge_demolition_addon.model.debris.throws import debris_of
     from bridge_demolition_addon.model.results.arrays import load_results
-    from bridge_demolition_addon.model.results.removed_shards import without_removed
+    from bridge_demolition_addon.model.results.motion import without_removed
 
     results = without_removed(load_results(run))[0]
     figure = plt.figure(figsize=(9.6, 9.0), layout="constrained")

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from ...engineering.geometry.mesh import TriangleMesh, triangle_areas_and_normals
+from ...errors import ScenarioError
 from ..actions import Fact
 from ..schema import given
 
@@ -64,3 +65,12 @@ def member_facts(members: Sequence[Member]) -> Iterator[Fact]:
 
 def _volume_and_mass(volume_m3: float, mass_kg: float) -> str:
     return f"{volume_m3:9.3f} m³ {mass_kg / 1000.0:10.3f} t"
+
+
+def members_named(name: str, members: Sequence[Member], key: str) -> list[int]:
+    """Return the indices of the members of a name or kind, which stands under a key of the scenario."""
+    chosen = [index for index, member in enumerate(members) if name in (member.name, member.kind)]
+    if not chosen:
+        known = ", ".join(sorted({member.name for member in members} | {member.kind for member in members}))
+        raise ScenarioError(f'{key} is "{name}": expected the name or kind of a member, one of {known}')
+    return chosen

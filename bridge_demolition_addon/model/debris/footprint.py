@@ -8,10 +8,11 @@ import numpy as np
 from manifold3d import CrossSection, OpType
 
 from ...engineering.arrays import Rows
-from ...engineering.geometry.plan_areas import united
-from ...engineering.geometry.vectors import transformed
+from ...engineering.geometry.plan_areas import distances_outside, united
+from ...engineering.geometry.vectors import distance, transformed
 from ...errors import OutputError
 from ..results.arrays import Results
+from ..results.motion import MOVED_M
 
 _STRAIGHT_SIDE_M = 1e-5
 """What leaves a straight line by no more is one."""
@@ -110,3 +111,27 @@ def _ends_of_parts(plans: np.ndarray) -> list[int]:
 def _first_above(distances_m: np.ndarray) -> int:
     counts = distances_m > _STRAIGHT_M
     return int(counts.argmax()) if counts.any() else len(counts)
+
+
+def bodies_that_moved(results: Results, bodies: np.ndarray) -> np.ndarray:
+    """Return the bodies that were farther than `MOVED_M` from their first position at a recorded time."""
+    places = results.frames.positions_m[:, bodies]
+    return bodies[distance(places, places[0]).max(axis=0, initial=0.0) > MOVED_M]
+
+
+def reaches_on_the_way(results: Results, bodies: Rows, plan: CrossSection) -> np.ndarray:
+    """Return the debris distance of each body from a plan at any recorded time, m (b,); 0 within it."""
+    own, sides = results.inventory.vertices_by_body(), straightened(plan)
+    farthest = np.zeros(len(bodies))
+    for row, body in enumerate(bodies):
+        points = plans_of(results, body, own[body])[_steps_with_news(results, body)]
+        farthest[row] = distances_outside(sides, points.reshape(-1, 2)).max()
+    return farthest
+
+
+def _steps_with_news(results: Results, body: int) -> np.ndarray:
+    """Return which recorded steps (k,) show a body in another position or rotation than the one before."""
+    places, rotations = results.frames.positions_m[:, body], results.frames.rotations[:, body]
+    news = np.ones(len(places), bool)
+    news[1:] = (np.diff(places, axis=0) != 0.0).any(axis=1) | (np.diff(rotations, axis=0) != 0.0).any(axis=(1, 2))
+    return news

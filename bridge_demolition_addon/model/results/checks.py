@@ -18,102 +18,62 @@ _FARTHEST_M = 1e7
 _ROTATION_SLACK = 1e-3
 """Single precision of Blender, turned on over thousands of frames."""
 
-_SHAPES = {
-    "reading": ("U", ""),
-    "frames": ("i", "k"),
-    "times_s": ("f", "k"),
-    "substep_s": ("f", "k"),
-    "places_m": ("f", "kn3"),
-    "rotations": ("f", "kn33"),
-    "velocities_m_s": ("f", "kn3"),
-    "spins_rad_s": ("f", "kn3"),
-    "asleep": ("b", "kn"),
-    "intact": ("b", "km"),
-    "blast_impulses_ns": ("f", "kn3"),
-    "body_names": ("U", "n"),
-    "body_kinds": ("U", "n"),
-    "masses_kg": ("f", "n"),
-    "volumes_m3": ("f", "n"),
-    "body_members": ("U", "n"),
-    "body_member_kinds": ("U", "n"),
-    "vertices_m": ("f", "v3"),
-    "vertex_counts": ("i", "n"),
-    "connection_names": ("U", "m"),
-    "pairs": ("i", "m2"),
-    "points_m": ("f", "m3"),
-    "areas_m2": ("f", "m"),
-    "normals": ("f", "m3"),
-    "second_moments_m4": ("f", "m22"),
-    "triangles": ("i", "t3"),
-    "triangle_counts": ("i", "n"),
-    "body_forces_n": ("f", "kn3"),
-    "body_peaks_n": ("f", "kn"),
-    "body_sums_n": ("f", "kn"),
-    "body_peak_sums_n": ("f", "kn"),
-    "body_contact_impulses_ns": ("f", "kn3"),
-    "body_signed_2019_n": ("f", "kn"),
-    "stresses_pa": ("f", "kn33"),
-    "von_mises_pa": ("f", "kn"),
-    "connection_forces_n": ("f", "km3"),
-    "connection_moments_nm": ("f", "km3"),
-    "connection_peaks_n": ("f", "km"),
-    "connection_peak_forces_n": ("f", "km3"),
-    "connection_peak_moments_nm": ("f", "km3"),
-    "work_of_gravity_j": ("f", "k"),
-    "work_of_loads_j": ("f", "k"),
-    "work_of_tools_j": ("f", "k"),
-    "lost_to_damping_j": ("f", "k"),
-    "dissipated_between_bodies_j": ("f", "k"),
-    "made_by_connections_j": ("f", "k"),
-    "made_by_contacts_j": ("f", "k"),
-    "made_by_lifting_j": ("f", "k"),
-    "made_by_solver_j": ("f", "kn"),
-    "balls": ("i", "b"),
-    "ball_times_s": ("f", "s"),
-    "ball_impulses_ns": ("f", "sb3"),
-    "ball_velocities_m_s": ("f", "sb3"),
-    "contact_frames": ("i", "c"),
-    "contact_bodies": ("i", "c2"),
-    "contact_places_m": ("f", "c3"),
-    "contact_normals": ("f", "c3"),
-    "contact_normal_impulses_ns": ("f", "c"),
-    "contact_friction_impulses_ns": ("f", "c3"),
+_ARRAYS = {
+    ("U", ""): "reading",
+    ("i", "k"): "frames",
+    ("f", "k"): "times_s substep_s",
+    ("f", "kn3"): "places_m velocities_m_s spins_rad_s",
+    ("f", "kn33"): "rotations",
+    ("b", "kn"): "asleep",
+    ("b", "km"): "intact",
+    ("U", "n"): "body_names body_kinds body_members body_member_kinds",
+    ("f", "n"): "masses_kg volumes_m3",
+    ("f", "v3"): "vertices_m",
+    ("i", "n"): "vertex_counts triangle_counts",
+    ("U", "m"): "connection_names",
+    ("i", "m2"): "pairs",
+    ("f", "m3"): "points_m",
+    ("f", "m"): "areas_m2",
+    ("nan", "m3"): "normals",
+    ("nan", "m22"): "second_moments_m4",
+    ("i", "t3"): "triangles",
+    ("nan", "kn3"): "blast_impulses_ns body_forces_n body_contact_impulses_ns",
+    ("nan", "kn"): "body_peaks_n body_sums_n body_peak_sums_n body_signed_2019_n von_mises_pa made_by_solver_j",
+    ("nan", "kn33"): "stresses_pa",
+    ("nan", "km3"): "connection_forces_n connection_moments_nm connection_peak_forces_n connection_peak_moments_nm",
+    ("nan", "km"): "connection_peaks_n",
+    ("nan", "k"): "work_of_gravity_j work_of_loads_j work_of_tools_j lost_to_damping_j dissipated_between_bodies_j "
+    "made_by_connections_j made_by_contacts_j made_by_lifting_j",
+    ("i", "b"): "balls",
+    ("f", "s"): "ball_times_s",
+    ("nan", "sb3"): "ball_impulses_ns ball_velocities_m_s",
+    ("i", "c"): "contact_frames",
+    ("i", "c2"): "contact_bodies",
+    ("f", "c3"): "contact_places_m contact_normals contact_friction_impulses_ns",
+    ("f", "c"): "contact_normal_impulses_ns",
 }
-"""Kind and shape of every array by its name in the file, with the letters of `Results`' parts: n bodies, m connections,
-k frames, v vertices, t triangles, b balls, s sub-steps, c contacts."""
+"""Names of arrays in the file by kind and shape, with the letters of `Results`' parts: n bodies, m connections,
+k frames, v vertices, t triangles, b balls, s sub-steps, c contacts. In those of kind nan, that stands for numbers that
+were not recorded; in all others every number is known."""
 
-_KINDS = {"U": ("texts", "U"), "i": ("whole numbers", "iu"), "f": ("fractions", "f"), "b": ("true or false", "b")}
-
-_KNOWN = (
-    "times_s",
-    "substep_s",
-    "places_m",
-    "rotations",
-    "velocities_m_s",
-    "spins_rad_s",
-    "masses_kg",
-    "volumes_m3",
-    "vertices_m",
-    "points_m",
-    "areas_m2",
-    "ball_times_s",
-    "contact_places_m",
-    "contact_normals",
-    "contact_normal_impulses_ns",
-    "contact_friction_impulses_ns",
-)
-"""Arrays in which every number is known; in others, nan stands for what was not recorded."""
+_KINDS = {
+    "U": ("texts", "U"),
+    "i": ("whole numbers", "iu"),
+    "f": ("fractions", "f"),
+    "nan": ("fractions", "f"),
+    "b": ("true or false", "b"),
+}
 
 
 def check_arrays(arrays: Mapping[str, np.ndarray]) -> None:
     """Check that arrays by their names in the file have the kinds, shapes and sizes of a run's."""
     lengths: dict[str, tuple[int, str]] = {}
-    for name, (kind, shape) in _SHAPES.items():
-        if name in arrays:
-            _check_kind(name, arrays[name], kind)
-            _check_shape(name, arrays[name], shape, lengths)
-            if kind == "f":
-                _check_sizes(name, arrays[name])
+    for (kind, shape), names in _ARRAYS.items():
+        for name in names.split():
+            if name in arrays:
+                _check_kind(name, arrays[name], kind)
+                _check_shape(name, arrays[name], shape, lengths)
+                _check_sizes(name, arrays[name], kind)
     _check_order(arrays)
     bodies = len(arrays["body_names"])
     for name, least, most in (("pairs", -1, bodies), ("balls", 0, bodies), ("vertex_counts", 0, 2**31)):
@@ -134,7 +94,7 @@ def _check_triangles(arrays: Mapping[str, np.ndarray]) -> None:
         if name not in arrays:
             raise OutputError(f"{name}: is missing")
     triangles, counts = arrays["triangles"], arrays["triangle_counts"]
-    _expect("triangle_counts", counts, lambda each: each >= 0, "no negative numbers")
+    _expect("triangle_counts", counts, lambda values: values >= 0, "no negative numbers")
     if (total := int(counts.sum())) != len(triangles):
         raise OutputError(f"triangle_counts: add up to {total}, expected {len(triangles)}, as in triangles")
     most = np.repeat(arrays["vertex_counts"], counts)[:, None]
@@ -146,10 +106,10 @@ def _check_contacts(arrays: Mapping[str, np.ndarray]) -> None:
     """Check that contacts, where they were recorded, are of existing bodies, in order."""
     if "contact_frames" not in arrays:
         return
-    _expect("contact_frames", np.diff(arrays["contact_frames"]), lambda each: each >= 0, "numbers that do not fall")
+    _expect("contact_frames", np.diff(arrays["contact_frames"]), lambda steps: steps >= 0, "numbers that do not fall")
     bodies = len(arrays["body_names"])
     wanted = f"whole numbers from 0 to {bodies - 1}"
-    _expect("contact_bodies", arrays["contact_bodies"], lambda each: (each >= 0) & (each < bodies), wanted)
+    _expect("contact_bodies", arrays["contact_bodies"], lambda values: (values >= 0) & (values < bodies), wanted)
 
 
 def _check_kind(name: str, array: np.ndarray, kind: str) -> None:
@@ -164,31 +124,31 @@ def _check_shape(name: str, array: np.ndarray, shape: str, lengths: dict[str, tu
     """Check the shape of an array, in which a letter is the same length as in the arrays before."""
     if array.ndim != len(shape):
         raise OutputError(f"{name}: expected {len(shape)} axes, found {array.ndim}")
-    for axis, (letter, found) in enumerate(zip(shape, array.shape, strict=True)):
-        wanted, where = (int(letter), "") if letter.isdigit() else lengths.setdefault(letter, (found, name))
-        if found != wanted:
+    for axis, (letter, length) in enumerate(zip(shape, array.shape, strict=True)):
+        wanted, where = (int(letter), "") if letter.isdigit() else lengths.setdefault(letter, (length, name))
+        if length != wanted:
             as_there = f", as in {where}" if where else ""
-            raise OutputError(f"{name}: expected a length of {wanted}{as_there}, found {found} along axis {axis}")
+            raise OutputError(f"{name}: expected a length of {wanted}{as_there}, found {length} along axis {axis}")
 
 
-def _check_sizes(name: str, array: np.ndarray) -> None:
-    if name in _KNOWN:
+def _check_sizes(name: str, array: np.ndarray, kind: str) -> None:
+    if kind == "f":
         most = _FARTHEST_M if name.endswith("_m") else LARGEST_NUMBER
-        _expect(name, array, lambda each: np.abs(each) <= most, f"numbers of at most {most:.3g}")
-    else:
+        _expect(name, array, lambda values: np.abs(values) <= most, f"numbers of at most {most:.3g}")
+    elif kind == "nan":
         wanted = f"numbers of at most {LARGEST_NUMBER:.3g}"
-        _expect(name, array, lambda each: ~(np.abs(each) > LARGEST_NUMBER), wanted)
+        _expect(name, array, lambda values: ~(np.abs(values) > LARGEST_NUMBER), wanted)
 
 
 def _check_order(arrays: Mapping[str, np.ndarray]) -> None:
     if not len(arrays["frames"]):
         raise OutputError("frames: expected at least one")
     for name in ("masses_kg", "volumes_m3", "areas_m2", "substep_s"):
-        _expect(name, arrays[name], lambda each: each >= 0.0, "no negative numbers")
+        _expect(name, arrays[name], lambda values: values >= 0.0, "no negative numbers")
     for name in ("frames", "times_s", "ball_times_s"):
-        _expect(name, np.diff(arrays[name]), lambda each: each >= 0, "numbers that do not fall")
+        _expect(name, np.diff(arrays[name]), lambda values: values >= 0, "numbers that do not fall")
     _expect("rotations", arrays["rotations"], _are_rotations, "rotation matrices")
-    _expect("frames", arrays["frames"], lambda each: np.abs(each) < 2**31, "frames of Blender")
+    _expect("frames", arrays["frames"], lambda values: np.abs(values) < 2**31, "frames of Blender")
 
 
 def _are_rotations(matrices: np.ndarray) -> np.ndarray:

@@ -15,6 +15,12 @@ _HIT_SHARE = 0.5
 MOVED_M = 0.1
 """A shard that ends farther than this from where it began is debris; the rest of the bridge still stands."""
 
+REMOVED = "removed"
+"""Kind of body of a shard that was removed."""
+
+OUT_OF_REACH_M = 1000.0
+"""How far below its position a removed body stays. What ends more than half as far down was put there, not dropped."""
+
 
 def relative_to_ground(results: Results) -> Results:
     """Return a run in the axes of the ground: the same where the ground rests, or is not there."""
@@ -51,3 +57,20 @@ def first_hit(velocities: np.ndarray, times: np.ndarray, gravity: np.ndarray) ->
     departures = length(np.diff(velocities, axis=0) - steps[:, None] * gravity)
     hits = np.flatnonzero(departures > _HIT_SHARE * steps * length(gravity))
     return int(hits[0]) + 1 if len(hits) else None
+
+
+def without_removed(results: Results) -> tuple[Results, int]:
+    """Return a run without the shards that were removed, and how many these are.
+
+    They are no shards any more, and have no mass, so that no count of shards and no energy includes them, also not for
+    the time before.
+    """
+    shards = results.inventory.of_kind("shard")
+    heights = results.frames.positions_m[:, shards, 2]
+    gone = shards[heights[0] - heights[-1] > OUT_OF_REACH_M / 2.0]
+    if not len(gone):
+        return results, 0
+    kinds, masses = results.inventory.body_kinds.astype(object), results.inventory.masses_kg.copy()
+    kinds[gone], masses[gone] = REMOVED, 0.0
+    inventory = replace(results.inventory, body_kinds=np.array(kinds, str), masses_kg=masses)
+    return replace(results, inventory=inventory), len(gone)

@@ -12,8 +12,7 @@ from ...engineering.geometry.vectors import dot, length
 from ...engineering.mechanics.impact import CONCRETE, STEEL, Contact, Hit, estimate, hits
 from .arrays import Results
 from .key_frame import RESTING_WEIGHTS, impact_step, key_step
-from .motion import relative_to_ground, throw
-from .removed_shards import without_removed
+from .motion import relative_to_ground, throw, without_removed
 from .solver_energy import energy_summary
 
 

@@ -12,11 +12,11 @@ from ...engineering.foundations.footings import SoilSprings
 from ...engineering.geometry.mesh import TriangleMesh, triangle_areas_and_normals
 from ...engineering.structure.connections import GROUND, Connections
 from ...errors import ScenarioError
-from ..bridge.member import Member
+from ..bridge.member import Member, members_named
 from ..foundations import Foundation
 
 _PLACES = 128
-"""Fewest places under a footing: with them a rectangular one resists turning within 2 %."""
+"""Fewest places under a footing: with them a rectangular one resists rotation within 2 %."""
 
 _LEVEL_M = 1e-6
 """How far a face may lie off the ground and still stand on it."""
@@ -30,9 +30,9 @@ def soil_springs(
     connections: Connections,
 ) -> SoilSprings | None:
     """Return the springs under a model's footings; None where it stands on unyielding ground."""
-    found: dict[int, tuple[Foundation, np.ndarray, np.ndarray]] = {}
+    footings: dict[int, tuple[Foundation, np.ndarray, np.ndarray]] = {}
     for foundation in foundations:
-        for index in _chosen(foundation, members):
+        for index in members_named(foundation.member, members, "foundations.member"):
             rows = _standing_rows(connections, member_of_shard, index)
             if not len(rows):
                 raise ScenarioError(
@@ -40,23 +40,23 @@ def soil_springs(
                     "ground and can move: expected a member that does, and no support under it"
                 )
             for row, places, areas in _places(foundation, members[index], rows, shards, connections):
-                if row in found:
+                if row in footings:
                     raise ScenarioError(f"{members[index].name} has two foundations: expected one")
-                found[row] = foundation, places, areas
-    if not found:
+                footings[row] = foundation, places, areas
+    if not footings:
         return None
-    order = sorted(found)
-    of_rows = [found[row] for row in order]
-    stiffness = np.array([each.ground.stiffness_n_m3 for each, _, _ in of_rows])
+    order = sorted(footings)
+    of_rows = [footings[row] for row in order]
+    stiffness = np.array([foundation.ground.stiffness_n_m3 for foundation, _, _ in of_rows])
     return SoilSprings(
         rows=np.array(order),
         footings=np.repeat(np.arange(len(order)), [len(areas) for _, _, areas in of_rows]),
         places_m=np.concatenate([places for _, places, _ in of_rows]),
         areas_m2=np.concatenate([areas for _, _, areas in of_rows]),
         stiffness_n_m3=stiffness,
-        horizontal_n_m3=stiffness * np.array([each.horizontal_share for each, _, _ in of_rows]),
-        capacity_pa=np.array([each.capacity_pa for each, _, _ in of_rows]),
-        friction=np.array([each.ground.friction for each, _, _ in of_rows]),
+        horizontal_n_m3=stiffness * np.array([foundation.horizontal_share for foundation, _, _ in of_rows]),
+        capacity_pa=np.array([foundation.capacity_pa for foundation, _, _ in of_rows]),
+        friction=np.array([foundation.ground.friction for foundation, _, _ in of_rows]),
     )
 
 
@@ -72,7 +72,7 @@ def second_moments_of(soil: SoilSprings) -> np.ndarray:
     """Return the second moments (f, 2, 2) of footings, as `second_moments` has them; their z is along the road."""
     x, y = (soil.places_m - _middles(soil)[soil.footings])[:, :2].T
     area = soil.areas_m2
-    xx, yy, xy = (_summed(soil, area * each) for each in (x * x, y * y, x * y))
+    xx, yy, xy = (_summed(soil, area * product) for product in (x * x, y * y, x * y))
     return np.stack((np.stack((xx, -xy), axis=-1), np.stack((-xy, yy), axis=-1)), axis=-2)
 
 
@@ -86,17 +86,6 @@ def with_soil(stiffness: SectionStiffness, soil: SoilSprings) -> SectionStiffnes
     torsion[soil.rows] = soil.horizontal_n_m3 * (moments[:, 0, 0] + moments[:, 1, 1])
     bending[soil.rows] = soil.stiffness_n_m3[:, None, None] * moments
     return SectionStiffness(axial, shear, torsion, bending)
-
-
-def _chosen(foundation: Foundation, members: Sequence[Member]) -> list[int]:
-    chosen = [index for index, each in enumerate(members) if foundation.member in (each.name, each.kind)]
-    if not chosen:
-        known = sorted({member.name for member in members} | {member.kind for member in members})
-        raise ScenarioError(
-            f'foundations.member is "{foundation.member}": expected the name or kind of a member, one of '
-            f"{', '.join(known)}"
-        )
-    return chosen
 
 
 def _standing_rows(connections: Connections, member_of_shard: np.ndarray, member: int) -> np.ndarray:
@@ -126,12 +115,12 @@ def _places(
                 f"{member.name}: expected at least {high[0] - low[0]:.4g} × {high[1] - low[1]:.4g} m, which stand on it"
             )
     middle = 0.5 * (low + high)
-    found = []
+    parts_of_rows = []
     for row, triangles in zip(rows.tolist(), faces, strict=True):
         parts = _divided(triangles, int(np.ceil(np.sqrt(_PLACES / len(triangles)))))
         areas, _ = triangle_areas_and_normals(parts)
-        found.append((row, middle + scale * (parts.mean(axis=1) - middle), scale[0] * scale[1] * areas))
-    return found
+        parts_of_rows.append((row, middle + scale * (parts.mean(axis=1) - middle), scale[0] * scale[1] * areas))
+    return parts_of_rows
 
 
 def _standing_triangles(shard: TriangleMesh, height_m: float) -> np.ndarray:
@@ -152,7 +141,7 @@ def _divided(triangles: np.ndarray, count: int) -> np.ndarray:
 
 def _middles(soil: SoilSprings) -> np.ndarray:
     whole = _summed(soil, soil.areas_m2)
-    return np.stack([_summed(soil, soil.areas_m2 * each) / whole for each in soil.places_m.T], axis=1)
+    return np.stack([_summed(soil, soil.areas_m2 * values) / whole for values in soil.places_m.T], axis=1)
 
 
 def _summed(soil: SoilSprings, values: np.ndarray) -> np.ndarray:

@@ -22,8 +22,8 @@ from ...engineering.fracture.shards import Fracture, fracture, joined_fractures,
 from ...engineering.fracture.shared_faces import SharedFaces, joined_faces, touching_faces
 from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.solids import contains
-from ...errors import GeometryError, ScenarioError
-from ..bridge.member import Member
+from ...errors import GeometryError
+from ..bridge.member import Member, members_named
 from ..scenario import FractureSettings, Scenario
 from ..scenario.fracture import MemberFracture
 from ..schema import SHORTEST_LENGTH_M, given
@@ -73,7 +73,7 @@ def fractured_members(scenario: Scenario, members: Sequence[Member]) -> Fracture
     return FracturedMembers(
         shards=shards,
         member_of_shard=member_of_shard,
-        masses_kg=np.concatenate([_masses(*each, settings.mass) for each in zip(members, parts, strict=True)]),
+        masses_kg=np.concatenate([_masses(*pair, settings.mass) for pair in zip(members, parts, strict=True)]),
         centres_m=np.concatenate([part.centres for part in parts]),
         points_m=np.concatenate([part.points for part in parts]),
         faces=_all_faces([part.faces for part in parts], shards, member_of_shard),
@@ -104,14 +104,14 @@ def shards_per_member(volumes: np.ndarray, shard_count: int) -> np.ndarray:
 
 
 def _density(settings: FractureSettings) -> PointDensity | None:
-    found = []
+    densities = []
     if settings.finer:
         places = np.array([place.place_m for place in settings.finer])
         radii, factors = [place.radius_m for place in settings.finer], [place.factor for place in settings.finer]
-        found.append(density_around(places, radii, factors))
+        densities.append(density_around(places, radii, factors))
     if settings.painted_file is not None:
-        found.append(painted_density(*paint_from_file(Path(settings.painted_file)), settings.painted_factor))
-    return densest(found) if found else None
+        densities.append(painted_density(*paint_from_file(Path(settings.painted_file)), settings.painted_factor))
+    return densest(densities) if densities else None
 
 
 def _fractured(member: Member, count: int, points: np.ndarray, seed: int, options: FractureOptions) -> Fracture:
@@ -154,14 +154,9 @@ def _recursion(settings: FractureSettings) -> Recursion | None:
 
 def _rules(settings: FractureSettings, members: Sequence[Member]) -> list[MemberFracture | None]:
     """Return the table for each member by its name, or else for its kind."""
-    by_name = {each.member: each for each in settings.members}
-    known = {member.name for member in members} | {member.kind for member in members}
+    by_name = {rule.member: rule for rule in settings.members}
     for name in by_name:
-        if name not in known:
-            raise ScenarioError(
-                f'fracture.members.member is "{name}": expected the name or kind of a member, one of '
-                f"{', '.join(sorted(known))}"
-            )
+        members_named(name, members, "fracture.members.member")
     return [by_name.get(member.name) or by_name.get(member.kind) for member in members]
 
 
@@ -181,8 +176,8 @@ def _counts(
 
 def _explicit_counts(rules: Sequence[MemberFracture | None], own_points: Sequence[np.ndarray]) -> np.ndarray:
     """Return shards (k,) of members with points or a number of their own; 0 of any other."""
-    given = [rule.shards or 0 if rule else 0 for rule in rules]
-    return np.array([len(points) or number for points, number in zip(own_points, given, strict=True)])
+    columns = zip(own_points, rules, strict=True)
+    return np.array([len(points) or (rule.shards if rule else None) or 0 for points, rule in columns])
 
 
 def _shared_counts(
@@ -191,7 +186,7 @@ def _shared_counts(
     """Return the counts (k,), with those of members (k,) that together get a share of all shards."""
     counts = counts.copy()
     for rule in settings.members:
-        alike = np.array([each is rule for each in rules]) & (counts == 0)
+        alike = np.array([other is rule for other in rules]) & (counts == 0)
         if rule.share is not None and alike.any():
             together = max(int(alike.sum()), round(rule.share * settings.shards))
             counts[alike] = shards_per_member(amounts[alike], together)

@@ -12,6 +12,7 @@ from ...engineering.elasticity.section_stiffness import SectionStiffness
 from ...engineering.foundations.footings import SoilSprings
 from ...engineering.fracture.shared_faces import SharedFaces
 from ...engineering.geometry.mesh import TriangleMesh
+from ...engineering.geometry.vectors import cross
 from ...engineering.mechanics.reinforcement import FaceBars
 from ...engineering.structure import connections as connecting
 from ...engineering.structure.connections import Connections
@@ -19,7 +20,7 @@ from ...engineering.structure.face_sections import second_moments
 from ..bridge.extent import room_around
 from ..bridge.member import Member, mean_density
 from ..bridge.preparation import prepared_members
-from ..scenario import ConnectionSettings, Scenario
+from ..scenario import ConnectionSettings, Geometry, Scenario
 from ..schema import given
 from ..terrain.built import BuiltGround, built_ground
 from .connection_rules import rules_of_pairs
@@ -187,3 +188,21 @@ def _connections(
         return between
     standing = connecting.foundations(shards, heights_at)
     return connecting.joined([between, standing.only(allowed(standing.pairs))])
+
+
+def start_motions(tables: Sequence[Geometry], model: Model) -> tuple[np.ndarray, np.ndarray]:
+    """Return velocities (n, 3), m/s, and angular velocities (n, 3), rad/s, of the shards of a model as it begins.
+
+    Of members in several files, the first says how they move, as one body. Shards that are held do not.
+    """
+    velocities, angular_velocities = np.zeros((2, len(model.shards), 3))
+    names = np.array([member.name for member in model.members])[model.member_of_shard]
+    first_of_each = {table.name: table for table in reversed(tables)}
+    for table in (each for each in first_of_each.values() if each.is_moving):
+        shards = np.flatnonzero(names == table.name)
+        masses, centres = model.masses_kg[shards, None], model.centres_m[shards]
+        angular_velocities[shards] = table.spin_rad_s
+        arms = centres - (masses * centres).sum(axis=0) / masses.sum()
+        velocities[shards] = np.array(table.velocity_m_s) + cross(angular_velocities[shards], arms)
+    velocities[model.fixed], angular_velocities[model.fixed] = 0.0, 0.0
+    return velocities, angular_velocities

@@ -8,8 +8,8 @@ import numpy as np
 
 from ...engineering.geometry.mesh import TriangleMesh, triangle_areas_and_normals
 from ...engineering.geometry.vectors import dot
-from ...errors import GeometryError, ScenarioError
-from ..bridge.member import Member
+from ...errors import GeometryError
+from ..bridge.member import Member, members_named
 from ..scenario.bodies import Support
 
 DIRECTIONS = {
@@ -34,14 +34,7 @@ def fixed_shards(
     """Return whether each shard, before gaps are made, is fixed, (n,) bool."""
     fixed = np.zeros(len(shards), dtype=bool)
     for support in supports:
-        chosen = [index for index, each in enumerate(members) if support.member in (each.name, each.kind)]
-        if not chosen:
-            known = sorted({member.name for member in members} | {member.kind for member in members})
-            raise ScenarioError(
-                f'supports.member is "{support.member}": expected the name or kind of a member, one of '
-                f"{', '.join(known)}"
-            )
-        for index in chosen:
+        for index in members_named(support.member, members, "supports.member"):
             own = np.flatnonzero(member_of_shard == index).tolist()
             if support.face == "all":
                 fixed[own] = True

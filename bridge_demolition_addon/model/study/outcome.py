@@ -13,15 +13,13 @@ from ...engineering.blast.pulses import BlastModel
 from ...engineering.geometry.plan_areas import outlines
 from ...errors import OutputError
 from ..blast.receptors import loads_at
-from ..debris.footprint import footprint, plan_hulls, swept_footprint
-from ..debris.reach import bodies_that_moved, reaches_on_the_way
+from ..debris.footprint import bodies_that_moved, footprint, plan_hulls, reaches_on_the_way, swept_footprint
 from ..debris.throws import debris_of
 from ..debris.touchdown import landings, shaking_at
 from ..debris.zones import watch_zone
 from ..results.arrays import Results
 from ..results.collapse import Span, collapse_progress, spans_of
-from ..results.motion import relative_to_ground
-from ..results.removed_shards import without_removed
+from ..results.motion import relative_to_ground, without_removed
 from ..scenario import Scenario
 from .criteria import COLLAPSED, Criterion, neighbour_output, span_output, zone_output
 

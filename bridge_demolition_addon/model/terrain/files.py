@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from ...engineering.geometry.mesh import TriangleMesh
@@ -22,9 +24,8 @@ SURFACE_FILES = (*MESH_FILES, *LANDXML_FILES)
 
 def read_terrain(name: str, ground: Ground) -> Raster | Surface:
     """Read the heights of a file, in its own coordinates and units."""
-    path = _checked(name, "ground.file", TERRAIN_FILES)
-    suffix = path.suffix.lower()
-    try:
+    with _named_file(name, "ground.file", TERRAIN_FILES) as path:
+        suffix = path.suffix.lower()
         if suffix in GRID_FILES:
             return read_ascii_grid(path, ground.no_data)
         if suffix in TIFF_FILES:
@@ -32,21 +33,12 @@ def read_terrain(name: str, ground: Ground) -> Raster | Surface:
         if suffix in POINT_FILES:
             return read_points(path, ground.no_data)
         return Surface(_surface_mesh(path, ground))
-    except UnreadableError as error:
-        raise ScenarioError(f'ground.file is "{path}": {error}') from error
-    except GeometryError as error:
-        raise GeometryError(_named(path, error)) from error
 
 
 def read_surface(name: str, ground: Ground) -> TriangleMesh:
     """Read the mesh of a surface on the ground, in its own coordinates and units."""
-    path = _checked(name, "ground.surfaces.file", SURFACE_FILES)
-    try:
+    with _named_file(name, "ground.surfaces.file", SURFACE_FILES) as path:
         return _surface_mesh(path, ground)
-    except UnreadableError as error:
-        raise ScenarioError(f'ground.surfaces.file is "{path}": {error}') from error
-    except GeometryError as error:
-        raise GeometryError(_named(path, error)) from error
 
 
 def _surface_mesh(path: Path, ground: Ground) -> TriangleMesh:
@@ -58,13 +50,15 @@ def _surface_mesh(path: Path, ground: Ground) -> TriangleMesh:
     return TriangleMesh(from_y_up(mesh.vertices), mesh.triangles) if is_y_up else mesh
 
 
-def _checked(name: str, key: str, suffixes: tuple[str, ...]) -> Path:
+@contextmanager
+def _named_file(name: str, key: str, suffixes: tuple[str, ...]) -> Iterator[Path]:
+    """Give the path under a key, whose name says what kind of file it is; errors of its reader name the file."""
     path = Path(name)
     if path.suffix.lower() not in suffixes:
         raise ScenarioError(f'{key} is "{path}": expected a file that ends in one of {", ".join(suffixes)}')
-    return path
-
-
-def _named(path: Path, error: GeometryError) -> str:
-    text = str(error)
-    return text if text.startswith(f"{path}: ") else f"{path}: {text}"
+    try:
+        yield path
+    except UnreadableError as error:
+        raise ScenarioError(f'{key} is "{path}": {error}') from error
+    except GeometryError as error:
+        raise GeometryError(f"{path}: {str(error).removeprefix(f'{path}: ')}") from error

@@ -15,8 +15,7 @@ from ...model.debris.on_ground import bodies_under_ground, debris_on_surfaces
 from ...model.debris.throws import PERCENTS, Debris, HeightMap, height_map, percentiles_by_mass
 from ...model.debris.zones import watch_zone
 from ...model.results.arrays import Results
-from ...model.results.motion import MOVED_M
-from ...model.results.removed_shards import without_removed
+from ...model.results.motion import MOVED_M, without_removed
 from ...model.results.solver_energy import throws_of
 from ...model.scenario import Zone
 from ...model.schema import given

@@ -8,7 +8,7 @@ from support.moving_boxes import moving_boxes
 from bridge_demolition_addon.model.debris.throws import debris_of
 from bridge_demolition_addon.model.results.collapse import collapse_progress
 from bridge_demolition_addon.model.results.energy import energy_of
-from bridge_demolition_addon.model.results.removed_shards import without_removed
+from bridge_demolition_addon.model.results.motion import without_removed
 
 PLACES = np.array([[(0, 0, 5), (3, 0, 5), (6, 0, 5)], [(0, 0, 5), (3, 0, -995), (6, 0, 2)]], float)
 

@@ -12,7 +12,7 @@ from bridge_demolition_addon.bullet import layout
 from bridge_demolition_addon.engineering.mechanics.strength import Ductility, Strength
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.errors import ScenarioError, SimulationError
-from bridge_demolition_addon.model.results.removed_shards import OUT_OF_REACH_M
+from bridge_demolition_addon.model.results.motion import OUT_OF_REACH_M
 from bridge_demolition_addon.model.scenario import Removal, SawCut, Weakening
 from bridge_demolition_addon.scene.bodies import mark_member
 from bridge_demolition_addon.scene.connections.breaking_settings import Breaking
