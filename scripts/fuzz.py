@@ -32,10 +32,10 @@ def main() -> int:
     for first in range(0, len(drawn), options.batch):
         batch = drawn[first : first + options.batch]
         before: list[Drawn] = []
-        for each, outcome in zip(batch, outcomes(options.player, batch, bare=options.bare), strict=True):
+        for sequence, outcome in zip(batch, outcomes(options.player, batch, bare=options.bare), strict=True):
             if outcome.ending != Ending.WELL:
-                findings += report(options, before, each, outcome)
-            before = [] if outcome.ending in (Ending.CRASH, Ending.HANG) else [*before, each]
+                findings += report(options, before, sequence, outcome)
+            before = [] if outcome.ending in (Ending.CRASH, Ending.HANG) else [*before, sequence]
         print(f"{first + len(batch)} sequences, {findings} findings, {time.monotonic() - began:.0f} s", flush=True)
     return 1 if findings else 0
 
@@ -61,7 +61,7 @@ def arguments() -> argparse.Namespace:
 
 def rows(text: str) -> tuple[int, ...]:
     """Return numbers of steps, divided by commas."""
-    return tuple(int(each) for each in text.split(","))
+    return tuple(int(word) for word in text.split(","))
 
 
 def show(options: argparse.Namespace) -> int:
@@ -82,7 +82,7 @@ def report(options: argparse.Namespace, before: list[Drawn], drawn: Drawn, outco
     if again.ending == Ending.WELL and before:
         needed, again = before, alone(player, drawn, before=before, bare=bare)
     if again.ending == Ending.WELL:
-        print(f"not again, alone or after {[each.seed for each in before]}")
+        print(f"not again, alone or after {[sequence.seed for sequence in before]}")
         print_outcome(outcome)
         return True
     if not bare and not is_ours(player, drawn, again, before=needed):
@@ -92,7 +92,7 @@ def report(options: argparse.Namespace, before: list[Drawn], drawn: Drawn, outco
     if not options.whole:
         needed = fewest_before(player, needed, drawn, again, bare=bare)
         fewest = minimised(player, drawn, again, before=needed, bare=bare)
-    only, after = (",".join(map(str, each)) for each in (fewest.rows, [each.seed for each in needed]))
+    only, after = (",".join(map(str, numbers)) for numbers in (fewest.rows, [sequence.seed for sequence in needed]))
     after = f" --after {after}" if after else ""
     print(f"again: scripts/fuzz {player} --seed {drawn.seed} --length {drawn.length} --only {only}{after}")
     last = again if options.whole else alone(player, fewest, before=needed, bare=bare)
@@ -102,7 +102,7 @@ def report(options: argparse.Namespace, before: list[Drawn], drawn: Drawn, outco
 
 def print_outcome(outcome: Outcome) -> None:
     """Print the steps of a sequence, and how it ended."""
-    print(*(f"  {each}" for each in outcome.done), outcome.ending, outcome.text.strip(), sep="\n", flush=True)
+    print(*(f"  {step}" for step in outcome.done), outcome.ending, outcome.text.strip(), sep="\n", flush=True)
 
 
 if __name__ == "__main__":

@@ -139,7 +139,7 @@ def paragraphs(path: Path) -> list[str]:
         if not line.startswith("#"):
             break
         lines.append(line.removeprefix("#").strip())
-    return [" ".join(each.split("\n")) for each in "\n".join(lines).split("\n\n")]
+    return [" ".join(word.split("\n")) for word in "\n".join(lines).split("\n\n")]
 
 
 def rounded(seconds: float) -> int:

@@ -139,7 +139,9 @@ def page(outcomes: Sequence[Outcome]) -> str:
 
 def _anchor(title: str) -> str:
     """Return the anchor of a heading, as GitHub makes it."""
-    return "".join(each for each in title.lower() if each.isalnum() or each in " -").replace(" ", "-")
+    return "".join(character for character in title.lower() if character.isalnum() or character in " -").replace(
+        " ", "-"
+    )
 
 
 def _draw(found: Found, path: Path) -> None:

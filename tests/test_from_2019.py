@@ -47,7 +47,7 @@ def rows(text):
     """Cells of all rows of the tables in a text, without their headings."""
     lines = [line for line in text.splitlines() if line.startswith("| ")]
     cells = [[cell.strip() for cell in line.strip("|").split("|")] for line in lines]
-    return [each for each in cells if each[0] not in ("2019", "Figure") and not set(each[0]) <= {"-"}]
+    return [row for row in cells if row[0] not in ("2019", "Figure") and not set(row[0]) <= {"-"}]
 
 
 def ticked(text):
@@ -85,8 +85,8 @@ def scenario_keys():
 
 def named_keys(text):
     """Keys in a text, such as `ball.mass_kg` or `bridge.merge = true`."""
-    found = [each for each in ticked(text) if re.match(r"[a-z_]+\.", each) and not each.endswith(FILES)]
-    return [each for each in found if not each.startswith("bda.")]
+    found = [name for name in ticked(text) if re.match(r"[a-z_]+\.", name) and not name.endswith(FILES)]
+    return [name for name in found if not name.startswith("bda.")]
 
 
 def test_every_parameter_of_table_1_has_a_row_and_no_other():
@@ -112,7 +112,7 @@ def test_every_simulation_and_chart_among_the_figures_is_there():
 
 
 def test_every_name_of_the_appendix_is_there():
-    told = {each for row in rows(section("## Code: Appendix A")) for each in ticked(row[0])}
+    told = {name for row in rows(section("## Code: Appendix A")) for name in ticked(row[0])}
     assert set(APPENDIX.split()) - told == set()
 
 
@@ -151,7 +151,9 @@ def test_every_column_of_our_logs_is_there_and_no_other():
     for _, now, _ in rows(section("## Logs")):
         file, *named = ticked(now)
         told[file] += named
-    assert {name: sorted(each) for name, each in told.items()} == {name: sorted(columns[name]) for name in columns}
+    assert {name: sorted(columns_told) for name, columns_told in told.items()} == {
+        name: sorted(columns[name]) for name in columns
+    }
 
 
 def test_every_operator_is_one(extension):
@@ -198,14 +200,16 @@ def sidebar_names(extension):
 def test_every_option_of_a_command_is_one(capsys):
     from bridge_demolition_addon.cli.main import main
 
-    commands = [each.split() for each in ticked(TEXT) if each.startswith("bda ")]
+    commands = [text.split() for text in ticked(TEXT) if text.startswith("bda ")]
     assert len(commands) > 10
     options = {}
     for _, command, *_ in commands:
         assert main([command, "--help"]) == 0
         options[command] = set(re.findall(r"--[a-z-]+", capsys.readouterr().out))
-    assert [each for each in commands for word in each if word.startswith("--") and word not in options[each[1]]] == []
-    alone = {each for each in ticked(TEXT) if each.startswith("--")}
+    assert [
+        command for command in commands for word in command if word.startswith("--") and word not in options[command[1]]
+    ] == []
+    alone = {option for option in ticked(TEXT) if option.startswith("--")}
     assert alone <= set.union(*options.values())
 
 

@@ -10,7 +10,7 @@ PARTS = ("To see:", "Assumed:", "To trust:")
 @pytest.mark.parametrize("path", gallery.examples(), ids=lambda path: path.stem)
 def test_every_example_tells_what_there_is_to_see_what_is_assumed_and_how_far_to_trust_it(path):
     told = gallery.paragraphs(path)
-    assert [part for part in PARTS if any(each.startswith(part) for each in told)] == list(PARTS)
+    assert [part for part in PARTS if any(heading.startswith(part) for heading in told)] == list(PARTS)
     assert "2019" in told[0]
 
 

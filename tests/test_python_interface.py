@@ -54,8 +54,8 @@ def tried(folder):
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(folder)
         runner = doctest.DocTestRunner(checker=_BesideBlender())
-        for each in doctest.DocTestFinder().find(bridge_demolition_addon):
-            runner.run(each)
+        for example in doctest.DocTestFinder().find(bridge_demolition_addon):
+            runner.run(example)
     return runner.summarize(), bridge_demolition_addon.load_results(folder / "my_results")
 
 

@@ -26,7 +26,9 @@ def run(folder: Path) -> Found:
     def draw(figure: Figure) -> None:
         axes = figure.subplots()
         along = np.geomspace(10.0, 190.0, 60)
-        axes.loglog(along, [found_kpa(each) for each in along], "k-", label="add-on: Kingery and Bulmash, surface")
+        axes.loglog(
+            along, [found_kpa(distance_m) for distance_m in along], "k-", label="add-on: Kingery and Bulmash, surface"
+        )
         axes.loglog(along, rule_kpa(along), "k--", label="AS 2187.2: 516 z$^{-1.45}$")
         axes.set(xlabel="distance / mass$^{1/3}$ (m/kg$^{1/3}$)", ylabel="pressure (kPa)")
         axes.legend()

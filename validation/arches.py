@@ -155,7 +155,7 @@ def first_crack_n(arch: Arch, load_x_m: float, bond_pa: float) -> float:
     area, modulus = arch.ring_m * arch.width_m, arch.width_m * arch.ring_m**2 / 6.0
     half = arch.angles[-1]
     middle = arch.inner_m + arch.ring_m / 2.0
-    nodes = np.array([arch.on_arc(middle, each) for each in np.linspace(-half, half, _PARTS * arch.voussoirs + 1)])
+    nodes = np.array([arch.on_arc(middle, angle) for angle in np.linspace(-half, half, _PARTS * arch.voussoirs + 1)])
     count = len(nodes)
     weight, unit = np.zeros((2, 3 * count))
     stiffness = np.zeros((3 * count, 3 * count))
@@ -269,7 +269,7 @@ def loaded(
     """Load an arch as a course of (time, N) says, in a run that ends with it."""
     depth = arch.width_m / 2.0
     base_m = 1.0
-    meshes = {f"voussoir_{row:02d}": prism(each, -depth, depth) for row, each in enumerate(arch.outlines())}
+    meshes = {f"voussoir_{row:02d}": prism(outline, -depth, depth) for row, outline in enumerate(arch.outlines())}
     for side, corners in _springers(arch).items():
         meshes[f"springer_{side}"] = prism(corners, -depth, depth)
     members = "".join(
@@ -286,7 +286,7 @@ density_kg_m3 = {arch.density_kg_m3}
     loads = "".join(
         _load(f"voussoir {row:02d}", place, base_m, ((0.0, weight),)) for row, (place, weight) in enumerate(arch.fill())
     )
-    rows = [row for row, each in enumerate(arch.outlines()) if each[3, 0] <= load_x_m < each[2, 0]]
+    rows = [row for row, outline in enumerate(arch.outlines()) if outline[3, 0] <= load_x_m < outline[2, 0]]
     loads += _load(f"voussoir {rows[0]:02d}", arch.back_at(load_x_m), base_m, course)
     scenario = f"""
 [scenario]

@@ -26,14 +26,14 @@ def expected_m(mass_kg: float, speed_m_s: float) -> float:
 def run(folder: Path) -> Found:
     """Drop each weight with each speed."""
     found = {(mass, speed): found_m(folder, mass, speed) for mass in MASSES_KG for speed in SPEEDS_M_S}
-    deflections, stays = ({drop: each[row] for drop, each in found.items()} for row in (0, 1))
+    deflections, stays = ({drop: columns[row] for drop, columns in found.items()} for row in (0, 1))
     comparisons = [
         Comparison(f"deflection, {mass:g} kg with {speed:g} m/s", "mm", 1e3 * expected_m(mass, speed), 1e3 * found, 0.1)
         for (mass, speed), found in deflections.items()
     ]
     comparisons += [
-        Comparison(f"mean of δ P / E, {what}, against tests", "", line, _slope(each), 0.4)
-        for what, line, each in (("largest δ", 0.63, deflections), ("δ in the end", 0.42, stays))
+        Comparison(f"mean of δ P / E, {what}, against tests", "", line, _slope(points), 0.4)
+        for what, line, points in (("largest δ", 0.63, deflections), ("δ in the end", 0.42, stays))
     ]
 
     def draw(figure: Figure) -> None:
@@ -55,7 +55,7 @@ def run(folder: Path) -> Found:
 
 
 def _slope(deflections: Mapping[tuple[float, float], float]) -> float:
-    return float(np.mean([each * CAPACITY_N / energy_j(*drop) for drop, each in deflections.items()]))
+    return float(np.mean([deflection * CAPACITY_N / energy_j(*drop) for drop, deflection in deflections.items()]))
 
 
 def energy_j(mass_kg: float, speed_m_s: float) -> float:

@@ -20,8 +20,8 @@ FACTOR = 1.0 + (SIDE_M / LENGTH_M) ** 2 / 4.0
 def run(folder: Path) -> Found:
     """Let it fall from near the vertical, and from both sides of the angle at which tip and stone are down together."""
     times, angles, _ = _course(folder, "from_the_vertical", LEAN_DEG, 5.0)
-    expected = np.array([_time_s(LEAN_DEG, each) for each in (30.0, 60.0, 75.0)])
-    found = [_when(times, np.degrees(angles), each) for each in (30.0, 60.0, 75.0)]
+    expected = np.array([_time_s(LEAN_DEG, angle_deg) for angle_deg in (30.0, 60.0, 75.0)])
+    found = [_when(times, np.degrees(angles), angle_deg) for angle_deg in (30.0, 60.0, 75.0)]
     comparisons = [
         Comparison(f"time from {LEAN_DEG:g}° to {angle:g}°", "s", float(due), float(seen), 0.01)
         for angle, due, seen in zip((30.0, 60.0, 75.0), expected, found, strict=True)
@@ -31,7 +31,7 @@ def run(folder: Path) -> Found:
     middle = (angles[row] + angles[row - 1]) / 2.0
     due = math.sqrt(3.0 * G * LENGTH_M / FACTOR * (math.cos(math.radians(LEAN_DEG)) - math.cos(middle)))
     comparisons.append(Comparison("speed of the tip at 75°", "m/s", due, float(speed), 0.01))
-    leads = [_lead_s(folder, each) for each in ABOVE_HORIZONTAL_DEG]
+    leads = [_lead_s(folder, angle_deg) for angle_deg in ABOVE_HORIZONTAL_DEG]
     critical = ABOVE_HORIZONTAL_DEG[0] - leads[0] * np.diff(ABOVE_HORIZONTAL_DEG)[0] / np.diff(leads)[0]
     comparisons.append(
         Comparison("angle from which tip and stone are down together", "°", (47.4, 48.4), float(critical))
@@ -42,7 +42,9 @@ def run(folder: Path) -> Found:
         until = slice(0, int(np.flatnonzero(np.degrees(angles) >= 80.0)[0]))
         due = np.linspace(LEAN_DEG + 0.5, 80.0, 30)
         axes.plot(times[until], np.degrees(angles[until]), color="black", label="found")
-        axes.plot([_time_s(LEAN_DEG, each) for each in due], due, "o", color="0.5", markersize=3, label="expected")
+        axes.plot(
+            [_time_s(LEAN_DEG, angle_deg) for angle_deg in due], due, "o", color="0.5", markersize=3, label="expected"
+        )
         axes.set(xlabel="time (s)", ylabel="angle from the vertical (°)")
         axes.legend()
 
@@ -126,7 +128,9 @@ breaking_force_n = 1e12
         "foot": block((-half, -half, -1.0), (half, half, 0.0)),
         "stone": block((-0.1, -0.1, -0.1), (0.1, 0.1, 0.1)),
     }
-    results = simulated(folder, name, scenario, meshes if stone else {each: meshes[each] for each in ("rod", "foot")})
+    results = simulated(
+        folder, name, scenario, meshes if stone else {member: meshes[member] for member in ("rod", "foot")}
+    )
     inventory, frames = results.inventory, results.frames
     kinds = inventory.body_member_kinds
     rod = int(np.flatnonzero(kinds == "rod")[0])

@@ -32,10 +32,10 @@ def run(folder: Path) -> Found:
 
     def draw(figure: Figure) -> None:
         axes = figure.subplots()
-        for each, (title, marker) in zip(
+        for runs, (title, marker) in zip(
             (alone, hit, beside), (("only deck", "s"), ("hit, of two", "o"), ("beside it", "x")), strict=True
         ):
-            axes.plot(list(SEEDS), 100.0 * each, marker, color="black", fillstyle="none", label=title)
+            axes.plot(list(SEEDS), 100.0 * runs, marker, color="black", fillstyle="none", label=title)
         axes.set(
             xlabel="seed", ylabel="of the deck fell by 2 m or more (%)", ylim=(-5.0, 105.0), xticks=list(SEEDS)[::2]
         )

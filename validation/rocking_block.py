@@ -28,7 +28,7 @@ def run(folder: Path) -> Found:
     quarter_s = times[upright - 1] + share * (times[upright] - times[upright - 1])
     ratio = math.sqrt(_energy(angles.min()) / _energy(tilt))
     toppled = [_topples(folder, share) for share in PUSHES]
-    lowest = min((each for each, falls in zip(PUSHES, toppled, strict=True) if falls), default=math.inf)
+    lowest = min((push for push, falls in zip(PUSHES, toppled, strict=True) if falls), default=math.inf)
     comparisons = [
         Comparison(
             "quarter of a period", "s", math.acosh(1.0 / (1.0 - tilt / SLENDERNESS)) / FREQUENCY, quarter_s, 0.03

@@ -19,8 +19,8 @@ FALLEN_M = 1.0
 def run(folder: Path) -> Found:
     """Let arches of all thicknesses stand or fall."""
     courses = {thickness: _course(folder, thickness) for thickness in THICKNESSES}
-    standing = [each for each, (_, sag) in courses.items() if sag[-1] < FALLEN_M]
-    falling = [each for each, (_, sag) in courses.items() if sag[-1] >= FALLEN_M]
+    standing = [ratio for ratio, (_, sag) in courses.items() if sag[-1] < FALLEN_M]
+    falling = [ratio for ratio, (_, sag) in courses.items() if sag[-1] >= FALLEN_M]
     comparisons = [
         Comparison("thinnest that stands, t/R", "", (0.107, 0.115), min(standing, default=math.inf)),
         Comparison("thickest that falls, t/R", "", (0.100, 0.110), max(falling, default=0.0)),
@@ -28,8 +28,8 @@ def run(folder: Path) -> Found:
 
     def draw(figure: Figure) -> None:
         axes = figure.subplots()
-        for (each, (times, sag)), shade in zip(courses.items(), np.linspace(0.0, 0.7, len(courses)), strict=True):
-            axes.plot(times, sag, color=str(shade), label=f"t/R = {each:.3f}")
+        for (ratio, (times, sag)), shade in zip(courses.items(), np.linspace(0.0, 0.7, len(courses)), strict=True):
+            axes.plot(times, sag, color=str(shade), label=f"t/R = {ratio:.3f}")
         axes.set(xlabel="time (s)", ylabel="deflection of the crown (m)", ylim=(-0.1, 3.0))
         axes.legend(fontsize=8)
 

@@ -16,10 +16,10 @@ def prism(profile: np.ndarray, front: float, back: float) -> TriangleMesh:
     """A convex profile (k, 2) in x and z, anticlockwise as seen from negative y, from y = front to y = back."""
     count = len(profile)
     vertices = np.array([(x, y, z) for y in (front, back) for x, z in profile])
-    fan = [(0, each, each + 1) for each in range(1, count - 1)]
+    fan = [(0, corner, corner + 1) for corner in range(1, count - 1)]
     caps = [*fan, *((count + a, count + c, count + b) for a, b, c in fan)]
     sides = []
-    for each in range(count):
-        following = (each + 1) % count
-        sides += [(each, each + count, following), (following, each + count, following + count)]
+    for corner in range(count):
+        following = (corner + 1) % count
+        sides += [(corner, corner + count, following), (following, corner + count, following + count)]
     return TriangleMesh(vertices, np.array([*caps, *sides]))

@@ -75,7 +75,7 @@ def theory_m_s(thickness: float, gap: float, count: int = 30, steps: int = 400) 
             share *= slope
         return moved, raised
 
-    leans = [hit * (each + 0.5) / steps for each in range(steps)]
+    leans = [hit * (step + 0.5) / steps for step in range(steps)]
     spin, took = 2.0 * math.sqrt(G / height), math.inf
     for standing in range(1, count):
         moved, raised = row(0.0, standing)

@@ -59,7 +59,7 @@ def milliseconds(panels: list[type], scene: bpy.types.Scene) -> float:
     times = []
     for _ in range(ROUNDS):
         began = time.perf_counter()
-        for each in drawn:
-            each.draw(context)
+        for shown in drawn:
+            shown.draw(context)
         times.append(time.perf_counter() - began)
     return 1e3 * float(np.median(times))

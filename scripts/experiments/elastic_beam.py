@@ -50,10 +50,12 @@ def measured(iterations: int, stiffness: str) -> tuple[float, float]:
     bpy.ops.wm.read_factory_settings(use_empty=True)
     blocks, size, moduli = Blocks(solver_iterations=iterations), LENGTH_M / COUNT, ElasticModuli(30e9, 0.2)
     bodies = [
-        blocks.block(((each + 0.5) * size, 0, 10), DENSITY_KG_M3 * size if 0 <= each < COUNT else 0.0, (size, 1, 1))
-        for each in range(-1, COUNT + 1)
+        blocks.block(((number + 0.5) * size, 0, 10), DENSITY_KG_M3 * size if 0 <= number < COUNT else 0.0, (size, 1, 1))
+        for number in range(-1, COUNT + 1)
     ]
-    made = [blocks.connect("FIXED", (each * size, 0, 10), *bodies[each : each + 2]) for each in range(COUNT + 1)]
+    made = [
+        blocks.connect("FIXED", (number * size, 0, 10), *bodies[number : number + 2]) for number in range(COUNT + 1)
+    ]
     for connection in made:
         connection["bda_area_m2"], connection["bda_normal"] = 1.0, (1.0, 0.0, 0.0)
     if stiffness == "elastic":

@@ -63,7 +63,7 @@ def main():
     for size in (2, 3, 5, 8):
         for candidates in (40, 80):
             ranges = tuple(
-                ChosenQuantity(key=f"ball.target_m.{each + 1}", lowest=0.0, highest=1.0) for each in range(size)
+                ChosenQuantity(key=f"ball.target_m.{number + 1}", lowest=0.0, highest=1.0) for number in range(size)
             )
             criteria = (Criterion(name="down", kind="collapsed"),)
             settings = OptimiseSettings(
@@ -71,8 +71,8 @@ def main():
             )
             found, seemed = [], []
             for seed in range(REPETITIONS):
-                both = [played(settings, each(size, seed), seed) for each in (OptunaProposals, ByChance)]
-                found.append([above_best_m(each.candidates[each.chosen].shares) for each in both])
+                both = [played(settings, proposals(size, seed), seed) for proposals in (OptunaProposals, ByChance)]
+                found.append([above_best_m(rounds.candidates[rounds.chosen].shares) for rounds in both])
                 results = [both[0].result(both[0].chosen, name).value for name in (CONFIRMATION, SEARCH)]
                 seemed.append(results[0] - results[1])
             ours, chance = np.array(found).T

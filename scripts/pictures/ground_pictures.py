@@ -27,7 +27,7 @@ SUBSTEP_S = 0.01
 def footings(capacity_pa: float) -> Footings:
     """A square footing of 2 m on medium dense sand, under a body at the same place."""
     middles = WIDTH_M * ((np.arange(SIDES) + 0.5) / SIDES - 0.5)
-    x, y = (each.ravel() for each in np.meshgrid(middles, middles))
+    x, y = (grid.ravel() for grid in np.meshgrid(middles, middles))
     one = np.ones(1)
     soil = SoilSprings(
         np.zeros(1, int),
@@ -72,7 +72,7 @@ def draw_footing() -> None:
     left, right = figure.subplots(1, 2)
     bed = footings(CAPACITY_PA)
     way_mm = np.concatenate([np.linspace(a, b, 60) for a, b in ((0, 40), (40, 8), (8, 50))])
-    forces = [borne(bed, each / 1e3)[2] / 1e6 for each in way_mm.tolist()]
+    forces = [borne(bed, one_way_mm / 1e3)[2] / 1e6 for one_way_mm in way_mm.tolist()]
     left.plot(way_mm, forces, **line_style(0))
     left.set_xlabel("settlement (mm)")
     left.set_ylabel("load (MN)")

@@ -44,7 +44,7 @@ def picture() -> str:
     shapes, y = [], GAP
     for row in ordered[root]:
         inside = {name: rooms(f"{root}.{name}", ordered) for name in row}
-        height = TITLE + max(len(each) for each in inside.values()) * (ROOM + GAP)
+        height = TITLE + max(len(row) for row in inside.values()) * (ROOM + GAP)
         for name, (x, width) in zip(row, _columns(len(row), GAP, WIDTH - 2 * GAP), strict=True):
             shapes += _box(x, y, width, height, name, "layer")
             for line, names in enumerate(inside[name]):
@@ -57,8 +57,8 @@ def picture() -> str:
 
 def _columns(count: int, left: float, width: float) -> list[tuple[float, float]]:
     """Divide a width evenly: left edge and width of each column."""
-    each = (width - (count - 1) * GAP) / count
-    return [(left + number * (each + GAP), each) for number in range(count)]
+    width_of_one = (width - (count - 1) * GAP) / count
+    return [(left + number * (width_of_one + GAP), width_of_one) for number in range(count)]
 
 
 def _box(x: float, y: float, width: float, height: float, name: str, kind: str) -> list[str]:

@@ -48,9 +48,9 @@ def icon() -> Image.Image:
     draw = ImageDraw.Draw(image)
     draw.polygon([(x * FINER, y * FINER) for x, y in DECK], fill=CONCRETE)
     for pier in PIERS:
-        draw.rectangle([each * FINER for each in pier], fill=CONCRETE)
-    draw.rectangle([each * FINER for each in CABLE], fill=STEEL)
-    draw.ellipse([each * FINER for each in BALL], fill=STEEL)
+        draw.rectangle([length * FINER for length in pier], fill=CONCRETE)
+    draw.rectangle([length * FINER for length in CABLE], fill=STEEL)
+    draw.ellipse([length * FINER for length in BALL], fill=STEEL)
     draw.line(
         [(x * FINER, y * FINER) for x, y in ((128, 150), (118, 162), (134, 170), (128, 182))], fill=CRACK, width=16
     )

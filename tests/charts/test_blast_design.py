@@ -162,8 +162,8 @@ def test_figure_13_of_another_charge():
 def test_figure_14_the_sum_and_what_is_there_at_one_time():
     curves = lines(two_span_total(KPA))
     (x, total), (_, at_once) = curves["sum of the peaks, as in 2019"].T, curves["largest sum at one time"].T
-    each = sum(line[:, 1] for line in lines(two_span_charges(KPA)).values())
-    assert total == pytest.approx(each)
+    by_charge = sum(line[:, 1] for line in lines(two_span_charges(KPA)).values())
+    assert total == pytest.approx(by_charge)
     assert total == pytest.approx(total[::-1])
     assert (at_once <= total * (1 + 1e-12)).all()
     # In the middle of a span two fronts meet at once; the third comes after they are gone.

@@ -31,7 +31,7 @@ def figure():
 
 
 def line(axes, label):
-    (found,) = [each for each in axes.lines if each.get_label().startswith(label)]
+    (found,) = [line for line in axes.lines if line.get_label().startswith(label)]
     return found
 
 
@@ -48,7 +48,7 @@ def test_shares_are_of_all_runs_also_of_those_that_did_not_finish(figure):
 
 def test_without_a_limit_none_is_drawn(figure):
     reach_distribution(figure, REACHES_M, None, 0.9)
-    assert not [each for axes in figure.axes for each in axes.lines if to_rgb(each.get_color()) == to_rgb(LIMIT_COLOUR)]
+    assert not [line for axes in figure.axes for line in axes.lines if to_rgb(line.get_color()) == to_rgb(LIMIT_COLOUR)]
 
 
 def test_the_course_of_the_limit_has_its_points_and_marks_runs_without_an_end(figure):

@@ -27,7 +27,7 @@ def test_the_map_of_2019_runs_from_blue_over_green_to_red():
 )
 def test_even_maps_end_where_their_publications_do(colour_map, low, high):
     found = np.round(255.0 * colours(colour_map, [0.0, 1.0])).astype(int)
-    assert ["#{:02x}{:02x}{:02x}".format(*each) for each in found] == [low, high]
+    assert ["#{:02x}{:02x}{:02x}".format(*colour) for colour in found] == [low, high]
 
 
 @pytest.mark.parametrize("colour_map", EVEN)

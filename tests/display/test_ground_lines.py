@@ -90,7 +90,7 @@ def test_there_is_no_dust_where_nothing_breaks_and_never_too_much():
     whole[3:] = False
     both = puffs(changed(results, intact=whole))
     assert len(both) == 2 and len(puffs(changed(results, intact=whole), most=1)) == 1
-    assert puffs(changed(results, intact=whole), most=1)[0].radius_m == max(each.radius_m for each in both)
+    assert puffs(changed(results, intact=whole), most=1)[0].radius_m == max(puff.radius_m for puff in both)
 
 
 def test_lines_on_the_ground_follow_a_slope():

@@ -28,7 +28,7 @@ def check(results: np.ndarray, exact: list[float], units: float = 1.0) -> None:
 
 def test_exponentials_are_those_of_the_c_library():
     x = np.concatenate([AROUND_ONE, AROUND_ONE * 700.0])
-    check(exponential(x), [math.exp(each) for each in x])
+    check(exponential(x), [math.exp(number) for number in x])
 
 
 def test_logarithms_are_those_of_the_c_library():
@@ -38,7 +38,7 @@ def test_logarithms_are_those_of_the_c_library():
 @pytest.mark.parametrize("exponent", [1.0 / 3.0, -0.5, 2.0, 3.0, 6.0, 10.0])
 def test_powers_are_those_of_the_c_library(exponent):
     base = RANDOM.uniform(0.01, 100.0, 2000)
-    check(power(base, exponent), [math.pow(each, exponent) for each in base], 2.0)
+    check(power(base, exponent), [math.pow(number, exponent) for number in base], 2.0)
 
 
 def test_cube_roots_are_exact_for_cubes():
@@ -59,7 +59,7 @@ def test_angles_of_which_too_little_is_known_are_refused():
 
 def test_arctangents_are_those_of_the_c_library():
     y, x = RANDOM.uniform(-1.0, 1.0, (2, 4000)) * SIZES[:4000]
-    check(arctangent(y, x), [math.atan2(*each) for each in zip(y, x, strict=True)], 2.0)
+    check(arctangent(y, x), [math.atan2(*pair) for pair in zip(y, x, strict=True)], 2.0)
 
 
 @pytest.mark.parametrize("y", [0.0, -0.0, 1.0, -1.0])

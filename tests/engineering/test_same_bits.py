@@ -54,7 +54,9 @@ def chosen_by_processor(text):
 
 def is_power(node):
     """Whether the C library may be asked for a power, even for a square: of single numbers, but not of constants."""
-    constants = isinstance(node, ast.BinOp) and all(isinstance(each, ast.Constant) for each in (node.left, node.right))
+    constants = isinstance(node, ast.BinOp) and all(
+        isinstance(operand, ast.Constant) for operand in (node.left, node.right)
+    )
     return isinstance(node.op, ast.Pow) and not constants
 
 

@@ -32,7 +32,7 @@ def series(folder, name):
 def files_of_series(folder, name):
     """Its times and files."""
     sets = ElementTree.parse(folder / f"{name}.pvd").findall("./Collection/DataSet")
-    return [float(each.get("timestep")) for each in sets], [folder / each.get("file") for each in sets]
+    return [float(part.get("timestep")) for part in sets], [folder / part.get("file") for part in sets]
 
 
 def of_cells(mesh, name):

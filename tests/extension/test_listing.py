@@ -12,7 +12,7 @@ def test_the_icon_is_square_and_transparent_around_the_bridge():
     with Image.open(PICTURES / "icon.png") as icon:
         assert (icon.size, icon.mode) == ((256, 256), "RGBA")
         opacity = icon.getchannel("A")
-    corners = [opacity.getpixel(each) for each in ((0, 0), (255, 0), (0, 255), (255, 255))]
+    corners = [opacity.getpixel(corner) for corner in ((0, 0), (255, 0), (0, 255), (255, 255))]
     assert corners == [0, 0, 0, 0] and opacity.getextrema() == (0, 255)
 
 

@@ -93,7 +93,7 @@ def alone(player: str, drawn: Drawn, *, before: Sequence[Drawn] = (), bare: bool
     """
     for _ in range(tries):
         found = list(outcomes(player, [*before, drawn], bare=bare))
-        outcome = next((each for each in found if each.ending in (Ending.CRASH, Ending.HANG)), found[-1])
+        outcome = next((outcome for outcome in found if outcome.ending in (Ending.CRASH, Ending.HANG)), found[-1])
         if outcome.ending != Ending.WELL:
             break
     return outcome
@@ -118,7 +118,7 @@ def fewest(rows: Sequence[int], fails: Callable[[Sequence[int]], bool]) -> list[
     while len(rows) > 1:
         size = max(len(rows) // parts, 1)
         without = [rows[:first] + rows[first + size :] for first in range(0, len(rows), size)]
-        found = next((each for each in without if fails(each)), None)
+        found = next((shorter for shorter in without if fails(shorter)), None)
         if found is not None:
             rows, parts = found, max(parts - 1, 2)
         elif size == 1:

@@ -296,7 +296,7 @@ class BlenderPlayer(Player):
             lambda: len(handles.handles(scene)),
             lambda: len(contours.vector_lines(scene)),
         ]
-        return ", ".join(_drawn(each) for each in drawn)
+        return ", ".join(_drawn(part) for part in drawn)
 
     def change_a_setting(self, random: Random) -> str:
         if self.bare or not self.is_on:
@@ -351,22 +351,22 @@ class BlenderPlayer(Player):
     def delete_objects(self, random: Random) -> str:
         chosen = _chosen(random)
         _select(chosen)
-        names = [each.name for each in chosen]
+        names = [item.name for item in chosen]
         bpy.ops.object.delete(use_global=random.random() < 0.2)
         return str(names)
 
     def remove_objects(self, random: Random) -> str:
         chosen = _chosen(random)
-        names = [each.name for each in chosen]
+        names = [item.name for item in chosen]
         if random.random() < 0.5:
             bpy.data.batch_remove(chosen)
         else:
-            for each in chosen:
-                bpy.data.objects.remove(each)
+            for item in chosen:
+                bpy.data.objects.remove(item)
         return str(names)
 
     def edit_body(self, random: Random) -> str:
-        body = _one(random, lambda each: each.rigid_body)
+        body = _one(random, lambda item: item.rigid_body)
         edits: tuple[Callable[[], Any], ...] = (
             lambda: setattr(body.rigid_body, "type", random.choice(("ACTIVE", "PASSIVE"))),
             lambda: setattr(body.rigid_body, "mass", random.choice((0.001, 1.0, 1e6))),
@@ -383,7 +383,7 @@ class BlenderPlayer(Player):
         return f"{body.name}, edit {number}"
 
     def edit_connection(self, random: Random) -> str:
-        connection = _one(random, lambda each: each.rigid_body_constraint)
+        connection = _one(random, lambda item: item.rigid_body_constraint)
         rule, other = connection.rigid_body_constraint, random.choice(list(bpy.data.objects))
         edits: tuple[Callable[[], Any], ...] = (
             lambda: setattr(rule, "type", random.choice(("FIXED", "POINT", "HINGE", "GENERIC_SPRING", "MOTOR"))),
@@ -442,7 +442,7 @@ class BlenderPlayer(Player):
         return f"{name}, edit {number}"
 
     def edit_mesh(self, random: Random) -> str:
-        body = _one(random, lambda each: each.type == "MESH")
+        body = _one(random, lambda item: item.type == "MESH")
         edits: tuple[Callable[[], Any], ...] = (
             lambda: body.data.clear_geometry(),
             lambda: setattr(body, "data", random.choice(list(bpy.data.meshes))),
@@ -462,7 +462,7 @@ class BlenderPlayer(Player):
                 bpy.ops.mesh.delete(type=random.choice(("VERT", "FACE")))
             bpy.ops.object.mode_set(mode="OBJECT")
             return "OBJECT"
-        body = _one(random, lambda each: each.type == "MESH")
+        body = _one(random, lambda item: item.type == "MESH")
         bpy.context.view_layer.objects.active = body
         bpy.ops.object.mode_set(mode=random.choice(MODES))
         return f"{bpy.context.mode} of {body.name}"
@@ -471,7 +471,7 @@ class BlenderPlayer(Player):
         chosen = _chosen(random)
         _select(chosen)
         bpy.ops.object.duplicate(linked=random.random() < 0.3)
-        return str([each.name for each in chosen])
+        return str([item.name for item in chosen])
 
     def add_object(self, random: Random) -> str:
         added = random.choice(
@@ -484,22 +484,24 @@ class BlenderPlayer(Player):
 
     def rename_something(self, random: Random) -> str:
         kind = random.choice((bpy.data.objects, bpy.data.objects, bpy.data.collections, bpy.data.scenes))
-        each = random.choice(list(kind))
-        before = each.name
-        each.name = random.choice(("Ground", "Shard 000001", "x" * 63, "Ü $1 {}", before + "."))
-        return f"{before} to {each.name}"
+        data = random.choice(list(kind))
+        before = data.name
+        data.name = random.choice(("Ground", "Shard 000001", "x" * 63, "Ü $1 {}", before + "."))
+        return f"{before} to {data.name}"
 
     def move_object(self, random: Random) -> str:
-        each = _one(random)
+        data = _one(random)
         kind = random.choice(("location", "scale", "rotation_euler"))
-        setattr(each, kind, [random.choice((0.0, -1.0, random.uniform(-5, 5))) for _ in range(3)])
+        setattr(data, kind, [random.choice((0.0, -1.0, random.uniform(-5, 5))) for _ in range(3)])
         if random.random() < 0.3:
-            each.keyframe_insert(kind, frame=random.randint(1, LONGEST_FRAMES))
-        return f"{each.name}: {kind}"
+            data.keyframe_insert(kind, frame=random.randint(1, LONGEST_FRAMES))
+        return f"{data.name}: {kind}"
 
     def deface_properties(self, random: Random) -> str:
         """Custom properties can be edited and deleted by hand, in Blender's own panel."""
-        holders = [each for each in (*bpy.data.objects, *bpy.data.scenes, *bpy.data.collections) if _own_keys(each)]
+        holders = [
+            holder for holder in (*bpy.data.objects, *bpy.data.scenes, *bpy.data.collections) if _own_keys(holder)
+        ]
         holder = random.choice(holders)
         key = random.choice(_own_keys(holder))
         if random.random() < 0.3:

@@ -113,10 +113,10 @@ class FolderPlayer(Player):
         if random.random() < 0.1:
             del arrays[name]
         with zipfile.ZipFile(path, "w") as archive:
-            for each, values in arrays.items():
+            for array, values in arrays.items():
                 content = io.BytesIO()
                 np.lib.format.write_array(content, np.asanyarray(values))
-                archive.writestr(f"{each}.npy", content.getvalue())
+                archive.writestr(f"{array}.npy", content.getvalue())
         return f"{name}, {number}"
 
     def change_summary(self, random: Random) -> str:

@@ -16,7 +16,7 @@ def choose_file(person: Person, path: Path) -> Steps:
     yield from person.wait_for("a file browser opens", lambda: len(manager.windows) > 1, 10.0)
     yield 1.0
     window = manager.windows[-1]
-    area = next(each for each in window.screen.areas if each.type == "FILE_BROWSER")
+    area = next(shown for shown in window.screen.areas if shown.type == "FILE_BROWSER")
     folder, foot = (Place(window, area, region_of(area, kind)) for kind in ("UI", "EXECUTE"))
     person.take_to(window)
     yield from person.fill_in("directory", f"{path.parent}/", folder)

@@ -32,7 +32,7 @@ def steps(person: Person) -> Steps:
     person.window.view_layer.objects.active = shard
     yield 1.0
     drawn = module("ui.ground.decorator").drawn
-    texts = [each.text for each in drawn(person.scene, person.window.view_layer)]
+    texts = [label.text for label in drawn(person.scene, person.window.view_layer)]
     person.expect("the chosen shard has its name", shard.name in texts)
     person.expect("the exclusion zone is that of the run", "Exclusion zone of the last run" in texts)
     person.expect("all was drawn", module("ui.ground.decorator").drawing.error, "")

@@ -74,7 +74,7 @@ def drag_height(person: Person) -> Steps:
     before = person.scene.bda.scenario.ball.drop_height_m
     x, y, z = place_of(person, "DROP", is_upright=True)
     start, end = (on_screen(person, (x, y, height)) for height in (z, z + 1.0))
-    start, end = ((each[0], each[1] + ARROW_PX) for each in (start, end))
+    start, end = ((place[0], place[1] + ARROW_PX) for place in (start, end))
     yield from hold(person, start, end, "height_dragged")
     yield 0.3
     risen = person.scene.bda.scenario.ball.drop_height_m - before
@@ -113,7 +113,7 @@ def after_building(person: Person) -> Steps:
     yield from hold(person, on_screen(person, (x, y, z)), on_screen(person, (x - 2.0, y, z)), "dragged_when_built")
     yield 0.5
     changed = module("ui.scenario.built").changes(person.scene.bda)
-    person.expect("the panels say what was built", [each.key for each in changed], ["ball.target_m"])
+    person.expect("the panels say what was built", [change.key for change in changed], ["ball.target_m"])
     person.expect("the preview shows what would be built now", len(preview(person)) > 0)
     yield from person.picture("changed_since")
 
@@ -145,7 +145,7 @@ def undo(person: Person) -> Steps:
 
 def place_of(person: Person, kind: str, is_upright: bool) -> tuple[float, float, float]:
     found = module("ui.preview.handles").handles(person.scene)
-    return next(each.position_m for each in found if (each.kind, each.is_upright) == (kind, is_upright))
+    return next(handle.position_m for handle in found if (handle.kind, handle.is_upright) == (kind, is_upright))
 
 
 def on_screen(person: Person, place: tuple[float, float, float]) -> tuple[int, int]:

@@ -24,7 +24,7 @@ def steps(person: Person) -> Steps:
     yield from follow(person, "the pictures of the run", 1)
     yield from person.picture("run_is_over")
     kept = [message.text for message in module("ui.messages").messages_of(person.scene)]
-    person.expect("where its results are stays in the panel", any("Results are in" in each for each in kept))
+    person.expect("where its results are stays in the panel", any("Results are in" in text for text in kept))
     yield from stop(person, "bda.make_report", "the report")
     yield from begin(person, "bda.make_report")
     yield from follow(person, "the report", 4)
@@ -54,7 +54,7 @@ def stop(person: Person, button: str, what: str) -> Steps:
     yield from person.press("ESC")
     yield from person.wait_for(f"Esc stops {what}", lambda: going_on() is None, 10.0)
     kept = [message.text for message in module("ui.messages").messages_of(person.scene)]
-    person.expect(f"and it is said in the panel of {what}", any("stopped" in each for each in kept))
+    person.expect(f"and it is said in the panel of {what}", any("stopped" in text for text in kept))
 
 
 def call(person: Person, button: str) -> Steps:

@@ -38,15 +38,15 @@ def steps(person: Person) -> Steps:
 def open_panels(seconds: dict[str, list[float]]) -> set[str]:
     """Have all panels open from the beginning, and take their times; return those that are open without this."""
     found = [cls for cls in module("ui.registration").classes() if issubclass(cls, bpy.types.Panel)]
-    closed = {each.__name__ for each in found if "DEFAULT_CLOSED" in getattr(each, "bl_options", ())}
-    inside = {each.__name__ for each in found if getattr(each, "bl_parent_id", "") in closed}
-    for each in reversed(found):
-        bpy.utils.unregister_class(each)
-    for each in found:
-        each.bl_options = set()
-        each.draw = timed(each.draw, seconds.setdefault(each.__name__, []))
-        bpy.utils.register_class(each)
-    return {each.__name__ for each in found} - closed - inside
+    closed = {panel.__name__ for panel in found if "DEFAULT_CLOSED" in getattr(panel, "bl_options", ())}
+    inside = {panel.__name__ for panel in found if getattr(panel, "bl_parent_id", "") in closed}
+    for panel in reversed(found):
+        bpy.utils.unregister_class(panel)
+    for panel in found:
+        panel.bl_options = set()
+        panel.draw = timed(panel.draw, seconds.setdefault(panel.__name__, []))
+        bpy.utils.register_class(panel)
+    return {panel.__name__ for panel in found} - closed - inside
 
 
 def timed(draw: Callable, seconds: list[float]) -> Callable:
@@ -92,6 +92,6 @@ def measure(person: Person, seconds: dict[str, list[float]], open_at_first: set[
     person.note(
         f"all panels together are drawn in {sum(fastest.values()):.2f} ms at their fastest, {slowest} in "
         f"{fastest[slowest]:.2f} ms; usually in {sum(usual.values()):.2f} ms; those that are open at first in "
-        f"{sum(fastest.get(each, 0.0) for each in open_at_first):.2f} ms at their fastest, usually in "
-        f"{sum(usual.get(each, 0.0) for each in open_at_first):.2f} ms"
+        f"{sum(fastest.get(panel, 0.0) for panel in open_at_first):.2f} ms at their fastest, usually in "
+        f"{sum(usual.get(panel, 0.0) for panel in open_at_first):.2f} ms"
     )

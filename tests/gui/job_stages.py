@@ -84,7 +84,7 @@ def shown_colours(person: Person) -> set[tuple[float, ...]]:
     """Colours that the shards have in the view."""
     graph = person.scene.view_layers[0].depsgraph
     shards = [body for body in person.scene.objects if body.name.startswith("Shard")]
-    return {tuple(round(each, 4) for each in body.evaluated_get(graph).color) for body in shards}
+    return {tuple(round(channel, 4) for channel in body.evaluated_get(graph).color) for body in shards}
 
 
 def build_anew(person: Person, panels: Panels) -> Steps:

@@ -31,7 +31,7 @@ def steps(person: Person) -> Steps:
     yield 0.5
     yield from person.picture("results")
     kept = list((Path.home() / "Bridge Demolition").iterdir())
-    person.expect("its results are in a folder named after it", [each.name[-2:] for each in kept], ["_1"])
+    person.expect("its results are in a folder named after it", [folder.name[-2:] for folder in kept], ["_1"])
     person.expect("with results in it", (kept[0] / "results.npz").is_file())
     person.take_reports()
 

@@ -149,7 +149,9 @@ def out_of_sight(person: Person) -> list[tuple[float, ...]]:
     corners = product((-0.5, 13.5), (-4.25, 4.25), (0.0, 5.9))
     seen = {corner: location_3d_to_region_2d(region, person.view.spaces.active.region_3d, corner) for corner in corners}
     right = person.sidebar.x - region.x
-    return [each for each, at in seen.items() if at is None or not (0.0 < at.x < right and 0.0 < at.y < region.height)]
+    return [
+        label for label, at in seen.items() if at is None or not (0.0 < at.x < right and 0.0 < at.y < region.height)
+    ]
 
 
 def place_charges(person: Person, panels: Panels) -> Steps:

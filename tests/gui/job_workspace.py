@@ -12,7 +12,9 @@ def steps(person: Person) -> Steps:
     yield from person.picture("first_help")
     yield from person.click("bda.open_walkthrough")
     yield 0.5
-    person.expect("the walkthrough is opened", [each.rpartition("/")[2] for each in opened()], ["walkthrough.html"])
+    person.expect(
+        "the walkthrough is opened", [address.rpartition("/")[2] for address in opened()], ["walkthrough.html"]
+    )
     yield from build(person)
     yield from person.click("bda.run")
     yield from person.wait_for("it runs", recording_runs, 20.0)

@@ -76,7 +76,7 @@ def handlers() -> Counter[str]:
 def everything() -> dict[str, list[str]]:
     """Names of all that a file holds and a demolition is made of."""
     kinds = ("scenes", "objects", "meshes", "materials", "collections", "actions")
-    return {kind: [each.name for each in getattr(bpy.data, kind)] for kind in kinds}
+    return {kind: [data.name for data in getattr(bpy.data, kind)] for kind in kinds}
 
 
 def rows(log: Path) -> list[dict[str, str]]:

@@ -70,7 +70,7 @@ def test_footings_are_held_and_nothing_else(bridge):
 
 
 def test_bearings_are_connections_of_what_they_lie_between(bridge):
-    rules = [each for each in bridge.scenario.connections.between if each.free]
+    rules = [rule for rule in bridge.scenario.connections.between if rule.free]
     lower = {"Abutment 1", "Crosshead", "Abutment 2"}
     expected = {(girder, below) for girder in ("Girder left", "Girder right") for below in lower}
     assert {rule.members for rule in rules} == expected
@@ -83,7 +83,7 @@ def test_bearings_are_connections_of_what_they_lie_between(bridge):
 def test_strengths_by_material(bridge):
     connections = bridge.scenario.connections
     assert connections.material == "reinforced concrete slab"
-    assert [(each.members, each.material) for each in connections.between if each.material] == [
+    assert [(rule.members, rule.material) for rule in connections.between if rule.material] == [
         (("girder", "girder"), "steel")
     ]
 
@@ -180,7 +180,7 @@ def test_a_bearing_that_bears_nothing_is_left_out(tmp_path):
 def test_a_bearing_a_little_above_or_in_what_it_lies_on(gap_m, joined, tmp_path):
     """Up to 0.1 mm above, or sunk into it, the two are one solid; further off it is left out, and that is said."""
     made = whole_bridge()
-    (bearing,) = (each for each in made.file.by_type("IfcBearing") if each.Name == "Bearing 2 left")
+    (bearing,) = (element for element in made.file.by_type("IfcBearing") if element.Name == "Bearing 2 left")
     solid = bearing.Representation.Representations[0].Items[0]
     solid.Position.Location.Coordinates = (10.0, 1.0, 3.5 + gap_m)
     solid.Depth = 0.1 - gap_m
@@ -199,7 +199,7 @@ def test_motions_that_a_bearing_gives_itself(tmp_path):
     """It slides along its own x axis, which lies across the road, and turns about its own y, along it."""
     made = whole_bridge()
     make = made.file.create_entity
-    (bearing,) = (each for each in made.file.by_type("IfcBearing") if each.Name == "Bearing 1 left")
+    (bearing,) = (element for element in made.file.by_type("IfcBearing") if element.Name == "Bearing 1 left")
     at = make("IfcAxis2Placement3D", made.point(0.0, 1.0, 3.5), made.direction(0, 0, 1), made.direction(0, 1, 0))
     bearing.ObjectPlacement = make("IfcLocalPlacement", None, at)
     shape = made.solid((0.4, 0.4, 0.1), (0.0, 0.0, 0.0))
@@ -212,7 +212,9 @@ def test_motions_that_a_bearing_gives_itself(tmp_path):
     pset = made.root("IfcPropertySet", "Pset_BearingCommon", HasProperties=given)
     made.root("IfcRelDefinesByProperties", None, RelatedObjects=[bearing], RelatingPropertyDefinition=pset)
     bridge = read(made, tmp_path)
-    (rule,) = (each for each in bridge.scenario.connections.between if each.members == ("Girder left", "Abutment 1"))
+    (rule,) = (
+        between for between in bridge.scenario.connections.between if between.members == ("Girder left", "Abutment 1")
+    )
     assert rule.free == ("move y", "turn x")
 
 
@@ -246,16 +248,16 @@ def test_openings_are_cut_out(tmp_path):
 def test_names_with_letters_that_the_standard_has_no_plain_form_for(encoding, tmp_path):
     path = whole_bridge().written(tmp_path / "bridge.ifc")
     path.write_bytes(path.read_text().replace("'Carriageway'", "'Überbau'").encode(encoding))
-    assert "Überbau" in {each.name for each in read_bridge(path, ImportSettings()).scenario.geometry}
+    assert "Überbau" in {mesh.name for mesh in read_bridge(path, ImportSettings()).scenario.geometry}
 
 
 def test_names_that_are_alike_or_mean_a_kind_get_numbers(tmp_path):
     made = whole_bridge()
-    for each in made.file.by_type("IfcColumn"):
-        each.Name = "deck"
-    for each in made.file.by_type("IfcFooting"):
-        each.Name = "F"
-    names = [each.name for each in members(read(made, tmp_path))]
+    for element in made.file.by_type("IfcColumn"):
+        element.Name = "deck"
+    for element in made.file.by_type("IfcFooting"):
+        element.Name = "F"
+    names = [member.name for member in members(read(made, tmp_path))]
     assert {"deck 2", "F", "F 2", "F 3"} <= set(names)
     assert "deck" not in names
 
@@ -277,7 +279,7 @@ def test_the_kind_is_told_where_the_file_does_not_say_it(tmp_path):
         "IfcBuildingElementProxy", "Object 7", (1, 1, 1), (30.0, 0.0, 0.0), "DECK", material=made.material("Steel")
     )
     made.file.by_type("IfcBuildingElementProxy")[0].ContainedInStructure[0].RelatingStructure = made.bridge
-    assert "pier" in {each.kind for each in members(read(made, tmp_path, kinds=(("object*", "pier"),)))}
+    assert "pier" in {member.kind for member in members(read(made, tmp_path, kinds=(("object*", "pier"),)))}
     left = [outcome for outcome in read(made, tmp_path).outcomes if outcome.element.facts.name == "Object 7"]
     assert "--kind" in left[0].why
 

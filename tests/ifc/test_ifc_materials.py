@@ -74,7 +74,7 @@ def test_a_table_of_the_users_own(tmp_path):
     scenario = bridge.scenario
     assert [(material.name, material.compression_n_mm2) for material in scenario.materials] == [("C30/", 38.0)]
     assert scenario.connections.material == "C30/"
-    assert {(each.members, each.material) for each in scenario.connections.between if each.material} == {
+    assert {(rule.members, rule.material) for rule in scenario.connections.between if rule.material} == {
         (("girder", "girder"), "masonry"),
         (("deck", "deck"), "masonry"),
     }

@@ -100,7 +100,7 @@ def test_geometry_that_fails_is_named_and_can_be_left_out(tmp_path):
     assert message.startswith("the geometry of Broken (IfcBeam #")
     assert "--without NAME" in message
     bridge = read_bridge(path, ImportSettings(without=("Broken",)))
-    assert "Broken" not in {each.name for each in bridge.scenario.geometry}
+    assert "Broken" not in {mesh.name for mesh in bridge.scenario.geometry}
 
 
 def test_an_open_solid_is_refused_by_its_name(tmp_path):

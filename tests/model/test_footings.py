@@ -27,7 +27,7 @@ class Block:
 
     def __init__(self, capacity_pa=np.inf, friction=10.0):
         middles = SIDE_M * ((np.arange(SIDES) + 0.5) / SIDES - 0.5)
-        x, y = (each.ravel() for each in np.meshgrid(middles, middles))
+        x, y = (grid.ravel() for grid in np.meshgrid(middles, middles))
         count = len(x)
         one = np.ones(1)
         soil = SoilSprings(

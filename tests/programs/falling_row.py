@@ -218,8 +218,8 @@ class FallingRow:
         bpy.data.batch_remove([*self.held_by, self.doomed])
 
     def remove_everything(self) -> None:
-        for each in (*self.row[1:], *self.links, self.ground):
-            bpy.data.objects.remove(each)
+        for item in (*self.row[1:], *self.links, self.ground):
+            bpy.data.objects.remove(item)
 
     def remove_world(self) -> None:
         bpy.ops.rigidbody.world_remove()

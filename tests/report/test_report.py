@@ -395,7 +395,7 @@ def test_runs_are_set_side_by_side(tmp_path):
         results,
         places_m=results.frames.positions_m[:1] + (results.frames.positions_m - results.frames.positions_m[:1]) / 2,
     )
-    folders = [keep_run(tmp_path / name / "run", each) for name, each in (("a", results), ("b", halved))]
+    folders = [keep_run(tmp_path / name / "run", recorded) for name, recorded in (("a", results), ("b", halved))]
     page, _ = made(*folders, output=tmp_path / "both")
     rows = {row["finding"]: row for row in table(tmp_path / "both", "comparison")}
     throw = rows["Largest throw"]

@@ -41,8 +41,8 @@ def test_dxf_has_closed_lines_in_metres(tmp_path):
     square, *ring = polylines(tmp_path / "plan.dxf")
     assert (square["layer"], square["closed"]) == ("EXCLUSION_ZONE", True)
     assert sorted(square["corners"]) == [[0, 0], [0, 4], [10, 0], [10, 4]]
-    assert [each["layer"] for each in ring] == ["BRIDGE", "BRIDGE"]  # outline and hole
-    assert all(len(each["corners"]) == 4 and each["closed"] for each in ring)
+    assert [line["layer"] for line in ring] == ["BRIDGE", "BRIDGE"]  # outline and hole
+    assert all(len(line["corners"]) == 4 and line["closed"] for line in ring)
 
 
 def test_layers_have_names_that_release_12_allows(tmp_path):

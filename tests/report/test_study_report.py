@@ -79,7 +79,7 @@ def test_areas_are_those_that_geometry_gives(runs, told):
 def test_the_plan_holds_every_run_but_the_farthest(runs):
     area = layers(runs)["limit"]
     outside = [CrossSection(list(rings)) - area for rings in runs.swept]
-    assert sum(each.area() > 0.0 for each in outside) == 1
+    assert sum(area.area() > 0.0 for area in outside) == 1
 
 
 def test_likely_places_are_within_rarer_ones(runs):
@@ -112,7 +112,10 @@ def test_rank_correlations_are_those_of_scipy(runs):
 
 
 def test_criteria_have_their_limits(runs, told):
-    assert told.column("criteria", "criterion") == [*(each.name for each in runs.ensemble.criteria), "all of them"]
+    assert told.column("criteria", "criterion") == [
+        *(criterion.name for criterion in runs.ensemble.criteria),
+        "all of them",
+    ]
     assert told.column("criteria", "met")[0] == 93
     at_least, at_most = told.column("criteria", "at_least_percent"), told.column("criteria", "at_most_percent")
     assert at_least[0] == pytest.approx(100.0 * 0.05 ** (1.0 / 93.0)) and at_most[0] == 100.0

@@ -221,7 +221,7 @@ def test_collections_hold_what_their_names_say(build):
 
 def users_of_all_data(blender):
     kinds = ("objects", "meshes", "collections", "actions", "materials", "cameras", "curves")
-    return {(kind, each.name): each.users for kind in kinds for each in getattr(blender.data, kind)}
+    return {(kind, data.name): data.users for kind in kinds for data in getattr(blender.data, kind)}
 
 
 def test_nothing_is_left_over(blender, build):

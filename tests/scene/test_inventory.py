@@ -130,7 +130,7 @@ def test_connections_of_the_add_on_keep_their_sections(blender, blocks):
     second_moments = np.array([[[1 / 3, -0.25], [-0.25, 2.0]], [[5.0, 0.0], [0.0, 7.0]]])
     made = made_connections(blender, blocks, shards, ground, connections, second_moments)
     inventory = inventory_of(blocks.scene)
-    assert inventory.connection_names.tolist() == [each.name for each in made]
+    assert inventory.connection_names.tolist() == [connection.name for connection in made]
     assert inventory.pairs.tolist() == [[1, 2], [1, 0]]  # the ground was made first
     np.testing.assert_allclose(inventory.points_m, connections.points, rtol=SINGLE)
     # Custom properties are kept in double precision.

@@ -19,7 +19,7 @@ def make(blender, naming, names):
 def test_names_are_those_asked_for_in_their_order(blender, naming, count):
     names = naming.numbered_names("Shard", count, blender.data.objects)
     assert names == [f"Shard {number:06d}" for number in range(count)]
-    assert [each.name for each in make(blender, naming, names)] == names
+    assert [item.name for item in make(blender, naming, names)] == names
     assert sorted(blender.data.objects.keys()) == names
 
 

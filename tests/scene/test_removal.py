@@ -48,7 +48,7 @@ def ends_of(connection):
 
 def contents(blender):
     kinds = ("objects", "meshes", "collections")
-    return {kind: sorted(each.name for each in getattr(blender.data, kind)) for kind in kinds}
+    return {kind: sorted(data.name for data in getattr(blender.data, kind)) for kind in kinds}
 
 
 @pytest.mark.parametrize("example", ["i235_one_span", "i235_steps", "single_span_explosives"])

@@ -189,9 +189,9 @@ def test_three_posts_share_a_load_by_stiffness_whatever_their_order(blender, tmp
     blocks, mass = Blocks(), 20_000.0
     stiff, places = np.array([4e10, 1e10, 2e10]), np.array([-3.0, 0.5, 3.0])
     beam = blocks.block((0, 0, 10), mass, (8, 1, 1))
-    posts = [blocks.block((places[each], 0, 9)) for each in order]
+    posts = [blocks.block((places[place], 0, 9)) for place in order]
     joints = [
-        blocks.connect("FIXED", (places[each], 0, 9.5), post, beam) for each, post in zip(order, posts, strict=True)
+        blocks.connect("FIXED", (places[place], 0, 9.5), post, beam) for place, post in zip(order, posts, strict=True)
     ]
     for joint in joints:
         joint["bda_area_m2"], joint["bda_normal"] = 1.0, (0.0, 0.0, 1.0)
@@ -200,7 +200,7 @@ def test_three_posts_share_a_load_by_stiffness_whatever_their_order(blender, tmp
     shear = np.column_stack((axial, axial)) / 3
     make_elastic(blocks.scene, joints, SectionStiffness(axial, shear, none, np.zeros((3, 2, 2))))
     results = blocks.play(tmp_path, 12)
-    rows = [results.inventory.connection_names.tolist().index(each.name) for each in joints]
+    rows = [results.inventory.connection_names.tolist().index(constraint.name) for constraint in joints]
     sums = np.array([[stiff.sum(), (stiff * places).sum()], [(stiff * places).sum(), (stiff * places**2).sum()]])
     sink, slope = np.linalg.solve(sums, [mass * GRAVITY, 0.0])
     shares = (stiff * (sink + slope * places))[list(order)]
@@ -350,8 +350,10 @@ def test_the_digest_of_what_was_built_knows_the_stiffness(blender, tmp_path, ela
         ),
     )
     digests = {
-        run(replace(each, time=replace(each.time, duration_s=0.05)), tmp_path / str(number))["fingerprint"]["built"]
-        for number, each in enumerate((elastic_span, softer, rigid))
+        run(replace(changed, time=replace(changed.time, duration_s=0.05)), tmp_path / str(number))["fingerprint"][
+            "built"
+        ]
+        for number, changed in enumerate((elastic_span, softer, rigid))
     }
     assert len(digests) == 3
 
@@ -365,7 +367,7 @@ def test_where_rows_are_not_as_expected_connections_are_rigid(blender, tmp_path,
     monkeypatch.setattr(progress, "stage", told.append, raising=True)
     summary = run(elastic_span, tmp_path / "run", progress)
     assert summary["elasticity"] is None
-    assert any("connections were rigid" in each for each in told)
+    assert any("connections were rigid" in text for text in told)
 
 
 def test_what_sleeps_is_not_shaken_when_something_wakes_it(blender, tmp_path):
@@ -388,9 +390,10 @@ def test_a_wave_runs_through_a_bar_at_the_speed_of_sound(blender, tmp_path):
     blocks = Blocks(frames_per_second=rate, substeps_per_frame=100)
     blocks.scene.gravity = (0, 0, 0)
     wall = blocks.block((-0.5, 0, 10))
-    bar = [blocks.block((0.5 + each, 0, 10), DENSITY_KG_M3) for each in range(count)]
+    bar = [blocks.block((0.5 + number, 0, 10), DENSITY_KG_M3) for number in range(count)]
     joints = [
-        blocks.connect("FIXED", (each, 0, 10), one, other) for each, (one, other) in enumerate(pairwise([wall, *bar]))
+        blocks.connect("FIXED", (number, 0, 10), one, other)
+        for number, (one, other) in enumerate(pairwise([wall, *bar]))
     ]
     for joint in joints:
         joint["bda_area_m2"], joint["bda_normal"] = 1.0, (1.0, 0.0, 0.0)
@@ -402,7 +405,7 @@ def test_a_wave_runs_through_a_bar_at_the_speed_of_sound(blender, tmp_path):
     key_values(wall, "location", frames, places)
     results = blocks.play(tmp_path, 8)
     names = results.inventory.body_names.tolist()
-    speeds = results.frames.velocities_m_s[:, [names.index(each.name) for each in bar], 0]
+    speeds = results.frames.velocities_m_s[:, [names.index(block.name) for block in bar], 0]
     fronts = [0.5 + np.interp(-speed / 2, -row, np.arange(count)) for row in speeds[2:5]]
     # A front is some blocks wide, and its middle is found within a part of one.
     np.testing.assert_allclose(np.diff(fronts) * rate, np.sqrt(CONCRETE.young_pa / DENSITY_KG_M3), rtol=0.02)

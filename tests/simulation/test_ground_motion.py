@@ -26,8 +26,8 @@ def on_ground(folder, record: GroundRecord, size_m, friction: float, duration_s:
     scene = Blocks(frames_per_second=FRAMES_PER_SECOND, substeps_per_frame=10)
     ground = scene.block((0.0, 0.0, -0.5), size_m=(40.0, 40.0, 1.0))
     block = scene.block((0.0, 0.0, size_m[2] / 2.0), 1000.0, size_m)
-    for each in (ground, block):
-        each.rigid_body.friction = math.sqrt(friction)  # Bullet multiplies both
+    for body in (ground, block):
+        body.rigid_body.friction = math.sqrt(friction)  # Bullet multiplies both
     keep_ground_motion(scene.scene, record)
     move_with_ground(scene.scene, record, 0.0, 2, Timeline.of(1.0 / FRAMES_PER_SECOND, duration_s, ()))
     return scene.play(folder, round(duration_s * FRAMES_PER_SECOND))

@@ -96,7 +96,7 @@ def test_bars_that_are_weakened_stretch_further_and_those_that_are_sawn_through_
     )
     results = blocks.play(tmp_path, 84)
     times, fallen = results.frames.time_s, 9.0 - results.frames.positions_m[:, 1, 2]
-    before, after = (np.flatnonzero(times < each - 1e-6)[-1] for each in (weakened_s, cut_s))
+    before, after = (np.flatnonzero(times < time_s - 1e-6)[-1] for time_s in (weakened_s, cut_s))
     at_yield_m = elongation_m / 20.0
     assert fallen[before] == pytest.approx(0.25 * at_yield_m, rel=0.02)
     assert fallen[after] == pytest.approx(0.5 * at_yield_m, rel=0.02)

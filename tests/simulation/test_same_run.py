@@ -101,9 +101,9 @@ def test_precision_is_chosen_by_us_alone(usual, name):
     with np.load(folder / name / "results.npz") as arrays:
         frames = len(arrays["frames"])
         fractions = {key: arrays[key] for key in arrays if arrays[key].dtype.kind == "f"}
-    of_frames = {key for key, each in fractions.items() if each.ndim > 1 and len(each) == frames}
-    assert {key for key, each in fractions.items() if each.dtype == np.float32} == of_frames > {"places_m"}
-    assert {each.dtype for key, each in fractions.items() if key not in of_frames} == {np.dtype(np.float64)}
+    of_frames = {key for key, values in fractions.items() if values.ndim > 1 and len(values) == frames}
+    assert {key for key, values in fractions.items() if values.dtype == np.float32} == of_frames > {"places_m"}
+    assert {values.dtype for key, values in fractions.items() if key not in of_frames} == {np.dtype(np.float64)}
 
 
 @pytest.mark.parametrize("machine", MACHINES, ids=lambda machine: machine.kernel)

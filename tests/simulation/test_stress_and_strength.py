@@ -32,7 +32,7 @@ def test_column_carries_all_that_is_above(blender, tmp_path):
     for level in np.arange(1.5, height, 1.0):
         inside = (abs(heights - level) < 0.5) & (low > 1e-6)
         weights = column.fracture.volumes[inside]
-        mean, mean_height = (np.average(each[inside], weights=weights) for each in (vertical, heights))
+        mean, mean_height = (np.average(values[inside], weights=weights) for values in (vertical, heights))
         expected = -DENSITY_KG_M3 * GRAVITY * (height - mean_height)
         # Levels are cut roughly by the shards: over 20 draws they differ by 10 % or less, and the top one, which has
         # hardly any stress, by 1.2 % of that at the foot.

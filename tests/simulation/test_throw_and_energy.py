@@ -82,8 +82,8 @@ def test_what_a_bounce_in_bullet_gains_or_loses_is_what_the_next_height_says(ble
     blocks = Blocks(frames_per_second=60, substeps_per_frame=40)
     ground = blocks.block((0, 0, -0.5), size_m=(10, 10, 1))
     block = blocks.block((0, 0, 2.5), 10.0)
-    for each in (ground, block):
-        each.rigid_body.restitution, each.rigid_body.friction = 1.0, 0.0
+    for body in (ground, block):
+        body.rigid_body.restitution, body.rigid_body.friction = 1.0, 0.0
     results = blocks.play(tmp_path, 110)
     heights = results.frames.positions_m[:, 1, 2]
     bounce = int(heights.argmin())

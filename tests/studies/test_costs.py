@@ -19,7 +19,7 @@ def test_ten_thousand_draws_need_little_time_and_memory(tmp_path):
     done = run_program("many_runs", few, many, tmp_path / "out")
     assert done.returncode == 0, done.stderr
     (first, _, memory_mb), (second, each_ms, more_mb) = (
-        [float(each) for each in line.split()] for line in done.stdout.splitlines()
+        [float(word) for word in line.split()] for line in done.stdout.splitlines()
     )
     assert (first, second) == (100, 600)
     assert each_ms < MOST_MS

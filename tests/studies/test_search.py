@@ -104,7 +104,7 @@ def test_median_and_spread_of_a_known_strength_are_found(tmp_path, capfd):
     # Every run is as its own strength says, which is sampled for it alone.
     head = trials[0].split(",")
     factor, density, fell = (
-        head.index(next(each for each in head if each.startswith(name)))
+        head.index(next(column for column in head if column.startswith(name)))
         for name in ("in.connections.strength_factor", "in.geometry.block.density_kg_m3", "out.success")
     )
     for row in [trial.split(",") for trial in trials[1:]]:

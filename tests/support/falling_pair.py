@@ -42,7 +42,7 @@ def play(scene, first, last):
 
 def lists_of_handlers(blender):
     every = (getattr(blender.app.handlers, name) for name in dir(blender.app.handlers))
-    return [each for each in every if isinstance(each, list)]
+    return [handlers for handlers in every if isinstance(handlers, list)]
 
 
 def assert_ended(blender, recording, folder, *words, bodies=3):
@@ -70,6 +70,6 @@ def assert_whole(recording, folder, frames, bodies=3):
 
 
 def assert_handlers_gone(blender):
-    handlers = (each for every in lists_of_handlers(blender) for each in every)
+    handlers = (handler for every in lists_of_handlers(blender) for handler in every)
     ours = (handler for handler in handlers if handler.__module__ == blender_events.__name__)
     assert not any(ours) or blender_events.recorded_scene(blender.context.scene).stands_still

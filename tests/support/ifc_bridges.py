@@ -96,7 +96,7 @@ class IfcBridge:
         return self.file.create_entity(kind, GlobalId=guid, OwnerHistory=self.owner, Name=name, **attributes)
 
     def point(self, *place_m):
-        return self.file.create_entity("IfcCartesianPoint", tuple(each / self.metre for each in place_m))
+        return self.file.create_entity("IfcCartesianPoint", tuple(coordinate / self.metre for coordinate in place_m))
 
     def direction(self, *ratios):
         return self.file.create_entity("IfcDirection", tuple(float(ratio) for ratio in ratios))

@@ -36,7 +36,7 @@ class Layout:
 
 def without_blender(panel: type) -> type:
     """A class with all that a panel has of its own, which can be made outside of Blender's drawing."""
-    own = [vars(each) for each in reversed(panel.__mro__) if issubclass(each, SidebarPanel)]
+    own = [vars(base) for base in reversed(panel.__mro__) if issubclass(base, SidebarPanel)]
     contents = {name: value for found in own for name, value in found.items() if not name.startswith("__")}
 
     def keep_layout(self, layout: Layout) -> None:

@@ -49,7 +49,7 @@ def _value(item: Field, random: np.random.Generator) -> Any:
     table_class = subtable_class(item)
     if table_class and holds_many(item):
         made = [_table(table_class, random) for _ in range(random.integers(4))]
-        return tuple(each for each in made if each)
+        return tuple(item for item in made if item)
     if table_class:
         return _table(table_class, random)
     return _plain(held, item.metadata["key"], random)
@@ -59,9 +59,9 @@ def _table(table_class: type[Table], random: np.random.Generator) -> Table | Non
     """A table of random values; None where they contradict each other every time."""
     for _ in range(_TRIES):
         given = [field for field in fields(table_class) if field.default is MISSING or random.random() < 0.5]
-        given = [each for each in given if each.default_factory is MISSING]
+        given = [field for field in given if field.default_factory is MISSING]
         try:
-            return table_class(**{each.name: _value(each, random) for each in given})
+            return table_class(**{field.name: _value(field, random) for field in given})
         except ScenarioError:
             continue
     return None
@@ -76,7 +76,7 @@ def _plain(held: Any, rule: Key, random: np.random.Generator) -> Any:
         return bool(random.integers(2))
     if held is str:
         return str(random.choice(rule.choices or _TEXTS))
-    lowest = max((each for each in (rule.above, rule.at_least) if each is not None), default=-1000.0)
+    lowest = max((limit for limit in (rule.above, rule.at_least) if limit is not None), default=-1000.0)
     highest = min(rule.at_most if rule.at_most is not None else math.inf, max(abs(lowest), 1.0) * 10.0**3)
     number = random.uniform(lowest, highest)
     return int(number) + 1 if held is int else number

@@ -35,7 +35,7 @@ def write_asc(path, height=plane, *, count=41, step=2.5, header=(), no_data=-999
 
 
 def write_xyz(path, height=plane, *, separator=" ", header="", scattered=False):
-    x, y = (each.ravel() for each in lattice())
+    x, y = (grid.ravel() for grid in lattice())
     if scattered:
         # Off the grid by up to a third of its step, the border but for: every place is still between points.
         inside = (x > x.min()) & (x < x.max()) & (y > y.min()) & (y < y.max())
@@ -55,14 +55,14 @@ def triangles(count=41):
 
 
 def write_landxml(path, height=plane, unit='<Metric linearUnit="meter"/>', surfaces=1):
-    x, y = (each.ravel() for each in lattice())
+    x, y = (grid.ravel() for grid in lattice())
     points = "".join(
         f'<P id="{row + 1}">{north!r} {east!r} {z!r}</P>'
         for row, (east, north, z) in enumerate(np.column_stack((x, y, height(x, y))).tolist())
     )
     faces = "".join(f"<F>{a} {b} {c}</F>" for a, b, c in (triangles() + 1).tolist())
     inner = f'<Definition surfType="TIN"><Pnts>{points}</Pnts><Faces>{faces}</Faces></Definition>'
-    body = "".join(f'<Surface name="ground {each + 1}">{inner}</Surface>' for each in range(surfaces))
+    body = "".join(f'<Surface name="ground {number + 1}">{inner}</Surface>' for number in range(surfaces))
     path.write_text(
         f'<?xml version="1.0"?><LandXML xmlns="http://www.landxml.org/schema/LandXML-1.2" version="1.2">'
         f"<Units>{unit}</Units><Surfaces>{body}</Surfaces></LandXML>",
@@ -73,7 +73,7 @@ def write_landxml(path, height=plane, unit='<Metric linearUnit="meter"/>', surfa
 
 def write_obj(path, height=plane):
     """Write a mesh about its own origin, as meshes in single precision have to be."""
-    x, y = (each.ravel() for each in lattice())
+    x, y = (grid.ravel() for grid in lattice())
     corners = np.column_stack((x - EASTING, y - NORTHING, height(x, y) - HEIGHT))
     lines = [f"v {a!r} {b!r} {c!r}" for a, b, c in corners.tolist()]
     lines += [f"f {a} {b} {c}" for a, b, c in (triangles() + 1).tolist()]
@@ -100,5 +100,5 @@ def write_tif(path, height=plane, *, kind="float32", keys=(), no_data=None, tags
     if no_data is not None:
         extra.append((42113, "s", 0, str(no_data)))
     extra = extra if tags is None else tags
-    tifffile.imwrite(path, heights.astype(kind), extratags=[(*each, True) for each in extra], metadata=None)
+    tifffile.imwrite(path, heights.astype(kind), extratags=[(*tag, True) for tag in extra], metadata=None)
     return path

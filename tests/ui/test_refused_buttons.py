@@ -64,7 +64,7 @@ def settings_of(scene):
 
 def everything(bpy):
     kinds = (bpy.data.objects, bpy.data.meshes, bpy.data.collections, bpy.data.actions)
-    return {each for kind in kinds for each in kind}
+    return {operator for kind in kinds for operator in kind}
 
 
 @pytest.mark.parametrize("busy", MODES, indirect=True)

@@ -8,7 +8,7 @@ from bridge_demolition_addon.ui.scenario.prop import registered_group
 def test_registering_twice_leaves_nothing(blender):
     def found():
         bases = (blender.types.PropertyGroup, blender.types.Operator, blender.types.Panel, blender.types.UIList)
-        ours = [each.__name__ for base in (*bases, blender.types.Menu) for each in base.__subclasses__()]
+        ours = [subclass.__name__ for base in (*bases, blender.types.Menu) for subclass in base.__subclasses__()]
         return [name for name in ours if name.startswith("BDA_") and hasattr(blender.types, name)]
 
     for _ in range(2):

@@ -47,7 +47,7 @@ def test_tangents_are_how_forces_change():
     slips, flows = np.tile([[0.01], [0.002], [0.0]], 3), np.full(3, 0.0102)
     stretch, step = np.array([0.02, 0.015, -0.01]), 1e-9
     around = np.stack([stretch + sign * step * np.eye(3) for sign in (1.0, -1.0)])
-    forces = [bar_response(bars, each.T, slips, flows).forces_n for each in around]
+    forces = [bar_response(bars, strains.T, slips, flows).forces_n for strains in around]
     differences = (forces[0] - forces[1]) / (2.0 * step)
     found = bar_response(bars, np.tile(stretch[:, None], 3), slips, flows).tangents_n_m[..., 0]
     np.testing.assert_allclose(found, differences, rtol=1e-4, atol=1e-5 * bars.stiffness_n_m[0])

@@ -174,7 +174,7 @@ def test_gaps_are_as_wide_as_asked_and_the_surface_stays(name):
     vertices = np.concatenate([shard.vertices for shard in apart])
     np.testing.assert_allclose([vertices.min(axis=0), vertices.max(axis=0)], SOLIDS[name].bounds, atol=1e-9)
     for first, second in whole.faces.pairs:
-        one, other = (to_manifold(apart[each]) for each in (first, second))
+        one, other = (to_manifold(apart[number]) for number in (first, second))
         # Coordinates of some metres; what is left over after a cut is rounded to 1e-9.
         assert one.min_gap(other, 1.0) >= gap - 1e-7
 

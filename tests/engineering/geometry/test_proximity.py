@@ -78,7 +78,7 @@ def test_boxes_that_meet(points, largest, distance):
 def test_one_box_around_thousands_meets_them_all_and_no_more():
     points = np.array(np.meshgrid(*[np.arange(14.0)] * 3)).reshape(3, -1).T
     lower, upper = np.vstack(([-1.0] * 3, points)), np.vstack(([15.0] * 3, points + 0.5))
-    assert boxes_that_meet(lower, upper).tolist() == [[0, each] for each in range(1, 1 + 14**3)]
+    assert boxes_that_meet(lower, upper).tolist() == [[0, box] for box in range(1, 1 + 14**3)]
 
 
 @pytest.mark.parametrize("counts", ([], [5], [5_000_000], [10] * 7, [3_000_000, 1, 1, 3_000_000], [1_000_000] * 9))

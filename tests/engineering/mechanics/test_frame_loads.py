@@ -65,9 +65,9 @@ def during(loads, substep_s):
 def together(history):
     """Loads of several sub-steps as one."""
     arrays = {
-        item.name: np.concatenate([getattr(each, item.name) for each in history]) for item in fields(SubstepLoads)
+        item.name: np.concatenate([getattr(substep, item.name) for substep in history]) for item in fields(SubstepLoads)
     }
-    counts = [len(each.contact_substeps) for each in history]
+    counts = [len(substep.contact_substeps) for substep in history]
     return SubstepLoads(**arrays | {"contact_substeps": np.repeat(np.arange(len(history)), counts)})
 
 
@@ -81,7 +81,7 @@ def gathered(frame, history, substeps=UNEQUAL_S):
     resultants = frame.add(together(history))
     at_once = frame.finish()
     frame.begin()
-    one_by_one = [frame.add(each)[0] for each in history]
+    one_by_one = [frame.add(substep)[0] for substep in history]
     loads = frame.finish()
     np.testing.assert_array_equal(resultants, one_by_one)
     for name, values in by_name(loads).items():
@@ -350,12 +350,12 @@ def test_any_loads_against_sums_body_by_body():
     everything = []
     for body in range(count):
         resultants, sums, stresses = [], [], []
-        for each in history:
+        for in_substep in history:
             acting = [
                 (sign * force, point)
                 for two, forces, places in (
-                    (pairs, each.connection_forces_n[0], points),
-                    (each.contact_pairs, each.contact_impulses_ns, each.contact_points_m),
+                    (pairs, in_substep.connection_forces_n[0], points),
+                    (in_substep.contact_pairs, in_substep.contact_impulses_ns, in_substep.contact_points_m),
                 )
                 for pair, force, point in zip(two, forces, places, strict=True)
                 for side, sign in ((0, 1.0), (1, -1.0))
@@ -365,7 +365,7 @@ def test_any_loads_against_sums_body_by_body():
             # The same moment turns the other way on the second body; which way the normal points does not matter.
             stress += sum(
                 (1.0 if body == pair[0] else -1.0) * np.outer(normal, np.cross(normal, moment))
-                for pair, normal, moment in zip(pairs, normals, each.connection_moments_nm[0], strict=True)
+                for pair, normal, moment in zip(pairs, normals, in_substep.connection_moments_nm[0], strict=True)
                 if body in pair
             )
             resultants.append(sum((force for force, _ in acting), np.zeros(3)))

@@ -16,7 +16,9 @@ PAIR = np.array([[0, 1]])
 def motion(velocities, centres=None, spins=None):
     """Motion at the end of one sub-step."""
     velocities = np.array(velocities, float)
-    centres, spins = (np.zeros_like(velocities) if each is None else np.array(each, float) for each in (centres, spins))
+    centres, spins = (
+        np.zeros_like(velocities) if vectors is None else np.array(vectors, float) for vectors in (centres, spins)
+    )
     return Motion(centres[None], velocities[None], spins[None])
 
 
@@ -34,8 +36,10 @@ def accumulator(masses, start, damping=0.0, gravity=(0.0, 0.0, 0.0)):
 def add(work, after, free, of_connections, of_contacts):
     """Add a sub-step, with the resultants that these impulses have."""
     shape = (1, len(free))
-    both = ((PairSums(each.pairs, each.substeps, shape), each) for each in (of_connections, of_contacts))
-    resultants = sum(sums.resultants(each.impulses_ns) for sums, each in both)
+    both = (
+        (PairSums(impulses.pairs, impulses.substeps, shape), impulses) for impulses in (of_connections, of_contacts)
+    )
+    resultants = sum(sums.resultants(impulses.impulses_ns) for sums, impulses in both)
     work.add(after, free[None], of_connections, of_contacts, resultants, np.array([STEP_S]))
 
 

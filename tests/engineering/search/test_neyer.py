@@ -16,7 +16,7 @@ SEARCHES = 60
 def test_levels_are_those_of_the_published_example():
     # B. T. Neyer (1994), Technometrics 36, 61-70: guesses 0.6 to 1.4 and 0.1, levels to two digits, 20 outcomes. His
     # estimates in the end, 5.3922 and 1.0412, follow from all twenty levels.
-    outcomes = np.array([bool(int(each)) for each in "00000100000010101111"])
+    outcomes = np.array([bool(int(digit)) for digit in "00000100000010101111"])
     levels = NeyerTest(0.6, 1.4, 0.1, lambda level: round(level, 2)).levels(outcomes, 20)
     assert levels[:10] == pytest.approx([1.0, 1.2, 1.4, 1.8, 2.6, 4.2, 3.4, 3.8, 4.0, 4.1])
     found = fitted(LevelOutcomes(levels, outcomes))

@@ -12,8 +12,8 @@ GRAVITY = 9.81
 
 def pace_of(took_s, work=None):
     pace = Pace()
-    for each, amount in zip(took_s, np.ones(len(took_s)) if work is None else work, strict=True):
-        pace.note(each, amount)
+    for seconds, amount in zip(took_s, np.ones(len(took_s)) if work is None else work, strict=True):
+        pace.note(seconds, amount)
     return pace
 
 
@@ -83,7 +83,7 @@ def test_many_frames_cost_no_more_times_than_few_and_come_to_the_same():
 
 def test_words_are_minutes_and_seconds():
     assert clock(65.4) == "1:05"
-    assert [in_words(each) for each in (0.2, 59.6, 65.0, 3600.0)] == [
+    assert [in_words(seconds) for seconds in (0.2, 59.6, 65.0, 3600.0)] == [
         "about 0:00 min left",
         "about 1:00 min left",
         "about 1:05 min left",

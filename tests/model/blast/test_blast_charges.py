@@ -56,7 +56,7 @@ def test_values_are_kept_as_what_they_are():
 
 def test_charges_without_a_name_are_called_after_their_number():
     named = named_charges([charge(), charge(name=None), charge(name="last")])
-    assert [each.name for each in named] == ["mid pier", "Charge 2", "last"]
+    assert [charge.name for charge in named] == ["mid pier", "Charge 2", "last"]
     assert named_charges(named) == named
 
 

@@ -45,7 +45,7 @@ def test_twice_the_pressure_is_twice_the_impulse_at_the_same_times(options):
     charges = charge((0, 0, 0)), charge((2, 2, 0), 3.0, delay=0.01)
     whole, twice = (explosion(*charges, pressure_factor=factor, **options) for factor in (1.0, 2.0))
     for start, end in pairwise(np.linspace(0.0, 0.1, 20)):
-        one, other = (each.loads(start, end, CENTRES, UPRIGHT) for each in (whole, twice))
+        one, other = (explosion.loads(start, end, CENTRES, UPRIGHT) for explosion in (whole, twice))
         np.testing.assert_array_equal(other.impulses_ns, 2.0 * one.impulses_ns)
         np.testing.assert_array_equal(other.peaks_pa, 2.0 * one.peaks_pa)
         np.testing.assert_array_equal((other.bodies, other.charges), (one.bodies, one.charges))

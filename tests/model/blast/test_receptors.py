@@ -54,7 +54,7 @@ def test_charges_within_eight_milliseconds_shake_as_one():
         charge(3.0, 8.0, 0.008),
         charge(4.0, 0.0),
     ]
-    groups = [[each.mass_kg for each in group] for group in charges_per_delay(charges)]
+    groups = [[charge.mass_kg for charge in group] for group in charges_per_delay(charges)]
     assert groups == [[2.0, 4.0], [8.0], [1.0]]
 
 

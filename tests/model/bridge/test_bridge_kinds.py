@@ -117,8 +117,8 @@ def test_members_are_closed_touch_and_do_not_overlap(name):
 @pytest.mark.parametrize("name", BRIDGES)
 def test_one_solid_of_all_members_has_their_volume_and_is_one_body(name):
     apart, merged = bridge_members(BRIDGES[name]), bridge_members(replace(BRIDGES[name], merge=True))
-    assert [(each.name, each.kind) for each in merged] == [("bridge", "bridge")]
-    assert merged[0].mass_kg == pytest.approx(sum(each.mass_kg for each in apart), rel=ROUNDING)
+    assert [(member.name, member.kind) for member in merged] == [("bridge", "bridge")]
+    assert merged[0].mass_kg == pytest.approx(sum(member.mass_kg for member in apart), rel=ROUNDING)
     assert len(bodies(to_manifold(merged[0].solid))) == 1
 
 

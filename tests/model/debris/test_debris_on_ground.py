@@ -31,7 +31,7 @@ WATER = box((20.0, 30.0, 1.0), (20.0, 0.0, 1.5))
 def fallen(starts_m, ends_m, *, with_water=True):
     """Cubes of 1 m that are at their starts at first and at their ends after it, on the slope."""
     count = len(starts_m)
-    places = np.array([np.vstack([each, np.zeros((2, 3))]) for each in (starts_m, ends_m)])
+    places = np.array([np.vstack([shard_m, np.zeros((2, 3))]) for shard_m in (starts_m, ends_m)])
     arrays = moving_boxes(
         [0.0, 1.0], [(1.0, 1.0, 1.0)] * (count + 2), places, kinds=["shard"] * count + ["ground"] * 2
     ).arrays()

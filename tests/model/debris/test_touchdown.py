@@ -66,7 +66,7 @@ def test_the_nearer_of_two_equal_landings_shakes_most():
 )
 def test_limits_are_those_of_the_codes_at_low_frequency(velocity_mm_s, reached_mm_s):
     """DIN 4150-3, table 1, below 10 Hz: 3, 5 and 20 mm/s; BS 7385-2 at 4 Hz: 15 and 50 mm/s."""
-    found = [1e3 * each.velocity_m_s for each in reached(1e-3 * velocity_mm_s)]
+    found = [1e3 * touchdown.velocity_m_s for touchdown in reached(1e-3 * velocity_mm_s)]
     assert found == pytest.approx(reached_mm_s)
 
 

@@ -48,7 +48,7 @@ def test_a_baseline_ends_at_rest_where_the_ground_began_and_takes_a_drift_off(ba
 
 def test_a_parabola_leaves_less_velocity_than_a_line():
     drift = along(np.sin(2.0 * np.pi * TIMES_S) + 0.1 * TIMES_S**3)
-    line, parabola = (corrected(TIMES_S, drift, each).velocities_m_s for each in ("linear", "parabola"))
+    line, parabola = (corrected(TIMES_S, drift, correction).velocities_m_s for correction in ("linear", "parabola"))
     assert 0.0 < (parabola**2).sum() < 0.5 * (line**2).sum()
 
 
@@ -144,7 +144,7 @@ def test_a_study_can_vary_the_factor_and_a_draw_depends_on_the_file(tmp_path):
     assert list(files_of(scenario)) == []
     (key,) = keys_named(scenario, "ground_motion.factor")
     stronger = changed(scenario, {key: 1.5})
-    peaks = [each.ground_record.peaks()["accelerations_m_s2"][0] for each in (scenario, stronger)]
+    peaks = [motion.ground_record.peaks()["accelerations_m_s2"][0] for motion in (scenario, stronger)]
     assert peaks[1] == pytest.approx(1.5 * peaks[0])
     motion = written(tmp_path)
     assert list(files_of(replace(scenario, ground_motion=motion))) == [tmp_path / "record.csv"]

@@ -26,7 +26,7 @@ BEST = np.array([0.3, 0.6, 0.45, 0.8, 0.2])
 
 def settings(**changes):
     """Settings of five quantities; what they are called in a scenario does not matter here."""
-    quantities = tuple(ChosenQuantity(key=f"ball.target_m.{each}", lowest=0.0, highest=1.0) for each in range(1, 6))
+    quantities = tuple(ChosenQuantity(key=f"ball.target_m.{number}", lowest=0.0, highest=1.0) for number in range(1, 6))
     criteria = (Criterion(name="down", kind="collapsed"),)
     given = {"scenario": "none", "objective": "reach", "quantile": QUANTILE, "finalist_runs": 20, **changes}
     return OptimiseSettings(quantities=quantities, criteria=criteria, **given)
@@ -84,7 +84,7 @@ def test_it_finds_better_values_than_as_many_by_chance():
         ours = played(Rounds(settings(), OptunaProposals(5, seed)), bowl)
         chance = played(Rounds(settings(), ByChance(5, seed)), bowl)
         assert ours.done == chance.done == settings().runs
-        reaches = [bowl.mean_m(each.candidates[each.chosen].shares) for each in (ours, chance)]
+        reaches = [bowl.mean_m(planned.candidates[planned.chosen].shares) for planned in (ours, chance)]
         better += reaches[0] < reaches[1]
         found.append(reaches)
         assert bowl.chance(ours.candidates[ours.chosen].shares) > 0.8
@@ -101,9 +101,9 @@ def test_what_is_confirmed_is_true_in_the_mean_and_what_was_seen_in_the_search_i
         bowl = NoisyBowl(seed)
         rounds = played(Rounds(small, ByChance(5, seed)), bowl)
         true_m = bowl.quantile_m(rounds.candidates[rounds.chosen].shares)
-        for name, each in errors.items():
-            each.append(rounds.result(rounds.chosen, name).value - true_m)
-    means = {name: np.mean(each) for name, each in errors.items()}
+        for name, error in errors.items():
+            error.append(rounds.result(rounds.chosen, name).value - true_m)
+    means = {name: np.mean(error) for name, error in errors.items()}
     of_mean = np.std(errors[CONFIRMATION]) / np.sqrt(200)
     assert abs(means[CONFIRMATION]) < 3.0 * of_mean < 0.1
     assert means[SEARCH] < -0.3 and means[FINAL] < -0.1

@@ -32,8 +32,8 @@ def test_summary_adds_up_by_cause_and_names_the_farthest_first():
     made = energy["made_by_solver"]
     assert made["J"] == made["by_connections_J"] + made["by_contacts_J"] + made["by_lifting_J"] == 200.0
     assert energy["gravity_J"] == 5000.0
-    assert [each["body"] for each in energy["farthest_shards"]] == ["lower", "upper"]
-    assert [each["made_by_solver_J"] for each in energy["farthest_shards"]] == [150.0, 50.0]
+    assert [shard["body"] for shard in energy["farthest_shards"]] == ["lower", "upper"]
+    assert [shard["made_by_solver_J"] for shard in energy["farthest_shards"]] == [150.0, 50.0]
 
 
 def test_a_throw_above_twice_the_height_of_fall_is_doubtful():

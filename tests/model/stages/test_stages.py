@@ -102,7 +102,7 @@ def test_a_bridge_whose_support_is_cut_off_has_no_factor(tmp_path):
 def test_a_member_that_holds_all_is_critical_and_one_that_hangs_on_it_is_not(tmp_path):
     scenario = read_scenario(beam_file(tmp_path, 4.0))
     found = criticality(StandingBridge(checked_model(scenario), scenario.joints), lambda done, total: None)
-    falls = {each.member: each.share for each in found}
+    falls = {fall.member: fall.share for fall in found}
     assert falls["start"] == pytest.approx(1.0) and falls["beam"] == 0.0
 
 

@@ -101,7 +101,7 @@ def beam_of_blocks(folder, blocks, *, prop):
 def moments_of_faces(bridge, stage):
     """Where the faces between blocks are along the beam, m, and their bending moments, N·m, in its order."""
     model = bridge.model
-    blocks = [number for number, each in enumerate(model.members) if each.name.startswith("block")]
+    blocks = [number for number, member in enumerate(model.members) if member.name.startswith("block")]
     within = np.isin(model.member_of_shard[model.connections.pairs], blocks).all(axis=1)
     rows = np.flatnonzero(within)[np.argsort(model.connections.points[within, 0])]
     return model.connections.points[rows, 0], abs(stage.standing.loads.moments_nm[rows, 1])

@@ -36,7 +36,7 @@ def test_gaps_between_shards_take_nothing_of_the_road_but_their_own_width():
     found = areas(with_gaps(cut.shards, DECK, gap), Member("deck", "deck", DECK))
     lost = LENGTH * WIDTH - found[Finish.ROAD]
     on_top = [shard.corners[(shard.corners[:, :, 2] > 5.4999).sum(axis=1) == 2] for shard in cut.shards]
-    assert 0.0 < lost < gap * sum(len(each) for each in on_top) * WIDTH  # no cut is longer than some widths
+    assert 0.0 < lost < gap * sum(len(cuts) for cuts in on_top) * WIDTH  # no cut is longer than some widths
     assert found[Finish.BROKEN] > 0.0
 
 

@@ -178,7 +178,7 @@ def test_gaps_leave_masses_and_connections_as_they_were():
     np.testing.assert_array_equal(model.masses_kg, without.masses_kg)
     np.testing.assert_array_equal(model.connections.areas, without.connections.areas)
     np.testing.assert_array_equal(model.second_moments_m4, without.second_moments_m4)
-    volumes = [volumes_and_centres(each.shards)[0] for each in (without, model)]
+    volumes = [volumes_and_centres(built.shards)[0] for built in (without, model)]
     assert (volumes[1] < volumes[0]).all()
 
 

@@ -24,9 +24,9 @@ def test_a_study_says_how_far_and_how_likely():
     said = conclusions(STUDY, table())
     reaches_m = [row.outputs["reach_m"] for row in table().rows]
     assert (said.statuses, said.reach.limit_m) == ({"done": 93}, sorted(reaches_m)[-2])
-    met = [[row.outputs[each.output] for row in table().rows] for each in STUDY.criteria]
-    assert [each.count for each in said.criteria] == np.sum(met, axis=1).tolist()
-    assert [each.what for each in said.criteria][:2] == [
+    met = [[row.outputs[criterion.output] for row in table().rows] for criterion in STUDY.criteria]
+    assert [criterion.count for criterion in said.criteria] == np.sum(met, axis=1).tolist()
+    assert [criterion.what for criterion in said.criteria][:2] == [
         "met the criterion mid span down",
         "met the criterion road stays free",
     ]
@@ -40,7 +40,7 @@ def test_a_run_that_crashed_reaches_without_end_and_meets_nothing():
     said, before = conclusions(STUDY, table(crashed=crashed)), conclusions(STUDY, table())
     assert said.statuses == {"crashed": 2, "done": 91}
     assert said.as_json()["reach"]["limit_m"] is None
-    assert [each.count + 2 for each in said.criteria] == [each.count for each in before.criteria]
+    assert [criterion.count + 2 for criterion in said.criteria] == [criterion.count for criterion in before.criteria]
     assert said.success.count == before.success.count - 2
 
 

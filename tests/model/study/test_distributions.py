@@ -88,7 +88,7 @@ def test_no_draw_of_a_normal_distribution_lies_beyond_its_ends():
 
 def test_all_values_of_a_choice_are_equally_likely():
     choice = Choice(("TNT", "PETN", "RDX"))
-    found = [choice.quantile(float(each)) for each in (np.arange(3000) + 0.5) / 3000]
+    found = [choice.quantile(float(probability)) for probability in (np.arange(3000) + 0.5) / 3000]
     assert {value: found.count(value) for value in choice.values} == dict.fromkeys(choice.values, 1000)
     assert choice.quantile(1.0 - LEAST_PROBABILITY) == "RDX"
 

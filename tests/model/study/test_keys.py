@@ -53,13 +53,13 @@ def test_a_number_becomes_the_name_where_there_is_one():
 
 def test_a_list_without_a_name_leads_to_all_of_it():
     found = keys_named(BLASTED, "charges.delay_ms")
-    assert [each.name for each in found] == [
+    assert [key.name for key in found] == [
         'charges."mid pier".delay_ms',
         "charges.span.delay_ms",
         'charges."Charge 3".delay_ms',
     ]
-    assert [each.value for each in found] == [5.0, 0.0, 0.0]
-    assert [each.name for each in keys_named(BLASTED, "charges.place_m.3")][1] == "charges.span.place_m.3"
+    assert [key.value for key in found] == [5.0, 0.0, 0.0]
+    assert [key.name for key in keys_named(BLASTED, "charges.place_m.3")][1] == "charges.span.place_m.3"
 
 
 def test_each_name_that_is_found_leads_back_to_the_same_value():
@@ -71,18 +71,18 @@ def test_each_name_that_is_found_leads_back_to_the_same_value():
             except ScenarioError as error:
                 assert "it has no [[" in str(error)
                 continue
-            for each in found:
-                assert keys_named(scenario, each.name) == (each,)
+            for named in found:
+                assert keys_named(scenario, named.name) == (named,)
 
 
 def test_tables_of_one_name_are_told_apart_by_their_numbers():
     zones = tuple(replace(I235.zones[0], name=name) for name in ("road", "road", "track"))
     found = keys_named(replace(I235, zones=zones), "zones.bottom_m")
-    assert [each.name for each in found] == ["zones.1.bottom_m", "zones.2.bottom_m", "zones.track.bottom_m"]
+    assert [key.name for key in found] == ["zones.1.bottom_m", "zones.2.bottom_m", "zones.track.bottom_m"]
 
 
 def test_other_values_are_those_of_the_keys_alone():
-    keys = {each.name: each for each in keys_named(BLASTED, "charges.delay_ms")}
+    keys = {key.name: key for key in keys_named(BLASTED, "charges.delay_ms")}
     (target,) = keys_named(BLASTED, "ball.target_m.1")
     found = changed(BLASTED, {keys["charges.span.delay_ms"]: 7.0, keys['charges."mid pier".delay_ms']: 6.0, target: 5})
     charges = (replace(CHARGES[0], delay_ms=6.0), replace(CHARGES[1], delay_ms=7.0), BLASTED.charges[2])
@@ -134,7 +134,7 @@ def test_every_name_that_is_proposed_leads_to_a_key_that_can_be_drawn():
             assert "is not in the scenario: it has no " in str(error)
             continue
         there += 1
-        assert all(not isinstance(each.value, tuple) for each in found)
+        assert all(not isinstance(key.value, tuple) for key in found)
     assert there > 80  # all others are in tables that this scenario does without
     assert {"ball.drop_height_m", "ball.target_m.1", "charges.delay_ms", "connections.type"} <= set(names_to_propose())
     assert not {"scenario.seed", "scenario.title", "zones.name", "geometry.file"} & set(names_to_propose())

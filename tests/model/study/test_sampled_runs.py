@@ -56,7 +56,7 @@ def test_a_draw_is_the_scenario_with_its_inputs():
 def test_inputs_have_the_distributions_that_were_asked_for():
     whole = study(*ALL)
     drawn = [sampled_run(whole, number).inputs for number in range(1, 3001)]
-    columns = {name: [each[name] for each in drawn] for name in drawn[0]}
+    columns = {name: [inputs[name] for inputs in drawn] for name in drawn[0]}
     expected = {
         SEED: stats.uniform(0, 2**31),
         "ball.drop_height_m": stats.norm(5.0, 0.3),

@@ -49,7 +49,7 @@ def model(slope_file):
 def feet_of(model):
     """Middles (n, 3) of the undersides of all columns."""
     boxes = [member.solid.bounds for member in model.members if member.kind == "pier"]
-    return np.array([[*each[:, :2].mean(axis=0), each[0, 2]] for each in boxes])
+    return np.array([[*box[:, :2].mean(axis=0), box[0, 2]] for box in boxes])
 
 
 def test_columns_reach_down_to_the_ground_at_their_axes(model):
@@ -77,9 +77,9 @@ def test_what_was_done_to_the_ground_is_told(model):
     assert facts.largest_error_m < 1e-6 and facts.filled_in_share == 0.0
     # The pads reach up to a cell of the grid beyond the columns, on either side.
     most = (COLUMN / 2 + 2 * facts.step_m) * (RISE_X + RISE_Y)
-    assert [each.name for each in facts.levelled] == [member.name for member in model.members if member.kind == "pier"]
-    for each in facts.levelled:
-        assert 0.35 * RISE_X <= each.dug_m <= most and 0.35 * RISE_X <= each.filled_m <= most
+    assert [pier.name for pier in facts.levelled] == [member.name for member in model.members if member.kind == "pier"]
+    for pier in facts.levelled:
+        assert 0.35 * RISE_X <= pier.dug_m <= most and 0.35 * RISE_X <= pier.filled_m <= most
     half = model.ground.terrain.bounds[1, 0]
     assert facts.lowest_m == pytest.approx(-half * (RISE_X + RISE_Y), rel=1e-9)
 

@@ -116,8 +116,8 @@ def test_scrubbing_shows_each_frame_as_it_was_recorded(hanging):
     names, moving = recording.inventory.body_names.tolist(), [1, 3]
     for frame in (2, 5, 3, 5):
         scene.frame_set(frame)
-        rows = [names.index(hanging.world.collection.objects[each].name) for each in moving]
-        row = [each.number for each in recording.frames].index(frame)
+        rows = [names.index(hanging.world.collection.objects[index].name) for index in moving]
+        row = [recorded.number for recorded in recording.frames].index(frame)
         shares = sums[row, rows] / sums[:, rows].max()
         assert np.allclose(shown_colours(hanging)[moving], linear(colours(ColourMap.BLUE_TO_RED, shares)), atol=1e-6)
 
@@ -184,7 +184,11 @@ def test_handlers_are_there_once(hanging):
     for _ in range(3):
         contours_of(hanging.scene).show(FRAME_BY_FRAME)
     lists = (bpy.app.handlers.frame_change_post, bpy.app.handlers.depsgraph_update_post, bpy.app.handlers.load_pre)
-    assert [sum(each.__module__.startswith("bridge_demolition_addon") for each in one) for one in lists] == [1, 1, 1]
+    assert [sum(handler.__module__.startswith("bridge_demolition_addon") for handler in one) for one in lists] == [
+        1,
+        1,
+        1,
+    ]
 
 
 def test_kept_results_are_shown_and_those_of_another_scene_refused(hanging, tmp_path):

@@ -62,15 +62,15 @@ def test_what_blender_starts_with_is_hidden_and_comes_back(startup, blender):
     cube, lamp, camera, world = (*(startup.objects[name] for name in ("Cube", "Light", "Camera")), startup.world)
     before = names(startup)
     build(startup)
-    assert all(each.hide_render and not each.visible_get() for each in (cube, lamp, camera))
+    assert all(item.hide_render and not item.visible_get() for item in (cube, lamp, camera))
     assert startup.camera.name == "Bridge camera" and startup.world.name == "Sky"
     suns = [obj for obj in startup.objects if obj.type == "LIGHT" and obj.data.type == "SUN"]
     assert len(suns) == 1
     remove_demolition(startup)
     assert names(startup) == before and startup.camera == camera and startup.world == world
-    assert all(not each.hide_render and each.visible_get() for each in (cube, lamp, camera))
+    assert all(not item.hide_render and item.visible_get() for item in (cube, lamp, camera))
     assert not {material.name for material in blender.data.materials} - {"Material", "Dots Stroke"}
-    assert [each.name for each in blender.data.worlds] == ["World"]
+    assert [background.name for background in blender.data.worlds] == ["World"]
     assert not blender.data.lights.get("Sun") and not blender.data.cameras.get("Bridge camera")
 
 
@@ -95,7 +95,7 @@ def test_building_twice_leaves_one_sun_one_camera_and_one_sky(startup, blender):
         blender.ops.rigidbody.world_remove()  # as the user may do by Blender's own button
     build(startup)
     found = [obj for obj in startup.objects if obj.type in ("LIGHT", "CAMERA")]
-    assert sorted(each.name.split(".")[0] for each in found) == ["Bridge camera", "Camera", "Light", "Sun"]
+    assert sorted(item.name.split(".")[0] for item in found) == ["Bridge camera", "Camera", "Light", "Sun"]
     assert sorted(world.name for world in blender.data.worlds) == ["Sky", "World"]
     assert startup.camera.name == "Bridge camera"
 

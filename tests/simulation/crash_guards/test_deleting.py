@@ -28,8 +28,8 @@ def processes() -> Iterator[list[ProgramAtWork]]:
     """The process that plays, once there is one: Blender takes a second to start, and a row a tenth of one."""
     running = []
     yield running
-    for each in running:
-        each.end()
+    for program in running:
+        program.end()
 
 
 @pytest.fixture

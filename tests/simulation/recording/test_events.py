@@ -120,7 +120,9 @@ def test_weakened_connection_bears_what_is_left_of_its_breaking_force(blender, t
     blocks = Blocks()
     ceiling, block = blocks.block((0, 0, 10)), blocks.block((0, 0, 9), MASS_KG)
     blocks.connect("FIXED", (0, 0, 9.5), ceiling, block, 2.0 * WEIGHT_N)
-    keep_changes(blocks.scene, [Weakening(time_s=0.2 + 0.1 * n, factor=each) for n, each in enumerate(factors)])
+    keep_changes(
+        blocks.scene, [Weakening(time_s=0.2 + 0.1 * number, factor=factor) for number, factor in enumerate(factors)]
+    )
     _, results = play(blocks.scene, tmp_path, 24)
     assert results.frames.intact[results.frames.time_s < 0.19].all()
     assert bool(results.frames.intact[-1, 0]) is holds
@@ -168,8 +170,8 @@ def test_several_changes_happen_in_order_of_time(blender, tmp_path):
     assert changes_of(bar.scene) == tuple(changes)
     recording, _ = play(bar.scene, tmp_path, 24)
     applied = recording.applied_events
-    assert [each["kind"] for each in applied] == ["weakening", "saw cut", "removal"]
-    assert [each["time_s"] for each in applied] == pytest.approx([0.2, 0.4, 0.6], abs=1.0 / 240.0)
+    assert [change["kind"] for change in applied] == ["weakening", "saw cut", "removal"]
+    assert [change["time_s"] for change in applied] == pytest.approx([0.2, 0.4, 0.6], abs=1.0 / 240.0)
     keep_changes(bar.scene, [])
     assert changes_of(bar.scene) == ()
 

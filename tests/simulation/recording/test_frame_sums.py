@@ -39,7 +39,7 @@ def row(blender):
 
 
 def threads():
-    return [each for each in threading.enumerate() if each.name.startswith(THREAD_NAME)]
+    return [thread for thread in threading.enumerate() if thread.name.startswith(THREAD_NAME)]
 
 
 def hand_over(monkeypatch, size):

@@ -118,14 +118,14 @@ def test_loads_of_the_last_substep_alone_are_written(blender, tmp_path, monkeypa
     frames = recording.results().frames
     by_frame = [substeps[first : first + 5] for first in range(0, len(substeps), 5)]
     assert len(by_frame) == len(frames.time_s) - 1 == 20
-    for each, force, velocity in zip(
+    for impulses, force, velocity in zip(
         by_frame, frames.loads.body_forces_n[1:, 1], frames.velocities_m_s[1:, 1], strict=True
     ):
-        before, _, substep_s = each[-1]
+        before, _, substep_s = impulses[-1]
         # Velocities are kept in single precision, to 0.3 µm/s: m / Δt makes 4 mN of that.
         np.testing.assert_allclose(force, mass * ((velocity - before) / substep_s - GRAVITY), atol=0.02)
-        for _, loads, _ in each[1:]:
-            np.testing.assert_array_equal(loads, each[0][1])
+        for _, loads, _ in impulses[1:]:
+            np.testing.assert_array_equal(loads, impulses[0][1])
     assert np.ptp(frames.loads.body_forces_n[1:, 1, 2]) > 100.0
 
 

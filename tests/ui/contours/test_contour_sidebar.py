@@ -26,7 +26,7 @@ def ours_in_handlers():
     import bpy
 
     lists = (bpy.app.handlers.frame_change_post, bpy.app.handlers.depsgraph_update_post, bpy.app.handlers.load_pre)
-    return sum(each.__module__.startswith("bridge_demolition_addon") for one in lists for each in one)
+    return sum(handler.__module__.startswith("bridge_demolition_addon") for one in lists for handler in one)
 
 
 def shown(blocks, number=1):

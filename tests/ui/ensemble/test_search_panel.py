@@ -59,13 +59,13 @@ def test_what_the_panel_shows_is_what_is_asked(panel):
     asked = shown_search(panel)
     assert (asked.settings.key, asked.settings.lowest, asked.settings.highest) == ("ball.drop_height_m", 0.05, 0.1)
     assert (asked.settings.factor, asked.settings.trials) == (False, 10)
-    assert [each.kind for each in asked.settings.criteria] == ["collapsed"]
+    assert [criterion.kind for criterion in asked.settings.criteria] == ["collapsed"]
     charge = Charge(name="one", place_m=(6.0, 0.0, 1.0), mass_kg=20.0)
     show_scenario(panel, replace(SHORT_RUN, ball=None, charges=(charge,), blast=BlastSettings(start_s=0.1)))
     panel.search_quantity, panel.search_criterion, panel.search_span = "CHARGES", "SPAN_DOWN", 1
     asked = shown_search(panel)
     assert asked.settings.factor and asked.run_at(1, 0.1).scenario.charges[0].mass_kg == pytest.approx(2.0)
-    assert [(each.kind, each.span) for each in asked.settings.criteria] == [("span down", 1)]
+    assert [(criterion.kind, criterion.span) for criterion in asked.settings.criteria] == [("span down", 1)]
 
 
 @pytest.mark.parametrize(
@@ -95,7 +95,7 @@ def test_values_under_earlier_names_are_read(extension, panel, capsys):
     panel.search_lowest = 0.07
     assert panel.search.lowest == pytest.approx(0.07) and not panel.is_property_set("search_lowest")
     assert "scene.bda.search_lowest is scene.bda.search.lowest now" in capsys.readouterr().out
-    assert [each.__name__ for each in extension.app.handlers.load_post].count("read_earlier_files") == 1
+    assert [handler.__name__ for handler in extension.app.handlers.load_post].count("read_earlier_files") == 1
 
 
 def test_any_key_of_the_scenario_is_searched_along(blender, panel):

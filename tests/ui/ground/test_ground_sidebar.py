@@ -48,7 +48,7 @@ def ran(built, extension, tmp_path):
 
 
 def texts(scene):
-    return [each.text for each in everything(scene) if each.text]
+    return [item.text for item in everything(scene) if item.text]
 
 
 def everything(scene):
@@ -58,7 +58,7 @@ def everything(scene):
 
 
 def by_text(scene, beginning):
-    (found,) = (each for each in everything(scene) if each.text.startswith(beginning))
+    (found,) = (item for item in everything(scene) if item.text.startswith(beginning))
     return found
 
 
@@ -164,16 +164,16 @@ def test_dust_is_off_and_renders_where_it_is_raised(ran, extension, tmp_path):
     before = json.loads((tmp_path / "run" / "summary.json").read_text())["fingerprint"]
     assert bpy.ops.bda.raise_dust() == {"FINISHED"}
     clouds = [obj for obj in ran.objects if obj.name.startswith("Dust")]
-    assert clouds and not any(each.rigid_body or each.particle_systems for each in clouds)
+    assert clouds and not any(puff.rigid_body or puff.particle_systems for puff in clouds)
     ran.render.engine, ran.cycles.samples, ran.cycles.use_denoising = "CYCLES", 4, False
     ran.render.resolution_x, ran.render.resolution_y = 96, 54
-    cloud = max(clouds, key=lambda each: max(each.scale))
+    cloud = max(clouds, key=lambda puff: max(puff.scale))
     appears = int(min(point.co.x for curve in curves_of(cloud) for point in curve.keyframe_points if point.co.x > 0))
     pictures = []
     for hidden in (False, True):
-        for each in clouds:
-            each.animation_data.action = None if hidden else each.animation_data.action
-            each.hide_render = hidden
+        for puff in clouds:
+            puff.animation_data.action = None if hidden else puff.animation_data.action
+            puff.hide_render = hidden
         ran.frame_set(min(appears + 4, ran.frame_end))
         ran.render.filepath = str(tmp_path / "dust.png")
         bpy.ops.render.render(write_still=True)

@@ -58,7 +58,7 @@ def test_what_cannot_be_imported_changes_nothing(choices, message, extension, se
     with pytest.raises(RuntimeError, match=message):
         extension.ops.bda.import_ifc(**{"filepath": str(path), **choices})
     assert scenario_of(settings) == default_scenario()
-    assert [each.name for each in tmp_path.iterdir()] == ["bridge.ifc"]
+    assert [file.name for file in tmp_path.iterdir()] == ["bridge.ifc"]
 
 
 def test_the_button_is_greyed_with_the_reason_where_nothing_reads_ifc(extension, monkeypatch):
@@ -70,7 +70,7 @@ def test_the_button_is_greyed_with_the_reason_where_nothing_reads_ifc(extension,
 
     assert extension.ops.bda.import_ifc.poll()
     home = ifcopenshell.__path__[0].rpartition("ifcopenshell")[0].rstrip("/\\")
-    monkeypatch.setattr(sys, "path", [each for each in sys.path if each.rstrip("/\\") != home])
+    monkeypatch.setattr(sys, "path", [folder for folder in sys.path if folder.rstrip("/\\") != home])
     monkeypatch.delitem(sys.modules, "ifcopenshell")
     assert not extension.ops.bda.import_ifc.poll()
     with pytest.raises(RuntimeError, match=r"IFC is read by IfcOpenShell: install it with pip install .*\[ifc\]"):

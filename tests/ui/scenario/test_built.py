@@ -35,8 +35,8 @@ def keys_of(group, table_class, path=""):
     for item in shown_tables(table_class):
         inner = getattr(group, item.name)
         if holds_many(item):
-            for each in inner:
-                yield from keys_of(each, subtable_class(item))
+            for row in inner:
+                yield from keys_of(row, subtable_class(item))
         elif not is_optional(item) or getattr(group, USE + item.name):
             yield from keys_of(inner, subtable_class(item))
 
@@ -56,7 +56,7 @@ def change(group, item):
         setattr(group, name, before + ", 1")
     elif value_type(item) is str:
         choices = getattr(group.bl_rna.properties[name], "enum_items", None)
-        others = [each.identifier for each in choices or () if each.identifier != before] or [before + "x"]
+        others = [choice.identifier for choice in choices or () if choice.identifier != before] or [before + "x"]
         setattr(group, name, others[0])
     elif value_type(item) is bool:
         setattr(group, name, not before)
@@ -81,7 +81,7 @@ def test_every_value_that_changes_is_named_unless_the_run_takes_it_as_shown(exte
     seen = set()
     for group, item, key in list(keys_of(settings.scenario, Scenario)):
         take_back = change(group, item)
-        named = {each.key.partition(" (")[0] for each in changes(settings)}
+        named = {change.key.partition(" (")[0] for change in changes(settings)}
         counts = key not in OF_A_RUN and key.split(".")[0] not in OF_A_RUN
         assert named == ({key} if counts else set()), key
         take_back()
@@ -94,13 +94,13 @@ def test_a_value_says_what_it_was_built_with_in_its_unit(built, settings):
     settings.scenario.ball.mass_kg = 50000.0
     settings.scenario.fracture.shards = 2000
     settings.scenario.use_ball = True
-    found = {each.key: (each.shown, each.built) for each in changes(settings)}
+    found = {change.key: (change.shown, change.built) for change in changes(settings)}
     assert found == {
         "ball.mass_kg": ("50 000 kg", f"with {read_scenario(SMALL).ball.mass_kg:,.0f} kg".replace(",", " ")),
         "fracture.shards": ("2 000", "with 30"),
     }
     settings.scenario.use_ball = False
-    assert ("ball", "not used", "with it") in [(each.key, each.shown, each.built) for each in changes(settings)]
+    assert ("ball", "not used", "with it") in [(change.key, change.shown, change.built) for change in changes(settings)]
 
 
 def test_a_list_that_is_written_otherwise_is_the_same_list(extension, settings):
@@ -110,7 +110,7 @@ def test_a_list_that_is_written_otherwise_is_the_same_list(extension, settings):
     settings.scenario.bridge.span_lengths_m = " 13 "
     assert changes(settings) == []
     settings.scenario.bridge.span_lengths_m = "13, 13"
-    assert [(each.key, each.shown) for each in changes(settings)] == [("bridge.span_lengths_m", "13, 13 m")]
+    assert [(change.key, change.shown) for change in changes(settings)] == [("bridge.span_lengths_m", "13, 13 m")]
 
 
 @pytest.mark.parametrize("operator", ["run", "register_handler"])
@@ -195,7 +195,7 @@ def test_what_was_built_is_kept_with_the_file(built, settings, tmp_path):
     settings = built.context.scene.bda
     assert changes(settings) == []
     settings.scenario.ball.mass_kg = 50000.0
-    assert [each.key for each in changes(settings)] == ["ball.mass_kg"]
+    assert [change.key for change in changes(settings)] == ["ball.mass_kg"]
 
 
 def test_a_file_that_only_keeps_its_scenario_is_not_run_with_other_values(built, settings):

@@ -126,7 +126,7 @@ def test_building_keeps_the_charges_that_are_there(extension, settings):
     charge.location.x = 0.25
     extension.ops.bda.build_scenario()
     charges = [obj for obj in extension.context.scene.objects if "bda_mass_kg" in obj]
-    assert [each.name for each in charges] == ["West pier", "East pier", "Mid span"]
+    assert [named.name for named in charges] == ["West pier", "East pier", "Mid span"]
     assert charges[0] == charge and charge.location.x == 0.25
 
 
@@ -145,13 +145,13 @@ def test_lists_grow_move_and_shrink(extension, settings):
         extension.ops.bda.add_table(path=path)
         connections.between[connections.between_index].members = members
     extension.ops.bda.move_table(path=path, direction="UP")
-    assert [each.members for each in connections.between] == ["a", "c", "b"]
+    assert [rule.members for rule in connections.between] == ["a", "c", "b"]
     assert connections.between_index == 1
     extension.ops.bda.move_table(path=path, direction="DOWN")
     extension.ops.bda.move_table(path=path, direction="DOWN")
-    assert [each.members for each in connections.between] == ["a", "b", "c"]
+    assert [rule.members for rule in connections.between] == ["a", "b", "c"]
     extension.ops.bda.remove_table(path=path)
-    assert [each.members for each in connections.between] == ["a", "b"]
+    assert [rule.members for rule in connections.between] == ["a", "b"]
     for _ in range(2):
         extension.ops.bda.remove_table(path=path)
     with pytest.raises(RuntimeError, match="Choose what to remove"):

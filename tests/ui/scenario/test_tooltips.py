@@ -34,7 +34,7 @@ def shown_properties(extension):
 def test_every_field_has_a_tooltip(extension):
     found = shown_properties(extension)
     assert len(found) > 300
-    assert [f"{group}.{each.identifier}" for group, each in found if len(each.description) < 10] == []
+    assert [f"{group}.{prop.identifier}" for group, prop in found if len(prop.description) < 10] == []
 
 
 def test_no_tooltip_ends_with_a_full_stop(extension):
@@ -59,9 +59,9 @@ def test_buttons_and_panels_of_2019_say_their_old_names(extension):
 
 def test_every_number_says_a_value(extension):
     """In digits; of keys, that it is a value which they take is seen below."""
-    numbers = [(group, each) for group, each in shown_properties(extension) if each.type in NUMBERS]
+    numbers = [(group, prop) for group, prop in shown_properties(extension) if prop.type in NUMBERS]
     numbers = [number for number in numbers if not number[1].identifier.endswith("_index")]
-    silent = [f"{group}.{each.identifier}" for group, each in numbers if not re.search(r"\d", each.description)]
+    silent = [f"{group}.{prop.identifier}" for group, prop in numbers if not re.search(r"\d", prop.description)]
     assert silent == []
 
 
@@ -81,10 +81,10 @@ def test_the_tooltip_of_a_key_gives_a_value_that_it_takes(table, item):
         return
     assert value is not None
 
-    def flat(each):
-        return [inner for part in each for inner in flat(part)] if isinstance(each, list | tuple) else [each]
+    def flat(values):
+        return [inner for part in values for inner in flat(part)] if isinstance(values, list | tuple) else [values]
 
-    assert all(rule.holds(each) for each in flat(value))
+    assert all(rule.holds(number) for number in flat(value))
 
 
 def test_no_typical_value_is_of_a_key_that_is_not_there():

@@ -57,7 +57,7 @@ def test_the_default_bridge_is_built_too_only_where_that_was_said(extension, set
     assert settings.scenario.use_bridge == with_bridge
     scenario = scenario_of(settings)
     assert (scenario.bridge is not None) == with_bridge
-    assert {each.name for each in scenario.geometry} == {"deck", "west wall", "east wall"}
+    assert {mesh.name for mesh in scenario.geometry} == {"deck", "west wall", "east wall"}
 
 
 def test_the_saved_scenario_needs_no_objects(extension, settings, objects, tmp_path):
@@ -77,7 +77,7 @@ def test_a_changed_mesh_takes_the_place_of_what_was_added_before(extension, sett
     extension.context.view_layer.update()
     extension.ops.bda.add_selected_members(directory=str(tmp_path))
     scenario = scenario_of(settings)
-    assert [each.name for each in scenario.geometry].count("deck") == 1
+    assert [mesh.name for mesh in scenario.geometry].count("deck") == 1
     assert {member.name: member.volume_m3 for member in build_model(scenario).members}["deck"] > 19.0
 
 
