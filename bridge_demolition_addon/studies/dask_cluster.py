@@ -30,22 +30,9 @@ _GONE = "the scheduler has gone; once it is back, the same command goes on"
 
 
 class DaskCluster:
-    """Makes runs on the workers of a scheduler, one in each of their threads.
+    """Makes runs on the workers of a scheduler, such as ``tcp://host:8786``, one in each of their threads.
 
-    Parameters
-    ----------
-    address
-        Of the scheduler, such as ``tcp://host:8786``.
-    limits
-        When a run is ended.
-    command, versions
-        Program of runs and its arguments, as workers are to start it, and what it has to run; by default that of their
-        own Python, and what the first of them says.
-
-    Attributes
-    ----------
-    versions : dict
-        What all workers have to run.
+    The program of runs is by default that of the workers' own Python, and its versions are those of the first worker.
     """
 
     def __init__(
@@ -90,7 +77,7 @@ class DaskCluster:
             self._command,
             self.versions,
             self._limits,
-            key=f"run-{task.cache_key}-{uuid.uuid4().hex}",  # no result of another study's
+            key=f"run-{task.cache_key}-{uuid.uuid4().hex}",  # not the result of another study
             pure=False,
         )
         self._futures.add(future)

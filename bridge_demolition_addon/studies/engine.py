@@ -1,4 +1,4 @@
-"""What makes runs: the interface, and processes on this machine, each of which makes one run after another."""
+"""Engines that make runs: the interface, and processes on this machine, each of which makes one run after another."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ class Task:
     """A run to be made."""
 
     cache_key: str  # digest of all that its result depends on
-    request: Mapping[str, Any]  # what its program is asked, ready for JSON
-    folder: Path  # where its files are to be once it has ended
+    request: Mapping[str, Any]  # to its program, ready for JSON
+    folder: Path  # for its files once it has ended
 
 
 class Engine(Protocol):
@@ -32,11 +32,11 @@ class Engine(Protocol):
 
     @property
     def versions(self) -> Mapping[str, str]:
-        """What runs are made with."""
+        """Versions that make the runs."""
 
     @property
     def capacity(self) -> int:
-        """How many runs to have submitted at a time, so that it never waits for the next."""
+        """Number of runs to submit at a time, so that the engine never waits for the next."""
 
     def submit(self, task: Task) -> None:
         """Have a run made as soon as there is room for it."""
@@ -65,24 +65,7 @@ def ended_items(items: queue.SimpleQueue[_Item], timeout_s: float) -> list[_Item
 
 
 class LocalProcesses:
-    """Makes runs in some processes at a time.
-
-    Parameters
-    ----------
-    jobs
-        How many.
-    limits
-        When a run is ended.
-    command, versions
-        Program of runs and its arguments, and the versions that it has to run; by default those of this Python.
-
-    Attributes
-    ----------
-    versions : dict
-        What all of them have to run.
-    capacity : int
-        One more than jobs, so that none of them ever waits.
-    """
+    """Makes runs in several processes at a time; their program and its versions are by default those of this Python."""
 
     def __init__(
         self,
@@ -91,7 +74,7 @@ class LocalProcesses:
         command: Sequence[str] | None = None,
         versions: Mapping[str, str] | None = None,
     ):
-        self.capacity = jobs + 1
+        self.capacity = jobs + 1  # none of the processes ever waits
         self.versions = dict(versions or versions_with(installed_blender()))
         self._tasks: queue.SimpleQueue[Task | None] = queue.SimpleQueue()
         self._ended: queue.SimpleQueue[tuple[Task, RunOutcome | Exception]] = queue.SimpleQueue()

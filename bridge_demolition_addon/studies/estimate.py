@@ -39,7 +39,7 @@ def seconds_by_size(scenario: Scenario, model: Model) -> float:
 
 
 def _mean_substeps(scenario: Scenario, model: Model) -> float:
-    """Return about how many sub-steps frames have: in half of them what falls is taken for as fast as it gets."""
+    """Return the approximate number of sub-steps of a frame: in half of the frames debris is assumed at its fastest."""
     time = scenario.time
     if time.farthest_per_substep_m is None:
         return time.substeps_per_frame

@@ -20,13 +20,7 @@ def has_optuna() -> bool:
 
 
 def check_optuna() -> str:
-    """Return the version of Optuna.
-
-    Raises
-    ------
-    MissingLibraryError
-        It is not installed.
-    """
+    """Return the version of Optuna, which has to be installed."""
     try:
         import optuna
     except ModuleNotFoundError as error:
@@ -37,14 +31,9 @@ def check_optuna() -> str:
 
 
 class OptunaProposals:
-    """Asks Optuna for candidates, and passes results on to it; the same results give the same candidates.
+    """Asks Optuna for candidates of `size` numbers, and passes results on to it.
 
-    Parameters
-    ----------
-    size
-        How many numbers from 0 to 1 make a candidate.
-    seed
-        Start of its random numbers.
+    The same seed and results give the same candidates.
     """
 
     def __init__(self, size: int, seed: int):
@@ -55,7 +44,7 @@ class OptunaProposals:
         sampler = optuna.samplers.TPESampler(seed=seed)
         self._study = optuna.create_study(sampler=sampler)
         self._ranges: dict[str, Any] = {
-            str(each): optuna.distributions.FloatDistribution(0.0, 1.0) for each in range(size)
+            str(number): optuna.distributions.FloatDistribution(0.0, 1.0) for number in range(size)
         }
         self._trials: list[optuna.Trial] = []
 
@@ -66,14 +55,9 @@ class OptunaProposals:
         return np.array([trial.params[name] for name in self._ranges])
 
     def record_result(self, number: int, value: float, shortfall: float) -> None:
-        """Take the result of a candidate, by its number from 0.
+        """Take the result of a candidate, by its number from 0; its objective may be infinite.
 
-        Parameters
-        ----------
-        number, value
-            Which, and its objective, which may be infinite.
-        shortfall
-            By how much the part of its runs that met all criteria is too small; 0 or less where it is not.
+        The shortfall is the probability of success that was asked for, less the part of its runs that succeeded.
         """
         trial = self._trials[number]
         trial.set_constraint("shortfall", shortfall)

@@ -55,28 +55,18 @@ class RunLimits:
     """When a run is ended."""
 
     time_s: float | None = None  # wall time
-    memory_mb: float | None = None  # memory of its process in MB
+    memory_mb: float | None = None  # of its process
 
     @classmethod
     def of(cls, settings: EnsembleSettings) -> Self:
-        """Return those of a study, a search or an optimisation."""
+        """Return the limits of a study, a search or an optimisation."""
         if settings.memory_limit_mb is not None and sys.platform != "linux":
             raise ScenarioError(f"{settings.table}.memory_limit_mb: memory can be limited on Linux only; leave it out")
         return cls(settings.time_limit_s, settings.memory_limit_mb)
 
 
 class RunProcess:
-    """Makes runs in a process, and starts another where that one ends.
-
-    Parameters
-    ----------
-    command
-        Program and arguments.
-    versions
-        Versions that it has to run: from another nothing is taken.
-    limits
-        When a run is ended.
-    """
+    """Makes runs in a process, which has to run these versions, and starts another where that one ends."""
 
     def __init__(self, command: Sequence[str], versions: Mapping[str, str], limits: RunLimits):
         self._command, self._versions, self._limits = list(command), dict(versions), limits
@@ -88,12 +78,7 @@ class RunProcess:
         """Make a run whose files go to a folder, which is cleared first.
 
         A run whose process ends is made again in a fresh one, if the process had made earlier runs, or if another
-        program killed it: so the result does not depend on how runs are spread over processes.
-
-        Raises
-        ------
-        OSError, SimulationError
-            Its files cannot be written; or the program does not start, or runs other versions.
+        program killed it: so the result does not depend on how runs are distributed over processes.
         """
         began = time.monotonic()
         program = self._ready_program()
@@ -132,8 +117,8 @@ class RunProcess:
             self._program = None
         if status == UNWRITABLE:
             raise SimulationError(answer["reason"])
-        given = {name: answer[name] for name in ("reason", "outputs", "fingerprint") if name in answer}
-        return RunOutcome(status, **given, wall_time_s=time.monotonic() - began)
+        values = {name: answer[name] for name in ("reason", "outputs", "fingerprint") if name in answer}
+        return RunOutcome(status, **values, wall_time_s=time.monotonic() - began)
 
     def _answer(self, program: _Program, request: Mapping[str, Any]) -> dict[str, Any]:
         """Return the program's answer, or one in its place."""
@@ -165,13 +150,7 @@ class _Program:
         threading.Thread(target=self._read, name="answers of runs", daemon=True).start()
 
     def begin(self, versions: Mapping[str, str], *, may_be_killed: bool) -> bool:
-        """Wait for the first answer, see that the versions are those expected, and return whether it was not killed.
-
-        Raises
-        ------
-        SimulationError
-            They are not, or the program ended by itself, or was killed where it may not be.
-        """
+        """Wait for the first answer, check its versions, and return whether the program was not killed."""
         answer = self.answers.get()
         if answer is None:
             code = self.ended()
@@ -191,7 +170,7 @@ class _Program:
         return True
 
     def ask(self, request: Mapping[str, Any]) -> None:
-        """Hand over a request; one that has ended does not answer."""
+        """Send a request; a program that has ended does not answer."""
         self.played += 1
         with suppress(OSError):
             self._requests.write(json.dumps(request) + "\n")
@@ -206,7 +185,7 @@ class _Program:
         return int(pages) * os.sysconf("SC_PAGE_SIZE") / 1e6
 
     def ended(self) -> int:
-        """Return the exit status of a process that answers no more."""
+        """Return the exit status of a process that no longer answers."""
         with suppress(subprocess.TimeoutExpired):
             self._process.wait(_ENDS_WITHIN_S)
         return self.end()

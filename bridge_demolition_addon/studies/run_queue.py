@@ -10,15 +10,7 @@ from .engine import Engine, Task
 
 
 class RunQueue:
-    """Runs of a study, a search or an optimisation that are under way.
-
-    Parameters
-    ----------
-    folder
-        Keeps the outcomes.
-    engine
-        Makes the runs.
-    """
+    """Runs of a study, a search or an optimisation that are under way: an engine makes them, a folder keeps them."""
 
     def __init__(self, folder: EnsembleFolder, engine: Engine):
         self._folder, self._engine = folder, engine

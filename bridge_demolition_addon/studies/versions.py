@@ -1,4 +1,4 @@
-"""What a run's result depends on, its inputs apart: the versions that calculate it."""
+"""The versions that calculate a run: what its result depends on beside its inputs."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ..errors import SimulationError
 _LIBRARIES = ("numpy", "manifold3d", "qdldl", "scipy", "trimesh")
 _PACKAGE = Path(__file__).resolve().parents[1]
 _CALCULATING = ("bullet", "engineering", "model", "scene", "simulation", "system")
-"""Layers of this package that decide what comes out."""
+"""Layers of this package that decide the result."""
 
 _SHORT = 12
 
@@ -33,9 +33,9 @@ def versions_with(blender: str) -> dict[str, str]:
 @cache
 def _code() -> str:
     """Digest of this package's own code, of which the same version may have many."""
-    found = hashlib.sha256()
+    digest = hashlib.sha256()
     for layer in _CALCULATING:
         for path in sorted((_PACKAGE / layer).rglob("*.py")):
-            found.update(path.relative_to(_PACKAGE).as_posix().encode() + b"\0")
-            found.update(path.read_bytes().replace(b"\r\n", b"\n") + b"\0")
-    return found.hexdigest()[:_SHORT]
+            digest.update(path.relative_to(_PACKAGE).as_posix().encode() + b"\0")
+            digest.update(path.read_bytes().replace(b"\r\n", b"\n") + b"\0")
+    return digest.hexdigest()[:_SHORT]

@@ -15,7 +15,7 @@ DIRECTIONS = ("along", "across", "up")
 UNITS = ("g", "m/s2", "cm/s2")
 
 HIGHEST_HZ = 50.0
-"""Frequencies above this do not move a bridge, and would need shorter sub-steps than anybody has."""
+"""Frequencies above this do not move a bridge, and would need very short sub-steps."""
 
 _SOURCES = ("file", "sweep", "spectrum")
 
@@ -94,7 +94,7 @@ class GroundMotion(PlannedAction):
     sweep: Sweep | None = None
     spectrum: DesignSpectrum | None = None
     factor: float = key(
-        "Factor on all accelerations: what a study draws, or an intensity that is looked for.",
+        "Factor on all accelerations: sampled by a study, or an intensity that a search looks for.",
         default=1.0,
         at_least=0,
         at_most=100,

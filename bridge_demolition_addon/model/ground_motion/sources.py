@@ -1,4 +1,4 @@
-"""The record that a scenario asks for, wherever it comes from."""
+"""The record of ground motion of a scenario, from a file, a sweep or a spectrum."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ _SAMPLES_PER_CYCLE = 100
 
 def ground_record(motion: GroundMotion, seed: int) -> GroundRecord:
     """Return how the ground moves; the seed draws the phases of a record that is made from a spectrum."""
-    times, found = _accelerations(motion, seed)
+    times, accelerations = _accelerations(motion, seed)
     along = np.zeros((len(times), len(DIRECTIONS)))
-    along[:, [DIRECTIONS.index(direction) for direction in motion.directions]] = motion.factor * found
+    along[:, [DIRECTIONS.index(direction) for direction in motion.directions]] = motion.factor * accelerations
     return corrected(times, along, motion.baseline)
 
 

@@ -29,7 +29,7 @@ _DECAY_BY_S = 1.5
 _PERIODS = 60
 _CORRECTIONS = 12
 _MOST_AT_ONCE = 3.0
-"""Factor by which an amplitude is corrected at most in one go."""
+"""Largest factor of a correction of an amplitude."""
 
 
 def spectral_record(spectrum: DesignSpectrum, random: np.random.Generator) -> tuple[np.ndarray, np.ndarray]:
@@ -45,11 +45,11 @@ def spectral_record(spectrum: DesignSpectrum, random: np.random.Generator) -> tu
     made = _record(times, waves, amplitudes)
     best, least = made, np.inf
     for _ in range(_CORRECTIONS):
-        found = response_spectrum(made, STEP_S, periods)
-        off = float(abs(found / wanted - 1.0).max())
+        actual = response_spectrum(made, STEP_S, periods)
+        off = float(abs(actual / wanted - 1.0).max())
         if off < least:
             best, least = made, off
-        factors = np.clip(wanted / found, 1.0 / _MOST_AT_ONCE, _MOST_AT_ONCE)
+        factors = np.clip(wanted / actual, 1.0 / _MOST_AT_ONCE, _MOST_AT_ONCE)
         amplitudes = amplitudes * np.interp(1.0 / frequencies, periods, factors)
         made = _record(times, waves, amplitudes)
     return times, best

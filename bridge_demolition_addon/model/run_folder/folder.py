@@ -28,7 +28,7 @@ from .files import (
 from .summary import read_summary
 
 _BLENDERS_LONGEST_PATH = 1023
-"""Bytes; Blender cuts off the rest without a word (FILE_MAX in its BLI_path_utils.h is one more)."""
+"""Bytes; Blender cuts off the rest silently (FILE_MAX in its BLI_path_utils.h is one more)."""
 
 
 def prepare_folder(folder: Path, *, overwrite: bool) -> FolderLock:
@@ -48,25 +48,24 @@ def prepare_folder(folder: Path, *, overwrite: bool) -> FolderLock:
 
 
 def lock_in_place(lock: FolderLock) -> FolderLock:
-    """Return the lock of the folder in which a run can still leave its results.
+    """Return the lock of the folder in which a run can still leave its results: its own.
 
-    That is its own. Where it was moved or deleted it is made again, or, where something else is in its place, a folder
-    beside it that has a number.
+    A folder that was moved or deleted is made again; where something else has its name, one beside it gets a number.
     """
     if lock.in_place:
         return lock
     lock.release()
-    place, number = lock.folder, 1
-    while place.exists():
+    folder, number = lock.folder, 1
+    while folder.exists():
         number += 1
-        place = lock.folder.with_name(f"{lock.folder.name}_{number}")
-    with writing(place):
-        (place / PICTURE_FOLDER).mkdir(parents=True)
-    return FolderLock(place)
+        folder = lock.folder.with_name(f"{lock.folder.name}_{number}")
+    with writing(folder):
+        (folder / PICTURE_FOLDER).mkdir(parents=True)
+    return FolderLock(folder)
 
 
 def withdraw_folder(lock: FolderLock) -> None:
-    """Take back a folder that was prepared for a run which came to nothing; one that was there before stays."""
+    """Remove a folder that was prepared for a run without results; one that was there before stays."""
     folder = lock.folder
     lock.release()
     for name in RESULT_FILES:
@@ -110,22 +109,15 @@ def _clear(folder: Path) -> None:
 
 
 def keep_scenario(folder: Path, scenario: Scenario, made_by_hand: Sequence[str] = ()) -> None:
-    """Write the scenario of a run, and in comments above it what was made by hand and no scenario can say."""
+    """Write the scenario of a run, and in comments above it the changes in Blender that no scenario can say."""
     lines = [f"# Changed in Blender, and not in this scenario: {change}.\n" for change in made_by_hand]
     write_whole_text(folder / SCENARIO_FILE, "".join([*lines, scenario_text(scenario)]))
 
 
 def keep_site(folder: Path, site: Mapping[str, Any]) -> None:
-    """Put other zones, another exclusion zone and the like into the scenario of a run that has one.
+    """Put other zones, another exclusion zone and the like, by fields of a scenario, into that of a run, if it has one.
 
     They take no part in the simulation: reports read them there.
-
-    Parameters
-    ----------
-    folder
-        Of the run.
-    site
-        Values of fields of a scenario.
     """
     if not (folder / SCENARIO_FILE).is_file():
         return

@@ -23,7 +23,7 @@ from ..results.solver_energy import flies_on_solver_energy
 from .files import BREAKING_LOG, FORCE_LOG
 
 Source = TypeVar("Source")
-"""What the values of a log are taken from."""
+"""Type of the source of a log's values."""
 
 _STARTS = ("frame", "time_s")
 _XYZ = ("x", "y", "z")
@@ -33,10 +33,10 @@ _XYZ = ("x", "y", "z")
 class LogColumn(Generic[Source]):
     """A value of a log. One that has parts, such as a vector, takes a column of the file for each."""
 
-    name: str  # both stand in the header; empty where there is none
-    unit: str  # both stand in the header; empty where there is none
+    name: str  # in the header; may be empty
+    unit: str  # in the header; may be empty
     value: Callable[[Source], np.ndarray]  # returns (n,) or (n, parts) values for n lines
-    parts: tuple[str, ...] = ("",)  # what stands in the header between name and unit
+    parts: tuple[str, ...] = ("",)  # in the header, between name and unit
 
     @property
     def headers(self) -> list[str]:
@@ -70,10 +70,10 @@ class LogTable(Generic[Source]):
 class Flights:
     """Where n bodies are, and what may have moved them."""
 
-    first_m: np.ndarray  # (n, 3), positions in the first frame and now
-    last_m: np.ndarray  # (n, 3), positions in the first frame and now
-    made_j: np.ndarray  # (n,), energy that the solver made, and the largest kinetic energy so far
-    largest_kinetic_j: np.ndarray  # (n,), energy that the solver made, and the largest kinetic energy so far
+    first_m: np.ndarray  # (n, 3), positions in the first frame
+    last_m: np.ndarray  # (n, 3), positions now
+    made_j: np.ndarray  # (n,), energy that the solver made
+    largest_kinetic_j: np.ndarray  # (n,), so far
 
     @property
     def throws_m(self) -> np.ndarray:
@@ -83,7 +83,7 @@ class Flights:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FrameBlast:
-    """Blast loads in a frame that is so long."""
+    """Blast loads in a frame, and its length."""
 
     loads: StepLoads
     frame_s: float
@@ -205,7 +205,7 @@ class BodyLog(CsvLog[Source]):
 
 
 def _csv_text(*texts: str) -> str:
-    """Texts as CSV writes them in one line, quoted also where they hold a line break of another system."""
+    """Return texts as a line of CSV, quoted also where they hold a line break of another system."""
     buffer = io.StringIO()
     csv.writer(buffer).writerow(texts)
     return buffer.getvalue().removesuffix("\r\n")
@@ -213,22 +213,16 @@ def _csv_text(*texts: str) -> str:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class LoggedForces:
-    """What a force log holds without results."""
+    """The content of a force log without results."""
 
-    times_s: np.ndarray  # (k,), times of the frames
-    sums_n: np.ndarray  # (k,), largest sum of magnitudes and largest resultant on any body but the ground
-    resultants_n: np.ndarray  # (k,), largest sum of magnitudes and largest resultant on any body but the ground
+    times_s: np.ndarray  # (k,), of the frames
+    sums_n: np.ndarray  # (k,), largest sum of magnitudes on any body but the ground
+    resultants_n: np.ndarray  # (k,), largest resultant on any body but the ground
     is_cut: bool  # whether the log ends within a frame, which is left out
 
 
 def read_logged_forces(folder: Path) -> LoggedForces | None:
-    """Return the largest forces of every frame that the force log holds whole; None without a log.
-
-    Raises
-    ------
-    OutputError
-        It cannot be read, or holds no frame; the text begins with its name.
-    """
+    """Return the largest forces of every frame that the force log holds whole; None without a log."""
     path = folder / FORCE_LOG
     if not path.exists():
         return None
@@ -258,13 +252,7 @@ def read_logged_forces(folder: Path) -> LoggedForces | None:
 
 
 def count_logged_breaks(folder: Path) -> int | None:
-    """Return how many breaks the breaking log holds whole; None without it.
-
-    Raises
-    ------
-    OutputError
-        It cannot be read; the text begins with its name.
-    """
+    """Return how many breaks the breaking log holds whole; None without it."""
     path = folder / BREAKING_LOG
     if not path.exists():
         return None

@@ -33,9 +33,9 @@ class BodyValue(NamedTuple):
 
 @dataclass(frozen=True, slots=True, eq=False)
 class RunSummary:
-    """A summary, for those who read it. Earlier versions wrote less, and only some values are checked."""
+    """A summary by its keys in the file. Earlier versions wrote less, and only some values are checked."""
 
-    values: Mapping[str, Any]  # all that it holds, by its keys in the file
+    values: Mapping[str, Any]
 
     @property
     def title(self) -> str | None:
@@ -117,19 +117,19 @@ class RunSummary:
 
     @property
     def result_digest(self) -> str:
-        """What the results are recognised by."""
+        """Digest of the results."""
         return self.values["fingerprint"]["result"]
 
 
 def read_summary(folder: Path) -> RunSummary:
-    """Read the summary in a run's folder.
+    """Read the summary in a run's folder; errors do not name the file.
 
     Raises
     ------
     UnreadableError, ValueError
-        The file cannot be read, or is no JSON. The text does not name it.
+        The file cannot be read, or is no JSON.
     OutputError
-        It holds something that no run writes; the text does not name the file.
+        It holds something that no run writes.
     """
     return RunSummary(_checked(_read(folder)))
 
@@ -140,7 +140,7 @@ def write_summary(folder: Path, values: Mapping[str, Any]) -> None:
 
 
 def result_digest_in(folder: Path) -> str | None:
-    """Return what the results in a folder are recognised by; None if unreadable."""
+    """Return the digest of the results in a folder; None if unreadable."""
     try:
         return _read(folder)["fingerprint"]["result"]
     except (UnreadableError, ValueError, KeyError, TypeError):
@@ -197,12 +197,8 @@ def _is_list(value: Any) -> bool:
     return isinstance(value, list)
 
 
-def _is_switch(value: Any) -> bool:
-    return isinstance(value, bool)
-
-
 def _is_table_or_none(value: Any) -> bool:
-    return value is None or isinstance(value, dict)
+    return isinstance(value, dict | None)
 
 
 def _is_number_or_none(value: Any) -> bool:
@@ -240,7 +236,7 @@ _SUMMARY = {
     "changed_bodies": _are_texts,
     "fell_by_itself": _is_table_or_none,
     "title": _is_text,
-    "completed": _is_switch,
+    "completed": lambda value: isinstance(value, bool),
     "blender": _is_text,
     "density_kg_m3": _is_number,
     "impact": _is_table_or_none,
