@@ -91,7 +91,7 @@ def _play(output: Path, engine, count: int) -> float:
     study = read_study(_study_file(output.with_suffix(".toml"), SCENARIO, count))
     run = EnsembleSession(study, output, engine)
     began = time.perf_counter()
-    while not run.is_finished:
+    while not run.planner.is_finished:
         run.step(1.0)
     seconds = time.perf_counter() - began
     run.finish()

@@ -34,9 +34,9 @@ for number, path in enumerate(studies):
     engine = LocalProcesses(1, RunLimits(), [sys.executable, "-S", "-c", DOES_NOTHING], VERSIONS)
     run = EnsembleSession(study, output / str(number), engine)
     began = time.process_time()
-    while not run.is_finished:
+    while not run.planner.is_finished:
         run.step(1.0)
-    each_ms = 1e3 * (time.process_time() - began) / run.total
+    each_ms = 1e3 * (time.process_time() - began) / run.planner.total
     run.stop()
-    print(run.total, each_ms, memory_mb(), flush=True)
+    print(run.planner.total, each_ms, memory_mb(), flush=True)
 assert "bpy" not in sys.modules

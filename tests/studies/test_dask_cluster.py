@@ -82,7 +82,7 @@ def play(study, output, engine, each_step=lambda run: None):
     """Run a study to its end, and do something after each step."""
     run = EnsembleSession(study, output, engine)
     try:
-        while not run.is_finished:
+        while not run.planner.is_finished:
             run.step(0.05)
             each_step(run)
         run.finish()
@@ -101,7 +101,7 @@ def test_a_worker_that_is_killed_costs_nothing(cluster, tmp_path):
     killed = []
 
     def kill_in_the_middle(run):
-        if not killed and run.done >= 2 and begun(log)[0][-1] == "take time":
+        if not killed and run.planner.done >= 2 and begun(log)[0][-1] == "take time":
             killed.append(cluster.workers.pop())
             killed[0].kill()
 
@@ -121,7 +121,7 @@ def test_a_study_whose_scheduler_goes_can_go_on_here(cluster, tmp_path):
     command, log = program_in(tmp_path)
 
     def kill_scheduler(run):
-        if run.done == 3:
+        if run.planner.done == 3:
             cluster.scheduler.kill()
 
     engine = DaskCluster(cluster.address, LIMITS, command, VERSIONS)

@@ -39,7 +39,7 @@ def test_a_pause_is_no_part_of_the_time_that_draws_take(tmp_path, monkeypatch):
     def step_after(run, seconds):
         now[0] += seconds
         run.step(0.0)
-        return run.done, run.remaining_s
+        return run.planner.done, run.remaining_s
 
     run = EnsembleSession(study, tmp_path / "study", EndsAtOnce())
     assert run.remaining_s == 0.0
