@@ -1,4 +1,4 @@
-"""Where Blender and Bullet keep what is read: byte offsets from the start of each structure, 64-bit.
+"""Fields of Blender and Bullet that are read: byte offsets from the start of each structure, 64-bit.
 
 Bullet 3.07 as Blender 4.2 to 5.2 compiles it, in double precision. The Linux and macOS columns follow the System V
 C++ ABI and were measured on Linux; the Windows columns follow Microsoft's ABI, where vectors are aligned to 16 bytes.
@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 
 @dataclass(frozen=True, slots=True)
 class Behind:
-    """Offset of what lies so many bytes behind another field of its structure."""
+    """Offset of a field that lies so many bytes behind another field of its structure."""
 
     field: str
     distance: int

@@ -1,4 +1,4 @@
-"""Snapshots of a world: copies of its state after each sub-step, of which many are evaluated at once.
+"""Snapshots of a world: copies of its state after each sub-step, many evaluated at once.
 
 A simulation waits while a snapshot is taken, so that nothing is done with the copies then. Long arrays are kept
 component by component, all x together in memory, then all y: arithmetic takes a third of the time on them. In a
@@ -25,7 +25,7 @@ _FEEDBACK_COLUMNS = np.array([0, 1, 2, 4, 5, 6])
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Snapshot:
-    """Copies of what Bullet holds of n bodies and m connections after one sub-step.
+    """Copies of Bullet's state of n bodies and m connections after one sub-step.
 
     Attributes
     ----------

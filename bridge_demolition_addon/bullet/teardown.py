@@ -74,7 +74,7 @@ def detach_freed(
 ) -> None:
     """Take out of the world at an address all that may point at freed memory.
 
-    When it was checked it had bodies and connections at addresses (n,) and (m,), of which those that are alive are
+    When it was checked it had bodies and connections at addresses (n,) and (m,); connections that are alive (m,) are
     still there. With `bodies_stay` the bodies of now will not be freed before the world is.
     """
     known_bodies, known_connections = set(bodies.tolist()), set(connections.tolist())
@@ -99,7 +99,7 @@ def take_bodies_from(layout: Layout, connections: np.ndarray, body_class: int = 
 
 
 def take_out_constraints(layout: Layout, dynamics: int, bodies: np.ndarray, known: set[int], gone: set[int]) -> None:
-    """Take constraints, some of which Blender has freed, out of a world at an address that goes on.
+    """Take constraints that Blender has freed out of a world at an address that goes on.
 
     All its bodies are at addresses (n,); of the known constraints that may be in it, those that are gone are taken out.
     """

@@ -52,7 +52,7 @@ def keep_results(folder: Path, results: Results, summary: Mapping[str, Any]) -> 
 
 
 def _mark_run(scene: bpy.types.Scene, results: Results, summary: RunSummary) -> None:
-    """Mark on the scene's timeline what happened in its run."""
+    """Mark the events of its run on the scene's timeline."""
     settings = blast_of(scene)
     charges = [charge for charge in charges_of(scene) if charge.mass_kg > 0.0] if settings.explosion else []
     detonations_s = {given(charge.name): settings.start_s + charge.delay_s for charge in charges}

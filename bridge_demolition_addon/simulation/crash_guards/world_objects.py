@@ -38,7 +38,7 @@ class WorldObjects:
         return " and ".join(texts) or "its objects are in another order"
 
     def _numbers(self) -> bytes:
-        """Numbers of the objects in the world, by which it is compared quickly."""
+        """Numbers of the objects in the world, for a quick comparison."""
         numbers = []
         for objects in self._collections():
             numbers.append(np.zeros(len(objects), np.int32))

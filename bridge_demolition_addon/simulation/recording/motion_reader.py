@@ -27,7 +27,7 @@ _NEED_MEMORY: tuple[tuple[Callable[[RunSetup], Any], str, str], ...] = (
     (lambda setup: setup.ground_motion, "a ground that moves needs", "take ground_motion out of the scenario"),
     (lambda setup: setup.changes, "removals, saw cuts and weakenings need", "take them out of the scenario"),
 )
-"""Features of a run that need Blender's memory, and what to do without it."""
+"""Features of a run that need Blender's memory, and a remedy without it."""
 
 
 def check_motion_is_enough(setup: RunSetup, layout_error: LayoutError, *, contacts: bool) -> None:
