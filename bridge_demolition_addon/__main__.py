@@ -19,7 +19,7 @@ def main() -> NoReturn:
         entry()
     except KeyboardInterrupt:
         print("bda: interrupted", file=sys.stderr)
-        from .cli.process_end import end_process
+        from .cli.console import end_process
 
         end_process(INTERRUPTED)
 

@@ -12,7 +12,7 @@ import pytest
 from support.processes import end_started
 
 import bridge_demolition_addon
-from bridge_demolition_addon.cli.process_end import end_process
+from bridge_demolition_addon.cli.console import end_process
 
 # Asserts that stand outside of test files say what they compared, too.
 pytest.register_assert_rewrite("support.falling_pair", "support.example_claims")

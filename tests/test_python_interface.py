@@ -13,8 +13,8 @@ import pytest
 from support.checkout import ROOT
 
 import bridge_demolition_addon
+from bridge_demolition_addon.engineering.units import name_and_unit
 from bridge_demolition_addon.errors import DemolitionError
-from bridge_demolition_addon.exports.sheets import unit_of
 from bridge_demolition_addon.model.results.checks import check_arrays
 
 DOCUMENT = (ROOT / "docs" / "results.md").read_text(encoding="utf-8")
@@ -99,7 +99,7 @@ def test_arrays_on_the_ground_are_those_that_are_checked(tried):
 
 def test_units_are_those_that_the_names_say():
     for name, (_, unit, _) in told_arrays().items():
-        assert unit_of(name) == unit.replace("1", "")
+        assert name_and_unit(name)[1] == unit.replace("1", "")
 
 
 @pytest.mark.parametrize("number", [0, 1])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -13,10 +14,34 @@ from ..model.results.arrays import Results
 from ..model.results.collapse import Span
 from ..model.results.energy import Energy
 from ..model.results.force_history import BreakingByKind, ContactForces, largest_on_a_shard
-from .style import line_style, plain
+from ..system.disk import whole_file
+from .style import blank_figure, lay_out, line_style, plain
 
 _MOST_KINDS = 7
 """Kinds of connections that have a line of their own."""
+
+
+def plot_forces(results: Results, path: Path, title: str, impact_s: float | None) -> None:
+    """Draw a picture of the largest force on any shard, the intact connections and the hit of the ball over time."""
+    figure = blank_figure(9.0, 5.0, dpi=120, layout="constrained")
+    force_axes = figure.add_subplot()
+    times, (sums, resultants) = results.frames.time_s, _largest_loads(results)
+    lines = force_axes.plot(times, sums / 1e3, color="#b2182b", label="largest sum of magnitudes on a shard")
+    lines += force_axes.plot(times, resultants / 1e3, color="#2166ac", label="largest resultant on a shard")
+    force_axes.set_title(plain(title), wrap=True)
+    force_axes.set(xlabel="time (s)", ylabel="force (kN)", xmargin=0.0)
+    force_axes.set_ylim(bottom=0.0)
+    force_axes.grid(alpha=0.3)
+    count_axes = force_axes.twinx()
+    intact = results.frames.intact.sum(axis=1)
+    lines += count_axes.plot(times, intact, color="#4d4d4d", linestyle="--", label="connections intact")
+    count_axes.set(ylabel="connections intact", ylim=(0.0, 1.05 * max(1, intact.max())))
+    if impact_s is not None:
+        lines.append(force_axes.axvline(impact_s, color="black", linestyle=":", label="impact of the ball"))
+    figure.legend(handles=lines, loc="outside lower center", ncols=2, frameon=False)
+    lay_out(figure)
+    with whole_file(path) as part:
+        figure.savefig(part)
 
 
 def contact_force_history(figure: FigureBase, forces: ContactForces, impact_s: float | None) -> None:
@@ -31,19 +56,26 @@ def contact_force_history(figure: FigureBase, forces: ContactForces, impact_s: f
 def load_history(figure: FigureBase, results: Results, impact_s: float | None) -> None:
     """Draw the largest load on any shard over time, by connections and contacts together."""
     axes = _time_axes(figure, "largest load on a shard (kN)", results.frames.time_s)
-    sums = largest_on_a_shard(results, results.frames.loads.body_peak_sums_n)
-    resultants = largest_on_a_shard(results, results.frames.loads.body_peaks_n)
-    axes.plot(results.frames.time_s, sums / 1e3, **line_style(0), label="sum of magnitudes")
-    axes.plot(results.frames.time_s, resultants / 1e3, **line_style(1), label="resultant")
+    _draw_loads(axes, results.frames.time_s, *_largest_loads(results))
     _finish(figure, axes, impact_s)
 
 
 def logged_load_history(figure: FigureBase, times_s: np.ndarray, sums_n: np.ndarray, resultants_n: np.ndarray) -> None:
     """Draw the largest sum (k,) and resultant (k,) on any body over the times (k,) of a log."""
     axes = _time_axes(figure, "largest load on a body (kN)", times_s)
+    _draw_loads(axes, times_s, sums_n, resultants_n)
+    _finish(figure, axes, None)
+
+
+def _draw_loads(axes: Axes, times_s: np.ndarray, sums_n: np.ndarray, resultants_n: np.ndarray) -> None:
     axes.plot(times_s, sums_n / 1e3, **line_style(0), label="sum of magnitudes")
     axes.plot(times_s, resultants_n / 1e3, **line_style(1), label="resultant")
-    _finish(figure, axes, None)
+
+
+def _largest_loads(results: Results) -> tuple[np.ndarray, np.ndarray]:
+    """Return the largest sum of magnitudes (k,) and resultant (k,) on any shard over time."""
+    loads = results.frames.loads
+    return largest_on_a_shard(results, loads.body_peak_sums_n), largest_on_a_shard(results, loads.body_peaks_n)
 
 
 def breaking_history(

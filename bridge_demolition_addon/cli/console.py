@@ -1,10 +1,11 @@
-"""Standard streams that outlive their reader, and say their name where they cannot be written."""
+"""Standard streams that outlive their reader, and the end of a process whose clean-up may hang or crash."""
 
 import io
 import os
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Any, Self
+from typing import Any, NoReturn, Self
 
 
 class StandardStream(io.TextIOWrapper):
@@ -39,3 +40,19 @@ class StandardStream(io.TextIOWrapper):
             self.drop()
         except OSError as error:
             raise OSError(error.errno, error.strerror, self.name) from error
+
+
+def end_process(status: int) -> NoReturn:
+    """End this process, with Blender in it, at once with an exit status. Nothing is flushed or cleaned up.
+
+    Windows informs all libraries of a process even when it ends by `os._exit`; Blender's then prints memory that was
+    not freed as an error, to users who can do nothing about it. A process that is terminated informs none.
+    """
+    if sys.platform == "win32":
+        import ctypes
+
+        kernel = ctypes.WinDLL("kernel32")
+        kernel.GetCurrentProcess.restype = ctypes.c_void_p
+        kernel.TerminateProcess.argtypes = (ctypes.c_void_p, ctypes.c_uint)
+        kernel.TerminateProcess(kernel.GetCurrentProcess(), status)
+    os._exit(status)

@@ -20,8 +20,7 @@ from ..errors import (
     text_of,
 )
 from ..system.signals import Interrupted, interrupt_by_system, interrupted_afterwards
-from .console import StandardStream
-from .process_end import end_process
+from .console import StandardStream, end_process
 
 DONE = 0
 RUN_FAILED = 1
@@ -36,7 +35,7 @@ COMMANDS = {
     "stages": "stages",
     "study": "study",
     "search": "search",
-    "optimise": "optimise",
+    "optimise": "search",
     "report": "report",
     "export": "exchange.export",
     "charge": "charge",
@@ -109,8 +108,8 @@ def _parser(argv: Sequence[str]) -> Parser:
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
     called = argv[:1] if argv and argv[0] in COMMANDS else COMMANDS
     with interrupted_afterwards():  # while they load, some libraries take an interrupt for a missing part
-        for name in called:
-            import_module(f".{COMMANDS[name]}", __package__).add_to(commands)
+        for module in dict.fromkeys(COMMANDS[name] for name in called):
+            import_module(f".{module}", __package__).add_to(commands)
     return parser
 
 

@@ -1,30 +1,49 @@
-"""``bda search``: find where along one quantity a demolition succeeds as often as it has to."""
+"""``bda search`` and ``bda optimise``: find values at which a demolition succeeds, or does best."""
 
 from __future__ import annotations
 
 import argparse
+from collections.abc import Callable, Iterable
 from pathlib import Path
+from typing import Any
 
+from ..model.optimise.file import read_optimisation
 from ..model.search.file import read_search
+from ..model.study.file import Ensemble
+from ..report.wording.optimise import optimise_sentences
 from ..report.wording.search import search_sentences
 from .ensemble import add_ensemble_options, execute_ensemble
 
 
 def add_to(commands: argparse._SubParsersAction) -> None:
-    """Add the command to the command line."""
-    parser = commands.add_parser(
+    """Add both commands to the command line."""
+    search = commands.add_parser(
         "search",
         help="find the charge, drop height or strength at which a demolition succeeds as often as it has to",
         description="Make the runs of a search, each with inputs of its own, and write trials.csv, search.json and the "
         "curve to DIR. The same command goes on with a search that was stopped, and repeats no run.",
         allow_abbrev=False,
     )
-    parser.add_argument("search", metavar="SEARCH.toml", type=Path, help="search file, see docs/search.md")
-    parser.add_argument("--output", metavar="DIR", type=Path, required=True, help="folder of the search, made if new")
+    _complete(search, "search", read_search, search_sentences)
+    optimise = commands.add_parser(
+        "optimise",
+        help="find the charges, delays, positions or order of steps that do best, where a demolition has to succeed",
+        description="Try candidates, each in some runs, choose among the best on fresh runs, confirm the one that is "
+        "chosen on others, and write trials.csv, candidates.csv and optimise.json to DIR. The same command goes on "
+        "with an optimisation that was stopped, and repeats no run.",
+        allow_abbrev=False,
+    )
+    _complete(optimise, "optimise", read_optimisation, optimise_sentences)
+
+
+def _complete(
+    parser: argparse.ArgumentParser,
+    name: str,
+    read: Callable[[Path], Ensemble],
+    sentences: Callable[[Any], Iterable[str]],
+) -> None:
+    help_text = f"file that says what to {name}, see docs/{name}.md"
+    parser.add_argument("file", metavar=f"{name.upper()}.toml", type=Path, help=help_text)
+    parser.add_argument("--output", metavar="DIR", type=Path, required=True, help="its folder, made if new")
     add_ensemble_options(parser)
-    parser.set_defaults(execute=execute)
-
-
-def execute(arguments: argparse.Namespace) -> None:
-    """Make the runs of a search."""
-    execute_ensemble(read_search(arguments.search), arguments, search_sentences)
+    parser.set_defaults(execute=lambda arguments: execute_ensemble(read(arguments.file), arguments, sentences))

@@ -5,24 +5,28 @@ from __future__ import annotations
 import argparse
 import subprocess
 import sys
+from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
 
 from ..errors import OutputError, SimulationError
-from ..model.ensemble.folder import outcome_in, study_in, versions_of
-from ..model.study.file import read_study
-from ..model.study.files import AGAIN_FOLDER, RUNS_FOLDER
+from ..model.ensemble.folder import check_folder, outcome_in, study_in, versions_of
+from ..model.sequence.checked_model import checked_model
+from ..model.study.file import Study, read_study
+from ..model.study.files import AGAIN_FOLDER, RUNS_FOLDER, STUDY_FILE
 from ..model.study.runs_table import DONE
 from ..model.study.sampled_runs import sampled_run
 from ..model.study.verification import holds, proportion_leaving
 from ..report.wording.study import study_sentences, verified_sentence
 from ..studies.engine import cores
+from ..studies.estimate import FACTOR, seconds_by_runs, seconds_by_size
 from ..studies.session import EnsembleSession
 from ..system.programs import program_command
 from .ensemble import add_ensemble_options, execute_ensemble, whole_number
 from .progress import CommandProgress, progress_on
 from .run import run_with_everything
-from .study_check import study_facts
+
+_SHOWN_RUNS = 5
 
 
 def add_to(commands: argparse._SubParsersAction) -> None:
@@ -65,6 +69,45 @@ def execute(arguments: argparse.Namespace) -> None:
     if arguments.output is None:
         raise OutputError("--output is missing: name the folder of the study")
     execute_ensemble(study, arguments, partial(study_sentences, study), _make_pictures)
+
+
+def study_facts(study: Study, output: Path | None, jobs: int) -> Iterator[str]:
+    """Yield what ``--check`` prints: some runs of a study, and how long so many jobs take for all."""
+    settings = study.settings
+    yield study.scenario.title
+    yield ""
+    yield f"{settings.runs} runs. The first are:"
+    for number in range(1, min(settings.runs, _SHOWN_RUNS) + 1):
+        values = ", ".join(f"{name} {_shown(value)}" for name, value in sampled_run(study, number).inputs.items())
+        yield f"{number:>5}  {values}"
+    yield ""
+    yield _estimate(study, output, jobs)
+
+
+def _estimate(study: Study, output: Path | None, jobs: int) -> str:
+    """Return how long all runs take, by those that are done or else by the size of the model."""
+    seconds, why = None, ""
+    if output is not None and output.exists():
+        versions = versions_of(output) if (output / STUDY_FILE).exists() else {}
+        check_folder(output, study, versions)
+        seconds, why = seconds_by_runs(study, output, versions), "as those that are done"
+    if seconds is None:
+        seconds = seconds_by_size(study.scenario, checked_model(study.scenario))
+        why = f"to a factor of {FACTOR:g}, by the size of the model"
+    whole = _duration(seconds * study.settings.runs / min(jobs, study.settings.runs))
+    at_a_time = "one run at a time" if jobs == 1 else f"{jobs} runs at a time on as many cores"
+    return f"{_duration(seconds)} for a run and {whole} for all, with {at_a_time}: {why}"
+
+
+def _duration(seconds: float) -> str:
+    for unit, length in (("days", 86400.0), ("hours", 3600.0), ("minutes", 60.0)):
+        if seconds >= 2.0 * length:
+            return f"{seconds / length:.2g} {unit}" if seconds < 10.0 * length else f"{seconds / length:.0f} {unit}"
+    return f"{seconds:.2g} s" if seconds < 10.0 else f"{seconds:.0f} s"
+
+
+def _shown(value: object) -> str:
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
 def _make_pictures(session: EnsembleSession, progress: CommandProgress) -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import math
-import re
 import tempfile
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -15,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from ..engineering.units import name_and_unit
 from ..errors import MissingLibraryError
 from ..model.results.arrays import Results
 from ..model.results.energy import energy_of
@@ -29,36 +29,6 @@ _LONGEST_NAME = 31
 _LONGEST_TEXT = 32_767
 _NO_TIME = datetime(2000, 1, 1)
 """When the workbook says it was made: the same run gives the same bytes."""
-
-_UNITS = (
-    (r"m_kg13", "m/kg^(1/3)"),
-    (r"rad_s", "rad/s"),
-    (r"kg_m3", "kg/m³"),
-    (r"m_s", "m/s"),
-    (r"mm_s", "mm/s"),
-    (r"kn|kN", "kN"),
-    (r"knm|kNm", "kN·m"),
-    (r"mpa|MPa", "MPa"),
-    (r"kpa|kPa", "kPa"),
-    (r"ns|Ns", "N·s"),
-    (r"nm|Nm", "N·m"),
-    (r"mj|MJ", "MJ"),
-    (r"kj|kJ", "kJ"),
-    (r"pa|Pa", "Pa"),
-    (r"m2", "m²"),
-    (r"m3", "m³"),
-    (r"m4", "m⁴"),
-    (r"kg", "kg"),
-    (r"ms", "ms"),
-    (r"deg", "°"),
-    (r"hz|Hz", "Hz"),
-    (r"n|N", "N"),
-    (r"j|J", "J"),
-    (r"m", "m"),
-    (r"s", "s"),
-    (r"t", "t"),
-)
-"""Units by what ends the name of a column, after a line below."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,13 +71,8 @@ def write_sheets(folder: Path, results: Results, path: Path, progress: Progress)
                 progress.part(done, len(tables), "tables written")
 
 
-def unit_of(column: str) -> str:
-    """Return the unit that the name of a column ends with; empty for texts and plain numbers."""
-    return next((unit for ending, unit in _UNITS if re.search(f"_(?:{ending})$", column)), "")
-
-
 def _write_units(sheet: Any, bold: Any, tables: Sequence[_Table]) -> None:
-    rows = [(table.name, heading, unit_of(heading)) for table in tables for heading in table.headings]
+    rows = [(table.name, heading, name_and_unit(heading)[1]) for table in tables for heading in table.headings]
     for line, row in enumerate([("sheet", "column", "unit"), *rows]):
         sheet.write_row(line, 0, row, bold if line == 0 else None)
     sheet.freeze_panes(1, 0)

@@ -16,7 +16,7 @@ IMPACT = "Impact of the ball"
 
 @dataclass(frozen=True, slots=True)
 class Finding:
-    """A number with its name and unit, and in words."""
+    """A number with its name and unit, and its text."""
 
     label: str
     unit: str
@@ -31,7 +31,7 @@ def findings(run: ReportedRun, debris: Debris) -> list[Finding]:
     broken = int((~results.frames.intact[-1]).sum())
     count = results.frames.intact.shape[1]
     unrest = "nothing moved" if rest.first_motion_s is None else "not at rest at the end"
-    found = [
+    first = [
         _finding(IMPACT, "s", run.ball.first_hit_s, ".3f"),
         Finding("Connections broken", "1", broken, f"{broken} of {count}"),
         _finding("Progress of the collapse", "%", 100.0 * float(collapse_progress(results)[-1]), ".0f"),
@@ -40,7 +40,7 @@ def findings(run: ReportedRun, debris: Debris) -> list[Finding]:
         _finding("Footprint of the debris", "m²", debris.area.area(), ".0f"),
         _finding("Height of the pile", "m", debris.highest_m, ".2f"),
     ]
-    return [*found, *_throws(run, debris), _largest_load(run)]
+    return [*first, *_throws(run, debris), _largest_load(run)]
 
 
 def _throws(run: ReportedRun, debris: Debris) -> list[Finding]:
@@ -64,8 +64,8 @@ def _largest_load(run: ReportedRun) -> Finding:
         return Finding("Largest load on a shard", "kN", None, "not known")
     (peak,) = peaks
     name, time_s = results.inventory.body_names[peak.row], results.frames.time_s[peak.step]
-    words = f"{peak.force_n / 1e3:.0f} kN on {name} at {time_s:.3f} s"
-    return Finding("Largest load on a shard", "kN", peak.force_n / 1e3, words)
+    text = f"{peak.force_n / 1e3:.0f} kN on {name} at {time_s:.3f} s"
+    return Finding("Largest load on a shard", "kN", peak.force_n / 1e3, text)
 
 
 def _finding(label: str, unit: str, value: float | None, form: str, otherwise: str = "none") -> Finding:

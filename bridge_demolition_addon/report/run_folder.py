@@ -29,7 +29,7 @@ from ..system.reading import MEGABYTE, check_file
 MOST_PICTURE_BYTES = 100 * MEGABYTE
 
 _NO_PICTURE = (OSError, SyntaxError, ValueError, MemoryError, struct.error, zlib.error)
-"""What the reader of pictures raises for a file that is none, is damaged, or says that it is larger than there is."""
+"""Errors of the reader of pictures for a file that is no picture, or is damaged or cut short."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -92,7 +92,7 @@ def read_run(folder: Path) -> ReportedRun:
         shortcomings.append(f"{fall}.")
     if summary and summary.made_by_hand:
         shortcomings.append(
-            "The scene was changed in Blender after it was built, and the scenario of the run cannot say that: "
+            "The scene was changed in Blender after it was built. The scenario of the run does not hold these changes: "
             f"{'; '.join(summary.made_by_hand)}."
         )
     logged = _logged_forces(folder, shortcomings) if results is None else None
@@ -116,8 +116,8 @@ def _results(folder: Path, at_work: str | None, shortcomings: list[str]) -> Resu
         shortcomings.append(
             f"{_still_at_work(at_work)} No frame is recorded yet."
             if at_work
-            else f"The run was killed before it could write {RESULTS_FILE}: only its logs are here, and all that needs "
-            "more than them is left out: debris, zones, exclusion zone, spans, energy, stresses."
+            else f"The run was killed before it could write {RESULTS_FILE}: only its logs are here. Debris, zones, "
+            "exclusion zone, spans, energy and stresses are left out."
         )
         return None
     try:
@@ -138,8 +138,8 @@ def _results(folder: Path, at_work: str | None, shortcomings: list[str]) -> Resu
         )
     if removed:
         shortcomings.append(
-            f"{removed} shards were removed in the course of the run, as the scenario says. They are no "
-            "debris, and are left out of everything here, masses, loads and energies of the time before included."
+            f"{removed} shards were removed during the run, as the scenario says. They are left out of debris, masses, "
+            "loads and energies, also of the time before."
         )
     return results
 
@@ -156,8 +156,8 @@ def _reason(error: Exception, path: Path) -> str:
 def _summary(folder: Path, shortcomings: list[str]) -> RunSummary | None:
     if not (folder / SUMMARY_FILE).exists():
         shortcomings.append(
-            f"There is no {SUMMARY_FILE}: which Blender the run came from is not known. Hits of the ball are worked "
-            "out from the frames, as far as these are here."
+            f"There is no {SUMMARY_FILE}: the version of Blender is not known. Hits of the ball are worked out from "
+            "the frames that are here."
         )
         return None
     try:
@@ -220,7 +220,7 @@ def pictures_in(folder: Path, shortcomings: list[str]) -> dict[str, Path]:
         path = folder / PICTURE_FOLDER / f"{name}.png"
         if not path.exists():
             continue
-        from matplotlib.image import imread  # not loaded by who only reads numbers, as the sidebar does
+        from matplotlib.image import imread  # not loaded where only numbers are read, as in the sidebar
 
         try:
             check_file(path, MOST_PICTURE_BYTES)

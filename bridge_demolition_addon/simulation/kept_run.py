@@ -46,7 +46,7 @@ def keep_results(folder: Path, results: Results, summary: Mapping[str, Any]) -> 
     write_summary(folder, summary)
     # Loading matplotlib takes a second, for which neither other commands nor switching the add-on on should wait. If it
     # is missing or broken, the results are written by now.
-    from ..charts.force_chart import plot_forces
+    from ..charts.histories import plot_forces
 
     plot_forces(results, folder / FORCE_CHART, summary["title"], RunSummary(summary).first_hit_s)
 

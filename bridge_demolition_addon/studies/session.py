@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections import Counter
+from functools import partial
 from pathlib import Path
 
 from ..model.ensemble.folder import EnsembleFolder, EnsembleResult, result_of_runs
@@ -119,13 +120,13 @@ def planner_of(ensemble: Ensemble) -> Planner:
 def save_pictures(result: EnsembleResult, folder: Path) -> list[Path]:
     """Draw the curve of a search, or charge against debris distance of an optimisation that has charges."""
     if isinstance(result, Answer):
-        from ..charts.search_curve import save_search_curve  # loading matplotlib takes a second
+        from ..charts.ensemble_charts import save_chart, search_curve  # loading matplotlib takes a second
 
-        save_search_curve(folder / CURVE_PICTURE, result)
+        save_chart(folder / CURVE_PICTURE, partial(search_curve, answer=result))
         return [folder / CURVE_PICTURE]
     if isinstance(result, Best) and any(candidate.charge_kg > 0.0 for candidate in result.tried):
-        from ..charts.tradeoff import save_tradeoff
+        from ..charts.ensemble_charts import save_chart, tradeoff
 
-        save_tradeoff(folder / TRADEOFF_PICTURE, result)
+        save_chart(folder / TRADEOFF_PICTURE, partial(tradeoff, best=result))
         return [folder / TRADEOFF_PICTURE]
     return []

@@ -11,8 +11,9 @@ from support.run_folders import keep_run
 from support.sample_results import hanging_chain
 
 from bridge_demolition_addon.cli.progress import Silence
+from bridge_demolition_addon.engineering.units import name_and_unit
 from bridge_demolition_addon.exports import sheets
-from bridge_demolition_addon.exports.sheets import unit_of, write_sheets
+from bridge_demolition_addon.exports.sheets import write_sheets
 
 LOG = "frame,time_s,body,force_x_N,note\n3,0.5,Shard 0,-1.25,=1+1\n4,1.0,Shard 1,,\n"
 
@@ -105,7 +106,7 @@ def test_every_column_is_listed_with_its_unit(workbook):
     ],
 )
 def test_units_end_the_names_of_columns(name, unit):
-    assert unit_of(name) == unit
+    assert name_and_unit(name)[1] == unit
 
 
 def test_what_does_not_fit_on_a_sheet_goes_on_in_the_next(tmp_path, monkeypatch):

@@ -5,7 +5,7 @@ import atexit
 
 import bpy
 
-from bridge_demolition_addon.cli.process_end import end_process
+from bridge_demolition_addon.cli.console import end_process
 
 bpy.ops.mesh.primitive_cube_add()
 atexit.register(print, "Python cleaned up")

@@ -61,11 +61,11 @@ def test_stages_alone_make_a_report_that_warns_of_what_does_not_stand(tmp_path):
 def test_a_run_has_a_chapter_on_stages_where_its_folder_holds_them(tmp_path):
     folder = killed_run(tmp_path / "run")
     assert main(["report", str(folder), "--quiet"]) == 0
-    assert "Falls at" not in page_of(folder)
+    assert "Collapse load factor" not in page_of(folder)
     with_stages(folder)
     assert main(["report", str(folder), "--quiet"]) == 0
     page = page_of(folder)
-    assert "Falls at" in page and "only its logs are here" in page
+    assert "Collapse load factor" in page and "only its logs are here" in page
 
 
 def test_stages_of_the_runs_scenario_are_worked_out_when_asked_for(tmp_path, capfd):

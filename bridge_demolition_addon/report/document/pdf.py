@@ -109,7 +109,7 @@ class _Pages:
             case Photo():
                 self._photo(block)
             case AnimatedModel():
-                pass  # what is said beside it tells where it is
+                pass  # the paragraph beside it says where it is
 
     def heading(self, text: str, first: Block | None) -> None:
         """Write a section's heading, never at the foot of a page alone."""

@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from ...charts.tradeoff import tradeoff
+from ...charts.ensemble_charts import tradeoff
 from ...model.optimise.conclusions import CANDIDATE, ROUND, Best, TriedCandidate, best_of, tried_candidates
 from ...model.optimise.file import Optimisation
 from ...model.optimise.rounds import CONFIRMATION

@@ -11,6 +11,7 @@ from typing import Any, Self
 
 import numpy as np
 
+from ...engineering.units import name_and_unit
 from ...errors import OutputError
 from ...model.ensemble.folder import read_ensemble
 from ...model.optimise.conclusions import CANDIDATE, ROUND
@@ -72,10 +73,8 @@ def shown(name: str) -> str:
     place = in_list[0] if in_list else ""
     name = name.removesuffix(place)
     name = _QUOTED_OR_DOT.sub(lambda part: " " if part[0] == "." else part[0], name)
-    for ending, unit in _UNITS.items():
-        if name.endswith(ending):
-            return f"{name.removesuffix(ending).replace('_', ' ')}{place.replace('.', ' ')} ({unit})"
-    return f"{name.replace('_', ' ')}{place.replace('.', ' ')}"
+    name, unit = name_and_unit(name)
+    return f"{name.replace('_', ' ')}{place.replace('.', ' ')}" + (f" ({unit})" if unit else "")
 
 
 _IN_LIST = re.compile(r"\.\d+$")
@@ -83,29 +82,6 @@ _IN_LIST = re.compile(r"\.\d+$")
 
 _QUOTED_OR_DOT = re.compile(r'"[^"]*"|\.')
 _CRITERION = f"{Criterion.table}."
-
-_UNITS = {
-    "_n_mm2": "N/mm²",
-    "_kg_m3": "kg/m³",
-    "_mm_s": "mm/s",
-    "_m_s2": "m/s²",
-    "_m_s": "m/s",
-    "_newton": "N",
-    "_kgf": "kgf",
-    "_degrees": "°",
-    "_deg": "°",
-    "_kpa": "kPa",
-    "_m2": "m²",
-    "_m3": "m³",
-    "_kg": "kg",
-    "_ms": "ms",
-    "_mm": "mm",
-    "_N": "N",
-    "_J": "J",
-    "_m": "m",
-    "_s": "s",
-}
-"""Endings of names, longer ones before those that end like them."""
 
 
 def _finite(values: np.ndarray) -> np.ndarray:

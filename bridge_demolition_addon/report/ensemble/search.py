@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from ...charts.search_curve import search_curve
+from ...charts.ensemble_charts import search_curve
 from ...model.search.conclusions import Answer, answer_of
 from ...system.progress import Progress
 from ..document.blocks import Column, DataTable, Paragraph, Picture, Report, Section

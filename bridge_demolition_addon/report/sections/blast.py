@@ -1,4 +1,4 @@
-"""Blast in a report: charges, overpressure in plan, and what reaches the neighbours."""
+"""Blast in a report: charges, overpressure in plan, and loads at the neighbours."""
 
 from __future__ import annotations
 
@@ -20,14 +20,16 @@ from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Sect
 
 
 def blast_section(scenario: Scenario, bridge: CrossSection, ground: RecordedGround) -> Section | None:
-    """What the charges do around the bridge, on that ground; None where the scenario has none that does anything."""
+    """Return the effects of the charges around the bridge; None where the scenario has no charge with a mass."""
     charges = tuple(charge for charge in scenario.charges if charge.mass_kg > 0.0)
     if not charges:
         return None
     model, factor = BlastModel(scenario.blast.model), scenario.blast.pressure_factor
     blocks: list[Block] = []
     if not scenario.blast.explosion:
-        blocks.append(Paragraph("The charges did not go off in this run: this is what they would do.", is_notice=True))
+        blocks.append(
+            Paragraph("The charges did not go off in this run: this is their effect otherwise.", is_notice=True)
+        )
     if factor != 1.0:
         blocks.append(Paragraph(f"All pressures are taken times blast.pressure_factor, {factor:g}.", is_notice=True))
     blocks += [_charge_table(charges), _totals(charges)]
@@ -42,22 +44,17 @@ def blast_section(scenario: Scenario, bridge: CrossSection, ground: RecordedGrou
                 pressure_factor=factor,
                 ground=ground,
             ),
-            "Peak overpressure on the ground, the largest that any one charge gives by itself; where waves meet, it "
-            f"can be more. Rings up to that of {WIDEST_PA / 1e3:g} kPa; those of less are in the table. Free field: "
-            "nothing hides the ground, and no wall sends anything back.",
+            "Peak overpressure on the ground, the largest of any one charge; where waves meet, it can be more. Rings "
+            f"down to {WIDEST_PA / 1e3:g} kPa; the others are in the table. Free field, without shelter or reflection.",
             140.0,
         )
     )
     blocks.append(_ring_table(charges, model, factor))
     if scenario.neighbours:
-        loads = [
-            (neighbour.name, loads_at(neighbour.place_m, charges, model, factor)) for neighbour in scenario.neighbours
-        ]
-        blocks += _neighbour_blocks(loads)
+        neighbours = scenario.neighbours
+        blocks += _neighbour_blocks([(one.name, loads_at(one.place_m, charges, model, factor)) for one in neighbours])
     else:
-        blocks.append(
-            Paragraph("The scenario names no neighbours: add tables [[neighbours]] to have what reaches them here.")
-        )
+        blocks.append(Paragraph("The scenario has no neighbours: add tables [[neighbours]] to see their loads here."))
     return Section("Blast", tuple(blocks))
 
 
@@ -118,13 +115,13 @@ def _neighbour_blocks(loads: Sequence[tuple[str, PlaceLoads]]) -> list[Block]:
     ground = FREE_FACE_AVERAGE
     basis = (
         f"Vibration by v = {1e3 * ground.velocity_m_s:g} mm/s (R/√Q)^-{ground.exponent:g} ({ground.name}), of the "
-        f"charges that detonate together; houses bear {1e3 * DAMAGE_LIMIT_M_S:g} mm/s (USBM Bulletin 656), many "
-        "codes ask for less. It holds for charges drilled into rock; the fall of the bridge, which often shakes the "
-        "ground more, is not in it."
+        f"charges that detonate together; houses resist {1e3 * DAMAGE_LIMIT_M_S:g} mm/s (USBM Bulletin 656), "
+        "many codes ask for less. It holds for charges drilled into rock. It does not include the fall of the bridge, "
+        "which often shakes the ground more."
     )
     names, at_neighbours = zip(*loads, strict=True)
     return [
-        DataTable.of("neighbours", "What reaches the neighbours", columns, names, at_neighbours),
+        DataTable.of("neighbours", "Loads at the neighbours", columns, names, at_neighbours),
         Picture(
             partial(neighbour_pressures, loads=loads),
             "Overpressure at the neighbours, all charges and delays together, incident and in the free field.",

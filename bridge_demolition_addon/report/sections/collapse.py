@@ -23,7 +23,7 @@ def collapse_section(run: ReportedRun) -> Section:
     spans, progress, energy = spans_of(results, lengths), collapse_progress(results), energy_of(results)
     definitions = (
         "Progress is the part of the height of the shards' common centre of mass above the ground that is lost: 100 % "
-        f"would be all of it flat on the ground. At rest is what moves more slowly than {REST_SPEED_M_S:g} m/s."
+        f"would be all of it flat on the ground. A shard is at rest below a speed of {REST_SPEED_M_S:g} m/s."
     )
     blocks: list[Block] = [
         Paragraph(definitions),
@@ -45,9 +45,9 @@ def collapse_section(run: ReportedRun) -> Section:
         ),
         Picture(
             partial(energy_history, energy=energy, impact_s=run.ball.first_hit_s),
-            "Energy of shards and ball, the potential one above its least in this run. Dissipated is what is missing "
-            "of the energy at the beginning: by impacts, friction, damping and breaking. It goes down where something "
-            "else than gravity does work.",
+            "Energy of shards and ball, the potential one above its least in this run. Dissipated is the energy "
+            "lost since the beginning by impacts, friction, damping and breaking. It falls where anything but gravity "
+            "does work.",
         ),
         _energy_table(energy),
         *_solver_blocks(results),
@@ -56,13 +56,13 @@ def collapse_section(run: ReportedRun) -> Section:
 
 
 def _solver_blocks(results: Results) -> list[Block]:
-    """Energy that the solver made, which no real contact or connection gives."""
+    """Return the energy that the solver made by numerical error."""
     if not is_known(results):
         return [Paragraph("How much energy the solver made is not known: not every sub-step was read.")]
     work, share = results.frames.work, made_share(results)
     words = (
-        "Blender's solver makes energy where it pulls together connections that have sagged, or pushes apart bodies "
-        "that overlap. A real structure has no such energy: what it throws is thrown too far."
+        "Blender's solver makes energy where it pulls stretched connections together, or pushes overlapping bodies "
+        "apart. A real structure has no such energy: shards that gain it are thrown too far."
     )
     rows = [
         ("Made by the solver", f"{np.nansum(work.made_j) / 1e3:.1f} kJ"),
@@ -101,17 +101,17 @@ def _course(rest: ShardRest, progress: np.ndarray) -> list[tuple[str, str]]:
 
 
 def _load_rows(run: ReportedRun) -> list[tuple[str, str]]:
-    """How large each load was when the bridge first gave way under it."""
+    """Return each load at the first break, at the first motion and at the end."""
     results, rows = run.recorded, []
     broken = np.flatnonzero((~results.frames.intact).any(axis=1))
     moved_s = rest_of(results).first_motion_s
     for number, load in enumerate(run.scenario.loads if run.scenario else (), start=1):
-        said = [f"{load.force_n(float(results.frames.time_s[-1])) / 1e3:.4g} kN at the end"]
+        forces = [f"{load.force_n(float(results.frames.time_s[-1])) / 1e3:.4g} kN at the end"]
         if moved_s is not None:
-            said.insert(0, f"{load.force_n(moved_s) / 1e3:.4g} kN as the first shard moved")
+            forces.insert(0, f"{load.force_n(moved_s) / 1e3:.4g} kN as the first shard moved")
         if len(broken):
-            said.insert(0, f"{load.force_n(float(results.frames.time_s[broken[0]])) / 1e3:.4g} kN at the first break")
-        rows.append((f"Load {number}{f' on {load.where}' if load.where else ''}", "; ".join(said)))
+            forces.insert(0, f"{load.force_n(float(results.frames.time_s[broken[0]])) / 1e3:.4g} kN at the first break")
+        rows.append((f"Load {number}{f' on {load.where}' if load.where else ''}", "; ".join(forces)))
     return rows
 
 

@@ -32,8 +32,8 @@ def debris_section(run: ReportedRun, debris: Debris, *, trajectories: bool) -> S
     results, zones = run.recorded, run.scenario.zones if run.scenario else ()
     words = (
         f"Debris is every shard that ended more than {MOVED_M:g} m from where it began. The throw is the horizontal "
-        "distance between the first and the last place of its centre of mass; its reach is how far it sticks out of "
-        "the bridge's first outline in plan."
+        "distance between the first and the last position of its centre of mass; its debris distance is how far it "
+        "ends outside the bridge's first outline in plan."
     )
     blocks: list[Block] = [Paragraph(words)]
     if len(debris.bodies):
@@ -57,8 +57,8 @@ def exclusion_section(zone: ExclusionZone | None, run: ReportedRun, files: Seque
     low_x, low_y, high_x, high_y = zone.bounds_m
     words = (
         "Plan area of the bridge, designed drop area, predicted debris area, and a buffer around all of them, as "
-        "BS 6187 makes up an exclusion zone. Predicted debris is all that shards and balls covered at any time of this "
-        f"one run. The buffer of {settings.buffer_m:g} m is the scenario's, not the simulation's."
+        "BS 6187 asks for. Predicted debris is the area that shards and balls covered at any time of this one run. "
+        f"The buffer of {settings.buffer_m:g} m is the scenario's, not the simulation's."
     )
     rows = [
         ("Buffer", f"{settings.buffer_m:g} m"),
@@ -74,14 +74,14 @@ def exclusion_section(zone: ExclusionZone | None, run: ReportedRun, files: Seque
         Paragraph(words),
         Picture(
             partial(exclusion_map, zone=zone, zones=run.planned.zones, ground=run.recorded.ground()),
-            "Exclusion zone in plan, with its reach beyond the bridge to each side.",
+            "Exclusion zone in plan, with its distance from the bridge to each side.",
             map_height_mm(zone.whole.bounds()),
         ),
         facts("Exclusion zone", rows, "exclusion_zone"),
         Paragraph(f"For the site plan: {', '.join(files)}; the corners of the zone are in exclusion_corners.csv."),
     ]
     if run.planned.charges:
-        warning = "Pressure of the charges is not in this zone: see the rings of damage for how far people have to be."
+        warning = "This zone leaves out the pressure of the charges: see the rings of damage for that."
         blocks.insert(1, Paragraph(warning, is_notice=True))
     return Section("Exclusion zone", tuple(blocks))
 
@@ -170,7 +170,7 @@ def terrain_section(run: ReportedRun) -> Section | None:
     if len(under):
         words = (
             f"{len(under)} bodies went through the ground or off its edge, such as "
-            f"{results.inventory.body_names[under[0]]}: their throws are wrong. What is small and fast needs more "
+            f"{results.inventory.body_names[under[0]]}: their throws are wrong. Small fast bodies need more "
             "sub-steps: set time.farthest_per_substep_m to a part of the smallest shard."
         )
         blocks.append(Paragraph(words, is_notice=True))
@@ -202,10 +202,9 @@ def _doubts(results: Results) -> list[Block]:
     farthest = int(np.flatnonzero(throws.doubtful)[0])
     name, throw_m = results.inventory.body_names[throws.bodies[farthest]], throws.throws_m[farthest]
     words = (
-        f"{count} shards flew on energy that the solver made, or farther than a fall explains: at least half of their "
-        "kinetic energy came from the solver, or, without charges, the throw is more than twice the height of fall. "
-        f"The farthest of them is {name}, {throw_m:.2f} m. Do not plan with these throws; make sub-steps shorter and "
-        "look again."
+        f"{count} throws are doubtful: at least half of the shard's kinetic energy came from the solver, or, without "
+        f"charges, the throw is more than twice the height of fall. The farthest is {name}, {throw_m:.1f} m. Do not "
+        "plan with these throws; make sub-steps shorter and run again."
     )
     return [Paragraph(words, is_notice=True)]
 
@@ -220,7 +219,7 @@ def _throw_table(debris: Debris) -> DataTable:
     )
     return DataTable.of(
         "throw_percentiles",
-        "Throw and reach: so much of the debris went no farther",
+        "Throw and debris distance: share of the debris that stayed within",
         columns,
         PERCENTS,
         percentiles_by_mass(debris.throws_m, debris.masses_kg),
@@ -240,7 +239,7 @@ def _largest_throws(results: Results, debris: Debris) -> DataTable:
         Column("of", "member", "", lambda _, row: str(inventory.body_members[bodies[row]])),
         Column("mass (kg)", "mass_kg", ".0f", lambda _, row: float(debris.masses_kg[row])),
         Column("throw (m)", "throw_m", ".2f", lambda _, row: float(debris.throws_m[row])),
-        Column("reach (m)", "reach_m", ".2f", lambda _, row: float(debris.reaches_m[row])),
+        Column("debris distance (m)", "reach_m", ".2f", lambda _, row: float(debris.reaches_m[row])),
         Column("to x (m)", "x_m", ".2f", lambda _, row: float(last_m[bodies[row], 0])),
         Column("y (m)", "y_m", ".2f", lambda _, row: float(last_m[bodies[row], 1])),
         Column("z (m)", "z_m", ".2f", lambda _, row: float(last_m[bodies[row], 2])),
@@ -263,15 +262,14 @@ def _zone_blocks(run: ReportedRun, zones: Sequence[Zone]) -> list[Block]:
         Column("zone", "zone", "", lambda watch, _: watch.zone.name),
         Column("kind", "kind", "", lambda watch, _: watch.zone.kind),
         Column("first entered (s)", "first_entry_s", ".3f", lambda _, first: first and float(first.time_s)),
-        Column("by", "first_body", "", lambda _, first: str(names[first.body]) if first else "nobody"),
+        Column("by", "first_body", "", lambda _, first: str(names[first.body]) if first else "no body"),
         Column("bodies that entered", "bodies_entered", "d", lambda watch, _: len(watch.entries)),
         Column("mass within at the end (t)", "mass_within_t", ".2f", lambda watch, _: watch.mass_within_kg / 1e3),
         Column("there before", "bodies_there_before", "d", lambda watch, _: len(watch.there_before)),
     )
     first_entries = [watch.entries[0] if watch.entries else None for watch in watches]
     words = (
-        "A zone is entered when the convex hull of a shard or ball first reaches into it. Between two frames bodies "
-        "are taken to move and turn evenly, and the moment is found to a millisecond. Bodies that were in a zone "
-        "from the beginning are counted apart."
+        "A zone is entered when the convex hull of a shard or ball first enters it, to a millisecond: between frames "
+        "bodies are taken to move and rotate evenly. Bodies that were in a zone at the beginning are counted apart."
     )
     return [Paragraph(words), DataTable.of("zones", "Zones", columns, watches, first_entries)]

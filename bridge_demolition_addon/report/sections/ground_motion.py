@@ -19,7 +19,7 @@ from ..run_folder import ReportedRun
 
 
 def motion_section(run: ReportedRun) -> Section | None:
-    """How the ground moved and gave way; None where it did neither."""
+    """Return how the ground moved and foundations settled; None for a run with neither."""
     if run.scenario is None:
         return None
     blocks: list[Block] = []
@@ -36,7 +36,7 @@ def _motion_blocks(run: ReportedRun, motion: GroundMotion) -> list[Block]:
     except ScenarioError as error:
         return [Paragraph(f"The ground moved, but its record is not there: {error}.", is_notice=True)]
     return [
-        Paragraph(_told(motion)),
+        Paragraph(_motion_text(motion)),
         _peak_table(record),
         Picture(
             partial(ground_motion_history, record=record, start_s=start_s), "Motion of the ground", height_mm=110.0
@@ -49,7 +49,7 @@ def _motion_blocks(run: ReportedRun, motion: GroundMotion) -> list[Block]:
     ]
 
 
-def _told(motion: GroundMotion) -> str:
+def _motion_text(motion: GroundMotion) -> str:
     if motion.spectrum:
         spectrum = motion.spectrum
         source = (
@@ -61,9 +61,9 @@ def _told(motion: GroundMotion) -> str:
     else:
         source = f"the accelerogram {motion.file}"
     baselines = {
-        "linear": "a straight line was taken off, after which the ground ends at rest where it began",
-        "parabola": "a parabola was taken off, after which the ground ends at rest where it began",
-        "none": "nothing was taken off",
+        "linear": "a straight line was subtracted, so that the ground ends at rest where it began",
+        "parabola": "a parabola was subtracted, so that the ground ends at rest where it began",
+        "none": "nothing was subtracted",
     }
     return (
         f"The ground and all that is fixed to it moved by {source}, times {motion.factor:g}. Baseline: "
@@ -98,7 +98,7 @@ def _settlement_blocks(results: Results, scenario: Scenario) -> list[Block]:
     footings = settlements(results, scenario.foundations)
     return [
         Paragraph(
-            "Footings stand on springs that press and never pull, settle for good where the soil bears no more, and "
+            "Footings stand on springs that press and never pull, settle for good where the soil carries no more, and "
             "slide where friction ends. Settlement is from the bridge as it was built, without any load."
         ),
         DataTable.of("settlements", "Foundations at the end of the run", columns, footings),

@@ -18,9 +18,9 @@ from .cover import add_on_version
 
 _MOST_BYTES = 10 * MEGABYTE
 _WORDS = (
-    "Worked out at rest, by the stiffness of the connections and without a simulation. Used is load over strength: "
-    "above 100 % a connection breaks. Falls at: how many times as heavy everything has to be, equipment included, "
-    "until the bridge begins to come down; below 1 the stage does not stand."
+    "Worked out at rest, by the stiffness of the connections and without a simulation. Utilisation is load over "
+    "strength: above 100 % a connection breaks. Collapse load factor: times the weight of everything, equipment "
+    "included, at which the bridge begins to come down; below 1 the stage does not stand."
 )
 _COLUMNS = (
     Column("Stage", "stage", "", lambda row: row["stage"]),
@@ -28,12 +28,12 @@ _COLUMNS = (
     Column("What was done", "step", "", lambda row: row["step"]),
     Column("On it", "equipment", "", lambda row: row["equipment"] or None),
     Column("Weight (kN)", "weight_kN", ".0f", lambda row: _number(row["weight_kN"])),
-    Column("Not held (t)", "not_held_t", ".1f", lambda row: float(row["not_held_kg"]) / 1e3),
-    Column("Used most", "largest_utilisation", ".0%", lambda row: _number(row["largest_utilisation"])),
+    Column("Not supported (t)", "not_held_t", ".1f", lambda row: float(row["not_held_kg"]) / 1e3),
+    Column("Utilisation", "largest_utilisation", ".0%", lambda row: _number(row["largest_utilisation"])),
     Column("by", "governed_by", "", lambda row: row["governed_by"] or None),
     Column("in", "between", "", lambda row: row["between"] or None),
-    Column("Falls at", "falls_at", "", lambda row: _falls_at(_number(row["collapse_factor"]))),
-    Column("Sag (mm)", "sag_mm", ".1f", lambda row: _number(row["sag_mm"])),
+    Column("Collapse load factor", "falls_at", "", lambda row: _falls_at(_number(row["collapse_factor"]))),
+    Column("Deflection (mm)", "sag_mm", ".1f", lambda row: _number(row["sag_mm"])),
 )
 
 
@@ -59,7 +59,7 @@ def stages_section(folder: Path) -> Section:
         raise OutputError(f"{folder}: the tables of stages are damaged ({error}); run bda stages again") from error
     blocks: list[Block] = [Paragraph(_WORDS), *_warnings(stages), table]
     blocks.append(Paragraph(_on_members(falls)))
-    if critical := sorted((fall for fall in falls if fall[1] > 0.0), key=lambda each: -each[1]):
+    if critical := sorted((fall for fall in falls if fall[1] > 0.0), key=lambda fall: -fall[1]):
         columns = (
             Column("Without", "member"),
             Column("come down (t)", "falls_t", ".1f"),
@@ -76,19 +76,19 @@ def _falls_at(factor: float | None) -> str | None:
 
 
 def _warnings(stages: Sequence[dict[str, str]]) -> list[Block]:
-    """Stages that do not stand, and those of which a part is held by nothing."""
-    told: list[Block] = []
+    """Return notices of stages that do not stand, and of parts without support."""
+    notices: list[Block] = []
     for row in stages:
         factor = _number(row["collapse_factor"])
         where = f"Stage {row['stage']}, from {float(row['time_s']):g} s ({row['step']})"
         if factor is not None and factor < 1.0:
-            told.append(Paragraph(f"{where} does not stand: it comes down at {factor:.2f} times its load.", True))
+            notices.append(Paragraph(f"{where} does not stand: it comes down at {factor:.2f} times its load.", True))
         elif factor is None:
-            told.append(Paragraph(f"{where}: no connection to a support holds anything.", True))
+            notices.append(Paragraph(f"{where}: no connection to a support holds anything.", True))
         if float(row["not_held_kg"]) > 0.0:
             mass_t = float(row["not_held_kg"]) / 1e3
-            told.append(Paragraph(f"{where}: {mass_t:.1f} t are held by no connection to a support.", True))
-    return told
+            notices.append(Paragraph(f"{where}: {mass_t:.1f} t are held by no connection to a support.", True))
+    return notices
 
 
 def _on_members(falls: Sequence[tuple[str, float, float]]) -> str:

@@ -101,7 +101,7 @@ class BDA_OT_draw_charts(ModalTask, bpy.types.Operator):
     def work(self, context: bpy.types.Context) -> Work:
         # Loading matplotlib takes a second, which switching the extension on need not wait for.
         from ...charts.blast_design import ChartSettings, write_charts
-        from ...charts.force_chart import plot_forces
+        from ...charts.histories import plot_forces
 
         run = shown_run(context.scene)
         folder, results = run.folder / CHARTS, run.results()

@@ -1,7 +1,8 @@
-"""Chart of a search: its runs, and the curve of the probability of success with its limits."""
+"""Charts of searches and optimisations: the curve of the probability of success; charge against debris distance."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import FigureBase
 from matplotlib.ticker import PercentFormatter
 
+from ..model.optimise.conclusions import Best
 from ..model.search.conclusions import Answer
 from ..system.disk import whole_file
 from .style import blank_figure, line_style, plain
@@ -17,10 +19,10 @@ _HEIGHT_OF_DOTS = 0.06
 _BAND = "0.85"
 
 
-def save_search_curve(path: Path, answer: Answer) -> None:
-    """Write the picture of what `search_curve` draws."""
+def save_chart(path: Path, draw: Callable[[FigureBase], None]) -> None:
+    """Write a chart as a picture."""
     figure = blank_figure(8.0, 5.0, layout="constrained", dpi=150)
-    search_curve(figure, answer)
+    draw(figure)
     with whole_file(path) as part:
         figure.savefig(part, format="png")
 
@@ -31,20 +33,14 @@ def search_curve(figure: FigureBase, answer: Answer) -> None:
     settings, axes = search.settings, figure.subplots()
     if curve is not None:
         known = np.isfinite(curve.lows) & np.isfinite(curve.highs)
-        axes.fill_betweenx(
-            curve.probabilities[known],
-            curve.lows[known],
-            curve.highs[known],
-            color=_BAND,
-            label=f"limits with {settings.confidence:.4g} confidence",
-        )
+        band = curve.probabilities[known], curve.lows[known], curve.highs[known]
+        axes.fill_betweenx(*band, color=_BAND, label=f"limits with {settings.confidence:.4g} confidence")
         axes.plot(curve.values, curve.probabilities, **line_style(0), label="most likely")
     _dots(axes, values[successes], 1.0, "all criteria met", "o")
     _dots(axes, values[~successes], 0.0, "not met", "x")
     if answer.is_known:
-        axes.plot(
-            [answer.limit], [settings.probability], "k>" if settings.success == "above" else "k<", label="the answer"
-        )
+        arrow = "k>" if settings.success == "above" else "k<"
+        axes.plot([answer.limit], [settings.probability], arrow, label="the answer")
     if settings.logarithmic:
         axes.set_xscale("log")
     span = settings.highest - settings.lowest
@@ -66,3 +62,23 @@ def _dots(axes: Axes, values: np.ndarray, height: float, label: str, marker: str
     towards = -1.0 if height else 1.0
     heights = height - towards * _HEIGHT_OF_DOTS + towards * 0.015 * (earlier % 4)
     axes.plot(values, heights, marker, color="k", markersize=4, fillstyle="none", linestyle="none", label=label)
+
+
+def tradeoff(figure: FigureBase, best: Best) -> None:
+    """Draw charge and debris distance of all candidates of an optimisation."""
+    settings, tried = best.optimisation.settings, best.tried
+    axes = figure.subplots()
+    points = np.array([(candidate.charge_kg, candidate.reach_m) for candidate in tried])
+    holds, front = (np.array([getattr(candidate, name) for candidate in tried], bool) for name in ("holds", "on_front"))
+    axes.plot(*points[~holds].T, "kx", markersize=4, label="fails too often")
+    axes.plot(*points[holds].T, "ko", markersize=4, fillstyle="none", label="succeeds often enough")
+    if front.any():
+        on_front = points[front][np.argsort(points[front, 0], kind="stable")]
+        axes.plot(*on_front.T, drawstyle="steps-post", **line_style(0), label="no other has less of both")
+    chosen = points[[candidate.number == best.candidate for candidate in tried]]
+    axes.plot(*chosen.T, "k*", markersize=12, label="the answer")
+    axes.set_xlabel("all charges (kg)")
+    axes.set_ylabel(f"{settings.quantile:g} quantile of the debris distance (m), {settings.runs_each} runs each")
+    axes.grid(color="0.9", linewidth=0.5)
+    axes.set_axisbelow(True)
+    figure.legend(loc="outside upper center", ncols=4, frameon=False)

@@ -10,7 +10,7 @@ import pytest
 from matplotlib.image import imread
 from support.sample_results import FRAME_S, G, changed, hanging_chain, without_connections
 
-from bridge_demolition_addon.charts.force_chart import plot_forces
+from bridge_demolition_addon.charts.histories import plot_forces
 from bridge_demolition_addon.model.results.frames import FrameSeries
 
 # Nothing acts in the first frame, in which no time passes; in the fourth, the largest is not the mean.
