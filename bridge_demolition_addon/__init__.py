@@ -27,17 +27,9 @@ __all__ = ["load_results", "read_scenario", "run"]
 
 
 def read_scenario(path: str | PathLike[str]) -> Scenario:
-    """Read a scenario, and check it.
+    """Read a scenario from its TOML file, and check it.
 
-    Parameters
-    ----------
-    path
-        File of the scenario, TOML.
-
-    Returns
-    -------
-    Scenario
-        Frozen dataclasses, named as the tables and keys of the file; `dataclasses.replace` varies them.
+    Its frozen dataclasses are named as the tables and keys of the file; `dataclasses.replace` varies them.
 
     Examples
     --------
@@ -53,25 +45,10 @@ def read_scenario(path: str | PathLike[str]) -> Scenario:
 
 
 def run(scenario: Scenario, output: str | PathLike[str], *, overwrite: bool = False, pictures: bool = False) -> Results:
-    """Run a scenario with Blender in this process, and leave what ``bda run`` leaves in a folder.
+    """Run a scenario with Blender in this process, and leave what ``bda run`` leaves in a folder, which is made.
 
-    Inside Blender's window this replaces the file that is open.
-
-    Parameters
-    ----------
-    scenario
-        What to simulate.
-    output
-        Folder for the results, made here.
-    overwrite
-        Whether results of an earlier run there may be replaced.
-    pictures
-        Whether to render pictures.
-
-    Returns
-    -------
-    Results
-        As `load_results` reads them.
+    Inside Blender's window this replaces the file that is open. `overwrite` replaces results of an earlier run in the
+    folder, `pictures` renders pictures. Returned is what `load_results` reads.
     """
     from .cli.progress import Silence
     from .simulation.run import run_scenario
@@ -81,18 +58,10 @@ def run(scenario: Scenario, output: str | PathLike[str], *, overwrite: bool = Fa
 
 
 def load_results(folder: str | PathLike[str]) -> Results:
-    """Read what a run recorded.
+    """Read what a run recorded, also one that was killed, from its folder or its file ``results.npz``.
 
-    Parameters
-    ----------
-    folder
-        Of the run, also of one that was killed; or its file ``results.npz``.
-
-    Returns
-    -------
-    Results
-        Its parts ``inventory``, ``frames`` and ``balls`` hold numpy arrays; `Results.arrays` gives all by their names
-        in the file. Large ones are read when they are looked at.
+    The parts ``inventory``, ``frames`` and ``balls`` hold numpy arrays; `Results.arrays` gives all by their names in
+    the file. Large ones are read when they are looked at.
     """
     from .model.results.arrays import load_results as load
 

@@ -10,11 +10,11 @@ from ..engineering.blast.wave import Burst
 from ..errors import BlastError, GeometryError, ScenarioError
 
 SMALLEST, LARGEST = 1e-6, 1e9
-"""What a mass, a distance or a load on the command line has to lie between."""
+"""Limits of a mass, a distance or a load on the command line."""
 
 
 def quantity(text: str, largest: float = LARGEST) -> float:
-    """Return a number for something that there is: above 0, and of a size that means something."""
+    """Return a number above 0, of a size that makes sense."""
     try:
         number = float(text)
     except ValueError:
@@ -26,7 +26,7 @@ def quantity(text: str, largest: float = LARGEST) -> float:
 
 @contextmanager
 def naming(path: str) -> Iterator[None]:
-    """Put a scenario file's name before what is found wrong with it after it was read."""
+    """Put a scenario file's name before errors in it that are found after it was read."""
     try:
         yield
     except (BlastError, GeometryError, ScenarioError) as error:

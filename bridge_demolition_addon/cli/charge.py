@@ -1,4 +1,4 @@
-"""``bda charge``: the smallest charge for a wanted load, or what a charge does around it."""
+"""``bda charge``: the smallest charge for a wanted load, or the effects of a charge around it."""
 
 import argparse
 from collections.abc import Iterator
@@ -31,7 +31,7 @@ def add_to(commands: argparse._SubParsersAction) -> None:
     """Add the command to the command line."""
     parser = commands.add_parser(
         "charge",
-        help="find the smallest charge for a wanted load, or say what a charge does around it",
+        help="find the smallest charge for a wanted load, or the effects of a charge around it",
         description="With --distance-m and a wanted load: the smallest charge that gives it there. "
         "With --mass-kg: how far the thresholds of damage reach, and how much the ground shakes.",
         allow_abbrev=False,
@@ -65,10 +65,10 @@ def _explosive(name: str) -> Explosive:
 
 def _check_together(arguments: argparse.Namespace) -> None:
     loads = {"--overpressure-kpa": arguments.overpressure_kpa, "--impulse-kpa-ms": arguments.impulse_kpa_ms}
-    given = {option: value for option, value in loads.items() if value}
-    if arguments.distance_m and not given:
+    wanted = {option: value for option, value in loads.items() if value}
+    if arguments.distance_m and not wanted:
         raise BlastError(f"--distance-m is {arguments.distance_m:g}: expected one of {', '.join(loads)} with it")
-    for option, value in given.items():
+    for option, value in wanted.items():
         if arguments.mass_kg:
             raise BlastError(f"{option} is {value:g}: expected --distance-m with it, not --mass-kg")
 
@@ -93,7 +93,7 @@ def _smallest_charge(arguments: argparse.Namespace) -> Iterator[str]:
 
 
 def _tnt_needed(arguments: argparse.Namespace) -> tuple[float, float, str]:
-    """TNT needed in kg, how much of it a kilogram of the explosive is worth, and by which measure."""
+    """Return the TNT needed in kg, the TNT equivalent of the explosive, and whether by pressure or impulse."""
     explosive, place = arguments.explosive, (arguments.distance_m, arguments.burst, arguments.model)
     if wanted_kpa := arguments.overpressure_kpa:
         with _naming("--overpressure-kpa", wanted_kpa):

@@ -78,7 +78,10 @@ def _run_comparison(scenarios: Sequence[Scenario], arguments: argparse.Namespace
     progress.stage(f"checking {len(scenarios)} scenarios")
     for folder in [*folders, comparison] if arguments.report else folders:
         check_folder(folder, overwrite=arguments.overwrite)
-    models = [_model_of(path, scenario) for path, scenario in zip(arguments.scenarios, scenarios, strict=True)]
+    models = []
+    for path, scenario in zip(arguments.scenarios, scenarios, strict=True):
+        with naming(path):
+            models.append(checked_model(scenario))
     if arguments.overwrite:
         remove_report(comparison)  # it would be that of earlier runs
     plan = zip(arguments.scenarios, scenarios, models, folders, strict=True)
@@ -91,11 +94,6 @@ def _run_comparison(scenarios: Sequence[Scenario], arguments: argparse.Namespace
         if not arguments.quiet:
             progress.finish()
             _print_paths(written)
-
-
-def _model_of(path: str, scenario: Scenario) -> Model:
-    with naming(path):
-        return checked_model(scenario)
 
 
 def comparison_folders(scenarios: Sequence[str], output: Path) -> list[Path]:
@@ -115,18 +113,8 @@ def comparison_folders(scenarios: Sequence[str], output: Path) -> list[Path]:
 def _run_and_report(
     path: str, scenario: Scenario, model: Model | None, output: Path, arguments: argparse.Namespace, progress: Progress
 ) -> None:
-    summary = _run_scenario(path, scenario, model, output, arguments, progress)
-    report = _report([output], None, progress) if arguments.report else []
-    if not arguments.quiet:
-        progress.finish()
-        _print_results(summary, output, report)
-
-
-def _run_scenario(
-    path: str, scenario: Scenario, model: Model | None, output: Path, arguments: argparse.Namespace, progress: Progress
-) -> Mapping[str, Any]:
     with naming(path):
-        return _simulation().run_scenario(
+        summary = _simulation().run_scenario(
             scenario,
             output,
             model=model,
@@ -135,6 +123,10 @@ def _run_scenario(
             film=arguments.film,
             progress=progress,
         )
+    report = _report([output], None, progress) if arguments.report else []
+    if not arguments.quiet:
+        progress.finish()
+        _print_results(summary, output, report)
 
 
 def run_with_everything(scenario: Scenario, output: Path, progress: Progress, *, quiet: bool) -> Mapping[str, Any]:
@@ -144,14 +136,14 @@ def run_with_everything(scenario: Scenario, output: Path, progress: Progress, *,
 
 
 def _simulation() -> ModuleType:
-    """Return what runs scenarios, which is loaded only now: they can be checked where Blender is not installed."""
+    """Return the module that runs scenarios, loaded only now: they can be checked where Blender is not installed."""
     try:
         with interrupted_afterwards():
             from ..simulation import run
     except ModuleNotFoundError as error:
         if error.name != "bpy":
             raise
-        raise SimulationError("Blender is not there: install the bpy package or run inside Blender") from error
+        raise SimulationError("Blender is missing: install the bpy package or run inside Blender") from error
     return run
 
 
@@ -165,7 +157,7 @@ def _blender_silenced() -> Iterator[None]:
     try:
         yield
     finally:
-        sys.stdout.flush()  # Blender says part of it through Python
+        sys.stdout.flush()  # Blender writes part of it through Python
         os.dup2(standard_output, 1)
         os.close(standard_output)
 
@@ -207,7 +199,7 @@ def _result_facts(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
         yield "largest throw", f"{throw['throw_m']:.2f} m, {throw['body']}"
     if energy := summary["energy"]:
         made = energy["made_by_solver"]
-        share = f"{made['share_of_dissipated']:.1%} of what was dissipated"
+        share = f"{made['share_of_dissipated']:.1%} of the dissipated energy"
         yield "energy made by solver", f"{made['J'] / 1000.0:.1f} kJ, {share}"
         if doubtful := energy["doubtful_throws"]:
             yield "doubtful throws", f"{doubtful} shards, marked in debris_log.csv and summary.json"

@@ -12,10 +12,7 @@ from ..engineering.geometry.mesh import TriangleMesh
 from ..errors import MissingLibraryError
 from ..model.results.arrays import Results
 from ..scene.tools.keyframes import key_values
-from .shapes import body_meshes, quaternions
-
-_FRAMES_PER_SECOND = 24.0
-"""Of a run of one frame."""
+from .shapes import body_meshes, frame_rate, quaternions
 
 
 def write_alembic(results: Results, path: Path, tell: Callable[[int, int, str], None]) -> None:
@@ -55,8 +52,7 @@ def write_alembic(results: Results, path: Path, tell: Callable[[int, int, str], 
 
 
 def _set_rate(scene: bpy.types.Scene, results: Results) -> None:
-    lengths_s = np.diff(results.frames.time_s)
-    per_second = 1.0 / float(np.median(lengths_s)) if len(lengths_s) else _FRAMES_PER_SECOND
+    per_second = frame_rate(results)
     scene.render.fps = max(1, round(per_second))
     scene.render.fps_base = scene.render.fps / per_second
     scene.frame_start, scene.frame_end = int(results.frames.number[0]), int(results.frames.number[-1])
@@ -67,7 +63,7 @@ def _add(
     name: str,
     solid: TriangleMesh,
     numbers: np.ndarray,
-    places_m: np.ndarray,
+    positions_m: np.ndarray,
     rotations: np.ndarray,
 ) -> None:
     """Add a body with a key in every frame, and with its origin at its centre of mass."""
@@ -76,5 +72,5 @@ def _add(
     body = bpy.data.objects.new(name, mesh)
     scene.collection.objects.link(body)
     body.rotation_mode = "QUATERNION"
-    key_values(body, "location", numbers, places_m)
+    key_values(body, "location", numbers, positions_m)
     key_values(body, "rotation_quaternion", numbers, quaternions(rotations))

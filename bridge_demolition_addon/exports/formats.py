@@ -11,7 +11,7 @@ class Format:
 
     name: str
     title: str
-    what: str
+    content: str
     ending: str = ""  # of the file; a format of many files has a folder and none
 
 

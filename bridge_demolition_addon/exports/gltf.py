@@ -62,24 +62,24 @@ class _Contents:
         """Add the shape of a body, and return what its node says of it; nothing where it has none."""
         if not len(mesh.triangles):
             return {}
-        places = self._add(mesh.vertices.astype("<f4"), _FLOAT, "VEC3", target=_VERTICES, limits=True)
+        positions = self._add(mesh.vertices.astype("<f4"), _FLOAT, "VEC3", target=_VERTICES, limits=True)
         corners = self._add(mesh.triangles.astype("<u4").ravel(), _INTEGER, "SCALAR", target=_INDICES)
-        primitive = {"attributes": {"POSITION": places}, "indices": corners, "material": material}
+        primitive = {"attributes": {"POSITION": positions}, "indices": corners, "material": material}
         self._meshes.append({"name": name, "primitives": [primitive]})
         return {"mesh": len(self._meshes) - 1}
 
     def motion(self, results: Results, body: int, node: int) -> dict[str, Any]:
         """Add the motion of a body, and return where its node is at first."""
         frames = results.frames
-        places = frames.positions_m[:, body].astype("<f4")
-        turns = np.roll(quaternions(frames.rotations[:, body]), -1, axis=1).astype("<f4")
-        first = {"translation": places[0].tolist(), "rotation": turns[0].tolist()}
+        positions = frames.positions_m[:, body].astype("<f4")
+        rotations = np.roll(quaternions(frames.rotations[:, body]), -1, axis=1).astype("<f4")
+        first = {"translation": positions[0].tolist(), "rotation": rotations[0].tolist()}
         times = (frames.time_s - frames.time_s[0]).astype("<f4")
-        keys = needed_keys(np.hstack([places, turns]))
+        keys = needed_keys(np.hstack([positions, rotations]))
         if len(keys) == 1:
             return first
         clock = self._add(times[keys], _FLOAT, "SCALAR", limits=True)
-        for path, values in (("translation", places), ("rotation", turns)):
+        for path, values in (("translation", positions), ("rotation", rotations)):
             output = self._add(values[keys], _FLOAT, f"VEC{values.shape[1]}")
             self._channels.append({"sampler": len(self._samplers), "target": {"node": node, "path": path}})
             self._samplers.append({"input": clock, "output": output, "interpolation": "LINEAR"})

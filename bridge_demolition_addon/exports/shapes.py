@@ -12,6 +12,7 @@ from ..model.results.arrays import Results
 from ..model.results.frames import Frame
 from ..model.results.inventory import Inventory
 
+_FRAMES_PER_SECOND = 24.0
 _NO_TRIANGLES = np.zeros((0, 3), np.int64)
 
 Colour = tuple[float, float, float]
@@ -71,6 +72,12 @@ class ConnectionPlaces:
         turns = frame.rotations[self._bodies].astype(float)
         carried = carried_points(self._local_m, frame.positions_m[self._bodies].astype(float), turns)
         return np.where(self._bodies[:, None] < 0, self._points_m, carried)
+
+
+def frame_rate(results: Results) -> float:
+    """Return frames per second, by the median length of a frame; those of a film for a run of one frame."""
+    lengths_s = np.diff(results.frames.time_s)
+    return 1.0 / float(np.median(lengths_s)) if len(lengths_s) else _FRAMES_PER_SECOND
 
 
 def quaternions(rotations: np.ndarray) -> np.ndarray:

@@ -11,11 +11,9 @@ import numpy as np
 from ..engineering.geometry.mesh import TriangleMesh
 from ..errors import MissingLibraryError
 from ..model.results.arrays import Results
-from .shapes import body_meshes, colour_of, coloured_by, needed_keys, quaternions
+from .shapes import body_meshes, colour_of, coloured_by, frame_rate, needed_keys, quaternions
 
 _ROOT = "/Run"
-_FRAMES_PER_SECOND = 24.0
-"""Of a run of one frame."""
 
 _WHOLE_CODES = 6
 """Decimals of a time code, in frames."""
@@ -56,8 +54,7 @@ def _library() -> Any:
 def _prepare(pxr: Any, stage: Any, results: Results) -> np.ndarray:
     """Set up the stage, and return the time code of each recorded frame: its number, where frames last equally long."""
     frames = results.frames
-    lengths_s = np.diff(frames.time_s)
-    per_second = round(1.0 / float(np.median(lengths_s)), 6) if len(lengths_s) else _FRAMES_PER_SECOND
+    per_second = round(frame_rate(results), 6)
     codes = np.round(int(frames.number[0]) + (frames.time_s - frames.time_s[0]) * per_second, _WHOLE_CODES)
     pxr.UsdGeom.SetStageUpAxis(stage, pxr.UsdGeom.Tokens.z)
     pxr.UsdGeom.SetStageMetersPerUnit(stage, 1.0)
@@ -99,14 +96,14 @@ def _describe(pxr: Any, prim: Any, results: Results, body: int) -> None:
 def _move(pxr: Any, prim: Any, results: Results, body: int, codes: np.ndarray) -> None:
     """Set where a body is in every frame; of equal frames that follow each other, in the first and the last."""
     frames, precision = results.frames, pxr.UsdGeom.XformOp.PrecisionDouble
-    places = frames.positions_m[:, body].astype(float)
-    turns = quaternions(frames.rotations[:, body])
+    positions = frames.positions_m[:, body].astype(float)
+    rotations = quaternions(frames.rotations[:, body])
     translate, orient = prim.AddTranslateOp(precision), prim.AddOrientOp(precision)
-    keys = needed_keys(np.hstack([places, turns]))
+    keys = needed_keys(np.hstack([positions, rotations]))
     for key in keys.tolist():
         code = pxr.Usd.TimeCode(float(codes[key])) if len(keys) > 1 else pxr.Usd.TimeCode.Default()
-        translate.Set(pxr.Gf.Vec3d(*places[key].tolist()), code)
-        orient.Set(pxr.Gf.Quatd(*turns[key].tolist()), code)
+        translate.Set(pxr.Gf.Vec3d(*positions[key].tolist()), code)
+        orient.Set(pxr.Gf.Quatd(*rotations[key].tolist()), code)
 
 
 def _shape(pxr: Any, prim: Any, mesh: TriangleMesh, colour: tuple[float, float, float]) -> None:

@@ -37,7 +37,7 @@ def comparison(runs: Sequence[ReportedRun], version: str) -> Document:
         notice = "Shards still move at the end of {}: their throws, footprints and piles are not final."
         notices.append(Paragraph(notice.format(", ".join(moving)), is_notice=True))
     listed = [(name, run.title, _differences(run)) for name, run in zip(names, runs, strict=True)]
-    columns = (Column("run", "run"), Column("scenario", "scenario"), Column("what does it", "means"))
+    columns = (Column("run", "run"), Column("scenario", "scenario"), Column("ball and charges", "means"))
     sections = [Section("The runs", (*notices, DataTable("runs", "Runs", columns, listed)))]
     if whole:
         debris = [(name, debris_of(run.recorded)) for name, run in whole]
@@ -57,9 +57,8 @@ def shared_beginning(runs: Sequence[ReportedRun]) -> str:
 
     Without it the names are as short as columns and legends want them.
     """
-    each_in_words = (re.findall(r"[^_ -]*[_ -]", run.name) for run in runs)
-    in_step = zip(*each_in_words, strict=False)
-    shared = "".join(words[0] for words in takewhile(lambda words: len(set(words)) == 1, in_step))
+    names = (re.findall(r"[^_ -]*[_ -]", run.name) for run in runs)
+    shared = "".join(words[0] for words in takewhile(lambda words: len(set(words)) == 1, zip(*names, strict=False)))
     return "" if any(run.name == shared for run in runs) else shared
 
 
@@ -94,7 +93,7 @@ def _finding_table(runs: Sequence[tuple[str, ReportedRun]], debris: Sequence[tup
         Column("unit", "unit"),
         *(Column(name, name, ".5g") for name, _ in runs),
     )
-    rows = [(same[0].label, same[0].unit, *(each.value for each in same)) for same in zip(*by_run, strict=True)]
+    rows = [(same[0].label, same[0].unit, *(finding.value for finding in same)) for same in zip(*by_run, strict=True)]
     return DataTable("comparison", "Main findings", columns, rows)
 
 
@@ -105,14 +104,10 @@ def _charts(runs: Sequence[tuple[str, ReportedRun]], debris: Sequence[tuple[str,
         for name, run in runs
         if run.recorded.frames.intact.shape[1]
     ]
-    loads = [
-        (
-            name,
-            run.recorded.frames.time_s,
-            largest_on_a_shard(run.recorded, run.recorded.frames.loads.body_peak_sums_n) / 1e3,
-        )
-        for name, run in runs
-    ]
+    loads = []
+    for name, run in runs:
+        frames = run.recorded.frames
+        loads.append((name, frames.time_s, largest_on_a_shard(run.recorded, frames.loads.body_peak_sums_n) / 1e3))
     charts = (
         ("progress of the collapse (%)", progress),
         ("connections broken (%)", broken),

@@ -25,10 +25,9 @@ from .sections.collapse import collapse_section
 from .sections.cover import ONE_RUN, add_on_version, cover_section, scenario_section, trust_section
 from .sections.debris import corner_table, debris_section, exclusion_section, terrain_section, zone_of
 from .sections.forces import force_section, logged_section
-from .sections.ground_motion import motion_section
+from .sections.ground_motion import motion_section, touchdown_section
 from .sections.model import model_section
 from .sections.stages import has_stages, stages_section
-from .sections.touchdown import touchdown_section
 from .site_plan import write_areas
 
 

@@ -5,8 +5,10 @@ from __future__ import annotations
 import os
 import struct
 import zlib
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -95,7 +97,9 @@ def read_run(folder: Path) -> ReportedRun:
             "The scene was changed in Blender after it was built. The scenario of the run does not hold these changes: "
             f"{'; '.join(summary.made_by_hand)}."
         )
-    logged = _logged_forces(folder, shortcomings) if results is None else None
+    logged: LoggedForces | None = _log(read_logged_forces, folder, shortcomings) if results is None else None
+    if logged and logged.is_cut:
+        shortcomings.append(f"The last frame in {FORCE_LOG} is not whole, and is left out.")
     scenario = _scenario(folder, shortcomings)
     return ReportedRun(
         folder=folder,
@@ -104,7 +108,7 @@ def read_run(folder: Path) -> ReportedRun:
         results=results,
         ball=_ball(summary, results, scenario),
         logged_forces=logged,
-        logged_breaks=_logged_breaks(folder, shortcomings) if results is None else None,
+        logged_breaks=_log(count_logged_breaks, folder, shortcomings) if results is None else None,
         pictures=pictures_in(folder, shortcomings),
         shortcomings=tuple(shortcomings),
     )
@@ -179,20 +183,10 @@ def _ball(summary: RunSummary | None, results: Results | None, scenario: Scenari
     return RunSummary({"impact": impact_of(results, gravity), "hits_of_the_ball": hits})
 
 
-def _logged_forces(folder: Path, shortcomings: list[str]) -> LoggedForces | None:
+def _log(read: Callable[[Path], Any], folder: Path, shortcomings: list[str]) -> Any:
+    """Return what a log holds; None where it is missing or cannot be read."""
     try:
-        logged = read_logged_forces(folder)
-    except OutputError as error:
-        shortcomings.append(f"{error}.")
-        return None
-    if logged and logged.is_cut:
-        shortcomings.append(f"The last frame in {FORCE_LOG} is not whole, and is left out.")
-    return logged
-
-
-def _logged_breaks(folder: Path, shortcomings: list[str]) -> int | None:
-    try:
-        return count_logged_breaks(folder)
+        return read(folder)
     except OutputError as error:
         shortcomings.append(f"{error}.")
         return None

@@ -10,7 +10,7 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ..display.moments import moments
+from ..display.frames import moments
 from ..errors import OutputError
 from ..model.results.arrays import RESULTS_FILE, Results, load_results
 from ..model.run_folder.files import FORCE_CHART, SCENARIO_FILE

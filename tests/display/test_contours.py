@@ -12,8 +12,8 @@ from bridge_demolition_addon.display.colour_scale import ColourMap, colours
 from bridge_demolition_addon.display.contour_quantities import ContourQuantity
 from bridge_demolition_addon.display.contour_ranges import ContourScale, ContourSettings, RangeKind
 from bridge_demolition_addon.display.contours import ContourSeries
-from bridge_demolition_addon.display.film_frames import film_rows
 from bridge_demolition_addon.display.force_arrows import arrows, connection_forces, contact_forces
+from bridge_demolition_addon.display.frames import film_rows
 from bridge_demolition_addon.errors import ContourError, OutputError
 
 UPPER, LOWER, BALL = 1, 2, 3

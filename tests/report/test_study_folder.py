@@ -213,7 +213,7 @@ def test_a_zone_of_the_scenario_is_verified(with_drop_area, capsys):
     assert main(["study", str(with_drop_area), "--verify", "drop area"]) == 0
     printed = capsys.readouterr().out
     assert left == 2 and printed.startswith("2 of 93 runs left the zone drop area. With 95 % confidence at most 6.62 %")
-    assert "124" not in printed and "59 runs would, of which none leaves it, or 93, of which one does" in printed
+    assert "124" not in printed and "it takes 59 runs without one that leaves it, or 93 runs with one" in printed
 
 
 @pytest.mark.parametrize(

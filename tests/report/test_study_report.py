@@ -30,7 +30,7 @@ def test_the_first_section_begins_with_the_statement(runs, told):
     second = np.sort(runs.distances_m)[-2]
     assert told.notices[0].startswith(
         'In 93 independent runs, in which charges.mass_kg, charges."mid pier".delay_ms, shards.friction, '
-        "connections.type and the seed of the fracture were drawn from the distributions of this study, debris "
+        "connections.type and the seed of the fracture were sampled from the distributions of this study, debris "
         f"stayed within {np.ceil(10.0 * second) / 10.0:.1f} m of the bridge's plan in all but 1. With 95 % confidence "
         "at least 95 % of such runs stay within it."
     )
@@ -125,7 +125,7 @@ def test_a_study_without_criteria_or_variations_says_so():
     told = told_of_study(told_runs(told_study(vary=(), criteria=())))
     assert any(text.startswith("The study names no [[criteria]]") for text in told.paragraphs)
     assert "What matters" not in told.titles
-    assert "in which the seed of the fracture was drawn" in told.notices[0]
+    assert "in which the seed of the fracture was sampled" in told.notices[0]
 
 
 def test_the_median_and_the_worst_draw_are_those_of_the_reach(runs, told):

@@ -21,7 +21,7 @@ def add_to(commands: argparse._SubParsersAction) -> None:
         "--to",
         required=True,
         choices=list(FORMATS),
-        help="; ".join(f"{each.name}: {each.what}" for each in FORMATS.values()),
+        help="; ".join(f"{form.name}: {form.content}" for form in FORMATS.values()),
     )
     parser.add_argument(
         "--output", required=True, metavar="PATH", type=Path, help="new file, or new folder where many are written"

@@ -53,7 +53,7 @@ def add_to(commands: argparse._SubParsersAction) -> None:
 
 
 def import_ifc(arguments: argparse.Namespace) -> None:
-    """Import a bridge, and say what became of it; or write the table of materials."""
+    """Import a bridge, and print its members and notes; or write the table of materials."""
     if arguments.write_materials:
         write_material_table(arguments.write_materials)
         print(arguments.write_materials)

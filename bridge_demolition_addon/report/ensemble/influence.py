@@ -32,14 +32,14 @@ def varied_section(runs: ReportedEnsemble) -> Section:
     columns = (
         Column("key", "key"),
         Column("distribution", "distribution"),
-        Column("lowest drawn", "lowest", ".5g"),
+        Column("lowest", "lowest", ".5g"),
         Column("median", "median", ".5g"),
         Column("highest", "highest", ".5g"),
     )
     rows = [_varied_row(runs, variation) for variation in runs.ensemble.variations]
     words = (
-        "All inputs are drawn for each run, independently of each other. The seed of the fracture, which decides "
-        "how the shards are cut, is drawn as well."
+        "All inputs are sampled for each run, independently of each other. So is the seed of the fracture, which "
+        "decides how the shards are cut."
     )
     blocks: list[Block] = [Paragraph(words)]
     blocks += [DataTable("varied", "What varied", columns, rows)] if rows else []
@@ -104,12 +104,12 @@ def correlation_table(runs: ReportedEnsemble) -> DataTable:
 def _varied_row(runs: ReportedEnsemble, variation: Variation) -> tuple:
     values = runs.table.input(variation.key.name) if variation.key.name in runs.table.inputs else np.zeros(0)
     name = type(variation.distribution).__name__.lower()
-    given = ", ".join(_settings(variation.distribution))
+    settings = ", ".join(_settings(variation.distribution))
     factor = ", as a factor" if variation.factor else ""
     if values.dtype == object or not len(values):
-        return shown(variation.key.name), f"{name}: {given}{factor}", None, None, None
-    drawn = float(values.min()), float(np.median(values)), float(values.max())
-    return shown(variation.key.name), f"{name}: {given}{factor}", *drawn
+        return shown(variation.key.name), f"{name}: {settings}{factor}", None, None, None
+    ends = float(values.min()), float(np.median(values)), float(values.max())
+    return shown(variation.key.name), f"{name}: {settings}{factor}", *ends
 
 
 def _settings(distribution: Distribution) -> Iterator[str]:

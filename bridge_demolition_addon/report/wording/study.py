@@ -34,10 +34,10 @@ def too_few_sentence(limit: DebrisLimit) -> str:
     first = least_runs(limit.quantile, limit.confidence)
     other = f" (or {first} with study.rank = 1)" if first < limit.runs_needed else ""
     return (
-        f"Too few runs for a limit yet: it needs {limit.runs_needed} runs{other}, has {limit.runs}. So many runs it "
-        f"takes until the {ordinal(limit.rank)} debris distance is one that {percent(limit.quantile)} of all runs stay "
-        f"within, with {percent(limit.confidence)} confidence. Raise study.runs, and start the study again in the same "
-        "folder: all runs that are done stay."
+        f"Too few runs for a limit yet: it needs {limit.runs_needed} runs{other}, has {limit.runs}. Only "
+        f"then do {percent(limit.quantile)} of all runs stay within the {ordinal(limit.rank)} debris distance, with "
+        f"{percent(limit.confidence)} confidence. Raise study.runs, and start the study again in the same folder: it "
+        "keeps all runs that are done."
     )
 
 
@@ -47,9 +47,9 @@ def limit_sentence(limit: DebrisLimit, inputs: Sequence[str], least_mass_kg: flo
         return too_few_sentence(limit)
     if not limit.is_known:
         return (
-            f"These runs set no limit: {limit.unfinished} of {limit.runs} did not finish, each of them counts as one "
-            f"of unlimited debris distance, and the limit was to be the {ordinal(limit.rank)} distance. Find out why "
-            "they stopped, and make the study again without that."
+            f"These runs set no limit: {limit.unfinished} of {limit.runs} did not finish. Their debris "
+            f"distance counts as unlimited, and the limit is the {ordinal(limit.rank)} distance. Find out why they "
+            "stopped, and run the study again without that."
         )
     debris = f"debris of {least_mass_kg:g} kg or more" if least_mass_kg > 0.0 else "debris"
     most = f"all but {limit.exceedances}" if limit.exceedances else "all of them"
@@ -57,9 +57,9 @@ def limit_sentence(limit: DebrisLimit, inputs: Sequence[str], least_mass_kg: flo
     added = "a buffer has to be added"
     if buffer_m is not None:
         added = f"the buffer of {buffer_m:g} m is added, {rounded_up(limit.limit_m + buffer_m, '0.1')} m in all"
-    limit_m, drawn = rounded_up(limit.limit_m, "0.1"), "was drawn" if len(inputs) == 1 else "were drawn"
+    limit_m, sampled = rounded_up(limit.limit_m, "0.1"), "was sampled" if len(inputs) == 1 else "were sampled"
     return (
-        f"In {limit.runs} independent runs, in which {listed(inputs)} {drawn} from the distributions of this study, "
+        f"In {limit.runs} independent runs, in which {listed(inputs)} {sampled} from the distributions of this study, "
         f"{debris} stayed within {limit_m} m of the bridge's plan in {most}{unfinished}. With "
         f"{percent(limit.confidence)} confidence at least {percent(limit.quantile)} of such runs stay within it. This "
         "says how the model scatters; it does not cover what the model leaves out, such as pieces smaller than a "
@@ -77,7 +77,7 @@ def repeat_sentence(limit: DebrisLimit) -> str:
     confidence = f"with {percent(limit.confidence)} confidence{' each' if len(ends) > 1 else ''}"
     within = f"its limit would lie {' and '.join(ends)}, {confidence}; " if ends else ""
     return (
-        f"Were the study made again, with other runs, {within}in {percent_up(limit.repeat_exceedance)} of such "
+        f"If the study were made again with other runs, {within}in {percent_up(limit.repeat_exceedance)} of such "
         "studies it would lie beyond every distance seen here."
     )
 
@@ -105,8 +105,8 @@ def verified_sentence(left: Proportion, quantile: float) -> str:
     else:
         needed = [least_runs(quantile, left.confidence, rank) for rank in (1, 2)]
         meaning = (
-            f"That does not show that it holds {percent(quantile)} of them: {needed[0]} runs would, of which none "
-            f"leaves it, or {needed[1]}, of which one does"
+            f"That does not show that it holds {percent(quantile)} of them: it takes {needed[0]} runs "
+            f"without one that leaves it, or {needed[1]} runs with one"
         )
     return (
         f"{harm_sentence(left)} {meaning}. This is so where the zone was fixed before these runs; if it was made from "
@@ -117,12 +117,12 @@ def verified_sentence(left: Proportion, quantile: float) -> str:
 def shape_sentence(corners: int, quantile: float, confidence: float) -> str:
     """Return why a zone drawn around runs holds less than it seems to, by the corners of the hull, and what to do."""
     return (
-        "A zone that is drawn around what these runs covered is no such limit: the runs chose its shape, whose convex "
-        f"hull has {corners} corners. Even had their number been fixed beforehand, such a zone would be known to hold "
-        f"{percent(quantile)} of other runs, with {percent(confidence)} confidence, only from "
-        f"{least_runs(quantile, confidence, corners)} runs on. Take the limit instead, whose shape was fixed before "
-        "the first run, or verify the zone: write it into [[zones]] of the scenario, give the study another seed, and "
-        "ask bda study with --verify what its runs state."
+        "A zone drawn around the debris of these runs is no such limit: the runs chose its shape, whose convex hull "
+        f"has {corners} corners. Even with their number fixed beforehand, it takes "
+        f"{least_runs(quantile, confidence, corners)} runs until such a zone holds {percent(quantile)} of other runs, "
+        f"with {percent(confidence)} confidence. Take the limit instead, whose shape was fixed before the first run, "
+        "or verify the zone: write it into [[zones]] of the scenario, run the study with another seed, and then "
+        "bda study with --verify."
     )
 
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from ...display.contour_ranges import ContourSettings
 from ...display.contours import ContourSeries
-from ...display.film_frames import film_rows
+from ...display.frames import film_rows
 from ...errors import ContourError, OutputError
 from ...model.run_folder.files import FILM_FILE, SLOW_FILM_FILE
 from ...model.scenario.recording import PictureSettings

@@ -129,7 +129,7 @@ class BDA_OT_export_run(ModalTask, bpy.types.Operator):
     form: EnumProperty(
         name="Format",
         description="What the run is written for",
-        items=[(form.name, form.title, form.what) for form in FORMATS.values()],
+        items=[(form.name, form.title, form.content) for form in FORMATS.values()],
     )
 
     def work(self, context: bpy.types.Context) -> Work:

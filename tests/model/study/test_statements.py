@@ -28,11 +28,11 @@ INPUTS = ["the charges' masses", "the fracture seed"]
 def test_the_limit_is_said_as_a_report_has_to():
     limit = debris_limit(REACHES_M, 0.95, 0.95, 2)
     assert limit_sentence(limit, INPUTS, 5.0, 10.0) == (
-        "In 93 independent runs, in which the charges' masses and the fracture seed were drawn from the distributions "
-        "of this study, debris of 5 kg or more stayed within 22.8 m of the bridge's plan in all but 1. With 95 % "
-        "confidence at least 95 % of such runs stay within it. This says how the model scatters; it does not cover "
-        "what the model leaves out, such as pieces smaller than a shard, for which the buffer of 10 m is added, 32.8 m "
-        "in all."
+        "In 93 independent runs, in which the charges' masses and the fracture seed were sampled from the "
+        "distributions of this study, debris of 5 kg or more stayed within 22.8 m of the bridge's plan in all but 1. "
+        "With 95 % confidence at least 95 % of such runs stay within it. This says how the model scatters; it "
+        "does not cover what the model leaves out, such as pieces smaller than a shard, for which the buffer of 10 m "
+        "is added, 32.8 m in all."
     )
     assert (limit.limit_m, limit.exceedances, limit.unfinished) == (22.76, 1, 0)
     assert (round(limit.achieved_confidence, 4), round(limit.coverage, 4)) == (0.9500, 0.9500)
@@ -40,7 +40,7 @@ def test_the_limit_is_said_as_a_report_has_to():
 
 def test_without_a_mass_or_a_buffer_none_is_named():
     sentence = limit_sentence(debris_limit(REACHES_M[:59], 0.95, 0.95, 1), ["the fracture seed"], 0.0, None)
-    assert "in which the fracture seed was drawn from" in sentence
+    assert "in which the fracture seed was sampled from" in sentence
     assert ", debris stayed within " in sentence and " in all of them. " in sentence
     assert sentence.endswith("for which a buffer has to be added.")
 
@@ -137,7 +137,7 @@ def test_fresh_runs_verify_a_zone_or_do_not():
     )
     one = verified_sentence(proportion("left it", np.arange(59) == 4, 0.95), 0.95)
     assert "does not show that it holds 95 %" in one
-    assert "59 runs would, of which none leaves it, or 93, of which one does" in one
+    assert "it takes 59 runs without one that leaves it, or 93 runs with one" in one
 
 
 def test_a_zone_made_of_runs_is_called_no_limit():

@@ -3,7 +3,7 @@
 
 from support.sample_results import FRAME_S, GRAVITY, hanging_chain
 
-from bridge_demolition_addon.display.moments import moments
+from bridge_demolition_addon.display.frames import moments
 
 
 def test_moments_of_the_chain():
