@@ -40,6 +40,15 @@ FARTHEST_M = 10_000.0
 SIZE = {"unit": "m", "at_least": SHORTEST_LENGTH_M, "at_most": FARTHEST_M}
 """Unit and limits of a size of anything solid."""
 
+POSITION = {"unit": "m", "at_least": -FARTHEST_M, "at_most": FARTHEST_M}
+"""Unit and limits of a coordinate of anything solid."""
+
+SHARE = {"at_least": 0, "at_most": 1}
+"""Limits of a part of something."""
+
+DENSITY = {"default": None, "unit": "kg/m³", "above": 0}
+"""Unit and limits of a density that may be left out."""
+
 ROUNDING = 1e-9
 """Relative slack where lengths are compared that a user would add up in decimals."""
 

@@ -27,7 +27,7 @@ from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.model.results.arrays import load_results
 from bridge_demolition_addon.model.scenario import ConnectionSettings, ShardSettings
 from bridge_demolition_addon.model.scenario.connections import ConnectionBetween
-from bridge_demolition_addon.model.structure.equilibrium import model_at_rest, sag_m
+from bridge_demolition_addon.model.structure.equilibrium import deflection_m, model_at_rest
 from bridge_demolition_addon.model.structure.model import build_model
 from bridge_demolition_addon.scene.bodies import bodies_of
 from bridge_demolition_addon.scene.connections.breaking_settings import Breaking, keep_breaking
@@ -323,7 +323,7 @@ def test_a_span_rests_in_blender_as_it_does_without(blender, tmp_path, elastic_s
     model = build_model(elastic_span)
     rest = model_at_rest(model, elastic_span.joints)
     # Blender keeps places in single precision, and Bullet puts its margin around hulls.
-    assert summary["elasticity"]["sag_m"] == pytest.approx(sag_m(model, rest), rel=1e-3)
+    assert summary["elasticity"]["sag_m"] == pytest.approx(deflection_m(model, rest), rel=1e-3)
     assert summary["elasticity"]["frequency_hz"] == pytest.approx(rest.frequency_hz, rel=1e-3)
     assert summary["elasticity"]["held_bodies"] == 40
     results = load_results(tmp_path / "run" / "results.npz")

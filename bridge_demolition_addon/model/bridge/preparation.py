@@ -49,7 +49,7 @@ def _bridge_on(terrain: Terrain | None, scenario: Scenario) -> tuple[Member, ...
     def height(name: str, x_m: float, y_m: float) -> float:
         height_m = float(terrain.heights_at(np.array([[x_m, y_m]]))[0])
         if not np.isfinite(height_m):
-            where = terrain.told_place(np.array([x_m, y_m]))
+            where = terrain.place_text(np.array([x_m, y_m]))
             raise GeometryError(
                 f"{terrain.name}: the terrain has no data under {name}, at {where}; give it heights there, or move the "
                 "bridge by ground.origin; ground.scale is metres in a unit of the file."

@@ -33,15 +33,15 @@ def debris_on_surfaces(results: Results, debris: Debris) -> tuple[SurfaceDebris,
     """Return the debris on each surface of the ground, at the last recorded step."""
     results = relative_to_ground(results)
     places = results.frames.positions_m[-1, debris.bodies]
-    found = []
+    on_surfaces = []
     for surface in debris.ground.surfaces:
         level = surface.surface.heights_at(places[:, :2])  # nan beside it
         # Water lies below the ground beyond its shores.
         on_it = (places[:, 2] >= level - MOVED_M) & (level >= debris.ground.heights_at(places[:, :2]))
         mass = float(debris.masses_kg[on_it].sum())
         covered = float((debris.area ^ debris.ground.shown(surface)).area())
-        found.append(SurfaceDebris(surface.name, surface.kind, debris.bodies[on_it], mass, covered))
-    return tuple(found)
+        on_surfaces.append(SurfaceDebris(surface.name, surface.kind, debris.bodies[on_it], mass, covered))
+    return tuple(on_surfaces)
 
 
 def bodies_under_ground(results: Results) -> np.ndarray:

@@ -59,7 +59,7 @@ def debris_of(results: Results) -> Debris:
         masses_kg=results.inventory.masses_kg[bodies],
         area=footprint(results, bodies, -1),
         outline=outline,
-        highest_m=max((float(each.max()) for each in _above(ground, corners)), default=float("nan")),
+        highest_m=max((float(heights.max()) for heights in _above(ground, corners)), default=float("nan")),
         ground=ground,
     )
 

@@ -98,13 +98,17 @@ def landings(results: Results) -> Landings:
     speeds = speeds + STANDARD_GRAVITY_M_S2 * (frames.time_s[rows + 1] - times)
     masses = inventory.masses_kg[bodies]
     order = np.argsort(times, kind="stable")
-    found = (bodies, times, masses, 0.5 * masses * np.square(speeds), frames.positions_m[rows, bodies])
-    return Landings(*(each[order] for each in found))
+    columns_of_bodies = (bodies, times, masses, 0.5 * masses * np.square(speeds), frames.positions_m[rows, bodies])
+    return Landings(*(values[order] for values in columns_of_bodies))
 
 
 def shaking_at(place_m: ArrayLike, landed: Landings) -> Shaking | None:
     """Return the largest shaking of the ground at a position (3,), m; None where nothing landed."""
-    return max((_shaking(place_m, landed, each) for each in landed.together()), key=_velocity, default=None)
+    return max(
+        (_shaking(place_m, landed, together) for together in landed.together()),
+        key=lambda shaking: shaking.velocity_m_s,
+        default=None,
+    )
 
 
 def touchdown_velocity(distance_m: ArrayLike, energy_j: ArrayLike) -> np.ndarray:
@@ -121,10 +125,6 @@ def _shaking(place_m: ArrayLike, landed: Landings, together: slice) -> Shaking:
     velocity = float(touchdown_velocity(distance_m, energy_j))
     mass = float(landed.masses_kg[together].sum())
     return Shaking(velocity, float(landed.times_s[together.start]), mass, energy_j, distance_m)
-
-
-def _velocity(shaking: Shaking) -> float:
-    return shaking.velocity_m_s
 
 
 @dataclass(frozen=True, slots=True)

@@ -169,5 +169,5 @@ def _entry_between(motion: _Motion, prism: _Prism, first: float, last: float) ->
         # Not there before, and perhaps after: a path that only grazes a corner within this time is no entry.
         return motion.start_s + last * motion.duration_s if prism.meets(after) else None
     middle = (first + last) / 2.0
-    found = _entry_between(motion, prism, first, middle)
-    return _entry_between(motion, prism, middle, last) if found is None else found
+    earlier = _entry_between(motion, prism, first, middle)
+    return _entry_between(motion, prism, middle, last) if earlier is None else earlier

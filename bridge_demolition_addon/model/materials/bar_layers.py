@@ -26,8 +26,8 @@ _HALVINGS = 60
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BarLayer(Table):
     """A layer of reinforcing bars in a member, or in all members of a kind, at their depth in the section. It holds a
-    crack together once a connection broke by its material, with as much as the section bears at yield. It needs method
-    `face`, `connections.material` and `connections.ductile_elongation_m`."""
+    crack together once a connection broke by its material, with as much as the section resists at yield. It needs
+    method `face`, `connections.material` and `connections.ductile_elongation_m`."""
 
     table: ClassVar[str] = "reinforcement"
 
@@ -115,7 +115,7 @@ class ReinforcedSection:
         pulls = [area * strength for area, strength in zip(self.areas_m2, self.yields_pa, strict=True)]
         near = [depth < 0.5 * self.height_m for depth in self.depths_m]
         of_near, by_near = self._resultant(pulls, near)
-        of_far, by_far = self._resultant(pulls, [not each for each in near])
+        of_far, by_far = self._resultant(pulls, [not is_near for is_near in near])
         if not of_near:
             shares = 0.0, first / by_far
         elif not of_far:
@@ -137,7 +137,7 @@ class ReinforcedSection:
         return (of_near, of_far) if of_far >= 0.0 else (other / from_near, 0.0)
 
     def _resultant(self, pulls: Sequence[float], chosen: Sequence[bool]) -> tuple[float, float]:
-        rows = [(pull, depth) for pull, depth, each in zip(pulls, self.depths_m, chosen, strict=True) if each]
+        rows = [(pull, depth) for pull, depth, counts in zip(pulls, self.depths_m, chosen, strict=True) if counts]
         return sum(pull for pull, _ in rows), sum(pull * depth for pull, depth in rows)
 
     def _moment(self, depths_m: Sequence[float]) -> float:

@@ -6,7 +6,7 @@ from typing import ClassVar
 
 from ...engineering.elasticity.section_stiffness import ELASTIC_MODULI, ElasticModuli
 from ...engineering.mechanics.strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE, Strength
-from ..schema import Table, key
+from ..schema import DENSITY, Table, key
 
 MODULUS = {"unit": "N/mm²", "above": 0, "at_most": 1e7}
 """Unit and limits of a modulus of elasticity."""
@@ -20,7 +20,7 @@ _STRENGTH = {"unit": "N/mm²", "above": 0}
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Material(Table):
     """A material of your own, which `connections.material` and `connections.between.material` may name: strengths that
-    were measured on this bridge, or that a study draws."""
+    were measured on this bridge, or that a study samples."""
 
     table: ClassVar[str] = "materials"
 
@@ -39,9 +39,7 @@ class Material(Table):
     density_kg_m3: float | None = key(
         "Density of all members that have none of their own, where it is that of `connections.material` and the bridge "
         "gives neither `density_kg_m3` nor `mass_kg`.",
-        default=None,
-        unit="kg/m³",
-        above=0,
+        **DENSITY,
     )
 
     @property
@@ -76,8 +74,8 @@ def moduli(materials: Iterable[Material], name: str) -> ElasticModuli:
     own = {material.name: material for material in materials}
     if name not in own:
         return ELASTIC_MODULI[name]
-    found = own[name].moduli
-    if found is None:
+    material_moduli = own[name].moduli
+    if material_moduli is None:
         wanted = 'it with connections.stiffness "elastic", where no connections give their own'
         raise own[name].unexpected("elastic_modulus_n_mm2", wanted)
-    return found
+    return material_moduli

@@ -25,7 +25,7 @@ _KEPT_AS = {"i": np.dtype("<i8"), "u": np.dtype("<i8"), "f": np.dtype("<f8")}
 
 def digest(parts: Mapping[str, Any]) -> str:
     """Return the SHA-256 of named arrays, numbers and texts, as hexadecimal digits; their order does not count."""
-    found = hashlib.sha256()
+    sha = hashlib.sha256()
     for name in sorted(parts):
         values = np.asarray(parts[name])
         if values.dtype.kind == "U":
@@ -36,10 +36,10 @@ def digest(parts: Mapping[str, Any]) -> str:
             kept = _KEPT_AS.get(values.dtype.kind, np.dtype("u1"))
             contents = (block.astype(kept).tobytes() for block in blocks_of(values))
             size = values.size * kept.itemsize
-        found.update(f"{name}:{values.shape}:{size}:".encode())
+        sha.update(f"{name}:{values.shape}:{size}:".encode())
         for content in contents:
-            found.update(content)
-    return found.hexdigest()
+            sha.update(content)
+    return sha.hexdigest()
 
 
 def known_parts(record: Any) -> dict[str, Any]:

@@ -71,7 +71,9 @@ def most_loaded(magnitudes_n: np.ndarray, rows: np.ndarray, count: int = 10) -> 
     largest = known.max(axis=0)
     order = np.argsort(-largest, kind="stable")[:count]
     return [
-        Peak(int(rows[each]), int(known[:, each].argmax()), float(largest[each])) for each in order if largest[each] > 0
+        Peak(int(rows[place]), int(known[:, place].argmax()), float(largest[place]))
+        for place in order
+        if largest[place] > 0
     ]
 
 
@@ -90,11 +92,11 @@ class BreakingByKind:
 def breaking_by_kind(results: Results) -> list[BreakingByKind]:
     """Return connections by what they join, the most numerous kind first."""
     kinds = _kinds(results)
-    found = []
+    by_kind = []
     for kind in np.unique(kinds):
         of_kind = kinds == kind
-        found.append(BreakingByKind(str(kind), int(of_kind.sum()), (~results.frames.intact[:, of_kind]).sum(axis=1)))
-    return sorted(found, key=lambda each: -each.count)
+        by_kind.append(BreakingByKind(str(kind), int(of_kind.sum()), (~results.frames.intact[:, of_kind]).sum(axis=1)))
+    return sorted(by_kind, key=lambda breaking: -breaking.count)
 
 
 def _kinds(results: Results) -> np.ndarray:

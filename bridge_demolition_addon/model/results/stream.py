@@ -60,7 +60,7 @@ class FrameStream(Sequence[Frame]):
 
     def __getitem__(self, row: int | slice) -> Frame | list[Frame]:
         if isinstance(row, slice):
-            return [self[each] for each in range(len(self))[row]]
+            return [self[number] for number in range(len(self))[row]]
         number = range(len(self))[row]
         assert self._frames is not None  # it has a row
         return frames_of(columns(self._frames.row(number)))[0]
@@ -126,9 +126,9 @@ def _substeps(balls: BallHistory) -> dict[str, np.ndarray]:
 
 def _row_type(arrays: Mapping[str, np.ndarray], fractions: type[np.floating]) -> np.dtype:
     """Return the type of rows of arrays (k, …), in which arrays of fractions have that precision."""
-    found = [(name, _column_type(values, fractions), values.shape[1:]) for name, values in arrays.items()]
-    found.sort(key=lambda column: -np.dtype(column[1]).itemsize)  # so that all are aligned without gaps
-    return np.dtype(found, align=True)
+    columns_of_row = [(name, _column_type(values, fractions), values.shape[1:]) for name, values in arrays.items()]
+    columns_of_row.sort(key=lambda column: -np.dtype(column[1]).itemsize)  # so that all are aligned without gaps
+    return np.dtype(columns_of_row, align=True)
 
 
 def _column_type(values: np.ndarray, fractions: type[np.floating]) -> type[np.generic]:

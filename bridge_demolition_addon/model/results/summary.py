@@ -78,7 +78,7 @@ def hits_of_balls(
     Parameters are those of `summarise`.
     """
     steps = np.diff(results.balls.times_s, prepend=results.frames.time_s[0])
-    found = []
+    all_hits = []
     for column, ball in enumerate(results.balls.bodies):
         mass = results.inventory.masses_kg[ball]
         radius = float(cube_root(0.75 / np.pi * results.inventory.volumes_m3[ball]))
@@ -88,7 +88,7 @@ def hits_of_balls(
         for hit in hits(results.balls.impulses_ns[:, column], steps, results.frames.time_s[0], resting_force):
             before = velocities[hit.first_step - 1] if hit.first_step else np.zeros(3)
             speed = -float(dot(before, hit.impulse_ns)) / hit.impulse_magnitude_ns
-            found.append(
+            all_hits.append(
                 {
                     "ball": str(results.inventory.body_names[ball]),
                     "time_s": hit.start_s,
@@ -100,7 +100,7 @@ def hits_of_balls(
                     **_estimated_forces(hit, speed, contact, contact_time_s),
                 }
             )
-    return found
+    return all_hits
 
 
 def _estimated_forces(hit: Hit, speed: float, contact: Contact, contact_time_s: float | None) -> dict[str, float]:

@@ -7,8 +7,6 @@ tables.
 
 from ..blast.charges import Charge
 from ..blast.settings import BlastSettings
-from ..foundations import Foundation
-from ..ground_motion.settings import DesignSpectrum, GroundMotion, Sweep
 from ..loads import Load
 from ..materials.bar_layers import BarLayer
 from ..materials.materials import Material
@@ -39,17 +37,14 @@ __all__ = [
     "ConnectionBetween",
     "ConnectionSettings",
     "Deck",
-    "DesignSpectrum",
     "Equipment",
     "Exclusion",
     "Finer",
-    "Foundation",
     "FracturePoint",
     "FractureSettings",
     "Geometry",
     "Girders",
     "Ground",
-    "GroundMotion",
     "GroundSurface",
     "Jackhammer",
     "Load",
@@ -66,7 +61,6 @@ __all__ = [
     "ShardSettings",
     "Site",
     "Support",
-    "Sweep",
     "TimeSettings",
     "Weakening",
     "Zone",

@@ -14,7 +14,7 @@ from ...engineering.timing.timeline import Timeline
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...errors import GeometryError, ScenarioError
 from ..actions import Fact, HeightAt, Place, Plan, PlannedAction, Point, Worksite
-from ..schema import FARTHEST_M, SIZE, Table, expected, given, key
+from ..schema import FARTHEST_M, POSITION, SHARE, SIZE, Table, expected, given, key
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -26,9 +26,7 @@ class BallCable(Table):
 
     table: ClassVar[str] = "ball.cable"
 
-    crane_point_m: tuple[float, float, float] = key(
-        "The tip of the crane.", unit="m", at_least=-FARTHEST_M, at_most=FARTHEST_M
-    )
+    crane_point_m: tuple[float, float, float] = key("The tip of the crane.", **POSITION)
     length_m: float = key("Length from there to the middle of the ball.", **SIZE)
     angle_degrees: float = key("Angle from the vertical at which it is let go.", above=0, at_most=90)
     azimuth_degrees: float = key(
@@ -40,7 +38,7 @@ class BallCable(Table):
 
     @property
     def start_m(self) -> tuple[float, float, float]:
-        """Return the middle of the ball before it is let go, m."""
+        """Return the middle of the ball before it is let go."""
         angle, azimuth = math.radians(self.angle_degrees), math.radians(self.azimuth_degrees)
         aside = self.length_m * sine(angle)
         offset = (aside * cosine(azimuth), aside * sine(azimuth), -self.length_m * cosine(angle))
@@ -86,7 +84,7 @@ class _Drop(Table):
 
     @property
     def fall_time_s(self) -> float:
-        """Return the time from release to the deck in free fall, s."""
+        """Return the time from release to the deck in free fall."""
         return math.sqrt(2.0 * given(self.drop_height_m) / STANDARD_GRAVITY_M_S2)
 
     @property
@@ -95,7 +93,6 @@ class _Drop(Table):
         return math.sqrt(2.0 * STANDARD_GRAVITY_M_S2 * given(self.drop_height_m))
 
     def check_release(self, plan: Plan) -> None:
-        """Check that it is let go within the run."""
         if plan.timeline.frames_until(self.release_time_s) >= len(plan.timeline):
             time = plan.time
             wanted = f"less than time.duration_s, {time.duration_s} (s), by a frame of {time.step.frame_s:.3g} s"
@@ -127,7 +124,6 @@ class BallHit(_Drop):
 
     @property
     def lift_end_s(self) -> float:
-        """Return when the ball is up, s."""
         return self.lift_time_s + self.lift_duration_s
 
     def check_lift(self, timeline: Timeline) -> None:
@@ -165,12 +161,12 @@ class Ball(_Drop, PlannedAction):
         "When it is let go; before `time.duration_s` is over.", default=0.5, unit="s", at_least=0
     )
     friction: float = key("Coefficient of friction.", default=0.5, at_least=0)
-    restitution: float = key("Share of the speed kept in a bounce.", default=0.0, at_least=0, at_most=1)
+    restitution: float = key("Share of the speed kept in a bounce.", default=0.0, **SHARE)
     angular_damping: float = key(
-        "Share of its spin that it loses in one second. Without any, nothing stops a ball that rolls on flat ground.",
+        "Share of its angular velocity that it loses in one second. Without any, nothing stops a ball that rolls on "
+        "flat ground.",
         default=0.0,
-        at_least=0,
-        at_most=1,
+        **SHARE,
     )
     contact_time_s: float | None = key(
         "How long a hit lasts, for the estimate of its largest force; by default as long as an elastic one of steel on "
@@ -201,7 +197,6 @@ class Ball(_Drop, PlannedAction):
 
     @property
     def density_kg_m3(self) -> float:
-        """Return the mass over the volume of the sphere, kg/m³."""
         return self.mass_kg / (math.pi / 6.0 * self.diameter_m * self.diameter_m * self.diameter_m)
 
     def _check_together(self) -> None:
@@ -321,22 +316,11 @@ class Ball(_Drop, PlannedAction):
 
 
 def lift_path(start_m: ArrayLike, end_m: ArrayLike, shares: np.ndarray) -> np.ndarray:
-    """Return the positions of a lifted ball: straight up, then level to its next drop.
+    """Return the positions (k, 3) of a lifted ball, m: straight up, then level to its next drop.
 
     It goes up by the way that it came down. Its speed rises from 0 and falls to 0 again, with 3 s² - 2 s³ of the way
-    after the share s of the time, and is at most 1.5 times the mean: what lies on the ball is pushed off, not flung.
-
-    Parameters
-    ----------
-    start_m, end_m : (3,) float
-        Where the lift begins and ends, m.
-    shares : (k,) float
-        Shares of the time that have passed, from 0 to 1.
-
-    Returns
-    -------
-    (k, 3) float
-        Positions, m.
+    after the share s of the time (k,), and is at most 1.5 times the mean: what lies on the ball is pushed off, not
+    flung.
     """
     start, end = np.asarray(start_m, float), np.asarray(end_m, float)
     path = np.array([start, [*start[:2], end[2]], end])

@@ -1,13 +1,11 @@
-"""Surface, damping and rest of shards and ground, and what never moves besides the ground."""
+"""Surface, damping and rest of shards and ground, and supports."""
 
 from dataclasses import dataclass
 from typing import ClassVar
 
-import numpy as np
-
-from ...engineering.geometry.plan_areas import FEWEST_CORNERS, sides_cross
 from ...errors import ScenarioError
-from ..schema import FARTHEST_M, SHORTEST_LENGTH_M, Table, check_exactly_one, key
+from ..schema import POSITION, SHARE, SHORTEST_LENGTH_M, Table, check_exactly_one, key
+from .site import check_outline
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -40,11 +38,7 @@ class GroundSurface(Table):
     name: str = key("What it is called in reports; a name of its own for each.")
     kind: str = key("What it is.", default="other", choices=SURFACE_KINDS)
     height_m: float | None = key(
-        "Height of a level surface. Give this, with `corners_m`, or `file`.",
-        default=None,
-        unit="m",
-        at_least=-FARTHEST_M,
-        at_most=FARTHEST_M,
+        "Height of a level surface. Give this, with `corners_m`, or `file`.", default=None, **POSITION
     )
     corners_m: tuple[tuple[float, float], ...] | None = key(
         "Corners of a level surface in plan, x and y of each, in order around it; three or more.",
@@ -57,7 +51,7 @@ class GroundSurface(Table):
         default=None,
     )
     friction: float = key("Coefficient of friction.", default=0.8, at_least=0)
-    restitution: float = key("Share of the speed kept in a bounce.", default=0.0, at_least=0, at_most=1)
+    restitution: float = key("Share of the speed kept in a bounce.", default=0.0, **SHARE)
 
     def _check_together(self) -> None:
         check_exactly_one(self, "height_m", "file")
@@ -65,15 +59,8 @@ class GroundSurface(Table):
             raise ScenarioError(
                 "ground.surfaces.corners_m and ground.surfaces.height_m: expected both, of a level surface, or neither"
             )
-        if self.corners_m is None:
-            return
-        if len(self.corners_m) < FEWEST_CORNERS:
-            wanted = f"expected at least {FEWEST_CORNERS}"
-            raise ScenarioError(f"ground.surfaces.corners_m has {len(self.corners_m)} places: {wanted}")
-        if sides_cross(np.array(self.corners_m)):
-            raise ScenarioError(
-                "ground.surfaces.corners_m: sides cross or touch each other; expected corners in order around it"
-            )
+        if self.corners_m is not None:
+            check_outline(self.corners_m, "ground.surfaces.corners_m")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -118,7 +105,7 @@ class Ground(Table):
         at_most=10,
     )
     friction: float = key("Coefficient of friction.", default=0.8, at_least=0)
-    restitution: float = key("Share of the speed kept in a bounce.", default=0.0, at_least=0, at_most=1)
+    restitution: float = key("Share of the speed kept in a bounce.", default=0.0, **SHARE)
     surfaces: tuple[GroundSurface, ...] = ()
 
     def _check_together(self) -> None:
@@ -139,14 +126,10 @@ class ShardSettings(Table):
     table: ClassVar[str] = "shards"
 
     friction: float = key("Coefficient of friction.", default=0.6, at_least=0)
-    restitution: float = key("Share of the speed kept in a bounce.", default=0.0, at_least=0, at_most=1)
-    collision_margin_m: float = key(
-        "Distance at which shards already touch.", default=0.0, unit="m", at_least=0, at_most=1
-    )
-    linear_damping: float = key("Share of the velocity lost in one second.", default=0.04, at_least=0, at_most=1)
-    angular_damping: float = key(
-        "Share of the angular velocity lost in one second.", default=0.1, at_least=0, at_most=1
-    )
+    restitution: float = key("Share of the speed kept in a bounce.", default=0.0, **SHARE)
+    collision_margin_m: float = key("Distance at which shards already touch.", default=0.0, unit="m", **SHARE)
+    linear_damping: float = key("Share of the velocity lost in one second.", default=0.04, **SHARE)
+    angular_damping: float = key("Share of the angular velocity lost in one second.", default=0.1, **SHARE)
     use_deactivation: bool = key("Whether shards at rest fall asleep until something hits them.", default=True)
     start_deactivated: bool = key(
         "Whether shards sleep until something hits them; needs `use_deactivation`.", default=True
@@ -180,7 +163,6 @@ class Equipment(Table):
     until_s: float | None = key("When it leaves; by default never.", default=None, unit="s", above=0)
 
     def stands_at(self, time_s: float) -> bool:
-        """Whether it stands there from a time on."""
         return self.from_s <= time_s and (self.until_s is None or time_s < self.until_s)
 
     def _check_together(self) -> None:

@@ -6,7 +6,7 @@ from typing import ClassVar
 
 from ...engineering.arithmetic import cosine, sine
 from ...errors import ScenarioError
-from ..schema import FARTHEST_M, ROUNDING, SIZE, Table, check_exactly_one, given, key
+from ..schema import DENSITY, FARTHEST_M, ROUNDING, SIZE, Table, check_exactly_one, given, key
 
 _OWN_DENSITY = "Density of {}, where it is not that of the whole bridge."
 
@@ -37,9 +37,7 @@ class Deck(Table):
         at_least=0,
         at_most=FARTHEST_M,
     )
-    density_kg_m3: float | None = key(
-        _OWN_DENSITY.format("the deck, box girder included"), default=None, unit="kg/m³", above=0
-    )
+    density_kg_m3: float | None = key(_OWN_DENSITY.format("the deck, box girder included"), **DENSITY)
 
     def _check_together(self) -> None:
         if self.joint_gap_m > 0.0 and not self.per_span:
@@ -56,11 +54,9 @@ class Girders(Table):
     width_m: float = key("Width of one girder across the road.", **SIZE)
     depth_m: float = key("Height of a girder below the slab.", **SIZE)
     spacing_m: float | None = key(
-        "Distance from axis to axis; by default the deck's width divided by their number.",
-        default=None,
-        **SIZE,
+        "Distance from axis to axis; by default the deck's width divided by their number.", default=None, **SIZE
     )
-    density_kg_m3: float | None = key(_OWN_DENSITY.format("the girders"), default=None, unit="kg/m³", above=0)
+    density_kg_m3: float | None = key(_OWN_DENSITY.format("the girders"), **DENSITY)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -77,7 +73,7 @@ class BoxGirder(Table):
 
     @property
     def cell_width_m(self) -> float:
-        """Clear width of one cell, m."""
+        """Return the clear width of one cell."""
         return (self.width_m - (self.cells + 1) * self.web_thickness_m) / self.cells
 
     def _check_together(self) -> None:
@@ -107,7 +103,7 @@ class Piers(Table):
     height_m: float = key(
         "Height of a column above the ground; where that is not flat, of its top above height 0.", **SIZE
     )
-    density_kg_m3: float | None = key(_OWN_DENSITY.format("the piers"), default=None, unit="kg/m³", above=0)
+    density_kg_m3: float | None = key(_OWN_DENSITY.format("the piers"), **DENSITY)
 
     def _check_together(self) -> None:
         if self.kind == "wall" and self.columns != 1:
@@ -123,7 +119,7 @@ class PierCaps(Table):
     length_m: float = key("Size along the road.", **SIZE)
     width_m: float = key("Size across the road.", **SIZE)
     height_m: float = key("Height of the beam.", **SIZE)
-    density_kg_m3: float | None = key(_OWN_DENSITY.format("the pier caps"), default=None, unit="kg/m³", above=0)
+    density_kg_m3: float | None = key(_OWN_DENSITY.format("the pier caps"), **DENSITY)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -134,8 +130,7 @@ class Abutments(Table):
     table: ClassVar[str] = "bridge.abutments"
 
     length_m: float = key(
-        "Size along the road, half of it to either side of the axis that the span is measured from.",
-        **SIZE,
+        "Size along the road, half of it to either side of the axis that the span is measured from.", **SIZE
     )
     width_m: float = key("Size across the road.", **SIZE)
     height_m: float | None = key(
@@ -144,7 +139,7 @@ class Abutments(Table):
         default=None,
         **SIZE,
     )
-    density_kg_m3: float | None = key(_OWN_DENSITY.format("the abutments"), default=None, unit="kg/m³", above=0)
+    density_kg_m3: float | None = key(_OWN_DENSITY.format("the abutments"), **DENSITY)
 
 
 LARGEST_SKEW_DEG = 75.0
@@ -157,15 +152,12 @@ class Bridge(Table):
     table: ClassVar[str] = "bridge"
 
     span_lengths_m: tuple[float, ...] = key(
-        "Lengths of the spans, in their order along the road, each from pier axis to pier axis.",
-        **SIZE,
+        "Lengths of the spans, in their order along the road, each from pier axis to pier axis.", **SIZE
     )
     density_kg_m3: float | None = key(
         "Density of all members that have none of their own. Give this or `mass_kg`, or neither where the material of "
         "your own that `connections.material` names has a density.",
-        default=None,
-        unit="kg/m³",
-        above=0,
+        **DENSITY,
     )
     mass_kg: float | None = key(
         "Mass of the whole bridge, from which one density follows for all members that have none of their own. Give "
@@ -196,29 +188,27 @@ class Bridge(Table):
 
     @property
     def spans_m(self) -> float:
-        """Distance from the axis of the first pier to the axis of the last, m."""
+        """Return the distance from the axis of the first pier to the axis of the last."""
         return math.fsum(self.span_lengths_m)
 
     @property
     def length_m(self) -> float:
-        """Length of the deck, m."""
         return self.spans_m + 2.0 * self.deck.overhang_m
 
     @property
     def shift_across(self) -> float:
-        """How far along the road a skewed axis moves for each metre across it."""
+        """Return how far along the road a skewed axis moves for each metre across it."""
         skew = math.radians(self.skew_deg)
         return float(sine(skew) / cosine(skew))
 
     @property
     def girder_spacing_m(self) -> float:
-        """Distance between the axes of two girders, m."""
         girders = given(self.girders)
         return girders.spacing_m or self.deck.width_m / girders.number
 
     @property
     def carried_width_m(self) -> float:
-        """Width of what lies on the columns, over which they are spread, m."""
+        """Return the width of what lies on the columns, over which they are spread."""
         if self.pier_caps:
             return self.pier_caps.width_m
         if self.box_girder:
@@ -274,7 +264,7 @@ class Bridge(Table):
 
     @property
     def _column_turn(self) -> float:
-        """What a column's length along the road is, as part of the room it takes there once it is turned."""
+        """Return a column's length along the road over the room it takes there once it is turned."""
         return float(cosine(math.radians(self.skew_deg))) if given(self.piers).kind == "columns" else 1.0
 
     def _check_room_along(self) -> None:
@@ -299,7 +289,7 @@ class Bridge(Table):
             raise abutments.unexpected("length_m", wanted)
 
     def _check_joints(self) -> None:
-        """Both decks at a joint have to lie on the pier under it."""
+        """Check that both decks at a joint lie on the pier under it."""
         if self.deck.joint_gap_m <= 0.0 or len(self.span_lengths_m) == 1:
             return
         support = self.pier_caps.length_m if self.pier_caps else given(self.piers).column_length_m
@@ -317,7 +307,7 @@ class Bridge(Table):
             self._check_columns_under_girders(piers, self.girders, widest)
 
     def _check_columns_under_girders(self, piers: Piers, girders: Girders, column_spacing: float) -> None:
-        """Without pier caps a column between two girders would carry nothing."""
+        """Check that no column, without pier caps, stands between two girders and carries nothing."""
         columns, number = piers.columns, girders.number
         reach = (piers.column_width_m + girders.width_m) / 2.0
         for column in range(columns):

@@ -11,7 +11,7 @@ from ...engineering.mechanics.strength import MATERIALS, NEWTON_PER_SQUARE_MILLI
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...errors import ScenarioError
 from ..materials.materials import MODULUS, POISSON, Material, moduli, strengths
-from ..schema import LARGEST_INTEGER, Table, check_exactly_one, expected, given, key
+from ..schema import LARGEST_INTEGER, SHARE, Table, check_exactly_one, expected, given, key
 
 _SPRINGS = {
     "move": ("stiffness_n_m", "damping_ns_m"),
@@ -67,7 +67,6 @@ class JointSettings(_Breaking):
 
     @property
     def springs(self) -> Springs:
-        """Return the springs that are given."""
         return Springs(**{name: getattr(self, name) or 0.0 for name in _SPRING_KEYS})
 
     def check_type(self, kind: str) -> None:
@@ -105,7 +104,7 @@ STRENGTH_KEYS = ("breaking_force_n", "breaking_force_kgf", "material")
 """Keys of which one says what breaks a connection."""
 
 ELASTIC_TYPES = ("FIXED", "GENERIC", "GENERIC_SPRING")
-"""Kinds of connections that can be elastic: those whose rows Bullet lets be told what to expect."""
+"""Kinds of connections that can be elastic: those whose rows Bullet lets be changed."""
 
 _OWN_MATERIAL = "the name of one of `[[materials]]`"
 
@@ -140,14 +139,10 @@ class ConnectionBetween(JointSettings):
         or_else=_OWN_MATERIAL,
     )
     elastic_modulus_n_mm2: float | None = key(
-        "Modulus of elasticity, where connections are elastic, if it is not the material's.",
-        default=None,
-        **MODULUS,
+        "Modulus of elasticity, where connections are elastic, if it is not the material's.", default=None, **MODULUS
     )
     poisson_ratio: float | None = key(
-        "Poisson's ratio, where connections are elastic, if it is not the material's.",
-        default=None,
-        **POISSON,
+        "Poisson's ratio, where connections are elastic, if it is not the material's.", default=None, **POISSON
     )
 
     @property
@@ -224,44 +219,38 @@ class ConnectionSettings(JointSettings):
     )
     strength_factor: float = key(
         "Factor on all strengths and breaking forces, also on those between certain members: for a bridge that is "
-        "weaker or stronger throughout, which a study may draw.",
+        "weaker or stronger throughout, which a study may sample.",
         default=1.0,
         above=0,
         at_most=100,
     )
     stiffness: str = key(
         "Whether connections hold bodies rigidly, so that redundant ones share a load as the solver leaves it "
-        "(`rigid`), or give way by their material, so that loads go where stiffness sends them (`elastic`). "
+        "(`rigid`), or deform by their material, so that loads go where stiffness sends them (`elastic`). "
         "`elastic` needs method `face`, a material and `type` `FIXED` or `GENERIC`.",
         default="rigid",
         choices=("rigid", "elastic"),
     )
     elastic_modulus_n_mm2: float | None = key(
-        "Modulus of elasticity, with `stiffness` `elastic`, if it is not the material's.",
-        default=None,
-        **MODULUS,
+        "Modulus of elasticity, with `stiffness` `elastic`, if it is not the material's.", default=None, **MODULUS
     )
     poisson_ratio: float | None = key(
-        "Poisson's ratio, with `stiffness` `elastic`, if it is not the material's.",
-        default=None,
-        **POISSON,
+        "Poisson's ratio, with `stiffness` `elastic`, if it is not the material's.", default=None, **POISSON
     )
     damping_ratio: float | None = key(
         "Damping of the first frequency as a share of the critical one, with `stiffness` `elastic`; 0.05 where it is "
         "left out. Steps in time damp by π × frequency × sub-step at least.",
         default=None,
-        at_least=0,
-        at_most=1,
+        **SHARE,
     )
     ductile_share: float = key(
         "Part of a material's tensile strength that a connection keeps when it breaks, as reinforcement across the "
         "crack: the force at which that yields, by area. 0 for none.",
         default=0.0,
-        at_least=0,
-        at_most=1,
+        **SHARE,
     )
     ductile_elongation_m: float | None = key(
-        "How far the crack opens before the reinforcement lets go. Needed with `ductile_share` and with "
+        "How far the crack opens before the reinforcement ruptures. Needed with `ductile_share` and with "
         "`[[reinforcement]]`, and only then.",
         default=None,
         unit="m",
@@ -298,11 +287,10 @@ class ConnectionSettings(JointSettings):
         at_least=0,
     )
     warm_up_damping: float = key(
-        "Share of all velocities that shards lose in one second of the warm-up besides their own damping, so that they "
+        "Share of all velocities that shards lose in one second of the warm-up, above their own damping, so that they "
         "are at rest when it ends: `0.99` or more.",
         default=0.0,
-        at_least=0,
-        at_most=1,
+        **SHARE,
     )
     foundation: bool = key("Whether shards that stand on the ground are connected to it.", default=True)
     between: tuple[ConnectionBetween, ...] = ()
@@ -310,26 +298,17 @@ class ConnectionSettings(JointSettings):
     @property
     def steel(self) -> Steel:
         """Return what the reinforcement of elastic connections is made of."""
-        given = self.ductile_yield_n_mm2, self.ductile_hardening, self.ductile_rupture_strain
-        units = NEWTON_PER_SQUARE_MILLIMETRE, 1.0, 1.0
-        usual = astuple(USUAL_STEEL)
-        found = (value if own is None else unit * own for own, unit, value in zip(given, units, usual, strict=True))
-        return Steel(*found)
+        own = self.ductile_yield_n_mm2, self.ductile_hardening, self.ductile_rupture_strain
+        columns = zip(own, (NEWTON_PER_SQUARE_MILLIMETRE, 1.0, 1.0), astuple(USUAL_STEEL), strict=True)
+        return Steel(*(usual if value is None else unit * value for value, unit, usual in columns))
 
     @property
     def is_elastic(self) -> bool:
-        """Return whether connections give way."""
         return self.stiffness == "elastic"
 
     def joints(self, materials: Sequence[Material] = ()) -> tuple[Joint, ...]:
-        """Return the joint of connections that follow no rule, then that of each rule.
-
-        Parameters
-        ----------
-        materials
-            The user's own.
-        """
-        known = {name: each.times(self.strength_factor) for name, each in strengths(materials).items()}
+        """Return the joint of connections that follow no rule, then that of each rule."""
+        known = {name: strength.times(self.strength_factor) for name, strength in strengths(materials).items()}
         self._check_materials(known)
         factor = self.strength_factor
         own = Joint(
@@ -351,7 +330,6 @@ class ConnectionSettings(JointSettings):
 
     @property
     def _tables(self) -> "tuple[ConnectionSettings | ConnectionBetween, ...]":
-        """These settings and those of the rules."""
         return (self, *self.between)
 
     @property
@@ -380,7 +358,7 @@ class ConnectionSettings(JointSettings):
         self._check_method("neighbours", "a whole number of at least 1", ("nearest",))
 
     def _check_steel(self) -> None:
-        """Check that what reinforcement is made of is given where it counts, and that it yields before it ruptures."""
+        """Check that the steel is described only where it counts, and yields before it ruptures."""
         for name in _STEEL:
             if getattr(self, name) is not None and not (self.is_elastic and self.ductile_elongation_m is not None):
                 wanted = 'none but with connections.stiffness "elastic" and a connections.ductile_elongation_m'
@@ -397,7 +375,7 @@ class ConnectionSettings(JointSettings):
             raise self.unexpected("ductile_rupture_strain" if is_given else "ductile_yield_n_mm2", wanted)
 
     def _check_elastic(self) -> None:
-        """Check that what only elastic connections have goes with them, and that these have all that they need."""
+        """Check that keys of elastic connections go with them, and that none is missing."""
         names = ("elastic_modulus_n_mm2", "poisson_ratio", "damping_ratio")
         for table in self._tables:
             for name in names:
@@ -429,7 +407,6 @@ class ConnectionSettings(JointSettings):
                 raise table.unexpected("material", expected(item))
 
     def _check_method(self, name: str, wanted: str, methods: tuple[str, ...]) -> None:
-        """Check that a key is given for the methods that need it, and for no others."""
         is_given, is_needed = getattr(self, name) is not None, self.method in methods
         if is_given != is_needed:
             raise self.unexpected(name, f'{wanted if is_needed else "none"} with method "{self.method}"')
@@ -460,7 +437,7 @@ def _moduli(
     materials: Sequence[Material],
     others: ElasticModuli | None = None,
 ) -> ElasticModuli:
-    """Moduli that are given, or those of a material, or of the other connections where it is not given."""
+    """Return moduli that are given, or else those of a material, or else of the other connections."""
     young, poisson = settings.elastic_modulus_n_mm2, settings.poisson_ratio
     if young is not None and poisson is not None:
         return ElasticModuli(young * NEWTON_PER_SQUARE_MILLIMETRE, poisson)

@@ -38,12 +38,7 @@ WITHOUT = "without"
 
 
 def read_scenario(path: str | PathLike[str]) -> Scenario:
-    """Read a scenario file, and the files that it is based on.
-
-    Parameters
-    ----------
-    path : str or path
-        A TOML file; `scenario_text` makes one, and the reference of all keys is ``docs/scenario.md``.
+    """Read a scenario file, and the files that it is based on; all keys are in ``docs/scenario.md``.
 
     Raises
     ------
@@ -58,7 +53,7 @@ def read_scenario(path: str | PathLike[str]) -> Scenario:
 
 
 def scenario_from_text(text: str) -> Scenario:
-    """Read a scenario from TOML. It cannot be based on a file, as it has no place to look for that from."""
+    """Read a scenario from TOML. It cannot be based on a file, as it has no folder to look in."""
     return table_of_document(Scenario, toml_document(text))
 
 
@@ -68,17 +63,17 @@ def scenario_text(scenario: Scenario) -> str:
 
 
 def files_of(scenario: Scenario) -> Iterator[Path]:
-    """Give the paths of all other files that a scenario names, in the order of `PATHS`."""
+    """Yield the paths of all other files that a scenario names, in the order of `PATHS`."""
     for name, key in PATHS:
         tables: list[Any] = [scenario]
         for step in name.split("."):
-            found = [getattr(table, step) for table in tables]
-            tables = [inner for each in found for inner in (each if isinstance(each, tuple) else [each]) if inner]
+            values = [getattr(table, step) for table in tables]
+            tables = [inner for value in values for inner in (value if isinstance(value, tuple) else [value]) if inner]
         yield from (Path(path) for table in tables if (path := getattr(table, key)))
 
 
 def _document_of_file(path: Path, variants: tuple[Path, ...] = ()) -> dict[str, Any]:
-    """Return what a file says with all that it is based on; it must not be one of its own variants."""
+    """Return the document of a file with all that it is based on, which must not be its own variant."""
     document = document_of_file(path, "a scenario", MOST_BYTES)
     _make_paths_absolute(path.parent, document)
     name, without = take_based_on(document)
@@ -98,18 +93,18 @@ def _document_of_file(path: Path, variants: tuple[Path, ...] = ()) -> dict[str, 
 
 
 def _make_paths_absolute(folder: Path, document: dict[str, Any]) -> None:
-    """Make the paths of other files absolute: they are given from the folder of this file."""
-    for table, key in PATHS:
-        for each in _tables_in(document, table.split(".")):
-            if isinstance(each.get(key), str) and each[key].strip():
-                each[key] = _absolute(folder, each[key])
+    """Make the paths of other files absolute, which count from the folder of this file."""
+    for name, key in PATHS:
+        for table in _tables_in(document, name.split(".")):
+            if isinstance(table.get(key), str) and table[key].strip():
+                table[key] = _absolute(folder, table[key])
 
 
 def _tables_in(table: Any, path: list[str]) -> Iterator[dict[str, Any]]:
-    """Give all tables of a document to which a path of names leads, through lists of tables as well."""
+    """Yield all tables of a document under a path of names, through lists of tables as well."""
     if isinstance(table, list):
-        for each in table:
-            yield from _tables_in(each, path)
+        for item in table:
+            yield from _tables_in(item, path)
     elif isinstance(table, dict):
         if path:
             yield from _tables_in(table.get(path[0]), path[1:])
@@ -125,13 +120,7 @@ def _absolute(folder: Path, path: str) -> str:
 
 
 def take_based_on(document: dict[str, Any]) -> tuple[str | None, list[str]]:
-    """Remove from a document what it is based on and what it does without, and return both.
-
-    Parameters
-    ----------
-    document : dict
-        As read from TOML. The two keys are removed from it.
-    """
+    """Remove the name of the base and the names that are left out from a document, and return both."""
     heading = document.get(Scenario.table)
     if not isinstance(heading, dict):
         return None, []
@@ -148,12 +137,7 @@ def take_based_on(document: dict[str, Any]) -> tuple[str | None, list[str]]:
 def varied(base: dict[str, Any], changes: dict[str, Any], without: Iterable[str]) -> dict[str, Any]:
     """Return a document with changes: tables are merged key by key, values and lists of tables replaced.
 
-    Parameters
-    ----------
-    base, changes : dict
-        Documents as read from TOML; both stay as they are.
-    without : iterable of str
-        Names such as ``ball`` or ``bridge.pier_caps`` of what is left out of the base.
+    `without` has names such as ``ball`` or ``bridge.pier_caps``, which are left out of the base. Both documents stay.
     """
     result = base
     for name in without:

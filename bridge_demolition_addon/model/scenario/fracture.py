@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ...errors import ScenarioError
-from ..schema import Table, check_exactly_one, key
+from ..schema import SHARE, Table, check_exactly_one, key
 
 _EVEN = (1.0, 1.0, 1.0)
 _LEAST_STRETCH, _MOST_STRETCH = 0.01, 100.0
@@ -35,10 +35,7 @@ class MemberFracture(Table):
         "Part of all shards, `fracture.shards`, that such members get together.", default=None, above=0, at_most=1
     )
     stretch: tuple[float, float, float] | None = key(
-        f"{_STRETCH} By default that of all members.",
-        default=None,
-        at_least=_LEAST_STRETCH,
-        at_most=_MOST_STRETCH,
+        f"{_STRETCH} By default that of all members.", default=None, at_least=_LEAST_STRETCH, at_most=_MOST_STRETCH
     )
 
     def _check_together(self) -> None:
@@ -86,16 +83,11 @@ class FractureSettings(Table):
         "How far the points that shards are cut around are moved at random, as a part of a shard's mean size; takes "
         "the order out of points of your own.",
         default=0.0,
-        at_least=0,
-        at_most=1,
+        **SHARE,
     )
     stretch: tuple[float, float, float] = key(_STRETCH, default=_EVEN, at_least=_LEAST_STRETCH, at_most=_MOST_STRETCH)
     margin_m: float = key(
-        "Gap between the shards of a member. Masses stay those without it.",
-        default=0.0,
-        unit="m",
-        at_least=0,
-        at_most=1,
+        "Gap between the shards of a member. Masses stay those without it.", default=0.0, unit="m", **SHARE
     )
     mass: str = key(
         "Whether a shard's mass goes by its volume, or all shards of a member have the same.",
@@ -103,14 +95,13 @@ class FractureSettings(Table):
         choices=("volume", "uniform"),
     )
     recursion_share: float = key(
-        "Part of the shards, chosen at random, that are cut once more; there are more than `shards` then.",
+        "Part of the shards, chosen at random, that are cut again; there are more than `shards` then.",
         default=0.0,
-        at_least=0,
-        at_most=1,
+        **SHARE,
     )
     recursion_shards: int = key("Into how many shards each of them is cut.", default=4, at_least=2, at_most=1000)
     recursion_smallest_m3: float = key(
-        "Volume below which a shard is not cut once more.", default=0.0, unit="m³", at_least=0
+        "Volume below which a shard is not cut again.", default=0.0, unit="m³", at_least=0
     )
     points_file: str | None = key(
         "Path, from the scenario file's folder, of a CSV file with more points of your own, x, y and z in m in a row; "

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ..schema import Table, check_exactly_one, key
+from ..schema import DENSITY, Table, check_exactly_one, key
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -38,11 +38,11 @@ class Geometry(Table):
         "Velocity with which the member begins, along x, y and z.", default=(0.0, 0.0, 0.0), unit="m/s"
     )
     spin_rad_s: tuple[float, float, float] = key(
-        "Spin with which it begins, about axes along x, y and z through its centre of mass.",
+        "Angular velocity with which it begins, about axes along x, y and z through its centre of mass.",
         default=(0.0, 0.0, 0.0),
         unit="rad/s",
     )
-    density_kg_m3: float | None = key("Density. Give this or `mass_kg`.", default=None, unit="kg/m³", above=0)
+    density_kg_m3: float | None = key("Density. Give this or `mass_kg`.", **DENSITY)
     mass_kg: float | None = key(
         "Mass of what is in the file, before anything is cut off. Give this or `density_kg_m3`.",
         default=None,
@@ -52,7 +52,7 @@ class Geometry(Table):
 
     @property
     def is_moving(self) -> bool:
-        """Whether it begins with a velocity or a spin."""
+        """Return whether it begins with a velocity or an angular velocity."""
         return any(self.velocity_m_s) or any(self.spin_rad_s)
 
     def _check_together(self) -> None:

@@ -13,7 +13,7 @@ from ..actions import Fact, HeightAt, Place, Plan, PlannedAction, Point, Worksit
 from ..schema import SHORTEST_LENGTH_M, key
 
 FRAMES_PER_BLOW = 4
-"""Animation gives a place at each frame only: with this many a blow, each reaches at least 85 % of its stroke."""
+"""Animation gives a place at each frame only: with this many a blow, it has at least 85 % of its stroke."""
 
 _RAISED_M = 1.0
 """How far a chisel is raised after its last blow."""
@@ -49,14 +49,13 @@ class Jackhammer(PlannedAction):
 
     @property
     def largest_speed_m_s(self) -> float:
-        """Return the largest speed of the chisel up and down, m/s."""
+        """Return the largest speed of the chisel up and down."""
         return math.pi * self.blows_per_second * self.stroke_m
 
     def tip_positions(self, deck_top_m: float, times_s: np.ndarray) -> np.ndarray:
-        """Return the positions (k, 3) of the chisel's tip at given times (k,), m.
+        """Return the positions (k, 3) of the chisel's tip at times (k,), m.
 
-        It goes up and down as a cosine between the top of its stroke and its depth below the deck, beginning at the
-        top.
+        It goes up and down as a cosine from the top of its stroke to its depth below the deck, beginning at the top.
         """
         times = np.asarray(times_s, float)
         worked_s = np.clip(times, self.start_time_s, self.end_time_s) - self.start_time_s

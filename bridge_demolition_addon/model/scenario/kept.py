@@ -43,7 +43,6 @@ def table_from_values(table_class: type[_Table], values: Mapping[str, Any]) -> _
 
 
 def values_text(values: Any) -> str:
-    """Return plain values as JSON."""
     return json.dumps(values)
 
 

@@ -5,7 +5,7 @@ from enum import StrEnum
 from typing import ClassVar
 
 from ...errors import ScenarioError
-from ..schema import FARTHEST_M, Table, key
+from ..schema import POSITION, Table, key
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -52,7 +52,7 @@ class PictureSettings(Table):
         "round it during the run, `own` stands at `pictures.camera_m`, or is the scene's own camera in Blender's "
         "window.",
         default=CameraKind.FRAMED.value,
-        choices=tuple(each.value for each in CameraKind),
+        choices=tuple(kind.value for kind in CameraKind),
     )
     orbit_deg: float = key(
         "How far an orbiting camera goes round the bridge, counter-clockwise seen from above.",
@@ -61,12 +61,8 @@ class PictureSettings(Table):
         at_least=-3600,
         at_most=3600,
     )
-    camera_m: tuple[float, float, float] | None = key(
-        "Where a camera of your own stands.", default=None, unit="m", at_least=-FARTHEST_M, at_most=FARTHEST_M
-    )
-    look_at_m: tuple[float, float, float] | None = key(
-        "What it looks at.", default=None, unit="m", at_least=-FARTHEST_M, at_most=FARTHEST_M
-    )
+    camera_m: tuple[float, float, float] | None = key("Where a camera of your own stands.", default=None, **POSITION)
+    look_at_m: tuple[float, float, float] | None = key("What it looks at.", default=None, **POSITION)
 
     @property
     def why_not_without_window(self) -> str:

@@ -51,7 +51,7 @@ class Scenario(Table):
 
     title: str = key("Title of the results.")
     seed: int = key(
-        "Start of the random numbers: the same seed cuts the same shards, another seed is another draw.",
+        "Start of the random numbers: the same seed cuts the same shards, another seed gives another run.",
         default=0,
         at_least=0,
         at_most=LARGEST_INTEGER,
@@ -115,7 +115,6 @@ class Scenario(Table):
 
     @property
     def steel(self) -> Steel:
-        """Return what the reinforcement of elastic connections is made of."""
         steel, layers = self.connections.steel, self.reinforcement
         if self.connections.ductile_yield_n_mm2 is not None or not layers:
             return steel
@@ -124,12 +123,10 @@ class Scenario(Table):
 
     @property
     def warm_up_s(self) -> float:
-        """Return how long the bridge settles before anything may change it."""
         return self.connections.warm_up_s
 
     @property
     def has_flat_ground(self) -> bool:
-        """Return whether the ground is flat, at height 0."""
         return self.ground.file is None
 
     def detonation_s(self, delay_s: float) -> float:
@@ -155,7 +152,6 @@ class Scenario(Table):
 
     @property
     def changes(self) -> tuple[Change, ...]:
-        """Return all removals, saw cuts and weakenings."""
         return (*self.removals, *self.saw_cuts, *self.weakenings)
 
     def _check_together(self) -> None:
@@ -173,9 +169,9 @@ class Scenario(Table):
             action.check_plan(self)
             for name, place in action.targets():
                 self._check_on_deck(name, place)
-        if self.shards.start_deactivated and (moving := [each.name for each in self.geometry if each.is_moving]):
+        if self.shards.start_deactivated and (moving := [table.name for table in self.geometry if table.is_moving]):
             raise ScenarioError(
-                f"geometry {shown(moving[0])} begins with a velocity or a spin: "
+                f"geometry {shown(moving[0])} begins with a velocity or an angular velocity: "
                 "expected shards.start_deactivated = false, or it would begin at rest"
             )
         self._check_foundations()
@@ -230,7 +226,6 @@ class Scenario(Table):
 
 
 def _action_fields(scenario_class: type[Table]) -> tuple[str, ...]:
-    """Return the names of the fields that hold actions."""
     return tuple(
         item.name
         for item in subtable_fields(scenario_class)

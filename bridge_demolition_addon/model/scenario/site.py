@@ -1,5 +1,6 @@
 """The site around the bridge: zones, exclusion zone, neighbours, and where on earth it lies."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -8,6 +9,15 @@ import numpy as np
 from ...engineering.geometry.plan_areas import FEWEST_CORNERS, sides_cross
 from ...errors import ScenarioError
 from ..schema import Table, key
+
+
+def check_outline(corners_m: Sequence[tuple[float, float]], name: str) -> None:
+    """Check that the corners under a key are those of an area in plan, in order around it."""
+    if len(corners_m) < FEWEST_CORNERS:
+        raise ScenarioError(f"{name} has {len(corners_m)} places: expected at least {FEWEST_CORNERS}")
+    if sides_cross(np.array(corners_m)):
+        raise ScenarioError(f"{name}: sides cross or touch each other; expected corners in order around it")
+
 
 ZONE_KINDS = ("road", "railway", "power line", "pipeline", "building", "water", "other")
 
@@ -30,12 +40,7 @@ class Zone(Table):
     top_m: float | None = key("Largest height that belongs to it; without it, all the way up.", default=None, unit="m")
 
     def _check_together(self) -> None:
-        if len(self.corners_m) < FEWEST_CORNERS:
-            raise ScenarioError(f"zones.corners_m has {len(self.corners_m)} places: expected at least {FEWEST_CORNERS}")
-        if sides_cross(np.array(self.corners_m)):
-            raise ScenarioError(
-                "zones.corners_m: sides cross or touch each other; expected corners in order around the zone"
-            )
+        check_outline(self.corners_m, "zones.corners_m")
         if self.bottom_m is not None and self.top_m is not None and self.top_m <= self.bottom_m:
             raise self.unexpected("top_m", f"more than zones.bottom_m, {self.bottom_m} (m)")
 

@@ -73,7 +73,7 @@ class SawCut(Change):
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Weakening(Change):
     """A loss of strength in one moment, such as by cut reinforcement: of all connections of the members' shards, of
-    those in the box, or of all. What slept among them wakes up, so that they bear their load at once. Several at the
+    those in the box, or of all. What slept among them wakes up, so that they carry their load at once. Several at the
     same place multiply.
     """
 

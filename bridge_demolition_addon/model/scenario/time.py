@@ -63,7 +63,6 @@ class TimeSettings(Table):
 
     @property
     def step(self) -> TimeStep:
-        """Frames and sub-steps that these settings give."""
         return TimeStep(self.frames_per_second, self.frames_per_second_base, self.substeps_per_frame, self.time_scale)
 
     @property

@@ -31,13 +31,13 @@ def rules_of_pairs(
 
 def _named(members: Sequence[Member], name: str, number: int) -> list[int]:
     """Indices of the members of a name or kind."""
-    found = [index for index, member in enumerate(members) if name in (member.name, member.kind)]
+    chosen = [index for index, member in enumerate(members) if name in (member.name, member.kind)]
     if name == GROUND_NAME:
-        found.append(len(members))
-    if not found:
+        chosen.append(len(members))
+    if not chosen:
         kinds = ", ".join(sorted({member.kind for member in members} | {GROUND_NAME}))
         raise ScenarioError(
             f'[[connections.between]] number {number}: members has "{name}": '
             f"expected the name of a member, as bda check lists them, or one of {kinds}"
         )
-    return found
+    return chosen

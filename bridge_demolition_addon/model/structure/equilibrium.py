@@ -22,7 +22,7 @@ from ..schema import given
 from .model import Model
 
 
-def sag_m(model: Model, rest: Equilibrium) -> float:
+def deflection_m(model: Model, rest: Equilibrium) -> float:
     """Return the largest deflection of a shard that is held, m."""
     shards = len(model.shards)
     held = rest.held[:shards]
@@ -35,15 +35,15 @@ def overloaded(model: Model, rest: Equilibrium, joints: Sequence[Joint]) -> np.n
 
     A breaking force is compared with each direction by itself, moments included, as Bullet does.
     """
-    found = used_of_forces(model, rest, joints) >= 1.0
+    broken = force_utilisations(model, rest, joints) >= 1.0
     for row, joint in enumerate(joints):
         is_one = model.breakable & (model.joint_of_connection == row)
         if joint.strength is not None:
-            found[_beyond_strength(model, rest, np.flatnonzero(is_one), joint.strength)] = True
-    return found
+            broken[_beyond_strength(model, rest, np.flatnonzero(is_one), joint.strength)] = True
+    return broken
 
 
-def used_of_forces(model: Model, rest: Equilibrium, joints: Sequence[Joint]) -> np.ndarray:
+def force_utilisations(model: Model, rest: Equilibrium, joints: Sequence[Joint]) -> np.ndarray:
     """Return the utilisation of the breaking force of each connection (m,) of a model at rest; nan without one.
 
     It is the largest of all directions: Bullet compares forces along three axes, and moments about them in N·m, one by
@@ -144,14 +144,14 @@ def at_rest(
     axes = np.repeat(np.eye(3)[:, :, None], len(connections), axis=2)
     first, second = connections.pairs.T
     second = np.where(second == GROUND, len(masses_kg), second)
-    places = np.vstack((centres_m, np.zeros(3)))
-    levers = [components_first(connections.points - places[each]) for each in (first, second)]
-    tensors, unturned = np.zeros((3, 3, len(places))), np.repeat(np.eye(3)[:, :, None], len(places), axis=2)
+    positions = np.vstack((centres_m, np.zeros(3)))
+    levers = [components_first(connections.points - positions[ends]) for ends in (first, second)]
+    tensors, unturned = np.zeros((3, 3, len(positions))), np.repeat(np.eye(3)[:, :, None], len(positions), axis=2)
     tensors[[0, 1, 2], [0, 1, 2], :-1] = inertias_kg_m2.T
     return equilibrium(
         JointFrames(first, second, axes, axes, *levers),
         in_frames(stiffness, sections, held),
-        RigidBodies(np.append(masses_kg, 0.0), tensors, components_first(places), unturned),
+        RigidBodies(np.append(masses_kg, 0.0), tensors, components_first(positions), unturned),
         np.array(gravity_m_s2),
         None if loads is None else np.column_stack((loads, np.zeros(6))),
     )

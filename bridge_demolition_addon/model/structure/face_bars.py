@@ -56,19 +56,19 @@ def layers_of_members(layers: Sequence[BarLayer], members: Sequence[Member]) -> 
     """Yield the layers of each member, together if they resist the same moments."""
     for layer in layers:
         for name in layer.members:
-            if not any(name in (each.name, each.kind) for each in members):
-                known = sorted({each.name for each in members} | {each.kind for each in members})
+            if not any(name in (member.name, member.kind) for member in members):
+                known = sorted({member.name for member in members} | {member.kind for member in members})
                 raise layer.unexpected("members", f"names or kinds of members, such as {', '.join(known)}")
     for index, member in enumerate(members):
-        own = [each for each in layers if {member.name, member.kind} & set(each.members)]
-        for axes in sorted({each.axes for each in own}):
-            yield _together(index, member, tuple(each for each in own if each.axes == axes), axes)
+        own = [layer for layer in layers if {member.name, member.kind} & set(layer.members)]
+        for axes in sorted({layer.axes for layer in own}):
+            yield _together(index, member, tuple(layer for layer in own if layer.axes == axes), axes)
 
 
 def _together(index: int, member: Member, layers: tuple[BarLayer, ...], axes: tuple[int, int, int]) -> LayersOfMember:
     _, across, beside = axes
     lowest, highest = (getattr(member.solid.vertices, which)(axis=0) for which in ("min", "max"))
-    levels = tuple(float(each.level_m(lowest[across], highest[across])) for each in layers)
+    levels = tuple(float(layer.level_m(lowest[across], highest[across])) for layer in layers)
     widths = [_width(member.solid, across, beside, level) for level in levels]
     for layer, width in zip(layers, widths, strict=True):
         if width <= 0.0:

@@ -14,7 +14,7 @@ from ..materials.bar_layers import AXES, SIDES
 from ..scenario import ConnectionBetween, ConnectionSettings, Scenario
 from ..scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
 from ..schema import given
-from .equilibrium import model_at_rest, overloaded, sag_m, used_of_forces
+from .equilibrium import deflection_m, force_utilisations, model_at_rest, overloaded
 from .face_bars import layers_of_members
 from .model import Model
 
@@ -86,7 +86,7 @@ def rest_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
         yield "", "if they were elastic. Rigid ones share loads otherwise: a run says whether it stands"
     elif broken:
         yield "", "they break before anything is done to it, and the bridge may fall by itself"
-    used = used_of_forces(model, rest, scenario.joints)
+    used = force_utilisations(model, rest, scenario.joints)
     if by_force := np.count_nonzero(~np.isnan(used)):
         yield (
             "of breaking forces",
@@ -97,7 +97,7 @@ def rest_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
         yield "not held", f"{loose} shards, by no connection to a support: they fall, or tremble on others. Bearings"
         yield "", "would hold them: [[connections.between]] with type GENERIC"
     if held:
-        yield "sag", f"{1000.0 * sag_m(model, rest):.2f} mm"
+        yield "deflection", f"{1000.0 * deflection_m(model, rest):.2f} mm"
         yield "first frequency", f"{rest.frequency_hz:.3f} Hz"
 
 

@@ -40,10 +40,10 @@ def finishes(
 
 def _finish(shard: TriangleMesh, member: Member) -> np.ndarray:
     broken = is_cut(shard, member.solid)
-    found = np.where(broken, Finish.BROKEN, Finish.CAST)
+    finish = np.where(broken, Finish.BROKEN, Finish.CAST)
     if member.kind in ROAD_KINDS:
         _, normals = triangle_areas_and_normals(shard.corners)
         bottom, top = member.solid.bounds[:, 2]
         is_high = shard.corners[:, :, 2].min(axis=1) > top - _BELOW_TOP * (top - bottom)
-        found[~broken & is_high & (normals[:, 2] > _LEVEL)] = Finish.ROAD
-    return found
+        finish[~broken & is_high & (normals[:, 2] > _LEVEL)] = Finish.ROAD
+    return finish

@@ -198,7 +198,7 @@ def start_motions(tables: Sequence[Geometry], model: Model) -> tuple[np.ndarray,
     velocities, angular_velocities = np.zeros((2, len(model.shards), 3))
     names = np.array([member.name for member in model.members])[model.member_of_shard]
     first_of_each = {table.name: table for table in reversed(tables)}
-    for table in (each for each in first_of_each.values() if each.is_moving):
+    for table in (first for first in first_of_each.values() if first.is_moving):
         shards = np.flatnonzero(names == table.name)
         masses, centres = model.masses_kg[shards, None], model.centres_m[shards]
         angular_velocities[shards] = table.spin_rad_s

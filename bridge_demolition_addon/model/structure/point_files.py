@@ -48,8 +48,8 @@ def _numbers(path: Path, key: str, columns: int) -> np.ndarray:
         rows = [(number, row) for number, row in enumerate(lines, start=1) if any(map(str.strip, row))]
     except (UnreadableError, csv.Error) as error:
         raise ScenarioError(f'fracture.{key} is "{path}": {error}') from error
-    found = [_row(path, number, row, columns) for number, row in rows]
-    return np.array([row for row in found if row is not None], dtype=float).reshape(-1, columns)
+    numbered = [_row(path, number, row, columns) for number, row in rows]
+    return np.array([row for row in numbered if row is not None], dtype=float).reshape(-1, columns)
 
 
 def _row(path: Path, number: int, row: list[str], columns: int) -> list[float] | None:
@@ -57,7 +57,7 @@ def _row(path: Path, number: int, row: list[str], columns: int) -> list[float] |
     if number == 1 and not any(map(_begins_with_number, row)):
         return None
     try:
-        numbers = [float(each) for each in row]
+        numbers = [float(value) for value in row]
     except ValueError:
         numbers = []
     if len(numbers) != columns:

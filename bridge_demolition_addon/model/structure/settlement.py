@@ -25,16 +25,16 @@ def settlements(results: Results, foundations: Sequence[Foundation]) -> list[dic
     rows = [row for row, pair in enumerate(inventory.pairs.tolist()) if ground.intersection(pair)]
     standing = np.array([next(b for b in inventory.pairs[row].tolist() if b not in ground) for row in rows], int)
     named = [{foundation.member for foundation in foundations} & {*_names(results, body)} for body in standing.tolist()]
-    is_on_soil = np.array([bool(each) for each in named], bool)
+    is_on_soil = np.array([bool(names) for names in named], bool)
     members = inventory.body_members[standing]
-    found = []
+    footings = []
     for member in dict.fromkeys(members[is_on_soil].tolist()):
         chosen = np.flatnonzero(is_on_soil & (members == member))
         bodies, points = standing[chosen], inventory.points_m[np.array(rows)[chosen]]
         moved = _moved(seen, bodies, points)
         down = -moved[..., 2].mean(axis=1)
         upwards = np.asarray(seen.frames.rotations[-1, bodies, :, 2], float)
-        found.append(
+        footings.append(
             {
                 "member": member,
                 "settled_m": float(down[-1]),
@@ -43,7 +43,7 @@ def settlements(results: Results, foundations: Sequence[Foundation]) -> list[dic
                 "tilt_rad": float(arctangent(length(upwards[:, :2]), upwards[:, 2]).max()),
             }
         )
-    return found
+    return footings
 
 
 def _names(results: Results, body: int) -> tuple[str, str]:

@@ -47,14 +47,14 @@ def connection_stiffness(
         for name in ("young_pa", "shear_pa")
     )
     ends = connections.pairs.T
-    gives_way = np.append(~fixed, False)[ends]  # the ground, at index -1, does not
-    reaches = np.abs(dot(connections.points - points_m[ends], connections.normals)) * gives_way
+    deforms = np.append(~fixed, False)[ends]  # the ground, at index -1, does not
+    depths = np.abs(dot(connections.points - points_m[ends], connections.normals)) * deforms
     axes = section_axes(connections.normals)[:, :, 1:]
     deep = [
-        _is_deep(each, axes, shards, members, member_of_shard) | ~moves[:, None]
-        for each, moves in zip(ends, gives_way, strict=True)
+        _is_deep(bodies, axes, shards, members, member_of_shard) | ~moves[:, None]
+        for bodies, moves in zip(ends, deforms, strict=True)
     ]
-    return section_stiffness(young, shear, connections.areas, second_moments_m4, reaches.sum(axis=0), deep[0] & deep[1])
+    return section_stiffness(young, shear, connections.areas, second_moments_m4, depths.sum(axis=0), deep[0] & deep[1])
 
 
 def _is_deep(

@@ -107,7 +107,7 @@ def check_under(terrain: Terrain, members: Sequence[tuple[str, TriangleMesh]]) -
     (west, south), (east, north) = terrain.source.bounds
     raise GeometryError(
         f"{terrain.name} misses the bridge: it covers eastings {west:.10g} to {east:.10g} and northings {south:.10g} "
-        f"to {north:.10g}, and the middle of the bridge is at {terrain.told_place((low + high) / 2.0)}; set "
+        f"to {north:.10g}, and the middle of the bridge is at {terrain.place_text((low + high) / 2.0)}; set "
         "ground.origin to where the scenario's origin is in the file, and ground.scale to metres in its unit."
     )
 
@@ -176,7 +176,7 @@ def facts_from(values: Mapping[str, Any]) -> TerrainFacts:
     known = {field.name: values[field.name] for field in fields(TerrainFacts)}
     x, y = known["error_place_m"]
     return TerrainFacts(
-        **known | {"error_place_m": (x, y), "levelled": tuple(Levelled(**each) for each in known["levelled"])}
+        **known | {"error_place_m": (x, y), "levelled": tuple(Levelled(**values) for values in known["levelled"])}
     )
 
 
@@ -197,8 +197,8 @@ def terrain_summary(facts: TerrainFacts) -> list[tuple[str, str]]:
         share = f"{100.0 * facts.filled_in_share:.1f} %"
         lines.append(("without data", f"{share} of the site: level on from the nearest height"))
     lines += [
-        (f"under {each.name}", f"dug up to {each.dug_m:.2f} m, filled up to {each.filled_m:.2f} m")
-        for each in facts.levelled
+        (f"under {member.name}", f"dug up to {member.dug_m:.2f} m, filled up to {member.filled_m:.2f} m")
+        for member in facts.levelled
     ]
     return lines
 

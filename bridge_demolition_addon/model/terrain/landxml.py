@@ -35,8 +35,8 @@ def read_landxml(path: Path, scale: float) -> Surface:
     ]
     if len(surfaces) != 1:
         names = ", ".join(repr(surface.get("name", "")) for surface, _ in surfaces)
-        found = f"holds {len(surfaces)} surfaces, {names}" if surfaces else "holds no surface"
-        raise GeometryError(f"{found}: expected one; export it alone")
+        problem = f"holds {len(surfaces)} surfaces, {names}" if surfaces else "holds no surface"
+        raise GeometryError(f"{problem}: expected one; export it alone")
     return Surface(_triangles(surfaces[0][1]))
 
 
@@ -48,7 +48,7 @@ def _triangles(definition: ElementTree.Element) -> TriangleMesh:
         places = {point.get("id"): [float(value) for value in (point.text or "").split()] for point in points}
         rows = {name: row for row, name in enumerate(places)}
         visible = [face for face in faces if face.get("i") != "1"]
-        corners = [[rows[name] for name in (each.text or "").split()] for each in visible]
+        corners = [[rows[name] for name in (face.text or "").split()] for face in visible]
         vertices, triangles = np.array(list(places.values()), float), np.array(corners, np.int64)
     except (KeyError, ValueError) as error:
         raise GeometryError(f"its surface is damaged: a point or triangle is none ({error})") from error
@@ -69,7 +69,7 @@ def _check_units(root: ElementTree.Element, scale: float) -> None:
 
 
 def _child(element: ElementTree.Element, name: str) -> ElementTree.Element | None:
-    return next((each for each in element if _name(each) == name), None)
+    return next((inner for inner in element if _name(inner) == name), None)
 
 
 def _name(element: ElementTree.Element) -> str:

@@ -80,7 +80,7 @@ class Terrain:
         points = self.placing.to_scenario(self.source.points)
         return points[((points[:, :2] >= low_m) & (points[:, :2] <= high_m)).all(axis=1)]
 
-    def told_place(self, place_m: np.ndarray) -> str:
+    def place_text(self, place_m: np.ndarray) -> str:
         """Return easting and northing of a position (2,), as text."""
         easting, northing = self.placing.to_file(place_m)
         return f"easting {easting:.10g}, northing {northing:.10g}"
@@ -111,10 +111,10 @@ def _read_once(name: str, ground: Ground, _state: tuple[int, int]) -> Raster | S
 
 def _state_of(name: str) -> tuple[int, int]:
     try:
-        found = Path(name).stat()
+        state = Path(name).stat()
     except (OSError, ValueError):  # said by its reader
         return 0, 0
-    return found.st_mtime_ns, found.st_size
+    return state.st_mtime_ns, state.st_size
 
 
 def _check_heights(terrain: Terrain) -> None:

@@ -40,7 +40,7 @@ def built_surfaces(
     ground_at: Callable[[np.ndarray], np.ndarray],
 ) -> tuple[BuiltSurface, ...]:
     """Return all surfaces of a scenario, on ground with heights (n,) at positions (n, 2); level ones spare members."""
-    found = []
+    surfaces = []
     for settings in scenario.ground.surfaces:
         if settings.file is None:
             mesh = _level(settings, members)
@@ -48,8 +48,8 @@ def built_surfaces(
             mesh = surface_mesh(scenario, settings.file)
             _check_through(settings, mesh, members)
         _check_above(settings, mesh, ground_at)
-        found.append(BuiltSurface(settings, mesh))
-    return tuple(found)
+        surfaces.append(BuiltSurface(settings, mesh))
+    return tuple(surfaces)
 
 
 def _level(settings: GroundSurface, members: Sequence[tuple[str, TriangleMesh]]) -> TriangleMesh:
@@ -58,7 +58,7 @@ def _level(settings: GroundSurface, members: Sequence[tuple[str, TriangleMesh]])
     height = given(settings.height_m)
     bottom = height - THICKNESS_M
     standing = [_plan_between(solid, name, bottom, height) for name, solid in members]
-    room = [each.offset(_GAP_M, JoinType.Miter) for each in standing if not each.is_empty()]
+    room = [plan.offset(_GAP_M, JoinType.Miter) for plan in standing if not plan.is_empty()]
     area -= united(room)
     if area.is_empty():
         raise GeometryError(f"Surface {settings.name!r}: members take all of its room; give it a larger outline.")
