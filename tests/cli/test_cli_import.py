@@ -48,7 +48,7 @@ def test_the_same_file_gives_the_same_folder(path, tmp_path):
     folders = [tmp_path / "one", tmp_path / "other"]
     for folder in folders:
         assert main(["import", str(path), "--output", str(folder)]) == 0
-    one, other = ({each.name: each.read_bytes() for each in folder.rglob("*.*")} for folder in folders)
+    one, other = ({path.name: path.read_bytes() for path in folder.rglob("*.*")} for folder in folders)
     assert one == other
 
 
@@ -70,7 +70,7 @@ def test_all_that_can_be_told(path, tmp_path, capsys):
         "IfcPile=pier",
     ]
     assert main(["import", str(path), "--output", str(folder), "--material", "concrete", *told]) == 0
-    kinds = {each.name: (each.kind, each.density_kg_m3) for each in read_scenario(folder / "scenario.toml").geometry}
+    kinds = {mesh.name: (mesh.kind, mesh.density_kg_m3) for mesh in read_scenario(folder / "scenario.toml").geometry}
     assert kinds["Column"] == ("pier", 2500.0)
     assert not any(name.startswith("Footing") for name in kinds)
     assert "ground                  at 0.500 m in the file: as given by --ground" in capsys.readouterr().out

@@ -70,8 +70,8 @@ def terminal():
         return stream, shown
 
     yield open_terminal
-    for each in opened:
-        each.close()
+    for file in opened:
+        file.close()
 
 
 @needs_terminal

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Whatever ends a study, the same command goes on, reruns nothing that is done, and comes to the same tables."""
 
+import io
 import json
 import os
 import shutil
@@ -8,11 +9,16 @@ import signal
 import sys
 import time
 from collections import Counter
+from contextlib import redirect_stderr, redirect_stdout
+from functools import partial
 
 import pytest
 from support.processes import outcome, start_program
-from support.run_programs import begun
+from support.run_programs import VERSIONS, begun, command_with
 from support.study_files import study_file, tables_in
+
+from bridge_demolition_addon.cli import ensemble
+from bridge_demolition_addon.cli.main import main
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no signals")
 
@@ -35,15 +41,20 @@ def study(tmp_path_factory):
 def undisturbed(study, tmp_path_factory):
     """Folder of the study as it is when nothing disturbs it, with one process."""
     folder = tmp_path_factory.mktemp("undisturbed")
-    status, _, complained = outcome(start(study, folder / "out", folder / "log", "--jobs", "1"))
-    assert (status, complained) == (0, "")
+    finish(study, folder / "out", folder / "log", jobs=1)
     return folder / "out"
 
 
-def finish(study, output, log):
-    status, printed, complained = outcome(start(study, output, log, "--jobs", "2"))
-    assert (status, complained) == (0, "")
-    return printed
+def finish(study, output, log, jobs=2):
+    """Run a study to its end, which nothing disturbs, in this process: what it printed."""
+    log.touch()
+    printed, complained = io.StringIO(), io.StringIO()
+    engine = partial(ensemble.LocalProcesses, command=command_with(log), versions=VERSIONS)
+    with redirect_stdout(printed), redirect_stderr(complained), pytest.MonkeyPatch.context() as patch:
+        patch.setattr(ensemble, "LocalProcesses", engine)
+        status = main(["study", str(study), "--output", str(output), "--jobs", str(jobs)])
+    assert (status, complained.getvalue()) == (0, "")
+    return printed.getvalue()
 
 
 def wait_for_draws(process, output, count):
@@ -77,14 +88,13 @@ def test_nothing_is_begun_once_more_but_what_shared_a_process(undisturbed):
     assert more <= {"crash", "crash if shared"} and max(counts.values()) == 2
 
 
-@pytest.mark.parametrize("jobs", ["2", "5"])
+@pytest.mark.parametrize("jobs", [2, 5])
 def test_tables_are_the_same_with_any_number_of_jobs(study, undisturbed, tmp_path, jobs):
-    status, _, complained = outcome(start(study, tmp_path / "out", tmp_path / "log", "--jobs", jobs))
-    assert (status, complained) == (0, "")
+    finish(study, tmp_path / "out", tmp_path / "log", jobs)
     assert tables_in(tmp_path / "out") == tables_in(undisturbed)
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL], ids=lambda each: each.name)
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL], ids=lambda number: number.name)
 def test_a_study_that_is_ended_goes_on(study, undisturbed, tmp_path, number):
     output, log = tmp_path / "out", tmp_path / "log"
     process = start(study, output, log, "--jobs", "2")
@@ -141,8 +151,7 @@ def test_a_process_that_is_killed_costs_nothing(study, undisturbed, tmp_path):
 def test_what_was_killed_twice_is_a_row_and_is_run_again(tmp_path):
     study = study_file(tmp_path / "in", 6, ("nothing", "kill"), seed=1)
     output = tmp_path / "out"
-    status, printed, complained = outcome(start(study, output, tmp_path / "log", "--jobs", "2"))
-    assert (status, complained) == (0, "")
+    printed = finish(study, output, tmp_path / "log")
     killed = [line for line in (output / "runs.csv").read_text(encoding="utf-8").splitlines() if ",killed," in line]
     assert 0 < len(killed) < 6
     assert f"{len(killed)} of them were killed or had no memory: the same command makes these runs again" in printed

@@ -15,7 +15,10 @@ from contextlib import suppress
 from pathlib import Path
 from typing import IO
 
+import pytest
 from support.checkout import ROOT, TESTS
+
+from bridge_demolition_addon.cli.main import main
 
 TIMEOUT_S = 300
 
@@ -53,9 +56,9 @@ class ProgramAtWork:
             self._process.stdin.write(line + "\n")
             self._process.stdin.flush()
         printed = []
-        for each in self._process.stdout:
-            printed.append(each)
-            if each.strip() == answer:
+        for printed_line in self._process.stdout:
+            printed.append(printed_line)
+            if printed_line.strip() == answer:
                 break
         limit.cancel()
         return "".join(printed), self._complaints.read_bytes()[heard:].decode("utf-8", "replace")
@@ -117,6 +120,16 @@ def end_started() -> None:
             if stream:
                 stream.close()
         process.wait()
+
+
+def call_bda(capsys: pytest.CaptureFixture[str], *arguments: object) -> tuple[int, str, str]:
+    """Call the command line in this process, where nothing hangs on the process: status, and what it wrote to both.
+
+    A process of its own would take two seconds more, to load Blender and all libraries.
+    """
+    capsys.readouterr()
+    status = main([*map(str, arguments)])
+    return status, *capsys.readouterr()
 
 
 def start_bda(*arguments: object, **environment: str) -> subprocess.Popen[str]:
