@@ -143,7 +143,7 @@ def _simulation() -> ModuleType:
     except ModuleNotFoundError as error:
         if error.name != "bpy":
             raise
-        raise SimulationError("Blender is missing: install the bpy package or run inside Blender") from error
+        raise SimulationError("Blender is not there: install the bpy package or run inside Blender") from error
     return run
 
 
