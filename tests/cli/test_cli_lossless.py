@@ -13,7 +13,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.processes import TIMEOUT_S, outcome, run_bda, start_bda
+from support.processes import TIMEOUT_S, call_bda, outcome, run_bda, start_bda
 from support.scenarios import SHORT_RUN
 
 from bridge_demolition_addon.model.results.arrays import BALLS_FILE, FRAMES_FILE, INVENTORY_FILE, load_results
@@ -60,14 +60,14 @@ def whole_results(folder):
 
 
 @POSIX
-def test_a_second_run_does_not_write_to_the_folder_of_the_first(tmp_path):
+def test_a_second_run_does_not_write_to_the_folder_of_the_first(tmp_path, capsys):
     path, output = scenario_file(tmp_path, ENDLESS), tmp_path / "results"
     first = started(path, output)
     first.send_signal(signal.SIGSTOP)  # or it would leave a thousand frames
-    status, printed, complained = run_bda("run", path, "--output", output, "--no-pictures", "--overwrite")
+    status, printed, complained = call_bda(capsys, "run", path, "--output", output, "--no-pictures", "--overwrite")
     assert (status, printed) == (2, "")
     assert complained.startswith(f"bda: error: {output}: is being written to by process {first.pid} on ")
-    assert run_bda("report", output)[0] == 2
+    assert call_bda(capsys, "report", output)[0] == 2
     first.send_signal(signal.SIGINT)
     first.send_signal(signal.SIGCONT)
     assert outcome(first)[0] == 130
@@ -76,10 +76,10 @@ def test_a_second_run_does_not_write_to_the_folder_of_the_first(tmp_path):
 
 
 @POSIX
-def test_a_report_of_a_run_at_work_says_so(tmp_path):
+def test_a_report_of_a_run_at_work_says_so(tmp_path, capsys):
     path, output = scenario_file(tmp_path, ENDLESS), tmp_path / "results"
     process = started(path, output)
-    assert run_bda("report", output, "--output", tmp_path / "report", "--quiet") == (0, "", "")
+    assert call_bda(capsys, "report", output, "--output", tmp_path / "report", "--quiet") == (0, "", "")
     assert process.poll() is None
     process.kill()
     outcome(process)
@@ -104,7 +104,7 @@ def test_a_killed_run_leaves_no_half_of_a_file_and_its_folder_free(tmp_path):
 
 
 @POSIX
-def test_a_killed_run_keeps_all_but_its_last_frame_and_is_reported_as_such(tmp_path):
+def test_a_killed_run_keeps_all_but_its_last_frame_and_is_reported_as_such(tmp_path, capsys):
     path, output = scenario_file(tmp_path, ENDLESS), tmp_path / "results"
     process = started(path, output)
     while len((output / "force_log.csv").read_text(encoding="utf-8").splitlines()) < 400:
@@ -119,7 +119,7 @@ def test_a_killed_run_keeps_all_but_its_last_frame_and_is_reported_as_such(tmp_p
     forces = [[float(number) for number in line[3:6]] for line in last]
     np.testing.assert_allclose(left.frames.loads.body_forces_n[logged - 1], forces, rtol=1e-6)
     assert left.balls.times_s[-1] == pytest.approx(left.frames.time_s[-1])
-    assert run_bda("report", output, "--quiet") == (0, "", "")
+    assert call_bda(capsys, "report", output, "--quiet") == (0, "", "")
     page = (output / "report.html").read_text(encoding="utf-8")
     assert "still at work" not in page and (output / "tables" / "hits_of_the_ball.csv").is_file()
     assert "The run ended before its end" in page and f"{len(left.frames)} frames are kept" in page
@@ -155,7 +155,7 @@ def test_a_run_whose_folder_goes_ends_and_leaves_its_results_in_its_place(tmp_pa
     assert complained == f"{was}; the results up to then are in {kept}\n"
     assert not whole_results(kept)["completed"]
     if happens == "replaced":
-        assert [each.name for each in output.iterdir()] == ["notes.txt"]
+        assert [path.name for path in output.iterdir()] == ["notes.txt"]
 
 
 @POSIX
@@ -202,23 +202,23 @@ def test_no_title_and_no_name_is_read_as_markup(tmp_path):
     assert (output / "force_over_time.png").stat().st_size > 0
 
 
-def test_a_path_that_is_too_long_for_blender_is_refused_before_anything_is_built(tmp_path):
+def test_a_path_that_is_too_long_for_blender_is_refused_before_anything_is_built(tmp_path, capsys):
     path = scenario_file(tmp_path, BRIEF)
     output = tmp_path.joinpath(*["x" * 200] * 5)
     excess = len(os.fsencode(output / "contours_slow_motion.mp4")) - 1023
-    status, printed, complained = run_bda("run", path, "--output", output)
+    status, printed, complained = call_bda(capsys, "run", path, "--output", output)
     assert (status, printed) == (2, "")
     assert complained.startswith(f"bda: error: {output}: its path is {excess} bytes too long")
-    assert [each.name for each in tmp_path.iterdir()] == [path.name]
+    assert [file.name for file in tmp_path.iterdir()] == [path.name]
 
 
 @pytest.mark.parametrize("row", ["1O.5,0,2", "x,0,2", "1.5;2;3", "0,1,z"])
-def test_a_first_row_of_points_with_a_slip_is_no_heading(tmp_path, row):
+def test_a_first_row_of_points_with_a_slip_is_no_heading(tmp_path, row, capsys):
     points = tmp_path / "points.csv"
     points.write_text(f"{row}\n6,0,2\n", encoding="utf-8")
     text = scenario_text(BRIEF).replace("[fracture]", f"[fracture]\npoints_file = {json.dumps(str(points))}")
     path = tmp_path / "scenario.toml"
     path.write_text(text, encoding="utf-8")
-    status, _, complained = run_bda("check", path)
+    status, _, complained = call_bda(capsys, "check", path)
     assert status == 2
     assert f"{points}, row 1: expected three numbers (m) with commas between them, found " in complained

@@ -10,7 +10,7 @@ from contextlib import closing
 
 import pytest
 from support.checkout import ROOT
-from support.processes import TIMEOUT_S, run_bda
+from support.processes import TIMEOUT_S, call_bda
 from support.run_programs import VERSIONS, begun, program_in
 from support.study_files import study_file, tables_in
 
@@ -48,9 +48,9 @@ class Cluster:
             return sum(client.nthreads().values())
 
     def close(self):
-        for each in (*self.workers, self.scheduler):
-            each.kill()
-            each.wait()
+        for process in (*self.workers, self.scheduler):
+            process.kill()
+            process.wait()
 
     def _start(self, what, *arguments):
         command = [sys.executable, "-m", f"distributed.cli.dask_{what}", *arguments]
@@ -137,9 +137,10 @@ def test_a_study_whose_scheduler_goes_can_go_on_here(cluster, tmp_path):
     assert tables_in(tmp_path / "out") == tables_in(tmp_path / "whole")
 
 
-def test_blender_runs_on_the_workers(cluster, tmp_path):
+def test_blender_runs_on_the_workers(cluster, tmp_path, capsys):
     study = study_file(tmp_path / "in", 1, ("One",))
-    assert run_bda("study", study, "--output", tmp_path / "far", "--dask", cluster.address, "--quiet") == (0, "", "")
-    assert run_bda("study", study, "--output", tmp_path / "near", "--quiet") == (0, "", "")
+    far = ("study", study, "--output", tmp_path / "far", "--dask", cluster.address, "--quiet")
+    assert call_bda(capsys, *far) == (0, "", "")
+    assert call_bda(capsys, "study", study, "--output", tmp_path / "near", "--quiet") == (0, "", "")
     assert tables_in(tmp_path / "far") == tables_in(tmp_path / "near")
     assert len(list((tmp_path / "far").glob("draws/*/outlines.npz"))) == 1
