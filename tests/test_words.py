@@ -18,9 +18,6 @@ MODULES = sorted(PACKAGE.rglob("*.py"))
 LISTS_WORDS = {"glossary.md"}
 """The page whose last column names what is not used."""
 
-STILL_OLD = set((ROOT / "tests" / "still_old_words.txt").read_text(encoding="utf-8").split())
-"""Files whose words are still to be changed, from the project's folder."""
-
 
 @cache
 def refused():
@@ -87,8 +84,7 @@ def files():
 
 @pytest.mark.parametrize("path, text_of", files())
 def test_no_refused_word_is_used(path, text_of):
-    if path.relative_to(ROOT).as_posix() not in STILL_OLD:
-        assert list(wrong_words(text_of(path))) == []
+    assert list(wrong_words(text_of(path))) == []
 
 
 def test_refused_words_are_found_in_text_and_not_in_code():
