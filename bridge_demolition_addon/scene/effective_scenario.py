@@ -1,11 +1,11 @@
-"""The scenario that a scene stands for now, with all that was changed in Blender since it was built."""
+"""What was changed in Blender since a scene was built, taken over into the scenario that it was built from."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -15,12 +15,10 @@ from ..model.scenario import Ground, Scenario
 from ..model.schema import Table
 from .bodies import SHARD_PROPERTIES, Kind
 from .body_settings import BodySettings
+from .time_scale import TimeOfScene
 from .world import START_FRAME
 
 _Table = TypeVar("_Table", bound=Table)
-
-if TYPE_CHECKING:
-    from .run_setup import RunSetup
 
 _DEFAULT_MARGIN_M = 0.04
 """Collision margin of a body for which none is set (Bullet's CONVEX_DISTANCE_MARGIN)."""
@@ -29,17 +27,6 @@ _GROUND = {"friction": "friction", "restitution": "restitution"}
 _BALL = {**_GROUND, "mass_kg": "mass", "angular_damping": "angular_damping"}
 _SHARDS = {**_GROUND, **SHARD_PROPERTIES}
 """Keys of a scenario, and the properties of Blender's rigid bodies that they set."""
-
-
-def effective_scenario(setup: RunSetup, built: Scenario) -> tuple[Scenario, list[str]]:
-    """Return what a scene that was built from a scenario runs, and sentences on what no scenario can say."""
-    scenario, left_out = built, []
-    for write in setup.writers():
-        try:
-            scenario = write(setup, scenario)
-        except ScenarioError as error:
-            left_out.append(str(error))
-    return scenario, left_out
 
 
 @contextmanager
@@ -52,9 +39,8 @@ def _refused(reason: str) -> Iterator[None]:
 
 
 @_refused("settings of bodies that no scenario can have")
-def with_bodies(setup: RunSetup, scenario: Scenario) -> Scenario:
+def with_bodies(bodies: BodySettings, scenario: Scenario) -> Scenario:
     """Take over mass and surface of ground, ball and shards; of shards what all of them have."""
-    bodies = setup.bodies
     rows = {kind: [row for row in bodies.of_kind(kind) if bodies.is_marked[row]] for kind in Kind}
     shards = _common(bodies, rows[Kind.SHARD], _SHARDS, scenario.shards)
     own = zip(bodies.rigid["use_margin"], bodies.rigid["collision_margin"], strict=True)
@@ -85,42 +71,42 @@ def _with_surfaces(bodies: BodySettings, rows: Sequence[int], ground: Ground) ->
 
 
 @_refused("frames of another length than what is planned and animated allows")
-def with_time_step(setup: RunSetup, scenario: Scenario) -> Scenario:
+def with_time_step(time: TimeOfScene, scenario: Scenario) -> Scenario:
     """Take over frame rate, sub-steps, solver and speed. What is animated keeps its frames, and its times change."""
-    time = _replaced(scenario.time, _read(setup.time.settings, scenario.time))
-    factor = time.step.frame_s / scenario.time.step.frame_s
-    if time == scenario.time:
+    changed = _replaced(scenario.time, _read(time.settings, scenario.time))
+    factor = changed.step.frame_s / scenario.time.step.frame_s
+    if changed == scenario.time:
         return scenario
     if factor == 1.0:
-        return replace(scenario, time=time)
-    if setup.time.is_animated:
+        return replace(scenario, time=changed)
+    if time.is_animated:
         raise ScenarioError("slow motion was animated for frames of another length")
-    time = replace(time, duration_s=scenario.time.duration_s * factor)
-    return replace(scenario, time=time, **scenario.actions_scaled_in_time(factor))
+    changed = replace(changed, duration_s=scenario.time.duration_s * factor)
+    return replace(scenario, time=changed, **scenario.actions_scaled_in_time(factor))
 
 
-def with_duration(setup: RunSetup, scenario: Scenario) -> Scenario:
+def with_duration(time: TimeOfScene, scenario: Scenario) -> Scenario:
     """Take over the last frame."""
-    lengths = setup.time.frame_lengths_s
+    lengths = time.frame_lengths_s
     if len(lengths) == len(scenario.timeline):
         return scenario
-    with _refused(f"the last frame, {setup.time.last_frame}, which is before all that is planned"):
+    with _refused(f"the last frame, {time.last_frame}, which is before all that is planned"):
         return replace(scenario, time=replace(scenario.time, duration_s=float(lengths.sum())))
 
 
-def with_speed(setup: RunSetup, scenario: Scenario) -> Scenario:
+def with_speed(time: TimeOfScene, scenario: Scenario) -> Scenario:
     """Refuse played frames that are not as long as planned; Blender has single precision."""
-    lengths, planned = setup.time.frame_lengths_s, scenario.timeline.frame_lengths_s
+    lengths, planned = time.frame_lengths_s, scenario.timeline.frame_lengths_s
     count = min(len(lengths), len(planned))
     if not np.allclose(lengths[:count], planned[:count], rtol=1e-6, atol=0.0):
         raise ScenarioError("the speed of the simulation, which is animated")
     return scenario
 
 
-def with_first_frame(setup: RunSetup, scenario: Scenario) -> Scenario:
+def with_first_frame(time: TimeOfScene, scenario: Scenario) -> Scenario:
     """Refuse another start frame than `START_FRAME`."""
-    if setup.time.start_frame != START_FRAME:
-        raise ScenarioError(f"the first frame, {setup.time.start_frame}")
+    if time.start_frame != START_FRAME:
+        raise ScenarioError(f"the first frame, {time.start_frame}")
     return scenario
 
 

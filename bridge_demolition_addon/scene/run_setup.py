@@ -7,7 +7,7 @@ follow from the fields.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import astuple, dataclass, field, fields, replace
 from functools import cached_property
 from typing import Any
@@ -18,6 +18,7 @@ import numpy as np
 from ..engineering.foundations.footings import SoilSprings
 from ..engineering.geometry.hulls import ConvexHulls, convex_hulls
 from ..engineering.geometry.vectors import transformed
+from ..errors import ScenarioError
 from ..model.blast.charges import Charge
 from ..model.blast.explosion import Explosion
 from ..model.blast.settings import BlastSettings
@@ -42,8 +43,8 @@ from .tools.ground_motion import GroundMotionOfScene, ground_motion_of
 Parts = Mapping[str, Any]
 """Arrays, numbers and texts by names, as `digest` takes them."""
 
-Writer = Callable[["RunSetup", Scenario], Scenario]
-"""Returns a scenario that says what a setup has; raises `ScenarioError` on what no scenario can say."""
+Writer = Callable[[Any, Scenario], Scenario]
+"""Takes the value of a field over into a scenario; raises `ScenarioError` on what no scenario can say."""
 
 _ALWAYS_S = 1e6
 """After this time every pulse of a blast is over."""
@@ -280,11 +281,17 @@ class RunSetup:
             text: digest(parts(self)) for compared in self._metadata("compared") for text, parts in compared.items()
         }
 
-    @classmethod
-    def writers(cls) -> Iterator[Writer]:
-        """Give what writes a setup into a scenario, in this order."""
-        for written in cls._metadata("written"):
-            yield from written
+    def effective_scenario(self, built: Scenario) -> tuple[Scenario, list[str]]:
+        """Return what a scene that was built from a scenario runs, and sentences on what no scenario can say."""
+        scenario, left_out = built, []
+        for item in fields(self):
+            writers = item.metadata["written"]
+            for write in () if isinstance(writers, str) else writers:
+                try:
+                    scenario = write(getattr(self, item.name), scenario)
+                except ScenarioError as error:
+                    left_out.append(str(error))
+        return scenario, left_out
 
     @classmethod
     def _metadata(cls, name: str) -> list[Any]:

@@ -10,7 +10,6 @@ from support.checkout import SMALL
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
-from bridge_demolition_addon.scene.effective_scenario import effective_scenario
 from bridge_demolition_addon.scene.run_setup import RunSetup, decides, run_setup_of
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 
@@ -31,8 +30,8 @@ def scene(blender, scenario):
     return blender.context.scene
 
 
-def wind_is_in_no_scenario(setup, scenario):
-    if setup.wind_n:
+def wind_is_in_no_scenario(wind_n, scenario):
+    if wind_n:
         raise ScenarioError("wind")
     return scenario
 
@@ -52,8 +51,8 @@ def test_one_more_field_is_in_the_digest_in_what_is_compared_and_in_the_scenario
     still, storm = WindySetup(**known, wind_n=0.0), WindySetup(**known, wind_n=5e3)
     assert len({setup.digest, still.digest, storm.digest}) == 3
     assert {name for name, digest in storm.compared().items() if still.compared()[name] != digest} == {"wind"}
-    assert effective_scenario(still, scenario) == (scenario, [])
-    assert effective_scenario(storm, scenario) == (scenario, ["wind"])
+    assert still.effective_scenario(scenario) == (scenario, [])
+    assert storm.effective_scenario(scenario) == (scenario, ["wind"])
 
 
 @pytest.mark.parametrize("item", fields(RunSetup), ids=lambda item: item.name)

@@ -110,13 +110,12 @@ def test_the_ground_is_passive_and_met_at_its_triangles(built):
 
 
 def test_what_is_run_has_the_friction_that_was_set_by_hand(built):
-    from bridge_demolition_addon.scene.effective_scenario import effective_scenario
     from bridge_demolition_addon.scene.run_setup import run_setup_of
 
     scene, scenario, _ = built
-    assert effective_scenario(run_setup_of(scene), scenario)[0] == scenario
+    assert run_setup_of(scene).effective_scenario(scenario)[0] == scenario
     scene.objects["river"].rigid_body.friction = 0.25
-    (river,) = effective_scenario(run_setup_of(scene), scenario)[0].ground.surfaces
+    (river,) = run_setup_of(scene).effective_scenario(scenario)[0].ground.surfaces
     assert river.friction == 0.25
 
 

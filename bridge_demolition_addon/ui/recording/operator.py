@@ -15,7 +15,6 @@ from ...model.scenario.recording import PictureSettings
 from ...model.sequence.rest import Rest
 from ...model.sequence.undisturbed import self_collapse_text
 from ...scene.as_built import manual_edits
-from ...scene.effective_scenario import effective_scenario
 from ...scene.run_setup import run_setup_of
 from ...scene.world import start_over
 from ...simulation.blender_events import running_recording, shown_results, start_recording, stop_recording
@@ -139,7 +138,7 @@ def _scenario_with_edits(scene: bpy.types.Scene) -> tuple[Scenario | None, list[
     if to_run is None:
         return None, []
     setup = run_setup_of(scene)
-    scenario, others = effective_scenario(setup, to_run)
+    scenario, others = setup.effective_scenario(to_run)
     return scenario, [*others, *manual_edits(scene, setup)]
 
 

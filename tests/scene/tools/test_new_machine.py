@@ -132,7 +132,6 @@ def test_it_is_described_and_checked(path, capsys):
 
 def test_it_is_built_pushes_and_is_scaled_in_time(blender, path, tmp_path, monkeypatch):
     from bridge_demolition_addon.scene import demolition
-    from bridge_demolition_addon.scene.effective_scenario import effective_scenario
     from bridge_demolition_addon.scene.run_setup import run_setup_of
     from bridge_demolition_addon.simulation.motion_run import motion_run
 
@@ -149,6 +148,6 @@ def test_it_is_built_pushes_and_is_scaled_in_time(blender, path, tmp_path, monke
         assert summary["fell_by_itself"] is None
     scene = blender.context.scene
     scene.render.fps *= 2
-    as_run, unsaid = effective_scenario(run_setup_of(scene), scenario)
+    as_run, unsaid = run_setup_of(scene).effective_scenario(scenario)
     assert unsaid == []
     assert as_run.rams == (replace(ram, start_time_s=0.125, end_time_s=0.3125),)
