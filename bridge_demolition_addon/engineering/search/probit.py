@@ -132,7 +132,7 @@ def profile_likelihood(runs: LevelOutcomes, place: float, probability: float) ->
 def limit(runs: LevelOutcomes, probability: float, confidence: float, side: int) -> float:
     """Return the upper (`side` 1) or lower (-1) limit of the level where success has a probability; ± ∞ without.
 
-    Twice the logarithm of the ratio of likelihoods is compared with the F distribution with 1 and n - 2 degrees of
+    Twice the logarithm of the ratio of likelihoods is compared with the F distribution with 2 and n - 2 degrees of
     freedom instead of χ², its limit for many runs: with few, the design follows the answers, and σ is estimated too
     small.
     """
