@@ -83,8 +83,8 @@ class Windows:
             self._make_disk()
             stamp.write_text(versions)
         # This Windows Python looks nowhere else, whatever PYTHONPATH says, and its child processes do as it does.
-        places = ["python311.zip", "Lib", ".", *map(windows_path, (self.folder / "libraries", ROOT, ROOT / "tests"))]
-        (self.home / "python311._pth").write_text("".join(f"{place}\n" for place in places))
+        positions = ["python311.zip", "Lib", ".", *map(windows_path, (self.folder / "libraries", ROOT, ROOT / "tests"))]
+        (self.home / "python311._pth").write_text("".join(f"{position}\n" for position in positions))
 
     def run(self, *arguments: str) -> int:
         """Run Python, print what it prints, and return its status; what it prints goes through a pipe, not a file."""

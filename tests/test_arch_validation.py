@@ -60,11 +60,11 @@ def test_fill_weighs_what_lies_between_ring_and_road():
 def test_what_is_borne_is_the_load_less_what_speeds_up_the_blocks():
     """A block of 2 t that goes down with 3 m/s² under 10 kN bears 4 kN of it."""
     times = np.arange(25) / 24.0
-    places = np.zeros((25, 1, 3))
-    places[:, 0, 2] = 50.0 - 1.5 * times**2
-    speeds = np.zeros_like(places)
+    positions = np.zeros((25, 1, 3))
+    positions[:, 0, 2] = 50.0 - 1.5 * times**2
+    speeds = np.zeros_like(positions)
     speeds[:, 0, 2] = -3.0 * times
-    results = moving_boxes(times, np.array([[1.0, 1.0, 1.0]]), places, velocities_m_s=speeds)
+    results = moving_boxes(times, np.array([[1.0, 1.0, 1.0]]), positions, velocities_m_s=speeds)
     mass = float(results.inventory.masses_kg[0])
     course = course_of(results, 0, np.full(25, 5.0 * mass))
     assert course.resistance_n == pytest.approx(2.0 * mass, rel=1e-4)
@@ -72,12 +72,12 @@ def test_what_is_borne_is_the_load_less_what_speeds_up_the_blocks():
 
 
 def test_parts_of_decks_that_fell_are_parts_of_their_mass():
-    places = np.zeros((2, 3, 3))
-    places[:, :, 2] = [[5.0, 5.0, 5.0], [1.0, 4.0, 5.0]]
+    positions = np.zeros((2, 3, 3))
+    positions[:, :, 2] = [[5.0, 5.0, 5.0], [1.0, 4.0, 5.0]]
     results = moving_boxes(
         np.array([0.0, 1.0]),
         np.array([[1.0, 1.0, 1.0], [1.0, 1.0, 3.0], [1.0, 1.0, 1.0]]),
-        places,
+        positions,
         body_members=np.array(["deck 1", "deck 1", "deck 2"]),
         body_member_kinds=np.array(["deck", "deck", "deck"]),
     )

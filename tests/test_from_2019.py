@@ -262,8 +262,8 @@ def test_fields_of_2019_push_nothing_at_their_own_place(blender):
             field.use_radial_max, field.radial_max, field.strength = True, 2.0, 100.0
         for frame in range(1, 6):
             bpy.context.scene.frame_set(frame)
-        place = body.evaluated_get(bpy.context.evaluated_depsgraph_get()).matrix_world.translation
-        moved[offset] = place.length
+        position = body.evaluated_get(bpy.context.evaluated_depsgraph_get()).matrix_world.translation
+        moved[offset] = position.length
     assert moved[0.0] == 0.0
     assert moved[0.01] > 0.1
 

@@ -77,8 +77,8 @@ class Arch:
             depths = np.array([top - high, top - low])
             area = abs(right - left) * depths.mean()
             share = (depths[0] + 2.0 * depths[1]) / (3.0 * depths.sum())  # centre of a trapezium, from the left
-            place = np.array([left + share * (right - left), high + share * (low - high)])
-            weights.append((place, self.fill_n_m3 * self.width_m * area))
+            position = np.array([left + share * (right - left), high + share * (low - high)])
+            weights.append((position, self.fill_n_m3 * self.width_m * area))
         return weights
 
     def back_at(self, x_m: float) -> np.ndarray:
@@ -107,9 +107,9 @@ def limit_load_n(arch: Arch, load_x_m: float, bond_pa: float = 0.0) -> float:
     for row, corners in enumerate(outlines):
         area, centre = _area_and_centre(corners)
         forces = [(centre, -area * arch.width_m * arch.density_kg_m3 * G)]
-        forces += [(place, -weight) for place, weight in fill[row : row + 1]]
-        for place, upwards in forces:
-            given[3 * row : 3 * row + 3] -= _wrench(place, np.array([0.0, upwards]))
+        forces += [(position, -weight) for position, weight in fill[row : row + 1]]
+        for position, upwards in forces:
+            given[3 * row : 3 * row + 3] -= _wrench(position, np.array([0.0, upwards]))
         if corners[3, 0] <= load_x_m < corners[2, 0]:
             balance[3 * row : 3 * row + 3, -1] = _wrench(point, np.array([0.0, -1.0]))
         for joint, sign in ((row, 1.0), (row + 1, -1.0)):
@@ -120,8 +120,8 @@ def limit_load_n(arch: Arch, load_x_m: float, bond_pa: float = 0.0) -> float:
                 (arch.on_arc(inner, angle), along),
                 (arch.on_arc(inner, angle), across),
             )
-            for offset, (place, direction) in enumerate(columns):
-                balance[3 * row : 3 * row + 3, 3 * joint + offset] += _wrench(place, sign * direction)
+            for offset, (position, direction) in enumerate(columns):
+                balance[3 * row : 3 * row + 3, 3 * joint + offset] += _wrench(position, sign * direction)
     slides = np.zeros((2 * (count + 1), balance.shape[1]))
     for joint in range(count + 1):
         for row, sign in ((2 * joint, 1.0), (2 * joint + 1, -1.0)):
@@ -176,25 +176,25 @@ def first_crack_n(arch: Arch, load_x_m: float, bond_pa: float) -> float:
             ]
         )
         own[np.ix_((1, 2, 4, 5), (1, 2, 4, 5))] = modulus * arch.ring_m / 2.0 / length**3 * bends
-        places = np.arange(3 * row, 3 * row + 6)
-        stiffness[np.ix_(places, places)] += turn.T @ own @ turn
+        positions = np.arange(3 * row, 3 * row + 6)
+        stiffness[np.ix_(positions, positions)] += turn.T @ own @ turn
         weight[[3 * row + 1, 3 * row + 4]] -= arch.density_kg_m3 * G * area * length / 2.0
-        beams.append((own @ turn, places))
+        beams.append((own @ turn, positions))
     unit[3 * int(np.argmin(abs(nodes[:, 0] - load_x_m))) + 1] = -1.0
     free = np.arange(3, 3 * count - 3)
     edges = []
     for forces in (weight, unit):
         moved = np.zeros(3 * count)
         moved[free] = np.linalg.solve(stiffness[np.ix_(free, free)], forces[free])
-        ends = np.array([beam @ moved[places] for beam, places in beams])
+        ends = np.array([beam @ moved[positions] for beam, positions in beams])
         pull = np.append(-ends[::_PARTS, 0], ends[-1, 3])
         bend = np.append(ends[::_PARTS, 2], -ends[-1, 5])
         edges.append(np.concatenate((pull / area + bend / modulus, pull / area - bend / modulus)))
     return min((bond_pa - own) / by_unit for own, by_unit in zip(*edges, strict=True) if by_unit > 0.0)
 
 
-def _wrench(place: np.ndarray, force: np.ndarray) -> np.ndarray:
-    return np.array([force[0], force[1], place[0] * force[1] - place[1] * force[0]])
+def _wrench(position: np.ndarray, force: np.ndarray) -> np.ndarray:
+    return np.array([force[0], force[1], position[0] * force[1] - position[1] * force[0]])
 
 
 def _area_and_centre(corners: np.ndarray) -> tuple[float, np.ndarray]:
@@ -284,7 +284,8 @@ density_kg_m3 = {arch.density_kg_m3}
         for mesh in meshes
     )
     loads = "".join(
-        _load(f"voussoir {row:02d}", place, base_m, ((0.0, weight),)) for row, (place, weight) in enumerate(arch.fill())
+        _load(f"voussoir {row:02d}", position, base_m, ((0.0, weight),))
+        for row, (position, weight) in enumerate(arch.fill())
     )
     rows = [row for row, outline in enumerate(arch.outlines()) if outline[3, 0] <= load_x_m < outline[2, 0]]
     loads += _load(f"voussoir {rows[0]:02d}", arch.back_at(load_x_m), base_m, course)
@@ -341,12 +342,12 @@ def _springers(arch: Arch) -> dict[str, np.ndarray]:
     return found
 
 
-def _load(member: str, place: np.ndarray, base_m: float, course: Sequence[tuple[float, float]]) -> str:
+def _load(member: str, position: np.ndarray, base_m: float, course: Sequence[tuple[float, float]]) -> str:
     times, forces = ([float(value) for value in values] for values in zip(*course, strict=True))
     return f"""
 [[loads]]
 members = ["{member}"]
-point_m = [{place[0]:.6f}, 0.0, {place[1] + base_m:.6f}]
+point_m = [{position[0]:.6f}, 0.0, {position[1] + base_m:.6f}]
 times_s = {times}
 forces_n = {forces}
 """

@@ -18,22 +18,24 @@ TOWERS = ((20.0, 1.0, 1.0, 33.5, 0.354), (10.0, 0.5, 0.5, 33.5, 0.354), (30.0, 1
 def run(folder: Path) -> Found:
     """Let each tower fall until it has broken."""
     comparisons, broken = [], []
-    for height, side, strength, angle, place in TOWERS:
+    for height, side, strength, angle, position in TOWERS:
         found_angle, found_place = _break(folder, height, side, strength)
-        broken.append((angle, found_angle, place, found_place))
+        broken.append((angle, found_angle, position, found_place))
         name = f"{height:g} m, {strength:g} N/mm²"
         comparisons += [
             Comparison(f"angle at which it breaks, {name}", "°", angle, found_angle, 0.1),
-            Comparison(f"place of the break over its height, {name}", "", (place - 0.05, place + 0.05), found_place),
+            Comparison(
+                f"place of the break over its height, {name}", "", (position - 0.05, position + 0.05), found_place
+            ),
         ]
 
     def draw(figure: Figure) -> None:
         axes = figure.subplots()
-        for (height, _, strength, *_), (angle, found_angle, place, found_place), mark in zip(
+        for (height, _, strength, *_), (angle, found_angle, position, found_place), mark in zip(
             TOWERS, broken, ("o", "s", "^"), strict=True
         ):
             label = f"{height:g} m, {strength:g} N/mm²"
-            axes.plot(angle, place, mark, color="0.6", markersize=11, label=f"{label}, expected")
+            axes.plot(angle, position, mark, color="0.6", markersize=11, label=f"{label}, expected")
             axes.plot(found_angle, found_place, mark, color="black", markersize=6, label=f"{label}, found")
         axes.set(xlabel="angle at which it breaks (°)", ylabel="place over height", ylim=(0.2, 0.6), xlim=(0, 50))
         axes.legend(fontsize=8)

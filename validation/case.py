@@ -82,15 +82,15 @@ def simulated(folder: Path, name: str, scenario: str, meshes: Mapping[str, Trian
     from bridge_demolition_addon.model.bridge.mesh_files import exported
     from bridge_demolition_addon.simulation.run import run_scenario
 
-    place = folder / name
-    place.mkdir(parents=True, exist_ok=True)
+    position = folder / name
+    position.mkdir(parents=True, exist_ok=True)
     for mesh, solid in meshes.items():
-        (place / f"{mesh}.stl").write_bytes(exported(solid, ".stl"))
-    (place / "scenario.toml").write_text(scenario, encoding="utf-8")
+        (position / f"{mesh}.stl").write_bytes(exported(solid, ".stl"))
+    (position / "scenario.toml").write_text(scenario, encoding="utf-8")
     run_scenario(
-        read_scenario(place / "scenario.toml"), place / "run", overwrite=True, pictures=False, progress=Silence()
+        read_scenario(position / "scenario.toml"), position / "run", overwrite=True, pictures=False, progress=Silence()
     )
-    return load_results(place / "run" / "results.npz")
+    return load_results(position / "run" / "results.npz")
 
 
 LOOSE = """

@@ -50,9 +50,9 @@ def _fallen_shares(folder: Path, name: str, seed: int) -> list[float]:
 
     example = read_scenario(EXAMPLES / f"{name}.toml")
     scenario = replace(example, seed=seed, time=replace(example.time, duration_s=DURATION_S))
-    place = folder / f"{name}_{seed}"
-    place.mkdir(parents=True, exist_ok=True)
-    (place / "scenario.toml").write_text(scenario_text(scenario), encoding="utf-8")
+    position = folder / f"{name}_{seed}"
+    position.mkdir(parents=True, exist_ok=True)
+    (position / "scenario.toml").write_text(scenario_text(scenario), encoding="utf-8")
     with (
         tempfile.TemporaryDirectory() as frames,
         motion_run(scenario, build_model(scenario), Path(frames)) as (results, _),

@@ -181,10 +181,10 @@ def charge_for_overpressure(settings: ChartSettings) -> Figure:
 def two_span_charges(settings: ChartSettings) -> Figure:
     """Figure 13: the peak overpressure of each charge along the bridge."""
     figure, axes = _figure()
-    places = _along_the_spans()
-    peaks = _pulses_along_bridge(places, settings).peaks_pa
+    positions = _along_the_spans()
+    peaks = _pulses_along_bridge(positions, settings).peaks_pa
     for charge, peak, style in zip(settings.pier_charges, peaks.T, _LINES, strict=False):
-        axes.semilogy(places / _scale(settings), peak / settings.pressure_unit_pa, label=charge.name, **style)
+        axes.semilogy(positions / _scale(settings), peak / settings.pressure_unit_pa, label=charge.name, **style)
     _finish_bridge_chart(figure, axes, settings, "Peak overpressure of each charge")
     return figure
 
@@ -192,11 +192,11 @@ def two_span_charges(settings: ChartSettings) -> Figure:
 def two_span_total(settings: ChartSettings) -> Figure:
     """Figure 14: the sum of the peaks along the bridge, and what is there at any one time."""
     figure, axes = _figure()
-    places = _along_the_spans()
-    pulses = _pulses_along_bridge(places, settings)
+    positions = _along_the_spans()
+    pulses = _pulses_along_bridge(positions, settings)
     # The pressure can only be largest when a front has just arrived.
     at_arrivals = [pressure_at(pulses, arrivals[:, None]).sum(axis=1) for arrivals in pulses.arrivals_s.T]
-    unit, along = settings.pressure_unit_pa, places / _scale(settings)
+    unit, along = settings.pressure_unit_pa, positions / _scale(settings)
     axes.semilogy(along, pulses.peaks_pa.sum(axis=1) / unit, "--", color="black", label="sum of the peaks, as in 2019")
     axes.semilogy(along, np.max(at_arrivals, axis=0) / unit, "-", color="#b2182b", label="largest sum at one time")
     _finish_bridge_chart(figure, axes, settings, "Peak overpressure of all charges")
@@ -206,14 +206,14 @@ def two_span_total(settings: ChartSettings) -> Figure:
 def two_span_over_time(settings: ChartSettings) -> Figure:
     """The overpressure along the bridge as time goes on: where the waves run and meet."""
     figure, axes = _figure()
-    places = _along_the_spans()
-    pulses = _pulses_along_bridge(places, settings)
+    positions = _along_the_spans()
+    pulses = _pulses_along_bridge(positions, settings)
     meeting_s = pulses.arrivals_s.min(axis=1).max()
     times = np.linspace(0.0, 2.5 * meeting_s, 700)
     pressures = np.array([pressure_at(pulses, time).sum(axis=1) for time in times]) / settings.pressure_unit_pa
     smallest = SMALLEST_SHADE_PA / settings.pressure_unit_pa
     image = axes.pcolormesh(
-        places / _scale(settings),
+        positions / _scale(settings),
         1e3 * times / _scale(settings),
         np.maximum(pressures, smallest),
         norm=LogNorm(smallest, 1e3 * smallest),
@@ -233,13 +233,13 @@ def rings_on_plan(charges: Sequence[Charge], settings: ChartSettings, title: str
     figure = _blank_figure(11.0, 7.0)
     thresholds = distinct_thresholds()
     radii = ring_radii(charges, charges[0].place_m[2], thresholds, settings.model)
-    places = np.array([charge.place_m[:2] for charge in charges])
+    positions = np.array([charge.place_m[:2] for charge in charges])
     for axes, nearest in zip(figure.subplots(1, 2), (0.0, NEAR_RINGS_PA), strict=True):
         for threshold, row, style in zip(thresholds, radii, _LINES, strict=True):
             if threshold.overpressure_pa >= nearest:
                 label = f"{_plain(threshold.overpressure_pa / settings.pressure_unit_pa)}: {threshold.damage}"
-                axes.plot(*_circles(places, row), label=label, **style)
-        axes.plot(*places.T, "k+", label="charge")
+                axes.plot(*_circles(positions, row), label=label, **style)
+        axes.plot(*positions.T, "k+", label="charge")
         axes.set(xlabel="x (m)", ylabel="y (m)", aspect="equal")
         axes.set_title("near the charges" if nearest else "all rings", fontsize=10)
         axes.grid(alpha=0.3)
@@ -332,11 +332,11 @@ def _label_plainly(axes: Axes) -> None:
             axis.set_minor_formatter(NullFormatter())
 
 
-def _circles(places: np.ndarray, radii: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Circles round places (c, 2) as one line, with gaps between them."""
+def _circles(positions: np.ndarray, radii: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Circles round positions (c, 2) as one line, with gaps between them."""
     angles = np.append(np.linspace(0.0, 2.0 * np.pi, 181), np.nan)
-    x = places[:, :1] + radii[:, None] * np.cos(angles)
-    y = places[:, 1:] + radii[:, None] * np.sin(angles)
+    x = positions[:, :1] + radii[:, None] * np.cos(angles)
+    y = positions[:, 1:] + radii[:, None] * np.sin(angles)
     return x.ravel(), y.ravel()
 
 
@@ -358,9 +358,9 @@ def _along_the_spans() -> np.ndarray:
     return np.linspace(-SPAN_M, SPAN_M, 801)
 
 
-def _pulses_along_bridge(places_m: np.ndarray, settings: ChartSettings) -> Pulses:
+def _pulses_along_bridge(positions_m: np.ndarray, settings: ChartSettings) -> Pulses:
     charges = settings.pier_charges
-    stand_offs = abs(places_m[:, None] - [charge.place_m[0] for charge in charges])
+    stand_offs = abs(positions_m[:, None] - [charge.place_m[0] for charge in charges])
     masses, delays = [charge.tnt_kg for charge in charges], [charge.delay_s for charge in charges]
     return blast_pulses(stand_offs, masses, delays, [charge.burst for charge in charges], model=settings.model)
 

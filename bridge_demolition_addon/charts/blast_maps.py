@@ -39,10 +39,10 @@ def overpressure_map(
     """Largest overpressure of any one charge on the ground, with the rings of damage and the ground's contour lines."""
     thresholds = [threshold for threshold in distinct_thresholds() if threshold.overpressure_pa >= WIDEST_PA]
     radii = ring_radii(charges, 0.0, thresholds, model, pressure_factor)
-    places = np.array([charge.place_m[:2] for charge in charges])
+    positions = np.array([charge.place_m[:2] for charge in charges])
     left, back, right, front = bridge.bounds()  # shown even where no ring reaches the ground
-    low = np.minimum(places.min(axis=0) - _ROOM * radii.max(), (left, back))
-    high = np.maximum(places.max(axis=0) + _ROOM * radii.max(), (right, front))
+    low = np.minimum(positions.min(axis=0) - _ROOM * radii.max(), (left, back))
+    high = np.maximum(positions.max(axis=0) + _ROOM * radii.max(), (right, front))
     xs, ys = np.linspace(low[0], high[0], _CELLS), np.linspace(low[1], high[1], _CELLS)
     plan = np.stack(np.meshgrid(xs, ys), axis=-1)
     grid = np.concatenate([plan, ground.heights_at(plan)[..., None]], axis=-1)
@@ -61,7 +61,7 @@ def overpressure_map(
     )
     axes.clabel(lines, fmt=lambda level: f"{level:g} kPa", fontsize=6)
     draw_area(axes, bridge, fill=False, edgecolor="black", linewidth=1.0, label="bridge")
-    axes.plot(*places.T, "k+", markersize=7, label="charge")
+    axes.plot(*positions.T, "k+", markersize=7, label="charge")
     for neighbour in neighbours:
         if (np.array(neighbour.place_m[:2]) >= low).all() and (np.array(neighbour.place_m[:2]) <= high).all():
             axes.plot(*neighbour.place_m[:2], "k^", markersize=5)

@@ -55,7 +55,7 @@ def search_curve(figure: FigureBase, answer: Answer) -> None:
 
 
 def _dots(axes: Axes, values: np.ndarray, height: float, label: str, marker: str) -> None:
-    """Draw dots one above the other where several are at the same place, within the axes."""
+    """Draw dots one above the other where several are at the same position, within the axes."""
     order = np.argsort(values, kind="stable")
     values = values[order]
     earlier = np.arange(len(values)) - np.searchsorted(values, values)

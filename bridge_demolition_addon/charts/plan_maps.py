@@ -100,8 +100,8 @@ def draw_ground(axes: Axes, ground: RecordedGround) -> None:
         axes.annotate(plain(surface.name), corner, fontsize=6, va="bottom", color=colour, annotation_clip=True)
     if ground.terrain is not None:
         x, y, heights = ground.terrain.mesh.vertices.T
-        places = np.stack(np.meshgrid(np.linspace(left, right, _SEEN), np.linspace(low, high, _SEEN)), -1)
-        levels = _contour_levels(ground.terrain.heights_at(places))
+        positions = np.stack(np.meshgrid(np.linspace(left, right, _SEEN), np.linspace(low, high, _SEEN)), -1)
+        levels = _contour_levels(ground.terrain.heights_at(positions))
         if len(levels):
             style: dict[str, Any] = {"colors": _CONTOUR, "linewidths": 0.5, "linestyles": "solid", "zorder": 0.7}
             lines = axes.tricontour(Triangulation(x, y, ground.terrain.mesh.triangles), heights, levels, **style)
@@ -218,7 +218,7 @@ def draw_zones(axes: Axes, zones: Iterable[Zone]) -> None:
 
 
 def name_zones(axes: Axes, zones: Iterable[Zone]) -> None:
-    """Write each zone's name where no other name is, if there is such a place at its sides."""
+    """Write each zone's name where no other name is, if there is such a position at its sides."""
     letter_m = _NAME_POINTS * MM_PER_POINT * _metres_per_mm(axes)
     style: dict[str, Any] = {
         "fontsize": _NAME_POINTS,
@@ -228,7 +228,7 @@ def name_zones(axes: Axes, zones: Iterable[Zone]) -> None:
     occupied: list[np.ndarray] = []
     for zone in zones:
         size = letter_m * np.array([_LETTER_SHARE * len(zone.name), _LINE_SHARE])
-        choices = [(*place, *_name_box(zone, *place, size)) for place in _NAME_PLACES]
+        choices = [(*position, *_name_box(zone, *position, size)) for position in _NAME_PLACES]
         free = (choice for choice in choices if not any(_overlap(choice[3], other) for other in occupied))
         across, upwards, anchor, box = next(free, choices[0])
         occupied.append(box)
@@ -297,5 +297,5 @@ def _dimension(axes: Axes, zone: ExclusionZone) -> None:
     box = {"facecolor": "white", "edgecolor": "none", "pad": 1.0}
     for start, end, length in sides:
         axes.annotate("", end, start, arrowprops=arrow)
-        place = (np.array(start) + np.array(end)) / 2.0
-        axes.annotate(f"{length:.1f} m", place, ha="center", va="center", fontsize=8, bbox=box)
+        position = (np.array(start) + np.array(end)) / 2.0
+        axes.annotate(f"{length:.1f} m", position, ha="center", va="center", fontsize=8, bbox=box)

@@ -151,9 +151,9 @@ def _drawable(values: np.ndarray) -> np.ndarray:
     return np.where(np.isfinite(values), values, np.nan)
 
 
-def _mark_endless(axes: Axes, places: np.ndarray, values: np.ndarray, style: dict[str, Any]) -> None:
+def _mark_endless(axes: Axes, positions: np.ndarray, values: np.ndarray, style: dict[str, Any]) -> None:
     """Mark at the upper edge where values are infinite."""
-    endless = places[np.isinf(values)]
+    endless = positions[np.isinf(values)]
     if len(endless):
         at_edge = axes.get_xaxis_transform()
         axes.plot(

@@ -44,8 +44,8 @@ def study_plan(
     low, high = _corners([bridge, *likely.values(), *limits.values()], zones)
     near = [neighbour for neighbour in neighbours if _is_within(neighbour, low, high)]
     if near:
-        places = np.array([neighbour.place_m[:2] for neighbour in near])
-        axes.plot(*places.T, "^", color="black", markersize=5.0, linestyle="none", label="neighbours")
+        positions = np.array([neighbour.place_m[:2] for neighbour in near])
+        axes.plot(*positions.T, "^", color="black", markersize=5.0, linestyle="none", label="neighbours")
     fit(axes, figure)
     name_zones(axes, zones)
     for neighbour in near:
@@ -60,5 +60,5 @@ def _corners(areas: Sequence[CrossSection], zones: Sequence[Zone]) -> tuple[np.n
 
 
 def _is_within(neighbour: Neighbour, low: np.ndarray, high: np.ndarray) -> bool:
-    place = np.array(neighbour.place_m[:2])
-    return bool((place >= low).all() and (place <= high).all())
+    position = np.array(neighbour.place_m[:2])
+    return bool((position >= low).all() and (position <= high).all())

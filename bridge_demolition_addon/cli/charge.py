@@ -94,13 +94,13 @@ def _smallest_charge(arguments: argparse.Namespace) -> Iterator[str]:
 
 def _tnt_needed(arguments: argparse.Namespace) -> tuple[float, float, str]:
     """Return the TNT needed in kg, the TNT equivalent of the explosive, and whether by pressure or impulse."""
-    explosive, place = arguments.explosive, (arguments.distance_m, arguments.burst, arguments.model)
+    explosive, position = arguments.explosive, (arguments.distance_m, arguments.burst, arguments.model)
     if wanted_kpa := arguments.overpressure_kpa:
         with _naming("--overpressure-kpa", wanted_kpa):
-            return smallest_charge_for_overpressure(1e3 * wanted_kpa, *place), explosive.tnt_by_pressure, "pressure"
+            return smallest_charge_for_overpressure(1e3 * wanted_kpa, *position), explosive.tnt_by_pressure, "pressure"
     with _naming("--impulse-kpa-ms", arguments.impulse_kpa_ms):
         wanted_pa_s = arguments.impulse_kpa_ms  # a kPa·ms is a Pa·s
-        return smallest_charge_for_impulse(wanted_pa_s, *place), explosive.tnt_by_impulse, "impulse"
+        return smallest_charge_for_impulse(wanted_pa_s, *position), explosive.tnt_by_impulse, "impulse"
 
 
 @contextmanager

@@ -189,8 +189,8 @@ def _result_facts(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     connections, force = summary["connections"], summary["largest_force_sum"]
     yield "broken connections", f"{connections['broken']} of {connections['count']}"
     if force:
-        place = f"on {force['body']} at {force['time_s']:.3f} s"
-        yield "largest sum of forces", f"{force['force_N'] / 1000.0:.1f} kN {place}"
+        position = f"on {force['body']} at {force['time_s']:.3f} s"
+        yield "largest sum of forces", f"{force['force_N'] / 1000.0:.1f} kN {position}"
     if impact := summary["impact"]:
         yield "impact of the ball", f"{first_hit_s(summary):.3f} s, frame {impact['frame']}"
     if summary["came_to_rest_s"] is not None:

@@ -1,4 +1,4 @@
-"""Ranges of contours: what the user asks for, and the place of a value between the lowest and the highest colour."""
+"""Ranges of contours: what the user asks for, and the position of a value between the lowest and the highest colour."""
 
 from __future__ import annotations
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 _GRAZING = 0.02
-"""Sine of the angle between a ray and what it meets: below it, the place would jump by metres from pixel to pixel."""
+"""Sine of the angle between a ray and what it meets: below it, a position would jump by metres between pixels."""
 
 
 def dragged_level(eye: np.ndarray, ray: np.ndarray, height_m: float) -> np.ndarray | None:
@@ -18,7 +18,7 @@ def dragged_level(eye: np.ndarray, ray: np.ndarray, height_m: float) -> np.ndarr
 
 
 def dragged_upright(eye: np.ndarray, ray: np.ndarray, foot: np.ndarray) -> np.ndarray | None:
-    """Return the place (3,) float, m, straight above or below a foot (3,), that is nearest to a ray (3,) from an eye.
+    """Return the position (3,) float, m, straight above or below a foot (3,) that is nearest to a ray (3,) from an eye.
 
     None where the ray is all but upright itself.
     """

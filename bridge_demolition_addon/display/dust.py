@@ -38,13 +38,13 @@ def puffs(results: Results, most: int = MOST_PUFFS) -> list[Puff]:
     span = np.ptp(inventory.points_m, axis=0).max(initial=1.0)
     cell = max(span / 12.0, 1.0)
     cubes: dict[tuple, list[int]] = {}
-    places = _places(results, rows, broken)
-    for number, (row, place) in enumerate(zip(rows.tolist(), places, strict=True)):
-        cubes.setdefault((row, *np.floor(place / cell).astype(int).tolist()), []).append(number)
+    positions = _places(results, rows, broken)
+    for number, (row, position) in enumerate(zip(rows.tolist(), positions, strict=True)):
+        cubes.setdefault((row, *np.floor(position / cell).astype(int).tolist()), []).append(number)
     clouds = [
         Puff(
             int(frames.number[row + 1]),
-            tuple(places[members].mean(axis=0).tolist()),
+            tuple(positions[members].mean(axis=0).tolist()),
             max(_LEAST_RADIUS_M, _RADIUS_OF_AREA * float(inventory.areas_m2[broken[members]].sum()) ** 0.5),
         )
         for (row, *_), members in cubes.items()

@@ -68,7 +68,7 @@ def ring_of(corners_m: np.ndarray, height_m: float) -> np.ndarray:
 
 
 def distance_rings(plan: CrossSection, spacing_m: float, number: int) -> list[tuple[float, np.ndarray]]:
-    """Return distances from a plan, m, and the lines (2 k, 3) float of all places that are so far away."""
+    """Return distances from a plan, m, and the lines (2 k, 3) float of all positions that are so far away."""
     distances = [spacing_m * (count + 1) for count in range(number)]
     return [(distance, outline_lines(widened_around(plan, distance))) for distance in distances]
 
@@ -79,16 +79,16 @@ def planned_zone(plan: CrossSection, settings: Exclusion) -> ExclusionZone:
     return ExclusionZone(plan, drop, CrossSection(), widened(drop, settings.buffer_m))
 
 
-def way_lines(places_m: np.ndarray) -> np.ndarray:
-    """Return a way through places (k, 3) as lines (2 (k - 1), 3) float, m."""
-    return np.stack((places_m[:-1], places_m[1:]), axis=1).reshape(-1, 3)
+def way_lines(positions_m: np.ndarray) -> np.ndarray:
+    """Return a way through positions (k, 3) as lines (2 (k - 1), 3) float, m."""
+    return np.stack((positions_m[:-1], positions_m[1:]), axis=1).reshape(-1, 3)
 
 
 def cross_lines(place_m: ArrayLike, size_m: float) -> np.ndarray:
-    """Return a cross of three lines, (6, 3) float, m, at a place."""
+    """Return a cross of three lines, (6, 3) float, m, at a position."""
     arms = size_m * np.eye(3)
-    place = np.asarray(place_m, float)
-    return np.stack((place - arms, place + arms), axis=1).reshape(-1, 3)
+    position = np.asarray(place_m, float)
+    return np.stack((position - arms, position + arms), axis=1).reshape(-1, 3)
 
 
 def flash_share(since_s: float) -> float:
@@ -99,13 +99,13 @@ def flash_share(since_s: float) -> float:
 
 
 def flash_lines(place_m: Sequence[float], radius_m: float) -> np.ndarray:
-    """Return rays to all sides of a place as lines (2 r, 3) float, m."""
+    """Return rays to all sides of a position as lines (2 r, 3) float, m."""
     turns = np.arange(_RAYS) * 2.0 * math.pi / _RAYS
     flat = [(math.cos(turn), math.sin(turn), rise) for turn in turns for rise in (-0.8, 0.0, 0.8)]
     rays = np.array([*flat, (0.0, 0.0, 1.0), (0.0, 0.0, -1.0)])
     rays /= np.linalg.norm(rays, axis=1, keepdims=True)
-    place = np.asarray(place_m, float)
-    return np.stack((place + 0.15 * radius_m * rays, place + radius_m * rays), axis=1).reshape(-1, 3)
+    position = np.asarray(place_m, float)
+    return np.stack((position + 0.15 * radius_m * rays, position + radius_m * rays), axis=1).reshape(-1, 3)
 
 
 def map_triangles(map_of_hits: ProbabilityMap) -> tuple[np.ndarray, np.ndarray]:

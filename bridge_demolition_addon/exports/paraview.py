@@ -15,7 +15,7 @@ from ..model.results.arrays import Results
 from ..model.results.energy import kinetic_energies, moments_of_inertia
 from ..model.results.frames import ContactHistory, Frame
 from ..system.progress import Progress
-from .shapes import ConnectionPlaces, body_meshes
+from .shapes import ConnectionPositions, body_meshes
 from .vtu import POINT, TRIANGLE, Topology, data_array, write_series, write_vtu
 
 FRAME_FOLDER = "frames"
@@ -139,7 +139,7 @@ class _Connections:
         inventory = results.inventory
         count = len(inventory.pairs)
         self._topology = Topology(np.arange(count)[:, None], POINT)
-        self._places = ConnectionPlaces(results)
+        self._places = ConnectionPositions(results)
         first, second = inventory.pairs.T.astype(np.int32)
         self._fixed = (
             data_array("connection", np.arange(count, dtype=np.int32)),

@@ -58,7 +58,7 @@ def _hull(vertices: np.ndarray) -> TriangleMesh:
     return TriangleMesh(vertices[rows], triangles)
 
 
-class ConnectionPlaces:
+class ConnectionPositions:
     """Positions of connections, which move with their first bodies."""
 
     def __init__(self, results: Results):
@@ -68,7 +68,7 @@ class ConnectionPlaces:
         self._local_m = transformed_back(first.rotations[self._bodies].astype(float), arms_m)
 
     def at(self, frame: Frame) -> np.ndarray:
-        """Return the places (m, 3) in a frame, m; one without a first body stays where it was."""
+        """Return the positions (m, 3) in a frame, m; one without a first body stays where it was."""
         turns = frame.rotations[self._bodies].astype(float)
         carried = carried_points(self._local_m, frame.positions_m[self._bodies].astype(float), turns)
         return np.where(self._bodies[:, None] < 0, self._points_m, carried)

@@ -23,7 +23,7 @@ Point = tuple[float, float, float]
 """Along the road, across it, and above the ground, m."""
 
 HeightAt = Callable[[Place], float]
-"""Height of what lies under a place, m."""
+"""Height of what lies under a position, m."""
 
 
 class RunTime(Protocol):
@@ -69,10 +69,10 @@ class Worksite(Protocol):
     def plan(self) -> Plan: ...
 
     def surface_height(self, place_m: Place) -> float:
-        """Return the height of what something that falls on a place meets first; refuse a place beside all members."""
+        """Return the height of what a falling body meets first at a position; refuse one beside all members."""
 
     def ground_height(self, place_m: Place) -> float:
-        """Return the height of the ground at a place, minus infinity beyond its edge."""
+        """Return the height of the ground at a position, minus infinity beyond its edge."""
 
     def member_within(self, centre_m: Point, radius_m: float) -> str | None:
         """Return the name of a member that overlaps a sphere, None without one."""
@@ -112,11 +112,11 @@ class PlannedAction(Table):
         return self
 
     def targets(self) -> Iterator[tuple[str, Place]]:
-        """Yield the keys and values of places that have to be on the deck."""
+        """Yield the keys and values of positions that have to be on the deck."""
         yield from ()
 
     def starts_above(self) -> tuple[Place, ...]:
-        """Return the places at which a member has to be below it."""
+        """Return the positions at which a member has to be below it."""
         return ()
 
     def points_of_interest(self, height_at: HeightAt) -> Iterator[Point]:

@@ -54,8 +54,8 @@ def write_dxf(path: Path, layers: Mapping[str, CrossSection], contours_m: np.nda
             lines += ["0", "SEQEND", "8", layer]
     for ends in [] if contours_m is None else contours_m:
         lines += ["0", "LINE", "8", CONTOUR_LAYER]
-        for number, place in enumerate(ends):
-            for axis, value in enumerate(place, start=1):
+        for number, position in enumerate(ends):
+            for axis, value in enumerate(position, start=1):
                 lines += [f"{axis}{number}", f"{value:.4f}"]
     lines += ["0", "ENDSEC", "0", "EOF"]
     write_whole_text(path, "\n".join(lines) + "\n", encoding="ascii", newline="\r\n")

@@ -42,8 +42,8 @@ def keep_built_bodies(scene: bpy.types.Scene) -> None:
     """Remember which bodies were built, and where."""
     bodies = body_settings_of(scene)
     kept: dict[str, dict[str, list[float]]] = {kind.value: {} for kind in Kind}
-    for name, kind, place in zip(bodies.names, bodies.kinds, bodies.own_matrices[:, :3, 3].tolist(), strict=True):
-        kept[kind.value][name] = place
+    for name, kind, position in zip(bodies.names, bodies.kinds, bodies.own_matrices[:, :3, 3].tolist(), strict=True):
+        kept[kind.value][name] = position
     scene[_BODIES] = values_text(kept)
 
 
@@ -56,7 +56,7 @@ def changed_bodies(scene: bpy.types.Scene) -> list[str]:
     """Return sentences on bodies that are missing, were added or moved since a scene was built."""
     kept = values_from_text(scene.get(_BODIES, ""), {})
     bodies = body_settings_of(scene)
-    built = {name: np.array(place) for places in kept.values() for name, place in places.items()}
+    built = {name: np.array(position) for positions in kept.values() for name, position in positions.items()}
     if built.keys().isdisjoint(bodies.names):  # another demolition, or none that was built here
         return []
     return [*_missing(kept, bodies), *_added(built, bodies), *_moved(scene, built, bodies)]
@@ -82,8 +82,8 @@ def _moved(scene: bpy.types.Scene, built: dict[str, np.ndarray], bodies: BodySet
     rows = [row for row in _free_shards(bodies) if bodies.names[row] in built]
     if not rows:
         return
-    places = np.array([built[bodies.names[row]] for row in rows])
-    away_m = length(bodies.own_matrices[rows, :3, 3] - places)
+    positions = np.array([built[bodies.names[row]] for row in rows])
+    away_m = length(bodies.own_matrices[rows, :3, 3] - positions)
     moved = np.flatnonzero(away_m > _SAME_M)
     if not len(moved):
         return

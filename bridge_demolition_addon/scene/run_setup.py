@@ -139,8 +139,8 @@ def _unlike(bodies: BodySettings, name: str) -> list[Any]:
 
 def _shape_parts(setup: RunSetup) -> Parts:
     bodies = setup.bodies
-    places = bodies.own_matrices[~bodies.is_animated]
-    return {"places": places if len(places) else [], "vertices": bodies.vertex_counts, "boxes": bodies.boxes_m}
+    positions = bodies.own_matrices[~bodies.is_animated]
+    return {"places": positions if len(positions) else [], "vertices": bodies.vertex_counts, "boxes": bodies.boxes_m}
 
 
 def _mass_parts(setup: RunSetup) -> Parts:
@@ -211,7 +211,7 @@ class RunSetup:
         hashed=lambda setup: {"positions_m": setup.bodies.positions_m, "rotations": setup.bodies.rotations},
         compared={
             "which bodies there are": lambda setup: {"names": setup.bodies.names},
-            "places, shapes or sizes of bodies": _shape_parts,
+            "positions, shapes or sizes of bodies": _shape_parts,
             "masses of bodies": _mass_parts,
             "how bodies move and touch": _contact_parts,
             "animation of bodies": lambda setup: {"keys": setup.bodies.keys},

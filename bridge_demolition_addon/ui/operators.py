@@ -134,7 +134,7 @@ def refused(operator: bpy.types.Operator, error: Exception) -> set[str]:
 def absolute(path: str) -> Path:
     """Return the path that the user wrote, where ``//`` is the folder of the saved file."""
     if path.startswith("//") and not bpy.data.filepath:
-        raise OutputError(f"{path}: is relative to this file, which has no place yet; save it or give a full path")
+        raise OutputError(f"{path}: is relative to this file, which is not saved yet; save it or give a full path")
     return Path(bpy.path.abspath(path))
 
 

@@ -79,10 +79,10 @@ def _seconds(way: Callable, shards: list[TriangleMesh], connections: Connections
 def _ours(
     scene: bpy.types.Scene, ground: bpy.types.Object, shards: list[TriangleMesh], connections: Connections
 ) -> None:
-    places, masses = _places(len(shards)), np.full(len(shards), 100.0)
+    positions, masses = _places(len(shards)), np.full(len(shards), 100.0)
     joints, moments = [Joint("FIXED", breaking_force_n=BREAKING_FORCE_N)], np.tile(np.eye(2), (len(connections), 1, 1))
     with off_scene(scene) as (bodies, constraints):
-        made = create_shards(bodies, ShardSettings(), shards, places, masses)
+        made = create_shards(bodies, ShardSettings(), shards, positions, masses)
         held = create_connections(constraints, connections, made, ground, moments)
         set_joints(held, joints, np.zeros(len(held), int), TIME.step)
 
@@ -100,11 +100,11 @@ def _plain(
     constraint.type, constraint.use_breaking = "FIXED", True
     constraint.breaking_threshold = TIME.step.impulse(BREAKING_FORCE_N)
     bodies = []
-    for shard, place in zip(shards, _places(len(shards)), strict=True):
+    for shard, position in zip(shards, _places(len(shards)), strict=True):
         body = body_template.copy()
         body.data = bpy.data.meshes.new("Shard")
         body.data.from_pydata(shard.vertices, [], shard.triangles.tolist())
-        body.location, body.rigid_body.mass = place, 100.0
+        body.location, body.rigid_body.mass = position, 100.0
         bodies.append(body)
     for (first, second), point in zip(connections.pairs.tolist(), connections.points, strict=True):
         connection = connection_template.copy()

@@ -52,9 +52,9 @@ def borne(bed: Footings, settled_m: float, turn_rad: float = 0.0) -> np.ndarray:
     """Force and moment (6,) on the body, settled and turned so far."""
     cosine, sine = np.cos(turn_rad), np.sin(turn_rad)
     rotation = both(np.array([[cosine, 0.0, sine], [0.0, 1.0, 0.0], [-sine, 0.0, cosine]]))
-    places = np.array([[0.0, 0.0, -settled_m], [0.0, 0.0, 0.0]]).T
-    bed.settle(places, rotation)
-    return bed.in_substep(np.zeros(1, int), places, rotation, SUBSTEP_S).loads(AT_REST)[0][:, 0] / SUBSTEP_S
+    positions = np.array([[0.0, 0.0, -settled_m], [0.0, 0.0, 0.0]]).T
+    bed.settle(positions, rotation)
+    return bed.in_substep(np.zeros(1, int), positions, rotation, SUBSTEP_S).loads(AT_REST)[0][:, 0] / SUBSTEP_S
 
 
 def moment(bed: Footings, turn_rad: float) -> float:

@@ -143,10 +143,10 @@ def test_figure_12_charges_give_their_overpressure():
 def test_figure_13_each_charge_by_itself():
     curves = lines(two_span_charges(RATIO))
     assert list(curves) == ["left end", "mid pier", "right end"]
-    for place, name in ((-20.0, "left end"), (0.0, "mid pier"), (20.0, "right end")):
+    for position, name in ((-20.0, "left end"), (0.0, "mid pier"), (20.0, "right end")):
         x, ratio = curves[name].T
         # 10 m from 1000 kg is Z = 1.
-        away = abs(abs(x - place) - 10.0) < 1e-9
+        away = abs(abs(x - position) - 10.0) < 1e-9
         assert ratio[away] == pytest.approx(np.full(away.sum(), 934.86 / 101.325), rel=1e-5)
         assert away.any()
 
@@ -175,8 +175,8 @@ def test_the_map_over_time_shows_fronts_where_they_are():
     figure = two_span_over_time(KPA)
     mesh = figure.axes[0].collections[0]
     pressures, corners = mesh.get_array(), mesh.get_coordinates()
-    places, times = corners[0, :, 0], corners[:, 0, 1]
-    column = np.searchsorted(places, 5.0)
+    positions, times = corners[0, :, 0], corners[:, 0, 1]
+    column = np.searchsorted(positions, 5.0)
     first = np.flatnonzero(pressures[:, column] > 50.0)[0]
     assert times[first] == pytest.approx(1e3 * blast_wave(5.0, 1000.0).arrival_time_s, abs=2.0 * np.diff(times).max())
 

@@ -19,8 +19,8 @@ def with_line(key, line):
     table, _, name = key.rpartition(".")
     lines = RIGHT.splitlines()
     start = lines.index(f"[{table}]")
-    place = next(place for place in range(start, len(lines)) if lines[place].startswith(f"{name} = "))
-    return "\n".join([*lines[:place], line, *lines[place + 1 :]])
+    position = next(position for position in range(start, len(lines)) if lines[position].startswith(f"{name} = "))
+    return "\n".join([*lines[:position], line, *lines[position + 1 :]])
 
 
 def with_value(key, value):

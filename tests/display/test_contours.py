@@ -195,13 +195,13 @@ def test_rows_by_frames(series):
 
 def test_connections_move_with_their_first_bodies(series):
     first, last = series.frame(0), series.frame(4)
-    places, forces = connection_forces(last, first, series.pairs, series.points_m)
-    assert len(places) == len(forces) == 1  # the other is broken
+    positions, forces = connection_forces(last, first, series.pairs, series.points_m)
+    assert len(positions) == len(forces) == 1  # the other is broken
     turned = replace(last, rotations=last.rotations.copy())
     turned.rotations[UPPER] = [[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]]
-    places, _ = connection_forces(turned, first, series.pairs, series.points_m)
+    positions, _ = connection_forces(turned, first, series.pairs, series.points_m)
     arm = POINTS[0] - first.positions_m[UPPER]  # 2 m above: a quarter turn about x takes it to -y
-    assert places[0] == pytest.approx(first.positions_m[UPPER] + [0.0, -arm[2], 0.0])
+    assert positions[0] == pytest.approx(first.positions_m[UPPER] + [0.0, -arm[2], 0.0])
 
 
 def test_contact_forces_are_impulses_over_the_frame(series):

@@ -61,8 +61,8 @@ def test_an_exclusion_zone_before_a_run_is_drop_and_buffer():
 
 
 def test_a_way_goes_through_all_places_and_a_cross_is_in_its_middle():
-    places = np.array([(0.0, 0.0, 9.0), (0.0, 0.0, 5.0), (3.0, 0.0, 1.0)])
-    assert total_length(way_lines(places)) == pytest.approx(4.0 + 5.0)
+    positions = np.array([(0.0, 0.0, 9.0), (0.0, 0.0, 5.0), (3.0, 0.0, 1.0)])
+    assert total_length(way_lines(positions)) == pytest.approx(4.0 + 5.0)
     cross = cross_lines((1.0, 2.0, 3.0), 0.5)
     assert cross.mean(axis=0) == pytest.approx((1.0, 2.0, 3.0)) and total_length(cross) == pytest.approx(3.0)
 

@@ -74,8 +74,8 @@ def test_usd_has_every_body_at_its_place_in_every_frame(exported, stage):
         cache = UsdGeom.XformCache(FIRST + (time_s - frames.time_s[0]) * per_second)
         for body, prim in enumerate(prims.values()):
             matrix = np.array(cache.GetLocalToWorldTransform(prim))  # of rows: points stand before it
-            place, turn = matrix[3, :3], matrix[:3, :3].T
-            assert place == pytest.approx(frames.positions_m[row, body], abs=SMALLEST_M)
+            position, turn = matrix[3, :3], matrix[:3, :3].T
+            assert position == pytest.approx(frames.positions_m[row, body], abs=SMALLEST_M)
             assert turn == pytest.approx(frames.rotations[row, body], abs=SMALLEST_M)
 
 

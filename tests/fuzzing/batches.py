@@ -65,7 +65,7 @@ class Outcome:
     @property
     def refused(self) -> tuple[int, ...]:
         """Which of its steps were refused."""
-        return tuple(place for place, words in enumerate(self.done) if f": {REFUSED}: " in words)
+        return tuple(position for position, words in enumerate(self.done) if f": {REFUSED}: " in words)
 
 
 def outcomes(player: str, sequences: Sequence[Drawn], *, bare: bool = False) -> Iterator[Outcome]:

@@ -195,6 +195,6 @@ def _changed(array: np.ndarray, number: int, random: Random) -> np.ndarray:
     if number == 5:
         return array[::-1]
     changed = array.copy()
-    place = tuple(random.randrange(size) for size in array.shape)
-    changed[place] = random.choice(NUMBERS) if array.dtype.kind == "f" else random.choice((0, 1, 2**30))
+    position = tuple(random.randrange(size) for size in array.shape)
+    changed[position] = random.choice(NUMBERS) if array.dtype.kind == "f" else random.choice((0, 1, 2**30))
     return changed

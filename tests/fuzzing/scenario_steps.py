@@ -91,8 +91,10 @@ class ScenarioPlayer(Player):
     def misspell(self, random: Random) -> str:
         lines = self._lines()
         row = random.randrange(len(lines))
-        place = random.randint(0, len(lines[row]))
-        lines[row] = lines[row][:place] + random.choice((b"x", b".", b"[", b'"', b"\xff")) + lines[row][place + 1 :]
+        position = random.randint(0, len(lines[row]))
+        lines[row] = (
+            lines[row][:position] + random.choice((b"x", b".", b"[", b'"', b"\xff")) + lines[row][position + 1 :]
+        )
         return self._write(lines, lines[row])
 
     def join_with_another(self, random: Random) -> str:
@@ -107,9 +109,9 @@ class ScenarioPlayer(Player):
         return self._write([b"[scenario]", f'based_on = "{base}"'.encode(), *self._lines()[1:]], base.encode())
 
     def flip_byte(self, random: Random) -> str:
-        place = random.randrange(len(self.content))
-        self.content = self.content[:place] + random.randbytes(1) + self.content[place + 1 :]
-        return str(place)
+        position = random.randrange(len(self.content))
+        self.content = self.content[:position] + random.randbytes(1) + self.content[position + 1 :]
+        return str(position)
 
     def cut_off(self, random: Random) -> str:
         self.content = self.content[: random.randrange(len(self.content))] or b"\n"

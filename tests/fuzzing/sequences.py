@@ -60,7 +60,7 @@ class Drawn(NamedTuple):
         if self.most is not None:
             rows = rows[: self.most] + [row for row in rows[self.most :] if row >= len(steps) - len(player.last)]
         done = [steps[row] for row in rows]
-        return [(player.idle if place in self.refused else name, seed) for place, (name, seed) in enumerate(done)]
+        return [(player.idle if position in self.refused else name, seed) for position, (name, seed) in enumerate(done)]
 
 
 class WrongError(Exception):

@@ -74,7 +74,7 @@ def drag_height(person: Person) -> Steps:
     before = person.scene.bda.scenario.ball.drop_height_m
     x, y, z = place_of(person, "DROP", is_upright=True)
     start, end = (on_screen(person, (x, y, height)) for height in (z, z + 1.0))
-    start, end = ((place[0], place[1] + ARROW_PX) for place in (start, end))
+    start, end = ((position[0], position[1] + ARROW_PX) for position in (start, end))
     yield from hold(person, start, end, "height_dragged")
     yield 0.3
     risen = person.scene.bda.scenario.ball.drop_height_m - before
@@ -94,11 +94,13 @@ def drag_charge(person: Person) -> Steps:
     start, goal = (1.0, -1.0, 1.0), (3.0, -1.5, 1.0)
     yield from hold(person, on_screen(person, start), on_screen(person, goal), "charge_dragged")
     yield 0.3
-    place = tuple(bpy.data.objects["Charge 1"].location)
-    person.note("the charge is where it was dragged to", "" if np.allclose(place, goal, atol=0.3) else f"it is {place}")
+    position = tuple(bpy.data.objects["Charge 1"].location)
+    person.note(
+        "the charge is where it was dragged to", "" if np.allclose(position, goal, atol=0.3) else f"it is {position}"
+    )
     yield from undo(person)
-    place = tuple(bpy.data.objects["Charge 1"].location)
-    person.expect("undo puts the charge back", np.allclose(place, start))
+    position = tuple(bpy.data.objects["Charge 1"].location)
+    person.expect("undo puts the charge back", np.allclose(position, start))
     person.take_reports()
 
 

@@ -67,8 +67,11 @@ def make_many(person: Person) -> Steps:
     yield from person.wait_for("it is built", lambda: person.scene.rigidbody_world is not None)
     charge = module("model.blast.charges").Charge
     create = module("scene.blast.charges").create_charges
-    places = [(0.08 * number, 0.0, 2.0) for number in range(CHARGES)]
-    create(person.scene, [charge(name=f"Charge {n}", place_m=place, mass_kg=1.0) for n, place in enumerate(places, 1)])
+    positions = [(0.08 * number, 0.0, 2.0) for number in range(CHARGES)]
+    create(
+        person.scene,
+        [charge(name=f"Charge {n}", place_m=position, mass_kg=1.0) for n, position in enumerate(positions, 1)],
+    )
     settings.charge_index = 5
     yield 0.5
 

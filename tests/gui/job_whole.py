@@ -333,12 +333,14 @@ def scrub(person: Person) -> Steps:
     yield from drag_to_frame(person, 5, LAST_FRAME)
     person.expect("dragging in the timeline goes to the last frame", person.scene.frame_current, LAST_FRAME)
     graph = person.window.view_layer.depsgraph
-    places = {
+    positions = {
         obj.name: np.array(obj.evaluated_get(graph).matrix_world.translation)
         for obj in person.scene.rigidbody_world.collection.objects
     }
     last = {row["body"]: row for row in rows(person.folder / "my_debris_log.csv") if int(row["frame"]) == LAST_FRAME}
-    apart = [np.linalg.norm(places[name] - [float(row[f"{axis}_m"]) for axis in "xyz"]) for name, row in last.items()]
+    apart = [
+        np.linalg.norm(positions[name] - [float(row[f"{axis}_m"]) for axis in "xyz"]) for name, row in last.items()
+    ]
     person.expect("bodies lie where the debris log says", max(apart, default=math.inf) < 1e-3)
     late = colours(person, shown=True)
     yield from person.picture("scrubbed_to_the_end")

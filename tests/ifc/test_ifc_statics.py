@@ -33,10 +33,10 @@ def bearings(tmp_path_factory):
 
 
 def test_each_bearing_is_one_connection_where_it_lies(bearings):
-    places, _ = bearings
+    positions, _ = bearings
     expected = [(0.5 + along, across, 3.6) for along in (0.0, 10.0, 20.0) for across in (-1.0, 1.0)]
-    order = np.lexsort(places.round(6).T[::-1])
-    assert places[order] == pytest.approx(np.array(expected), abs=1e-6)
+    order = np.lexsort(positions.round(6).T[::-1])
+    assert positions[order] == pytest.approx(np.array(expected), abs=1e-6)
 
 
 def test_bearings_bear_all_that_lies_on_them(bearings):
@@ -51,15 +51,15 @@ def test_the_middle_support_bears_between_simple_spans_and_a_beam_on_rigid_suppo
     The moment over the middle is q (10² / 8 - 0.5² / 4) = 12.44 q m², so that it bears 12.46 q of 21 q; of two simple
     spans it bears 10 q. Random shards, a cap and a column that give way bring it in between.
     """
-    places, loads = bearings
-    middle = abs(places[:, 0] - 10.5) < 0.1
+    positions, loads = bearings
+    middle = abs(positions[:, 0] - 10.5) < 0.1
     share = loads[middle, 2].sum() / loads[:, 2].sum()
     assert 10.0 / 21.0 < share < 12.46 / 21.0
 
 
 def test_what_is_free_bears_nothing(bearings):
     """Rollers, on the abutments: no force along the road. All: no moment about the axis across it."""
-    places, loads = bearings
+    positions, loads = bearings
     heaviest = abs(loads[:, 2]).max()
-    assert abs(loads[abs(places[:, 0] - 10.5) > 1.0, 0]).max() < 1e-6 * heaviest
+    assert abs(loads[abs(positions[:, 0] - 10.5) > 1.0, 0]).max() < 1e-6 * heaviest
     assert abs(loads[:, 4]).max() < 1e-6 * heaviest

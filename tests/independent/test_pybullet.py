@@ -80,8 +80,8 @@ def fall_in_engine(engine, mass_kg, radius_m, height_m, restitution):
     """The same in pybullet: velocity, height above the plate and impulse of the contacts, (k, 3) after each step."""
     surface = np.sqrt(restitution)
     block_in_engine(engine, (0, 0, -0.5), size_m=(6, 6, 1), restitution=surface)
-    place = (0, 0, height_m + radius_m)
-    ball = body_in_engine(engine, pybullet.GEOM_SPHERE, place, mass_kg, surface, radius=radius_m)
+    position = (0, 0, height_m + radius_m)
+    ball = body_in_engine(engine, pybullet.GEOM_SPHERE, position, mass_kg, surface, radius=radius_m)
     fall = []
     for _ in range(STEPS_PER_SECOND):
         pybullet.stepSimulation(physicsClientId=engine)
@@ -148,17 +148,17 @@ def test_pile_at_rest(blender, tmp_path, engine):
     gap = 0.005
     layers = np.array([0, 0, 0, 1, 1, 2])
     along = np.array([0.0, 1.1, 2.2, 0.5, 1.6, 1.0])
-    places = np.column_stack((along, np.zeros(6), 0.5 + layers + gap * (layers + 1)))
+    positions = np.column_stack((along, np.zeros(6), 0.5 + layers + gap * (layers + 1)))
     masses = np.array([500.0, 700.0, 600.0, 400.0, 300.0, 800.0])
 
     blocks = scene_in_engine_steps()
     blocks.block(**GROUND)
-    for place, mass in zip(places, masses, strict=True):
-        blocks.block(place, mass)
+    for position, mass in zip(positions, masses, strict=True):
+        blocks.block(position, mass)
     results = blocks.play(tmp_path, SECONDS_TO_REST * STEPS_PER_SECOND)
 
     ground = block_in_engine(engine, **GROUND)
-    pile = [block_in_engine(engine, place, mass) for place, mass in zip(places, masses, strict=True)]
+    pile = [block_in_engine(engine, position, mass) for position, mass in zip(positions, masses, strict=True)]
     come_to_rest(engine)
     computed = places_in_engine(engine, pile)
 
@@ -198,9 +198,9 @@ def test_forces_through_a_pile_at_rest(blender, tmp_path, engine):
         ball = blocks.block((x, y, radius), mass, np.full(3, 2 * radius))
         ball.rigid_body.collision_shape = "SPHERE"
         pile.append(body_in_engine(engine, pybullet.GEOM_SPHERE, (x, y, radius), mass, radius=radius))
-    for place, size, mass in boxes.values():
-        blocks.block(place, mass, size)
-        pile.append(block_in_engine(engine, place, mass, size))
+    for position, size, mass in boxes.values():
+        blocks.block(position, mass, size)
+        pile.append(block_in_engine(engine, position, mass, size))
     results = blocks.play(tmp_path, SECONDS_TO_REST * STEPS_PER_SECOND)
     come_to_rest(engine)
     resultants, sums = forces_in_engine(engine, [ground, *pile])
@@ -212,7 +212,7 @@ def test_forces_through_a_pile_at_rest(blender, tmp_path, engine):
 
     # By hand: three supports, from the balance of forces and of moments about both axes.
     arms = np.vstack((np.ones(3), supports.T))
-    centres = np.array([place[:2] for place, *_ in boxes.values()])
+    centres = np.array([position[:2] for position, *_ in boxes.values()])
     loads = weights[3:] @ np.column_stack((np.ones(3), centres))
     carried = np.linalg.solve(arms, loads)
     lower, upper = weights[4:]

@@ -24,9 +24,9 @@ def main(name: str, folder: str, busy_s: str, *options: str) -> None:
         faulthandler.enable()
         faulthandler.register(signal.SIGPROF, chain=True)  # prints where it is, and lets it end
         for line in sys.stdin:
-            with tempfile.TemporaryDirectory(dir=folder, ignore_cleanup_errors=True) as place:
-                os.chdir(place)
-                player = player_class(Path(place), bare="--bare" in options)
+            with tempfile.TemporaryDirectory(dir=folder, ignore_cleanup_errors=True) as position:
+                os.chdir(position)
+                player = player_class(Path(position), bare="--bare" in options)
                 play(player, Drawn(*json.loads(line)).steps(player_class), tell, busy_s=float(busy_s))
                 player.end()
                 os.chdir(folder)

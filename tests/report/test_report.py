@@ -377,10 +377,10 @@ def test_what_is_no_run_is_refused(tmp_path, what):
 @pytest.mark.parametrize("share, words", [(0.0, "nothing moved"), (1.0, "not at rest at the end")])
 def test_a_bridge_that_stands_is_not_told_of_as_one_that_still_falls(tmp_path, share, words):
     flying = flying_shards(6, 13)
-    places, speeds = flying.frames.positions_m, flying.frames.velocities_m_s
+    positions, speeds = flying.frames.positions_m, flying.frames.velocities_m_s
     run = keep_run(
         tmp_path / "run",
-        changed(flying, places_m=places[:1] + share * (places - places[:1]), velocities_m_s=share * speeds),
+        changed(flying, places_m=positions[:1] + share * (positions - positions[:1]), velocities_m_s=share * speeds),
     )
     read = read_run(run)
     (rest,) = (

@@ -65,9 +65,9 @@ def measured_mm(lines):
     FigureCanvasAgg(figure)
     mm = 25.4 / figure.dpi
     for line in lines:
-        place = line.left_mm / PAGE_MM[0], 1.0 - line.base_mm / PAGE_MM[1]
+        position = line.left_mm / PAGE_MM[0], 1.0 - line.base_mm / PAGE_MM[1]
         font = {"size": line.font.size_pt, "weight": line.font.weight, "family": line.font.family}
-        box = figure.text(*place, line.text, va="baseline", parse_math=False, **font).get_window_extent()
+        box = figure.text(*position, line.text, va="baseline", parse_math=False, **font).get_window_extent()
         yield box.x0 * mm, PAGE_MM[1] - box.y1 * mm, box.x1 * mm, PAGE_MM[1] - box.y0 * mm
 
 

@@ -72,8 +72,8 @@ def test_bearings_run_clockwise_from_north(bearing, x_goes, y_goes):
     site = Site(latitude_deg=0.0, longitude_deg=0.0, bearing_deg=bearing)
     directions = {"north": (0, 1), "south": (0, -1), "east": (1, 0), "west": (-1, 0)}
     for point, name in (((100.0, 0.0), x_goes), ((0.0, 100.0), y_goes)):
-        (place,) = degrees(np.array([point]), site)
-        np.testing.assert_allclose(place / np.abs(place).max(), directions[name], atol=1e-9)
+        (position,) = degrees(np.array([point]), site)
+        np.testing.assert_allclose(position / np.abs(position).max(), directions[name], atol=1e-9)
 
 
 def spherical_offset(latitude, east_m, north_m):
@@ -87,9 +87,9 @@ def spherical_offset(latitude, east_m, north_m):
 @pytest.mark.parametrize("latitude", [0.0, 60.0, 85.0, 89.0, -89.0])
 def test_meridians_meet_towards_the_poles(latitude):
     east, north = 800.0, 600.0
-    (place,) = degrees(np.array([[east, north]]), Site(latitude_deg=latitude, longitude_deg=0.0))
+    (position,) = degrees(np.array([[east, north]]), Site(latitude_deg=latitude, longitude_deg=0.0))
     # A sphere is not the ellipsoid: lengths of its degrees differ by up to 1 %, what is bent does not.
-    assert place - (0.0, latitude) == pytest.approx(spherical_offset(latitude, east, north), rel=0.01)
+    assert position - (0.0, latitude) == pytest.approx(spherical_offset(latitude, east, north), rel=0.01)
     straight, _ = degrees(np.array([[1000.0, 0.0], [0.0, 0.0]]), Site(latitude_deg=latitude, longitude_deg=0.0))
     # To the side of a meridian the way east bends towards the pole: by d² tan(latitude) / 2 r.
     bend_m = (abs(latitude) - abs(straight[1])) * 111_694.0

@@ -69,11 +69,11 @@ def test_volume_is_that_of_the_mesh_as_it_is_edited_last(blocks):
 def test_meshes_without_faces_have_no_volume(blender, blocks):
     """Bullet makes boxes of loose corners too; those next to them in order keep their volumes."""
     corners = [(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]
-    for place in range(3):
+    for position in range(3):
         mesh = blender.data.meshes.new("Corners")
-        mesh.from_pydata(corners if place else [], [], [])
+        mesh.from_pydata(corners if position else [], [], [])
         blocks.world.collection.objects.link(blender.data.objects.new("Corners", mesh))
-        blocks.block((place, 0, 0), 1.0)
+        blocks.block((position, 0, 0), 1.0)
     blocks.world.collection.objects.link(blender.data.objects.new("Corners", mesh))
     volumes = inventory_of(blocks.scene).volumes_m3
     np.testing.assert_allclose(volumes, [0, 1, 0, 1, 0, 1, 0], rtol=SINGLE)

@@ -154,15 +154,15 @@ def test_supports_hold_their_shards(blender):
     shards = shards_of(scene)
     assert [body.rigid_body.type == "PASSIVE" for body in shards] == model.fixed.tolist()
     assert model.fixed.any() and not model.fixed.all()
-    places = [body.location.copy() for body in shards]
+    positions = [body.location.copy() for body in shards]
     for connection in connections_of(scene):
         connection.rigid_body_constraint.enabled = False
     for frame in range(1, 20):
         scene.frame_set(frame)
     graph = blender.context.evaluated_depsgraph_get()
     moved = [
-        (body.evaluated_get(graph).matrix_world.translation - place).length
-        for body, place in zip(shards, places, strict=True)
+        (body.evaluated_get(graph).matrix_world.translation - position).length
+        for body, position in zip(shards, positions, strict=True)
     ]
     assert max(np.array(moved)[model.fixed]) == 0.0
     assert max(np.array(moved)[~model.fixed]) > 0.01  # overhanging ends of the deck come down

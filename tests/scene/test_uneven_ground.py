@@ -53,24 +53,24 @@ def test_a_ball_comes_to_rest_at_the_bottom_of_a_bowl(blender):
     The bowl is of flat triangles with sides of half a metre, up to 0.5² / (8 × 20) = 1.6 mm above it, and thinned by
     5 mm at most.
     """
-    place, _ = at_rest(
+    position, _ = at_rest(
         blender, lambda x, y: (x * x + y * y) / (2 * BOWL_M), "SPHERE", sphere(RADIUS, 48), (3.0, 0.1, 9.0), 16
     )
-    away = float(np.hypot(*place[:2]))
+    away = float(np.hypot(*position[:2]))
     assert away < 1.0
     # The centre of a ball in a larger sphere is at BOWL - RADIUS from its middle.
     inside = BOWL_M - RADIUS
     expected = LEVEL_M + BOWL_M - np.sqrt(inside * inside - away * away)
-    assert place[2] == pytest.approx(expected, abs=SUNK_M + 0.0016 + 0.005)
+    assert position[2] == pytest.approx(expected, abs=SUNK_M + 0.0016 + 0.005)
 
 
 def test_a_block_comes_to_rest_on_a_slope_and_leans_with_it(blender):
     """A slope of 1 in 5 holds a block with a coefficient of friction of 0.8; its middle is half its height above it."""
-    place, axes = at_rest(
+    position, axes = at_rest(
         blender, lambda x, y: SLOPE * x, "CONVEX_HULL", box((1.0, 1.0, 1.0)), (0.0, 0.1, LEVEL_M + 1.2)
     )
     length = np.sqrt(1.0 + SLOPE * SLOPE)
-    assert (place[2] - LEVEL_M - SLOPE * place[0]) / length == pytest.approx(0.5, abs=SUNK_M)
+    assert (position[2] - LEVEL_M - SLOPE * position[0]) / length == pytest.approx(0.5, abs=SUNK_M)
     normal = np.array([-SLOPE, 0.0, 1.0]) / length
     # One of its axes is the slope's normal, to the angle by which a side sinks in more than the other.
     assert np.abs(axes.T @ normal).max() > np.cos(2 * SUNK_M)
@@ -133,9 +133,9 @@ def test_a_run_keeps_its_ground_and_the_bridge_stands_on_it(built, tmp_path):
         # Unheld it would have fallen by 0.3 m.
         assert np.abs(fallen).max() < 0.01
     ground = load_results(tmp_path / "results.npz").ground()
-    places = np.random.default_rng(4).uniform(-30.0, 30.0, (100, 2))
+    positions = np.random.default_rng(4).uniform(-30.0, 30.0, (100, 2))
     # Single precision of Blender, of heights up to some metres.
-    np.testing.assert_allclose(ground.terrain.heights_at(places), model.ground.heights_at(places), atol=1e-5)
+    np.testing.assert_allclose(ground.terrain.heights_at(positions), model.ground.heights_at(positions), atol=1e-5)
     (river,) = ground.surfaces
     assert (river.name, river.kind) == ("river", "water")
     assert river.plan().area() == pytest.approx(37.0 * 18.0, rel=1e-6)
@@ -162,8 +162,8 @@ def test_what_is_laid_and_looked_at_follows_the_ground(built, blender, tmp_path)
     far = np.abs(corners[:, 0] - 6.5) > 8.0  # from the columns, under which the ground is level
     expected = np.maximum(0.1 * corners[:, 0], heights) + 0.01
     np.testing.assert_allclose(corners[far, 2], expected[far], atol=1e-4)
-    place = terrain_under(scene, Vector((30.0, 5.0, 50.0)), Vector((0.0, 0.0, -1.0)))
-    assert tuple(place) == pytest.approx((30.0, 5.0, 3.0), abs=1e-4)
+    position = terrain_under(scene, Vector((30.0, 5.0, 50.0)), Vector((0.0, 0.0, -1.0)))
+    assert tuple(position) == pytest.approx((30.0, 5.0, 3.0), abs=1e-4)
     assert terrain_under(scene, Vector((30.0, 5.0, 50.0)), Vector((0.0, 0.0, 1.0))) is None
     assert terrain_facts(scene)["triangles"] == model.ground.facts.triangles
     assert ground_of(scene).surfaces[0].name == "river"

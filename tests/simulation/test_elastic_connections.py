@@ -187,11 +187,12 @@ def test_a_support_that_sinks_bends_a_beam(blender, tmp_path, held, moment, shea
 @pytest.mark.parametrize("order", [(0, 1, 2), (2, 1, 0), (1, 0, 2)])
 def test_three_posts_share_a_load_by_stiffness_whatever_their_order(blender, tmp_path, order):
     blocks, mass = Blocks(), 20_000.0
-    stiff, places = np.array([4e10, 1e10, 2e10]), np.array([-3.0, 0.5, 3.0])
+    stiff, positions = np.array([4e10, 1e10, 2e10]), np.array([-3.0, 0.5, 3.0])
     beam = blocks.block((0, 0, 10), mass, (8, 1, 1))
-    posts = [blocks.block((places[place], 0, 9)) for place in order]
+    posts = [blocks.block((positions[position], 0, 9)) for position in order]
     joints = [
-        blocks.connect("FIXED", (places[place], 0, 9.5), post, beam) for place, post in zip(order, posts, strict=True)
+        blocks.connect("FIXED", (positions[position], 0, 9.5), post, beam)
+        for position, post in zip(order, posts, strict=True)
     ]
     for joint in joints:
         joint["bda_area_m2"], joint["bda_normal"] = 1.0, (0.0, 0.0, 1.0)
@@ -201,9 +202,11 @@ def test_three_posts_share_a_load_by_stiffness_whatever_their_order(blender, tmp
     make_elastic(blocks.scene, joints, SectionStiffness(axial, shear, none, np.zeros((3, 2, 2))))
     results = blocks.play(tmp_path, 12)
     rows = [results.inventory.connection_names.tolist().index(constraint.name) for constraint in joints]
-    sums = np.array([[stiff.sum(), (stiff * places).sum()], [(stiff * places).sum(), (stiff * places**2).sum()]])
+    sums = np.array(
+        [[stiff.sum(), (stiff * positions).sum()], [(stiff * positions).sum(), (stiff * positions**2).sum()]]
+    )
     sink, slope = np.linalg.solve(sums, [mass * GRAVITY, 0.0])
-    shares = (stiff * (sink + slope * places))[list(order)]
+    shares = (stiff * (sink + slope * positions))[list(order)]
     found = abs(results.frames.loads.connection_forces_n[-1][rows, 2])
     np.testing.assert_allclose(found, shares, rtol=1e-5)
 
@@ -400,9 +403,9 @@ def test_a_wave_runs_through_a_bar_at_the_speed_of_sound(blender, tmp_path):
     make_elastic(blocks.scene, joints, square_sections(np.append(0.5, np.ones(count - 1))), damping_ratio=0.0)
     wall.rigid_body.kinematic = True
     frames = np.array([3.0, 13.0])
-    places = np.tile((-0.5, 0.0, 10.0), (2, 1))
-    places[1, 0] += speed * 10 / rate
-    key_values(wall, "location", frames, places)
+    positions = np.tile((-0.5, 0.0, 10.0), (2, 1))
+    positions[1, 0] += speed * 10 / rate
+    key_values(wall, "location", frames, positions)
     results = blocks.play(tmp_path, 8)
     names = results.inventory.body_names.tolist()
     speeds = results.frames.velocities_m_s[:, [names.index(block.name) for block in bar], 0]

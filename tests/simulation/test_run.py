@@ -116,8 +116,8 @@ def test_logs_hold_what_was_recorded(span):
     assert [row["body"] for row in debris] == 2 * results.inventory.body_names.tolist()
     assert {int(row["frame"]) for row in debris[:count]} == {int(results.frames.number[0])}
     assert {int(row["frame"]) for row in debris[count:]} == {int(results.frames.number[-1])}
-    places = np.array([[float(row[f"{axis}_m"]) for axis in "xyz"] for row in debris]).reshape(2, count, 3)
-    np.testing.assert_allclose(places, results.frames.positions_m[[0, -1]], rtol=1e-7, atol=1e-8)
+    positions = np.array([[float(row[f"{axis}_m"]) for axis in "xyz"] for row in debris]).reshape(2, count, 3)
+    np.testing.assert_allclose(positions, results.frames.positions_m[[0, -1]], rtol=1e-7, atol=1e-8)
     throws = [float(row["throw_m"]) for row in debris[count:] if row["body"].startswith("Shard")]
     assert max(throws) == pytest.approx(summary["largest_throw"]["throw_m"], rel=1e-6)
 
@@ -144,9 +144,9 @@ def test_saved_scene_plays_what_was_recorded(span, blender):
         graph = blender.context.evaluated_depsgraph_get()
         for body in (1, 50, 150):
             name = str(results.inventory.body_names[body])
-            place = blender.data.objects[name].evaluated_get(graph).matrix_world.translation
+            position = blender.data.objects[name].evaluated_get(graph).matrix_world.translation
             # The cache keeps single precision.
-            np.testing.assert_allclose(place, results.frames.positions_m[step, body], atol=1e-5)
+            np.testing.assert_allclose(position, results.frames.positions_m[step, body], atol=1e-5)
 
 
 def test_files_of_a_run_that_has_ended_are_let_go_of(tmp_path):

@@ -116,15 +116,17 @@ def test_an_orbit_keeps_the_bridge_in_view_all_the_way(blender):
     scene.render.resolution_x, scene.render.resolution_y = 160, 90
     view = PictureSettings(camera="orbiting", orbit_deg=360.0)
     camera = aim_camera(scene, points, 160 / 90, view=view)
-    places = []
+    positions = []
     for frame in range(1, 42, 5):
         scene.frame_set(frame)
         seen = np.array([world_to_camera_view(scene, camera, Vector(point)) for point in points])
         assert (seen[:, :2] > 0.0).all() and (seen[:, :2] < 1.0).all() and (seen[:, 2] > 0.0).all()
-        places.append(np.array(camera.matrix_world.translation))
-    np.testing.assert_allclose(places[0], places[-1], atol=1e-3)  # once round
-    np.testing.assert_allclose(np.mean(places[:-1], axis=0)[:2], (13.0, 0.0), atol=1e-3)
-    turned = np.arctan2(*(places[1] - (13.0, 0.0, 0.0))[[1, 0]]) - np.arctan2(*(places[0] - (13.0, 0.0, 0.0))[[1, 0]])
+        positions.append(np.array(camera.matrix_world.translation))
+    np.testing.assert_allclose(positions[0], positions[-1], atol=1e-3)  # once round
+    np.testing.assert_allclose(np.mean(positions[:-1], axis=0)[:2], (13.0, 0.0), atol=1e-3)
+    turned = np.arctan2(*(positions[1] - (13.0, 0.0, 0.0))[[1, 0]]) - np.arctan2(
+        *(positions[0] - (13.0, 0.0, 0.0))[[1, 0]]
+    )
     assert np.degrees(turned) == pytest.approx(45.0, abs=1e-3)  # counter-clockwise, an eighth of the way
 
 

@@ -130,8 +130,8 @@ def test_works_of_a_toppled_tower_add_up_to_its_kinetic_energy(blender, tmp_path
 def test_energy_of_blocks_that_overlapped_is_made_by_the_solver(blender, tmp_path):
     blocks = Blocks(frames_per_second=48, substeps_per_frame=10)
     blocks.scene.gravity = (0.0, 0.0, 0.0)
-    for place in (0.0, 0.9):
-        blocks.block((place, 0, 5), 100.0)
+    for position in (0.0, 0.9):
+        blocks.block((position, 0, 5), 100.0)
     results = blocks.play(tmp_path, 20)
     kinetic = energy_of(results, 0.0).kinetic_j
     assert kinetic.max() > 0.1  # 0.1 m of overlap: Bullet throws them apart

@@ -9,7 +9,7 @@ import numpy as np
 
 from bridge_demolition_addon.engineering.elasticity.equations import RigidBodies, stressed
 from bridge_demolition_addon.engineering.elasticity.equilibrium import Equilibrium, equilibrium
-from bridge_demolition_addon.engineering.elasticity.joint_rows import JointFrames, joint_places
+from bridge_demolition_addon.engineering.elasticity.joint_rows import JointFrames, joint_positions
 from bridge_demolition_addon.engineering.elasticity.section_stiffness import ElasticModuli, section_stiffness
 
 CONCRETE = ElasticModuli(30e9, 0.2)
@@ -35,8 +35,8 @@ class ElasticBodies:
 
     def amounts(self, rest: Equilibrium) -> np.ndarray:
         """Forces and moments (6, m) in the rows of the connections there, pulling the first body to the second."""
-        before = joint_places(self.frames, self.positions_m, self.rotations).deformations()
-        after = joint_places(self.frames, rest.positions_m, rest.rotations).deformations()
+        before = joint_positions(self.frames, self.positions_m, self.rotations).deformations()
+        after = joint_positions(self.frames, rest.positions_m, rest.rotations).deformations()
         return stressed(self.stiffness, after - before)
 
 

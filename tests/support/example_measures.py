@@ -182,8 +182,8 @@ def from_path(run: ExampleRun, bodies: np.ndarray) -> np.ndarray:
     (hammer,) = run.scenario.jackhammers
     (first, across), (last, _) = hammer.path_m
     end = min(last, first + hammer.speed_m_s * (hammer.end_time_s - hammer.start_time_s))
-    places = run.results.frames.positions_m[0, bodies]
-    return np.hypot(places[:, 0] - np.clip(places[:, 0], first, end), places[:, 1] - across)
+    positions = run.results.frames.positions_m[0, bodies]
+    return np.hypot(positions[:, 0] - np.clip(positions[:, 0], first, end), positions[:, 1] - across)
 
 
 def slot_of_the_jackhammer(run: ExampleRun) -> dict[str, float | None]:

@@ -77,8 +77,8 @@ class ExampleRun:
 
     def near(self, charge, distance_m):
         """Shards whose centres of mass are at first within a distance of a charge."""
-        places = self.results.frames.positions_m[0, self.shards]
-        return self.shards[np.linalg.norm(places - np.array(charge.place_m), axis=1) < distance_m]
+        positions = self.results.frames.positions_m[0, self.shards]
+        return self.shards[np.linalg.norm(positions - np.array(charge.place_m), axis=1) < distance_m]
 
 
 FALL_S = 0.7

@@ -160,11 +160,11 @@ class IfcBridge:
         """Footings, abutments, the pier and its cap."""
         concrete = self.material("C30/37")
         for number, along in enumerate((0.0, 10.0, 20.0), start=1):
-            size, place = (3.0, 5.0, 0.5), (along, 0.0, 0.0)
-            self.box("IfcFooting", f"Footing {number}", size, place, "FOUNDATION", material=concrete)
+            size, position = (3.0, 5.0, 0.5), (along, 0.0, 0.0)
+            self.box("IfcFooting", f"Footing {number}", size, position, "FOUNDATION", material=concrete)
         for number, along in enumerate((0.0, 20.0), start=1):
-            size, place = (1.0, 4.0, 3.0), (along, 0.0, 0.5)
-            self.box("IfcWall", f"Abutment {number}", size, place, "ABUTMENT", material=concrete)
+            size, position = (1.0, 4.0, 3.0), (along, 0.0, 0.5)
+            self.box("IfcWall", f"Abutment {number}", size, position, "ABUTMENT", material=concrete)
         self.box("IfcColumn", "Column", (1.0, 1.0, 2.4), (10.0, 0.0, 0.5), "PIER", material=concrete)
         cap = (1.0, 4.0, 0.6), (10.0, 0.0, 2.9), "PIER"
         self.box("IfcBeam", "Crosshead", *cap, predefined="PIERCAP", material=concrete)
@@ -175,16 +175,16 @@ class IfcBridge:
         for number, (along, predefined) in enumerate(((0.0, "ROLLER"), (10.0, "ROCKER"), (20.0, "ROLLER")), start=1):
             for side, across in (("right", -1.0), ("left", 1.0)):
                 kind = "IfcBearing" if self.is_newest else "IfcBuildingElementProxy"
-                size, place = (0.4, 0.4, 0.1), (along, across, 3.5)
-                self.box(kind, f"Bearing {number} {side}", size, place, "SUPERSTRUCTURE", predefined=predefined)
+                size, position = (0.4, 0.4, 0.1), (along, across, 3.5)
+                self.box(kind, f"Bearing {number} {side}", size, position, "SUPERSTRUCTURE", predefined=predefined)
         return self
 
     def superstructure(self):
         """Girders and deck."""
         steel, concrete = self.material("S355"), self.material("Concrete of the deck", DECK_KG_M3)
         for side, across in (("right", -1.0), ("left", 1.0)):
-            size, place = (21.0, 0.4, 0.8), (10.0, across, 3.6)
-            self.box("IfcBeam", f"Girder {side}", size, place, "SUPERSTRUCTURE", material=steel)
+            size, position = (21.0, 0.4, 0.8), (10.0, across, 3.6)
+            self.box("IfcBeam", f"Girder {side}", size, position, "SUPERSTRUCTURE", material=steel)
         self.box("IfcSlab", "Carriageway", (21.0, 4.0, 0.2), (10.0, 0.0, 4.4), "DECK", material=concrete)
         return self
 

@@ -44,10 +44,10 @@ def flying_shards(count=30, frames=25, frame_s=1 / 24):
     first = np.column_stack([random.uniform(0, 13, count), random.uniform(-4, 4, count), np.full(count, 5.4)])
     first = np.vstack([first, [[6.5, 0.0, 8.0]]])
     velocities = np.column_stack([random.normal(0, 2, (count + 1, 2)), np.zeros(count + 1)])
-    places = first + times[:, None, None] * velocities
-    places[:, :, 2] = np.maximum(first[:, 2] - G / 2 * times[:, None] ** 2, sizes[:, 2] / 2)
-    speeds = np.broadcast_to(velocities, places.shape).copy()
-    speeds[:, :, 2] = np.where(places[:, :, 2] > sizes[:, 2] / 2, -G * times[:, None], 0.0)
+    positions = first + times[:, None, None] * velocities
+    positions[:, :, 2] = np.maximum(first[:, 2] - G / 2 * times[:, None] ** 2, sizes[:, 2] / 2)
+    speeds = np.broadcast_to(velocities, positions.shape).copy()
+    speeds[:, :, 2] = np.where(positions[:, :, 2] > sizes[:, 2] / 2, -G * times[:, None], 0.0)
     pairs = np.column_stack([np.arange(count - 1), np.arange(1, count)])
     connections = len(pairs)
     intact = np.ones((frames, connections), bool)
@@ -56,7 +56,7 @@ def flying_shards(count=30, frames=25, frame_s=1 / 24):
     return moving_boxes(
         times,
         sizes,
-        places,
+        positions,
         kinds=["shard"] * count + ["ball"],
         velocities_m_s=speeds,
         body_names=np.array([f"Shard {row:05d}" for row in range(count)] + ["Wrecking ball"]),

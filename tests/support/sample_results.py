@@ -39,8 +39,8 @@ def hanging_chain() -> Results:
     times = FRAME_S * np.arange(5)
     intact = np.ones((5, 2), bool)
     intact[4, 1] = False
-    places = np.tile(CENTRES, (5, 1, 1))
-    places[4, 2] += (3.0, 4.0, -12.0)
+    positions = np.tile(CENTRES, (5, 1, 1))
+    positions[4, 2] += (3.0, 4.0, -12.0)
     velocities = np.zeros((5, 4, 3))
     velocities[2:4, 3] = np.array([[1.0], [2.0]]) * FRAME_S * GRAVITY
     asleep = np.zeros((5, 4), bool)
@@ -68,7 +68,7 @@ def hanging_chain() -> Results:
             number=2 + step,
             time_s=times[step],
             substep_s=SUBSTEP_S if step else 0.0,
-            positions_m=places[step],
+            positions_m=positions[step],
             rotations=np.tile(np.eye(3), (4, 1, 1)),
             velocities_m_s=velocities[step],
             angular_velocities_rad_s=np.zeros((4, 3)),

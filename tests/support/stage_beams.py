@@ -40,11 +40,11 @@ start_deactivated = false
 def beam_file(folder, length_m, held=("start",), shards=60, more=""):
     """Write the scenario of a beam that is fixed at its ends in blocks that never move, and its meshes."""
     folder.mkdir(exist_ok=True)
-    places = {"beam": (0.0, length_m)}
-    places |= {"start": (-BLOCK_M, 0.0)} if "start" in held else {}
-    places |= {"end": (length_m, length_m + BLOCK_M)} if "end" in held else {}
+    positions = {"beam": (0.0, length_m)}
+    positions |= {"start": (-BLOCK_M, 0.0)} if "start" in held else {}
+    positions |= {"end": (length_m, length_m + BLOCK_M)} if "end" in held else {}
     text = SCENARIO.format(shards=shards)
-    for name, (low, high) in places.items():
+    for name, (low, high) in positions.items():
         mesh = trimesh.creation.box((high - low, WIDTH_M, DEPTH_M))
         mesh.apply_translation(((low + high) / 2.0, 0.0, HEIGHT_M))
         mesh.export(folder / f"{name}.stl")

@@ -1,6 +1,6 @@
 """Cracks that reinforcement holds together: their resistance in a sub-step, in the equations of the structure.
 
-A connection that broke leaves four places at the corners of the rectangle with the same second moments as its face. In
+A connection that broke leaves four points at the corners of the rectangle with the same second moments as its face. In
 each is a quarter of the bars, or what resists the same moments as bars in their layers. There the sides of the crack
 press on each other where it is closed, as stiff as the connection was. So bars have the plastic moment of such that are
 spread evenly over the face, or are in their layers: all of them yield, about the pressed edge.
@@ -282,18 +282,18 @@ class CrackStep:
         self._forces = forces - turned(self._tangents, opening)
 
 
-def corner_places(points_m: FloatArray, axes: FloatArray, sides_m: FloatArray) -> FloatArray:
+def corner_positions(points_m: FloatArray, axes: FloatArray, sides_m: FloatArray) -> FloatArray:
     """Return the corners (3, 4, r) of cracks with middles (3, r), principal axes (3, 2, r), and sides (2, r)."""
     halves = 0.5 * CORNERS[:, :, None] * sides_m
     return points_m[:, None] + axes[:, 0, None] * halves[:, 0] + axes[:, 1, None] * halves[:, 1]
 
 
-def corner_shares(places_m: FloatArray, sides_m: FloatArray) -> FloatArray:
-    """Return the parts (4, m) of a force at places (2, m) that the corners of rectangles with sides (2, m) resist.
+def corner_shares(positions_m: FloatArray, sides_m: FloatArray) -> FloatArray:
+    """Return the parts (4, m) of a force at positions (2, m) that the corners of rectangles with sides (2, m) resist.
 
     Together they have the same moments about all edges.
     """
-    beside = np.clip(2.0 * places_m / sides_m, -1.0, 1.0)
+    beside = np.clip(2.0 * positions_m / sides_m, -1.0, 1.0)
     shares: FloatArray = 0.25 * (1.0 + CORNERS[:, :1] * beside[0]) * (1.0 + CORNERS[:, 1:] * beside[1])
     return shares
 

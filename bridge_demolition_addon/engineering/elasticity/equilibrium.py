@@ -9,7 +9,7 @@ import numpy as np
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..geometry.rotations import rotated
 from .equations import RigidBodies, connected_parts, stiffness_blocks, stressed, summed_on_bodies
-from .joint_rows import JointFrames, components_first, components_last, joint_places
+from .joint_rows import JointFrames, components_first, components_last, joint_positions
 from .sparse_system import BlockSystem
 
 _SLOWEST_S = 60.0
@@ -55,7 +55,7 @@ def equilibrium(
     label = connected_parts(moves, frames.first, frames.second)
     ends = np.stack((frames.first, frames.second))
     supported = np.unique(label[ends][:, ~moves[ends].all(axis=0)])
-    unloaded = joint_places(frames, bodies.positions_m, bodies.rotations).deformations()
+    unloaded = joint_positions(frames, bodies.positions_m, bodies.rotations).deformations()
     positions_m, rotations = bodies.positions_m.copy(), bodies.rotations.copy()
     held, frequencies = np.zeros(len(bodies), bool), []
     of_connections = label[ends].max(axis=0, initial=-1)
@@ -65,10 +65,10 @@ def equilibrium(
         rest = _part_at_rest(members, frames.only(rows), stiffness[..., rows], started, gravity_m_s2, loads)
         if rest:
             held[members] = True
-            places, turned, frequency = rest
-            positions_m[:, members], rotations[..., members] = places[:, members], turned[..., members]
+            positions, turned, frequency = rest
+            positions_m[:, members], rotations[..., members] = positions[:, members], turned[..., members]
             frequencies.append(frequency)
-    loads = stressed(stiffness, joint_places(frames, positions_m, rotations).deformations() - unloaded)
+    loads = stressed(stiffness, joint_positions(frames, positions_m, rotations).deformations() - unloaded)
     return Equilibrium(positions_m, rotations, held, min(frequencies, default=0.0), loads)
 
 
@@ -89,14 +89,14 @@ def _part_at_rest(
     weights[:3, members] = bodies.masses_kg[members] * gravity_m_s2[:, None]
     if loads is not None:
         weights[:, members] += loads[:, members]
-    unloaded = joint_places(frames, positions_m, rotations).deformations()
+    unloaded = joint_positions(frames, positions_m, rotations).deformations()
     slack = 1.0 / np.square(_SLOWEST_S / (2.0 * np.pi))
     for _ in range(_SOLUTIONS):
-        places = joint_places(frames, positions_m, rotations)
-        rows = places.rows()
+        positions = joint_positions(frames, positions_m, rotations)
+        rows = positions.rows()
         own = bodies.mass_matrices(rotations, members)
         system.factor(slack * own, *stiffness_blocks(rows, stiffness))
-        holding = rows.loads(stressed(stiffness, places.deformations() - unloaded))
+        holding = rows.loads(stressed(stiffness, positions.deformations() - unloaded))
         left = (weights + summed_on_bodies(frames.first, frames.second, holding, count))[:, members]
         if abs(left[:3]).max() <= _AT_REST * abs(weights).max():
             break

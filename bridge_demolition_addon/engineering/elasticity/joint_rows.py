@@ -37,7 +37,7 @@ class JointFrames:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class JointPlaces:
+class JointPositions:
     """Positions of the frames of m connections in the world."""
 
     first_axes: FloatArray  # (3, 3, m), axes of the frames as columns
@@ -46,9 +46,9 @@ class JointPlaces:
     second_levers_m: FloatArray
     shifts_m: FloatArray  # (3, m), from the first frame to the second
 
-    def only(self, rows: IntArray) -> JointPlaces:
-        """Return the places of some connections (r,)."""
-        return JointPlaces(*(getattr(self, item.name)[..., rows] for item in fields(self)))
+    def only(self, rows: IntArray) -> JointPositions:
+        """Return the positions of some connections (r,)."""
+        return JointPositions(*(getattr(self, item.name)[..., rows] for item in fields(self)))
 
     def deformations(self) -> FloatArray:
         """Return the shifts in m and turns in rad (6, m) of the second frames against the first."""
@@ -65,7 +65,7 @@ class JointPlaces:
         return np.concatenate((turned_back(one, self.shifts_m), arctangent(sines, cosines)))
 
     def rows(self) -> JointRows:
-        """Return the rows at these places."""
+        """Return the rows at these positions."""
         first_z, second_x = self.first_axes[:, 2], self.second_axes[:, 0]
         y = cross_products(first_z, second_x)
         turning = np.stack([_unit(axis) for axis in (cross_products(y, first_z), y, cross_products(second_x, y))])
@@ -131,13 +131,13 @@ class JointRows:
         return first, second
 
 
-def joint_places(frames: JointFrames, positions_m: FloatArray, rotations: FloatArray) -> JointPlaces:
+def joint_positions(frames: JointFrames, positions_m: FloatArray, rotations: FloatArray) -> JointPositions:
     """Return where the frames of m connections between n bodies are."""
     first, second = rotations.take(frames.first, axis=2), rotations.take(frames.second, axis=2)
     first_levers = turned(first, frames.first_points_m)
     second_levers = turned(second, frames.second_points_m)
     between = positions_m.take(frames.second, axis=1) - positions_m.take(frames.first, axis=1)
-    return JointPlaces(
+    return JointPositions(
         matrix_products(first, frames.first_axes),
         matrix_products(second, frames.second_axes),
         first_levers,

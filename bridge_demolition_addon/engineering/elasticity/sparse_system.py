@@ -16,7 +16,7 @@ _BLOCK = 6
 
 
 class BlockSystem:
-    """Equations of bodies, coupled in pairs by c connections, whose numbers change while their places do not.
+    """Equations of bodies, coupled in pairs by c connections, whose numbers change while their pattern does not.
 
     `first` and `second` (c,) are the bodies of each connection; -1 for one whose motion is known.
     """
@@ -36,7 +36,7 @@ class BlockSystem:
         )
         self._matrix: csc_matrix | None = None
         self._solver: qdldl.Solver | None = None
-        self._find_places(blocks)
+        self._find_positions(blocks)
 
     def factor(self, of_bodies: FloatArray, first: FloatArray, second: FloatArray, between: FloatArray) -> None:
         """Take over and factor the numbers of each body (6, 6, b), and what each connection adds (6, 6, c).
@@ -61,7 +61,7 @@ class BlockSystem:
         unknowns: FloatArray = self._solver.solve(np.ascontiguousarray(right.T).reshape(-1))
         return unknowns.reshape(-1, _BLOCK).T
 
-    def _find_places(self, blocks: FloatArray) -> None:
+    def _find_positions(self, blocks: FloatArray) -> None:
         """Find where each number of blocks (k, 2) belongs in the upper triangle, column by column."""
         keys = blocks[:, 1] * self._count + blocks[:, 0]
         kept, which = np.unique(keys, return_inverse=True)
@@ -72,11 +72,11 @@ class BlockSystem:
         upper = all_rows <= all_columns
         order = np.lexsort((all_rows[upper], all_columns[upper]))
         self._size = len(order)
-        places = np.full(upper.shape, self._size)
-        sorted_places = np.empty(self._size, int)
-        sorted_places[order] = np.arange(self._size)
-        places[upper] = sorted_places
-        self._places = np.moveaxis(places[which], 0, 2).reshape(-1)
+        positions = np.full(upper.shape, self._size)
+        sorted_positions = np.empty(self._size, int)
+        sorted_positions[order] = np.arange(self._size)
+        positions[upper] = sorted_positions
+        self._places = np.moveaxis(positions[which], 0, 2).reshape(-1)
         self._indices = all_rows[upper][order].astype(np.int32)
         per_column = np.bincount(all_columns[upper], minlength=_BLOCK * self._count)
         self._starts = np.concatenate(([0], np.cumsum(per_column))).astype(np.int32)

@@ -21,7 +21,7 @@ import numpy as np
 from ..arrays import BoolArray, FloatArray, IntArray
 from .cracks import Cracks
 from .equations import RigidBodies, connected_parts, stiffness_blocks, stressed, summed_on_bodies, without
-from .joint_rows import JointFrames, JointPlaces, JointRows, joint_places
+from .joint_rows import JointFrames, JointPositions, JointRows, joint_positions
 from .sparse_system import BlockSystem
 
 _MOST_GUESSES = 40
@@ -122,11 +122,11 @@ class _RowCache:
     positions_m: FloatArray
     rotations: FloatArray
     rows: IntArray
-    places: JointPlaces
+    places: JointPositions
     deformations: FloatArray
 
     def has(self, rows: IntArray, positions_m: FloatArray, rotations: FloatArray) -> bool:
-        """Whether these connections were among them, with bodies at these places."""
+        """Whether these connections were among them, with bodies at these positions."""
         return (
             np.array_equal(positions_m, self.positions_m)
             and np.array_equal(rotations, self.rotations)
@@ -154,8 +154,8 @@ class ElasticStructure:
         self._frames, self._bodies, self._damping_s, self._soil = frames, bodies, damping_s, soil
         self._stiffness = stiffness if soil is None else without(stiffness, soil.rows)
         self._count, self._moves = len(bodies), bodies.moves
-        places = joint_places(frames, bodies.positions_m, bodies.rotations)
-        self._offsets = places.deformations()
+        positions = joint_positions(frames, bodies.positions_m, bodies.rotations)
+        self._offsets = positions.deformations()
         self._rows = JointRows.empty(len(frames))
         self._intact = np.ones(len(frames), bool)
         self._substep_s = 0.0
@@ -176,10 +176,10 @@ class ElasticStructure:
         acts = self._intact & are_awake
         acting = np.flatnonzero(acts)
         frames = self._frames.only(acting)
-        places, deformations = self._deformed(acting, start.positions_m, start.rotations)
+        positions, deformations = self._deformed(acting, start.positions_m, start.rotations)
         cracks, soil = self._acting_terms(self._cracks, are_awake, start), self._acting_terms(self._soil, acts, start)
         nonlinear = [terms for terms in (cracks, soil) if terms is not None]
-        self._refresh(start, awake, acting, places, nonlinear)
+        self._refresh(start, awake, acting, positions, nonlinear)
         rows, stiffness = self._rows.only(acting), self._stiffness[..., acting]
         first, second = (start.velocities.take(ends, axis=1) for ends in (frames.first, frames.second))
         rates = rows.rates(first, second)
@@ -191,7 +191,7 @@ class ElasticStructure:
         for _ in range(_MOST_GUESSES if nonlinear else 0):
             if all([terms.agrees(start.velocities + changes) for terms in nonlinear]):  # a list: all guess again
                 break
-            self._refresh(start, awake, acting, places, nonlinear)
+            self._refresh(start, awake, acting, positions, nonlinear)
             changes = self._solved(awake, self._with_nonlinear(loads, nonlinear, start.velocities))
         first, second = (changes.take(ends, axis=1) for ends in (frames.first, frames.second))
         slowing = rows.rates(first, second)
@@ -253,12 +253,12 @@ class ElasticStructure:
 
     def _deformed(
         self, rows: IntArray, positions_m: FloatArray, rotations: FloatArray
-    ) -> tuple[JointPlaces, FloatArray]:
+    ) -> tuple[JointPositions, FloatArray]:
         """Places and deformations (6, r) of connections (r,), in order; again only where bodies have moved."""
         cached = self._cache
         if cached is None or not cached.has(rows, positions_m, rotations):
-            places = joint_places(self._frames.only(rows), positions_m, rotations)
-            self._cache = cached = _RowCache(positions_m, rotations, rows, places, places.deformations())
+            positions = joint_positions(self._frames.only(rows), positions_m, rotations)
+            self._cache = cached = _RowCache(positions_m, rotations, rows, positions, positions.deformations())
         if np.array_equal(rows, cached.rows):
             return cached.places, cached.deformations
         chosen = np.searchsorted(cached.rows, rows)
@@ -334,7 +334,7 @@ class ElasticStructure:
         start: StepInput,
         awake: BoolArray,
         acting: IntArray,
-        places: JointPlaces,
+        positions: JointPositions,
         nonlinear: Sequence[NonlinearTerms],
     ) -> None:
         """Make rows and equations again of parts that have turned, lost a connection, or have what yields."""
@@ -350,7 +350,7 @@ class ElasticStructure:
         self._rotations[..., bodies] = start.rotations[..., bodies]
         chosen = np.flatnonzero(stale[self.part_of_connection[acting]])
         connections = acting[chosen]
-        rows = places.only(chosen).rows()
+        rows = positions.only(chosen).rows()
         self._rows.set(connections, rows)
         implicit = self._substep_s * (self._substep_s + self._damping_s)
         blocks: Sequence[FloatArray] = stiffness_blocks(rows, implicit * self._stiffness[..., connections])

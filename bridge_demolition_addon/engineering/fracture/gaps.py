@@ -13,7 +13,7 @@ from ..geometry.mesh import TriangleMesh, triangle_areas_and_normals
 from ..geometry.solids import from_manifold, to_manifold
 from ..geometry.vectors import dot, unit
 
-_SAME_PLACE = 1e-7
+_SAME_POSITION = 1e-7
 """Part of the member's longest extent within which a face of a shard lies in the member's surface."""
 
 _PAIRS_PER_BLOCK = 1_000_000
@@ -28,7 +28,7 @@ def with_gaps(shards: Sequence[TriangleMesh], solid: TriangleMesh, gap_m: float)
     """
     if gap_m == 0.0:
         return tuple(shards)
-    tolerance = _SAME_PLACE * solid.longest_extent
+    tolerance = _SAME_POSITION * solid.longest_extent
     return tuple(
         _taken_back(shard, is_cut(shard, solid), gap_m / 2.0, tolerance, number) for number, shard in enumerate(shards)
     )
@@ -36,7 +36,7 @@ def with_gaps(shards: Sequence[TriangleMesh], solid: TriangleMesh, gap_m: float)
 
 def is_cut(shard: TriangleMesh, solid: TriangleMesh) -> BoolArray:
     """Which triangles (t,) of a shard do not lie in the surface of the solid it was cut from; none without an area."""
-    surface, tolerance = solid.corners, _SAME_PLACE * solid.longest_extent
+    surface, tolerance = solid.corners, _SAME_POSITION * solid.longest_extent
     corners = shard.corners
     areas, normals = triangle_areas_and_normals(corners)
     middles = corners.mean(axis=1)
@@ -50,15 +50,15 @@ def is_cut(shard: TriangleMesh, solid: TriangleMesh) -> BoolArray:
 
 
 def _lie_in(
-    places: FloatArray, normals: FloatArray, surface: FloatArray, of_surface: FloatArray, tolerance: float
+    positions: FloatArray, normals: FloatArray, surface: FloatArray, of_surface: FloatArray, tolerance: float
 ) -> BoolArray:
-    """Whether each place lies in one of the triangles and looks the same way (n,)."""
-    close = np.abs(dot(places[:, None] - surface[:, 0], of_surface)) <= tolerance
+    """Whether each position lies in one of the triangles and looks the same way (n,)."""
+    close = np.abs(dot(positions[:, None] - surface[:, 0], of_surface)) <= tolerance
     close &= dot(normals[:, None], of_surface) > 1.0 - 1e-6
     for corner in range(3):
         start, end = surface[:, corner], surface[:, (corner + 1) % 3]
         inwards = np.cross(of_surface, unit(end - start))
-        close &= dot(places[:, None] - start, inwards) >= -tolerance
+        close &= dot(positions[:, None] - start, inwards) >= -tolerance
     return close.any(axis=1)
 
 

@@ -48,16 +48,16 @@ PLAIN = FractureOptions()
 """Points sampled evenly, and nothing else."""
 
 
-def density_around(places_m: FloatArray, radii_m: Sequence[float], factors: Sequence[float]) -> PointDensity:
+def density_around(positions_m: FloatArray, radii_m: Sequence[float], factors: Sequence[float]) -> PointDensity:
     """Density `factor`, at least 1, in each position (k, 3), that falls evenly to 1 at its radius.
 
     Where several overlap, the largest counts.
     """
-    places = np.asarray(places_m, dtype=float).reshape(-1, 3)
+    positions = np.asarray(positions_m, dtype=float).reshape(-1, 3)
     radii, surplus = np.asarray(radii_m, dtype=float), np.asarray(factors, dtype=float) - 1.0
 
     def at(points: FloatArray) -> FloatArray:
-        distances = distance(points[:, None], places)
+        distances = distance(points[:, None], positions)
         densities: FloatArray = 1.0 + (surplus * np.maximum(0.0, 1.0 - distances / radii)).max(axis=1, initial=0.0)
         return densities
 
@@ -94,6 +94,6 @@ def painted_density(points_m: FloatArray, weights: FloatArray, factor: float) ->
 
 
 def _shepard(points: FloatArray, known: FloatArray, weights: FloatArray) -> FloatArray:
-    # A place on a painted point takes its weight: the least distance keeps the division finite.
+    # A position on a painted point takes its weight: the least distance keeps the division finite.
     pull = 1.0 / np.square(np.maximum(distance(points[:, None], known), 1e-9))
     return np.clip((pull * weights).sum(axis=1) / pull.sum(axis=1), 0.0, 1.0)

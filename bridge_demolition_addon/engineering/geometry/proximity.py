@@ -57,12 +57,12 @@ def boxes_that_meet(lower: FloatArray, upper: FloatArray, distance: float = 0.0)
     if len(lower) > 1:
         upper = upper + distance  # to one side is enough: half of the distance on either side is the same
         low, key_of, boxes, keys = _boxes_in_cells(lower, upper)
-        places = np.arange(len(boxes))
-        others = np.searchsorted(keys, keys, side="right") - places - 1
+        positions = np.arange(len(boxes))
+        others = np.searchsorted(keys, keys, side="right") - positions - 1
         for part in blocks(others):
-            row, place = ranges(places[part] + 1, others[part])
-            one, other = boxes[part][row], boxes[place]
-            first_cell = key_of(np.maximum(low[one], low[other])) == keys[place]
+            row, position = ranges(positions[part] + 1, others[part])
+            one, other = boxes[part][row], boxes[position]
+            first_cell = key_of(np.maximum(low[one], low[other])) == keys[position]
             one, other = one[first_cell], other[first_cell]
             meets = ((lower[one] <= upper[other]) & (lower[other] <= upper[one])).all(axis=1)
             meeting.append(np.column_stack((np.minimum(one, other), np.maximum(one, other)))[meets])
@@ -136,8 +136,8 @@ class _Grid:
         starts = np.searchsorted(self.sorted_keys, rows_of_cells - 1, side="left")
         counts = np.searchsorted(self.sorted_keys, rows_of_cells + 1, side="right") - starts
         for part in blocks(counts.sum(axis=1)):
-            row, place = ranges(starts[part].ravel(), counts[part].ravel())
-            query, other = queries[part][row // len(self.steps)], self.order[place]
+            row, position = ranges(starts[part].ravel(), counts[part].ravel())
+            query, other = queries[part][row // len(self.steps)], self.order[position]
             yield query, other, distance(self.points[query], self.points[other])
 
 
@@ -158,9 +158,9 @@ def _boxes_in_cells(
         return numbers
 
     counts = high - low + 1
-    boxes, place = ranges(np.zeros(len(lower), np.int64), counts.prod(axis=1))
-    place, upwards = np.divmod(place, counts[boxes, 2])
-    keys = key_of(low[boxes] + np.column_stack((*np.divmod(place, counts[boxes, 1]), upwards)))
+    boxes, position = ranges(np.zeros(len(lower), np.int64), counts.prod(axis=1))
+    position, upwards = np.divmod(position, counts[boxes, 2])
+    keys = key_of(low[boxes] + np.column_stack((*np.divmod(position, counts[boxes, 1]), upwards)))
     order = np.argsort(keys, kind="stable")
     return low, key_of, boxes[order], keys[order]
 

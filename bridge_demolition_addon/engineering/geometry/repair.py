@@ -62,16 +62,16 @@ def repaired_solid(mesh: TriangleMesh, name: str) -> Repaired:
     solid = _united(whole, repairs, name)
     crossing = first_crossing(solid.corners)
     if crossing is not None:
-        place = ", ".join(f"{coordinate:.4g}" for coordinate in crossing)
+        position = ", ".join(f"{coordinate:.4g}" for coordinate in crossing)
         raise GeometryError(
-            f"{name}: its surface crosses itself near ({place}) m, so what is inside is unknown; model it as "
+            f"{name}: its surface crosses itself near ({position}) m, so what is inside is unknown; model it as "
             "separate closed bodies, which are united."
         )
     return Repaired(checked_solid(solid, name), tuple(repairs))
 
 
 def _merged(mesh: TriangleMesh) -> tuple[FloatArray, IntArray]:
-    """Vertices at exactly the same place as one, which is no repair: STL has no shared vertices."""
+    """Vertices at exactly the same position as one, which is no repair: STL has no shared vertices."""
     unique, index = np.unique(mesh.vertices, axis=0, return_inverse=True)
     return unique, index.ravel()[mesh.triangles]
 

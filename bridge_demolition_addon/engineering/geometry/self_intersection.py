@@ -35,9 +35,9 @@ def first_crossing(corners: FloatArray) -> FloatArray | None:
         row, second = ranges(rows + 1, last[rows] - rows - 1)
         one, other = order[begin + row], order[second]
         meet = ((lower[one] <= upper[other]) & (lower[other] <= upper[one])).all(axis=1)
-        place = _crossing(corners[one[meet]], corners[other[meet]])
-        if place is not None:
-            return place
+        position = _crossing(corners[one[meet]], corners[other[meet]])
+        if position is not None:
+            return position
         begin = end
     return None
 

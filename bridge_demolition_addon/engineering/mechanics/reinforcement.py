@@ -42,7 +42,7 @@ def parting(
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return how far (t,), m, how fast (t,), m/s, and in which direction (t, 3) the two points of each bar part.
 
-    Points, m, and velocities, m/s, (t, 3) are of the places on both bodies that were one before the crack. The
+    Points, m, and velocities, m/s, (t, 3) are of the positions on both bodies that were one before the crack. The
     directions are unit vectors from the first point to the second.
     """
     gaps, speeds = second_points - first_points, second_velocities - first_velocities

@@ -68,8 +68,8 @@ class SectionCuts:
         order = np.argsort(body, kind="stable")
         per_body = np.bincount(body, minlength=len(is_shard))
         first_of_body = np.cumsum(per_body) - per_body
-        cut, place = ranges(first_of_body[body], per_body[body])
-        half = order[place]
+        cut, position = ranges(first_of_body[body], per_body[body])
+        half = order[position]
         cosines = dot(outwards[cut], outwards[half])
         own = cut == half
         together = own | (is_shard[body[cut]] & (cosines > SAME_WAY) & (connected.areas_m2[half % count] > 0.0))

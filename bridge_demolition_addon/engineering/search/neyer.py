@@ -74,9 +74,9 @@ class NeyerTest:
             low, high = runs.levels.min(), runs.levels.max()
             normal = SuccessCurve(float(np.clip(likeliest.median, low, high)), min(likeliest.spread, high - low))
             return most_informative(np.concatenate((runs.levels, under_way)), normal), guess
-        place, width = self._search(runs, guess)
-        if place is not None:
-            return most_informative(under_way, SuccessCurve(place, width)) if len(under_way) else place, guess
+        position, width = self._search(runs, guess)
+        if position is not None:
+            return most_informative(under_way, SuccessCurve(position, width)) if len(under_way) else position, guess
         low, high = runs.levels.min(), runs.levels.max()
         middle = float(np.clip((runs.lowest_success + runs.highest_failure) / 2.0, low, high))
         normal = SuccessCurve(middle, min(guess, high - low))
@@ -90,11 +90,11 @@ class NeyerTest:
             return (self.lowest + self.highest) / 2.0, (self.highest - self.lowest) / 4.0
         low, high = float(runs.levels.min()), float(runs.levels.max())
         if not runs.successes.any():
-            place = max((self.highest + high) / 2.0, high + 2.0 * guess, 2.0 * high - low)
-            return place, max(guess, (place - high) / 2.0)
+            position = max((self.highest + high) / 2.0, high + 2.0 * guess, 2.0 * high - low)
+            return position, max(guess, (position - high) / 2.0)
         if runs.successes.all():
-            place = min((self.lowest + low) / 2.0, low - 2.0 * guess, 2.0 * low - high)
-            return place, max(guess, (low - place) / 2.0)
+            position = min((self.lowest + low) / 2.0, low - 2.0 * guess, 2.0 * low - high)
+            return position, max(guess, (low - position) / 2.0)
         apart = runs.lowest_success - runs.highest_failure
         if apart > guess * (1.0 + _ROUNDING):
             return (runs.lowest_success + runs.highest_failure) / 2.0, apart / 4.0
@@ -106,17 +106,17 @@ def most_informative(levels: FloatArray, normal: SuccessCurve) -> float:
     scores = (levels - normal.median) / normal.spread
     weights = information(scores)
     b11, b12, b22 = weights.sum(), (weights * scores).sum(), (weights * scores * scores).sum()
-    places = np.linspace(-_FARTHEST, _FARTHEST, _PLACES)
-    added = information(places)
-    gain = (b11 + added) * (b22 + added * places * places) - np.square(b12 + added * places)
+    positions = np.linspace(-_FARTHEST, _FARTHEST, _PLACES)
+    added = information(positions)
+    gain = (b11 + added) * (b22 + added * positions * positions) - np.square(b12 + added * positions)
     best = int(np.argmax(gain))
-    # The top of the parabola through the best of the places and its neighbours.
+    # The top of the parabola through the best of the positions and its neighbours.
     if 0 < best < _PLACES - 1:
         before, top, after = gain[best - 1 : best + 2]
         bend = before - 2.0 * top + after
         shift = 0.5 * (before - after) / bend if bend < 0.0 else 0.0
-        return normal.median + normal.spread * float(places[best] + shift * (places[1] - places[0]))
-    return normal.median + normal.spread * float(places[best])
+        return normal.median + normal.spread * float(positions[best] + shift * (positions[1] - positions[0]))
+    return normal.median + normal.spread * float(positions[best])
 
 
 def information(scores: FloatArray) -> FloatArray:

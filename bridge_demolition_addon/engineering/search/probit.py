@@ -112,10 +112,10 @@ def log_likelihood(runs: LevelOutcomes, normal: SuccessCurve) -> float:
     return float(log_ndtr(signs * (runs.levels - normal.median) / normal.spread).sum())
 
 
-def profile_likelihood(runs: LevelOutcomes, place: float, probability: float) -> float:
+def profile_likelihood(runs: LevelOutcomes, position: float, probability: float) -> float:
     """Largest logarithm of the likelihood of all distributions with this probability of success at a level."""
     signs = np.where(runs.successes, 1.0, -1.0)
-    offsets, base = runs.levels - place, float(ndtri(probability))
+    offsets, base = runs.levels - position, float(ndtri(probability))
     unit = max(np.ptp(runs.levels), abs(offsets).max(), 1e-300)
 
     def loss(slope: float) -> float:
@@ -142,8 +142,8 @@ def limit(runs: LevelOutcomes, probability: float, confidence: float, side: int)
     most = log_likelihood(runs, normal)
     least = most - float(fdtri(2, len(runs) - 2, confidence))
 
-    def above(place: float) -> float:
-        return profile_likelihood(runs, place, probability) - least
+    def above(position: float) -> float:
+        return profile_likelihood(runs, position, probability) - least
 
     inside = normal.quantile(probability)
     step = max(normal.spread, np.ptp(runs.levels) / len(runs), 1e-12)
@@ -157,9 +157,9 @@ def limit(runs: LevelOutcomes, probability: float, confidence: float, side: int)
     return side * np.inf
 
 
-def chance(normal: SuccessCurve, places: FloatArray) -> FloatArray:
+def chance(normal: SuccessCurve, positions: FloatArray) -> FloatArray:
     """Probability of success (k,) at levels (k,)."""
     if normal.spread == 0.0:
-        return np.where(places >= normal.median, 1.0, 0.0)
-    chances: FloatArray = ndtr((places - normal.median) / normal.spread)
+        return np.where(positions >= normal.median, 1.0, 0.0)
+    chances: FloatArray = ndtr((positions - normal.median) / normal.spread)
     return chances

@@ -15,9 +15,9 @@ from ..arrays import FloatArray
 
 def ranks_of(values: FloatArray) -> FloatArray:
     """Ranks (n,) of values (n,) from 1, the smallest; equal ones share the mean of theirs. Infinity is a value."""
-    _, places, counts = np.unique(values, return_inverse=True, return_counts=True)
+    _, positions, counts = np.unique(values, return_inverse=True, return_counts=True)
     last = np.cumsum(counts)
-    return (last - (counts - 1) / 2.0)[places]
+    return (last - (counts - 1) / 2.0)[positions]
 
 
 def rank_correlation(first: FloatArray, second: FloatArray) -> float:

@@ -180,9 +180,9 @@ class _Corners:
         row, first = self._near_box(pairs[:, 0], pairs[:, 1], radius_m)
         other_row, second = self._near_box(pairs[:, 1], pairs[:, 0], radius_m)
         counts = np.bincount(other_row, minlength=len(pairs))
-        of_first, place = ranges((np.cumsum(counts) - counts)[row], counts[row])
+        of_first, position = ranges((np.cumsum(counts) - counts)[row], counts[row])
         row = row[of_first]
-        difference = self.vertices[first[of_first]] - self.vertices[second[place]]
+        difference = self.vertices[first[of_first]] - self.vertices[second[position]]
         squares = np.full(len(pairs), np.inf)
         np.minimum.at(squares, row, dot(difference, difference))
         return np.sqrt(squares)
@@ -191,8 +191,8 @@ class _Corners:
         """Row k and vertex of shards[k], for all its vertices within a radius of the box of others[k]."""
         row, vertex = ranges(self.bounds[shards], np.diff(self.bounds)[shards])
         radius_m = radius_m * (1.0 + _ROUNDING) + _ROUNDING
-        places, other = self.vertices[vertex], others[row]
-        near = ((places >= self.lower[other] - radius_m) & (places <= self.upper[other] + radius_m)).all(axis=1)
+        positions, other = self.vertices[vertex], others[row]
+        near = ((positions >= self.lower[other] - radius_m) & (positions <= self.upper[other] + radius_m)).all(axis=1)
         return row[near], vertex[near]
 
 

@@ -92,10 +92,10 @@ def _lower_side(solid: TriangleMesh, spacing_m: float) -> FloatArray:
     low, high = solid.bounds[:, :2]
     counts = np.maximum(np.ceil((high - low) / spacing_m).astype(int), 1) + 1
     x, y = (np.linspace(low[axis], high[axis], counts[axis]) for axis in (0, 1))
-    places = np.stack(np.meshgrid(x, y), -1).reshape(-1, 2)
-    heights = -Surface(TriangleMesh(solid.vertices * (1.0, 1.0, -1.0), solid.triangles)).heights_at(places)
+    positions = np.stack(np.meshgrid(x, y), -1).reshape(-1, 2)
+    heights = -Surface(TriangleMesh(solid.vertices * (1.0, 1.0, -1.0), solid.triangles)).heights_at(positions)
     inside = np.isfinite(heights)
-    return np.concatenate([np.column_stack((places, heights))[inside], _on_edges(solid, spacing_m)])
+    return np.concatenate([np.column_stack((positions, heights))[inside], _on_edges(solid, spacing_m)])
 
 
 def _on_edges(solid: TriangleMesh, spacing_m: float) -> FloatArray:
@@ -134,6 +134,6 @@ def _grown(chosen: BoolArray) -> FloatArray:
     return np.isfinite(_beside(np.where(chosen, 0.0, np.inf)))
 
 
-def _at(grid: Grid, place: FloatArray) -> float:
-    column, row = np.clip(np.rint((place - grid.low) / grid.step_m).astype(int), 0, grid.size - 1)
+def _at(grid: Grid, position: FloatArray) -> float:
+    column, row = np.clip(np.rint((position - grid.low) / grid.step_m).astype(int), 0, grid.size - 1)
     return float(grid.heights[row, column])

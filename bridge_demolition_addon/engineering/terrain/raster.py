@@ -35,10 +35,10 @@ class Raster:
         """Distance of neighbouring heights."""
         return float(self.steps.min())
 
-    def heights_at(self, places: FloatArray) -> FloatArray:
+    def heights_at(self, positions: FloatArray) -> FloatArray:
         """Heights (n,) at positions (n, 2), even between the four around each; nan where one of these is not known."""
         rows, columns = self.heights.shape
-        x, y = ((np.asarray(places, float) - self.first) / self.steps).T
+        x, y = ((np.asarray(positions, float) - self.first) / self.steps).T
         inside = (x >= 0.0) & (y >= 0.0) & (x <= columns - 1) & (y <= rows - 1)
         x, y = np.where(inside, x, 0.0), np.where(inside, y, 0.0)
         column = np.minimum(x.astype(np.int64), max(columns - 2, 0))

@@ -58,17 +58,17 @@ class RecordedGround:
             return plan
         return plan - _covered_above(self.terrain.mesh.corners, level, np.array(plan.bounds()).reshape(2, 2))
 
-    def heights_at(self, places_m: FloatArray) -> FloatArray:
+    def heights_at(self, positions_m: FloatArray) -> FloatArray:
         """Heights (...) of ground and surfaces at positions (..., 2), m; beyond its edge, the lowest of the terrain."""
-        places = np.asarray(places_m, float)
-        flat = places.reshape(-1, 2)
+        positions = np.asarray(positions_m, float)
+        flat = positions.reshape(-1, 2)
         heights = np.zeros(len(flat))
         if self.terrain is not None:
             heights = self.terrain.heights_at(flat)
             heights = np.where(np.isnan(heights), self.terrain.mesh.vertices[:, 2].min(), heights)
         for surface in self.surfaces:
             heights = np.fmax(heights, surface.surface.heights_at(flat))
-        return heights.reshape(places.shape[:-1])
+        return heights.reshape(positions.shape[:-1])
 
 
 def _covered(corners: FloatArray) -> CrossSection:

@@ -69,14 +69,14 @@ class Surface:
         """Distance of neighbouring heights; None, as they lie anywhere."""
         return None
 
-    def heights_at(self, places: FloatArray) -> FloatArray:
+    def heights_at(self, positions: FloatArray) -> FloatArray:
         """Heights (n,) of the highest triangle at positions (n, 2); nan where there is none."""
-        places = np.asarray(places, float).reshape(-1, 2)
-        highest = np.full(len(places), np.nan)
+        positions = np.asarray(positions, float).reshape(-1, 2)
+        highest = np.full(len(positions), np.nan)
         if not len(self._corners):
             return highest
-        column, row = np.floor((places - self._low) / self._cell_m).astype(np.int64).T
-        on_edge = places == self.bounds[1]
+        column, row = np.floor((positions - self._low) / self._cell_m).astype(np.int64).T
+        on_edge = positions == self.bounds[1]
         column = np.where(on_edge[:, 0], np.minimum(column, self._counts[0] - 1), column)
         row = np.where(on_edge[:, 1], np.minimum(row, self._counts[1] - 1), row)
         inside = (column >= 0) & (row >= 0) & (column < self._counts[0]) & (row < self._counts[1])
@@ -85,16 +85,16 @@ class Surface:
         counts = self._firsts[cells + 1] - self._firsts[cells]
         for part in blocks(counts):
             of, candidate = ranges(self._firsts[cells[part]], counts[part])
-            heights = _heights_in(self._corners[self._triangles[candidate]], places[rows[part][of]])
+            heights = _heights_in(self._corners[self._triangles[candidate]], positions[rows[part][of]])
             np.fmax.at(highest, rows[part][of], heights)
         return highest
 
 
-def _heights_in(corners: FloatArray, places: FloatArray) -> FloatArray:
+def _heights_in(corners: FloatArray, positions: FloatArray) -> FloatArray:
     """Height (n,) of each triangle (n, 3, 3) at its position (n, 2); nan where that is beside it."""
     origin = corners[:, 0]
     first, second = corners[:, 1] - origin, corners[:, 2] - origin
-    offset = places - origin[:, :2]
+    offset = positions - origin[:, :2]
     area = cross_2d(first, second)
     u, v = cross_2d(offset, second) / area, cross_2d(first, offset) / area
     inside = (u >= -_ON_EDGE) & (v >= -_ON_EDGE) & (u + v <= 1.0 + _ON_EDGE)

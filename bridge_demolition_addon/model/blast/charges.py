@@ -101,11 +101,11 @@ class Charge(PlannedAction):
         return plan.detonation_s(self.delay_s)
 
     def facts(self, site: Worksite) -> Iterator[Fact]:
-        place = ", ".join(f"{value:g}" for value in self.place_m)
+        position = ", ".join(f"{value:g}" for value in self.place_m)
         worth = "" if self.explosive == "TNT" else f" = {self.tnt_kg:.3g} kg of TNT"
         detonation_s = site.plan.detonation_s(self.delay_s)
         when = f", {detonation_s:.4g} s" if math.isfinite(detonation_s) else ""
-        yield given(self.name), f"{self.mass_kg:g} kg of {self.explosive}{worth} at ({place}) m{when}"
+        yield given(self.name), f"{self.mass_kg:g} kg of {self.explosive}{worth} at ({position}) m{when}"
 
     def check_plan(self, plan: Plan) -> None:
         """Check that it detonates within the run, if at all."""

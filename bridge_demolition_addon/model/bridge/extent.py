@@ -58,14 +58,14 @@ def surface_height(scenario: Scenario, members: Sequence[Member], place_m: tuple
     return float(heights.max())
 
 
-def _heights_above(corners: np.ndarray, place: np.ndarray) -> np.ndarray:
+def _heights_above(corners: np.ndarray, position: np.ndarray) -> np.ndarray:
     """Return the heights of the triangles (t, 3, 3) that lie over or under a position (2,)."""
     origin = corners[:, 0]
     first, second = corners[:, 1] - origin, corners[:, 2] - origin
     area = cross_2d(first, second)
     lies = np.abs(area) > 0.0
     origin, first, second, area = origin[lies], first[lies], second[lies], area[lies]
-    offset = place - origin[:, :2]
+    offset = position - origin[:, :2]
     u, v = cross_2d(offset, second) / area, cross_2d(first, offset) / area
     inside = (u >= -_ON_EDGE) & (v >= -_ON_EDGE) & (u + v <= 1.0 + _ON_EDGE)
     return (origin[:, 2] + u * first[:, 2] + v * second[:, 2])[inside]

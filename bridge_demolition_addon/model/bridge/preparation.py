@@ -35,8 +35,8 @@ def prepared_members(scenario: Scenario) -> PreparedMembers:
         return PreparedMembers(of_bridge, ())
     from_files, repairs = geometry_members(scenario.geometry, is_flat=terrain is None)
     prepared = without_overlap([*of_bridge, *from_files])
-    for place in (place for action in scenario.actions for place in action.starts_above()):
-        surface_height(scenario, prepared.members, place)  # refuses what nothing lies under
+    for position in (position for action in scenario.actions for position in action.starts_above()):
+        surface_height(scenario, prepared.members, position)  # refuses what nothing lies under
     return PreparedMembers(prepared.members, repairs + prepared.notes)
 
 

@@ -18,7 +18,7 @@ _STRAIGHT_SIDE_M = 1e-5
 """What leaves a straight line by no more is one."""
 
 _STRAIGHT_M = 0.01
-"""How far corners may stray from a place, or from a straight way, whose hull is then too large by no more."""
+"""How far corners may stray from a position, or from a straight way, whose hull is then too large by no more."""
 
 
 def corners_at(results: Results, step: int, bodies: Rows) -> list[np.ndarray]:
@@ -69,8 +69,8 @@ def swept_footprint(results: Results, bodies: Rows) -> CrossSection:
 
 def plans_of(results: Results, body: int, corners: np.ndarray) -> np.ndarray:
     """Return the corners (k, v, 2) of a body in plan at all recorded steps."""
-    places, rotations = results.frames.positions_m[:, body, :2], results.frames.rotations[:, body, :2]
-    return transformed(rotations[:, None], corners) + places[:, None]
+    positions, rotations = results.frames.positions_m[:, body, :2], results.frames.rotations[:, body, :2]
+    return transformed(rotations[:, None], corners) + positions[:, None]
 
 
 def straightened(area: CrossSection) -> CrossSection:
@@ -115,8 +115,8 @@ def _first_above(distances_m: np.ndarray) -> int:
 
 def bodies_that_moved(results: Results, bodies: np.ndarray) -> np.ndarray:
     """Return the bodies that were farther than `MOVED_M` from their first position at a recorded time."""
-    places = results.frames.positions_m[:, bodies]
-    return bodies[distance(places, places[0]).max(axis=0, initial=0.0) > MOVED_M]
+    positions = results.frames.positions_m[:, bodies]
+    return bodies[distance(positions, positions[0]).max(axis=0, initial=0.0) > MOVED_M]
 
 
 def reaches_on_the_way(results: Results, bodies: Rows, plan: CrossSection) -> np.ndarray:
@@ -131,7 +131,7 @@ def reaches_on_the_way(results: Results, bodies: Rows, plan: CrossSection) -> np
 
 def _steps_with_news(results: Results, body: int) -> np.ndarray:
     """Return which recorded steps (k,) show a body in another position or rotation than the one before."""
-    places, rotations = results.frames.positions_m[:, body], results.frames.rotations[:, body]
-    news = np.ones(len(places), bool)
-    news[1:] = (np.diff(places, axis=0) != 0.0).any(axis=1) | (np.diff(rotations, axis=0) != 0.0).any(axis=(1, 2))
+    positions, rotations = results.frames.positions_m[:, body], results.frames.rotations[:, body]
+    news = np.ones(len(positions), bool)
+    news[1:] = (np.diff(positions, axis=0) != 0.0).any(axis=1) | (np.diff(rotations, axis=0) != 0.0).any(axis=(1, 2))
     return news

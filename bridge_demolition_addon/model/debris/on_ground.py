@@ -32,12 +32,12 @@ class SurfaceDebris:
 def debris_on_surfaces(results: Results, debris: Debris) -> tuple[SurfaceDebris, ...]:
     """Return the debris on each surface of the ground, at the last recorded step."""
     results = relative_to_ground(results)
-    places = results.frames.positions_m[-1, debris.bodies]
+    positions = results.frames.positions_m[-1, debris.bodies]
     on_surfaces = []
     for surface in debris.ground.surfaces:
-        level = surface.surface.heights_at(places[:, :2])  # nan beside it
+        level = surface.surface.heights_at(positions[:, :2])  # nan beside it
         # Water lies below the ground beyond its shores.
-        on_it = (places[:, 2] >= level - MOVED_M) & (level >= debris.ground.heights_at(places[:, :2]))
+        on_it = (positions[:, 2] >= level - MOVED_M) & (level >= debris.ground.heights_at(positions[:, :2]))
         mass = float(debris.masses_kg[on_it].sum())
         covered = float((debris.area ^ debris.ground.shown(surface)).area())
         on_surfaces.append(SurfaceDebris(surface.name, surface.kind, debris.bodies[on_it], mass, covered))
@@ -49,8 +49,8 @@ def bodies_under_ground(results: Results) -> np.ndarray:
     results = relative_to_ground(results)
     inventory, ground = results.inventory, results.ground()
     bodies = np.concatenate([inventory.of_kind("shard"), inventory.of_kind("ball")])
-    places = results.frames.positions_m[-1, bodies]
-    bodies = bodies[places[:, 2] < ground.heights_at(places[:, :2])]  # of all others a part is above it
+    positions = results.frames.positions_m[-1, bodies]
+    bodies = bodies[positions[:, 2] < ground.heights_at(positions[:, :2])]  # of all others a part is above it
     under = [
         (corners[:, 2] < ground.heights_at(corners[:, :2]) - _BELOW_M).all()
         for corners in corners_at(results, -1, bodies)

@@ -101,9 +101,9 @@ def _coming_near(results: Results, prism: _Prism, bodies: np.ndarray) -> np.ndar
     """Return those of the bodies whose spheres meet the box around a prism on their way from step to step."""
     own = results.inventory.vertices_by_body()
     radii = np.array([float(length(own[body]).max()) for body in bodies])[:, None]
-    places = results.frames.positions_m[:, bodies]
-    near = prism.may_meet(places[0] - radii, places[0] + radii)
-    for before, after in pairwise(places):
+    positions = results.frames.positions_m[:, bodies]
+    near = prism.may_meet(positions[0] - radii, positions[0] + radii)
+    for before, after in pairwise(positions):
         near |= prism.may_meet(np.minimum(before, after) - radii, np.maximum(before, after) + radii)
     return bodies[near]
 
@@ -112,9 +112,9 @@ def _first_entry(results: Results, prism: _Prism, body: int) -> float | None:
     """Return when a body that is outside at first extends into a zone, s."""
     corners = results.inventory.vertices_of(body)
     radius = float(length(corners).max(initial=0.0))
-    places = results.frames.positions_m[:, body]
-    low = np.minimum(places[:-1], places[1:]) - radius
-    high = np.maximum(places[:-1], places[1:]) + radius
+    positions = results.frames.positions_m[:, body]
+    low = np.minimum(positions[:-1], positions[1:]) - radius
+    high = np.maximum(positions[:-1], positions[1:]) + radius
     for step in np.flatnonzero(prism.may_meet(low, high)).tolist():
         time_s = _entry_between(_Motion.of(results, step, body, corners), prism, 0.0, 1.0)
         if time_s is not None:
@@ -137,10 +137,12 @@ class _Motion:
     @classmethod
     def of(cls, results: Results, step: int, body: int, corners: np.ndarray) -> _Motion:
         steps = slice(step, step + 2)
-        places, rotations = results.frames.positions_m[steps, body], results.frames.rotations[steps, body]
+        positions, rotations = results.frames.positions_m[steps, body], results.frames.rotations[steps, body]
         times = results.frames.time_s[steps]
         turn = rotation_vectors(rotations[0], rotations[1])
-        return cls(corners, places[0], places[1] - places[0], rotations[0], turn, times[0], times[1] - times[0])
+        return cls(
+            corners, positions[0], positions[1] - positions[0], rotations[0], turn, times[0], times[1] - times[0]
+        )
 
     def at(self, share: float) -> np.ndarray:
         return transformed(rotated(self.rotation, share * self.turn), self.corners) + self.place + share * self.shift

@@ -130,28 +130,28 @@ def _along(quantity: ChosenQuantity, scenario: Scenario) -> list[Dimension]:
     return [Along(quantity, keys)]
 
 
-def _in_box(place: ChosenPlace, scenario: Scenario) -> list[Dimension]:
+def _in_box(position: ChosenPlace, scenario: Scenario) -> list[Dimension]:
     axes: list[Dimension] = []
-    coordinates = _coordinates(place, scenario)
-    if coordinates != len(place.lowest_corner_m):
-        raise place.unexpected("lowest_corner_m", f"{coordinates} numbers, as {place.key} has")
-    for axis, (low, high) in enumerate(zip(place.lowest_corner_m, place.highest_corner_m, strict=True), start=1):
-        keys = keys_named(scenario, f"{place.key}.{axis}")
+    coordinates = _coordinates(position, scenario)
+    if coordinates != len(position.lowest_corner_m):
+        raise position.unexpected("lowest_corner_m", f"{coordinates} numbers, as {position.key} has")
+    for axis, (low, high) in enumerate(zip(position.lowest_corner_m, position.highest_corner_m, strict=True), start=1):
+        keys = keys_named(scenario, f"{position.key}.{axis}")
         if low < high:
-            axes.append(Along(ChosenQuantity(key=f"{place.key}.{axis}", lowest=low, highest=high), keys))
+            axes.append(Along(ChosenQuantity(key=f"{position.key}.{axis}", lowest=low, highest=high), keys))
         elif any(key.value != low for key in keys):
             raise ScenarioError(
-                f"{place.key}.{axis} is {keys[0].value:g} in the scenario and {low:g} in both corners: expected "
+                f"{position.key}.{axis} is {keys[0].value:g} in the scenario and {low:g} in both corners: expected "
                 f"{keys[0].value:g} there, or two numbers that differ"
             )
     return axes
 
 
-def _coordinates(place: ChosenPlace, scenario: Scenario) -> int:
+def _coordinates(position: ChosenPlace, scenario: Scenario) -> int:
     """Return the number of coordinates of a position in the scenario."""
-    keys = keys_named(scenario, f"{place.key}.1")
+    keys = keys_named(scenario, f"{position.key}.1")
     if len(keys) > 1:
-        raise place.unexpected("key", f"one of them, such as {keys[0].name.removesuffix('.1')}")
+        raise position.unexpected("key", f"one of them, such as {keys[0].name.removesuffix('.1')}")
     value: Any = scenario
     for step in keys[0].steps[:-1]:
         value = value[step] if isinstance(step, int) else getattr(value, step)

@@ -99,23 +99,23 @@ def rest_of(results: Results) -> ShardRest:
 
 
 def _span(results: Results, ground: RecordedGround, name: str, bodies: np.ndarray) -> Span:
-    places, masses = results.frames.positions_m[:, bodies], results.inventory.masses_kg[bodies]
-    above = _above(ground, places)
-    levels = _mean_by_mass(places[..., 2], masses)
+    positions, masses = results.frames.positions_m[:, bodies], results.inventory.masses_kg[bodies]
+    above = _above(ground, positions)
+    levels = _mean_by_mass(positions[..., 2], masses)
     return Span(name, bodies, _mean_by_mass(above, masses), above.min(axis=1), levels)
 
 
-def _above(ground: RecordedGround, places: np.ndarray) -> np.ndarray:
+def _above(ground: RecordedGround, positions: np.ndarray) -> np.ndarray:
     """Return heights (k, b) of positions (k, b, 3) above the ground; looked up again only where a body has moved."""
     if ground.is_flat:
-        return places[..., 2]
-    moved = np.ones(places.shape[:2], bool)
-    moved[1:] = (places[1:, :, :2] != places[:-1, :, :2]).any(axis=-1)
+        return positions[..., 2]
+    moved = np.ones(positions.shape[:2], bool)
+    moved[1:] = (positions[1:, :, :2] != positions[:-1, :, :2]).any(axis=-1)
     step, body = np.nonzero(moved)
-    heights = np.zeros(places.shape[:2])
-    heights[step, body] = ground.heights_at(places[step, body, :2])
-    latest = np.maximum.accumulate(np.where(moved, np.arange(len(places))[:, None], 0), axis=0)
-    return places[..., 2] - np.take_along_axis(heights, latest, axis=0)
+    heights = np.zeros(positions.shape[:2])
+    heights[step, body] = ground.heights_at(positions[step, body, :2])
+    latest = np.maximum.accumulate(np.where(moved, np.arange(len(positions))[:, None], 0), axis=0)
+    return positions[..., 2] - np.take_along_axis(heights, latest, axis=0)
 
 
 def _mean_by_mass(heights: np.ndarray, masses: np.ndarray) -> np.ndarray:

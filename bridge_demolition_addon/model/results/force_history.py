@@ -71,9 +71,9 @@ def most_loaded(magnitudes_n: np.ndarray, rows: np.ndarray, count: int = 10) -> 
     largest = known.max(axis=0)
     order = np.argsort(-largest, kind="stable")[:count]
     return [
-        Peak(int(rows[place]), int(known[:, place].argmax()), float(largest[place]))
-        for place in order
-        if largest[place] > 0
+        Peak(int(rows[position]), int(known[:, position].argmax()), float(largest[position]))
+        for position in order
+        if largest[position] > 0
     ]
 
 

@@ -296,7 +296,7 @@ class Ball(_Drop, PlannedAction):
         """Check that it begins beside all members, as Bullet would throw them apart, and swings above the ground."""
         if self.cable:
             self.check_swing(site.ground_height(self.cable.lowest_point_m[:2]))
-        heights_m = [site.surface_height(place) for place in self.starts_above()]
+        heights_m = [site.surface_height(position) for position in self.starts_above()]
         centre_m = self.start_m(heights_m[0] if heights_m else 0.0)
         member = site.member_within(centre_m, self.diameter_m / 2.0)
         if member is not None:

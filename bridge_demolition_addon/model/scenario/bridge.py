@@ -311,8 +311,8 @@ class Bridge(Table):
         columns, number = piers.columns, girders.number
         reach = (piers.column_width_m + girders.width_m) / 2.0
         for column in range(columns):
-            place = (column - (columns - 1) / 2.0) * column_spacing
-            apart = [abs(place - (girder - (number - 1) / 2.0) * self.girder_spacing_m) for girder in range(number)]
+            position = (column - (columns - 1) / 2.0) * column_spacing
+            apart = [abs(position - (girder - (number - 1) / 2.0) * self.girder_spacing_m) for girder in range(number)]
             if min(apart) >= reach * (1.0 - ROUNDING):
                 wanted = f"as many as bridge.girders.number, {number}, or bridge.pier_caps"
                 raise piers.unexpected(

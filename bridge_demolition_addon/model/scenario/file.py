@@ -31,7 +31,7 @@ MOST_BASES = 20
 """How many files a variant may be based on, one on the other."""
 
 MOST_BYTES = 10 * MEGABYTE
-"""Size up to which a scenario is read; those with thousands of places have less than 1 MB."""
+"""Size up to which a scenario is read; those with thousands of positions have less than 1 MB."""
 
 WITHOUT = "without"
 """Key of the table of a scenario: tables and keys of that file that this one does without."""

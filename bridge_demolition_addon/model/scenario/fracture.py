@@ -59,14 +59,14 @@ class FracturePoint(Table):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Finer(Table):
-    """A place that the bridge is cut finer around, such as a charge."""
+    """A position around which the bridge is cut finer, such as a charge."""
 
     table: ClassVar[str] = "fracture.finer"
 
     place_m: tuple[float, float, float] = key("Along the road, across it, above the ground.", unit="m")
     radius_m: float = key("How far its effect reaches.", unit="m", above=0)
     factor: float = key(
-        "How many times as many shards a volume in the place itself gets; falls evenly to 1 at the radius.",
+        "How many times as many shards a volume at the position itself gets; falls evenly to 1 at the radius.",
         at_least=1,
         at_most=1000,
     )

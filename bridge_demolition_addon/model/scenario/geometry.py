@@ -9,7 +9,7 @@ from ..schema import DENSITY, Table, check_exactly_one, key
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Geometry(Table):
     """A member of your own, from a file of closed surfaces: STL, OBJ, PLY or GLB. It stands beside the bridge, or in
-    its place. What is not closed, wound wrongly or overlaps itself is repaired where that is possible, and refused
+    its position. What is not closed, wound wrongly or overlaps itself is repaired where that is possible, and refused
     where not. Files of the same name become one solid; what a member has in common with those before it is cut off."""
 
     table: ClassVar[str] = "geometry"

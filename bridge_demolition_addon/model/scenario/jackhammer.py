@@ -13,7 +13,7 @@ from ..actions import Fact, HeightAt, Place, Plan, PlannedAction, Point, Worksit
 from ..schema import SHORTEST_LENGTH_M, key
 
 FRAMES_PER_BLOW = 4
-"""Animation gives a place at each frame only: with this many a blow, it has at least 85 % of its stroke."""
+"""Animation gives a position at each frame only: with this many a blow, it has at least 85 % of its stroke."""
 
 _RAISED_M = 1.0
 """How far a chisel is raised after its last blow."""
@@ -87,8 +87,8 @@ class Jackhammer(PlannedAction):
         )
 
     def targets(self) -> Iterator[tuple[str, Place]]:
-        for number, place in enumerate(self.path_m):
-            yield f"{self.table}.path_m[{number}]", place
+        for number, position in enumerate(self.path_m):
+            yield f"{self.table}.path_m[{number}]", position
 
     def starts_above(self) -> tuple[Place, ...]:
         return self.path_m[:1]

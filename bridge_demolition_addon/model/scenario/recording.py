@@ -36,7 +36,7 @@ class CameraKind(StrEnum):
     """The same while it goes round the bridge."""
 
     OWN = "own"
-    """From a place of the user's own, or by the camera that the scene has."""
+    """From a position of the user's own, or by the camera that the scene has."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -84,4 +84,4 @@ class PictureSettings(Table):
             if self.camera != CameraKind.OWN:
                 raise self.unexpected("camera", '"own", as pictures.camera_m is given')
             if self.camera_m == self.look_at_m:
-                raise self.unexpected("look_at_m", "another place than pictures.camera_m")
+                raise self.unexpected("look_at_m", "another position than pictures.camera_m")

@@ -34,7 +34,7 @@ that is not listed here is refused, and so is a value outside its limits.
 x runs along the road, with 0 at the axis of the first pier; y across it, with 0 in its middle; z up, with 0 at the
 ground. The deck's top is as high as a pier, a pier cap, the girders or the box girder and the deck's slab together.
 
-A variant gives only the values that differ from another scenario file, such as another place for the ball to fall:
+A variant gives only the values that differ from another scenario file, such as another position for the ball to fall:
 
 ```toml
 [scenario]

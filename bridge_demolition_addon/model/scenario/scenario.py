@@ -167,8 +167,8 @@ class Scenario(Table):
             raise ScenarioError("bridge is missing: expected a table, or a member of your own under [[geometry]]")
         for action in self.actions:
             action.check_plan(self)
-            for name, place in action.targets():
-                self._check_on_deck(name, place)
+            for name, position in action.targets():
+                self._check_on_deck(name, position)
         if self.shards.start_deactivated and (moving := [table.name for table in self.geometry if table.is_moving]):
             raise ScenarioError(
                 f"geometry {shown(moving[0])} begins with a velocity or an angular velocity: "
@@ -221,7 +221,7 @@ class Scenario(Table):
             if not lowest - slack <= position <= highest + slack:
                 raise ScenarioError(
                     f"{name}[{place}] is {position}: "
-                    f"expected a place on the deck, from {lowest:.6g} to {highest:.6g} (m)"
+                    f"expected a position on the deck, from {lowest:.6g} to {highest:.6g} (m)"
                 )
 
 

@@ -14,7 +14,7 @@ from ..schema import Table, key
 def check_outline(corners_m: Sequence[tuple[float, float]], name: str) -> None:
     """Check that the corners under a key are those of an area in plan, in order around it."""
     if len(corners_m) < FEWEST_CORNERS:
-        raise ScenarioError(f"{name} has {len(corners_m)} places: expected at least {FEWEST_CORNERS}")
+        raise ScenarioError(f"{name} has {len(corners_m)} positions: expected at least {FEWEST_CORNERS}")
     if sides_cross(np.array(corners_m)):
         raise ScenarioError(f"{name}: sides cross or touch each other; expected corners in order around it")
 
@@ -81,7 +81,7 @@ class Site(Table):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Neighbour(Table):
-    """A place near the bridge for which the report gives pressure, impulse and ground vibration of the charges."""
+    """A position near the bridge for which the report gives pressure, impulse and ground vibration of the charges."""
 
     table: ClassVar[str] = "neighbours"
 

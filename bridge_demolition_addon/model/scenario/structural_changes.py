@@ -74,7 +74,7 @@ class SawCut(Change):
 class Weakening(Change):
     """A loss of strength in one moment, such as by cut reinforcement: of all connections of the members' shards, of
     those in the box, or of all. What slept among them wakes up, so that they carry their load at once. Several at the
-    same place multiply.
+    same position multiply.
     """
 
     table: ClassVar[str] = "weakenings"

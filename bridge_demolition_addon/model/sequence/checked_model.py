@@ -77,6 +77,6 @@ def check_actions(scenario: Scenario, model: Model) -> None:
     """Check each planned action against a model."""
     site = ModelWorksite(scenario, model)
     for action in scenario.actions:
-        for place in action.starts_above():
-            site.surface_height(place)
+        for position in action.starts_above():
+            site.surface_height(position)
         action.check_model(site)

@@ -120,7 +120,7 @@ def face_bars(
     times as strong as their layers say.
     """
     count = len(connections)
-    yield_n, by_place = np.zeros(count), np.zeros((count, 3))
+    yield_n, by_position = np.zeros(count), np.zeros((count, 3))
     of_pair = np.append(member_of_shard, -1)[connections.pairs]
     is_within = (of_pair[:, 0] == of_pair[:, 1]) & (of_pair[:, 0] >= 0) & (connections.areas > 0.0)
     for group in layers_of_members(layers, members):
@@ -133,12 +133,12 @@ def face_bars(
             forces = group.section(strength.compression_pa, factor).across_cracks_n()
             face, corners = _corners(shards, connections.only(rows))
             for force, level, width in zip(forces, group.levels_m, group.widths_m, strict=True):
-                pulls, places = _pulls(face, corners, group.axes, level, force / width, len(rows))
+                pulls, positions = _pulls(face, corners, group.axes, level, force / width, len(rows))
                 yield_n[rows] += pulls
-                by_place[rows] += places
-    places = np.divide(by_place, yield_n[:, None], out=connections.points.copy(), where=yield_n[:, None] > 0.0)
+                by_position[rows] += positions
+    positions = np.divide(by_position, yield_n[:, None], out=connections.points.copy(), where=yield_n[:, None] > 0.0)
     across = section_axes(connections.normals)[:, :, 1:]
-    return FaceBars(yield_n, transformed_back(across, places - connections.points))
+    return FaceBars(yield_n, transformed_back(across, positions - connections.points))
 
 
 def _corners(shards: Sequence[TriangleMesh], connections: Connections) -> tuple[np.ndarray, np.ndarray]:
@@ -152,11 +152,11 @@ def _corners(shards: Sequence[TriangleMesh], connections: Connections) -> tuple[
 def _pulls(
     face: np.ndarray, corners: np.ndarray, axes: tuple[int, int, int], level: float, force_n_m: float, count: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Force (k,) of a layer in each of k faces, and that by its place (k, 3)."""
+    """Force (k,) of a layer in each of k faces, and that by its position (k, 3)."""
     _, across, beside = axes
     parted, ends = _crossings(corners, across, level)
     lengths = abs(ends[:, 1, beside] - ends[:, 0, beside])
-    pulls, places = np.zeros(count), np.zeros((count, 3))
+    pulls, positions = np.zeros(count), np.zeros((count, 3))
     np.add.at(pulls, face[parted], force_n_m * lengths)
-    np.add.at(places, face[parted], (force_n_m * lengths)[:, None] * ends.mean(axis=1))
-    return pulls, places
+    np.add.at(positions, face[parted], (force_n_m * lengths)[:, None] * ends.mean(axis=1))
+    return pulls, positions

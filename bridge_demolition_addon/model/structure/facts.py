@@ -155,5 +155,5 @@ def _method(connections: ConnectionSettings) -> str:
         return "shards that share a face"
     if connections.method == "nearest":
         return f"each with its {connections.neighbours} nearest"
-    places = {"vertex": "nearest vertices", "centre": "centres of mass"}
-    return f"{places[connections.method]} within {connections.search_radius_m:g} m"
+    positions = {"vertex": "nearest vertices", "centre": "centres of mass"}
+    return f"{positions[connections.method]} within {connections.search_radius_m:g} m"

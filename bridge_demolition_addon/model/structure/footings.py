@@ -16,7 +16,7 @@ from ..bridge.member import Member, members_named
 from ..foundations import Foundation
 
 _PLACES = 128
-"""Fewest places under a footing: with them a rectangular one resists rotation within 2 %."""
+"""Fewest positions under a footing: with them a rectangular one resists rotation within 2 %."""
 
 _LEVEL_M = 1e-6
 """How far a face may lie off the ground and still stand on it."""
@@ -39,10 +39,10 @@ def soil_springs(
                     f'foundations.member is "{foundation.member}", and nothing of {members[index].name} stands on the '
                     "ground and can move: expected a member that does, and no support under it"
                 )
-            for row, places, areas in _places(foundation, members[index], rows, shards, connections):
+            for row, positions, areas in _places(foundation, members[index], rows, shards, connections):
                 if row in footings:
                     raise ScenarioError(f"{members[index].name} has two foundations: expected one")
-                footings[row] = foundation, places, areas
+                footings[row] = foundation, positions, areas
     if not footings:
         return None
     order = sorted(footings)
@@ -51,7 +51,7 @@ def soil_springs(
     return SoilSprings(
         rows=np.array(order),
         footings=np.repeat(np.arange(len(order)), [len(areas) for _, _, areas in of_rows]),
-        places_m=np.concatenate([places for _, places, _ in of_rows]),
+        places_m=np.concatenate([positions for _, positions, _ in of_rows]),
         areas_m2=np.concatenate([areas for _, _, areas in of_rows]),
         stiffness_n_m3=stiffness,
         horizontal_n_m3=stiffness * np.array([foundation.horizontal_share for foundation, _, _ in of_rows]),

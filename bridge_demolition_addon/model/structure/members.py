@@ -106,9 +106,12 @@ def shards_per_member(volumes: np.ndarray, shard_count: int) -> np.ndarray:
 def _density(settings: FractureSettings) -> PointDensity | None:
     densities = []
     if settings.finer:
-        places = np.array([place.place_m for place in settings.finer])
-        radii, factors = [place.radius_m for place in settings.finer], [place.factor for place in settings.finer]
-        densities.append(density_around(places, radii, factors))
+        positions = np.array([position.place_m for position in settings.finer])
+        radii, factors = (
+            [position.radius_m for position in settings.finer],
+            [position.factor for position in settings.finer],
+        )
+        densities.append(density_around(positions, radii, factors))
     if settings.painted_file is not None:
         densities.append(painted_density(*paint_from_file(Path(settings.painted_file)), settings.painted_factor))
     return densest(densities) if densities else None
@@ -224,10 +227,10 @@ def _amount(solid: TriangleMesh, density: PointDensity | None, seed: int) -> flo
 
 def _points_by_member(settings: FractureSettings, members: Sequence[Member]) -> list[np.ndarray]:
     """Return the points of the user's own in each member, (p, 3) in m."""
-    places = [point.place_m for point in settings.points]
+    positions = [point.place_m for point in settings.points]
     if settings.points_file is not None:
-        places += points_from_file(Path(settings.points_file)).tolist()
-    points = np.array(places, dtype=float).reshape(-1, 3)
+        positions += points_from_file(Path(settings.points_file)).tolist()
+    points = np.array(positions, dtype=float).reshape(-1, 3)
     if not len(points):
         return [points] * len(members)
     inside = np.array([contains(member.solid, points) for member in members])

@@ -1,4 +1,4 @@
-"""CSV files of places: points to cut around, and painted places with their weights."""
+"""CSV files of positions: points to cut around, and painted positions with their weights."""
 
 from __future__ import annotations
 

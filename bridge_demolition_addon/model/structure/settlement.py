@@ -52,6 +52,6 @@ def _names(results: Results, body: int) -> tuple[str, str]:
 
 def _moved(results: Results, bodies: np.ndarray, points_m: np.ndarray) -> np.ndarray:
     """Return the displacement of points (b, 3) that are fixed in bodies (b,) by each frame, (k, b, 3)."""
-    places, rotations = results.frames.positions_m[:, bodies], results.frames.rotations[:, bodies]
-    own = transformed_back(rotations[0], points_m - places[0])
-    return places + transformed(rotations, np.broadcast_to(own, places.shape)) - points_m
+    positions, rotations = results.frames.positions_m[:, bodies], results.frames.rotations[:, bodies]
+    own = transformed_back(rotations[0], points_m - positions[0])
+    return positions + transformed(rotations, np.broadcast_to(own, positions.shape)) - points_m

@@ -81,9 +81,9 @@ class BuiltGround:
         )
         return RecordedGround(self.terrain, tuple(surfaces))
 
-    def heights_at(self, places_m: np.ndarray) -> np.ndarray:
+    def heights_at(self, positions_m: np.ndarray) -> np.ndarray:
         """Return heights (n,) of the ground at positions (n, 2), m; nan beyond its edge."""
-        return np.zeros(len(places_m)) if self.terrain is None else self.terrain.heights_at(places_m)
+        return np.zeros(len(positions_m)) if self.terrain is None else self.terrain.heights_at(positions_m)
 
 
 def built_ground(scenario: Scenario, members: Sequence[tuple[str, TriangleMesh]], half_size_m: float) -> BuiltGround:
@@ -101,8 +101,8 @@ def check_under(terrain: Terrain, members: Sequence[tuple[str, TriangleMesh]]) -
     vertices = np.concatenate([solid.vertices[:, :2] for _, solid in members])
     low, high = vertices.min(axis=0), vertices.max(axis=0)
     x, y = (np.linspace(low[axis], high[axis], 33) for axis in (0, 1))
-    places = np.concatenate([vertices, np.stack(np.meshgrid(x, y), -1).reshape(-1, 2)])
-    if np.isfinite(terrain.heights_at(places)).any():
+    positions = np.concatenate([vertices, np.stack(np.meshgrid(x, y), -1).reshape(-1, 2)])
+    if np.isfinite(terrain.heights_at(positions)).any():
         return
     (west, south), (east, north) = terrain.source.bounds
     raise GeometryError(

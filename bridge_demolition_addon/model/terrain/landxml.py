@@ -45,11 +45,11 @@ def _triangles(definition: ElementTree.Element) -> TriangleMesh:
     if points is None or faces is None:
         raise GeometryError("its surface has no triangles: expected Pnts and Faces, as of a TIN")
     try:
-        places = {point.get("id"): [float(value) for value in (point.text or "").split()] for point in points}
-        rows = {name: row for row, name in enumerate(places)}
+        positions = {point.get("id"): [float(value) for value in (point.text or "").split()] for point in points}
+        rows = {name: row for row, name in enumerate(positions)}
         visible = [face for face in faces if face.get("i") != "1"]
         corners = [[rows[name] for name in (face.text or "").split()] for face in visible]
-        vertices, triangles = np.array(list(places.values()), float), np.array(corners, np.int64)
+        vertices, triangles = np.array(list(positions.values()), float), np.array(corners, np.int64)
     except (KeyError, ValueError) as error:
         raise GeometryError(f"its surface is damaged: a point or triangle is none ({error})") from error
     if not len(triangles) or vertices.ndim != 2 or vertices.shape[1] != 3 or triangles.shape[1] != 3:

@@ -50,9 +50,9 @@ class Placing:
         moved = (points - self.origin) * self.scale
         return np.column_stack((transformed(self.turn, moved[:, :2]), moved[:, 2]))
 
-    def to_file(self, places_m: np.ndarray) -> np.ndarray:
+    def to_file(self, positions_m: np.ndarray) -> np.ndarray:
         """Return eastings and northings (n, 2) of positions (n, 2) of the scenario."""
-        return transformed_back(self.turn, np.asarray(places_m, float)) / self.scale + self.origin[:2]
+        return transformed_back(self.turn, np.asarray(positions_m, float)) / self.scale + self.origin[:2]
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -69,10 +69,10 @@ class Terrain:
         spacing = self.source.spacing
         return None if spacing is None else spacing * self.placing.scale
 
-    def heights_at(self, places_m: np.ndarray) -> np.ndarray:
+    def heights_at(self, positions_m: np.ndarray) -> np.ndarray:
         """Return heights (n,) at positions (n, 2), m; nan where there are no data."""
-        places_m = np.asarray(places_m, float).reshape(-1, 2)
-        heights = self.source.heights_at(self.placing.to_file(places_m))
+        positions_m = np.asarray(positions_m, float).reshape(-1, 2)
+        heights = self.source.heights_at(self.placing.to_file(positions_m))
         return (heights - self.placing.origin[2]) * self.placing.scale
 
     def points_within(self, low_m: np.ndarray, high_m: np.ndarray) -> np.ndarray:

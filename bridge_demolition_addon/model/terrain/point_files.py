@@ -81,7 +81,7 @@ def _numbers(text: str) -> np.ndarray:
         raise GeometryError(f"expected {width} numbers in each line, as in the first")
     points = values.reshape(-1, width)[:, :3]
     if not np.isfinite(points[:, :2]).all():
-        raise GeometryError("a point has no place: expected numbers for x and y")
+        raise GeometryError("a point has no position: expected numbers for x and y")
     return points[np.isfinite(points[:, 2])]
 
 

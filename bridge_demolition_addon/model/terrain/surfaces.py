@@ -90,8 +90,8 @@ def _check_through(settings: GroundSurface, mesh: TriangleMesh, members: Sequenc
 def _check_above(settings: GroundSurface, mesh: TriangleMesh, ground_at: Callable[[np.ndarray], np.ndarray]) -> None:
     low, high = mesh.bounds[:, :2]
     x, y = (np.linspace(low[axis], high[axis], 65) for axis in (0, 1))
-    places = np.concatenate([mesh.vertices[:, :2], np.stack(np.meshgrid(x, y), -1).reshape(-1, 2)])
-    over = Surface(mesh).heights_at(places) - ground_at(places)
+    positions = np.concatenate([mesh.vertices[:, :2], np.stack(np.meshgrid(x, y), -1).reshape(-1, 2)])
+    over = Surface(mesh).heights_at(positions) - ground_at(positions)
     if np.isnan(over).all():
         raise GeometryError(
             f"Surface {settings.name!r} lies beside the ground: bring it to the bridge by its corners_m, or by "

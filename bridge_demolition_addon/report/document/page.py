@@ -1,4 +1,4 @@
-"""A page of a PDF: lines of text, rules, boxes and drawings, each at its place in mm from the upper left corner."""
+"""A page of a PDF: lines of text, rules, boxes and drawings, each at its position in mm from the upper left corner."""
 
 from __future__ import annotations
 
@@ -82,9 +82,9 @@ class Page:
             file.output(Op.grestore)
 
 
-def _points(places_mm: np.ndarray) -> np.ndarray:
-    """Return places (..., 2) in the PDF's own units: points, from the lower left corner."""
-    return (np.array([0.0, PAGE_MM[1]]) + places_mm * (1.0, -1.0)) / MM_PER_POINT
+def _points(positions_mm: np.ndarray) -> np.ndarray:
+    """Return positions (..., 2) in the PDF's own units: points, from the lower left corner."""
+    return (np.array([0.0, PAGE_MM[1]]) + positions_mm * (1.0, -1.0)) / MM_PER_POINT
 
 
 @lru_cache

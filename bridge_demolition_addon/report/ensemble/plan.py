@@ -58,7 +58,7 @@ def _picture(runs: StudyRuns) -> Picture:
             neighbours=scenario.neighbours,
         ),
         "Where debris was at any time of a run. Shaded: where its probability may be above the one given, with "
-        f"{percent(settings.confidence)} confidence for each place by itself.",
+        f"{percent(settings.confidence)} confidence for each position by itself.",
         map_height_mm((*bounds[:, :2].min(axis=0), *bounds[:, 2:].max(axis=0))),
     )
 
@@ -82,7 +82,7 @@ def _words(runs: StudyRuns) -> Iterator[str]:
     yield (
         f"The plan is cut into squares of {likely.cells.side_m:g} m. For each the probability that a run brings "
         "debris there, even over a corner of it and only for a moment, has an upper limit after Clopper and Pearson. "
-        "These limits hold for each place by itself. For all places at once there is the limit around the bridge."
+        "These limits hold for each position by itself. For all positions at once there is the limit around the bridge."
     )
     for level in LEVELS:
         if not likely.resolves(level):

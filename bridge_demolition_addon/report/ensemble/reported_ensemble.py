@@ -70,11 +70,11 @@ def shown(name: str) -> str:
         return name.removeprefix(_CRITERION).strip('"')
     name = name.replace("reach", "debris_distance")
     in_list = _IN_LIST.search(name)
-    place = in_list[0] if in_list else ""
-    name = name.removesuffix(place)
+    position = in_list[0] if in_list else ""
+    name = name.removesuffix(position)
     name = _QUOTED_OR_DOT.sub(lambda part: " " if part[0] == "." else part[0], name)
     name, unit = name_and_unit(name)
-    return f"{name.replace('_', ' ')}{place.replace('.', ' ')}" + (f" ({unit})" if unit else "")
+    return f"{name.replace('_', ' ')}{position.replace('.', ' ')}" + (f" ({unit})" if unit else "")
 
 
 _IN_LIST = re.compile(r"\.\d+$")

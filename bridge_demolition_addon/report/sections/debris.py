@@ -114,8 +114,8 @@ def _debris_blocks(
     extent = f", from x = {low[0]:.2f} to {high[0]:.2f} m, y = {low[1]:.2f} to {high[1]:.2f} m"
     mass = debris.masses_kg.sum()
     middle = debris.masses_kg @ results.frames.positions_m[-1, debris.bodies] / mass
-    places = results.frames.positions_m[-1, debris.bodies]
-    above_m = float(debris.masses_kg @ (places[:, 2] - debris.ground.heights_at(places[:, :2])) / mass)
+    positions = results.frames.positions_m[-1, debris.bodies]
+    above_m = float(debris.masses_kg @ (positions[:, 2] - debris.ground.heights_at(positions[:, :2])) / mass)
     solid = float(results.inventory.volumes_m3[debris.bodies].sum())
     shards = len(results.inventory.of_kind("shard"))
     rows = [

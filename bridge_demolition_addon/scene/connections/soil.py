@@ -19,9 +19,9 @@ _COUNT = 4
 def keep_soil(connections: Sequence[bpy.types.Object], soil: SoilSprings) -> None:
     """Keep soil with the connections that stand on it; no stress breaks these."""
     of_footings = zip(soil.stiffness_n_m3, soil.horizontal_n_m3, soil.capacity_pa, soil.friction, strict=True)
-    places = np.column_stack((soil.places_m, soil.areas_m2))
+    positions = np.column_stack((soil.places_m, soil.areas_m2))
     for number, (row, values) in enumerate(zip(soil.rows.tolist(), of_footings, strict=True)):
-        connections[row][_SOIL] = [*map(float, values), *places[soil.footings == number].ravel().tolist()]
+        connections[row][_SOIL] = [*map(float, values), *positions[soil.footings == number].ravel().tolist()]
         set_strength(connections[row], None)
 
 

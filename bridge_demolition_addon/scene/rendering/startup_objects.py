@@ -47,8 +47,8 @@ def bring_startup_objects_back(scene: bpy.types.Scene) -> None:
 def _is_untouched(obj: bpy.types.Object) -> bool:
     if obj.type not in _PLACES or obj.library or obj.rigid_body or obj.modifiers or obj.parent:
         return False
-    name, place = _PLACES[obj.type]
-    is_there = obj.name == name and (obj.matrix_basis.translation - place).length < _NEAR_M
+    name, position = _PLACES[obj.type]
+    is_there = obj.name == name and (obj.matrix_basis.translation - position).length < _NEAR_M
     if obj.type != "MESH":
         return is_there and not obj.animation_data
     return is_there and len(obj.data.vertices) == _CUBE_CORNERS and obj.matrix_basis == Matrix.Identity(4)

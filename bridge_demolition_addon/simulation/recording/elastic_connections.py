@@ -15,7 +15,7 @@ from ...bullet.body_motion import BodyMotion
 from ...bullet.constraint_rows import check_frames
 from ...bullet.world import BulletWorld
 from ...engineering.arithmetic import power
-from ...engineering.elasticity.cracks import CORNERS, Cracks, corner_places, corner_shares
+from ...engineering.elasticity.cracks import CORNERS, Cracks, corner_positions, corner_shares
 from ...engineering.elasticity.equations import RigidBodies
 from ...engineering.elasticity.equilibrium import Equilibrium, equilibrium
 from ...engineering.elasticity.joint_rows import (
@@ -23,7 +23,7 @@ from ...engineering.elasticity.joint_rows import (
     JointRows,
     components_first,
     components_last,
-    joint_places,
+    joint_positions,
     matrix_products,
     transposed,
 )
@@ -98,10 +98,10 @@ class ElasticConnections:
         self._frames = JointFrames(pairs[:, 0], pairs[:, 1], axes_a, axes_b, points_a, points_b)
         motion = self._reader.read()
         self._check_frames(motion)
-        places = joint_places(self._frames, motion.position_components_m, motion.rotation_components)
+        positions = joint_positions(self._frames, motion.position_components_m, motion.rotation_components)
         sections = components_first(section_axes(inventory.normals))
         self._stiffness = in_frames(
-            stiffness, matrix_products(transposed(places.first_axes), sections), self._rows.held
+            stiffness, matrix_products(transposed(positions.first_axes), sections), self._rows.held
         )
         self._axial_n_m = stiffness.axial_n_m
         self._masses = inventory.masses_kg
@@ -135,8 +135,8 @@ class ElasticConnections:
         even = ductility.strength_share * given(breaking.strength).tension_pa * self._inventory.areas_m2
         yield_n = np.tile(even / len(CORNERS), (len(CORNERS), 1))
         if breaking.bars:
-            places = components_first(transformed_back(sections.directions, breaking.bars.offsets_m))
-            yield_n = yield_n + breaking.bars.yield_n * corner_shares(places, self._face_sides_m)
+            positions = components_first(transformed_back(sections.directions, breaking.bars.offsets_m))
+            yield_n = yield_n + breaking.bars.yield_n * corner_shares(positions, self._face_sides_m)
         self._cracks = Cracks(breaking.steel, float(ductility.elongation_m), yield_n, left, self._axial_n_m)
 
     def tear(self, rows: np.ndarray, points_m: np.ndarray, axes: np.ndarray) -> None:
@@ -148,11 +148,11 @@ class ElasticConnections:
             return
         motion = self._reader.read()
         across = matrix_products(components_first(axes)[:, 1:], self._face_directions[..., rows])
-        places = corner_places(components_first(points_m), across, self._face_sides_m[:, rows])
+        positions = corner_positions(components_first(points_m), across, self._face_sides_m[:, rows])
         outwards = np.where(self._is_first[rows], 1.0, -1.0) * components_first(axes[:, :, 0])
         first, second = self._frames.first[rows], self._frames.second[rows]
         self._cracks.add(
-            rows, first, second, places, outwards, motion.position_components_m, motion.rotation_components
+            rows, first, second, positions, outwards, motion.position_components_m, motion.rotation_components
         )
 
     @property
@@ -245,9 +245,9 @@ class ElasticConnections:
                 self._frames, self._stiffness, bodies, damping_s, self._cracks, self._footings
             )
             self._damping_s = damping_s
-        places = joint_places(self._frames, motion.position_components_m, motion.rotation_components)
+        positions = joint_positions(self._frames, motion.position_components_m, motion.rotation_components)
         intact = np.flatnonzero(self._world.constraints.intact())
-        rows = places.rows()
+        rows = positions.rows()
         inverse = _effective_inverse_masses(
             rows, self._frames, motion.inverse_masses, self._reader.inverse_inertia_components()
         )
@@ -259,7 +259,7 @@ class ElasticConnections:
             self._touching[:] = 1.0
         self._rows.soften(intact, softness[:, intact])
         # Sleeping bodies are held as they are, in the sub-step in which Bullet finds what wakes them.
-        self._rows.expect(intact, places.deformations()[:, intact])
+        self._rows.expect(intact, positions.deformations()[:, intact])
 
     def _follow_lifting(self) -> None:
         """Make Bullet's own constraint of a footing softer as less of it touches the ground."""
@@ -281,10 +281,10 @@ class ElasticConnections:
         return np.concatenate((motion.inverse_masses * loads[:3], angular * (motion.inverse_masses > 0.0)))
 
     def _check_frames(self, motion: BodyMotion) -> None:
-        places = joint_places(self._frames, motion.position_components_m, motion.rotation_components)
+        positions = joint_positions(self._frames, motion.position_components_m, motion.rotation_components)
         for axes, bodies, levers in (
-            (places.first_axes, self._frames.first, places.first_levers_m),
-            (places.second_axes, self._frames.second, places.second_levers_m),
+            (positions.first_axes, self._frames.first, positions.first_levers_m),
+            (positions.second_axes, self._frames.second, positions.second_levers_m),
         ):
             points = components_last(motion.position_components_m[:, bodies] + levers)
             check_frames(components_last(axes), points, self._world.connection_objects)

@@ -95,8 +95,8 @@ class GrowingTable:
         self._unwanted.append(True)
         self._finish()
 
-    def _write(self, place: int, content: bytes | memoryview) -> None:
-        self._file.seek(place)
+    def _write(self, position: int, content: bytes | memoryview) -> None:
+        self._file.seek(position)
         left = memoryview(content)
         while left:
             left = left[self._file.write(left) :]

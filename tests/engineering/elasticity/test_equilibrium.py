@@ -61,8 +61,8 @@ def test_a_propped_cantilever_shares_its_weight_by_stiffness():
 @pytest.mark.parametrize("order", [(0, 1, 2), (2, 1, 0), (1, 0, 2)])
 def test_three_posts_share_a_load_by_stiffness_whatever_their_order(order):
     stiff, places, weight = np.array([4e10, 1e10, 2e10]), np.array([-3.0, 0.5, 3.0]), 20_000.0 * GRAVITY_M_S2
-    positions = np.array([(0.0, 0.0, 10.0)] + [(places[place], 0.0, 9.5) for place in order])
-    joints = [(1 + row, 0, (places[place], 0.0, 9.5)) for row, place in enumerate(order)]
+    positions = np.array([(0.0, 0.0, 10.0)] + [(places[position], 0.0, 9.5) for position in order])
+    joints = [(1 + row, 0, (places[position], 0.0, 9.5)) for row, position in enumerate(order)]
     stiffness = np.zeros((2, 3, 3, 3))
     stiffness[0, 2, 2] = stiff[list(order)]
     stiffness[0, 0, 0] = stiffness[0, 1, 1] = stiff[list(order)] / 3.0

@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.engineering.elasticity.cracks import corner_places
+from bridge_demolition_addon.engineering.elasticity.cracks import corner_positions
 from bridge_demolition_addon.engineering.elasticity.steel_bars import Bars, Steel, bar_response
 from bridge_demolition_addon.errors import ScenarioError
 
@@ -55,8 +55,8 @@ def test_tangents_are_how_forces_change():
 
 def test_what_cracks_leave_is_at_the_corners_of_the_rectangle():
     axes = np.array([[[0.0], [0.0]], [[1.0], [0.0]], [[0.0], [1.0]]])
-    places = corner_places(np.array([[5.0], [0.0], [2.0]]), axes, np.array([[0.4], [1.2]]))[..., 0]
-    assert places.T.tolist() == [[5.0, y, z] for y in (-0.2, 0.2) for z in (1.4, 2.6)]
+    positions = corner_positions(np.array([[5.0], [0.0], [2.0]]), axes, np.array([[0.4], [1.2]]))[..., 0]
+    assert positions.T.tolist() == [[5.0, y, z] for y in (-0.2, 0.2) for z in (1.4, 2.6)]
 
 
 @pytest.mark.parametrize(

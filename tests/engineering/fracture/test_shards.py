@@ -243,10 +243,10 @@ def test_normals_are_unit_vectors_from_the_first_shard_into_the_second(name: str
     # A millimetre to either side of a face's centre, where faces are large and plane enough for it to lie on them.
     for row in np.flatnonzero(whole)[:25]:
         sides = faces.centres[row] + np.outer([-1e-3, 1e-3], faces.normals[row])
-        for shard_index, place in zip(faces.pairs[row], sides, strict=True):
+        for shard_index, position in zip(faces.pairs[row], sides, strict=True):
             shard = result.shards[shard_index]
             if name == "slab":
-                assert contains(shard, place)[0]
+                assert contains(shard, position)[0]
     if name == "slab":
         first, second = result.points[faces.pairs].transpose(1, 0, 2)
         towards = (second - first) / np.linalg.norm(second - first, axis=1)[:, None]

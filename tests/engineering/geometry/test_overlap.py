@@ -14,7 +14,7 @@ ROUNDING = 1e-12
 
 
 def test_overlapping_pairs_and_their_volumes_largest_first():
-    meshes = [box([2, 2, 2], place) for place in ([0, 0, 0], [1.5, 0, 0], [9, 0, 0], [0, 1, 1.2])]
+    meshes = [box([2, 2, 2], position) for position in ([0, 0, 0], [1.5, 0, 0], [9, 0, 0], [0, 1, 1.2])]
     found = overlaps(meshes)
     assert found.pairs.tolist() == [[0, 1], [0, 3], [1, 3]]
     assert found.volumes == pytest.approx([0.5 * 2 * 2, 2 * 1 * 0.8, 0.5 * 1 * 0.8], rel=ROUNDING)

@@ -14,7 +14,7 @@ SQUARE = CrossSection.square((1.0, 1.0))
 @pytest.mark.parametrize("count", [0, 1, 7, 8, 9, 100])
 def test_any_number_of_areas_is_united(count):
     row = [SQUARE.translate((0.5 * number, 0.0)) for number in range(count)]
-    shuffled = [row[place] for place in np.random.default_rng(1).permutation(count)]
+    shuffled = [row[position] for position in np.random.default_rng(1).permutation(count)]
     assert united(shuffled).area() == pytest.approx(0.5 * (count + 1) if count else 0.0)
 
 

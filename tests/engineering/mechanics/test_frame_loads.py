@@ -304,14 +304,14 @@ def test_equivalent_stresses_are_of_one_moment_for_all_bodies():
 def test_loads_act_where_the_bodies_are_in_each_sub_step():
     """A squeezed block that moves along with its contacts is squeezed all the same."""
     history = []
-    for place in ([0.0, 0, 0], [100.0, 5, -3], [7.0, 7, 7]):
-        centres = np.array([[0.0, 0, -2], [0, 0, 0], [0, 0, 2]]) + place
+    for position in ([0.0, 0, 0], [100.0, 5, -3], [7.0, 7, 7]):
+        centres = np.array([[0.0, 0, -2], [0, 0, 0], [0, 0, 2]]) + position
         history.append(
             loads_of(
                 centres,
                 contact_pairs=[[1, 0], [1, 2]],
                 contact_forces=[[0, 0, 12.0], [0, 0, -12.0]],
-                contact_points=np.array([[0.0, 0, -1], [0, 0, 1]]) + place,
+                contact_points=np.array([[0.0, 0, -1], [0, 0, 1]]) + position,
             )
         )
     loads = gathered(frame_loads(NO_PAIRS, [8.0, 8.0, 8.0]), history)
@@ -353,11 +353,11 @@ def test_any_loads_against_sums_body_by_body():
         for in_substep in history:
             acting = [
                 (sign * force, point)
-                for two, forces, places in (
+                for two, forces, positions in (
                     (pairs, in_substep.connection_forces_n[0], points),
                     (in_substep.contact_pairs, in_substep.contact_impulses_ns, in_substep.contact_points_m),
                 )
-                for pair, force, point in zip(two, forces, places, strict=True)
+                for pair, force, point in zip(two, forces, positions, strict=True)
                 for side, sign in ((0, 1.0), (1, -1.0))
                 if pair[side] == body
             ]

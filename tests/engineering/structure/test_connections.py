@@ -64,8 +64,8 @@ def test_neighbours_by_centre_of_more_shards_than_one_block_takes():
 @pytest.mark.parametrize("radius", (0.0, 0.1, 0.35, 1.0, 20.0))
 def test_neighbours_by_vertex_are_those_of_comparing_all_vertices(radius):
     generator = np.random.default_rng(5)
-    sizes, places = generator.uniform(0.05, 0.4, (150, 3)), generator.uniform(-1.0, 1.0, (150, 3))
-    shards = [box(size, place) for size, place in zip(sizes, places, strict=True)]
+    sizes, positions = generator.uniform(0.05, 0.4, (150, 3)), generator.uniform(-1.0, 1.0, (150, 3))
+    shards = [box(size, position) for size, position in zip(sizes, positions, strict=True)]
     corners = np.array([shard.vertices for shard in shards])
     differences = corners[:, None, :, None] - corners[None, :, None, :]
     apart = np.linalg.norm(differences, axis=4).min(axis=(2, 3))

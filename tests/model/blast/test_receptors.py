@@ -23,10 +23,10 @@ def test_one_charge_gives_its_own_wave():
 
 
 def test_waves_that_arrive_together_add_up_and_apart_they_do_not():
-    place = (0.0, 0.0, 0.0)
-    alone = loads_at(place, [charge(10.0, 8.0)])
-    together = loads_at(place, [charge(10.0, 8.0), charge(-10.0, 8.0)])
-    apart = loads_at(place, [charge(10.0, 8.0), charge(-10.0, 8.0, 1.0)])
+    position = (0.0, 0.0, 0.0)
+    alone = loads_at(position, [charge(10.0, 8.0)])
+    together = loads_at(position, [charge(10.0, 8.0), charge(-10.0, 8.0)])
+    apart = loads_at(position, [charge(10.0, 8.0), charge(-10.0, 8.0, 1.0)])
     assert together.peak_pa == pytest.approx(2.0 * alone.peak_pa)
     assert apart.peak_pa == pytest.approx(alone.peak_pa)
     assert together.impulse_pa_s == apart.impulse_pa_s == pytest.approx(2.0 * alone.impulse_pa_s)
@@ -40,8 +40,8 @@ def test_the_pressure_over_time_has_the_impulse_of_the_pulse():
 
 
 def test_explosives_count_by_pressure_for_pressure_and_by_impulse_for_impulse():
-    place = (10.0, 0.0, 0.0)
-    load = loads_at(place, [charge(0.0, 8.0, explosive="C-4")])
+    position = (10.0, 0.0, 0.0)
+    load = loads_at(position, [charge(0.0, 8.0, explosive="C-4")])
     assert load.peak_pa == pytest.approx(float(blast_wave(10.0, 8.0 * 1.37).peak_overpressure_pa))
     assert load.impulse_pa_s == pytest.approx(float(blast_wave(10.0, 8.0 * 1.19).incident_impulse_pa_s), rel=1e-6)
 
@@ -73,11 +73,11 @@ def test_peaks_on_the_ground_are_those_of_the_charge_that_gives_most():
 
 
 def test_a_factor_on_pressures_leaves_times_and_the_ground_alone():
-    charges, place = [charge(10.0, 8.0), charge(-10.0, 8.0, 0.05)], (30.0, 5.0, 0.0)
-    one, twice = loads_at(place, charges), loads_at(place, charges, pressure_factor=2.0)
+    charges, position = [charge(10.0, 8.0), charge(-10.0, 8.0, 0.05)], (30.0, 5.0, 0.0)
+    one, twice = loads_at(position, charges), loads_at(position, charges, pressure_factor=2.0)
     assert (twice.peak_pa, twice.impulse_pa_s) == (2.0 * one.peak_pa, 2.0 * one.impulse_pa_s)
     assert (twice.arrival_s, twice.peak_velocity_m_s) == (one.arrival_s, one.peak_velocity_m_s)
-    points = np.array([place, (50.0, 0.0, 0.0)])
+    points = np.array([position, (50.0, 0.0, 0.0)])
     np.testing.assert_array_equal(
         peak_overpressures(points, charges, pressure_factor=2.0), 2.0 * peak_overpressures(points, charges)
     )

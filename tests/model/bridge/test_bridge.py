@@ -57,15 +57,15 @@ def test_members_and_their_volumes():
 
 def test_places_of_the_members():
     bounds = bounds_of(BRIDGE)
-    places = {
+    positions = {
         "deck": [[-0.5, -4.25, 5.3], [13.5, 4.25, 5.55]],
         "pier 2 cap": [[12.6, -4.0, 4.9], [13.4, 4.0, 5.3]],
         # Two columns share the cap's 8 m: their middles are 2 m to either side.
         "pier 1 column 1": [[-0.35, -2.3, 0.0], [0.35, -1.7, 4.9]],
         "pier 1 column 2": [[-0.35, 1.7, 0.0], [0.35, 2.3, 4.9]],
     }
-    for name, place in places.items():
-        np.testing.assert_allclose(bounds[name], place, atol=ROUNDING_M, err_msg=name)
+    for name, position in positions.items():
+        np.testing.assert_allclose(bounds[name], position, atol=ROUNDING_M, err_msg=name)
 
 
 def test_without_caps_columns_share_the_width_of_the_deck():

@@ -359,5 +359,5 @@ def test_the_ball_has_to_aim_at_the_skewed_deck():
     for along in (3.6, 48.9):
         scenario_of(bridge, ball=Ball(mass_kg=1e3, diameter_m=1, target_m=[along, 4], drop_height_m=1))
     for along in (3.4, 49.1):
-        with pytest.raises(ScenarioError, match=r"expected a place on the deck, from 3.5 to 49 \(m\)"):
+        with pytest.raises(ScenarioError, match=r"expected a position on the deck, from 3.5 to 49 \(m\)"):
             scenario_of(bridge, ball=Ball(mass_kg=1e3, diameter_m=1, target_m=[along, 4], drop_height_m=1))

@@ -31,9 +31,9 @@ WATER = box((20.0, 30.0, 1.0), (20.0, 0.0, 1.5))
 def fallen(starts_m, ends_m, *, with_water=True):
     """Cubes of 1 m that are at their starts at first and at their ends after it, on the slope."""
     count = len(starts_m)
-    places = np.array([np.vstack([shard_m, np.zeros((2, 3))]) for shard_m in (starts_m, ends_m)])
+    positions = np.array([np.vstack([shard_m, np.zeros((2, 3))]) for shard_m in (starts_m, ends_m)])
     arrays = moving_boxes(
-        [0.0, 1.0], [(1.0, 1.0, 1.0)] * (count + 2), places, kinds=["shard"] * count + ["ground"] * 2
+        [0.0, 1.0], [(1.0, 1.0, 1.0)] * (count + 2), positions, kinds=["shard"] * count + ["ground"] * 2
     ).arrays()
     vertices = [np.asarray(arrays["vertices_m"])[: 8 * count], GROUND, WATER.vertices]
     triangles = [np.array([[0, 1, 2], [0, 2, 3]]), WATER.triangles]

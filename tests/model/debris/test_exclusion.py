@@ -32,18 +32,18 @@ def test_drop_and_buffer_add_up():
 
 def test_debris_counts_on_its_way_too():
     """A box that is thrown 30 m out and comes back: only the way tells."""
-    places = np.zeros((3, 1, 3))
-    places[1, 0, 0] = 30.0
-    zone = exclusion_zone(moving_boxes([0, 1, 2], [(2, 2, 2)], places), Exclusion(buffer_m=0))
+    positions = np.zeros((3, 1, 3))
+    positions[1, 0, 0] = 30.0
+    zone = exclusion_zone(moving_boxes([0, 1, 2], [(2, 2, 2)], positions), Exclusion(buffer_m=0))
     assert zone.debris.area() == pytest.approx(32.0 * 2.0)
     assert zone.whole.area() == pytest.approx(64.0)
     assert zone.largest_distance_m == pytest.approx(30.0)
 
 
 def test_the_ball_counts_as_debris_but_not_as_bridge():
-    places = np.zeros((2, 2, 3))
-    places[1, 1, 1] = 12.0
-    results = moving_boxes([0, 1], [(4, 4, 1), (1, 1, 1)], places, kinds=["shard", "ball"])
+    positions = np.zeros((2, 2, 3))
+    positions[1, 1, 1] = 12.0
+    results = moving_boxes([0, 1], [(4, 4, 1), (1, 1, 1)], positions, kinds=["shard", "ball"])
     zone = exclusion_zone(results, Exclusion(buffer_m=0))
     assert zone.plan.area() == pytest.approx(16.0)
     assert zone.bounds_m == pytest.approx((-2, -2, 2, 12.5), abs=1e-6)

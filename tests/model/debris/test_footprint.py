@@ -14,8 +14,8 @@ ROUNDING = 1e-6
 
 def standing(*boxes):
     """Boxes at rest, each by size and place."""
-    sizes, places = zip(*boxes, strict=True)
-    return moving_boxes([0.0], sizes, [places])
+    sizes, positions = zip(*boxes, strict=True)
+    return moving_boxes([0.0], sizes, [positions])
 
 
 def test_a_box_covers_its_base():
@@ -67,8 +67,8 @@ def test_what_does_not_move_sweeps_its_footprint():
 
 def test_a_turning_box_sweeps_all_its_positions():
     angles = np.radians(np.arange(0.0, 91.0, 1.0))
-    places = np.zeros((len(angles), 1, 3))
-    results = moving_boxes(angles, [(2, 1, 1)], places, rotations=turned_about_z(angles)[:, None])
+    positions = np.zeros((len(angles), 1, 3))
+    results = moving_boxes(angles, [(2, 1, 1)], positions, rotations=turned_about_z(angles)[:, None])
     swept = swept_footprint(results, [0])
     radius = np.hypot(1.0, 0.5)
     assert 2.0 < swept.area() < np.pi * radius**2
@@ -89,12 +89,12 @@ def test_a_way_that_bends_and_trembles_is_covered_and_little_more():
     steps = np.arange(0.0, 3.0, 0.02)
     way = np.column_stack((4.0 * np.sin(steps), 4.0 * np.cos(steps), np.zeros(len(steps))))
     way += np.random.default_rng(1).uniform(-1e-3, 1e-3, way.shape)
-    places = np.concatenate((np.repeat(way[:1], 50, axis=0), way))
-    results = moving_boxes(np.arange(len(places)), [(1, 1, 1)], places[:, None])
+    positions = np.concatenate((np.repeat(way[:1], 50, axis=0), way))
+    results = moving_boxes(np.arange(len(positions)), [(1, 1, 1)], positions[:, None])
     swept = swept_footprint(results, [0])
     of_steps = united(
-        swept_footprint(moving_boxes([0, 1], [(1, 1, 1)], places[step : step + 2, None]), [0])
-        for step in range(len(places) - 1)
+        swept_footprint(moving_boxes([0, 1], [(1, 1, 1)], positions[step : step + 2, None]), [0])
+        for step in range(len(positions) - 1)
     )
     assert (of_steps - swept).area() == pytest.approx(0.0, abs=ROUNDING)
     corners = np.concatenate(outlines(swept))
@@ -102,7 +102,7 @@ def test_a_way_that_bends_and_trembles_is_covered_and_little_more():
 
 
 def test_what_falls_within_what_was_covered_adds_nothing():
-    places = [[(0, 0, 0), (0, 0, 5)], [(0.5, 0.5, 0), (0.5, 0.0, 1)]]
-    results = moving_boxes([0, 1], [(4, 4, 1), (1, 1, 1)], np.array(places))
-    alone = moving_boxes([0, 1], [(4, 4, 1)], np.array(places)[:, :1])
+    positions = [[(0, 0, 0), (0, 0, 5)], [(0.5, 0.5, 0), (0.5, 0.0, 1)]]
+    results = moving_boxes([0, 1], [(4, 4, 1), (1, 1, 1)], np.array(positions))
+    alone = moving_boxes([0, 1], [(4, 4, 1)], np.array(positions)[:, :1])
     assert swept_footprint(results, [0, 1]).area() == pytest.approx(swept_footprint(alone, [0]).area(), abs=ROUNDING)

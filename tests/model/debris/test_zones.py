@@ -18,9 +18,9 @@ def zone(corners=SQUARE, **heights):
 def slide(speed_m_s, duration_s=2.0, frame_s=0.25, height_m=0.0, size=(1, 1, 1)):
     """A box that slides along x from 0."""
     times = np.arange(0.0, duration_s + frame_s / 2, frame_s)
-    places = np.zeros((len(times), 1, 3))
-    places[:, 0, 0], places[:, 0, 2] = speed_m_s * times, height_m
-    return moving_boxes(times, [size], places)
+    positions = np.zeros((len(times), 1, 3))
+    positions[:, 0, 0], positions[:, 0, 2] = speed_m_s * times, height_m
+    return moving_boxes(times, [size], positions)
 
 
 @pytest.mark.parametrize("speed", [3.0, 4.7, 20.0])
@@ -58,9 +58,9 @@ def test_heights_of_a_zone_count(bottom, top, enters):
 def test_free_fall_onto_a_zone():
     """Falling 20 m into a zone that is 2 m high, frames of 1/24 s: the parabola is followed within a frame's sag."""
     times = np.arange(49) / 24.0
-    places = np.zeros((49, 1, 3))
-    places[:, 0, 2] = 20.0 - 9.80665 * times**2 / 2
-    results = moving_boxes(times, [(1, 1, 1)], places)
+    positions = np.zeros((49, 1, 3))
+    positions[:, 0, 2] = 20.0 - 9.80665 * times**2 / 2
+    results = moving_boxes(times, [(1, 1, 1)], positions)
     (entry,) = watch_zone(results, zone(((-3, -3), (3, -3), (3, 3), (-3, 3)), top_m=2.0), [0]).entries
     # The straight line between two frames lies at most g Δt²/8 = 2 mm beside the parabola, and it falls at 18.5 m/s.
     assert entry.time_s == pytest.approx(np.sqrt(2 * 17.5 / 9.80665), abs=TIME_TOLERANCE_S + 0.0025 / 18.5)
@@ -88,18 +88,18 @@ def test_the_notch_of_a_zone_is_not_the_zone():
 
 
 def test_what_was_there_before_does_not_enter():
-    places = np.zeros((2, 2, 3))
-    places[:, 0, 0], places[:, 1, 0] = 10.0, [0.0, 10.0]
-    watch = watch_zone(moving_boxes([0.0, 1.0], [(1, 1, 1)] * 2, places), zone(), [0, 1])
+    positions = np.zeros((2, 2, 3))
+    positions[:, 0, 0], positions[:, 1, 0] = 10.0, [0.0, 10.0]
+    watch = watch_zone(moving_boxes([0.0, 1.0], [(1, 1, 1)] * 2, positions), zone(), [0, 1])
     assert watch.there_before == (0,)
     assert [entry.body for entry in watch.entries] == [1]
     assert watch.mass_within_kg == 1000.0
 
 
 def test_the_first_comes_first():
-    times, places = [0.0, 1.0], np.zeros((2, 2, 3))
-    places[1, :, 0] = [6.0, 12.0]
-    watch = watch_zone(moving_boxes(times, [(1, 1, 1)] * 2, places), zone(), [0, 1])
+    times, positions = [0.0, 1.0], np.zeros((2, 2, 3))
+    positions[1, :, 0] = [6.0, 12.0]
+    watch = watch_zone(moving_boxes(times, [(1, 1, 1)] * 2, positions), zone(), [0, 1])
     assert [entry.body for entry in watch.entries] == [1, 0]
 
 

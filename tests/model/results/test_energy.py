@@ -11,9 +11,9 @@ G = 9.80665
 
 
 def test_energies_of_known_motion():
-    places, velocities = np.zeros((2, 1, 3)), np.zeros((2, 1, 3))
-    places[:, 0, 2], velocities[1, 0] = [10.0, 4.0], (3.0, 4.0, 0.0)
-    energy = energy_of(moving_boxes([0, 1], [(1, 1, 2)], places, velocities_m_s=velocities))
+    positions, velocities = np.zeros((2, 1, 3)), np.zeros((2, 1, 3))
+    positions[:, 0, 2], velocities[1, 0] = [10.0, 4.0], (3.0, 4.0, 0.0)
+    energy = energy_of(moving_boxes([0, 1], [(1, 1, 2)], positions, velocities_m_s=velocities))
     assert energy.potential_j == pytest.approx([2000 * G * 6, 0.0])
     assert energy.kinetic_j == pytest.approx([0.0, 2000 * 25 / 2])
     assert energy.dissipated_j == pytest.approx([0.0, 2000 * G * 6 - 25_000])
@@ -28,9 +28,9 @@ def test_rotation_is_about_the_axes_of_the_body():
 
 
 def test_moments_of_boxes_and_balls():
-    places = np.zeros((1, 3, 3))
+    positions = np.zeros((1, 3, 3))
     kinds = ["shard", "ball", "ground"]
-    results = moving_boxes([0.0], [(1, 2, 3), (4, 4, 4), (9, 9, 9)], places, kinds=kinds, masses_kg=[12.0, 5.0, 0.0])
+    results = moving_boxes([0.0], [(1, 2, 3), (4, 4, 4), (9, 9, 9)], positions, kinds=kinds, masses_kg=[12.0, 5.0, 0.0])
     moments = moments_of_inertia(results)
     assert moments[0] == pytest.approx([4 + 9, 1 + 9, 1 + 4])
     assert moments[1] == pytest.approx([0.4 * 5 * 2**2] * 3)
@@ -39,12 +39,12 @@ def test_moments_of_boxes_and_balls():
 
 def test_free_fall_loses_nothing():
     times = np.linspace(0.0, 2.0, 49)
-    places, velocities = np.zeros((49, 1, 3)), np.zeros((49, 1, 3))
-    places[:, 0, 2], velocities[:, 0, 2] = -G * times**2 / 2, -G * times
+    positions, velocities = np.zeros((49, 1, 3)), np.zeros((49, 1, 3))
+    positions[:, 0, 2], velocities[:, 0, 2] = -G * times**2 / 2, -G * times
     spins = np.broadcast_to((0.0, 0.0, 3.0), (49, 1, 3))
     rotations = turned_about_z(3.0 * times)[:, None]
     results = moving_boxes(
-        times, [(1, 2, 1)], places, velocities_m_s=velocities, rotations=rotations, spins_rad_s=spins
+        times, [(1, 2, 1)], positions, velocities_m_s=velocities, rotations=rotations, spins_rad_s=spins
     )
     energy = energy_of(results)
     np.testing.assert_allclose(energy.dissipated_j, 0.0, atol=1e-9 * energy.potential_j[0])

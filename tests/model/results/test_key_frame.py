@@ -12,8 +12,8 @@ TIMES_S = np.arange(41) * 0.05
 
 
 def still(**more):
-    places = np.tile([[[0.0, 0.0, 0.5], [2.0, 0.0, 0.5]]], (len(TIMES_S), 1, 1))
-    return moving_boxes(TIMES_S, np.ones((2, 3)), places, **more)
+    positions = np.tile([[[0.0, 0.0, 0.5], [2.0, 0.0, 0.5]]], (len(TIMES_S), 1, 1))
+    return moving_boxes(TIMES_S, np.ones((2, 3)), positions, **more)
 
 
 def breaking(*times_s):

@@ -17,9 +17,9 @@ from bridge_demolition_addon.model.results.solver_energy import (
 def thrown(distance_m, **arrays):
     """The chain, whose shards begin 12 and 10 m up or so, with the lower one that far off at the end."""
     results = hanging_chain()
-    places = results.frames.positions_m.copy()
-    places[-1, 2] = places[0, 2] + (distance_m, 0.0, -1.0)
-    return changed(results, places_m=places, **arrays)
+    positions = results.frames.positions_m.copy()
+    positions[-1, 2] = positions[0, 2] + (distance_m, 0.0, -1.0)
+    return changed(results, places_m=positions, **arrays)
 
 
 def test_share_is_what_was_made_over_what_was_dissipated():

@@ -38,9 +38,9 @@ def test_summary_of_the_chain():
 
 def test_a_shard_that_was_removed_is_not_thrown():
     chain = hanging_chain()
-    places = chain.frames.positions_m.copy()
-    places[-1, chain.inventory.body_names.tolist().index("lower"), 2] -= 1000.0
-    assert summarise(changed(chain, places_m=places), GRAVITY)["largest_throw"]["body"] == "upper"
+    positions = chain.frames.positions_m.copy()
+    positions[-1, chain.inventory.body_names.tolist().index("lower"), 2] -= 1000.0
+    assert summarise(changed(chain, places_m=positions), GRAVITY)["largest_throw"]["body"] == "upper"
 
 
 @pytest.mark.parametrize(

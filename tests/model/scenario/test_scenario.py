@@ -286,13 +286,13 @@ def test_values_outside_their_limits_are_refused(table, values, text):
         (
             SCENARIO,
             {"ball": replace(BALL, target_m=(24.1, 0))},
-            "ball.target_m[0] is 24.1: expected a place on the deck, from -0.5 to 24 (m)",
+            "ball.target_m[0] is 24.1: expected a position on the deck, from -0.5 to 24 (m)",
         ),
         (SCENARIO, {"ball": replace(BALL, target_m=(-0.6, 0))}, "ball.target_m[0] is -0.6"),
         (
             SCENARIO,
             {"ball": replace(BALL, target_m=(0, 4.3))},
-            "ball.target_m[1] is 4.3: expected a place on the deck, from -4.25 to 4.25 (m)",
+            "ball.target_m[1] is 4.3: expected a position on the deck, from -4.25 to 4.25 (m)",
         ),
         (SCENARIO.time, {"duration_s": 1e6}, "time.duration_s is 1000000.0: expected 1 to 1000000 frames"),
         (SCENARIO.time, {"duration_s": 1e-9}, "time.duration_s is 1e-09: expected 1 to 1000000 frames"),

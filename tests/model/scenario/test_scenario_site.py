@@ -35,7 +35,7 @@ def test_without_them_nothing_changes():
 @pytest.mark.parametrize(
     "corners, message",
     [
-        ([[0, 0], [1, 0]], "has 2 places: expected at least 3"),
+        ([[0, 0], [1, 0]], "has 2 positions: expected at least 3"),
         ([[0, 0], [1, 0], [1]], r"corners_m\[2\] is a list of length 1: expected a list of one or more lists of 2"),
         ([[0, 0], [1, 0], [1, "a"]], r'corners_m\[2\]\[1\] is "a"'),
         ([[0, 0], [1, 0], 5], r"corners_m\[2\] is 5"),

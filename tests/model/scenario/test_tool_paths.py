@@ -25,17 +25,17 @@ HAMMER = Jackhammer(
 
 def test_chisel_goes_up_and_down_along_its_path():
     times = np.array((0.0, 1.0, 1.25, 1.5, 2.0, 2.25, 2.5, 4.0, 4.5, 5.0, 9.0))
-    places = HAMMER.tip_positions(5.0, times)
+    positions = HAMMER.tip_positions(5.0, times)
     clear, low, high = 5.0 - 0.2 + 0.5, 4.8, 6.3
     expected_z = (clear, clear, low, clear, clear, low, clear, clear, (clear + high) / 2, high, high)
-    np.testing.assert_allclose(places[:, 2], expected_z, atol=1e-12)
+    np.testing.assert_allclose(positions[:, 2], expected_z, atol=1e-12)
     ends = [(2, 0), (2, 0), (2, 0.5), (2, 1), (3, 1), (3.5, 1), (4, 1), (4, 1), (4, 1), (4, 1), (4, 1)]
-    np.testing.assert_allclose(places[:, :2], ends, atol=1e-12)
+    np.testing.assert_allclose(positions[:, :2], ends, atol=1e-12)
 
 
 def test_chisel_on_one_point_stays_there():
-    places = replace(HAMMER, path_m=[(3, 1)]).tip_positions(5.0, np.linspace(0, 9, 50))
-    assert (places[:, :2] == (3, 1)).all()
+    positions = replace(HAMMER, path_m=[(3, 1)]).tip_positions(5.0, np.linspace(0, 9, 50))
+    assert (positions[:, :2] == (3, 1)).all()
 
 
 def test_largest_speed():
@@ -69,7 +69,7 @@ def test_jackhammers_are_written_without_loss():
             {"path_m": [[1, 2], [1, "2"]]},
             r"jackhammers.path_m\[1\]\[1\] is \"2\": expected a list of one or more lists",
         ),
-        ({"path_m": [[1, 2], [1, 9]]}, r"jackhammers.path_m\[1\]\[1\] is 9.0: expected a place on the deck"),
+        ({"path_m": [[1, 2], [1, 9]]}, r"jackhammers.path_m\[1\]\[1\] is 9.0: expected a position on the deck"),
     ],
 )
 def test_wrong_jackhammers_are_refused(values, text):

@@ -22,9 +22,9 @@ def watched(places, spins=0.0, asleep=None, not_before_s=0.0, hold_s=0.5):
     for step, row in enumerate(np.asarray(places, float)):
         angle = spins * step * STEP_S
         turn = np.array([[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0], [0, 0, 1]])
-        place = np.column_stack((row, np.zeros((len(row), 2))))
+        position = np.column_stack((row, np.zeros((len(row), 2))))
         sleep = np.zeros(len(row), bool) if asleep is None else asleep
-        rest.observe(step * STEP_S, place, np.broadcast_to(turn, (len(row), 3, 3)), sleep)
+        rest.observe(step * STEP_S, position, np.broadcast_to(turn, (len(row), 3, 3)), sleep)
         if rest.is_reached and reached_s is None:
             reached_s = step * STEP_S
     return rest.came_to_rest_s, reached_s
@@ -56,8 +56,8 @@ def test_rest_does_not_count_while_something_is_still_to_happen():
 
 
 def test_who_moves_again_did_not_come_to_rest():
-    places = np.concatenate((np.zeros(10), np.linspace(0.0, 5.0, 10)))[:, None]
-    assert watched(places) == (None, pytest.approx(0.5))
+    positions = np.concatenate((np.zeros(10), np.linspace(0.0, 5.0, 10)))[:, None]
+    assert watched(positions) == (None, pytest.approx(0.5))
 
 
 def test_last_event():

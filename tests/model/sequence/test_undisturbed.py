@@ -20,8 +20,8 @@ ALONE = replace(I235, ball=None)
 def still(results):
     """The same run, in which nothing moves or breaks."""
     frames = results.frames
-    places = np.broadcast_to(frames.positions_m[:1], frames.positions_m.shape).copy()
-    return replace(results, frames=replace(frames, positions_m=places, intact=np.ones_like(frames.intact)))
+    positions = np.broadcast_to(frames.positions_m[:1], frames.positions_m.shape).copy()
+    return replace(results, frames=replace(frames, positions_m=positions, intact=np.ones_like(frames.intact)))
 
 
 def test_the_first_event_is_what_is_done_first():

@@ -52,10 +52,10 @@ def test_every_section_has_all_of_a_layer(place_m):
 def test_bars_pull_at_their_depth():
     model = model_with(BOTTOM)
     across = section_axes(model.connections.normals)[:, :, 1:]
-    places = model.connections.points + transformed(across, model.bars.offsets_m)
+    positions = model.connections.points + transformed(across, model.bars.offsets_m)
     with_bars = model.bars.yield_n > 0.0
     level = model.members[0].solid.bounds[0, 2] + 0.04
-    np.testing.assert_allclose(places[with_bars, 2], level, atol=1e-9)
+    np.testing.assert_allclose(positions[with_bars, 2], level, atol=1e-9)
     assert 0 < with_bars.sum() < len(with_bars)
 
 

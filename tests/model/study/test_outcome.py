@@ -26,7 +26,7 @@ DECK_PLACE = (0.0, 0.0, 5.0)
 
 def thrown(*places, size=(1.0, 1.0, 1.0), rotations=None, **more):
     """A deck of 10 m by 4 m around the origin that stays, and a box that goes through places."""
-    all_places = [[DECK_PLACE, place] for place in places]
+    all_places = [[DECK_PLACE, position] for position in places]
     if rotations is not None:
         rotations = np.stack([np.broadcast_to(np.eye(3), (len(places), 3, 3)), rotations], axis=1)
     return moving_boxes(range(len(places)), [DECK, size], all_places, rotations=rotations, **more)
@@ -129,9 +129,9 @@ def test_a_span_that_lies_on_the_ground_has_no_height_to_lose():
 
 def test_spans_are_told_apart():
     two = replace(BARE, bridge=replace(I235.bridge, span_lengths_m=(10.0, 10.0)))
-    places = [[(5, 0, 4), (15, 0, 4)], [(5, 0, 1), (15, 0, 4)]]
+    positions = [[(5, 0, 4), (15, 0, 4)], [(5, 0, 1), (15, 0, 4)]]
     kinds = np.array(["deck", "deck"])
-    results = moving_boxes([0, 1], [(8, 4, 1)] * 2, places, body_member_kinds=kinds)
+    results = moving_boxes([0, 1], [(8, 4, 1)] * 2, positions, body_member_kinds=kinds)
     outputs = outputs_of(results, two)
     assert (outputs["spans.1.lost_share"], outputs["spans.2.lost_share"]) == (0.75, 0.0)
 

@@ -114,8 +114,8 @@ def test_the_error_is_measured_against_the_file_and_kept_to(tmp_path):
     for tolerance in (0.02, 0.2):
         ground = built_ground(on_slope(path, tolerance_m=tolerance), members, 32.0)
         numbers = 2.5 * np.arange(-12, 13)  # the file's own places on the site
-        places = np.stack(np.meshgrid(numbers, numbers), -1).reshape(-1, 2)
-        errors = np.abs(ground.heights_at(places) - (waves(*(places + ORIGIN[:2]).T) - ORIGIN[2]))
+        positions = np.stack(np.meshgrid(numbers, numbers), -1).reshape(-1, 2)
+        errors = np.abs(ground.heights_at(positions) - (waves(*(positions + ORIGIN[:2]).T) - ORIGIN[2]))
         assert ground.facts.largest_error_m == pytest.approx(errors.max(), rel=1e-6, abs=1e-9)
         # A node of the grid is nowhere farther than half a step of 0.5 m from a place of the file, across a kink of
         # the file's own bilinear heights: slopes change by up to 1.5 × 0.314² × 2.5 there.
@@ -203,7 +203,7 @@ def test_ground_that_cannot_be_is_said(tmp_path, name):
         ({"name": "a"}, "ground.surfaces.height_m and ground.surfaces.file are all missing"),
         ({"name": "a", "height_m": 1.0}, "expected both, of a level surface"),
         ({"name": "a", "file": "a.obj", "corners_m": WATER["corners_m"]}, "expected both, of a level surface"),
-        ({"name": "a", "height_m": 1.0, "corners_m": ((0, 0), (1, 1))}, "has 2 places: expected at least 3"),
+        ({"name": "a", "height_m": 1.0, "corners_m": ((0, 0), (1, 1))}, "has 2 positions: expected at least 3"),
         ({"name": "a", "height_m": 1.0, "corners_m": ((0, 0), (1, 1), (1, 0), (0, 1))}, "sides cross"),
     ],
 )

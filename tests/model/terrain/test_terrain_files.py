@@ -59,11 +59,11 @@ def heights_of(scenario, *places):
 @pytest.mark.parametrize("name", FORMATS)
 def test_every_format_gives_the_heights_of_the_plane(tmp_path, name):
     file, write = FORMATS[name]
-    places = np.random.default_rng(3).uniform(-45.0, 45.0, (200, 2))
-    found = heights_of(scenario_on(write(tmp_path / file)), *places)
+    positions = np.random.default_rng(3).uniform(-45.0, 45.0, (200, 2))
+    found = heights_of(scenario_on(write(tmp_path / file)), *positions)
     # Bilinear and linear interpolation are exact on a plane; whole numbers are rounded by up to 0.5.
     tolerance = 0.5 if "whole" in name else 1e-6
-    np.testing.assert_allclose(found, 0.2 * places[:, 0] + 0.05 * places[:, 1], atol=tolerance)
+    np.testing.assert_allclose(found, 0.2 * positions[:, 0] + 0.05 * positions[:, 1], atol=tolerance)
 
 
 def test_a_mesh_gives_the_heights_of_its_triangles(tmp_path):

@@ -91,7 +91,9 @@ def test_a_picture_shows_a_charge_until_it_goes_off(blender, tmp_path):
     from bridge_demolition_addon.scene.rendering.stills import prepare_pictures, render_picture
 
     scene = blender.context.scene
-    charges = [Charge(name=name, place_m=place, mass_kg=1.0) for name, place in (("a", (-1, 0, 0)), ("b", (1, 0, 0)))]
+    charges = [
+        Charge(name=name, place_m=position, mass_kg=1.0) for name, position in (("a", (-1, 0, 0)), ("b", (1, 0, 0)))
+    ]
     first, second = create_charges(scene, charges)
     prepare_pictures(scene, 160, 90)
     aim_camera(scene, np.array(list(product((-1.5, 1.5), (-0.5, 0.5), (-0.5, 0.5)))), 160 / 90)

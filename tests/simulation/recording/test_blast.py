@@ -79,15 +79,15 @@ def test_three_charges_with_delays_on_a_turned_body(blender, tmp_path, apply, st
 @pytest.mark.parametrize("step", [STEPS["24 × 10"], STEPS["240 × 1"]], ids=["24 × 10", "240 × 1"])
 def test_bodies_of_a_touching_deck_each_get_their_own_load(blender, tmp_path, apply, step):
     blocks = weightless(**step)
-    places = np.array([(x, y, 4.0) for x in range(5) for y in range(4)], float)
+    positions = np.array([(x, y, 4.0) for x in range(5) for y in range(4)], float)
     charges = [charge("a", (1.2, 1.4, 0.0), 2.0), charge("b", (4.4, -2.0, 3.0), 1.0, delay_s=0.003)]
-    for row, place in enumerate(places):
-        block = blocks.block(place, 10_000.0)
+    for row, position in enumerate(positions):
+        block = blocks.block(position, 10_000.0)
         # Each in a collision group of its own: they touch all along, but only the blast pushes them.
         block.rigid_body.collision_collections = [group == row for group in range(20)]
     set_off(blocks, charges, apply)
     results = blocks.play(tmp_path, frames_for(blocks, 0.05))
-    differences = places[:, None] - np.array([placed.place_m for placed in charges])[None]
+    differences = positions[:, None] - np.array([placed.place_m for placed in charges])[None]
     stand_offs = np.linalg.norm(differences, axis=2)
     directions = differences / stand_offs[..., None]
     areas = abs(directions).sum(axis=2)  # of a cube of 1 m whose faces look along the axes
@@ -128,12 +128,12 @@ def test_nothing_stays_switched_on(blender, tmp_path, apply):
     fields = force_objects(blocks.scene).values()
     assert [field.field.strength for field in fields] == [0.0] * len(fields)
     assert [field.evaluated_get(graph).field.strength for field in fields] == [0.0] * len(fields)
-    places = []
+    positions = []
     for frame in range(15, 25):
         blocks.scene.frame_set(frame)
-        places.append(blocks.world.collection.objects[0].matrix_world.translation.x)
+        positions.append(blocks.world.collection.objects[0].matrix_world.translation.x)
     # Unpushed, it goes on at the speed it had; single precision of places is 5e-7 m here.
-    assert np.diff(places) * 1000.0 == pytest.approx(speeds[-1], abs=2e-3)
+    assert np.diff(positions) * 1000.0 == pytest.approx(speeds[-1], abs=2e-3)
 
 
 @every_way

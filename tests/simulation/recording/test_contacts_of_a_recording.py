@@ -60,11 +60,11 @@ def test_contacts_of_a_stack_bear_its_weight_below_its_centres(blender, tmp_path
         (2, 1, UPPER_KG, UPPER_M, UPPER_M, (0.25, 0.25), 1.0),
     )
     for upper, lower, mass_kg, centre_m, face_m, half_m, height_m in cases:
-        places, impulses = between(results, upper, lower)
+        positions, impulses = between(results, upper, lower)
         assert impulses.sum(axis=0) == pytest.approx((0.0, 0.0, mass_kg * weight_ns), abs=SHARE * mass_kg * weight_ns)
-        assert places[:, 2] == pytest.approx(height_m, abs=SHARE)
-        assert (abs(places[:, :2] - face_m[:2]) <= np.array(half_m) + SHARE).all()
-        assert middle(places, impulses) == pytest.approx(centre_m[:2], abs=SHARE)  # no moment is left
+        assert positions[:, 2] == pytest.approx(height_m, abs=SHARE)
+        assert (abs(positions[:, :2] - face_m[:2]) <= np.array(half_m) + SHARE).all()
+        assert middle(positions, impulses) == pytest.approx(centre_m[:2], abs=SHARE)  # no moment is left
 
 
 def test_friction_and_pressure_on_a_slope_are_those_of_statics(blender, tmp_path):
@@ -76,7 +76,7 @@ def test_friction_and_pressure_on_a_slope_are_those_of_statics(blender, tmp_path
         body.rigid_body.friction = 1.0
     results = blocks.play(tmp_path, FRAMES, contacts=True)
     weight_ns = mass_kg * STANDARD_GRAVITY_M_S2 * results.frames.substep_s[-1]
-    places, impulses = between(results, 1, 0)
+    positions, impulses = between(results, 1, 0)
     wanted = weight_ns * np.array((-sin(slope), 0.0, cos(slope)))
     assert impulses.sum(axis=0) == pytest.approx(wanted, abs=SHARE * weight_ns)
     last = results.contacts.of_frame(results.frames.number[-1])
@@ -84,7 +84,7 @@ def test_friction_and_pressure_on_a_slope_are_those_of_statics(blender, tmp_path
     assert abs(last.normals[:, 2]) == pytest.approx(1.0)
     assert abs(last.friction_impulses_ns[:, 2]).max() < 1e-6 * weight_ns
     centre = results.frames.positions_m[-1, 1]
-    assert middle(places, impulses) == pytest.approx((centre[0] + centre[2] * tan(slope), centre[1]), abs=SHARE)
+    assert middle(positions, impulses) == pytest.approx((centre[0] + centre[2] * tan(slope), centre[1]), abs=SHARE)
 
 
 def test_contacts_change_nothing_else_and_are_read_back(blender, tmp_path):

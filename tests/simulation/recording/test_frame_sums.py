@@ -27,8 +27,8 @@ def falling_row():
     bodies = [blocks.block((1.01 * x, 0, 0.6 + 0.3 * x), 100.0 + x) for x in range(6)]
     blocks.connect("FIXED", (0, 0, 0.1), ground, bodies[0], 1e4)
     for one, other in itertools.pairwise(bodies):
-        place = (np.array(one.location) + np.array(other.location)) / 2
-        blocks.connect("FIXED", tuple(place), one, other, 1e4)
+        position = (np.array(one.location) + np.array(other.location)) / 2
+        blocks.connect("FIXED", tuple(position), one, other, 1e4)
     return blocks
 
 

@@ -34,8 +34,8 @@ def test_change_of_momentum_is_the_sum_of_all_impulses(blender, tmp_path, monkey
     ]
     for i in range(0, 28, 3):
         kind = ("FIXED", "POINT", "HINGE")[i % 3]
-        place = (np.array(bodies[i].location) + np.array(bodies[i + 1].location)) / 2
-        blocks.connect(kind, tuple(place), bodies[i], bodies[i + 1], 2e4)
+        position = (np.array(bodies[i].location) + np.array(bodies[i + 1].location)) / 2
+        blocks.connect(kind, tuple(position), bodies[i], bodies[i + 1], 2e4)
     errors, velocities, read = [], [np.zeros((33, 3))], Meter.read
     recording = Recording(blocks.scene, tmp_path)
 

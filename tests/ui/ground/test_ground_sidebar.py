@@ -117,8 +117,8 @@ def test_the_chosen_shard_is_drawn_with_its_name_where_it_is(ran):
     layer.objects.active = shard
     ran.frame_set(ran.frame_end)
     found = by_text(ran, shard.name)
-    place = shard.evaluated_get(layer.depsgraph).matrix_world.translation
-    assert found.position_m == pytest.approx(tuple(place)) and len(found.lines) == 2 * len(shard.data.edges)
+    position = shard.evaluated_get(layer.depsgraph).matrix_world.translation
+    assert found.position_m == pytest.approx(tuple(position)) and len(found.lines) == 2 * len(shard.data.edges)
 
 
 def test_a_zone_by_its_corners_is_added_to_the_scenario_and_a_wrong_one_is_not(built):

@@ -56,9 +56,9 @@ def test_it_shows_what_was_recorded_whatever_frame_is_gone_to(ran, tmp_path, con
         scene.frame_set(frame)
         row = max(frame - 2, 0)  # the first frame that is recorded is the second
         assert results.frames.number[row] == max(frame, 2)
-        places = shown(scene, names)
-        assert places[moves] == pytest.approx(results.frames.positions_m[row][moves], abs=1e-4)
-        fell = max(fell, float(np.abs(places - start).max()))
+        positions = shown(scene, names)
+        assert positions[moves] == pytest.approx(results.frames.positions_m[row][moves], abs=1e-4)
+        fell = max(fell, float(np.abs(positions - start).max()))
     assert fell > 0.3, "the ball falls 0.3 m"
 
 

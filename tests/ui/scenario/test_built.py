@@ -135,7 +135,7 @@ def test_building_anew_and_running_is_one_step(built, settings, tmp_path):
 
 @pytest.mark.parametrize(
     ("spoilt", "said"),
-    [("output_directory", "has no place yet"), ("force_log_path", "has no place yet"), (None, "edited")],
+    [("output_directory", "is not saved yet"), ("force_log_path", "is not saved yet"), (None, "edited")],
 )
 def test_a_run_that_is_refused_has_changed_no_objects(built, settings, spoilt, said):
     if spoilt:

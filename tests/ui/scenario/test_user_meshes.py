@@ -19,7 +19,7 @@ def objects(extension, settings):
     settings.scenario.use_bridge = settings.scenario.use_ball = False
     settings.scenario.fracture.shards = 60
     made = []
-    for name, size, place in (
+    for name, size, position in (
         ("deck", (10.0, 4.0, 0.5), (5.0, 0.0, 4.25)),
         ("west wall", (0.5, 4.0, 4.0), (0.5, 0.0, 2.0)),
         ("east wall", (0.5, 4.0, 4.0), (9.5, 0.0, 2.0)),
@@ -28,7 +28,7 @@ def objects(extension, settings):
         mesh.from_pydata(solid.vertices, [], solid.triangles.tolist())
         made.append(extension.data.objects.new(name, mesh))
         extension.context.scene.collection.objects.link(made[-1])
-        made[-1].location = place
+        made[-1].location = position
         made[-1].select_set(True)
     extension.context.view_layer.objects.active = made[0]
     extension.context.view_layer.update()
@@ -99,7 +99,7 @@ def test_files_of_others_are_not_overwritten(extension, settings, objects, tmp_p
 
 
 def test_a_folder_beside_a_file_without_a_place_is_refused(extension, objects):
-    with pytest.raises(RuntimeError, match="is relative to this file, which has no place yet"):
+    with pytest.raises(RuntimeError, match="is relative to this file, which is not saved yet"):
         extension.ops.bda.add_selected_members(directory="//members")
 
 
