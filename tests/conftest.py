@@ -53,15 +53,22 @@ def settings(extension: ModuleType):
     return extension.context.scene.bda
 
 
+_SLOW = ("examples", "studies", "simulation", "cli", "report")
+"""Folders whose files take longest: they come first, so that no process is left alone with one at the end."""
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    def rank_of_folder(item: pytest.Item) -> int:
+        folder = item.path.relative_to(config.rootpath / "tests").parts[0]
+        return _SLOW.index(folder) if folder in _SLOW else len(_SLOW)
+
+    items.sort(key=rank_of_folder)
+
+
 def pytest_configure(config: pytest.Config) -> None:
     # Blender reads this once, when bpy is imported. A person's own preferences and add-ons must
     # neither change a test nor be changed by one.
     config.stash[_user_folder] = os.environ["BLENDER_USER_RESOURCES"] = tempfile.mkdtemp(prefix="bda-tests-")
-
-
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Begin with what takes long, so that no process is left alone with it at the end: all but arrays and formulas."""
-    items.sort(key=lambda item: bool({"engineering", "model", "system"} & set(item.path.parts)))
 
 
 def pytest_sessionstart(session: pytest.Session) -> None:
