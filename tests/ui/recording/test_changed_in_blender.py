@@ -92,7 +92,7 @@ def delete(found):
 
 BY_HAND = {
     "gravity": lambda scene: setattr(scene, "gravity", (0.0, 0.0, -1.62)),
-    "places, shapes or sizes": lambda scene: move(first_shard(scene)),
+    "positions, shapes or sizes": lambda scene: move(first_shard(scene)),
     "masses of bodies": lambda scene: setattr(first_shard(scene).rigid_body, "mass", 1.0),
     "how bodies move and touch": lambda scene: setattr(first_shard(scene).rigid_body, "friction", 0.1),
     "which bodies there are": lambda scene: setattr(first_shard(scene), "name", "My shard"),

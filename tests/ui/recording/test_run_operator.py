@@ -80,7 +80,7 @@ def test_run_refuses(extension, scene, tmp_path):
     (tmp_path / "results" / "notes.txt").write_text("mine")
     assert "overwriting" in refusal(extension.ops.bda.run)
     scene.bda.output_directory = "//beside"
-    assert "no place yet" in refusal(extension.ops.bda.run)
+    assert "not saved yet" in refusal(extension.ops.bda.run)
     scene.bda.output_directory = str(tmp_path / "other")
     scene.frame_end = 1
     assert "nothing to play" in refusal(extension.ops.bda.run)
