@@ -96,6 +96,17 @@ def test_nothing_is_said_of_a_bridge_as_it_was_built(built, tmp_path):
     assert not any("Not as it was built" in text for text in told(built.context.scene))
 
 
+def test_bodies_of_a_file_that_shows_its_run_have_the_shapes_of_their_meshes(built, tmp_path, capfd):
+    """Blender makes a box of a body whose mesh is not evaluated yet as the simulation begins, and says so."""
+    assert built.ops.bda.run() == {"FINISHED"}
+    built.ops.wm.save_as_mainfile(filepath=str(tmp_path / "bridge.blend"))
+    built.ops.wm.open_mainfile(filepath=str(tmp_path / "bridge.blend"))
+    assert shown_results(built.context.scene).are_loaded
+    for frame in range(2, BUILT_FRAMES):
+        built.context.scene.frame_set(frame)
+    assert "no vertices" not in "".join(capfd.readouterr())
+
+
 def test_a_missing_ball_is_named_before_the_run_on_the_console_and_in_the_summary(built, tmp_path, caplog):
     scene = built.context.scene
     (ball,) = bodies_of_kind(scene, Kind.BALL)

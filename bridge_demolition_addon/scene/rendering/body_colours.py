@@ -92,9 +92,23 @@ def place(
 
 
 def put_back(scene: bpy.types.Scene) -> None:
-    """Have Blender evaluate bodies again that were placed: a simulation would begin where they are shown."""
+    """Have Blender evaluate bodies again that were placed."""
     for body in _bodies(scene):
         body.update_tag()
+
+
+def put_back_to_start(scene: bpy.types.Scene) -> None:
+    """Show bodies that were placed where they stand as a simulation begins, which begins where they are shown.
+
+    Evaluated again in the frame in which Blender makes the simulation, they would have no meshes yet, and get boxes.
+    """
+    for layer in scene.view_layers:
+        if not layer.depsgraph:
+            continue
+        for body in _bodies(scene):
+            if (evaluated := body.evaluated_get(layer.depsgraph)).is_evaluated:
+                parent = body.parent.matrix_world @ body.matrix_parent_inverse if body.parent else Matrix()
+                evaluated.matrix_world = parent @ body.matrix_basis
 
 
 def unpaint(scene: bpy.types.Scene) -> None:

@@ -10,7 +10,7 @@ from ...model.results.arrays import Results
 from ...model.results.frames import Frame
 from ...model.schema import given
 from ...scene.bodies import bodies_of
-from ...scene.rendering.body_colours import place, put_back
+from ...scene.rendering.body_colours import place, put_back, put_back_to_start
 from ..recording.recorder import Recording
 
 
@@ -118,7 +118,8 @@ class ShownResults:
         if not (self._has_placed and world and world.collection):
             return
         if self.are_placed and self.scene.frame_current <= world.point_cache.frame_start + 1:
-            self.put_bodies_back()
+            put_back_to_start(self.scene)
+            self._has_placed = False
 
     def put_bodies_back(self) -> None:
         """Put bodies back where they were before they were shown elsewhere."""
