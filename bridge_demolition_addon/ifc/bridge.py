@@ -28,6 +28,7 @@ from .bearings import bearing_of, bearing_rules, seated
 from .contacts import NearbyMembers
 from .element_materials import Substance, substances
 from .elements import Element, elements_of
+from .kinds import ElementFacts
 from .map_place import site_of
 from .materials import MaterialTable, material_table
 from .meshes import element_solids
@@ -50,10 +51,11 @@ _STANDING = ("pier", "abutment", "wall", "footing")
 class Outcome:
     """The result for an element: ``member``, ``connection`` or ``left out``, and why, or another note on it.
 
-    Its member and substance are None where it is left out. The mesh is written in place of the member's solid.
+    Its member and substance are None where it is left out. The mesh is written in place of the member's solid. It keeps
+    the element's facts, not its entity, which is only valid while the file is open.
     """
 
-    element: Element
+    facts: ElementFacts
     member: Member | None
     substance: Substance | None
     became: str
@@ -168,12 +170,12 @@ def _members(
             continue
         why = "; ".join(note for note in (substance.note, "" if kept is solid else "cut off at the ground") if note)
         member = Member(name, element.member_kind, kept, substance.density_kg_m3)
-        outcomes[number] = Outcome(element, member, substance, "member", why)
+        outcomes[number] = Outcome(element.facts, member, substance, "member", why)
     return outcomes
 
 
 def _left_out(element: Element, why: str) -> Outcome:
-    return Outcome(element, None, None, "left out", why)
+    return Outcome(element.facts, None, None, "left out", why)
 
 
 def _above_ground(solid: TriangleMesh) -> TriangleMesh | None:
@@ -204,7 +206,7 @@ def _connected(
         above = " and ".join(names[index] for index in bearing.above)
         why = f"between {above} and {below.name}, of which it is part; {bearing.source}"
         part = Member(below.name, below.kind, solid, below.density_kg_m3)
-        done[number] = Outcome(element, part, substance, "connection", why, seated(solid))
+        done[number] = Outcome(element.facts, part, substance, "connection", why, seated(solid))
     rules, notes = bearing_rules(placed, names)
     return done, rules, notes
 

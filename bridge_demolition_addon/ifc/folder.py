@@ -119,7 +119,7 @@ def _left_out(outcomes: tuple[Outcome, ...]) -> Iterator[str]:
     if left_out:
         yield ""
         yield "Left out"
-    for (name, why), count in Counter((outcome.element.facts.classes[0], outcome.why) for outcome in left_out).items():
+    for (name, why), count in Counter((outcome.facts.classes[0], outcome.why) for outcome in left_out).items():
         yield f"  {f'{count} {name}':<24}{why}"
 
 
@@ -129,7 +129,7 @@ def _reasons(outcomes: tuple[Outcome, ...]) -> Iterator[str]:
     for outcome in outcomes:
         why = outcome.why.rpartition("; ")[2] if outcome.became == "connection" else outcome.why
         if outcome.became != "left out" and why:
-            elements.setdefault(why, []).append(outcome.element.facts.name)
+            elements.setdefault(why, []).append(outcome.facts.name)
     for why, names in elements.items():
         more = f" and {len(names) - 3} more" if len(names) > 3 else ""
         yield f"{', '.join(names[:3])}{more}: {why}"
@@ -140,7 +140,7 @@ def _table(bridge: ImportedBridge) -> str:
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(_COLUMNS)
     for outcome in bridge.outcomes:
-        facts = outcome.element.facts
+        facts = outcome.facts
         row = [facts.name, facts.classes[0], facts.global_id, outcome.became]
         if outcome.member is None:
             row += ["", "", "", "", "", ""]
