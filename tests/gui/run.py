@@ -119,9 +119,13 @@ def emptied(folder: Path) -> Path:
     """The output folder, cleared of an earlier run's jobs and of nothing else."""
     folder.mkdir(parents=True, exist_ok=True)
     for name in ("home", "user", "extension", *REPEATED):
-        shutil.rmtree(folder / name, ignore_errors=True)
-        (folder / name).mkdir()
+        make_empty(folder / name)
     return folder
+
+
+def make_empty(folder: Path) -> None:
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
 
 
 def keep_pictures(output: Path, jobs: Sequence[str], folder: Path) -> None:
@@ -226,7 +230,11 @@ def window_size(job: str) -> tuple[str, str]:
 
 
 def do(machine: System | DebianRoot, output: Path, job: str, folder: Path) -> tuple[int, list[tuple[str, str]]]:
-    """Do one job; Blender's exit status, and what was checked with what was wrong with it."""
+    """Do one job; Blender's exit status, and what was checked with what was wrong with it.
+
+    The home is empty at first: the results of another job are kept there.
+    """
+    make_empty(output / "home")
     window = ("--enable-event-simulate", "--gpu-backend", "opengl", "--window-geometry", "0", "0", *window_size(job))
     driven = ("--python", str(HERE / "drive.py"), "--", job, str(folder))
     session = ("python3", str(HERE / "session.py"), str(JOB_SECONDS), machine.blender, *window, *driven)
