@@ -110,10 +110,10 @@ def run_beside_the_work(person: Person) -> Steps:
     pause_at = person.mouse
     yield from person.picture("started")
     yield from play_or_pause(person)
-    pulse, frames, played_from = Pulse(), set(), run.done
+    pulse, frames, played_from = Pulse(), set(), run.planner.done
     for _ in range(round(STUDY_S / 0.1)):
         frames.add(person.scene.frame_current)
-        if run.done > played_from + 1 and len(frames) > 1:
+        if run.planner.done > played_from + 1 and len(frames) > 1:
             break
         yield 0.1
     for x, y in ((pause_at[0] - 1, pause_at[1]), pause_at):
@@ -123,13 +123,13 @@ def run_beside_the_work(person: Person) -> Steps:
     yield from person.picture("paused")
     person.expect("Pause pauses", run.is_paused, True)
     yield PAUSE_S
-    paused_at = run.done
+    paused_at = run.planner.done
     person.expect("there is something left to do", paused_at < RUNS, True)
     yield PAUSE_S
-    person.expect("no run ends while it is paused", run.done, paused_at)
+    person.expect("no run ends while it is paused", run.planner.done, paused_at)
     person.expect("runs have ended while the timeline played", paused_at > played_from and len(frames) > 1, True)
     yield from person.click("bda.resume_study")
-    yield from person.wait_for("it goes on", lambda: run.done > paused_at, STUDY_S)
+    yield from person.wait_for("it goes on", lambda: run.planner.done > paused_at, STUDY_S)
     person.expect("the timeline plays all the time", person.playing, True)
     yield from person.picture("at_work")
     pulse.stop()
