@@ -10,6 +10,7 @@ from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.results.arrays import load_results
+from bridge_demolition_addon.model.results.solver_energy import throws_of
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.simulation.run import run_scenario
 
@@ -18,14 +19,14 @@ SCENARIO = """
 title = "a block that flies"
 
 [time]
-duration_s = 0.5
+duration_s = {duration_s}
 frames_per_second = 24
 substeps_per_frame = 20
 
 [[geometry]]
 name = "block"
 file = "block.stl"
-place_m = [0.0, 0.0, 20.0]
+place_m = [0.0, 0.0, {height_m}]
 density_kg_m3 = 1000.0
 {more}
 
@@ -51,9 +52,10 @@ def write(tmp_path):
 
     trimesh.creation.box((4.0, 1.0, 1.0)).export(tmp_path / "block.stl")
 
-    def written(more, *, shards=1, deactivated="false"):
+    def written(more, *, shards=1, deactivated="false", height_m=20.0, duration_s=0.5):
         path = tmp_path / "scenario.toml"
-        path.write_text(SCENARIO.format(more=more, shards=shards, deactivated=deactivated), encoding="utf-8")
+        values = {"shards": shards, "deactivated": deactivated, "height_m": height_m, "duration_s": duration_s}
+        path.write_text(SCENARIO.format(more=more, **values), encoding="utf-8")
         return read_scenario(path)
 
     return written
@@ -72,6 +74,15 @@ def test_a_velocity_carries_a_member_as_far_as_ballistics_say(blender, write, tm
     moved = results.frames.positions_m[-1, shard] - results.frames.positions_m[0, shard]
     expected = np.array([7.0, -3.0, 4.0]) * time_s - [0.0, 0.0, 0.5 * STANDARD_GRAVITY_M_S2 * time_s**2]
     assert moved == pytest.approx(expected, abs=0.006)
+
+
+def test_a_block_tossed_as_far_as_its_speed_carries_it_is_no_doubtful_throw(blender, write, tmp_path):
+    """At 45° from the ground, v = 10 m/s carries by v² / g = 10.2 m, in 1.44 s; its middle is only 0.51 m up."""
+    speed = 10.0 * math.sqrt(0.5)
+    thrown = run(write(f"velocity_m_s = [{speed}, 0.0, {speed}]", height_m=0.51, duration_s=1.44), tmp_path)
+    throws = throws_of(thrown)
+    assert throws.throws_m == pytest.approx([100.0 / STANDARD_GRAVITY_M_S2], abs=0.1)
+    assert not throws.doubtful.any()
 
 
 def test_a_spin_turns_a_member_of_many_shards_as_one(blender, write, tmp_path):

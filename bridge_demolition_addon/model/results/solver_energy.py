@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from ...engineering.geometry.vectors import dot
+from ...engineering.units import STANDARD_GRAVITY_M_S2
 from .arrays import Results
 from .motion import MOVED_M, throw
 
@@ -22,7 +23,7 @@ FARTHEST = 10
 
 LARGEST_THROW_PER_HEIGHT = 2.0
 """A body that falls by h has at most v² = 2 g h, and that carries it at most v² / g = 2 h over ground that is flat, or
-where it lies as low as it fell."""
+where it lies as low as it fell. One that begins with a speed v₀ has the energy of a fall that is v₀² / 2g higher."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -38,7 +39,8 @@ class Throws:
     on_solver_energy : (d,) bool
         Whether at least half of that kinetic energy was made by the solver.
     beyond_fall : (d,) bool
-        Whether they flew farther than twice the height that they could fall, where nothing but gravity moved them.
+        Whether they flew farther than twice the height of a fall with all their energy: down to the ground, and by the
+        height that the speed with which they began, and that of a ball, make up for. Never where charges went off.
     """
 
     bodies: np.ndarray
@@ -70,12 +72,19 @@ def throws_of(results: Results) -> Throws:
     lowest = 0.0 if ground.is_flat else np.minimum(ground.heights_at(first[:, :2]), last[:, 2])
     shards, throws, heights = shards[order], throws[order], (first[:, 2] - lowest)[order]
     made = np.nansum(frames.work.made_j[:, shards], axis=0)
-    speeds = dot(frames.velocities_m_s[:, shards], frames.velocities_m_s[:, shards])
-    kinetic = 0.5 * results.inventory.masses_kg[shards] * speeds.max(axis=0)
-    beyond = throws > LARGEST_THROW_PER_HEIGHT * np.maximum(heights, 0.0)
+    squares = dot(frames.velocities_m_s[:, shards], frames.velocities_m_s[:, shards])
+    kinetic = 0.5 * results.inventory.masses_kg[shards] * squares.max(axis=0)
+    heights = np.maximum(heights, 0.0) + (squares[0] + _square_of_balls(results)) / (2.0 * STANDARD_GRAVITY_M_S2)
+    beyond = throws > LARGEST_THROW_PER_HEIGHT * heights
     if frames.blast_impulses_ns.any():
         beyond = np.zeros(len(shards), bool)
     return Throws(shards, throws, made, kinetic, flies_on_solver_energy(throws, made, kinetic), beyond)
+
+
+def _square_of_balls(results: Results) -> float:
+    """Return the square of the largest speed of a ball, which it gives to what it strikes; 0 without one."""
+    velocities = results.frames.velocities_m_s[:, results.inventory.of_kind("ball")]
+    return float(dot(velocities, velocities).max(initial=0.0))
 
 
 def flies_on_solver_energy(throws_m: np.ndarray, made_j: np.ndarray, largest_kinetic_j: np.ndarray) -> np.ndarray:

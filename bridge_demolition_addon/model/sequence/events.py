@@ -27,6 +27,7 @@ class Structure:
     member_names: np.ndarray  # (n,), of the members that bodies were cut from; empty for one that was not
     member_kinds: np.ndarray  # (n,), as above
     is_shard: np.ndarray  # (n,), shards that can move
+    held: np.ndarray  # (n,), shards that never move, as supports hold them
     pairs: np.ndarray  # (m, 2), bodies of the connections
     points_m: np.ndarray  # (m, 3), positions of the connections
 
@@ -45,12 +46,13 @@ class Event:
 def model_structure(model: Model) -> Structure:
     """Return the structure of a model, where all connections to the ground end at one more body after the shards."""
     members = [model.members[member] for member in model.member_of_shard]
-    count = len(model.shards)
+    count, held = len(model.shards), np.append(model.fixed, False)
     return Structure(
         centres_m=np.concatenate((model.centres_m, np.zeros((1, 3)))),
         member_names=np.array([*(member.name for member in members), ""]),
         member_kinds=np.array([*(member.kind for member in members), ""]),
-        is_shard=np.arange(count + 1) < count,
+        is_shard=np.append(~model.fixed, False),
+        held=held,
         pairs=np.where(model.connections.pairs < 0, count, model.connections.pairs),
         points_m=model.connections.points,
     )
@@ -58,11 +60,13 @@ def model_structure(model: Model) -> Structure:
 
 def recorded_structure(inventory: Inventory, centres_m: np.ndarray) -> Structure:
     """Return the structure of bodies that are recorded, with their centres of mass (n, 3) before anything moves."""
+    shards = inventory.body_kinds == "shard"
     return Structure(
         centres_m=centres_m,
         member_names=inventory.body_members,
         member_kinds=inventory.body_member_kinds,
-        is_shard=(inventory.body_kinds == "shard") & inventory.moves,
+        is_shard=shards & inventory.moves,
+        held=shards & ~inventory.moves,
         pairs=inventory.pairs,
         points_m=inventory.points_m,
     )
@@ -85,13 +89,27 @@ def _event(change: Change, structure: Structure) -> Event:
         case Weakening():
             factor = change.factor
             connections = np.flatnonzero(_selected(change, structure))
-    things, rows = ("shard", bodies) if isinstance(change, Removal) else ("connection", connections)
-    if not len(rows):
-        raise ScenarioError(
-            f"{change.table} at {change.time_s:g} s: no {things} of the bridge is there; "
-            "expected members, a box or a plane that meet some"
-        )
+    if not len(bodies if isinstance(change, Removal) else connections):
+        raise ScenarioError(f"{change.table} at {change.time_s:g} s: {_why_nothing(change, structure)}")
     return Event(change.time_s, change.kind, bodies, connections, factor)
+
+
+def _why_nothing(change: Change, structure: Structure) -> str:
+    """Return why a change concerns nothing, and what to do."""
+    chosen = of_members(change, structure) & in_box(change, structure.centres_m)
+    things = "shard" if isinstance(change, Removal) else "connection"
+    if (chosen & structure.is_shard).any() or not (chosen & structure.held).any():
+        return f"no {things} of the bridge is there; expected members, a box or a plane that meet some"
+    names = ", ".join(sorted(set(structure.member_names[chosen & structure.held].tolist())))
+    if isinstance(change, Removal):
+        return (
+            f"{names} cannot be taken away, as [[supports]] hold all of it that is meant; cut off what rests on it with "
+            "[[saw_cuts]], or take it out of [[supports]] and have connections.foundation hold its foot"
+        )
+    return (
+        f"{names} has no connection there, as [[supports]] hold all of it that is meant; expected members, a box or a "
+        "plane that meet a connection to what can move"
+    )
 
 
 def _selected(change: Change, structure: Structure) -> np.ndarray:
@@ -127,7 +145,7 @@ def _crosses(cut: SawCut, structure: Structure) -> np.ndarray:
     The ground has no meaningful centre: the shard's, mirrored in the connection's point, stands for it.
     """
     ends = structure.centres_m[structure.pairs]
-    solid = structure.is_shard[structure.pairs]
+    solid = (structure.is_shard | structure.held)[structure.pairs]
     mirrored = 2.0 * structure.points_m[:, None] - ends[:, ::-1]
     ends = np.where(solid[:, :, None], ends, mirrored)
     sides = dot(ends - np.array(cut.point_m), np.array(cut.normal)) > 0.0

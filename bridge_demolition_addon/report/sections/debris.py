@@ -203,8 +203,9 @@ def _doubts(results: Results) -> list[Block]:
     name, throw_m = results.inventory.body_names[throws.bodies[farthest]], throws.throws_m[farthest]
     words = (
         f"{count} throws are doubtful: at least half of the shard's kinetic energy came from the solver, or, without "
-        f"charges, the throw is more than twice the height of fall. The farthest is {name}, {throw_m:.1f} m. Do not "
-        "plan with these throws; make sub-steps shorter and run again."
+        "charges, the throw is more than twice the height of fall, to which v²/2g counts for the speed v at the start "
+        f"and that of a ball. The farthest is {name}, {throw_m:.1f} m. Do not plan with these throws; make sub-steps "
+        "shorter and run again."
     )
     return [Paragraph(words, is_notice=True)]
 

@@ -38,8 +38,33 @@ def test_summary_adds_up_by_cause_and_names_the_farthest_first():
 
 def test_a_throw_above_twice_the_height_of_fall_is_doubtful():
     height = hanging_chain().frames.positions_m[0, 2, 2]
-    assert not throws_of(thrown(1.99 * height)).beyond_fall.any()
-    assert throws_of(thrown(2.01 * height)).beyond_fall.tolist() == [True, False]
+    assert not with_speeds(1.99 * height).beyond_fall.any()
+    assert with_speeds(2.01 * height).beyond_fall.tolist() == [True, False]
+
+
+def with_speeds(distance_m, *, shard_m_s=0.0, ball_m_s=0.0):
+    """A throw of the lower shard, which begins with a speed, in a run in which a ball has one; nothing else moves."""
+    velocities = np.zeros_like(hanging_chain().frames.velocities_m_s)
+    velocities[0, 2] = np.array([0.6, 0.0, 0.8]) * shard_m_s
+    velocities[3, 3, 2] = -ball_m_s
+    return throws_of(thrown(distance_m, velocities_m_s=velocities))
+
+
+def test_the_longest_toss_with_a_speed_is_not_doubtful_and_one_a_half_longer_is():
+    """Ballistics: from a height h, a speed v carries at most v √(v² + 2 g h) / g, at the best of all angles."""
+    height, speed = hanging_chain().frames.positions_m[0, 2, 2], 20.0
+    longest = speed * np.sqrt(speed**2 + 2.0 * 9.80665 * height) / 9.80665
+    assert longest > 2.0 * height  # so that the height alone does not explain it
+    assert with_speeds(longest).beyond_fall.tolist() == [True, False]
+    assert not with_speeds(longest, shard_m_s=speed).beyond_fall.any()
+    assert with_speeds(1.5 * longest, shard_m_s=speed).beyond_fall.tolist() == [True, False]
+
+
+def test_a_ball_gives_its_speed_to_what_it_strikes():
+    """One that fell 10 m has v² / 2g = 10 m: a shard 14 m up is doubtful beyond 48 m."""
+    height, speed = hanging_chain().frames.positions_m[0, 2, 2], np.sqrt(2.0 * 9.80665 * 10.0)
+    assert not with_speeds(1.99 * (height + 10.0), ball_m_s=speed).beyond_fall.any()
+    assert with_speeds(2.01 * (height + 10.0), ball_m_s=speed).beyond_fall.tolist() == [True, False]
 
 
 def test_charges_throw_as_far_as_they_like():

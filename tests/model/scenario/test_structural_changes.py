@@ -8,7 +8,7 @@ import pytest
 from support.scenarios import I235
 
 from bridge_demolition_addon.errors import ScenarioError
-from bridge_demolition_addon.model.scenario import Removal, SawCut, Weakening
+from bridge_demolition_addon.model.scenario import Removal, SawCut, Support, Weakening
 from bridge_demolition_addon.model.scenario.file import scenario_from_text, scenario_text
 from bridge_demolition_addon.model.sequence.events import Structure, model_structure, schedule
 from bridge_demolition_addon.model.structure.model import build_model
@@ -19,6 +19,7 @@ STRUCTURE = Structure(
     member_names=np.array(["pier 1", "pier 1", "pier 2", "pier 2", "deck", ""]),
     member_kinds=np.array(["pier"] * 4 + ["deck", ""]),
     is_shard=np.array([True] * 5 + [False]),
+    held=np.zeros(6, bool),
     pairs=np.array([(0, 1), (2, 3), (1, 4), (3, 4), (0, 5), (2, 5)]),
     points_m=np.array([(0, 0, 2), (10, 0, 2), (0, 0, 4), (10, 0, 4), (0, 0, 0), (10, 0, 0)], float),
 )
@@ -73,6 +74,49 @@ def test_events_are_in_order_of_time():
 def test_what_concerns_nothing_is_refused(change, text):
     with pytest.raises(ScenarioError, match=text.replace("[", r"\[")):
         schedule([change], STRUCTURE)
+
+
+@pytest.mark.parametrize(
+    "change, text",
+    [
+        (
+            Removal(time_s=1, members=["pier 1"]),
+            r"removals at 1 s: pier 1 cannot be taken away, as \[\[supports\]\] hold all .*"
+            r"cut off what rests on it with \[\[saw_cuts\]\], .*connections.foundation",
+        ),
+        (Removal(time_s=1, lowest_corner_m=(-1, -1, 0), highest_corner_m=(1, 1, 4)), "pier 1 cannot be taken away"),
+        (SawCut(time_s=1, point_m=(0, 0, 2), normal=(0, 0, 1), members=["pier 1"]), "pier 1 has no connection there"),
+        (
+            Weakening(time_s=1, factor=0.5, lowest_corner_m=(-1, -1, 0), highest_corner_m=(1, 1, 3.5)),
+            "pier 1 has no connection there, as",
+        ),
+        # Everywhere, as here, is not in a member that is held.
+        (SawCut(time_s=1, point_m=(0, 0, 9), normal=(0, 0, 1)), "no connection of the bridge is there"),
+    ],
+)
+def test_a_member_that_supports_hold_is_there_but_cannot_be_changed(change, text):
+    held = np.array([True, True, False, False, False, False])
+    rows = [1, 2, 3]  # no connection lies between two that are held, as between pier 1 and the ground
+    pairs, points = STRUCTURE.pairs[rows], STRUCTURE.points_m[rows]
+    fixed = replace(STRUCTURE, is_shard=STRUCTURE.is_shard & ~held, held=held, pairs=pairs, points_m=points)
+    with pytest.raises(ScenarioError, match=text):
+        schedule([change], fixed)
+
+
+def test_check_and_run_refuse_to_take_away_what_supports_hold():
+    """By the model, before a run, as by what is recorded in it."""
+    column = "pier 1 column 1"
+    model = build_model(replace(I235, supports=[Support(member=column)]))
+    with pytest.raises(ScenarioError, match=f"{column} cannot be taken away"):
+        schedule([Removal(time_s=1, members=[column])], model_structure(model))
+
+
+def test_a_plane_beside_what_is_held_is_judged_by_where_that_lies():
+    """As in the model, so in a run: the held block at 3 m lies on the same side of the plane at 2.9 m as the deck."""
+    held = np.array([False, True, False, False, False, False])
+    fixed = replace(STRUCTURE, is_shard=STRUCTURE.is_shard & ~held, held=held)
+    (event,) = schedule([SawCut(time_s=1, point_m=(0, 0, 2.9), normal=(0, 0, 1), members=["pier 1"])], fixed)
+    assert event.connections.tolist() == [0]
 
 
 @pytest.mark.parametrize(

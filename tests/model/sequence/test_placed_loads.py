@@ -14,7 +14,8 @@ STRUCTURE = Structure(
     centres_m=np.array([(0, 0, 5), (1, 0, 5), (2, 0, 5), (2, 0, 2), (0, 0, 0)], float),
     member_names=np.array(["deck", "deck", "deck", "pier 1", ""]),
     member_kinds=np.array(["deck", "deck", "deck", "pier", ""]),
-    is_shard=np.array([True] * 4 + [False]),
+    is_shard=np.array([False] + [True] * 3 + [False]),
+    held=np.array([True] + [False] * 4),
     pairs=np.zeros((0, 2), int),
     points_m=np.zeros((0, 3)),
 )
