@@ -1,7 +1,14 @@
-"""Standard gravity, and units at the end of names."""
+"""Standard gravity, units at the end of names, and masses and volumes in their units as text."""
+
+import math
 
 STANDARD_GRAVITY_M_S2 = 9.80665
 """Standard acceleration of free fall, exact; 1 kgf is the weight of 1 kg under it."""
+
+SIGNIFICANT_DIGITS = 3
+"""Of an amount, at least so many are shown."""
+
+_KG_PER_T = 1000.0
 
 _ENDINGS = {
     "m_kg13": "m/kg^(1/3)",
@@ -46,3 +53,29 @@ def name_and_unit(name: str) -> tuple[str, str]:
         if name.lower().endswith(f"_{ending}"):
             return name[: -len(ending) - 1], unit
     return name, ""
+
+
+def with_digits(value: float, decimals: int, significant: int = SIGNIFICANT_DIGITS) -> str:
+    """Return a number with so many decimals, or with more where it would have too few significant digits."""
+    if value == 0.0 or not math.isfinite(value):
+        return f"{value:.{decimals}f}"
+    return f"{value:.{max(decimals, significant - 1 - math.floor(math.log10(abs(value))))}f}"
+
+
+def mass_text(mass_kg: float, decimals: int = 3, *, width: int = 0) -> str:
+    """Return a mass in t with so many decimals, below 1 t in kg; the number takes up a width at least."""
+    if 0.0 < abs(mass_kg) < _KG_PER_T:
+        return f"{with_digits(mass_kg, 0):>{width}} kg"
+    return f"{with_digits(mass_kg / _KG_PER_T, decimals):>{width}} t"
+
+
+def volume_text(volume_m3: float, decimals: int = 3, *, width: int = 0) -> str:
+    """Return a volume in m³ with so many decimals; the number takes up a width at least."""
+    return f"{with_digits(volume_m3, decimals):>{width}} m³"
+
+
+def kilograms(mass_kg: float) -> str:
+    """Return a mass in kg, large ones with blanks between thousands."""
+    if abs(mass_kg) < _KG_PER_T:
+        return f"{with_digits(mass_kg, 0)} kg"
+    return f"{mass_kg:,.0f} kg".replace(",", " ")

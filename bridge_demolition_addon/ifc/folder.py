@@ -10,6 +10,7 @@ from collections import Counter
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from ..engineering.units import mass_text, volume_text
 from ..errors import GeometryError, IfcError, OutputError, ScenarioError
 from ..model.bridge.member import Member
 from ..model.bridge.mesh_files import exported
@@ -111,7 +112,7 @@ def _where(bridge: ImportedBridge) -> str:
 
 def _row(name: str, members: Sequence[Member]) -> str:
     volume_m3, mass_kg = sum(member.volume_m3 for member in members), sum(member.mass_kg for member in members)
-    return f"  {name:<24}{volume_m3:9.3f} m³ {mass_kg / 1000.0:10.3f} t"
+    return f"  {name:<24}{volume_text(volume_m3, width=9)} {mass_text(mass_kg, width=10)}"
 
 
 def _left_out(outcomes: tuple[Outcome, ...]) -> Iterator[str]:

@@ -7,6 +7,7 @@ from itertools import pairwise
 from math import sqrt
 from typing import ClassVar
 
+from ..engineering.units import mass_text
 from ..errors import ScenarioError
 from .actions import Fact, Plan, PlannedAction, Worksite
 from .schema import key, shown
@@ -113,7 +114,7 @@ class Load(Part):
         point = "" if self.point_m is None else f" at ({', '.join(f'{value:g}' for value in self.point_m)}) m"
         loaded = site.affected_by(self)
         shards = f"{loaded.shards} shards" if loaded.shards > 1 else "a shard"
-        yield "", f"on {shards} of {', '.join(loaded.members)}{point}, together {loaded.mass_kg / 1000.0:.3f} t"
+        yield "", f"on {shards} of {', '.join(loaded.members)}{point}, together {mass_text(loaded.mass_kg)}"
 
     def check_plan(self, plan: Plan) -> None:
         if self.times_s[0] >= plan.time.duration_s:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..engineering.units import mass_text
 from ..model.debris.throws import Debris, percentiles_by_mass
 from ..model.results.collapse import collapse_progress, rest_of
 from ..model.results.force_history import most_loaded
@@ -36,7 +37,7 @@ def findings(run: ReportedRun, debris: Debris) -> list[Finding]:
         Finding("Connections broken", "1", broken, f"{broken} of {count}"),
         _finding("Progress of the collapse", "%", 100.0 * float(collapse_progress(results)[-1]), ".0f"),
         _finding("All shards at rest from", "s", rest.at_rest_s, ".2f", unrest),
-        _finding("Debris", "t", float(debris.masses_kg.sum()) / 1e3, ".1f"),
+        Finding("Debris", "t", float(debris.masses_kg.sum()) / 1e3, mass_text(float(debris.masses_kg.sum()), 1)),
         _finding("Footprint of the debris", "m²", debris.area.area(), ".0f"),
         _finding("Height of the pile", "m", debris.highest_m, ".2f"),
     ]

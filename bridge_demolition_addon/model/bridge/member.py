@@ -6,6 +6,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from ...engineering.geometry.mesh import TriangleMesh, triangle_areas_and_normals
+from ...engineering.units import mass_text, volume_text
 from ...errors import ScenarioError
 from ..actions import Fact
 from ..schema import given
@@ -64,7 +65,7 @@ def member_facts(members: Sequence[Member]) -> Iterator[Fact]:
 
 
 def _volume_and_mass(volume_m3: float, mass_kg: float) -> str:
-    return f"{volume_m3:9.3f} m³ {mass_kg / 1000.0:10.3f} t"
+    return f"{volume_text(volume_m3, width=9)} {mass_text(mass_kg, width=10)}"
 
 
 def members_named(name: str, members: Sequence[Member], key: str) -> list[int]:

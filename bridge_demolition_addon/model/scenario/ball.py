@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from ...engineering.arithmetic import cosine, sine
 from ...engineering.geometry.vectors import length, points_along
 from ...engineering.timing.timeline import Timeline
-from ...engineering.units import STANDARD_GRAVITY_M_S2
+from ...engineering.units import STANDARD_GRAVITY_M_S2, mass_text
 from ...errors import GeometryError, ScenarioError
 from ..actions import Fact, HeightAt, Place, Plan, PlannedAction, Point, Worksite
 from ..schema import FARTHEST_M, POSITION, SHARE, SIZE, Table, expected, given, key
@@ -257,7 +257,7 @@ class Ball(_Drop, PlannedAction):
             yield self.cable.crane_point_m
 
     def facts(self, site: Worksite) -> Iterator[Fact]:
-        yield "mass", f"{self.mass_kg / 1000.0:.3f} t"
+        yield "mass", mass_text(self.mass_kg)
         yield "diameter", f"{self.diameter_m:.2f} m, so {self.density_kg_m3:.0f} kg/m³"
         if self.cable:
             yield from self._swing_facts(self.cable)

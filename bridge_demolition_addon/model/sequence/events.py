@@ -103,8 +103,8 @@ def _why_nothing(change: Change, structure: Structure) -> str:
     names = ", ".join(sorted(set(structure.member_names[chosen & structure.held].tolist())))
     if isinstance(change, Removal):
         return (
-            f"{names} cannot be taken away, as [[supports]] hold all of it that is meant; cut off what rests on it with "
-            "[[saw_cuts]], or take it out of [[supports]] and have connections.foundation hold its foot"
+            f"{names} cannot be taken away, as [[supports]] hold all of it that is meant; cut off what rests on it "
+            "with [[saw_cuts]], or take it out of [[supports]] and have connections.foundation hold its foot"
         )
     return (
         f"{names} has no connection there, as [[supports]] hold all of it that is meant; expected members, a box or a "

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ...engineering.units import STANDARD_GRAVITY_M_S2
+from ...engineering.units import STANDARD_GRAVITY_M_S2, mass_text
 from ...system.disk import whole_file
 from ..structure.model import Model
 from .stages import Criticality, Stage, reactions_n
@@ -133,7 +133,7 @@ def stage_sentences(stage: Stage, row: Mapping[str, Any]) -> list[str]:
         sentences.append(f"with {row['equipment']}")
     if row["not_held"]:
         sentences.append(
-            f"{row['not_held']} shards, {row['not_held_kg'] / 1000.0:.1f} t, held by no connection to a support"
+            f"{row['not_held']} shards, {mass_text(row['not_held_kg'], 1)}, held by no connection to a support"
         )
     if row["largest_utilisation"] is not None:
         sentences.append(
@@ -148,7 +148,7 @@ def criticality_sentences(members: Sequence[Criticality]) -> list[str]:
     falls = sorted((member for member in members if member.falls_kg), key=lambda member: -member.falls_kg)
     if not falls:
         return ["without any one member the others stand"]
-    return [f"without {fall.member}: {fall.falls_kg / 1000.0:.1f} t come down, {fall.share:.0%}" for fall in falls]
+    return [f"without {fall.member}: {mass_text(fall.falls_kg, 1)} come down, {fall.share:.0%}" for fall in falls]
 
 
 def factor_in_words(factor: float) -> str:

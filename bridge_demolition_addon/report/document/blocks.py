@@ -13,6 +13,7 @@ from typing import Any, Self
 
 from matplotlib.figure import FigureBase
 
+from ...engineering.units import with_digits
 from ...model.schema import given
 from ...system.disk import whole_file
 
@@ -43,11 +44,14 @@ class Column:
     key: str
     form: str = ""  # Python's format of a number, such as ".1f"; empty for texts
     value: Callable[..., Any] | None = None  # of a row, by its item; None where rows are given to the table
+    significant: int = 0  # digits that a number with decimals has at least
 
     def shown(self, value: Any) -> str:
         """Return a value as people read it."""
         if value is None or (isinstance(value, float) and not math.isfinite(value)):
             return MISSING
+        if self.significant:
+            return with_digits(value, int(self.form.strip(".f")), self.significant)
         return format(value, self.form) if self.form else str(value)
 
 

@@ -11,6 +11,7 @@ from ...charts.blast_maps import WIDEST_PA, neighbour_pressures, overpressure_ma
 from ...engineering.blast.pulses import BlastModel
 from ...engineering.blast.vibration import DAMAGE_LIMIT_M_S, FREE_FACE_AVERAGE
 from ...engineering.terrain.recorded import RecordedGround
+from ...engineering.units import with_digits
 from ...model.blast.charges import Charge
 from ...model.blast.damage import THRESHOLDS, ring_radii
 from ...model.blast.receptors import ONE_DELAY_S, PlaceLoads, charges_per_delay, loads_at
@@ -62,8 +63,14 @@ def _charge_table(charges: Sequence[Charge]) -> DataTable:
     columns = (
         Column("charge", "charge", "", lambda charge: charge.name),
         Column("explosive", "explosive", "", lambda charge: charge.explosive),
-        Column("mass (kg)", "mass_kg", ".2f", lambda charge: charge.mass_kg),
-        Column("TNT by pressure (kg)", "tnt_by_pressure_kg", ".2f", lambda charge: charge.tnt_for_pressure_kg),
+        Column("mass (kg)", "mass_kg", ".2f", significant=3, value=lambda charge: charge.mass_kg),
+        Column(
+            "TNT by pressure (kg)",
+            "tnt_by_pressure_kg",
+            ".2f",
+            significant=3,
+            value=lambda charge: charge.tnt_for_pressure_kg,
+        ),
         Column("x (m)", "x_m", ".2f", lambda charge: charge.place_m[0]),
         Column("y (m)", "y_m", ".2f", lambda charge: charge.place_m[1]),
         Column("z (m)", "z_m", ".2f", lambda charge: charge.place_m[2]),
@@ -79,9 +86,9 @@ def _totals(charges: Sequence[Charge]) -> DataTable:
     largest = groups[masses.index(max(masses))]
     names = ", ".join(given(charge.name) for charge in largest)
     rows = [
-        ("Total charge", f"{sum(masses):.2f} kg"),
+        ("Total charge", f"{with_digits(sum(masses), 2)} kg"),
         ("Delays", f"{len(groups)}, counting charges within {1e3 * ONE_DELAY_S:g} ms of each other as one"),
-        ("Largest charge per delay", f"{max(masses):.2f} kg at {1e3 * largest[0].delay_s:g} ms ({names})"),
+        ("Largest charge per delay", f"{with_digits(max(masses), 2)} kg at {1e3 * largest[0].delay_s:g} ms ({names})"),
     ]
     return facts("Total charge and charge per delay", rows, "charge_per_delay")
 

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ...engineering.units import mass_text
 from ...model.debris.throws import Debris
 from ...model.results.arrays import Results
 from ...model.results.collapse import rest_of
@@ -142,9 +143,9 @@ def _run_facts(run: ReportedRun, version: str) -> Iterator[tuple[str, str]]:
 
 def _model_facts(results: Results) -> Iterator[tuple[str, str]]:
     shards, balls = results.inventory.of_kind("shard"), results.inventory.of_kind("ball")
-    yield "Shards", f"{len(shards)}, together {results.inventory.masses_kg[shards].sum() / 1e3:.1f} t"
+    yield "Shards", f"{len(shards)}, together {mass_text(results.inventory.masses_kg[shards].sum(), 1)}"
     for ball in balls:
-        yield str(results.inventory.body_names[ball]), f"{results.inventory.masses_kg[ball] / 1e3:.1f} t"
+        yield str(results.inventory.body_names[ball]), mass_text(results.inventory.masses_kg[ball], 1)
     yield "Connections", str(len(results.inventory.connection_names))
 
 

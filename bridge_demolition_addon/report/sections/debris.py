@@ -10,6 +10,7 @@ import numpy as np
 from ...charts.histories import throw_distribution
 from ...charts.plan_maps import debris_map, exclusion_map, map_height_mm, pile_map
 from ...engineering.geometry.plan_areas import outlines
+from ...engineering.units import mass_text, volume_text
 from ...model.debris.exclusion import ExclusionZone, exclusion_zone
 from ...model.debris.on_ground import bodies_under_ground, debris_on_surfaces
 from ...model.debris.throws import PERCENTS, Debris, HeightMap, height_map, percentiles_by_mass
@@ -119,12 +120,15 @@ def _debris_blocks(
     solid = float(results.inventory.volumes_m3[debris.bodies].sum())
     shards = len(results.inventory.of_kind("shard"))
     rows = [
-        ("Debris", f"{len(debris.bodies)} of {shards} shards, {mass / 1e3:.2f} t"),
+        ("Debris", f"{len(debris.bodies)} of {shards} shards, {mass_text(mass, 2)}"),
         ("Footprint", f"{debris.area.area():.1f} m²{extent if covered is debris.area else ''}"),
         ("Bridge before", f"{debris.outline.area():.1f} m² in plan"),
         ("Centre of mass", f"x = {middle[0]:.2f} m, y = {middle[1]:.2f} m, {above_m:.2f} m above the ground"),
         ("Highest point of the pile", f"{debris.highest_m:.2f} m above the ground"),
-        ("Volume of the pile", f"{heights.volume_m3:.1f} m³ under its surface, {solid:.1f} m³ of it solid"),
+        (
+            "Volume of the pile",
+            f"{volume_text(heights.volume_m3, 1)} under its surface, {volume_text(solid, 1)} of it solid",
+        ),
         ("Farthest beyond the bridge's outline", f"{debris.reaches_m.max():.2f} m"),
     ]
     bridge = np.array(debris.outline.bounds()).reshape(2, 2)
@@ -186,7 +190,7 @@ def _on_surfaces(results: Results, debris: Debris) -> list[Block]:
         Column("surface", "surface", "", lambda surface: surface.name),
         Column("kind", "kind", "", lambda surface: surface.kind),
         Column("shards on it", "shards", "d", lambda surface: len(surface.bodies)),
-        Column("mass (t)", "mass_t", ".2f", lambda surface: surface.mass_kg / 1e3),
+        Column("mass (t)", "mass_t", ".2f", significant=3, value=lambda surface: surface.mass_kg / 1e3),
         Column("covered (m²)", "covered_m2", ".1f", lambda surface: surface.covered_m2),
     )
     title = "Debris over each surface, by where its middle lies in plan"
@@ -238,7 +242,7 @@ def _largest_throws(results: Results, debris: Debris) -> DataTable:
         Column("No.", "number", "d", lambda number, _: number),
         Column("shard", "shard", "", lambda _, row: str(inventory.body_names[bodies[row]])),
         Column("of", "member", "", lambda _, row: str(inventory.body_members[bodies[row]])),
-        Column("mass (kg)", "mass_kg", ".0f", lambda _, row: float(debris.masses_kg[row])),
+        Column("mass (kg)", "mass_kg", ".0f", significant=3, value=lambda _, row: float(debris.masses_kg[row])),
         Column("throw (m)", "throw_m", ".2f", lambda _, row: float(debris.throws_m[row])),
         Column("debris distance (m)", "reach_m", ".2f", lambda _, row: float(debris.reaches_m[row])),
         Column("to x (m)", "x_m", ".2f", lambda _, row: float(last_m[bodies[row], 0])),
@@ -265,7 +269,13 @@ def _zone_blocks(run: ReportedRun, zones: Sequence[Zone]) -> list[Block]:
         Column("first entered (s)", "first_entry_s", ".3f", lambda _, first: first and float(first.time_s)),
         Column("by", "first_body", "", lambda _, first: str(names[first.body]) if first else "no body"),
         Column("bodies that entered", "bodies_entered", "d", lambda watch, _: len(watch.entries)),
-        Column("mass within at the end (t)", "mass_within_t", ".2f", lambda watch, _: watch.mass_within_kg / 1e3),
+        Column(
+            "mass within at the end (t)",
+            "mass_within_t",
+            ".2f",
+            significant=3,
+            value=lambda watch, _: watch.mass_within_kg / 1e3,
+        ),
         Column("there before", "bodies_there_before", "d", lambda watch, _: len(watch.there_before)),
     )
     first_entries = [watch.entries[0] if watch.entries else None for watch in watches]

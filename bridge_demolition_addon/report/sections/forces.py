@@ -74,7 +74,7 @@ def _loaded_bodies(results: Results) -> DataTable:
     columns = (
         Column("shard", "shard", "", lambda peak: str(inventory.body_names[peak.row])),
         Column("of", "member", "", lambda peak: str(inventory.body_members[peak.row])),
-        Column("mass (kg)", "mass_kg", ".0f", lambda peak: float(inventory.masses_kg[peak.row])),
+        Column("mass (kg)", "mass_kg", ".0f", significant=3, value=lambda peak: float(inventory.masses_kg[peak.row])),
         Column("sum of magnitudes (kN)", "peak_force_sum_kN", ".1f", lambda peak: float(peak.force_n / 1e3)),
         Column(
             "resultant then (kN)",

@@ -139,7 +139,7 @@ def _shaking_table(shaken: Sequence[tuple[str, Shaking]]) -> DataTable:
             lambda _, shaking: 1e3 * shaking.velocity_m_s,
         ),
         Column("from (s)", "time_s", ".2f", lambda _, shaking: shaking.time_s),
-        Column("mass (t)", "mass_t", ".1f", lambda _, shaking: 1e-3 * shaking.mass_kg),
+        Column("mass (t)", "mass_t", ".1f", significant=3, value=lambda _, shaking: 1e-3 * shaking.mass_kg),
         Column("energy (kJ)", "energy_kJ", ".0f", lambda _, shaking: 1e-3 * shaking.energy_j),
         Column("distance (m)", "distance_m", ".1f", lambda _, shaking: shaking.distance_m),
         Column("reaches the limit for", "limits", "", lambda _, shaking: _limits_reached(shaking)),

@@ -8,6 +8,7 @@ import math
 from collections.abc import Sequence
 from pathlib import Path
 
+from ...engineering.units import mass_text
 from ...errors import OutputError, UnreadableError
 from ...model.stages.tables import CRITICALITY_COLUMNS, CRITICALITY_FILE, STAGE_COLUMNS, STAGES_FILE
 from ...system.progress import Progress
@@ -28,7 +29,7 @@ _COLUMNS = (
     Column("What was done", "step", "", lambda row: row["step"]),
     Column("On it", "equipment", "", lambda row: row["equipment"] or None),
     Column("Weight (kN)", "weight_kN", ".0f", lambda row: _number(row["weight_kN"])),
-    Column("Not supported (t)", "not_held_t", ".1f", lambda row: float(row["not_held_kg"]) / 1e3),
+    Column("Not supported (t)", "not_held_t", ".1f", significant=3, value=lambda row: float(row["not_held_kg"]) / 1e3),
     Column("Utilisation", "largest_utilisation", ".0%", lambda row: _number(row["largest_utilisation"])),
     Column("by", "governed_by", "", lambda row: row["governed_by"] or None),
     Column("in", "between", "", lambda row: row["between"] or None),
@@ -62,7 +63,7 @@ def stages_section(folder: Path) -> Section:
     if critical := sorted((fall for fall in falls if fall[1] > 0.0), key=lambda fall: -fall[1]):
         columns = (
             Column("Without", "member"),
-            Column("come down (t)", "falls_t", ".1f"),
+            Column("come down (t)", "falls_t", ".1f", significant=3),
             Column("of the bridge", "share_of_the_bridge", ".0%"),
         )
         blocks.append(DataTable("criticality", "Members that hold others", columns, critical))
@@ -86,8 +87,8 @@ def _warnings(stages: Sequence[dict[str, str]]) -> list[Block]:
         elif factor is None:
             notices.append(Paragraph(f"{where}: no connection to a support holds anything.", True))
         if float(row["not_held_kg"]) > 0.0:
-            mass_t = float(row["not_held_kg"]) / 1e3
-            notices.append(Paragraph(f"{where}: {mass_t:.1f} t are held by no connection to a support.", True))
+            mass = mass_text(float(row["not_held_kg"]), 1)
+            notices.append(Paragraph(f"{where}: {mass} are held by no connection to a support.", True))
     return notices
 
 

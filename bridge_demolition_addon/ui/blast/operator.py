@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import bpy
 
+from ...engineering.units import kilograms
 from ...model.blast.charges import Charge
 from ...model.scenario import BlastSettings
 from ...scene.blast.charges import charge_collection, charge_objects, create_charges, keep_blast
@@ -85,6 +86,5 @@ class BDA_OT_show_total_mass(UndoableAction, bpy.types.Operator):
     blocked_by = (no_world,)
 
     def act(self, context: bpy.types.Context) -> str:
-        text = f"{total_mass_kg(context.scene):,.0f} kg".replace(",", " ")
-        context.scene.bda.total_mass = text
-        return f"Total mass: {text}"
+        context.scene.bda.total_mass = kilograms(total_mass_kg(context.scene))
+        return f"Total mass: {context.scene.bda.total_mass}"

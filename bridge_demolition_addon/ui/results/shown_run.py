@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 import bpy
 
+from ...engineering.units import kilograms
 from ...errors import DemolitionError, OutputError, UnreadableError
 from ...model.results.arrays import Results
 from ...model.run_folder.files import SUMMARY_FILE
@@ -111,7 +112,7 @@ def lines_of(summary: Mapping[str, Any]) -> list[str]:
     """Return the totals of a summary in short lines."""
     connections = summary["connections"]
     return [
-        f"Total mass: {summary['mass_kg']['shard']:,.0f} kg".replace(",", " "),
+        f"Total mass: {kilograms(summary['mass_kg']['shard'])}",
         f"Broken: {connections['broken']} of {connections['count']} connections",
         f"{summary['frames']} frames, {summary['simulated_s']:.2f} s",
     ]

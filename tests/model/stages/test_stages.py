@@ -133,7 +133,7 @@ def test_tables_and_what_is_printed(tmp_path, capfd):
     assert main(["stages", str(path), "--output", str(output)]) == 0
     said = capfd.readouterr().out
     assert "stage 2, from 0.5 s" in said and "with excavator" in said and "comes down at" in said
-    assert "without start: 4.8 t come down, 100%" in said
+    assert "without start: 4.80 t come down, 100%" in said
     rows = list(csv.DictReader((output / "stages.csv").open(encoding="utf-8")))
     assert [row["equipment"] for row in rows] == ["", "excavator"]
     assert [row["step"] for row in rows] == ["as it was built", "equipment comes or goes"]
