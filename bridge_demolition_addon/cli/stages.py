@@ -13,7 +13,14 @@ from ..model.scenario.file import read_scenario
 from ..model.sequence.checked_model import checked_model
 from ..model.stages.stages import Criticality, Stage, criticality, stages_of
 from ..model.stages.standing import StandingBridge, made_elastic
-from ..model.stages.tables import FILES, criticality_sentences, stage_sentences, write_tables
+from ..model.stages.tables import (
+    FILES,
+    all_reaction_rows,
+    criticality_sentences,
+    reaction_sentences,
+    stage_sentences,
+    write_tables,
+)
 from ..system.disk import writing
 from .arguments import naming
 from .progress import progress_on
@@ -25,7 +32,8 @@ def add_to(commands: argparse._SubParsersAction) -> None:
         "stages",
         help="say how the bridge stands between the steps of its demolition, and which members hold it",
         description="Work out the bridge at rest before each step of a scenario and after the last, by the stiffness "
-        "of its connections and without a simulation, and write stages.csv, utilisation.csv and criticality.csv.",
+        "of its connections and without a simulation, and write stages.csv, reactions.csv, utilisation.csv "
+        "and criticality.csv.",
         allow_abbrev=False,
     )
     parser.add_argument("scenario", metavar="SCENARIO.toml", type=Path, help="scenario file, see docs/stages.md")
@@ -54,15 +62,20 @@ def execute(arguments: argparse.Namespace) -> None:
     with writing(output):
         rows = write_tables(output, stages, members, bridge)
     if not arguments.quiet:
-        _print(stages, rows, members, paths)
+        _print(stages, rows, all_reaction_rows(stages, model), members, paths)
 
 
 def _print(
-    stages: Sequence[Stage], rows: Sequence[dict], members: Sequence[Criticality], paths: Sequence[Path]
+    stages: Sequence[Stage],
+    rows: Sequence[dict],
+    reactions: Sequence[dict],
+    members: Sequence[Criticality],
+    paths: Sequence[Path],
 ) -> None:
     print()
     for stage, row in zip(stages, rows, strict=True):
-        first, *others = stage_sentences(stage, row)
+        carried = reaction_sentences([reaction for reaction in reactions if reaction["stage"] == row["stage"]])
+        first, *others = [*stage_sentences(stage, row), *carried]
         print(first)
         for line in others:
             print(f"  {line}")

@@ -29,6 +29,14 @@ member,stands,falls_kg,share_of_the_bridge
 deck,true,0,0
 pier 1,false,42000,0.55
 """
+REACTIONS = """\
+stage,time_s,step,support,kind,at_x_m,at_y_m,at_z_m,force_x_kN,force_y_kN,force_z_kN,\
+moment_x_kNm,moment_y_kNm,moment_z_kNm,own_weight_kN
+1,0,as it was built,west,foundation,0,0,0,-31,0,260,0,75,0,0
+1,0,as it was built,east,support,13,0,0,31,0,240,0,-75,0,12
+2,0.5,"removal of pier <1>",west,foundation,0,0,0,-44,1,495.25,2,91,0,0
+2,0.5,"removal of pier <1>",east,support,13,0,0,44,-1,-15.25,1,-8,0,12
+"""
 
 
 def with_stages(folder, stages=STAGES, members=CRITICALITY):
@@ -56,6 +64,24 @@ def test_stages_alone_make_a_report_that_warns_of_what_does_not_stand(tmp_path):
     rows = list(csv.DictReader((folder / "tables" / "stages.csv").open(encoding="utf-8")))
     assert [row["largest_utilisation"] for row in rows] == ["0.42", "1.3", "0.1"]
     assert (folder / "report.pdf").read_bytes().startswith(b"%PDF-")
+
+
+def test_reactions_of_supports_are_told_by_their_extremes_over_the_stages(tmp_path):
+    folder = with_stages(tmp_path / "stages")
+    (folder / "reactions.csv").write_text(REACTIONS, encoding="utf-8")
+    assert main(["report", str(folder), "--quiet"]) == 0
+    page = page_of(folder)
+    assert "Stage 2: east is held down with 15.2 kN against uplift." in page and "west is held down" not in page
+    rows = list(csv.DictReader((folder / "tables" / "reaction_forces.csv").open(encoding="utf-8")))
+    assert [row["support"] for row in rows] == ["west", "east"]
+    found = [(row["least_force_z_kN"], row["least_force_z_kN_in_stage"]) for row in rows]
+    assert found == [("260.0", "1"), ("-15.25", "2")]
+    found = [(row["largest_force_x_kN"], row["largest_force_x_kN_in_stage"]) for row in rows]
+    assert found == [("-31.0", "1"), ("44.0", "2")]
+    moments = list(csv.DictReader((folder / "tables" / "reaction_moments.csv").open(encoding="utf-8")))
+    assert [row["largest_moment_y_kNm"] for row in moments] == ["91.0", "-8.0"]
+    (folder / "reactions.csv").write_text(REACTIONS.replace("495.25", "soon"), encoding="utf-8")
+    assert main(["report", str(folder), "--quiet"]) == 2
 
 
 def test_a_run_has_a_chapter_on_stages_where_its_folder_holds_them(tmp_path):

@@ -65,3 +65,39 @@ def staged(path):
 def largest_stress_pa(stage):
     """Bending stress by the utilisation of the connection that is used most; shear adds less than 2 % here."""
     return float(np.nanmax(stage.standing.used)) * STRENGTH_PA
+
+
+def add_block(folder, name, size_m, centre_m, *, fixed=False):
+    """Write a box, and return its tables of the scenario."""
+    mesh = trimesh.creation.box(size_m)
+    mesh.apply_translation(centre_m)
+    mesh.export(folder / f"{name}.stl")
+    table = f'[[geometry]]\nname = "{name}"\nfile = "{name}.stl"\ndensity_kg_m3 = {DENSITY_KG_M3}\n'
+    return table + (f'[[supports]]\nmember = "{name}"\n' if fixed else "")
+
+
+PIN = '[[connections.between]]\nmembers = ["{}", "{}"]\nmaterial = "concrete"\ntype = "GENERIC"\nfree = [{}]\n'
+TURNS, SLIDES = '"turn y"', '"turn y", "move x"'
+
+
+def beam_of_blocks(folder, blocks, *, prop=None, with_end=True):
+    """A beam of blocks, each one shard, on a bearing at its start, maybe on sliding ones at its end and under a block.
+
+    So every bearing is one face, about whose middle it turns, and there is one face between two blocks.
+    """
+    length_m, bearings, text = blocks * BLOCK_M, [], ""
+    for number in range(blocks):
+        centre_m = ((number + 0.5) * BLOCK_M, 0.0, HEIGHT_M)
+        text += add_block(folder, f"block {number}", (BLOCK_M, WIDTH_M, DEPTH_M), centre_m)
+    supports = {"start": (-BLOCK_M / 2.0, HEIGHT_M, 0, TURNS)}
+    if with_end:
+        supports["end"] = (length_m + BLOCK_M / 2.0, HEIGHT_M, blocks - 1, SLIDES)
+    if prop is not None:
+        supports["prop"] = ((prop + 0.5) * BLOCK_M, HEIGHT_M - DEPTH_M, prop, SLIDES)
+    for name, (x_m, height_m, block, free) in supports.items():
+        text += add_block(folder, name, (BLOCK_M, WIDTH_M, DEPTH_M), (x_m, 0.0, height_m), fixed=True)
+        bearings.append(PIN.format(f"block {block}", name, free))
+    path = folder / "beam.toml"
+    text = SCENARIO.format(shards=blocks + len(supports)) + text + "".join(bearings)
+    path.write_text(text, encoding="utf-8")
+    return path

@@ -12,6 +12,7 @@ from ...errors import ScenarioError
 from ..scenario import Equipment, Scenario
 from ..sequence.events import Event, model_structure, schedule
 from ..structure.model import Model
+from .reactions import supports_of
 from .standing import Standing, StandingBridge
 
 _BUILT, _MACHINES = "as it was built", "equipment comes or goes"
@@ -142,11 +143,9 @@ def _highest_under(point: np.ndarray, boxes: np.ndarray, removed: np.ndarray) ->
 
 
 def reactions_n(model: Model, stage: Stage) -> np.ndarray:
-    """Return the forces (3,) of all supports on the bridge in a stage, N."""
-    first, second = model.connections.pairs.T
-    fixed = np.append(model.fixed, True)
-    forces = stage.standing.loads.forces_n
-    return forces[fixed[second] & ~fixed[first]].sum(axis=0) - forces[fixed[first] & ~fixed[second]].sum(axis=0)
+    """Return the sum (3,) of the forces of all supports on the bridge in a stage, N."""
+    forces = [support.reaction(stage.standing.loads)[0] for support in supports_of(model)]
+    return np.sum(forces, axis=0) if forces else np.zeros(3)
 
 
 def _steps(scenario: Scenario, events: Sequence[Event]) -> list[tuple[float, list[Event]]]:

@@ -10,13 +10,19 @@ from typing import Any
 
 import numpy as np
 
-from ...engineering.units import STANDARD_GRAVITY_M_S2, mass_text
+from ...engineering.units import STANDARD_GRAVITY_M_S2, mass_text, with_digits
 from ...system.disk import whole_file
 from ..structure.model import Model
+from .reactions import Support, supports_of
 from .stages import Criticality, Stage, reactions_n
 from .standing import StandingBridge
 
-FILES = STAGES_FILE, UTILISATION_FILE, CRITICALITY_FILE = "stages.csv", "utilisation.csv", "criticality.csv"
+FILES = STAGES_FILE, REACTIONS_FILE, UTILISATION_FILE, CRITICALITY_FILE = (
+    "stages.csv",
+    "reactions.csv",
+    "utilisation.csv",
+    "criticality.csv",
+)
 
 STAGE_COLUMNS = (
     "stage",
@@ -41,6 +47,23 @@ STAGE_COLUMNS = (
     "sag_mm",
     "first_frequency_Hz",
 )
+REACTION_COLUMNS = (
+    "stage",
+    "time_s",
+    "step",
+    "support",
+    "kind",
+    "at_x_m",
+    "at_y_m",
+    "at_z_m",
+    "force_x_kN",
+    "force_y_kN",
+    "force_z_kN",
+    "moment_x_kNm",
+    "moment_y_kNm",
+    "moment_z_kNm",
+    "own_weight_kN",
+)
 UTILISATION_COLUMNS = (
     "stage",
     "connection",
@@ -58,6 +81,9 @@ CRITICALITY_COLUMNS = ("member", "stands", "falls_kg", "share_of_the_bridge")
 _KILO = 1000.0
 _GROUND = "ground"
 
+UPLIFT_KN = 0.1
+"""Less than this is the rounding of a solution."""
+
 
 def write_tables(
     folder: Path, stages: Sequence[Stage], members: Sequence[Criticality], bridge: StandingBridge
@@ -66,6 +92,7 @@ def write_tables(
     folder.mkdir(parents=True, exist_ok=True)
     rows = [stage_row(number, stage, bridge) for number, stage in enumerate(stages, start=1)]
     write_table(folder / STAGES_FILE, STAGE_COLUMNS, rows)
+    write_table(folder / REACTIONS_FILE, REACTION_COLUMNS, all_reaction_rows(stages, bridge.model))
     used = (row for number, stage in enumerate(stages, start=1) for row in utilisation_rows(number, stage, bridge))
     write_table(folder / UTILISATION_FILE, UTILISATION_COLUMNS, used)
     write_table(folder / CRITICALITY_FILE, CRITICALITY_COLUMNS, map(criticality_row, members))
@@ -110,6 +137,21 @@ def stage_row(number: int, stage: Stage, bridge: StandingBridge) -> dict[str, An
     return row
 
 
+def all_reaction_rows(stages: Sequence[Stage], model: Model) -> list[dict[str, Any]]:
+    """Return the rows of all supports in all stages, stage by stage."""
+    supports = supports_of(model)
+    return [
+        _reaction_row(number, stage, support) for number, stage in enumerate(stages, start=1) for support in supports
+    ]
+
+
+def _reaction_row(number: int, stage: Stage, support: Support) -> dict[str, Any]:
+    force_n, moment_nm = support.reaction(stage.standing.loads)
+    values = number, stage.time_s, stage.step, support.name, support.kind, *support.point_m.tolist()
+    values += *(force_n / _KILO).tolist(), *(moment_nm / _KILO).tolist(), support.own_weight_n / _KILO
+    return dict(zip(REACTION_COLUMNS, values, strict=True))
+
+
 def utilisation_rows(number: int, stage: Stage, bridge: StandingBridge) -> Iterable[dict[str, Any]]:
     """Yield the rows of all connections that are there in a stage."""
     model, standing = bridge.model, stage.standing
@@ -149,6 +191,20 @@ def criticality_sentences(members: Sequence[Criticality]) -> list[str]:
     if not falls:
         return ["without any one member the others stand"]
     return [f"without {fall.member}: {mass_text(fall.falls_kg, 1)} come down, {fall.share:.0%}" for fall in falls]
+
+
+def reaction_sentences(rows: Sequence[Mapping[str, Any]]) -> list[str]:
+    """Return what the supports of one stage carry, by their rows in the table: the least and the most, and uplift."""
+    if not rows:
+        return []
+    least, most = (choose(rows, key=lambda row: row["force_z_kN"]) for choose in (min, max))
+    sentence = f"supports carry {_kilonewtons(least)} ({least['support']}) to {_kilonewtons(most)} ({most['support']})"
+    lifted = [row["support"] for row in rows if row["force_z_kN"] < -UPLIFT_KN]
+    return [sentence, *([f"held down against uplift: {', '.join(lifted)}"] if lifted else [])]
+
+
+def _kilonewtons(row: Mapping[str, Any]) -> str:
+    return f"{with_digits(row['force_z_kN'], 0)} kN"
 
 
 def factor_in_words(factor: float) -> str:

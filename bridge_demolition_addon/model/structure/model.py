@@ -28,7 +28,7 @@ from .face_bars import face_bars
 from .footings import on_footings, second_moments_of, soil_springs, with_soil
 from .members import FracturedMembers, fractured_members, shards_with_gaps
 from .stiffness import connection_stiffness
-from .supports import fixed_shards
+from .supports import HeldPart, held_parts
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,6 +49,8 @@ class Model:
         Second moments of area of the connections' faces; 0 for one without a face.
     fixed : (n,) bool
         Whether each shard never moves, as supports hold it; no connection lies between two of these.
+    held_parts : tuple of HeldPart
+        What supports hold, each shard of `fixed` in one of them.
     stiffness, soil, bars
         None where connections are rigid, where the ground does not settle, and without layers of reinforcement.
     """
@@ -62,6 +64,7 @@ class Model:
     joint_of_connection: np.ndarray
     second_moments_m4: np.ndarray
     fixed: np.ndarray
+    held_parts: tuple[HeldPart, ...] = ()
     stiffness: SectionStiffness | None = None
     ground: BuiltGround = field(default_factory=BuiltGround)
     soil: SoilSprings | None = None
@@ -101,7 +104,10 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
     connections = _connections(
         scenario.connections, shards, centres, faces, lambda pairs: ~excluded[rules_of(pairs)], heights_at
     )
-    fixed = fixed_shards(scenario.supports, members, shards, fractured.member_of_shard)
+    held = held_parts(scenario.supports, members, shards, fractured.member_of_shard)
+    fixed = np.zeros(len(shards), dtype=bool)
+    for part in held:
+        fixed[part.shards] = True
     # The ground, at index -1, is fixed as well.
     moves = ~np.append(fixed, True)[connections.pairs].all(axis=1)
     connections = connections.only(moves)
@@ -148,6 +154,7 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
         joint_of_connection=joint_of_connection,
         second_moments_m4=moments,
         fixed=fixed,
+        held_parts=held,
         stiffness=stiffness,
         ground=ground,
         soil=soil,

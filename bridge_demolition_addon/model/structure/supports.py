@@ -1,8 +1,9 @@
-"""Which shards never move, because their member, or the face they are part of, is fixed."""
+"""Parts of members that never move, because the member, or the face that their shards are part of, is held."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -28,35 +29,64 @@ _SAME_LEANING = 1e-6
 """Difference of two cosines below which faces look the same way."""
 
 
-def fixed_shards(
+@dataclass(frozen=True, slots=True, eq=False)
+class HeldPart:
+    """A part of a member that never moves, by a support of the scenario.
+
+    `shards` (s,) are those that no support before it holds. `centre_m` (3,) is the middle of the face that is held;
+    None where the whole member is.
+    """
+
+    member: int
+    face: str
+    shards: np.ndarray
+    centre_m: np.ndarray | None
+
+
+def held_parts(
     supports: Sequence[Support], members: Sequence[Member], shards: Sequence[TriangleMesh], member_of_shard: np.ndarray
-) -> np.ndarray:
-    """Return whether each shard, before gaps are made, is fixed, (n,) bool."""
-    fixed = np.zeros(len(shards), dtype=bool)
+) -> tuple[HeldPart, ...]:
+    """Return what supports hold of members whose shards have no gaps yet."""
+    free, parts = np.ones(len(shards), dtype=bool), []
     for support in supports:
         for index in members_named(support.member, members, "supports.member"):
-            own = np.flatnonzero(member_of_shard == index).tolist()
-            if support.face == "all":
-                fixed[own] = True
-            else:
-                parts = [shards[shard] for shard in own]
-                fixed[own] |= on_outermost_face(members[index].solid, parts, np.array(DIRECTIONS[support.face]))
-    if len(fixed) and fixed.all():
+            own, centre_m = np.flatnonzero(member_of_shard == index), None
+            if support.face != "all":
+                direction = np.array(DIRECTIONS[support.face])
+                own = own[on_outermost_face(members[index].solid, [shards[shard] for shard in own.tolist()], direction)]
+                centre_m = outermost_centre(members[index].solid, direction)
+            parts.append(HeldPart(index, support.face, own[free[own]], centre_m))
+            free[own] = False
+    if len(free) and not free.any():
         raise GeometryError("Every shard is held by supports, so that nothing is left to move; hold fewer members.")
-    return fixed
+    return tuple(parts)
 
 
 def on_outermost_face(solid: TriangleMesh, shards: Sequence[TriangleMesh], direction: np.ndarray) -> np.ndarray:
     """Return which shards (n,) are part of a solid's outermost face that looks most in a direction (3,)."""
+    _, normals = triangle_areas_and_normals(solid.corners)
+    faces, tolerance = _outermost(solid, direction), _SAME_PLANE * solid.longest_extent
+    heights = dot(normals, solid.corners[:, 0])
+    planes = np.unique(np.column_stack([normals[faces], heights[faces]]).round(9), axis=0)
+    return np.array([_has_face_in(shard, planes, tolerance) for shard in shards], dtype=bool)
+
+
+def outermost_centre(solid: TriangleMesh, direction: np.ndarray) -> np.ndarray:
+    """Return the middle (3,) of a solid's outermost face that looks most in a direction (3,)."""
+    faces = _outermost(solid, direction)
+    areas, _ = triangle_areas_and_normals(solid.corners[faces])
+    return (areas[:, None] * solid.corners[faces].mean(axis=1)).sum(axis=0) / areas.sum()
+
+
+def _outermost(solid: TriangleMesh, direction: np.ndarray) -> np.ndarray:
+    """Return the triangles (f,) of a solid's outermost face that looks most in a direction (3,)."""
     corners = solid.corners
     areas, normals = triangle_areas_and_normals(corners)
     heights = dot(normals, corners[:, 0])
     tolerance = _SAME_PLANE * solid.longest_extent
     outermost = (dot(solid.vertices[:, None], normals) <= heights + tolerance).all(axis=0) & (areas > 0.0)
     leaning = np.where(outermost, dot(normals, direction), -np.inf)
-    faces = np.flatnonzero(leaning > leaning.max() - _SAME_LEANING)
-    planes = np.unique(np.column_stack([normals[faces], heights[faces]]).round(9), axis=0)
-    return np.array([_has_face_in(shard, planes, tolerance) for shard in shards], dtype=bool)
+    return np.flatnonzero(leaning > leaning.max() - _SAME_LEANING)
 
 
 def _has_face_in(shard: TriangleMesh, planes: np.ndarray, tolerance: float) -> bool:

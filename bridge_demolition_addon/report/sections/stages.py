@@ -5,12 +5,22 @@ from __future__ import annotations
 import csv
 import io
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
+from typing import Any
 
 from ...engineering.units import mass_text
 from ...errors import OutputError, UnreadableError
-from ...model.stages.tables import CRITICALITY_COLUMNS, CRITICALITY_FILE, STAGE_COLUMNS, STAGES_FILE
+from ...model.stages.tables import (
+    CRITICALITY_COLUMNS,
+    CRITICALITY_FILE,
+    REACTION_COLUMNS,
+    REACTIONS_FILE,
+    STAGE_COLUMNS,
+    STAGES_FILE,
+    UPLIFT_KN,
+)
 from ...system.progress import Progress
 from ...system.reading import MEGABYTE, file_text
 from ..document.blocks import Block, Column, DataTable, Document, Paragraph, Report, Section
@@ -36,6 +46,17 @@ _COLUMNS = (
     Column("Collapse load factor", "falls_at", "", lambda row: _falls_at(_number(row["collapse_factor"]))),
     Column("Deflection (mm)", "sag_mm", ".1f", lambda row: _number(row["sag_mm"])),
 )
+_SUPPORT = (
+    Column("Support", "support", "", lambda rows: rows[0]["support"]),
+    Column("at x (m)", "at_x_m", ".2f", lambda rows: float(rows[0]["at_x_m"])),
+    Column("y (m)", "at_y_m", ".2f", lambda rows: float(rows[0]["at_y_m"])),
+    Column("z (m)", "at_z_m", ".2f", lambda rows: float(rows[0]["at_z_m"])),
+)
+_REACTIONS = (
+    "Reactions of the supports: least and largest forces (kN) on the bridge over the stages, z upwards, without the "
+    "weight of what is held"
+)
+_MOMENTS = "Reactions of the supports: least and largest moments (kN·m) about the point of the support"
 
 
 def has_stages(folder: Path) -> bool:
@@ -58,7 +79,7 @@ def stages_section(folder: Path) -> Section:
         falls = [(row["member"], float(row["falls_kg"]) / 1e3, float(row["share_of_the_bridge"])) for row in members]
     except ValueError as error:
         raise OutputError(f"{folder}: the tables of stages are damaged ({error}); run bda stages again") from error
-    blocks: list[Block] = [Paragraph(_WORDS), *_warnings(stages), table]
+    blocks: list[Block] = [Paragraph(_WORDS), *_warnings(stages), table, *_reaction_blocks(folder)]
     blocks.append(Paragraph(_on_members(falls)))
     if critical := sorted((fall for fall in falls if fall[1] > 0.0), key=lambda fall: -fall[1]):
         columns = (
@@ -68,6 +89,58 @@ def stages_section(folder: Path) -> Section:
         )
         blocks.append(DataTable("criticality", "Members that hold others", columns, critical))
     return Section("Stages", tuple(blocks))
+
+
+def _reaction_blocks(folder: Path) -> list[Block]:
+    """Return the least and largest reactions of each support; nothing where an earlier version wrote the tables."""
+    path = folder / REACTIONS_FILE
+    if not path.is_file():
+        return []
+    by_support: dict[str, list[dict[str, str]]] = {}
+    for row in _rows(path, REACTION_COLUMNS, may_be_empty=True):
+        by_support.setdefault(row["support"], []).append(row)
+    if not by_support:
+        return []
+    supports = list(by_support.values())
+    try:
+        forces = DataTable.of("reaction_forces", _REACTIONS, (*_SUPPORT, *_extremes("force", "kN")), supports)
+        moments = DataTable.of("reaction_moments", _MOMENTS, (*_SUPPORT, *_extremes("moment", "kNm")), supports)
+    except ValueError as error:
+        raise OutputError(f"{path}: is damaged ({error}); run bda stages again") from error
+    return [*_uplift(supports), forces, moments]
+
+
+def _uplift(supports: Sequence[Sequence[dict[str, str]]]) -> list[Block]:
+    """Return a notice of each support that is held down against uplift."""
+    lowest = [min(rows, key=lambda row: float(row["force_z_kN"])) for rows in supports]
+    return [
+        Paragraph(
+            f"Stage {row['stage']}: {row['support']} is held down with {-float(row['force_z_kN']):.1f} kN against "
+            "uplift. Make sure that it can be.",
+            True,
+        )
+        for row in lowest
+        if float(row["force_z_kN"]) < -UPLIFT_KN
+    ]
+
+
+def _extremes(quantity: str, unit: str) -> tuple[Column, ...]:
+    """Return columns for the least and the largest value along each axis over the stages, and for their stages."""
+    columns = []
+    for axis in "xyz":
+        key = f"{quantity}_{axis}_{unit}"
+        for name, choose in (("least", min), ("largest", max)):
+            columns += [
+                Column(f"{name} {axis}", f"{name}_{key}", ".1f", partial(_extreme, key, choose, key)),
+                Column("stage", f"{name}_{key}_in_stage", "", partial(_extreme, key, choose, "stage")),
+            ]
+    return tuple(columns)
+
+
+def _extreme(key: str, choose: Callable[..., dict[str, str]], wanted: str, rows: Sequence[dict[str, str]]) -> Any:
+    """Return a cell of the row with the least or largest value of a key."""
+    row = choose(rows, key=lambda row: float(row[key]))
+    return row[wanted] if wanted == "stage" else float(row[wanted])
 
 
 def _falls_at(factor: float | None) -> str | None:
@@ -105,11 +178,12 @@ def _number(cell: str) -> float | None:
     return float(cell) if cell else None
 
 
-def _rows(path: Path, columns: Sequence[str]) -> list[dict[str, str]]:
+def _rows(path: Path, columns: Sequence[str], *, may_be_empty: bool = False) -> list[dict[str, str]]:
     try:
         rows = list(csv.DictReader(io.StringIO(file_text(path, _MOST_BYTES), newline="")))
     except (UnreadableError, csv.Error) as error:
         raise OutputError(f"{path}: {error}") from error
-    if not rows or any(None in row or None in row.values() or not set(columns) <= set(row) for row in rows):
+    damaged = any(None in row or None in row.values() or not set(columns) <= set(row) for row in rows)
+    if damaged or not (rows or may_be_empty):
         raise OutputError(f"{path}: expected the columns {', '.join(columns[:3])} … of bda stages; run it again")
     return rows

@@ -9,7 +9,14 @@ from ...display.stage_contours import StageContours
 from ...model.sequence.checked_model import checked_model
 from ...model.stages.stages import criticality, stages_of
 from ...model.stages.standing import StandingBridge, made_elastic
-from ...model.stages.tables import criticality_sentences, stage_row, stage_sentences, write_tables
+from ...model.stages.tables import (
+    all_reaction_rows,
+    criticality_sentences,
+    reaction_sentences,
+    stage_row,
+    stage_sentences,
+    write_tables,
+)
 from ...system.disk import writing
 from ..modal_task import ModalTask, Work
 from ..operators import UndoableAction, absolute, no_world
@@ -50,9 +57,24 @@ class BDA_OT_check_stages(ModalTask, bpy.types.Operator):
             else:
                 with writing(folder):
                     rows = write_tables(folder, stages, members, bridge)
-            sentences = tuple(tuple(stage_sentences(stage, row)) for stage, row in zip(stages, rows, strict=True))
-            contours = StageContours.of_stages(model, stages)
-            keep(CheckedStages(scene_uid, tuple(rows), sentences, tuple(criticality_sentences(members)), contours))
+            all_reactions = all_reaction_rows(stages, model)
+            reactions = tuple(
+                tuple(reaction for reaction in all_reactions if reaction["stage"] == row["stage"]) for row in rows
+            )
+            sentences = tuple(
+                (*stage_sentences(stage, row), *reaction_sentences(carried))
+                for stage, row, carried in zip(stages, rows, reactions, strict=True)
+            )
+            keep(
+                CheckedStages(
+                    scene_uid=scene_uid,
+                    rows=tuple(rows),
+                    reactions=reactions,
+                    sentences=sentences,
+                    members=tuple(criticality_sentences(members)),
+                    contours=StageContours.of_stages(model, stages),
+                )
+            )
             return f"{len(rows)} stages" + (f", with tables in {folder}" if folder else "")
 
         return check

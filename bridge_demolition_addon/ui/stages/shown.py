@@ -21,6 +21,8 @@ class CheckedStages:
         Blender's number of the scene in this session.
     rows
         Rows of the table of stages.
+    reactions
+        Rows of the table of reactions, of each stage.
     sentences
         What is said of each stage: first which it is.
     members
@@ -31,6 +33,7 @@ class CheckedStages:
 
     scene_uid: int
     rows: tuple[dict, ...]
+    reactions: tuple[tuple[dict, ...], ...]
     sentences: tuple[tuple[str, ...], ...]
     members: tuple[str, ...]
     contours: StageContours
@@ -71,7 +74,9 @@ class StageProperties:
     """Part of the settings of a scene."""
 
     stages_directory: path_property(
-        "Tables", "Folder for stages.csv, utilisation.csv and criticality.csv; none to write no tables", "DIR_PATH"
+        "Tables",
+        "Folder for stages.csv, reactions.csv, utilisation.csv and criticality.csv; none to write no tables",
+        "DIR_PATH",
     )
     stage_shown: IntProperty(
         name="Stage",

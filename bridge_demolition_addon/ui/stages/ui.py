@@ -33,8 +33,22 @@ class BDA_PT_stages(SidebarPanel, bpy.types.Panel):
                 line.label(text=text)
         layout.operator("bda.show_utilisation")
         layout.prop(settings, "stage_shown")
-        for sentence in (*checked.sentences[min(settings.stage_shown, len(checked.rows)) - 1], *checked.members):
+        shown = min(settings.stage_shown, len(checked.rows)) - 1
+        for sentence in (*checked.sentences[shown], *checked.members):
             draw_sentence(layout, context, sentence, icon="NONE")
+        for quantity, unit in (("force", "kN"), ("moment", "kNm")) if checked.reactions[shown] else ():
+            grid = layout.column(align=True)
+            for row in [{}, *checked.reactions[shown]]:
+                line = grid.row(align=True)
+                for text in reaction_cells_of(row, quantity, unit):
+                    line.label(text=text)
+
+
+def reaction_cells_of(row: dict, quantity: str, unit: str) -> tuple[str, ...]:
+    """Return what the table of reactions says of a support: its force or moment; its head for no row."""
+    if not row:
+        return {"force": "Reactions, kN", "moment": "Moments, kN·m"}[quantity], "x", "y", "z"
+    return row["support"], *(f"{row[f'{quantity}_{axis}_{unit}']:.1f}" for axis in "xyz")
 
 
 def cells_of(row: dict) -> tuple[str, ...]:

@@ -83,7 +83,16 @@ def test_stages_are_checked_told_and_shown_before_anything_is_run(blender, panel
     ]
     assert float(rows[1]["collapse_factor"]) < float(rows[0]["collapse_factor"])
     panel.stage_shown = 2
-    assert "with excavator" in drawn(blender)
+    told = drawn(blender)
+    assert "with excavator" in told
+    carried = list(csv.DictReader((tmp_path / "tables" / "reactions.csv").open(encoding="utf-8")))
+    carried = [row for row in carried if row["stage"] == "2"]
+    assert len(carried) == 4
+    begin = told.index("Reactions, kN") + 4
+    for number, row in enumerate(carried):
+        cells = [row["support"], *(f"{float(row[f'force_{axis}_kN']):.1f}" for axis in "xyz")]
+        assert told[begin + 4 * number : begin + 4 * number + 4] == cells
+    assert told[begin + 16 : begin + 20] == ["Moments, kN·m", "x", "y", "z"] and len(told) == begin + 20 + 16
 
     assert ops.build_scenario() == {"FINISHED"}
     panel.contour_range, panel.contour_low, panel.contour_high, panel.contour_logarithmic = "FIXED", 0.0, 100.0, False
