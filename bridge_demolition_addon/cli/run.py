@@ -10,6 +10,7 @@ from types import ModuleType
 from typing import Any
 
 from ..errors import OutputError, SimulationError
+from ..model.results.creep import creep_text
 from ..model.results.fingerprint import SHORT
 from ..model.results.summary import first_hit_s
 from ..model.run_folder.files import RESULT_FILES
@@ -195,6 +196,8 @@ def _result_facts(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
         yield "impact of the ball", f"{first_hit_s(summary):.3f} s, frame {impact['frame']}"
     if summary["came_to_rest_s"] is not None:
         yield "everything rests from", f"{summary['came_to_rest_s']:.3f} s"
+    if creeping := creep_text(summary):
+        yield "creeping", creeping
     if throw := summary["largest_throw"]:
         yield "largest throw", f"{throw['throw_m']:.2f} m, {throw['body']}"
     if energy := summary["energy"]:

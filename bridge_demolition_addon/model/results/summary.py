@@ -11,6 +11,7 @@ from ...engineering.arithmetic import cube_root
 from ...engineering.geometry.vectors import dot, length
 from ...engineering.mechanics.impact import CONCRETE, STEEL, Contact, Hit, estimate, hits
 from .arrays import Results
+from .creep import creep_summary
 from .key_frame import RESTING_WEIGHTS, impact_step, key_step
 from .motion import relative_to_ground, throw, without_removed
 from .solver_energy import energy_summary
@@ -40,6 +41,7 @@ def summarise(results: Results, gravity_m_s2: np.ndarray, contact_time_s: float 
         "largest_force_sum": _largest_force(left, left.frames.loads.body_peak_sums_n),
         "largest_throw": _largest_throw(relative_to_ground(left)),
         "energy": energy_summary(left),
+        "creeping": creep_summary(left),
         "blast": _blast(results),
     }
 

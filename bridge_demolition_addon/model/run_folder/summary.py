@@ -166,6 +166,10 @@ def _checked(summary: Any) -> dict[str, Any]:
         _check_table("terrain", summary["terrain"], _TERRAIN)
         for number, surface in enumerate(summary["terrain"]["levelled"]):
             _check_table(f"terrain.levelled[{number}]", surface, _LEVELLED)
+    if summary.get("creeping") is not None:
+        _check_table("creeping", summary["creeping"], _CREEPING)
+        for number, shard in enumerate(summary["creeping"]["fastest"]):
+            _check_table(f"creeping.fastest[{number}]", shard, _CREEPING_SHARD)
     for number, hit in enumerate(summary.get("hits_of_the_ball", ())):
         _check_table(f"hits_of_the_ball[{number}]", hit, _HIT, optional=_ESTIMATES)
     return summary
@@ -216,6 +220,8 @@ _FALL = {
     "connections": _is_number,
     "largest_move_m": _is_number,
 }
+_CREEPING = {"shards": _is_number, "mass_kg": _is_number, "fastest": lambda value: _is_list(value) and bool(value)}
+_CREEPING_SHARD = {"body": _is_text, "member": _is_text, "speed_m_s": _is_number, "moved_m": _is_number}
 _TERRAIN = {
     "name": _is_text,
     "heights": _is_number,
@@ -235,6 +241,7 @@ _SUMMARY = {
     "made_by_hand": _are_texts,
     "changed_bodies": _are_texts,
     "fell_by_itself": _is_table_or_none,
+    "creeping": _is_table_or_none,
     "title": _is_text,
     "completed": lambda value: isinstance(value, bool),
     "blender": _is_text,

@@ -78,6 +78,12 @@ UTILISATION_COLUMNS = (
 )
 CRITICALITY_COLUMNS = ("member", "stands", "falls_kg", "share_of_the_bridge")
 
+SLOW_COLLAPSE = (
+    "a broken face carries nothing here; in a run its two sides press on each other, and what stands on such cracks "
+    "may take seconds to come down"
+)
+"""What is said where a stage does not stand."""
+
 _KILO = 1000.0
 _GROUND = "ground"
 
@@ -182,7 +188,10 @@ def stage_sentences(stage: Stage, row: Mapping[str, Any]) -> list[str]:
             f"used most: {row['largest_utilisation']:.0%} by {row['governed_by']}, in {row['between']} at "
             f"[{row['at_x_m']:.1f}, {row['at_y_m']:.1f}, {row['at_z_m']:.1f}] m"
         )
-    return [*sentences, factor_in_words(stage.collapse_factor)]
+    sentences.append(factor_in_words(stage.collapse_factor))
+    if stage.collapse_factor < 1.0:
+        sentences.append(SLOW_COLLAPSE)
+    return sentences
 
 
 def criticality_sentences(members: Sequence[Criticality]) -> list[str]:

@@ -14,6 +14,8 @@ from ...engineering.units import mass_text
 from ...model.debris.throws import Debris
 from ...model.results.arrays import Results
 from ...model.results.collapse import rest_of
+from ...model.results.creep import creep_summary, creep_text
+from ...model.results.motion import without_removed
 from ...model.run_folder.summary import RunSummary
 from ...model.scenario import Scenario
 from ..document.blocks import Block, Listing, Paragraph, Photo, Section, facts
@@ -172,6 +174,8 @@ def _doubts(run: ReportedRun) -> Iterator[str]:
             f"{rest.moving_at_end} of {len(results.inventory.of_kind('shard'))} shards still move at the end of the "
             "run: throws, footprint, pile and zones are not final. Simulate for longer to see it all come to rest."
         )
+    if text := creep_text({"creeping": creep_summary(without_removed(results)[0])}):
+        yield f"{text}."
     if np.isnan(results.frames.loads.body_sums_n[1:]).any():
         yield (
             "Forces are not known in every frame, as Blender's memory was not as expected or recording began late: "

@@ -8,6 +8,7 @@ from weakref import WeakKeyDictionary
 import bpy
 
 from ...errors import DemolitionError, OutputError, SimulationError
+from ...model.results.creep import creep_text
 from ...model.run_folder.folder import check_folder, keep_scenario, lock_in_place, prepare_folder, withdraw_folder
 from ...model.run_folder.summary import RunSummary
 from ...model.scenario import RecordingSettings, Scenario
@@ -157,6 +158,7 @@ def end_with_results(operator: bpy.types.Operator, recording: Recording, *, stop
     warnings = [
         f"The recording ended early: {recording.error}" if recording.error else stopped,
         self_collapse_text(session.last_recording().summary.values),
+        creep_text(session.last_recording().summary.values),
         _changed_bodies_text(recording),
     ]
     if by_hand := _contexts[recording].made_by_hand:

@@ -111,10 +111,12 @@ def explained_peak(summary: Mapping[str, Any]) -> str:
 def lines_of(summary: Mapping[str, Any]) -> list[str]:
     """Return the totals of a summary in short lines."""
     connections = summary["connections"]
+    creeping = summary.get("creeping")
     return [
         f"Total mass: {kilograms(summary['mass_kg']['shard'])}",
         f"Broken: {connections['broken']} of {connections['count']} connections",
         f"{summary['frames']} frames, {summary['simulated_s']:.2f} s",
+        *([f"Creeping at the end: {creeping['shards']} shards"] if creeping else []),
     ]
 
 
