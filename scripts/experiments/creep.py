@@ -3,7 +3,7 @@
 
 Usage: creep.py [FILE.csv], by default docs/data/creep.csv. A slab of concrete, 6 m × 1 m × 0.5 m, lies on a plane that
 is inclined by 15°, or on two loose blocks on a level plane. Friction is 0.36. Measured is the mean speed of the fastest
-shard in the last half of 1.5 s, with 24 frames a second.
+shard in the last half second of 1.5 s, with 24 frames a second.
 """
 
 import csv

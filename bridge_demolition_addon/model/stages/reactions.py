@@ -18,7 +18,7 @@ KINDS = SUPPORT, FOUNDATION = "support", "foundation"
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Support:
+class SupportPoint:
     """A part of the bridge that does not move, and the connections through which it carries the rest.
 
     Attributes
@@ -49,12 +49,12 @@ class Support:
         return forces.sum(axis=0), (moments + cross(levers, forces)).sum(axis=0)
 
 
-def supports_of(model: Model) -> tuple[Support, ...]:
+def supports_of(model: Model) -> tuple[SupportPoint, ...]:
     """Return the supports of a model that carry something: first what `[[supports]]` hold, then what stands."""
     return (*_held(model), *_standing(model))
 
 
-def _held(model: Model) -> list[Support]:
+def _held(model: Model) -> list[SupportPoint]:
     faces_of = Counter(part.member for part in model.held_parts)
     supports = []
     for part in model.held_parts:
@@ -66,7 +66,7 @@ def _held(model: Model) -> list[Support]:
             continue
         name = model.members[part.member].name
         supports.append(
-            Support(
+            SupportPoint(
                 name=f"{name}, {part.face}" if faces_of[part.member] > 1 else name,
                 kind=SUPPORT,
                 rows=rows,
@@ -78,7 +78,7 @@ def _held(model: Model) -> list[Support]:
     return supports
 
 
-def _standing(model: Model) -> list[Support]:
+def _standing(model: Model) -> list[SupportPoint]:
     first, second = model.connections.pairs.T
     on_ground = np.flatnonzero(second == GROUND)
     members = model.member_of_shard[first[on_ground]]
@@ -86,7 +86,7 @@ def _standing(model: Model) -> list[Support]:
     for member in dict.fromkeys(members.tolist()):
         rows = on_ground[members == member]
         name, point_m = model.members[member].name, _middle(model, rows)
-        supports.append(Support(name, FOUNDATION, rows, np.ones(len(rows)), point_m, 0.0))
+        supports.append(SupportPoint(name, FOUNDATION, rows, np.ones(len(rows)), point_m, 0.0))
     return supports
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from ...engineering.units import STANDARD_GRAVITY_M_S2, mass_text, with_digits
 from ...system.disk import whole_file
 from ..structure.model import Model
-from .reactions import Support, supports_of
+from .reactions import SupportPoint, supports_of
 from .stages import Criticality, Stage, reactions_n
 from .standing import StandingBridge
 
@@ -151,7 +151,7 @@ def all_reaction_rows(stages: Sequence[Stage], model: Model) -> list[dict[str, A
     ]
 
 
-def _reaction_row(number: int, stage: Stage, support: Support) -> dict[str, Any]:
+def _reaction_row(number: int, stage: Stage, support: SupportPoint) -> dict[str, Any]:
     force_n, moment_nm = support.reaction(stage.standing.loads)
     values = number, stage.time_s, stage.step, support.name, support.kind, *support.point_m.tolist()
     values += *(force_n / _KILO).tolist(), *(moment_nm / _KILO).tolist(), support.own_weight_n / _KILO

@@ -27,6 +27,7 @@ from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
 from bridge_demolition_addon.model.stages.stages import criticality, reactions_n
 from bridge_demolition_addon.model.stages.standing import StandingBridge, made_elastic
+from bridge_demolition_addon.model.stages.tables import SLOW_COLLAPSE, stage_row, stage_sentences
 from bridge_demolition_addon.simulation.motion_run import motion_run
 
 EXCAVATOR = """
@@ -118,6 +119,43 @@ def test_it_falls_in_blender_where_its_factor_is_below_1(blender, tmp_path, fact
     with motion_run(scenario, checked_model(scenario), tmp_path) as (results, _):
         heights = results.frames.positions_m[:, results.inventory.moves, 2]
         assert ((heights[0] - heights[-1]).max() > 0.5) == (factor < 1.0)
+
+
+def test_a_stage_that_does_not_stand_says_why_a_run_may_be_slow_to_show_it(tmp_path):
+    [stage], bridge = staged(beam_file(tmp_path, 4.0))
+    row = stage_row(1, stage, bridge)
+    assert stage.collapse_factor > 1.0 and SLOW_COLLAPSE not in stage_sentences(stage, row)
+    falling = replace(stage, collapse_factor=0.94)
+    assert stage_sentences(falling, row)[-2:] == ["comes down at 0.94 times its load", SLOW_COLLAPSE]
+
+
+def pairs_of(names, pairs):
+    """Pairs of shards, or of a shard and the ground, by the names of bodies."""
+    return {frozenset(names[body].removeprefix("Shard ").lstrip("0") or "0" for body in pair) for pair in pairs}
+
+
+def test_what_a_stage_breaks_first_is_the_first_to_break_in_a_run(blender, tmp_path):
+    """A frame whose connection that is used most carries 1.002 times its strength."""
+    frame = replace(
+        I235,
+        ball=None,
+        time=replace(I235.time, duration_s=0.1),
+        fracture=replace(I235.fracture, shards=40),
+        connections=replace(I235.connections, type="FIXED", method="face", search_radius_m=None),
+        shards=replace(I235.shards, start_deactivated=False, use_deactivation=False),
+    )
+    scenario = made_elastic(frame)
+    model = checked_model(scenario)
+    whole, nothing = np.ones(len(model.connections)), np.zeros((6, len(model.shards)))
+    used = StandingBridge(model, scenario.joints).rest(whole > 0.0, whole, nothing).used
+    connections = replace(scenario.connections, strength_factor=float(np.max(used)) / 1.002)
+    scenario = replace(scenario, connections=connections)
+    names = [*(str(number) for number in range(len(model.shards))), "Ground"]
+    first = pairs_of(names, model.connections.pairs[[int(np.argmax(used))]])
+    with motion_run(scenario, checked_model(scenario), tmp_path) as (results, _):
+        inventory, intact = results.inventory, results.frames.intact
+        broken = ~intact[np.flatnonzero(~intact.all(axis=1))[0]]
+        assert first <= pairs_of(inventory.body_names.tolist(), inventory.pairs[broken])
 
 
 def test_examples_are_scenarios_with_steps_and_equipment():
