@@ -93,9 +93,12 @@ def creep_text(summary: Mapping[str, Any]) -> str:
     if not creeping:
         return ""
     fastest = creeping["fastest"][0]
+    is_one = creeping["shards"] == 1
+    creep = "shard creeps" if is_one else "shards creep"
+    they = "it neither rests nor falls" if is_one else "they neither rest nor fall"
     of_member = f" of {fastest['member']}" if fastest["member"] else ""
     return (
-        f"{creeping['shards']} shards creep at the end, by up to {1000.0 * fastest['speed_m_s']:.0f} mm/s "
-        f"({fastest['body']}{of_member}, {1000.0 * fastest['moved_m']:.0f} mm from where it was): they neither rest "
-        "nor fall. Simulate for longer to see whether they come down"
+        f"{creeping['shards']} {creep} at the end, by up to {1000.0 * fastest['speed_m_s']:.0f} mm/s "
+        f"({fastest['body']}{of_member}, {1000.0 * fastest['moved_m']:.0f} mm from where it was): {they}. "
+        "Simulate for longer to see whether the bridge comes down"
     )

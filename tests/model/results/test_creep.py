@@ -37,6 +37,8 @@ def test_the_fastest_is_named_first_with_its_member_and_the_mass_of_all():
     text = creep_text({"creeping": summary})
     named = "(upper of upper column, 80 mm from where it was)"
     assert text.startswith(f"2 shards creep at the end, by up to 40 mm/s {named}")
+    one = creep_text({"creeping": creep_summary(moved(0.0, 0.0, 0.01, 0.02, 0.05))})
+    assert one.startswith("1 shard creeps at the end") and "it neither rests nor falls" in one
     assert creep_text({"creeping": None}) == creep_text({}) == ""
 
 
