@@ -9,6 +9,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from ..engineering.geometry.vectors import dot, length
+from ..engineering.mechanics.contact_pairs import contact_friction
 from ..errors import LayoutError
 from .layout import Layout
 from .memory import INTEGERS, POINTERS, Fields, copy_pointers, read, read_pointers, read_value
@@ -18,9 +19,6 @@ _MOST_POINTS = 4
 
 _MOST_MANIFOLDS = 50_000_000
 """More contacts than there can be: they would take 76 GB."""
-
-_LARGEST_FRICTION = 10.0
-"""Bullet's limit of the combined friction of two bodies."""
 
 _CHECKED_POINTS = 200
 """Contact points looked at in a check; a wrong offset is wrong in the first of them."""
@@ -210,7 +208,7 @@ def _check_point(layout: Layout, address: int, frictions: list[float]) -> None:
 
     normal, gap = vector(point.normal), vector(point.position_on_a) - vector(point.position_on_b)
     size = 1.0 + abs(vector(point.position_on_a)).max()
-    friction = min(frictions[0] * frictions[1], _LARGEST_FRICTION)
+    friction = contact_friction(*frictions)
     checks: Mapping[str, bool] = {
         "normal": bool(abs(length(normal) - 1.0) <= _UNIT),
         "distance": bool(abs(dot(gap, normal) - doubles[point.distance // 8]) <= _UNIT * size),

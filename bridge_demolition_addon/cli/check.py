@@ -8,6 +8,7 @@ from ..model.bridge.layout import bridge_facts
 from ..model.bridge.member import member_facts
 from ..model.bridge.preparation import prepared_members
 from ..model.scenario import Charge, Scenario
+from ..model.scenario.contact_facts import contact_facts
 from ..model.scenario.file import read_scenario
 from ..model.sequence.checked_model import ModelWorksite, checked_model
 from ..model.stages.standing import made_elastic
@@ -38,7 +39,7 @@ def check(arguments: argparse.Namespace) -> None:
 
 
 def scenario_facts(scenario: Scenario, *, stand: bool = False) -> Iterator[str]:
-    """Yield lines on a scenario's bridge, time steps, connections, ball, sequence and charges.
+    """Yield lines on a scenario's bridge, time steps, connections, contacts, ball, sequence and charges.
 
     With `stand` they say how a bridge with rigid connections would stand if these were elastic.
     """
@@ -55,6 +56,7 @@ def scenario_facts(scenario: Scenario, *, stand: bool = False) -> Iterator[str]:
     if not model.ground.is_plain:
         yield from _section("Ground", terrain_facts(model.ground))
     yield from _section("Shards and connections", connection_facts(scenario, model))
+    yield from _section("Contacts", contact_facts(scenario))
     if stand and model.stiffness is None:
         elastic = checked_model(as_elastic, prepared.members)
         yield from _section("At rest", rest_facts(scenario, elastic))

@@ -12,7 +12,7 @@ import numpy as np
 
 from ..engineering.geometry.mesh import TriangleMesh
 from ..engineering.geometry.solids import box
-from ..model.scenario import Ground, GroundSurface, ShardSettings
+from ..model.scenario import GroundSurface, ShardSettings, SurfaceValues
 from ..model.scenario.kept import values_from_text, values_text
 from ..model.terrain.built import TerrainFacts
 from .custom_properties import kept_numbers
@@ -114,6 +114,7 @@ def triangle_mesh(mesh: bpy.types.Mesh) -> TriangleMesh:
 def create_shards(
     collection: bpy.types.Collection,
     settings: ShardSettings,
+    surface: SurfaceValues,
     shards: Sequence[TriangleMesh],
     centres_m: np.ndarray,
     masses_kg: np.ndarray,
@@ -133,13 +134,13 @@ def create_shards(
         body[_KIND] = Kind.SHARD.value
         collection.objects.link(body)
         body.rigid_body.mass = mass
-        _set_shard(body.rigid_body, settings)
+        _set_shard(body.rigid_body, settings, surface)
     return bodies
 
 
-def _set_shard(rigid: bpy.types.RigidBodyObject, settings: ShardSettings) -> None:
+def _set_shard(rigid: bpy.types.RigidBodyObject, settings: ShardSettings, surface: SurfaceValues) -> None:
     rigid.collision_shape = "CONVEX_HULL"
-    set_surface(rigid, settings.friction, settings.restitution, settings.collision_margin_m)
+    set_surface(rigid, surface, settings.collision_margin_m)
     for key, name in SHARD_PROPERTIES.items():
         setattr(rigid, name, getattr(settings, key))
 
@@ -158,19 +159,19 @@ def start_motion_of(bodies: Sequence[bpy.types.Object]) -> np.ndarray:
     return np.array([kept_numbers(body, _START_MOTION, (0.0,) * 6) for body in bodies], float).reshape(-1, 6)
 
 
-def create_flat_ground(world: bpy.types.RigidBodyWorld, half_size_m: float, settings: Ground) -> bpy.types.Object:
+def create_flat_ground(world: bpy.types.RigidBodyWorld, half_size_m: float, surface: SurfaceValues) -> bpy.types.Object:
     """Make a passive block with its top at height 0, `half_size_m` to every side of the origin."""
     solid = box((2.0 * half_size_m, 2.0 * half_size_m, _GROUND_THICKNESS_M), (0.0, 0.0, 0.0))
-    ground = _create_passive(world, mesh_of("Ground", solid), "BOX", settings)
+    ground = _create_passive(world, mesh_of("Ground", solid), "BOX", surface)
     ground.location = (0.0, 0.0, -_GROUND_THICKNESS_M / 2.0)
     return ground
 
 
 def create_terrain(
-    world: bpy.types.RigidBodyWorld, mesh: TriangleMesh, settings: Ground, facts: TerrainFacts | None = None
+    world: bpy.types.RigidBodyWorld, mesh: TriangleMesh, surface: SurfaceValues, facts: TerrainFacts | None = None
 ) -> bpy.types.Object:
     """Make passive ground of triangles, not of their convex hull; it keeps facts on the file that it was made from."""
-    ground = _create_passive(world, mesh_of("Ground", mesh), "MESH", settings)
+    ground = _create_passive(world, mesh_of("Ground", mesh), "MESH", surface)
     if facts is not None:
         ground[_TERRAIN] = values_text(asdict(facts))
     return ground
@@ -187,21 +188,23 @@ def terrain_facts(scene: bpy.types.Scene) -> dict[str, Any] | None:
     return next((values_from_text(text, {}) for text in texts), None)
 
 
-def create_surface(world: bpy.types.RigidBodyWorld, mesh: TriangleMesh, settings: GroundSurface) -> bpy.types.Object:
+def create_surface(
+    world: bpy.types.RigidBodyWorld, mesh: TriangleMesh, settings: GroundSurface, surface: SurfaceValues
+) -> bpy.types.Object:
     """Make a passive surface on the ground, such as water, marked with its name and kind as a member is."""
-    surface = _create_passive(world, mesh_of(settings.name, mesh), "MESH", settings)
-    surface.color = _SURFACE_COLOURS.get(settings.kind, SOIL)
-    mark_member(surface, settings.name, settings.kind)
-    return surface
+    body = _create_passive(world, mesh_of(settings.name, mesh), "MESH", surface)
+    body.color = _SURFACE_COLOURS.get(settings.kind, SOIL)
+    mark_member(body, settings.name, settings.kind)
+    return body
 
 
 def _create_passive(
-    world: bpy.types.RigidBodyWorld, mesh: bpy.types.Mesh, collision_shape: str, settings: Ground | GroundSurface
+    world: bpy.types.RigidBodyWorld, mesh: bpy.types.Mesh, collision_shape: str, surface: SurfaceValues
 ) -> bpy.types.Object:
     body = create_body(world, mesh, Kind.GROUND, collision_shape)
     body.color = SOIL
     body.rigid_body.type = "PASSIVE"
-    set_surface(body.rigid_body, settings.friction, settings.restitution, 0.0)
+    set_surface(body.rigid_body, surface, 0.0)
     return body
 
 
@@ -216,9 +219,9 @@ def create_body(
     return body
 
 
-def set_surface(rigid: bpy.types.RigidBodyObject, friction: float, restitution: float, margin_m: float) -> None:
-    """Set friction, bounce and collision margin of a body."""
-    rigid.friction, rigid.restitution = friction, restitution
+def set_surface(rigid: bpy.types.RigidBodyObject, surface: SurfaceValues, margin_m: float) -> None:
+    """Set friction and restitution of a body by itself, and its collision margin."""
+    rigid.friction, rigid.restitution = surface.friction, surface.restitution
     rigid.use_margin, rigid.collision_margin = True, margin_m
 
 

@@ -86,7 +86,8 @@ def check_replaceable(scene: bpy.types.Scene, scenario: Scenario, model: Model) 
 def _build(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> list[bpy.types.Object]:
     world = create_world(scene, scenario.time, last_frame(scenario))
     ground = _create_ground(world, scenario, model)
-    site = BuildSite(world, scenario.timeline, partial(surface_height, scenario, model.members))
+    height_at = partial(surface_height, scenario, model.members)
+    site = BuildSite(world, scenario.timeline, height_at, scenario.surface_of)
     for action in scenario.actions:
         if make := TOOLS.get(type(action)):
             make(site, action)
@@ -95,7 +96,8 @@ def _build(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> list[bpy
     for kind, keep in KEPT.items():
         keep(scene, [action for action in scenario.actions if isinstance(action, kind)])
     with off_scene(scene) as (bodies, connections):
-        shards = create_shards(bodies, scenario.shards, model.shards, model.centres_m, model.masses_kg)
+        surface = scenario.surface_of(scenario.shards)
+        shards = create_shards(bodies, scenario.shards, surface, model.shards, model.centres_m, model.masses_kg)
         for shard, row in zip(shards, model.member_of_shard, strict=True):
             mark_member(shard, model.members[row].name, model.members[row].kind)
         for row in model.fixed.nonzero()[0]:
@@ -124,13 +126,13 @@ def _build(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> list[bpy
 
 def _create_ground(world: bpy.types.RigidBodyWorld, scenario: Scenario, model: Model) -> bpy.types.Object:
     """Make the ground and the surfaces on it, and return the ground."""
-    terrain = model.ground.terrain
+    terrain, of_ground = model.ground.terrain, scenario.surface_of(scenario.ground)
     if terrain is None:
-        ground = create_flat_ground(world, room_around(scenario, model.members), scenario.ground)
+        ground = create_flat_ground(world, room_around(scenario, model.members), of_ground)
     else:
-        ground = create_terrain(world, terrain.mesh, scenario.ground, model.ground.facts)
+        ground = create_terrain(world, terrain.mesh, of_ground, model.ground.facts)
     for surface in model.ground.surfaces:
-        create_surface(world, surface.mesh, surface.settings)
+        create_surface(world, surface.mesh, surface.settings, scenario.surface_of(surface.settings))
     return ground
 
 

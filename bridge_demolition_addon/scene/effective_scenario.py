@@ -11,7 +11,9 @@ import numpy as np
 
 from ..engineering.single_precision import as_given
 from ..errors import ScenarioError
-from ..model.scenario import Ground, Scenario
+from ..model.scenario import Scenario, SurfaceValues
+from ..model.scenario.body_surfaces import with_surfaces
+from ..model.scenario.contacts import QUANTITIES, BodyTable
 from ..model.schema import Table
 from .bodies import SHARD_PROPERTIES, Kind
 from .body_settings import BodySettings
@@ -23,9 +25,7 @@ _Table = TypeVar("_Table", bound=Table)
 _DEFAULT_MARGIN_M = 0.04
 """Collision margin of a body for which none is set (Bullet's CONVEX_DISTANCE_MARGIN)."""
 
-_GROUND = {"friction": "friction", "restitution": "restitution"}
-_BALL = {**_GROUND, "mass_kg": "mass", "angular_damping": "angular_damping"}
-_SHARDS = {**_GROUND, **SHARD_PROPERTIES}
+_BALL = {"mass_kg": "mass", "angular_damping": "angular_damping"}
 """Keys of a scenario, and the properties of Blender's rigid bodies that they set."""
 
 
@@ -42,7 +42,7 @@ def _refused(reason: str) -> Iterator[None]:
 def with_bodies(bodies: BodySettings, scenario: Scenario) -> Scenario:
     """Take over mass and surface of ground, ball and shards; of shards what all of them have."""
     rows = {kind: [row for row in bodies.of_kind(kind) if bodies.is_marked[row]] for kind in Kind}
-    shards = _common(bodies, rows[Kind.SHARD], _SHARDS, scenario.shards)
+    shards = _common(bodies, rows[Kind.SHARD], SHARD_PROPERTIES, scenario.shards)
     own = zip(bodies.rigid["use_margin"], bodies.rigid["collision_margin"], strict=True)
     margins = [margin if is_used else _DEFAULT_MARGIN_M for is_used, margin in own]
     if len(common := {margins[row] for row in rows[Kind.SHARD]}) == 1:
@@ -50,24 +50,36 @@ def with_bodies(bodies: BodySettings, scenario: Scenario) -> Scenario:
     if not shards.get("use_deactivation", True):
         shards["start_deactivated"] = False  # which Blender ignores there
     scenario = replace(scenario, shards=_replaced(scenario.shards, shards))
-    scenario = replace(scenario, ground=_with_surfaces(bodies, rows[Kind.GROUND], scenario.ground))
-    if scenario.ball is None:
-        return scenario
-    ball = _common(bodies, rows[Kind.BALL], _BALL, scenario.ball)
-    return replace(scenario, ball=_replaced(scenario.ball, ball))
+    if scenario.ball is not None:
+        ball = _common(bodies, rows[Kind.BALL], _BALL, scenario.ball)
+        scenario = replace(scenario, ball=_replaced(scenario.ball, ball))
+    return with_surfaces(scenario, _surfaces_of(bodies, rows, scenario))
 
 
-def _with_surfaces(bodies: BodySettings, rows: Sequence[int], ground: Ground) -> Ground:
-    """Take over the surface of the ground, and of each surface on it."""
+def _surfaces_of(
+    bodies: BodySettings, rows: Mapping[Kind, Sequence[int]], scenario: Scenario
+) -> dict[BodyTable, SurfaceValues]:
+    """Return friction and restitution that bodies in Blender have by themselves, by their tables.
+
+    Where those of one table differ, it has what the scenario says.
+    """
+    rows_of: dict[BodyTable, Sequence[int]] = {scenario.shards: rows[Kind.SHARD]}
     named: dict[str, list[int]] = {}
-    for row in rows:
+    for row in rows[Kind.GROUND]:
         named.setdefault(bodies.members[row], []).append(row)
-    surfaces = tuple(
-        _replaced(surface, _common(bodies, named.get(surface.name, ()), _GROUND, surface))
-        for surface in ground.surfaces
+    rows_of |= {surface: named.get(surface.name, ()) for surface in scenario.ground.surfaces}
+    rows_of[scenario.ground] = named.get("", ())
+    if scenario.ball is not None:
+        rows_of[scenario.ball] = rows[Kind.BALL]
+    rows_of |= dict.fromkeys(scenario.jackhammers, rows[Kind.TOOL])
+    return {table: _surface_in(bodies, own, scenario.surface_of(table)) for table, own in rows_of.items()}
+
+
+def _surface_in(bodies: BodySettings, rows: Sequence[int], built: SurfaceValues) -> SurfaceValues:
+    values = {name: bodies.common(name, rows) for name in QUANTITIES}
+    return replace(
+        built, **{name: as_given(found[0], getattr(built, name)) for name, found in values.items() if len(found) == 1}
     )
-    ground = _replaced(ground, _common(bodies, named.get("", ()), _GROUND, ground))
-    return ground if surfaces == ground.surfaces else replace(ground, surfaces=surfaces)
 
 
 @_refused("frames of another length than what is planned and animated allows")

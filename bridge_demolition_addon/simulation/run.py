@@ -18,6 +18,7 @@ from ..model.run_folder.files import BLEND_FILE
 from ..model.run_folder.folder import check_folder, keep_scenario, lock_in_place, prepare_folder
 from ..model.run_folder.summary import write_summary
 from ..model.scenario import Scenario
+from ..model.scenario.contact_facts import own_values_sentence
 from ..model.scenario.recording import PictureSettings
 from ..model.sequence.checked_model import checked_model
 from ..model.structure.model import Model
@@ -68,6 +69,8 @@ def run_scenario(
         check_camera(scenario.pictures)
     lap_s = _laps()
     progress.stage("building the bridge and its shards")
+    if of_bodies := own_values_sentence(scenario):
+        progress.stage(f"friction and restitution are given {of_bodies}")
     model = model or checked_model(scenario)
     with ExitStack() as locks:
         lock = locks.enter_context(prepare_folder(output, overwrite=overwrite))

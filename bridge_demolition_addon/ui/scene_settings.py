@@ -9,9 +9,13 @@ from .contours.prop import ContourProperties
 from .ensemble.prop import EnsembleProperties, read_earlier_files
 from .ground.prop import GroundProperties
 from .scenario import prop as scenario_properties
+from .scenario.earlier import read_earlier_bodies
 from .sidebar import path_property, tooltip
 from .stages.shown import StageProperties
 from .viewport import redraw_views
+
+_READERS = (read_earlier_files, read_earlier_bodies)
+"""What reads values of files of earlier versions."""
 
 
 class BDA_PG_settings(
@@ -66,12 +70,14 @@ def register() -> None:
         BDA_PG_settings.__annotations__[name] = PointerProperty(type=group, description=tooltip(table.__doc__))
     bpy.utils.register_class(BDA_PG_settings)
     bpy.types.Scene.bda = PointerProperty(type=BDA_PG_settings)
-    bpy.app.handlers.load_post.append(read_earlier_files)
+    for read in _READERS:
+        bpy.app.handlers.load_post.append(read)
 
 
 def unregister() -> None:
     """Take the settings from all scenes."""
-    bpy.app.handlers.load_post.remove(read_earlier_files)
+    for read in _READERS:
+        bpy.app.handlers.load_post.remove(read)
     del bpy.types.Scene.bda
     bpy.utils.unregister_class(BDA_PG_settings)
     scenario_properties.unregister()

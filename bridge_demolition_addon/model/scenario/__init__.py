@@ -14,6 +14,7 @@ from .ball import Ball, BallCable, BallHit
 from .bodies import Equipment, Ground, GroundSurface, ShardSettings, Support
 from .bridge import Abutments, BoxGirder, Bridge, Deck, Girders, PierCaps, Piers
 from .connections import ConnectionBetween, ConnectionSettings
+from .contacts import Contacts, SurfaceValues
 from .fracture import Finer, FracturePoint, FractureSettings, MemberFracture
 from .geometry import Geometry
 from .jackhammer import Jackhammer
@@ -36,6 +37,7 @@ __all__ = [
     "Charge",
     "ConnectionBetween",
     "ConnectionSettings",
+    "Contacts",
     "Deck",
     "Equipment",
     "Exclusion",
@@ -61,6 +63,7 @@ __all__ = [
     "ShardSettings",
     "Site",
     "Support",
+    "SurfaceValues",
     "TimeSettings",
     "Weakening",
     "Zone",

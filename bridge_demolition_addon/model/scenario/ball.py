@@ -1,7 +1,7 @@
 """The wrecking ball, and the cable that it may swing on."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields, replace
 from typing import ClassVar, Self
 
@@ -15,6 +15,7 @@ from ...engineering.units import STANDARD_GRAVITY_M_S2, mass_text
 from ...errors import GeometryError, ScenarioError
 from ..actions import Fact, HeightAt, Place, Plan, PlannedAction, Point, Worksite
 from ..schema import FARTHEST_M, POSITION, SHARE, SIZE, Table, expected, given, key
+from .contacts import BALL, FRICTION, OWN_VALUE, RESTITUTION, BodyTable
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -136,10 +137,12 @@ class BallHit(_Drop):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Ball(_Drop, PlannedAction):
+class Ball(_Drop, BodyTable, PlannedAction):
     """A wrecking ball that is let go above the deck. Without this table there is none."""
 
     table: ClassVar[str] = "ball"
+    contact: ClassVar[str] = BALL
+    older_values: ClassVar[Mapping[str, float]] = {FRICTION: 0.5, RESTITUTION: 0.0}
     heading: ClassVar[str] = "Ball"
 
     mass_kg: float = key("Mass.", unit="kg", above=0)
@@ -160,8 +163,8 @@ class Ball(_Drop, PlannedAction):
     release_time_s: float = key(
         "When it is let go; before `time.duration_s` is over.", default=0.5, unit="s", at_least=0
     )
-    friction: float = key("Coefficient of friction.", default=0.5, at_least=0)
-    restitution: float = key("Share of the speed kept in a bounce.", default=0.0, **SHARE)
+    friction: float | None = key(OWN_VALUE, default=None, at_least=0)
+    restitution: float | None = key(OWN_VALUE, default=None, **SHARE)
     angular_damping: float = key(
         "Share of its angular velocity that it loses in one second. Without any, nothing stops a ball that rolls on "
         "flat ground.",

@@ -1,10 +1,12 @@
 """Surface, damping and rest of shards and ground, and supports."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
 from ...errors import ScenarioError
 from ..schema import POSITION, SHARE, SHORTEST_LENGTH_M, Table, check_exactly_one, key
+from .contacts import FRICTION, GROUND, OWN_VALUE, RESTITUTION, SHARDS, SURFACES, BodyTable
 from .site import check_outline
 
 
@@ -29,11 +31,13 @@ SURFACE_KINDS = ("water", "river bank", "carriageway", "railway", "other")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class GroundSurface(Table):
+class GroundSurface(BodyTable):
     """A second surface that never moves, such as water, a river bank or the carriageway below: level within an outline,
     or a mesh. Debris on it is counted by itself. Water is as hard as all else: nothing sinks in it."""
 
     table: ClassVar[str] = "ground.surfaces"
+    contact: ClassVar[str] = SURFACES
+    older_values: ClassVar[Mapping[str, float]] = {FRICTION: 0.8, RESTITUTION: 0.0}
 
     name: str = key("What it is called in reports; a name of its own for each.")
     kind: str = key("What it is.", default="other", choices=SURFACE_KINDS)
@@ -50,8 +54,8 @@ class GroundSurface(Table):
         "`scale` and `up` of `ground`.",
         default=None,
     )
-    friction: float = key("Coefficient of friction.", default=0.8, at_least=0)
-    restitution: float = key("Share of the speed kept in a bounce.", default=0.0, **SHARE)
+    friction: float | None = key(OWN_VALUE, default=None, at_least=0)
+    restitution: float | None = key(OWN_VALUE, default=None, **SHARE)
 
     def _check_together(self) -> None:
         check_exactly_one(self, "height_m", "file")
@@ -64,10 +68,12 @@ class GroundSurface(Table):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Ground(Table):
+class Ground(BodyTable):
     """The ground: unyielding, and flat at height 0 or as a file has it. Columns and abutments reach down to it."""
 
     table: ClassVar[str] = "ground"
+    contact: ClassVar[str] = GROUND
+    older_values: ClassVar[Mapping[str, float]] = {FRICTION: 0.8, RESTITUTION: 0.0}
 
     file: str | None = key(
         "Path of the terrain: a mesh (STL, OBJ, PLY, GLB), an ESRI ASCII grid (ASC), points (XYZ, CSV, TXT), a LandXML "
@@ -104,8 +110,8 @@ class Ground(Table):
         at_least=SHORTEST_LENGTH_M,
         at_most=10,
     )
-    friction: float = key("Coefficient of friction.", default=0.8, at_least=0)
-    restitution: float = key("Share of the speed kept in a bounce.", default=0.0, **SHARE)
+    friction: float | None = key(OWN_VALUE, default=None, at_least=0)
+    restitution: float | None = key(OWN_VALUE, default=None, **SHARE)
     surfaces: tuple[GroundSurface, ...] = ()
 
     def _check_together(self) -> None:
@@ -120,13 +126,15 @@ class Ground(Table):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ShardSettings(Table):
+class ShardSettings(BodyTable):
     """Surface, damping and rest of the shards."""
 
     table: ClassVar[str] = "shards"
+    contact: ClassVar[str] = SHARDS
+    older_values: ClassVar[Mapping[str, float]] = {FRICTION: 0.6, RESTITUTION: 0.0}
 
-    friction: float = key("Coefficient of friction.", default=0.6, at_least=0)
-    restitution: float = key("Share of the speed kept in a bounce.", default=0.0, **SHARE)
+    friction: float | None = key(OWN_VALUE, default=None, at_least=0)
+    restitution: float | None = key(OWN_VALUE, default=None, **SHARE)
     collision_margin_m: float = key("Distance at which shards already touch.", default=0.0, unit="m", **SHARE)
     linear_damping: float = key("Share of the velocity lost in one second.", default=0.04, **SHARE)
     angular_damping: float = key("Share of the angular velocity lost in one second.", default=0.1, **SHARE)

@@ -12,6 +12,7 @@ from ...errors import ScenarioError
 from ...system.reading import MEGABYTE
 from ..schema import shown
 from ..toml_tables import document_of_file, table_of_document, tables_text, toml_document
+from .contacts import BALL, GROUND, QUANTITIES, SHARDS, SURFACES, TOOLS, Contacts, check_not_both
 from .scenario import Scenario
 
 PATHS = (
@@ -23,6 +24,10 @@ PATHS = (
     ("ground_motion", "file"),
 )
 """Table and key of every path of another file."""
+
+PAIR_TABLES = tuple(f"{Contacts.table}.{name}" for name in (SHARDS, GROUND, BALL, TOOLS, SURFACES))
+BODY_TABLES = ("shards", "ground", "ground.surfaces", "ball", "jackhammers")
+"""Tables that give friction and restitution: of pairs of surfaces, and of single bodies."""
 
 BASED_ON = "based_on"
 """Key of the table of a scenario: the file of which this one is a variant."""
@@ -47,14 +52,14 @@ def read_scenario(path: str | PathLike[str]) -> Scenario:
         The text is one line: the path as given, the key and what was expected.
     """
     try:
-        return table_of_document(Scenario, _document_of_file(Path(path)))
+        return _scenario_of_document(_document_of_file(Path(path)))
     except ScenarioError as error:
         raise ScenarioError(f"{fspath(path)}: {error}") from error
 
 
 def scenario_from_text(text: str) -> Scenario:
     """Read a scenario from TOML. It cannot be based on a file, as it has no folder to look in."""
-    return table_of_document(Scenario, toml_document(text))
+    return _scenario_of_document(toml_document(text))
 
 
 def scenario_text(scenario: Scenario) -> str:
@@ -70,6 +75,18 @@ def files_of(scenario: Scenario) -> Iterator[Path]:
             values = [getattr(table, step) for table in tables]
             tables = [inner for value in values for inner in (value if isinstance(value, tuple) else [value]) if inner]
         yield from (Path(path) for table in tables if (path := getattr(table, key)))
+
+
+def _scenario_of_document(document: dict[str, Any]) -> Scenario:
+    check_not_both(_keys_in(document, PAIR_TABLES), _keys_in(document, BODY_TABLES))
+    return table_of_document(Scenario, document)
+
+
+def _keys_in(document: dict[str, Any], tables: Iterable[str]) -> Iterator[str]:
+    """Yield the names of the keys of friction and restitution that a document gives in some tables."""
+    for name in tables:
+        for table in _tables_in(document, name.split(".")):
+            yield from (f"{name}.{quantity}" for quantity in QUANTITIES if quantity in table)
 
 
 def _document_of_file(path: Path, variants: tuple[Path, ...] = ()) -> dict[str, Any]:

@@ -1,7 +1,7 @@
 """Jackhammers on the deck."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import ClassVar, Self
 
@@ -11,6 +11,7 @@ from ...engineering.arithmetic import cosine
 from ...engineering.geometry.vectors import points_along
 from ..actions import Fact, HeightAt, Place, Plan, PlannedAction, Point, Worksite
 from ..schema import SHORTEST_LENGTH_M, key
+from .contacts import FRICTION, OWN_VALUE, TOOLS, BodyTable
 
 FRAMES_PER_BLOW = 4
 """Animation gives a position at each frame only: with this many a blow, it has at least 85 % of its stroke."""
@@ -23,12 +24,14 @@ _RAISING_S = 1.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Jackhammer(PlannedAction):
+class Jackhammer(BodyTable, PlannedAction):
     """A jackhammer: a chisel of steel that goes up and down while it moves along the deck. Nothing stops it, so it
     pushes away whatever is in its way. Before and after its time it stays clear above the deck.
     """
 
     table: ClassVar[str] = "jackhammers"
+    contact: ClassVar[str] = TOOLS
+    older_values: ClassVar[Mapping[str, float]] = {FRICTION: 0.5}
 
     start_time_s: float = key("When the first blow begins, from above the deck.", unit="s", at_least=0)
     end_time_s: float = key("When it stops and is raised; before `time.duration_s` is over.", unit="s", above=0)
@@ -45,7 +48,7 @@ class Jackhammer(PlannedAction):
     depth_m: float = key("How far its tip goes below the top of the deck.", unit="m", above=0)
     diameter_m: float = key("Diameter of the chisel.", default=0.15, unit="m", at_least=SHORTEST_LENGTH_M)
     length_m: float = key("Length of the chisel.", default=1.0, unit="m", at_least=SHORTEST_LENGTH_M)
-    friction: float = key("Coefficient of friction.", default=0.5, at_least=0)
+    friction: float | None = key(OWN_VALUE, default=None, at_least=0)
 
     @property
     def largest_speed_m_s(self) -> float:

@@ -66,10 +66,8 @@ def _section(table_class: type[Table], *, required: bool, many: bool = False) ->
     often = "As often as needed." if many else "May be left out."
     yield f"{_meaning(table_class)} {'Required.' if required else often}"
     yield ""
-    yield "| Key | Value | Default | Meaning |"
-    yield "| --- | --- | --- | --- |"
-    yield from map(_row, key_fields(table_class))
-    yield ""
+    if rows := list(map(_row, key_fields(table_class))):
+        yield from ("| Key | Value | Default | Meaning |", "| --- | --- | --- | --- |", *rows, "")
     for item in subtable_fields(table_class):
         yield from _section(given(subtable_class(item)), required=is_required(item), many=holds_many(item))
 

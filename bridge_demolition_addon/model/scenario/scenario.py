@@ -34,6 +34,7 @@ from .ball import Ball
 from .bodies import Equipment, Ground, ShardSettings, Support
 from .bridge import Bridge
 from .connections import ConnectionSettings
+from .contacts import BodyTable, Contacts, SurfaceValues, check_not_both, with_own_values
 from .fracture import FractureSettings
 from .geometry import Geometry
 from .jackhammer import Jackhammer
@@ -68,6 +69,7 @@ class Scenario(Table):
     supports: tuple[Support, ...] = ()
     foundations: tuple[Foundation, ...] = ()
     shards: ShardSettings = field(default_factory=ShardSettings)
+    contacts: Contacts | None = field(default_factory=Contacts)
     ball: Ball | None = None
     blast: BlastSettings = field(default_factory=BlastSettings)
     charges: tuple[Charge, ...] = ()
@@ -126,6 +128,16 @@ class Scenario(Table):
         return self.connections.warm_up_s
 
     @property
+    def bodies_in_contact(self) -> tuple[BodyTable, ...]:
+        """Tables of all bodies that touch others."""
+        ball = () if self.ball is None else (self.ball,)
+        return (self.shards, self.ground, *self.ground.surfaces, *ball, *self.jackhammers)
+
+    def surface_of(self, body: BodyTable) -> SurfaceValues:
+        """Return friction and restitution of a body by itself, as Bullet multiplies them with those of another."""
+        return body.own_values if self.contacts is None else self.contacts.of_body(body.contact)
+
+    @property
     def has_flat_ground(self) -> bool:
         return self.ground.file is None
 
@@ -155,6 +167,7 @@ class Scenario(Table):
         return (*self.removals, *self.saw_cuts, *self.weakenings)
 
     def _check_together(self) -> None:
+        self._settle_contacts()
         object.__setattr__(self, "charges", named_charges(self.charges))
         self._check_slow_motion()
         object.__setattr__(self, "connections", self.connections.with_strength(self.fracture.shards))
@@ -175,6 +188,28 @@ class Scenario(Table):
                 "expected shards.start_deactivated = false, or it would begin at rest"
             )
         self._check_foundations()
+
+    def _settle_contacts(self) -> None:
+        """Have either pairs of surfaces, or values of every single body where any body gives one."""
+        bodies = self.bodies_in_contact
+        of_bodies = [name for body in bodies for name in body.given_keys]
+        if not of_bodies:
+            contacts = self.contacts or Contacts()
+            contacts.check_possible(dict.fromkeys(body.contact for body in bodies))
+            object.__setattr__(self, "contacts", contacts)
+            return
+        if self.contacts is not None:
+            check_not_both(self.contacts.given_keys, of_bodies)
+            object.__setattr__(self, "contacts", None)
+        surfaces = tuple(map(with_own_values, self.ground.surfaces))
+        own = {
+            "shards": with_own_values(self.shards),
+            "ground": replace(with_own_values(self.ground), surfaces=surfaces),
+            "ball": self.ball and with_own_values(self.ball),
+            "jackhammers": tuple(map(with_own_values, self.jackhammers)),
+        }
+        for name, value in own.items():
+            object.__setattr__(self, name, value)
 
     def _check_foundations(self) -> None:
         if not self.foundations:

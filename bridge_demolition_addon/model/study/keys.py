@@ -11,6 +11,7 @@ from typing import Any, get_args, get_origin
 
 from ...errors import ScenarioError
 from ..scenario import Scenario
+from ..scenario.contacts import BodyTable
 from ..schema import Table, holds_many, key_name, key_of, shown, subtable_class, value_type
 from ..toml_tables import BARE_KEY
 
@@ -109,7 +110,7 @@ def _keys(table: Table, name: str, parts: list[str], before: str, steps: tuple) 
     known = [item.name for item in fields(table)]
     if first not in known:
         raise ScenarioError(f"{name} is unknown: expected one of {', '.join(known)} after {table.table}")
-    item, value = _field(type(table), first), getattr(table, first)
+    item, value = _field(type(table), first), _value_of(table, first)
     so_far, way = _dotted(before, first), (*steps, first)
     if subtable_class(item) is None:
         yield from _values(item, value, name, rest, so_far, way)
@@ -121,6 +122,12 @@ def _keys(table: Table, name: str, parts: list[str], before: str, steps: tuple) 
         raise ScenarioError(f"{name} is a table: expected a key of it, such as {name}.{fields(value)[0].name}")
     else:
         yield from _keys(value, name, rest, so_far, way)
+
+
+def _value_of(table: Table, name: str) -> Any:
+    """Return a value of a table; of a body's own friction or restitution the one that it has in older files."""
+    value = getattr(table, name)
+    return table.older_values.get(name) if value is None and isinstance(table, BodyTable) else value
 
 
 def _in_list(tables: tuple[Table, ...], name: str, parts: list[str], before: str, steps: tuple) -> Iterator:

@@ -18,6 +18,7 @@ from ...model.results.creep import creep_summary, creep_text
 from ...model.results.motion import without_removed
 from ...model.run_folder.summary import RunSummary
 from ...model.scenario import Scenario
+from ...model.scenario.contact_facts import contact_facts
 from ..document.blocks import Block, Listing, Paragraph, Photo, Section, facts
 from ..findings import IMPACT, findings
 from ..run_folder import ReportedRun
@@ -137,6 +138,7 @@ def _run_facts(run: ReportedRun, version: str) -> Iterator[tuple[str, str]]:
         yield "Density", f"{summary.density_kg_m3:.0f} kg/m³"
     if run.scenario:
         yield "Connections break", _breaking_text(run)
+        yield "Contacts", "; ".join(f"{name}: {text}" for name, text in contact_facts(run.scenario))
         yield "Seed", str(run.scenario.seed)
     if summary.blender:
         yield "Blender", summary.blender

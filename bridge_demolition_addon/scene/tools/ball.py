@@ -40,7 +40,7 @@ def create_ball(site: BuildSite, settings: Ball) -> bpy.types.Object:
     ball.color = _STEEL
     rigid = ball.rigid_body
     rigid.mass = settings.mass_kg
-    set_surface(rigid, settings.friction, settings.restitution, 0.0)
+    set_surface(rigid, site.surface_of(settings), 0.0)
     # Air does not slow a ball of steel over a few metres; Blender's default damping would, by some percent.
     rigid.linear_damping, rigid.angular_damping = 0.0, settings.angular_damping
     rigid.use_deactivation = False

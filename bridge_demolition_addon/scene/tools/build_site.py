@@ -1,7 +1,8 @@
-"""Where tools are built: a rigid-body world, the frames of a run, and the heights of the bridge."""
+"""Where tools are built: a rigid-body world, the frames of a run, the heights of the bridge, and surfaces of bodies."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import bpy
@@ -9,6 +10,8 @@ import numpy as np
 
 from ...engineering.timing.timeline import Timeline
 from ...model.actions import HeightAt
+from ...model.scenario import SurfaceValues
+from ...model.scenario.contacts import BodyTable
 from ..world import FIRST_STEP_FRAME
 
 
@@ -19,6 +22,7 @@ class BuildSite:
     world: bpy.types.RigidBodyWorld
     timeline: Timeline
     height_at: HeightAt
+    surface_of: Callable[[BodyTable], SurfaceValues]
 
     def frame_after(self, time_s: float) -> int:
         """Return the first frame that begins at a simulated time or later."""

@@ -24,7 +24,7 @@ def create_jackhammer(site: BuildSite, settings: Jackhammer) -> bpy.types.Object
     chisel.color = _STEEL
     chisel.rigid_body.type = "PASSIVE"
     chisel.rigid_body.kinematic = True
-    set_surface(chisel.rigid_body, settings.friction, 0.0, 0.0)
+    set_surface(chisel.rigid_body, site.surface_of(settings), 0.0)
     frames, times_s = site.frames_and_times()
     positions = settings.tip_positions(site.height_at(settings.path_m[0]), times_s)
     chisel.location = positions[0]

@@ -7,6 +7,7 @@ from pathlib import Path
 import bpy
 
 from ...model.scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS, STRENGTH_KEYS
+from ...model.scenario.contacts import QUANTITIES
 from ...simulation.blender_events import running_recording
 from ...simulation.kept_run import has_run
 from ..operators import Action
@@ -77,4 +78,15 @@ def breaking_note(scenario: bpy.types.PropertyGroup) -> str:
         return "Choose a breaking force, or a material with method face"
     if is_large and "material" not in strengths:
         return "One force for all: the finer the bridge is cut, the stronger it is. A material does not depend on it"
+    return ""
+
+
+def contact_note(scenario: bpy.types.PropertyGroup) -> str:
+    """Return a sentence where single bodies have friction or restitution of their own; empty where pairs have it."""
+    bodies = (scenario.shards, scenario.ground, *scenario.ground.surfaces, scenario.ball, *scenario.jackhammers)
+    if any(getattr(body, USE + name, False) for body in bodies for name in QUANTITIES):
+        return (
+            "Single bodies have values of their own, and a contact has the products: untick them in the panels of "
+            "shards, ground, ball and jackhammers to give pairs here"
+        )
     return ""

@@ -28,6 +28,7 @@ from bpy.props import (
 from ...model.optimise.settings import ChosenQuantity, OptimiseSettings
 from ...model.run_folder.files import SCENARIO_FILE
 from ...model.scenario import Charge, Scenario
+from ...model.scenario.contacts import BodyTable
 from ...model.scenario.file import read_scenario
 from ...model.schema import (
     Key,
@@ -238,13 +239,24 @@ def _key_properties(table_class: type[Table], item: Field, default: Any) -> dict
     typical = typical_words(table_class, item)
     description = f"{rule.description} {typical}." if typical else rule.description
     meaning = tooltip(f"{description} In a scenario file: {name}, {expected(item)}")
-    words = {"name": label, "description": meaning}
+    words: dict[str, Any] = {"name": label, "description": meaning}
+    if issubclass(table_class, BodyTable) and item.name in table_class.older_values:
+        words["update"] = _use_what_is_set(item.name)
     propose = _PROPOSED.get(name)
     properties = {item.name: _proposing(rule, default, propose, words) if propose else _property(item, default, words)}
     properties.update(row_properties(item, words))
     if is_optional(item):
         properties[USE + item.name] = BoolProperty(name=label, description=meaning, default=default is not None)
     return properties
+
+
+def _use_what_is_set(name: str) -> Callable[[bpy.types.PropertyGroup, bpy.types.Context], None]:
+    """Return what ticks the check box of a key once a script sets its value, as scripts did before it had one."""
+
+    def update(group: bpy.types.PropertyGroup, _context: bpy.types.Context) -> None:
+        setattr(group, USE + name, True)
+
+    return update
 
 
 def _property(item: Field, default: Any, words: dict[str, str]) -> Any:

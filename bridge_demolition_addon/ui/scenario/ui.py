@@ -16,7 +16,7 @@ from ..messages import draw_messages
 from ..sidebar import SidebarPanel, draw_sentence, letters_of
 from ..task_progress import draw_task_progress, going_on
 from .built import ChangedValue, Kept, built_values, change_of, change_of_use, changes, changes_of_table
-from .hints import breaking_note, draw_first_help, next_step
+from .hints import breaking_note, contact_note, draw_first_help, next_step
 from .number_rows import draw_rows, numbers_in_row
 from .prop import INDEX, USE, label_of, shown_keys, shown_tables, vector_length
 from .table_list import draw_list
@@ -32,6 +32,7 @@ _PARENTS = {
     "materials": "BDA_PT_connections",
     "reinforcement": "BDA_PT_connections",
     "ground": "BDA_PT_shards",
+    "contacts": "BDA_PT_shards",
     "blast": "BDA_PT_explosion",
     "recording": "BDA_PT_handler",
     "site": "BDA_PT_scenario",
@@ -148,6 +149,8 @@ class _TablePanel(SidebarPanel):
         inner_kept = kept and kept.get(self.item.name)
         draw_keys(layout, context, getattr(owner, self.item.name), subtable_class(self.item), inner_kept)
         if not self.names and self.item.name == "connections" and (note := breaking_note(owner)):
+            draw_sentence(layout, context, note, icon="INFO")
+        if not self.names and self.item.name == "contacts" and (note := contact_note(owner)):
             draw_sentence(layout, context, note, icon="INFO")
 
     def _owner(self, context: Context) -> PropertyGroup:

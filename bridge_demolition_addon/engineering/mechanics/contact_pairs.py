@@ -1,0 +1,39 @@
+"""Friction and restitution of pairs of surfaces, and the values of single bodies that Bullet multiplies to have them.
+
+A contact in Bullet has the product of the values of its two bodies (`btManifoldResult`, `calculateCombinedFriction` and
+`calculateCombinedRestitution`). Shards touch shards as well as all other bodies. So their value is the root of that of
+the pair of two shards, and each other body has what makes its pair with a shard.
+"""
+
+from __future__ import annotations
+
+import math
+
+LARGEST_FRICTION = 10.0
+"""Largest friction of a contact in Bullet, which takes this where the product is larger."""
+
+
+def shard_value(of_two_shards: float) -> float:
+    """Return the value of a shard by that of the contact of two."""
+    return math.sqrt(of_two_shards)
+
+
+def other_value(with_shard: float, of_two_shards: float) -> float:
+    """Return the value of another body by that of its contact with a shard and that of two shards; 0 by 0 is 0.
+
+    Raises
+    ------
+    ZeroDivisionError
+        Two shards have 0, and the body has to have more with a shard: no value makes that.
+    """
+    return with_shard / shard_value(of_two_shards) if with_shard else 0.0
+
+
+def contact_friction(first: float, second: float) -> float:
+    """Return the friction of the contact of two bodies by their own values."""
+    return min(first * second, LARGEST_FRICTION)
+
+
+def contact_restitution(first: float, second: float) -> float:
+    """Return the restitution of the contact of two bodies by their own values."""
+    return first * second
