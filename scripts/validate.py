@@ -37,6 +37,7 @@ CASES = (
     "drop_weight",
     "airblast_far_away",
     # measurements
+    "tossed_cubes",
     "prestwood",
     "laboratory_arches",
     "falling_chimney",

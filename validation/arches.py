@@ -305,7 +305,7 @@ member = "springer"
 [fracture]
 shards = {arch.voussoirs + 2}
 {connections or LOOSE_JOINTS}
-{RIGID_BODIES.format(friction=math.sqrt(FRICTION), ground=math.sqrt(FRICTION))}"""
+{RIGID_BODIES.format(shards=FRICTION, ground=FRICTION)}"""
     results = simulated(folder, name, scenario, meshes)
     body = int(np.flatnonzero(results.inventory.body_members == f"voussoir {rows[0]:02d}")[0])
     times, forces = zip(*course, strict=True)

@@ -98,7 +98,7 @@ stiffness = "elastic"
 members = ["slice", "foot"]
 type = "GENERIC"
 free = ["turn y"]
-{RIGID_BODIES.format(friction=0.5, ground=0.5)}"""
+{RIGID_BODIES.format(shards=0.25, ground=0.25)}"""
     name = f"height_{height:g}_strength_{strength:g}"
     results = simulated(folder, name, scenario, meshes)
     inventory, frames = results.inventory, results.frames

@@ -111,10 +111,13 @@ linear_damping = 0.0
 angular_damping = 0.0
 use_deactivation = false
 start_deactivated = false
-friction = {friction}
 collision_margin_m = 0.0
 
-[ground]
+[contacts.shards]
+friction = {shards}
+
+[contacts.ground]
 friction = {ground}
 """
-"""Settings of all cases: nothing damps, nothing sleeps, and edges are sharp."""
+"""Settings of all cases: nothing damps, nothing sleeps, and edges are sharp. Friction is that between shards, and that
+of shards on the ground."""

@@ -81,8 +81,10 @@ diameter_m = {2.0 * (mass_kg / 7850.0 * 0.75 / math.pi) ** (1.0 / 3.0):.4f}
 target_m = [0.0, 0.0]
 drop_height_m = {speed_m_s**2 / (2.0 * G)}
 release_time_s = 0.0
-restitution = 0.0
-{RIGID_BODIES.format(friction=0.5, ground=0.5)}"""
+
+[contacts.ball]
+friction = 0.25
+{RIGID_BODIES.format(shards=0.25, ground=0.25)}"""
     results = simulated(folder, f"{mass_kg:g}_kg_{speed_m_s:g}_m_s", scenario, BEAM.solids)
     _, risen = middle_m(results)
     return float(-risen.min()), float(-risen[-1])

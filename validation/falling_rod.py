@@ -121,7 +121,7 @@ type = "GENERIC"
 free = ["turn y"]
 method = "face"
 breaking_force_n = 1e12
-{RIGID_BODIES.format(friction=0.5, ground=0.5)}"""
+{RIGID_BODIES.format(shards=0.25, ground=0.25)}"""
     half = SIDE_M / 2.0
     meshes = {
         "rod": block((-half, -half, 0.0), (half, half, LENGTH_M)),

@@ -114,7 +114,7 @@ breaking_force_n = 1e12
 [[removals]]
 time_s = {REMOVED_S}
 members = ["pier"]
-{RIGID_BODIES.format(friction=0.8, ground=0.8)}"""
+{RIGID_BODIES.format(shards=0.64, ground=0.64)}"""
     results = simulated(folder, f"moments_{share:g}", scenario, solids)
     inventory, frames = results.inventory, results.frames
     halves = np.flatnonzero(inventory.body_members == "beam")

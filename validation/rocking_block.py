@@ -84,7 +84,7 @@ spin_rad_s = [0.0, {spin}, 0.0]
 
 [fracture]
 shards = 1
-{LOOSE}{RIGID_BODIES.format(friction=1.0, ground=1.0)}"""
+{LOOSE}{RIGID_BODIES.format(shards=1.0, ground=1.0)}"""
     solid = block((-WIDTH_M, -DEPTH_M / 2.0, 0.0), (0.0, DEPTH_M / 2.0, HEIGHT_M))
     results = simulated(folder, name, scenario, {"block": solid})
     (shard,) = results.inventory.of_kind("shard")

@@ -82,7 +82,7 @@ member = "springer"
 
 [fracture]
 shards = {COUNT + 2}
-{LOOSE_JOINTS}{RIGID_BODIES.format(friction=0.9, ground=0.9)}"""
+{LOOSE_JOINTS}{RIGID_BODIES.format(shards=0.81, ground=0.81)}"""
     results = simulated(folder, f"thickness_{thickness:.3f}", scenario, meshes)
     names = results.inventory.body_members
     crown = [int(np.flatnonzero(names == f"voussoir {row:02d}")[0]) for row in (COUNT // 2 - 1, COUNT // 2)]

@@ -50,7 +50,7 @@ velocity_m_s = [{SPEED_M_S}, 0.0, 0.0]
 
 [fracture]
 shards = 1
-{LOOSE}{RIGID_BODIES.format(friction=friction, ground=1.0)}"""
+{LOOSE}{RIGID_BODIES.format(shards=friction**2, ground=friction)}"""
     results = simulated(folder, f"friction_{friction}", scenario, {"block": block((-1, -1, 0), (1, 1, 0.5))})
     (shard,) = results.inventory.of_kind("shard")
     frames = results.frames

@@ -78,7 +78,7 @@ density_kg_m3 = {DENSITY_KG_M3}
 
 [fracture]
 shards = 1
-{LOOSE}{RIGID_BODIES.format(friction=2.0, ground=2.0)}
+{LOOSE}{RIGID_BODIES.format(shards=4.0, ground=4.0)}
 [blast]
 start_s = 0.1
 loading = "reflected"

@@ -18,8 +18,8 @@ ROWS = ((0.3, 1.0), (0.3, 1.4), (0.5, 1.2))
 LEANS = math.radians(0.5)
 """Lean from which a pier counts as hit."""
 
-FRICTION, GROUND_FRICTION = 0.05, 40.0
-"""Bullet multiplies them: hardly any between piers, 0.0025, and feet that do not slip, 2."""
+FRICTION, GROUND_FRICTION = 0.0025, 2.0
+"""Hardly any between piers, and feet that do not slip."""
 
 
 def run(folder: Path) -> Found:
@@ -115,7 +115,7 @@ solver_iterations = 50
 {members}
 [fracture]
 shards = {count}
-{LOOSE}{RIGID_BODIES.format(friction=FRICTION, ground=GROUND_FRICTION)}"""
+{LOOSE}{RIGID_BODIES.format(shards=FRICTION, ground=GROUND_FRICTION)}"""
     solid = block((-thickness, -WIDTH_M / 2.0, 0.0), (0.0, WIDTH_M / 2.0, HEIGHT_M))
     results = simulated(folder, f"thickness_{thickness:g}_gap_{gap:g}", scenario, {"pier": solid})
     inventory, frames = results.inventory, results.frames

@@ -18,7 +18,7 @@ from bridge_demolition_addon.engineering.geometry.mesh import TriangleMesh
 from bridge_demolition_addon.engineering.geometry.solids import box
 from bridge_demolition_addon.engineering.mechanics.joint import Joint
 from bridge_demolition_addon.engineering.structure.connections import Connections
-from bridge_demolition_addon.model.scenario import Ground, ShardSettings, TimeSettings
+from bridge_demolition_addon.model.scenario import ShardSettings, SurfaceValues, TimeSettings
 from bridge_demolition_addon.scene.bodies import create_flat_ground, create_shards
 from bridge_demolition_addon.scene.connections.constraints import create_connections
 from bridge_demolition_addon.scene.connections.joints import set_joints
@@ -68,7 +68,7 @@ def _seconds(way: Callable, shards: list[TriangleMesh], connections: Connections
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
     create_world(scene, TIME, 100)
-    ground = create_flat_ground(scene.rigidbody_world, 100.0, Ground())
+    ground = create_flat_ground(scene.rigidbody_world, 100.0, SurfaceValues(0.6, 0.0))
     began = time.perf_counter()
     way(scene, ground, shards, connections)
     built = time.perf_counter()
@@ -82,7 +82,7 @@ def _ours(
     positions, masses = _places(len(shards)), np.full(len(shards), 100.0)
     joints, moments = [Joint("FIXED", breaking_force_n=BREAKING_FORCE_N)], np.tile(np.eye(2), (len(connections), 1, 1))
     with off_scene(scene) as (bodies, constraints):
-        made = create_shards(bodies, ShardSettings(), shards, positions, masses)
+        made = create_shards(bodies, ShardSettings(), SurfaceValues(0.6, 0.0), shards, positions, masses)
         held = create_connections(constraints, connections, made, ground, moments)
         set_joints(held, joints, np.zeros(len(held), int), TIME.step)
 

@@ -3,6 +3,7 @@
 
 import numpy as np
 import pytest
+from support.scenarios import I235
 
 from bridge_demolition_addon.engineering.structure.connections import GROUND, Connections
 from bridge_demolition_addon.errors import SimulationError
@@ -91,16 +92,18 @@ def test_masses_and_volumes_of_what_moves_and_of_what_does_not(blocks):
 
 def test_names_and_kinds(blocks):
     from bridge_demolition_addon.engineering.timing.timeline import Timeline
-    from bridge_demolition_addon.model.scenario import Ball, Ground
+    from bridge_demolition_addon.model.scenario import Ball, SurfaceValues
     from bridge_demolition_addon.scene.bodies import create_flat_ground
     from bridge_demolition_addon.scene.tools.ball import create_ball
     from bridge_demolition_addon.scene.tools.build_site import BuildSite
 
     blocks.block((0, 0, 0)).name = "Pier, left"
     blocks.block((0, 0, 2), 10.0).name = "Brücke"
-    create_flat_ground(blocks.world, 10.0, Ground())
+    create_flat_ground(blocks.world, 10.0, SurfaceValues(0.8, 0.0))
     ball = Ball(mass_kg=500.0, diameter_m=1.0, target_m=(0.0, 0.0), drop_height_m=2.0, release_time_s=0.0)
-    create_ball(BuildSite(blocks.world, Timeline.of(blocks.time.step.frame_s, 10.0), lambda _: 5.0), ball)
+    create_ball(
+        BuildSite(blocks.world, Timeline.of(blocks.time.step.frame_s, 10.0), lambda _: 5.0, I235.surface_of), ball
+    )
     inventory = inventory_of(blocks.scene)
     assert inventory.body_names.tolist() == ["Pier, left", "Brücke", "Ground", "Wrecking ball"]
     assert inventory.body_kinds.tolist() == ["ground", "shard", "ground", "ball"]

@@ -10,7 +10,8 @@ from support.terrain_files import HEIGHT, write_asc
 
 from bridge_demolition_addon.engineering.geometry.solids import box, sphere
 from bridge_demolition_addon.engineering.terrain.thinning import Grid, thinned
-from bridge_demolition_addon.model.scenario import Ground, GroundSurface, TimeSettings
+from bridge_demolition_addon.model.scenario import Contacts, Ground, GroundSurface, SurfaceValues, TimeSettings
+from bridge_demolition_addon.model.scenario.contacts import SurfaceContact
 
 RADIUS, SLOPE = 0.5, 0.2
 LEVEL_M = 7.0
@@ -31,10 +32,10 @@ def at_rest(blender, height, shape, mesh, place_m, seconds=8):
 
     scene = blender.context.scene
     world = create_world(scene, TimeSettings(duration_s=10.0), 24 * seconds)
-    create_terrain(world, ground_of(height), Ground())
+    create_terrain(world, ground_of(height), SurfaceValues(0.8, 0.0))
     body = create_body(world, mesh_of("Body", mesh), Kind.SHARD, shape)
     body.location, body.rigid_body.mass = place_m, 1000.0
-    set_surface(body.rigid_body, 0.8, 0.0, 0.0)
+    set_surface(body.rigid_body, SurfaceValues(0.8, 0.0), 0.0)
     body.rigid_body.linear_damping, body.rigid_body.angular_damping = 0.3, 0.6
     for frame in range(1, 24 * seconds + 1):
         scene.frame_set(frame)
@@ -77,9 +78,8 @@ def test_a_block_comes_to_rest_on_a_slope_and_leans_with_it(blender):
 
 
 WATER = GroundSurface(
-    name="river", kind="water", height_m=0.4, corners_m=((-40.0, -9.0), (-3.0, -9.0), (-3.0, 9.0), (-40.0, 9.0)),
-    friction=0.3,
-)  # fmt: skip
+    name="river", kind="water", height_m=0.4, corners_m=((-40.0, -9.0), (-3.0, -9.0), (-3.0, 9.0), (-40.0, 9.0))
+)
 
 
 @pytest.fixture
@@ -90,7 +90,9 @@ def built(blender, tmp_path):
 
     path = write_asc(tmp_path / "slope.asc", lambda x, y: HEIGHT + 0.1 * (x - 448_350.0), count=121)
     ground = Ground(file=str(path), origin=(448_350.0, 4_607_250.0, HEIGHT), surfaces=(WATER,))
-    scenario = replace(I235, ball=None, ground=ground, fracture=replace(I235.fracture, shards=14))
+    contacts = Contacts(surfaces=SurfaceContact(friction=0.3))
+    fracture = replace(I235.fracture, shards=14)
+    scenario = replace(I235, ball=None, ground=ground, contacts=contacts, fracture=fracture)
     model = checked_model(scenario)
     build_demolition(blender.context.scene, scenario, model)
     return blender.context.scene, scenario, model
@@ -106,7 +108,8 @@ def test_the_ground_is_passive_and_met_at_its_triangles(built):
         assert (body.rigid_body.type, body.rigid_body.collision_shape) == ("PASSIVE", "MESH")
         assert body.rigid_body.collision_margin == 0.0
     assert len(ground.data.polygons) == model.ground.facts.triangles
-    assert river.rigid_body.friction == pytest.approx(0.3, rel=1e-6)
+    assert river.rigid_body.friction * np.sqrt(0.6) == pytest.approx(0.3, rel=1e-6)
+    assert ground.rigid_body.friction * np.sqrt(0.6) == pytest.approx(0.5, rel=1e-6)
 
 
 def test_what_is_run_has_the_friction_that_was_set_by_hand(built):
@@ -115,8 +118,9 @@ def test_what_is_run_has_the_friction_that_was_set_by_hand(built):
     scene, scenario, _ = built
     assert run_setup_of(scene).effective_scenario(scenario)[0] == scenario
     scene.objects["river"].rigid_body.friction = 0.25
-    (river,) = run_setup_of(scene).effective_scenario(scenario)[0].ground.surfaces
-    assert river.friction == 0.25
+    contacts = run_setup_of(scene).effective_scenario(scenario)[0].contacts
+    assert contacts.surfaces.friction == pytest.approx(0.25 * np.sqrt(0.6), rel=1e-6)
+    assert (contacts.shards.friction, contacts.ground.friction) == (0.6, 0.5)
 
 
 def test_a_run_keeps_its_ground_and_the_bridge_stands_on_it(built, tmp_path):

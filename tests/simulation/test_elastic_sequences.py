@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from support.blast_scenes import charge, set_off
 from support.blocks import Blocks
+from support.scenarios import I235
 
 from bridge_demolition_addon.engineering.elasticity.section_stiffness import SectionStiffness
 from bridge_demolition_addon.engineering.mechanics.joint import Joint, Springs
@@ -178,7 +179,7 @@ def test_a_jackhammer_presses_on_the_beam_and_the_posts_bear_what_it_does(blende
         blows_per_second=2.0,
     )
     world = beam.scene.rigidbody_world
-    create_jackhammer(BuildSite(world, Timeline.of(1.0 / 24.0, 2.0), lambda _: TOP_M), hammer)
+    create_jackhammer(BuildSite(world, Timeline.of(1.0 / 24.0, 2.0), lambda _: TOP_M, I235.surface_of), hammer)
     results, forces = beam.play(tmp_path, 40)
     frames = results.frames
     row = results.inventory.body_names.tolist().index(beam.beam.name)

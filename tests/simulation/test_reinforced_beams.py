@@ -46,6 +46,6 @@ duration_s = 1.0
 substeps_per_frame = 20
 solver_iterations = 50
 {beam.scenario.replace("ductile_elongation_m = 1.0", settings)}
-{RIGID_BODIES.format(friction=0.5, ground=0.5)}"""
+{RIGID_BODIES.format(shards=0.25, ground=0.25)}"""
     _, risen = middle_m(simulated(tmp_path, "run", scenario, beam.solids))
     assert (risen[-1] > -0.2) == stands

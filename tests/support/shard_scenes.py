@@ -11,7 +11,7 @@ from bridge_demolition_addon.engineering.geometry.solids import box
 from bridge_demolition_addon.engineering.mechanics.joint import Joint
 from bridge_demolition_addon.engineering.structure.connections import connect, neighbours_by_face
 from bridge_demolition_addon.engineering.structure.face_sections import second_moments
-from bridge_demolition_addon.model.scenario import ShardSettings, TimeSettings
+from bridge_demolition_addon.model.scenario import ShardSettings, SurfaceValues, TimeSettings
 from bridge_demolition_addon.scene.bodies import create_shards
 from bridge_demolition_addon.scene.connections.breaking_settings import Breaking, keep_breaking
 from bridge_demolition_addon.scene.connections.constraints import create_connections
@@ -54,7 +54,7 @@ class ShardScene:
         masses = DENSITY_KG_M3 * self.fracture.volumes
         with off_scene(self.scene) as (bodies, constraints):
             parts = (self.fracture.shards, self.fracture.centres, masses)
-            self.shards = create_shards(bodies, awake, *parts)
+            self.shards = create_shards(bodies, awake, SurfaceValues(0.6, 0.0), *parts)
             made = create_connections(constraints, connections, self.shards, None, moments)
             joint = Joint("FIXED", breaking_force_n=breaking_force_newton)
             set_joints(made, [joint], np.zeros(len(made), int), settings.step)

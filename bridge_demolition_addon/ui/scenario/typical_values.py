@@ -14,6 +14,8 @@ from ...model.toml_tables import toml_value
 TYPICAL: dict[str, Any] = {
     "density_kg_m3": 2400.0,
     "mass_kg": 107000.0,
+    "friction": 0.7,
+    "restitution": 0.3,
     "stretch": [3, 1, 1],
     "place_m": [6.5, 0.0, 1.0],
     "target_m": [6.5, 0.0],

@@ -60,10 +60,10 @@ def test_defaults():
         solver_iterations=10,
         time_scale=1.0,
     )
-    assert SCENARIO.ground == Ground(friction=0.8, restitution=0.0)
+    assert SCENARIO.ground == Ground(friction=None, restitution=None)
     assert SCENARIO.shards == ShardSettings(
-        friction=0.6,
-        restitution=0.0,
+        friction=None,
+        restitution=None,
         collision_margin_m=0.0,
         linear_damping=0.04,
         angular_damping=0.1,
@@ -74,7 +74,7 @@ def test_defaults():
     )
     assert (CONNECTIONS.type, CONNECTIONS.method, CONNECTIONS.limit_per_shard) == ("HINGE", "vertex", 50)
     assert CONNECTIONS.foundation is True
-    assert (BALL.release_time_s, BALL.friction, BALL.restitution) == (0.5, 0.5, 0.0)
+    assert (BALL.release_time_s, BALL.friction, BALL.restitution) == (0.5, None, None)
     assert SCENARIO.pictures == PictureSettings(width_px=1280, height_px=720)
     assert BRIDGE.pier_caps is None
     assert replace(SCENARIO, ball=None).ball is None

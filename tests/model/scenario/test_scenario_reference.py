@@ -30,4 +30,4 @@ def test_every_key_has_a_row_of_four_cells():
     for section, (_, table_class) in zip(sections, tables, strict=True):
         rows = [line for line in section.splitlines() if line.startswith("| `")]
         assert [row.split("`")[1] for row in rows] == [item.name for item in key_fields(table_class)]
-        assert {row.count(" | ") for row in rows} == {3}
+        assert {row.count(" | ") for row in rows} <= {3}

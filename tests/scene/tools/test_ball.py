@@ -28,7 +28,7 @@ BALL = Ball(mass_kg=1000, diameter_m=1.0, target_m=(0, 0), drop_height_m=3.0, re
 def site_of(blocks, height_m=0.0):
     from bridge_demolition_addon.scene.tools.build_site import BuildSite
 
-    return BuildSite(blocks.world, Timeline.of(blocks.time.step.frame_s, 10.0), lambda _: height_m)
+    return BuildSite(blocks.world, Timeline.of(blocks.time.step.frame_s, 10.0), lambda _: height_m, I235.surface_of)
 
 
 @pytest.fixture(scope="module")

@@ -55,7 +55,7 @@ def slab(tmp_path_factory):
     )
     scene.hold(abs(scene.fracture.centres[:, 0]) > 3.6)
     world = scene.scene.rigidbody_world
-    create_jackhammer(BuildSite(world, Timeline.of(1.0 / 24.0, 8.0), lambda _: TOP_M), HAMMER)
+    create_jackhammer(BuildSite(world, Timeline.of(1.0 / 24.0, 8.0), lambda _: TOP_M, I235.surface_of), HAMMER)
     recording = Recording(scene.scene, tmp_path_factory.mktemp("slab"))
     start_recording(recording)
     for frame in range(1, 85):

@@ -47,8 +47,6 @@ CHANGES = {
     "time.split_impulse": (world("use_split_impulse", False), False),
     "time.time_scale": (world("time_scale", 0.7), 0.7),
     "time.duration_s": (lambda scene: setattr(scene, "frame_end", 15), 13 / 24),
-    "shards.friction": (bodies_with(Kind.SHARD, "friction", 0.3), 0.3),
-    "shards.restitution": (bodies_with(Kind.SHARD, "restitution", 0.4), 0.4),
     "shards.collision_margin_m": (bodies_with(Kind.SHARD, "collision_margin", 0.02), 0.02),
     "shards.linear_damping": (bodies_with(Kind.SHARD, "linear_damping", 0.2), 0.2),
     "shards.angular_damping": (bodies_with(Kind.SHARD, "angular_damping", 0.3), 0.3),
@@ -56,14 +54,21 @@ CHANGES = {
     "shards.start_deactivated": (bodies_with(Kind.SHARD, "use_start_deactivated", False), False),
     "shards.deactivation_linear_velocity_m_s": (bodies_with(Kind.SHARD, "deactivate_linear_velocity", 0.1), 0.1),
     "shards.deactivation_angular_velocity_rad_s": (bodies_with(Kind.SHARD, "deactivate_angular_velocity", 0.2), 0.2),
-    "ground.friction": (bodies_with(Kind.GROUND, "friction", 0.2), 0.2),
-    "ground.restitution": (bodies_with(Kind.GROUND, "restitution", 0.9), 0.9),
     "ball.mass_kg": (bodies_with(Kind.BALL, "mass", 50000.0), 50000.0),
-    "ball.friction": (bodies_with(Kind.BALL, "friction", 0.9), 0.9),
-    "ball.restitution": (bodies_with(Kind.BALL, "restitution", 0.8), 0.8),
     "ball.angular_damping": (bodies_with(Kind.BALL, "angular_damping", 0.6), 0.6),
 }
 """Keys of a scenario, what changes them in Blender, and the value to be written."""
+
+SURFACES = {
+    ("shards", "friction"): (Kind.SHARD, 0.3, True),
+    ("shards", "restitution"): (Kind.SHARD, 0.4, True),
+    ("ground", "friction"): (Kind.GROUND, 0.2, True),
+    ("ground", "restitution"): (Kind.GROUND, 0.9, False),
+    ("ball", "friction"): (Kind.BALL, 0.9, True),
+    ("ball", "restitution"): (Kind.BALL, 0.8, False),
+}
+"""Bodies and values of theirs, what is set in Blender, and whether pairs make it: a shard has no restitution, and a
+product with 0 says nothing of the other body."""
 
 
 def first_shard(scene):
@@ -127,10 +132,24 @@ def test_every_setting_of_time_is_tried():
 def test_what_was_changed_is_written_and_runs_again_to_the_last_bit(built, settings, tmp_path, key):
     change, value = CHANGES[key]
     change(built.context.scene)
-    assert built.ops.bda.run() == {"FINISHED"}
-    written = read_scenario(tmp_path / "results" / "scenario_as_run.toml")
+    written = written_and_run_again(built, tmp_path)
     table, name = key.split(".")
     assert getattr(getattr(written, table), name) == pytest.approx(value, rel=1e-12)
+
+
+@pytest.mark.parametrize(("table", "name"), SURFACES)
+def test_a_surface_that_was_changed_is_written_as_pairs_where_pairs_make_it(built, settings, tmp_path, table, name):
+    kind, value, are_pairs = SURFACES[table, name]
+    bodies_with(kind, name, value)(built.context.scene)
+    written = written_and_run_again(built, tmp_path)
+    assert getattr(written.surface_of(getattr(written, table)), name) == pytest.approx(value, rel=1e-7)
+    assert (written.contacts is not None) == are_pairs
+
+
+def written_and_run_again(built, tmp_path):
+    """The scenario that was written of a run, after it has run again to the last bit."""
+    assert built.ops.bda.run() == {"FINISHED"}
+    written = read_scenario(tmp_path / "results" / "scenario_as_run.toml")
     first = summary_in(tmp_path / "results")
     assert first["made_by_hand"] == []
 
@@ -142,6 +161,7 @@ def test_what_was_changed_is_written_and_runs_again_to_the_last_bit(built, setti
     built.ops.bda.run()
     second = summary_in(tmp_path / "again")
     assert second["fingerprint"]["motion"] == first["fingerprint"]["motion"]
+    return written
 
 
 def test_several_changes_at_once_are_written_as_they_ran(built, tmp_path):
