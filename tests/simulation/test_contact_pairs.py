@@ -5,6 +5,7 @@ A scenario with all kinds of bodies is built. What its bodies have there is give
 falls on them.
 """
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -12,6 +13,7 @@ import pytest
 from support.blocks import Blocks
 from support.scenarios import I235
 
+from bridge_demolition_addon.engineering.mechanics.contact_pairs import slowest_bounce_m_s
 from bridge_demolition_addon.model.scenario import Contacts, GroundSurface, Jackhammer
 from bridge_demolition_addon.model.scenario.contacts import (
     BallContact,
@@ -88,7 +90,7 @@ def test_what_slides_down_a_slope_has_the_friction_of_the_pair(values, tmp_path)
 
 def test_what_falls_bounces_by_the_restitution_of_the_pair(values, tmp_path):
     """A sphere that falls h bounces e² h. It is in the slab by 0.2 mm when Bullet first finds it there, so that it is
-    not pushed out either; in the sub-step before it was 40 mm above it, farther than the 20 mm from which Bullet begins
+    not pushed out either; in the sub-step before it was 40 mm above it, farther than the 17 mm from which Bullet begins
     to slow it down."""
     blocks = Blocks(substeps_per_frame=10, solver_iterations=50)
     substep_s, steps, gravity = 1.0 / 240.0, 235, 9.80665
@@ -112,3 +114,23 @@ def test_bodies_have_what_makes_the_pairs(values):
     for (first, second), expected in PAIRS.items():
         products = np.multiply(values[first], values[second])
         assert products == pytest.approx(expected, rel=2.0**-22), (first, second)
+
+
+def test_nothing_bounces_below_the_speed_that_is_said(blender, tmp_path):
+    """Spheres of 1 m with e = 0.5. Up to 0.95 of that speed none rises by 1 % of its fall; of those that are up to
+    twice as fast some keep a quarter of their speed."""
+    blocks = Blocks(substeps_per_frame=10)
+    slowest = slowest_bounce_m_s(0.5, math.sqrt(0.75), 1.0 / 240.0)
+    assert slowest == pytest.approx(2.77, abs=0.01)
+    speeds = slowest * np.array([0.5, 0.6, 0.7, 0.8, 0.9, 0.95, *np.linspace(1.2, 2.0, 12)])
+    heights = speeds**2 / (2.0 * 9.80665)
+    slab = blocks.block((0, 0, -0.5), size_m=(200, 200, 1))
+    slab.rigid_body.restitution = 1.0
+    for lane, height in enumerate(heights):
+        ball = blocks.block((FAR_M * lane - 30.0, 0, 0.5 + height), 100.0)
+        ball.rigid_body.collision_shape, ball.rigid_body.restitution = "SPHERE", 0.5
+    frames = blocks.play(tmp_path, 30).frames
+    hits = np.searchsorted(frames.time_s, speeds / 9.80665) + 2
+    risen = [frames.positions_m[hit:, lane + 1, 2].max() - 0.5 for lane, hit in enumerate(hits)]
+    assert (np.array(risen)[:6] < 0.01 * heights[:6]).all()
+    assert np.sqrt(risen / heights).max() > 0.25

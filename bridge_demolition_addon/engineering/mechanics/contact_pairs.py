@@ -12,6 +12,10 @@ import math
 LARGEST_FRICTION = 10.0
 """Largest friction of a contact in Bullet, which takes this where the product is larger."""
 
+CONTACT_DISTANCE = 0.02
+"""Distance from which on Bullet has a contact of two bodies, as a part of half the diagonal of the smaller one's
+bounding box (`btCollisionShape::getContactBreakingThreshold`)."""
+
 
 def shard_value(of_two_shards: float) -> float:
     """Return the value of a shard by that of the contact of two."""
@@ -37,3 +41,13 @@ def contact_friction(first: float, second: float) -> float:
 def contact_restitution(first: float, second: float) -> float:
     """Return the restitution of the contact of two bodies by their own values."""
     return first * second
+
+
+def slowest_bounce_m_s(restitution: float, half_diagonal_m: float, substep_s: float) -> float:
+    """Return the speed of approach below which two bodies do not part again in Bullet, m/s.
+
+    Bullet slows down bodies in contact to the velocity gap / sub-step - e v, and parts them where that is below 0. One
+    that is found at a distance therefore only ends the approach. Bodies part where they come, within one sub-step, from
+    farther than `CONTACT_DISTANCE` to nearer than e v Δt: then (1 + e) v Δt is longer than that distance.
+    """
+    return CONTACT_DISTANCE * half_diagonal_m / ((1.0 + restitution) * substep_s)

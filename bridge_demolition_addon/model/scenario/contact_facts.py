@@ -1,12 +1,17 @@
 """What friction and restitution a scenario gives each pair of bodies that can meet."""
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
+from ...engineering.mechanics.contact_pairs import slowest_bounce_m_s
 from ..actions import Fact
 from .contacts import BodyTable, SurfaceValues
 from .scenario import Scenario
+
+_SIZES_M = (0.2, 1.0)
+"""Sides of shards for which it is said from which speed on they bounce."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,8 +36,14 @@ def contact_facts(scenario: Scenario) -> Iterator[Fact]:
     """Yield friction and restitution of all pairs, and whether they come from values of single bodies."""
     if sentence := own_values_sentence(scenario):
         yield "given", sentence
-    for name, values in contact_pairs(scenario):
+    pairs = list(contact_pairs(scenario))
+    for name, values in pairs:
         yield name, values_text(values)
+    if largest := max(values.restitution for _, values in pairs):
+        substep_s = scenario.time.step.substep_s
+        speeds = (slowest_bounce_m_s(largest, size_m * math.sqrt(0.75), substep_s) for size_m in _SIZES_M)
+        named = (f"{speed:.2g} m/s of one of {size_m:g} m" for size_m, speed in zip(_SIZES_M, speeds, strict=True))
+        yield "bounce", f"none below {' and '.join(named)}, with sub-steps of {1000.0 * substep_s:.3g} ms"
 
 
 def own_values_sentence(scenario: Scenario) -> str:

@@ -61,7 +61,11 @@ def _friction(default: float, source: str) -> Any:
 
 
 def _restitution() -> Any:
-    return key("Part of the speed that the two keep in a bounce.", default=0.0, **SHARE)
+    return key(
+        "Part of the speed that the two keep in a bounce, where Bullet has one: `bda check` says above which speed.",
+        default=0.0,
+        **SHARE,
+    )
 
 
 class Contact(Table):
@@ -133,9 +137,8 @@ class SurfaceContact(Contact):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Contacts(Table):
-    """Friction and restitution of each pair of surfaces that touch, see [how Bullet has them](contacts.md). What ball
-    and ground have with each other follows, and `bda check` says it. Leave out all of it where bodies have values of
-    their own, as in older files."""
+    """Friction and restitution of each pair of surfaces that touch. What ball and ground have with each other follows,
+    and `bda check` says it. Leave out all of it where bodies have values of their own, as in older files."""
 
     table: ClassVar[str] = "contacts"
 

@@ -34,6 +34,9 @@ that is not listed here is refused, and so is a value outside its limits.
 x runs along the road, with 0 at the axis of the first pier; y across it, with 0 in its middle; z up, with 0 at the
 ground. The deck's top is as high as a pier, a pier cap, the girders or the box girder and the deck's slab together.
 
+Friction and restitution are those of pairs of surfaces, `[contacts]`. [contacts.md](contacts.md) says what Bullet makes
+of them, where the defaults are from, and what older files mean.
+
 A variant gives only the values that differ from another scenario file, such as another position for the ball to fall:
 
 ```toml

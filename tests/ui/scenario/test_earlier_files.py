@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Files that were saved when bodies had friction and restitution of their own, without a check box."""
+
+import json
+from dataclasses import replace
+
+import pytest
+from support.checkout import SMALL
+
+from bridge_demolition_addon.model.scenario.file import read_scenario
+from bridge_demolition_addon.scene.bodies import bodies_of, kind_of
+from bridge_demolition_addon.ui.scenario.built import changes, scenario_to_run
+from bridge_demolition_addon.ui.scenario.earlier import tick_own_values
+from bridge_demolition_addon.ui.scenario.hints import contact_note
+from bridge_demolition_addon.ui.scenario.operator import build_and_show
+from bridge_demolition_addon.ui.scenario.values import scenario_of
+
+NAMES = ("friction", "restitution")
+
+
+def saved_as_earlier(bpy, path, *, were_shown):
+    """Build with bodies of 0.6, 0.8 and 0.5, and save it as those versions did.
+
+    What had not been shown, as nothing was loaded, was not kept in the panels.
+    """
+    scenario = read_scenario(SMALL)
+    scene = bpy.context.scene
+    build_and_show(scene, replace(scenario, shards=replace(scenario.shards, friction=0.6)))
+    settings = scene.bda
+    for body in (settings.scenario.shards, settings.scenario.ground, settings.scenario.ball):
+        for name in NAMES:
+            body.property_unset("use_" + name)
+            if not were_shown:
+                body.property_unset(name)
+    settings.scenario.property_unset("use_contacts")
+    kept = json.loads(settings.built_values)
+    del kept["contacts"]
+    settings.built_values = json.dumps(kept)
+    bpy.ops.wm.save_as_mainfile(filepath=str(path))
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+
+
+@pytest.mark.parametrize("were_shown", [True, False])
+def test_a_file_that_was_built_opens_and_can_be_run_as_it_was(extension, tmp_path, capfd, were_shown):
+    saved_as_earlier(extension, tmp_path / "earlier.blend", were_shown=were_shown)
+    extension.ops.wm.open_mainfile(filepath=str(tmp_path / "earlier.blend"))
+    scene = extension.context.scene
+    assert "friction and restitution are those of single bodies" in capfd.readouterr().out
+    assert changes(scene.bda) == []
+    scenario = scenario_to_run(scene.bda)
+    assert scenario.contacts is None
+    assert (scenario.shards.friction, scenario.ground.friction, scenario.ball.friction) == (0.6, 0.8, 0.5)
+    found = {kind_of(body).value: body.rigid_body.friction for body in bodies_of(scene)}
+    assert found == pytest.approx({"shard": 0.6, "ground": 0.8, "ball": 0.5}, rel=1e-6)
+    assert not tick_own_values(scene.bda), "it is read once"
+
+
+def test_a_file_of_today_is_left_as_it_is(extension, settings, tmp_path):
+    settings.scenario_path = str(SMALL)
+    extension.ops.bda.load_scenario()
+    extension.ops.bda.build_scenario()
+    before = scenario_of(settings)
+    extension.ops.wm.save_as_mainfile(filepath=str(tmp_path / "today.blend"))
+    extension.ops.wm.open_mainfile(filepath=str(tmp_path / "today.blend"))
+    settings = extension.context.scene.bda
+    assert changes(settings) == [] and scenario_of(settings) == before
+    assert settings.scenario.use_contacts and contact_note(settings.scenario) == ""
+
+
+def test_a_script_that_sets_the_value_of_a_body_has_it(settings):
+    settings.scenario.shards.friction = 0.25
+    scenario = scenario_of(settings)
+    assert scenario.contacts is None
+    assert (scenario.shards.friction, scenario.ground.friction) == (0.25, 0.8)
+    assert "a contact has the products" in contact_note(settings.scenario)
+    settings.scenario.contacts.ground.friction = 0.3
+    with pytest.raises(Exception, match=r"contacts.ground.friction and shards.friction are given together"):
+        scenario_of(settings)
+    settings.scenario.shards.use_friction = False
+    assert scenario_of(settings).contacts.ground.friction == 0.3
