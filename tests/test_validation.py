@@ -58,6 +58,17 @@ def test_a_strip_rises_by_the_impulse_of_a_blast(blender, tmp_path):
     assert blasted_strip.by_impulse_m(blasted_strip.impulse_ns(25.0)) > risen.max()
 
 
+def test_cubes_that_were_tossed_go_as_far_as_was_measured(blender, tmp_path):
+    """57 of the tosses of Pfrommer, Halm and Posa (CoRL 2020), with friction and restitution as they give them."""
+    import tossed_cubes
+
+    tosses = tossed_cubes.measured()
+    travels, rests = tossed_cubes.tossed(tmp_path, tosses)
+    assert travels.mean() == pytest.approx(tosses.travels_m.mean(), rel=0.03)
+    assert travels.std() == pytest.approx(tosses.travels_m.std(), rel=0.25)
+    assert rests.mean() == pytest.approx(tosses.rest_s.mean(), rel=0.1)
+
+
 @pytest.mark.parametrize(("share", "holds"), [(0.85, False), (1.15, True)])
 def test_a_beam_that_loses_a_support_needs_the_moments_of_limit_analysis(blender, tmp_path, share, holds):
     import lost_support
