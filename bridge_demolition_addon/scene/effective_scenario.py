@@ -13,7 +13,7 @@ from ..engineering.single_precision import as_given
 from ..errors import ScenarioError
 from ..model.scenario import Scenario, SurfaceValues
 from ..model.scenario.body_surfaces import with_surfaces
-from ..model.scenario.contacts import QUANTITIES, BodyTable
+from ..model.scenario.contacts import QUANTITIES, BodyInContact
 from ..model.schema import Table
 from .bodies import SHARD_PROPERTIES, Kind
 from .body_settings import BodySettings
@@ -58,12 +58,12 @@ def with_bodies(bodies: BodySettings, scenario: Scenario) -> Scenario:
 
 def _surfaces_of(
     bodies: BodySettings, rows: Mapping[Kind, Sequence[int]], scenario: Scenario
-) -> dict[BodyTable, SurfaceValues]:
+) -> dict[BodyInContact, SurfaceValues]:
     """Return friction and restitution that bodies in Blender have by themselves, by their tables.
 
     Where those of one table differ, it has what the scenario says.
     """
-    rows_of: dict[BodyTable, Sequence[int]] = {scenario.shards: rows[Kind.SHARD]}
+    rows_of: dict[BodyInContact, Sequence[int]] = {scenario.shards: rows[Kind.SHARD]}
     named: dict[str, list[int]] = {}
     for row in rows[Kind.GROUND]:
         named.setdefault(bodies.members[row], []).append(row)

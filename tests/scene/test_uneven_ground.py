@@ -10,7 +10,7 @@ from support.terrain_files import HEIGHT, write_asc
 
 from bridge_demolition_addon.engineering.geometry.solids import box, sphere
 from bridge_demolition_addon.engineering.terrain.thinning import Grid, thinned
-from bridge_demolition_addon.model.scenario import Contacts, Ground, GroundSurface, SurfaceValues, TimeSettings
+from bridge_demolition_addon.model.scenario import ContactSettings, Ground, GroundSurface, SurfaceValues, TimeSettings
 from bridge_demolition_addon.model.scenario.contacts import SurfaceContact
 
 RADIUS, SLOPE = 0.5, 0.2
@@ -90,7 +90,7 @@ def built(blender, tmp_path):
 
     path = write_asc(tmp_path / "slope.asc", lambda x, y: HEIGHT + 0.1 * (x - 448_350.0), count=121)
     ground = Ground(file=str(path), origin=(448_350.0, 4_607_250.0, HEIGHT), surfaces=(WATER,))
-    contacts = Contacts(surfaces=SurfaceContact(friction=0.3))
+    contacts = ContactSettings(surfaces=SurfaceContact(friction=0.3))
     fracture = replace(I235.fracture, shards=14)
     scenario = replace(I235, ball=None, ground=ground, contacts=contacts, fracture=fracture)
     model = checked_model(scenario)

@@ -14,7 +14,7 @@ from support.blocks import Blocks
 from support.scenarios import I235
 
 from bridge_demolition_addon.engineering.mechanics.contact_pairs import slowest_bounce_m_s
-from bridge_demolition_addon.model.scenario import Contacts, GroundSurface, Jackhammer
+from bridge_demolition_addon.model.scenario import ContactSettings, GroundSurface, Jackhammer
 from bridge_demolition_addon.model.scenario.contacts import (
     BallContact,
     GroundContact,
@@ -24,7 +24,7 @@ from bridge_demolition_addon.model.scenario.contacts import (
 )
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
 
-CONTACTS = Contacts(
+CONTACTS = ContactSettings(
     shards=ShardContact(friction=0.5, restitution=0.25),
     ground=GroundContact(friction=0.4, restitution=0.4),
     ball=BallContact(friction=0.3, restitution=0.6),

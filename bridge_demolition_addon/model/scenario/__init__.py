@@ -14,7 +14,7 @@ from .ball import Ball, BallCable, BallHit
 from .bodies import Equipment, Ground, GroundSurface, ShardSettings, Support
 from .bridge import Abutments, BoxGirder, Bridge, Deck, Girders, PierCaps, Piers
 from .connections import ConnectionBetween, ConnectionSettings
-from .contacts import Contacts, SurfaceValues
+from .contacts import ContactSettings, SurfaceValues
 from .fracture import Finer, FracturePoint, FractureSettings, MemberFracture
 from .geometry import Geometry
 from .jackhammer import Jackhammer
@@ -37,7 +37,7 @@ __all__ = [
     "Charge",
     "ConnectionBetween",
     "ConnectionSettings",
-    "Contacts",
+    "ContactSettings",
     "Deck",
     "Equipment",
     "Exclusion",

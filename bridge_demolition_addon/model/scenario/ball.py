@@ -15,7 +15,7 @@ from ...engineering.units import STANDARD_GRAVITY_M_S2, mass_text
 from ...errors import GeometryError, ScenarioError
 from ..actions import Fact, HeightAt, Place, Plan, PlannedAction, Point, Worksite
 from ..schema import FARTHEST_M, POSITION, SHARE, SIZE, Table, expected, given, key
-from .contacts import BALL, FRICTION, OWN_VALUE, RESTITUTION, BodyTable
+from .contacts import BALL, FRICTION, OWN_VALUE, RESTITUTION, BodyInContact
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -137,7 +137,7 @@ class BallHit(_Drop):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Ball(_Drop, BodyTable, PlannedAction):
+class Ball(_Drop, BodyInContact, PlannedAction):
     """A wrecking ball that is let go above the deck. Without this table there is none."""
 
     table: ClassVar[str] = "ball"

@@ -6,7 +6,7 @@ from typing import ClassVar
 
 from ...errors import ScenarioError
 from ..schema import POSITION, SHARE, SHORTEST_LENGTH_M, Table, check_exactly_one, key
-from .contacts import FRICTION, GROUND, OWN_VALUE, RESTITUTION, SHARDS, SURFACES, BodyTable
+from .contacts import FRICTION, GROUND, OWN_VALUE, RESTITUTION, SHARDS, SURFACES, BodyInContact
 from .site import check_outline
 
 
@@ -31,7 +31,7 @@ SURFACE_KINDS = ("water", "river bank", "carriageway", "railway", "other")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class GroundSurface(BodyTable):
+class GroundSurface(BodyInContact):
     """A second surface that never moves, such as water, a river bank or the carriageway below: level within an outline,
     or a mesh. Debris on it is counted by itself. Water is as hard as all else: nothing sinks in it."""
 
@@ -68,7 +68,7 @@ class GroundSurface(BodyTable):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Ground(BodyTable):
+class Ground(BodyInContact):
     """The ground: unyielding, and flat at height 0 or as a file has it. Columns and abutments reach down to it."""
 
     table: ClassVar[str] = "ground"
@@ -126,7 +126,7 @@ class Ground(BodyTable):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ShardSettings(BodyTable):
+class ShardSettings(BodyInContact):
     """Surface, damping and rest of the shards."""
 
     table: ClassVar[str] = "shards"

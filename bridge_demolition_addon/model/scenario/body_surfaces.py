@@ -11,10 +11,10 @@ import numpy as np
 from ...engineering.mechanics.contact_pairs import other_value, shard_value
 from ...engineering.single_precision import shortest
 from ...errors import ScenarioError
-from .contacts import FRICTION, QUANTITIES, RESTITUTION, SHARDS, BodyTable, Contacts, SurfaceValues
+from .contacts import FRICTION, QUANTITIES, RESTITUTION, SHARDS, BodyInContact, ContactSettings, SurfaceValues
 from .scenario import Scenario
 
-Surfaces = Mapping[BodyTable, SurfaceValues]
+Surfaces = Mapping[BodyInContact, SurfaceValues]
 """Friction and restitution that bodies have by themselves, by their tables."""
 
 
@@ -37,7 +37,7 @@ def with_surfaces(scenario: Scenario, surfaces: Surfaces) -> Scenario:
     return _with_own_values(scenario, surfaces)
 
 
-def _contacts(built: Contacts, surfaces: Surfaces) -> Contacts | None:
+def _contacts(built: ContactSettings, surfaces: Surfaces) -> ContactSettings | None:
     """Return pairs that make the values of all bodies; None where no pairs do."""
     values: dict[str, SurfaceValues] = {}
     for body, surface in surfaces.items():
@@ -60,7 +60,7 @@ def _contacts(built: Contacts, surfaces: Surfaces) -> Contacts | None:
     return contacts
 
 
-def _pairs(built: Contacts, quantity: str, of_bodies: Mapping[str, float]) -> dict[str, float] | None:
+def _pairs(built: ContactSettings, quantity: str, of_bodies: Mapping[str, float]) -> dict[str, float] | None:
     """Return a quantity of each pair with a shard by those of single bodies; None where no pairs make these."""
     shard = of_bodies[SHARDS]
     of_two = _first_that_makes(shard, shard_value, [getattr(built.shards, quantity), *_products(shard, shard)])

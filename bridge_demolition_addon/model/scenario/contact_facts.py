@@ -7,7 +7,7 @@ from itertools import combinations
 
 from ...engineering.mechanics.contact_pairs import slowest_bounce_m_s
 from ..actions import Fact
-from .contacts import BodyTable, SurfaceValues
+from .contacts import BodyInContact, SurfaceValues
 from .scenario import Scenario
 
 _SIZES_M = (0.2, 1.0)
@@ -15,7 +15,7 @@ _SIZES_M = (0.2, 1.0)
 
 
 @dataclass(frozen=True, slots=True)
-class NamedSurface:
+class BodySurface:
     """A body, or several alike, with friction and restitution by itself."""
 
     name: str
@@ -64,11 +64,11 @@ def values_text(values: SurfaceValues) -> str:
     return f"friction {values.friction:.3g}, restitution {values.restitution:.3g}"
 
 
-def _surfaces(scenario: Scenario) -> list[NamedSurface]:
+def _surfaces(scenario: Scenario) -> list[BodySurface]:
     """Return shards, ball, ground, surfaces on it and jackhammers, as far as there are any."""
 
-    def named(name: str, body: BodyTable, *, moves: bool = False) -> NamedSurface:
-        return NamedSurface(name, scenario.surface_of(body), moves)
+    def named(name: str, body: BodyInContact, *, moves: bool = False) -> BodySurface:
+        return BodySurface(name, scenario.surface_of(body), moves)
 
     ball = [] if scenario.ball is None else [named("ball", scenario.ball, moves=True)]
     levels = [named(surface.name, surface) for surface in scenario.ground.surfaces]
@@ -82,8 +82,8 @@ def _surfaces(scenario: Scenario) -> list[NamedSurface]:
     ]
 
 
-def _together(name: str, surfaces: Sequence[NamedSurface]) -> Sequence[NamedSurface]:
+def _together(name: str, surfaces: Sequence[BodySurface]) -> Sequence[BodySurface]:
     """Return bodies as one where all have the same values."""
     if not surfaces or any(surface.values != surfaces[0].values for surface in surfaces):
         return surfaces
-    return [NamedSurface(name, surfaces[0].values, surfaces[0].moves)]
+    return [BodySurface(name, surfaces[0].values, surfaces[0].moves)]

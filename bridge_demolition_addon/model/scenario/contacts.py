@@ -14,7 +14,7 @@ from ...engineering.mechanics.contact_pairs import (
 from ...errors import ScenarioError
 from ..schema import SHARE, Table, key, key_fields
 
-_Body = TypeVar("_Body", bound="BodyTable")
+_Body = TypeVar("_Body", bound="BodyInContact")
 
 FRICTION, RESTITUTION = "friction", "restitution"
 QUANTITIES = (FRICTION, RESTITUTION)
@@ -68,7 +68,7 @@ def _restitution() -> Any:
     )
 
 
-class Contact(Table):
+class PairContact(Table):
     """Base of the tables of pairs."""
 
     __slots__ = ()
@@ -81,7 +81,7 @@ class Contact(Table):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ShardContact(Contact):
+class ShardContact(PairContact):
     """Shards on shards: concrete on concrete."""
 
     table: ClassVar[str] = "contacts.shards"
@@ -93,7 +93,7 @@ class ShardContact(Contact):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class GroundContact(Contact):
+class GroundContact(PairContact):
     """Shards on the ground."""
 
     table: ClassVar[str] = "contacts.ground"
@@ -106,7 +106,7 @@ class GroundContact(Contact):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class BallContact(Contact):
+class BallContact(PairContact):
     """Shards on the ball: concrete on steel."""
 
     table: ClassVar[str] = "contacts.ball"
@@ -116,7 +116,7 @@ class BallContact(Contact):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class ToolContact(Contact):
+class ToolContact(PairContact):
     """Shards on tools, such as the chisel of a jackhammer: concrete on steel."""
 
     table: ClassVar[str] = "contacts.tools"
@@ -126,7 +126,7 @@ class ToolContact(Contact):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class SurfaceContact(Contact):
+class SurfaceContact(PairContact):
     """Shards on the surfaces of `ground.surfaces`, all alike."""
 
     table: ClassVar[str] = "contacts.surfaces"
@@ -136,7 +136,7 @@ class SurfaceContact(Contact):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Contacts(Table):
+class ContactSettings(Table):
     """Friction and restitution of each pair of surfaces that touch. What ball and ground have with each other follows,
     and `bda check` says it. Leave out all of it where bodies have values of their own, as in older files."""
 
@@ -148,9 +148,9 @@ class Contacts(Table):
     tools: ToolContact = field(default_factory=ToolContact)
     surfaces: SurfaceContact = field(default_factory=SurfaceContact)
 
-    def with_shard(self, name: str) -> Contact:
+    def with_shard(self, name: str) -> PairContact:
         """Return the pair of a shard with what is named."""
-        contact: Contact = getattr(self, name)
+        contact: PairContact = getattr(self, name)
         return contact
 
     def of_body(self, name: str) -> SurfaceValues:
@@ -209,7 +209,7 @@ _ROUNDING = 1e-9
 """Relative slack for a product that is meant to be 1."""
 
 
-class BodyTable(Table):
+class BodyInContact(Table):
     """Base of the tables of bodies. Older files give friction and restitution of the body itself there."""
 
     __slots__ = ()

@@ -12,7 +12,7 @@ from ...errors import ScenarioError
 from ...system.reading import MEGABYTE
 from ..schema import shown
 from ..toml_tables import document_of_file, table_of_document, tables_text, toml_document
-from .contacts import BALL, GROUND, QUANTITIES, SHARDS, SURFACES, TOOLS, Contacts, check_not_both
+from .contacts import BALL, GROUND, QUANTITIES, SHARDS, SURFACES, TOOLS, ContactSettings, check_not_both
 from .scenario import Scenario
 
 PATHS = (
@@ -25,7 +25,7 @@ PATHS = (
 )
 """Table and key of every path of another file."""
 
-PAIR_TABLES = tuple(f"{Contacts.table}.{name}" for name in (SHARDS, GROUND, BALL, TOOLS, SURFACES))
+PAIR_TABLES = tuple(f"{ContactSettings.table}.{name}" for name in (SHARDS, GROUND, BALL, TOOLS, SURFACES))
 BODY_TABLES = ("shards", "ground", "ground.surfaces", "ball", "jackhammers")
 """Tables that give friction and restitution: of pairs of surfaces, and of single bodies."""
 

@@ -11,7 +11,7 @@ from ...engineering.arithmetic import cosine
 from ...engineering.geometry.vectors import points_along
 from ..actions import Fact, HeightAt, Place, Plan, PlannedAction, Point, Worksite
 from ..schema import SHORTEST_LENGTH_M, key
-from .contacts import FRICTION, OWN_VALUE, TOOLS, BodyTable
+from .contacts import FRICTION, OWN_VALUE, TOOLS, BodyInContact
 
 FRAMES_PER_BLOW = 4
 """Animation gives a position at each frame only: with this many a blow, it has at least 85 % of its stroke."""
@@ -24,7 +24,7 @@ _RAISING_S = 1.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Jackhammer(BodyTable, PlannedAction):
+class Jackhammer(BodyInContact, PlannedAction):
     """A jackhammer: a chisel of steel that goes up and down while it moves along the deck. Nothing stops it, so it
     pushes away whatever is in its way. Before and after its time it stays clear above the deck.
     """

@@ -34,7 +34,7 @@ from .ball import Ball
 from .bodies import Equipment, Ground, ShardSettings, Support
 from .bridge import Bridge
 from .connections import ConnectionSettings
-from .contacts import BodyTable, Contacts, SurfaceValues, check_not_both, with_own_values
+from .contacts import BodyInContact, ContactSettings, SurfaceValues, check_not_both, with_own_values
 from .fracture import FractureSettings
 from .geometry import Geometry
 from .jackhammer import Jackhammer
@@ -69,7 +69,7 @@ class Scenario(Table):
     supports: tuple[Support, ...] = ()
     foundations: tuple[Foundation, ...] = ()
     shards: ShardSettings = field(default_factory=ShardSettings)
-    contacts: Contacts | None = field(default_factory=Contacts)
+    contacts: ContactSettings | None = field(default_factory=ContactSettings)
     ball: Ball | None = None
     blast: BlastSettings = field(default_factory=BlastSettings)
     charges: tuple[Charge, ...] = ()
@@ -128,12 +128,12 @@ class Scenario(Table):
         return self.connections.warm_up_s
 
     @property
-    def bodies_in_contact(self) -> tuple[BodyTable, ...]:
+    def bodies_in_contact(self) -> tuple[BodyInContact, ...]:
         """Tables of all bodies that touch others."""
         ball = () if self.ball is None else (self.ball,)
         return (self.shards, self.ground, *self.ground.surfaces, *ball, *self.jackhammers)
 
-    def surface_of(self, body: BodyTable) -> SurfaceValues:
+    def surface_of(self, body: BodyInContact) -> SurfaceValues:
         """Return friction and restitution of a body by itself, as Bullet multiplies them with those of another."""
         return body.own_values if self.contacts is None else self.contacts.of_body(body.contact)
 
@@ -194,7 +194,7 @@ class Scenario(Table):
         bodies = self.bodies_in_contact
         of_bodies = [name for body in bodies for name in body.given_keys]
         if not of_bodies:
-            contacts = self.contacts or Contacts()
+            contacts = self.contacts or ContactSettings()
             contacts.check_possible(dict.fromkeys(body.contact for body in bodies))
             object.__setattr__(self, "contacts", contacts)
             return

@@ -11,7 +11,7 @@ from typing import Any, get_args, get_origin
 
 from ...errors import ScenarioError
 from ..scenario import Scenario
-from ..scenario.contacts import BodyTable
+from ..scenario.contacts import BodyInContact
 from ..schema import Table, holds_many, key_name, key_of, shown, subtable_class, value_type
 from ..toml_tables import BARE_KEY
 
@@ -127,7 +127,7 @@ def _keys(table: Table, name: str, parts: list[str], before: str, steps: tuple) 
 def _value_of(table: Table, name: str) -> Any:
     """Return a value of a table; of a body's own friction or restitution the one that it has in older files."""
     value = getattr(table, name)
-    return table.older_values.get(name) if value is None and isinstance(table, BodyTable) else value
+    return table.older_values.get(name) if value is None and isinstance(table, BodyInContact) else value
 
 
 def _in_list(tables: tuple[Table, ...], name: str, parts: list[str], before: str, steps: tuple) -> Iterator:

@@ -11,7 +11,7 @@ import numpy as np
 from ...engineering.timing.timeline import Timeline
 from ...model.actions import HeightAt
 from ...model.scenario import SurfaceValues
-from ...model.scenario.contacts import BodyTable
+from ...model.scenario.contacts import BodyInContact
 from ..world import FIRST_STEP_FRAME
 
 
@@ -22,7 +22,7 @@ class BuildSite:
     world: bpy.types.RigidBodyWorld
     timeline: Timeline
     height_at: HeightAt
-    surface_of: Callable[[BodyTable], SurfaceValues]
+    surface_of: Callable[[BodyInContact], SurfaceValues]
 
     def frame_after(self, time_s: float) -> int:
         """Return the first frame that begins at a simulated time or later."""

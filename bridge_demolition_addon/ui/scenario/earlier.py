@@ -7,8 +7,8 @@ from collections.abc import Iterator
 import bpy
 
 from ...errors import ScenarioError
-from ...model.scenario import Ball, Contacts, Ground, GroundSurface, Jackhammer, Scenario, ShardSettings
-from ...model.scenario.contacts import BodyTable
+from ...model.scenario import Ball, ContactSettings, Ground, GroundSurface, Jackhammer, Scenario, ShardSettings
+from ...model.scenario.contacts import BodyInContact
 from ...model.scenario.file import scenario_from_text
 from .prop import USE
 
@@ -30,11 +30,11 @@ def tick_own_values(settings: bpy.types.PropertyGroup) -> bool:
         for name in table_class.older_values
     ]
     if any(ticked):
-        setattr(settings.scenario, USE + Contacts.table, False)
+        setattr(settings.scenario, USE + ContactSettings.table, False)
     return any(ticked)
 
 
-def _tick(group: bpy.types.PropertyGroup, name: str, built: BodyTable | None) -> bool:
+def _tick(group: bpy.types.PropertyGroup, name: str, built: BodyInContact | None) -> bool:
     if group.is_property_set(USE + name):
         return False
     if group.is_property_set(name):
@@ -56,7 +56,7 @@ def _built(settings: bpy.types.PropertyGroup) -> Scenario | None:
 
 def _bodies(
     group: bpy.types.PropertyGroup, built: Scenario | None
-) -> Iterator[tuple[bpy.types.PropertyGroup, BodyTable | None, type[BodyTable]]]:
+) -> Iterator[tuple[bpy.types.PropertyGroup, BodyInContact | None, type[BodyInContact]]]:
     """Yield the groups of all bodies, with what was built of each and its class."""
     levels, hammers = (built.ground.surfaces, built.jackhammers) if built else ((), ())
     yield group.shards, built and built.shards, ShardSettings

@@ -28,7 +28,7 @@ from bpy.props import (
 from ...model.optimise.settings import ChosenQuantity, OptimiseSettings
 from ...model.run_folder.files import SCENARIO_FILE
 from ...model.scenario import Charge, Scenario
-from ...model.scenario.contacts import BodyTable
+from ...model.scenario.contacts import BodyInContact
 from ...model.scenario.file import read_scenario
 from ...model.schema import (
     Key,
@@ -240,7 +240,7 @@ def _key_properties(table_class: type[Table], item: Field, default: Any) -> dict
     description = f"{rule.description} {typical}." if typical else rule.description
     meaning = tooltip(f"{description} In a scenario file: {name}, {expected(item)}")
     words: dict[str, Any] = {"name": label, "description": meaning}
-    if issubclass(table_class, BodyTable) and item.name in table_class.older_values:
+    if issubclass(table_class, BodyInContact) and item.name in table_class.older_values:
         words["update"] = _use_what_is_set(item.name)
     propose = _PROPOSED.get(name)
     properties = {item.name: _proposing(rule, default, propose, words) if propose else _property(item, default, words)}

@@ -16,7 +16,7 @@ from bridge_demolition_addon.engineering.timing.timeline import Timeline
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.results.arrays import load_results
-from bridge_demolition_addon.model.scenario import Ball, BallCable, Contacts, Ground
+from bridge_demolition_addon.model.scenario import Ball, BallCable, ContactSettings, Ground
 from bridge_demolition_addon.model.scenario.contacts import BallContact
 from bridge_demolition_addon.model.scenario.file import scenario_from_text, scenario_text
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
@@ -79,7 +79,7 @@ def test_ball_on_a_cable_knocks_a_pier_out(tmp_path):
     cable = BallCable(crane_point_m=(-1.3, 2.125, 13.0), length_m=10.5, angle_degrees=25.0, azimuth_degrees=180.0)
     ball = replace(I235.ball, target_m=None, drop_height_m=None, cable=cable)
     # Without friction on the ball, as its approach counts along the impulse.
-    smooth = Contacts(ball=BallContact(friction=0.0))
+    smooth = ContactSettings(ball=BallContact(friction=0.0))
     scenario = replace(I235, ball=ball, contacts=smooth, time=replace(I235.time, duration_s=3.0))
     assert scenario_from_text(scenario_text(scenario)) == scenario
     summary = run_scenario(scenario, tmp_path / "run", overwrite=False, pictures=False, progress=Silence())

@@ -9,7 +9,7 @@ from support.scenarios import I235
 
 from bridge_demolition_addon.cli.check import scenario_facts
 from bridge_demolition_addon.errors import ScenarioError
-from bridge_demolition_addon.model.scenario import Contacts, GroundSurface, Jackhammer, SurfaceValues
+from bridge_demolition_addon.model.scenario import ContactSettings, GroundSurface, Jackhammer, SurfaceValues
 from bridge_demolition_addon.model.scenario.body_surfaces import with_surfaces
 from bridge_demolition_addon.model.scenario.contact_facts import contact_facts, contact_pairs
 from bridge_demolition_addon.model.scenario.contacts import BallContact, GroundContact, ShardContact, SurfaceContact
@@ -138,7 +138,7 @@ def test_a_pair_without_its_body_is_not_refused(tmp_path):
 
 
 def test_bullet_has_no_more_than_10():
-    contacts = Contacts(shards=ShardContact(friction=0.1), ground=GroundContact(friction=5.0))
+    contacts = ContactSettings(shards=ShardContact(friction=0.1), ground=GroundContact(friction=5.0))
     rough = replace(I235, contacts=replace(contacts, ball=BallContact(friction=5.0)))
     assert products(rough)["ball on ground"][0] == 10.0  # not 250
 
@@ -170,7 +170,7 @@ def test_check_says_which_pairs_and_which_bodies():
 
 def test_check_says_from_which_speed_on_a_body_bounces():
     """0.02 √0.75 1 m / (1.25 · 1/240 s) = 3.33 m/s, and a fifth of it."""
-    contacts = Contacts(shards=ShardContact(restitution=0.25), ground=GroundContact(restitution=0.2))
+    contacts = ContactSettings(shards=ShardContact(restitution=0.25), ground=GroundContact(restitution=0.2))
     facts = dict(contact_facts(replace(I235, contacts=contacts)))
     assert facts["bounce"] == "none below 0.67 m/s of one of 0.2 m and 3.3 m/s of one of 1 m, with sub-steps of 4.17 ms"
     assert "bounce" not in dict(contact_facts(I235))
@@ -216,5 +216,5 @@ def test_surfaces_that_differ_become_values_of_bodies():
 
 
 def test_all_surfaces_have_one_pair():
-    smooth = replace(ALL, contacts=Contacts(surfaces=SurfaceContact(friction=0.2)))
+    smooth = replace(ALL, contacts=ContactSettings(surfaces=SurfaceContact(friction=0.2)))
     assert products(smooth)["shard on surfaces"][0] == pytest.approx(0.2)
