@@ -75,10 +75,6 @@ class PairContact(Table):
     friction: float
     restitution: float
 
-    @property
-    def values(self) -> SurfaceValues:
-        return SurfaceValues(self.friction, self.restitution)
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ShardContact(PairContact):
@@ -193,11 +189,9 @@ class ContactSettings(Table):
 
     def _check_bounce_of_ball(self, name: str) -> None:
         """Check that the ball does not bounce higher off a body than it fell."""
-        of_shards = self.shards.restitution
-        other, most = self.with_shard(name).restitution, 1.0
         product = self.of_body(BALL).with_other(self.of_body(name)).restitution
         if product > 1.0 + _ROUNDING:
-            most = of_shards / other
+            most = self.shards.restitution / self.with_shard(name).restitution
             raise self.ball.unexpected(
                 RESTITUTION,
                 f"at most {most:.6g}, which is contacts.shards.restitution over contacts.{name}.restitution: by their "
