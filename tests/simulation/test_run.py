@@ -203,3 +203,24 @@ def test_pictures_show_before_impact_and_after(tmp_path):
     assert all(picture.shape[:2] == (90, 160) and picture.std() > 0.02 for picture in pictures)
     assert abs(pictures[0] - pictures[1]).max() > 0.1
     assert abs(pictures[1] - pictures[2]).max() > 0.1
+
+
+def test_a_run_says_that_bodies_have_values_of_their_own(tmp_path):
+    """Of a scenario of earlier versions, with what it left out as it was: 0.8 for the ground and 0.5 for the ball."""
+    from bridge_demolition_addon.simulation.run import run_scenario
+
+    class Noted(Silence):
+        def __init__(self):
+            self.stages = []
+
+        def stage(self, text):
+            self.stages.append(text)
+
+    noted = Noted()
+    earlier = replace(
+        SHORT_RUN, shards=replace(SHORT_RUN.shards, friction=0.6), time=replace(SHORT_RUN.time, duration_s=0.1)
+    )
+    run_scenario(earlier, tmp_path / "run", overwrite=False, pictures=False, progress=noted)
+    given = "for single bodies, as in older files: shard 0.6 and 0, ball 0.5 and 0, ground 0.8 and 0"
+    assert any(given in stage for stage in noted.stages)
+    assert read_scenario(tmp_path / "run" / "scenario_as_run.toml") == earlier
