@@ -43,7 +43,7 @@ def measured(iterations: int, stiffness: str) -> tuple[float, float]:
     import bpy
     from support.blocks import Blocks
 
-    from bridge_demolition_addon.engineering.elasticity.section_stiffness import ElasticModuli, section_stiffness
+    from bridge_demolition_addon.engineering.elasticity.section_stiffness import ElasticModuli, whole_section_stiffness
     from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
     from bridge_demolition_addon.scene.connections.elasticity import keep_elasticity
 
@@ -61,8 +61,8 @@ def measured(iterations: int, stiffness: str) -> tuple[float, float]:
     if stiffness == "elastic":
         ones = np.ones(COUNT + 1)
         lengths = size * np.where(np.arange(COUNT + 1) % COUNT == 0, 0.5, 1.0)
-        sections = np.tile(np.eye(2) / 12.0, (COUNT + 1, 1, 1)), lengths, np.ones((COUNT + 1, 2), bool)
-        kept = section_stiffness(moduli.young_pa * ones, moduli.shear_pa * ones, ones, *sections)
+        sections = np.tile(np.eye(2) / 12.0, (COUNT + 1, 1, 1)), lengths
+        kept = whole_section_stiffness(moduli.young_pa * ones, moduli.shear_pa * ones, ones, *sections)
         keep_elasticity(blocks.scene, made, kept, 0.05)
     with tempfile.TemporaryDirectory() as folder:
         results = blocks.play(Path(folder), FRAMES)

@@ -51,7 +51,7 @@ class Block:
         self.velocities = np.zeros((6, 2))
         footings = Footings(soil, *ends, self.masses > 0.0, self.positions, self.rotations)
         bodies = RigidBodies(self.masses, inertias, self.positions, self.rotations)
-        self.structure = ElasticStructure(frames, np.zeros((2, 3, 3, 1)), bodies, 0.0, soil=footings)
+        self.structure = ElasticStructure(frames, np.zeros((6, 6, 1)), bodies, 0.0, soil=footings)
         self.turn = 0.0
 
     def push(self, force_n, seconds):

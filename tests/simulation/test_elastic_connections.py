@@ -19,7 +19,7 @@ from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.engineering.elasticity.section_stiffness import (
     ElasticModuli,
     SectionStiffness,
-    section_stiffness,
+    whole_section_stiffness,
 )
 from bridge_demolition_addon.engineering.mechanics.joint import Joint
 from bridge_demolition_addon.engineering.mechanics.strength import Strength
@@ -86,8 +86,7 @@ def square_sections(lengths_m):
     """Stiffness of sections of 1 m × 1 m concrete."""
     ones = np.ones(len(lengths_m))
     moments = np.tile(np.eye(2) / 12.0, (len(ones), 1, 1))
-    deep = np.ones((len(ones), 2), bool)
-    return section_stiffness(CONCRETE.young_pa * ones, CONCRETE.shear_pa * ones, ones, moments, lengths_m, deep)
+    return whole_section_stiffness(CONCRETE.young_pa * ones, CONCRETE.shear_pa * ones, ones, moments, lengths_m)
 
 
 def make_elastic(scene, connections, stiffness, damping_ratio=0.05):
@@ -199,7 +198,7 @@ def test_three_posts_share_a_load_by_stiffness_whatever_their_order(blender, tmp
     axial = stiff[list(order)]
     none = np.zeros(3)
     shear = np.column_stack((axial, axial)) / 3
-    make_elastic(blocks.scene, joints, SectionStiffness(axial, shear, none, np.zeros((3, 2, 2))))
+    make_elastic(blocks.scene, joints, SectionStiffness.uncoupled(axial, shear, none, np.zeros((3, 2, 2))))
     results = blocks.play(tmp_path, 12)
     rows = [results.inventory.connection_names.tolist().index(constraint.name) for constraint in joints]
     sums = np.array(

@@ -67,7 +67,7 @@ class BeamOnPosts:
         axial = np.tile(2.0 * STIFF_N_M, 2)
         turning = np.concatenate((np.full(len(STIFF_N_M), 1e6), STIFF_N_M))
         shear = np.column_stack((axial, axial)) / 3.0
-        stiffness = SectionStiffness(axial, shear, turning, turning[:, None, None] * np.eye(2))
+        stiffness = SectionStiffness.uncoupled(axial, shear, turning, turning[:, None, None] * np.eye(2))
         keep_elasticity(self.scene, (*self.joints, *self.feet), stiffness, 0.05)
         keep_breaking(self.scene, Breaking(STRONG))
 
@@ -219,7 +219,7 @@ def test_a_support_with_a_spring_bears_by_what_it_gives_way(blender, tmp_path):
     spring = Joint("GENERIC_SPRING", ("move z",), Springs(stiffness_n_m=1e6, damping_ns_m=1e4))
     set_joints([connection], [spring], np.zeros(1, int), blocks.time.step)
     one = np.full(1, 1e9)
-    stiffness = SectionStiffness(one, np.full((1, 2), 1e9), one, 1e9 * np.eye(2)[None])
+    stiffness = SectionStiffness.uncoupled(one, np.full((1, 2), 1e9), one, 1e9 * np.eye(2)[None])
     keep_elasticity(blocks.scene, [connection], stiffness, 0.05)
     blocks.scene.gravity[0] = 0.1 * GRAVITY
     results = blocks.play(tmp_path, 60)

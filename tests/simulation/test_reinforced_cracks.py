@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from support.blocks import Blocks
 
-from bridge_demolition_addon.engineering.elasticity.section_stiffness import ElasticModuli, section_stiffness
+from bridge_demolition_addon.engineering.elasticity.section_stiffness import ElasticModuli, whole_section_stiffness
 from bridge_demolition_addon.engineering.elasticity.steel_bars import Steel
 from bridge_demolition_addon.engineering.mechanics.strength import Ductility, Strength
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
@@ -30,13 +30,12 @@ def reinforced(blocks, connection, normal, sides_m, yield_n, elongation_m, steel
     connection["bda_area_m2"], connection["bda_normal"] = area, normal
     connection["bda_second_moments_m4"] = moments.ravel().tolist()
     one = np.ones(1)
-    stiffness = section_stiffness(
+    stiffness = whole_section_stiffness(
         CONCRETE.young_pa * one,
         CONCRETE.shear_pa * one,
         area * one,
         moments[None],
         one,
-        np.ones((1, 2), bool),
     )
     keep_elasticity(blocks.scene, [connection], stiffness, 0.05)
     strength = Strength(1e9, yield_n / area, 1.0, 1e9, 1e9)

@@ -10,7 +10,7 @@ import numpy as np
 from bridge_demolition_addon.engineering.elasticity.equations import RigidBodies, stressed
 from bridge_demolition_addon.engineering.elasticity.equilibrium import Equilibrium, equilibrium
 from bridge_demolition_addon.engineering.elasticity.joint_rows import JointFrames, joint_positions
-from bridge_demolition_addon.engineering.elasticity.section_stiffness import ElasticModuli, section_stiffness
+from bridge_demolition_addon.engineering.elasticity.section_stiffness import ElasticModuli, whole_section_stiffness
 
 CONCRETE = ElasticModuli(30e9, 0.2)
 DENSITY_KG_M3 = 2400.0
@@ -74,17 +74,16 @@ def beam(blocks: int, length_m: float = 12.0, *, held: tuple[str, ...] = ("start
             lengths.append(size / 2.0)
     sections = len(joints)
     ones = np.ones(sections)
-    of_faces = section_stiffness(
+    of_faces = whole_section_stiffness(
         CONCRETE.young_pa * ones,
         CONCRETE.shear_pa * ones,
         ones,
         np.tile(np.eye(2) / 12.0, (sections, 1, 1)),
         np.array(lengths),
-        np.ones((sections, 2), bool),
     )
-    stiffness = np.stack((of_faces.against_shifts(), of_faces.against_turns()))
-    upright = np.zeros((2, 3, 3, len(rollers)))
-    upright[0, 2, 2] = 1e13
+    stiffness = np.moveaxis(of_faces.matrices, 0, -1)
+    upright = np.zeros((6, 6, len(rollers)))
+    upright[2, 2] = 1e13
     for share in rollers:
         places.append((share * length_m, 0.0, 0.0))
         block = min(int(share * blocks - 1e-9), blocks - 1)
@@ -92,4 +91,4 @@ def beam(blocks: int, length_m: float = 12.0, *, held: tuple[str, ...] = ("start
     positions = np.array(places)
     masses = np.where(np.arange(len(places)) < blocks, DENSITY_KG_M3 * size, 0.0)
     sizes = np.tile((size, 1.0, 1.0), (len(places), 1))
-    return bodies(positions, masses, sizes, joints, np.concatenate((stiffness, upright), axis=3))
+    return bodies(positions, masses, sizes, joints, np.concatenate((stiffness, upright), axis=2))

@@ -46,7 +46,7 @@ def summed_on_bodies(first: IntArray, second: IntArray, loads: tuple[FloatArray,
 
 
 def without(stiffness: FloatArray, rows: IntArray) -> FloatArray:
-    """Return stiffness (2, 3, 3, m) with nothing of connections (r,)."""
+    """Return stiffness (6, 6, m) with nothing of connections (r,)."""
     left = stiffness.copy()
     left[..., rows] = 0.0
     return left
@@ -60,23 +60,17 @@ def connected_parts(moves: BoolArray, first: IntArray, second: IntArray) -> IntA
 
 
 def stressed(stiffness: FloatArray, strains: FloatArray) -> FloatArray:
-    """Return the amounts (6, m) in rows, by stiffness (2, 3, 3, m), of deformations (6, m)."""
-    shifts, turns = stiffness
-    return np.concatenate(
-        (
-            shifts[:, 0] * strains[0] + shifts[:, 1] * strains[1] + shifts[:, 2] * strains[2],
-            turns[:, 0] * strains[3] + turns[:, 1] * strains[4] + turns[:, 2] * strains[5],
-        )
-    )
+    """Return the amounts (6, m) in rows, by stiffness (6, 6, m), of deformations (6, m)."""
+    amounts: FloatArray = stiffness[:, 0] * strains[0]
+    for column in range(1, 6):
+        amounts += stiffness[:, column] * strains[column]
+    return amounts
 
 
 def stiffness_blocks(rows: JointRows, stiffness: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return what connections add to the equations of their first and second bodies, and between: (6, 6, m) each."""
     first, second = rows.matrices()
-    first_stressed, second_stressed = (
-        np.concatenate((matrix_products(stiffness[0], matrix[:3]), matrix_products(stiffness[1], matrix[3:])))
-        for matrix in (first, second)
-    )
+    first_stressed, second_stressed = (matrix_products(stiffness, matrices) for matrices in (first, second))
     return (
         matrix_products(transposed(first), first_stressed),
         matrix_products(transposed(second), second_stressed),

@@ -48,7 +48,7 @@ def equilibrium(
 ) -> Equilibrium:
     """Return where bodies rest that elastic connections hold, which carry no load where they are now.
 
-    `stiffness` (2, 3, 3, m) is as in `ElasticStructure`; `loads` (6, n) are further forces on the bodies, N, and
+    `stiffness` (6, 6, m) is as in `ElasticStructure`; `loads` (6, n) are further forces on the bodies, N, and
     moments about their centres, N·m.
     """
     moves = bodies.moves

@@ -3,11 +3,9 @@
 Between two Voronoi cells, springs with the same stiffness along a face as across it, E by the distance between the
 cells' points, deform evenly under every even stress, however irregular the cells are: J. E. Bolander and S. Saito
 (1998), Fracture analyses using spring networks with random geometry, Engineering Fracture Mechanics 61, 569-591. That
-stands for a material without Poisson's effect. Of two cells that turn against each other, only a part is the bending of
-the body that they are cut from; over all directions of faces it is two thirds, and their turning counts as much.
-
-Where one shard is as deep as its member, its face is the whole section: there the stiffness along it is κ G, as in a
-beam of Timoshenko, and all turning is bending.
+stands for a material without Poisson's effect. By what part of a face its shards resist turning, the shape of their
+member decides: `member_shapes`. Where one shard is as deep as its member, the stiffness along the face is κ G, as in a
+beam of Timoshenko.
 """
 
 from __future__ import annotations
@@ -17,18 +15,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...errors import ScenarioError
-from ..arrays import BoolArray, FloatArray
+from ..arrays import BoolArray, FloatArray, IntArray
+from ..geometry.vectors import product
 from .joint_rows import matrix_products, transposed
+from .member_shapes import principal_moments
 
 SHEAR_FACTOR = 5.0 / 6.0
 """Share of a rectangular section that resists shear evenly, κ (E. Reissner 1945)."""
 
 DAMPING_RATIO = 0.05
 """Damping of concrete structures near their strength, where none is given: EN 1998-1:2004, 3.2.2.2 (3)."""
-
-BENDING_SHARE = 2.0 / 3.0
-"""Part of the turning of two cells against each other that is bending: ⟨nx² z²⟩ / ⟨nx² (x² + z²)⟩ over all directions
-of normals n, of round faces that a bar along x is cut into, which bends about y."""
 
 SHORTEST = 0.02
 """Part of the root of a face's area that the distance of two points is at least taken for."""
@@ -73,54 +69,106 @@ ratio of uncracked concrete. Masonry: 1000 times its compressive strength, and a
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SectionStiffness:
-    """Stiffness of m connections in the axes of their sections (`mechanics.section_forces`)."""
+    """Stiffness of m connections in the axes of their sections (`mechanics.section_forces`).
 
-    axial_n_m: FloatArray  # (m,), against shifts along x
-    shear_n_m: FloatArray  # (m, 2), against shifts along y and z
-    torsion_nm: FloatArray  # (m,), against turns about x, N·m/rad
-    bending_nm: FloatArray  # (m, 2, 2), against turns about y and z
+    `matrices` (m, 6, 6) make forces, N, and moments, N·m, of shifts along x, y and z, m, and turns about them, rad.
+    """
 
-    def against_shifts(self) -> FloatArray:
-        """Return the matrices (3, 3, m) that make forces of shifts."""
-        matrices = np.zeros((3, 3, len(self.axial_n_m)))
-        matrices[0, 0], matrices[1, 1], matrices[2, 2] = self.axial_n_m, *self.shear_n_m.T
-        return matrices
+    matrices: FloatArray
 
-    def against_turns(self) -> FloatArray:
-        """Return the matrices (3, 3, m) that make moments of turns."""
-        matrices = np.zeros((3, 3, len(self.axial_n_m)))
-        matrices[0, 0] = self.torsion_nm
-        matrices[1:, 1:] = np.moveaxis(self.bending_nm, 0, 2)
-        return matrices
+    @classmethod
+    def uncoupled(
+        cls, axial_n_m: FloatArray, shear_n_m: FloatArray, torsion_nm: FloatArray, bending_nm: FloatArray
+    ) -> SectionStiffness:
+        """Return that of (m,) against shifts along x, (m, 2) along y and z, (m,) turns about x, (m, 2, 2) y and z."""
+        matrices = np.zeros((len(axial_n_m), 6, 6))
+        matrices[:, 0, 0], matrices[:, 1, 1], matrices[:, 2, 2] = axial_n_m, *shear_n_m.T
+        matrices[:, 3, 3], matrices[:, 4:, 4:] = torsion_nm, bending_nm
+        return cls(matrices)
+
+    def __len__(self) -> int:
+        return len(self.matrices)
+
+    @property
+    def axial_n_m(self) -> FloatArray:
+        """Stiffness (m,) against shifts along x, N/m."""
+        return self.matrices[:, 0, 0]
+
+    def only(self, rows: IntArray) -> SectionStiffness:
+        """Return the stiffness of some connections (r,)."""
+        return SectionStiffness(self.matrices[rows])
 
 
 def section_stiffness(
     young_pa: FloatArray,
     shear_pa: FloatArray,
     areas_m2: FloatArray,
-    second_moments_m4: FloatArray,
     lengths_m: FloatArray,
     is_deep: BoolArray,
+    turning_m4: FloatArray,
+    levers_m: FloatArray | None = None,
+    slips_m_n: FloatArray | None = None,
 ) -> SectionStiffness:
-    """Return the stiffness of m connections by faces with areas (m,) and second moments (m, 2, 2) in their axes.
+    """Return the stiffness of connections by faces.
 
-    `lengths_m` (m,) are between the shards' points along the normal; `young_pa` and `shear_pa` (m,) are the moduli
-    there. `is_deep` (m, 2) says whether the shards are as deep as their members along y, and along z.
+    Parameters
+    ----------
+    young_pa, shear_pa : (m,) float
+        Moduli of the material between the two points.
+    areas_m2 : (m,) float
+        Of the faces.
+    lengths_m : (m,) float
+        Between the two points, along the normal.
+    is_deep : (m, 2) bool
+        Whether the shards are as deep as their members along y, and along z.
+    turning_m4 : (m, 3, 3) float
+        Second moments with which faces resist turning, in the axes of the sections.
+    levers_m : (m, 3, 3) float, optional
+        By how much shifts are larger for each turn, where they are not measured at the middle of the face.
+    slips_m_n : (m, 2) float, optional
+        How much farther shards shift along y and z, m/N.
     """
     lengths = np.maximum(lengths_m, SHORTEST * np.sqrt(areas_m2))
-    along = np.where(is_deep, (SHEAR_FACTOR * shear_pa)[:, None], young_pa[:, None])
-    about_y, about_z = second_moments_m4[:, 0, 0], second_moments_m4[:, 1, 1]  # ∫ z² dA, ∫ y² dA
-    share = np.where(is_deep, 1.0, BENDING_SHARE)[:, ::-1]  # about y counts the depth along z
-    twisting = along[:, 0] * share[:, 0] * about_y + along[:, 1] * share[:, 1] * about_z
-    twisting = np.where(is_deep.all(axis=1), shear_pa * torsion_constants(areas_m2, second_moments_m4), twisting)
-    return SectionStiffness(
-        axial_n_m=young_pa * areas_m2 / lengths,
-        shear_n_m=along * (areas_m2 / lengths)[:, None],
-        torsion_nm=twisting / lengths,
-        bending_nm=second_moments_m4
-        * np.sqrt(share[:, :, None] * share[:, None])
-        * (young_pa / lengths)[:, None, None],
-    )
+    along = np.where(is_deep, (SHEAR_FACTOR * shear_pa)[:, None], young_pa[:, None]) * (areas_m2 / lengths)[:, None]
+    if slips_m_n is not None:
+        along = along / (1.0 + along * slips_m_n)
+    matrices = np.zeros((len(lengths), 6, 6))
+    matrices[:, 0, 0], matrices[:, 1, 1], matrices[:, 2, 2] = young_pa * areas_m2 / lengths, *along.T
+    matrices[:, 3:, 3:] = turning_m4 * (young_pa / lengths)[:, None, None]
+    if levers_m is not None:
+        by_turns = product(matrices[:, :3, :3], levers_m)
+        matrices[:, :3, 3:], matrices[:, 3:, :3] = by_turns, np.swapaxes(by_turns, 1, 2)
+        matrices[:, 3:, 3:] += product(np.swapaxes(levers_m, 1, 2), by_turns)
+    return SectionStiffness(matrices)
+
+
+def whole_section_stiffness(
+    young_pa: FloatArray,
+    shear_pa: FloatArray,
+    areas_m2: FloatArray,
+    second_moments_m4: FloatArray,
+    lengths_m: FloatArray,
+) -> SectionStiffness:
+    """Return the stiffness of connections by faces that are the sections of a beam.
+
+    Moduli, areas and lengths (m,) are those of `section_stiffness`; second moments about y and z are (m, 2, 2).
+    """
+    turning = whole_section_turning(areas_m2, second_moments_m4, shear_pa / young_pa)
+    is_deep = np.ones((len(areas_m2), 2), bool)
+    return section_stiffness(young_pa, shear_pa, areas_m2, lengths_m, is_deep, turning)
+
+
+def whole_section_turning(
+    areas_m2: FloatArray, second_moments_m4: FloatArray, shear_over_young: FloatArray
+) -> FloatArray:
+    """Return the second moments (m, 3, 3) with which faces resist turning that are whole sections of their members.
+
+    Their second moments about y and z are (m, 2, 2).
+    """
+    turning = np.zeros((len(areas_m2), 3, 3))
+    turning[:, 0, 0] = shear_over_young * torsion_constants(areas_m2, second_moments_m4)
+    turning[:, 1:, 1:] = second_moments_m4
+    return turning
 
 
 def torsion_constants(areas_m2: FloatArray, second_moments_m4: FloatArray) -> FloatArray:
@@ -129,10 +177,8 @@ def torsion_constants(areas_m2: FloatArray, second_moments_m4: FloatArray) -> Fl
     W. C. Young and R. G. Budynas (2002), Roark's Formulas for Stress and Strain, 7th edition, table 10.1, case 4, which
     is within 0.6 % of Saint-Venant's series.
     """
-    one, beside, other = second_moments_m4[:, 0, 0], second_moments_m4[:, 0, 1], second_moments_m4[:, 1, 1]
-    mean, spread = (one + other) / 2.0, np.sqrt(np.square((one - other) / 2.0) + np.square(beside))
     area = np.where(areas_m2 > 0.0, areas_m2, 1.0)
-    shorter, longer = (np.sqrt(12.0 * np.maximum(moment, 0.0) / area) for moment in (mean - spread, mean + spread))
+    shorter, longer = (np.sqrt(12.0 * moment / area) for moment in principal_moments(second_moments_m4))
     slender = np.divide(shorter, longer, out=np.zeros_like(shorter), where=longer > 0.0)
     square = slender * slender
     constants: FloatArray = (
@@ -142,20 +188,22 @@ def torsion_constants(areas_m2: FloatArray, second_moments_m4: FloatArray) -> Fl
 
 
 def in_frames(stiffness: SectionStiffness, sections: FloatArray, held: BoolArray) -> FloatArray:
-    """Return stiffness (2, 3, 3, m) in the axes of frames, from that in sections (3, 3, m), whose axes are the columns.
+    """Return stiffness (6, 6, m) in the axes of frames, from that in sections (3, 3, m), whose axes are the columns.
 
-    Rows that are not `held` (6, m) resist nothing, and the others resist no more for that.
+    Rows that are not held (6, m) resist nothing, and the others resist no more for that.
     """
-    matrices = np.stack((stiffness.against_shifts(), stiffness.against_turns()))
-    turned = [matrix_products(matrix_products(sections, matrix), transposed(sections)) for matrix in matrices]
-    for matrix, rows in zip(turned, (held[:3], held[3:]), strict=True):
-        for row in range(3):
-            _let_go(matrix, row, ~rows[row])
-    return np.stack(turned)
+    own = np.moveaxis(stiffness.matrices, 0, -1)
+    turned = np.empty(own.shape)
+    for rows in (slice(3), slice(3, 6)):
+        for columns in (slice(3), slice(3, 6)):
+            turned[rows, columns] = matrix_products(matrix_products(sections, own[rows, columns]), transposed(sections))
+    for row in range(6):
+        _let_go(turned, row, ~held[row])
+    return turned
 
 
 def _let_go(matrix: FloatArray, row: int, free: BoolArray) -> None:
-    """Take the stiffness of one row out of matrices (3, 3, m), where it is free (m,): a static condensation."""
+    """Take the stiffness of one row out of matrices (6, 6, m), where it is free (m,): a static condensation."""
     column = matrix[:, row].copy()
     pivot = np.where(column[row] > 0.0, column[row], 1.0)
     taken = column[:, None] * column[None] / pivot

@@ -137,7 +137,7 @@ class _RowCache:
 class ElasticStructure:
     """Bodies with elastic connections between them.
 
-    `stiffness` (2, 3, 3, m) is against shifts, N/m, and against rotations, N·m/rad, in the axes of the first frames;
+    `stiffness` (6, 6, m) is against shifts, N/m, and then turns, N·m/rad, in the axes of the first frames;
     `damping_s` is damping over stiffness, β. What rounding leaves of deformations where the `bodies` are counts as
     none.
     """

@@ -103,18 +103,37 @@ def outer(first: FloatArray, second: FloatArray) -> FloatArray:
 
 
 def symmetric_eigenvalues(matrices: FloatArray) -> FloatArray:
-    """Eigenvalues (..., 3), ascending, of symmetric matrices (..., 3, 3), by Jacobi's method.
+    """Eigenvalues (..., 3), ascending, of symmetric matrices (..., 3, 3)."""
+    return np.sort(_diagonalised(matrices)[0], axis=-1)
+
+
+def symmetric_eigenvectors(matrices: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Eigenvalues (..., 3), ascending, of symmetric matrices (..., 3, 3), and right-handed eigenvectors as columns."""
+    values, rows = _diagonalised(matrices, np.broadcast_to(np.eye(3), matrices.shape))
+    order = np.argsort(values, axis=-1, kind="stable")
+    rows = np.take_along_axis(rows, order[..., None], axis=-2)
+    rows[..., 2, :] = np.cross(rows[..., 0, :], rows[..., 1, :])
+    return np.take_along_axis(values, order, axis=-1), np.swapaxes(rows, -1, -2)
+
+
+def _diagonalised(matrices: FloatArray, followed: FloatArray | None = None) -> tuple[FloatArray, FloatArray]:
+    """Diagonals (..., 3) of matrices (..., 3, 3) by Jacobi's method, and other matrices with their rows rotated along.
 
     G. H. Golub, C. F. Van Loan (1996), Matrix Computations, 3rd edition, section 8.4.
     """
     # The components of all matrices lie together in memory.
-    rest = np.moveaxis(np.array(np.moveaxis(matrices, (-2, -1), (0, 1)), float, order="C"), (0, 1), (-2, -1))
+    rest, followed = (
+        np.moveaxis(np.array(np.moveaxis(each, (-2, -1), (0, 1)), float, order="C"), (0, 1), (-2, -1))
+        for each in (matrices, matrices[..., :0, :] if followed is None else followed)
+    )
     for _ in range(_SWEEPS):
         for p, q in ((0, 1), (0, 2), (1, 2)):
             cosine, sine = _jacobi_rotation(rest[..., p, p], rest[..., q, q], rest[..., p, q])
             _turn(rest, p, q, cosine, sine)
             _turn(np.swapaxes(rest, -1, -2), p, q, cosine, sine)
-    return np.sort(np.stack([rest[..., axis, axis] for axis in range(3)], axis=-1), axis=-1)
+            if followed.shape[-2]:
+                _turn(followed, p, q, cosine, sine)
+    return np.stack([rest[..., axis, axis] for axis in range(3)], axis=-1), followed
 
 
 def symmetric_eigenvectors_2d(matrices: FloatArray) -> tuple[FloatArray, FloatArray]:

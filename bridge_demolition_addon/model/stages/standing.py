@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from ...engineering.elasticity.equations import connected_parts
-from ...engineering.elasticity.section_stiffness import SectionStiffness
 from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.overloads import Overloads
 from ...engineering.mechanics.section_cuts import ConnectionLoads, worst_around
@@ -18,6 +17,7 @@ from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...errors import ScenarioError
 from ..scenario import Scenario
 from ..scenario.connections import MATERIAL_OF_LARGE_MODELS
+from ..schema import given
 from ..structure.equilibrium import at_rest, held_motions, inertias_of, member_sections_of, overloads_of
 from ..structure.model import Model
 
@@ -90,7 +90,7 @@ class StandingBridge:
         kept = model.connections.only(intact)
         solution = at_rest(
             kept,
-            SectionStiffness(*(getattr(model.stiffness, field.name)[rows] for field in fields(SectionStiffness))),
+            given(model.stiffness).only(rows),
             self._masses,
             self._inertias,
             model.centres_m,

@@ -79,13 +79,15 @@ def second_moments_of(soil: SoilSprings) -> np.ndarray:
 def with_soil(stiffness: SectionStiffness, soil: SoilSprings) -> SectionStiffness:
     """Return the stiffness of connections with that of pressed footings in it."""
     moments, areas = second_moments_of(soil), _summed(soil, soil.areas_m2)
-    axial, shear = stiffness.axial_n_m.copy(), stiffness.shear_n_m.copy()
-    torsion, bending = stiffness.torsion_nm.copy(), stiffness.bending_nm.copy()
-    axial[soil.rows] = soil.stiffness_n_m3 * areas
-    shear[soil.rows] = (soil.horizontal_n_m3 * areas)[:, None]
-    torsion[soil.rows] = soil.horizontal_n_m3 * (moments[:, 0, 0] + moments[:, 1, 1])
-    bending[soil.rows] = soil.stiffness_n_m3[:, None, None] * moments
-    return SectionStiffness(axial, shear, torsion, bending)
+    horizontal = soil.horizontal_n_m3 * areas
+    matrices = stiffness.matrices.copy()
+    matrices[soil.rows] = SectionStiffness.uncoupled(
+        soil.stiffness_n_m3 * areas,
+        np.column_stack((horizontal, horizontal)),
+        soil.horizontal_n_m3 * (moments[:, 0, 0] + moments[:, 1, 1]),
+        soil.stiffness_n_m3[:, None, None] * moments,
+    ).matrices
+    return SectionStiffness(matrices)
 
 
 def _standing_rows(connections: Connections, member_of_shard: np.ndarray, member: int) -> np.ndarray:

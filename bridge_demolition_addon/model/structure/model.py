@@ -27,7 +27,7 @@ from .connection_rules import rules_of_pairs
 from .face_bars import face_bars
 from .footings import on_footings, second_moments_of, soil_springs, with_soil
 from .members import FracturedMembers, fractured_members, shards_with_gaps
-from .stiffness import connection_stiffness
+from .stiffness import CutMembers, connection_stiffness
 from .supports import HeldPart, held_parts
 
 
@@ -135,11 +135,7 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
             moments,
             scenario.joints,
             joint_of_connection,
-            shards,
-            _middles(fractured),
-            members,
-            fractured.member_of_shard,
-            fixed,
+            CutMembers(members, fractured.member_of_shard, shards, _middles(fractured), fixed),
         )
     if soil and stiffness:
         connections, stiffness = on_footings(connections, soil), with_soil(stiffness, soil)

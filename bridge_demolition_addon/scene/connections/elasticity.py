@@ -15,8 +15,9 @@ from ..custom_properties import keep, kept_number, kept_numbers
 _STIFFNESS = "bda_stiffness"
 _DAMPING_RATIO = "bda_damping_ratio"
 _THICKNESS = "bda_thickness"
-_COUNT = 7
-"""Axial, shear along y and z, torsion, and the three numbers of bending about y and z."""
+_UPPER = np.triu_indices(6)
+_UNCOUPLED = 7
+"""Numbers of files that were saved before: axial, shear along y and z, torsion, and three of bending about y and z."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -53,10 +54,8 @@ def keep_elasticity(
 ) -> None:
     """Make all connections (m,) of a scene elastic, in members with these thicknesses (m,), where they are known."""
     scene[_DAMPING_RATIO] = damping_ratio
-    bending = stiffness.bending_nm
-    bending_columns = bending[:, 0, 0], bending[:, 0, 1], bending[:, 1, 1]
-    columns = np.column_stack((stiffness.axial_n_m, stiffness.shear_n_m, stiffness.torsion_nm, *bending_columns))
-    for connection, numbers in zip(connections, columns.tolist(), strict=True):
+    numbers_of = stiffness.matrices[:, *_UPPER].tolist()
+    for connection, numbers in zip(connections, numbers_of, strict=True):
         connection[_STIFFNESS] = numbers
     if thicknesses_m is not None:
         for connection, thickness_m in zip(connections, thicknesses_m.tolist(), strict=True):
@@ -79,10 +78,21 @@ def _stiffness_of(connections: Sequence[bpy.types.Object]) -> SectionStiffness:
             raise SimulationError(
                 f"connection {connection.name!r} has no stiffness as the others have: delete it, or build again"
             )
-    rows = [kept_numbers(connection, _STIFFNESS, (0.0,) * _COUNT) for connection in connections]
-    numbers = np.array(rows).reshape(-1, _COUNT)
-    if not ((numbers[:, [0, 1, 2, 3, 4, 6]] >= 0.0).all() and np.isfinite(numbers).all()):
+    matrices = np.array([_kept_matrix(connection) for connection in connections]).reshape(-1, 6, 6)
+    if not ((matrices[:, range(6), range(6)] >= 0.0).all() and np.isfinite(matrices).all()):
         raise SimulationError("the stiffness of a connection was edited to a negative number: undo that")
-    axial, first, second, torsion, *_ = numbers.T
-    matrices = np.take(numbers, (4, 5, 5, 6), axis=1).reshape(-1, 2, 2)
-    return SectionStiffness(axial, np.column_stack((first, second)), torsion, matrices)
+    return SectionStiffness(matrices)
+
+
+def _kept_matrix(connection: bpy.types.Object) -> np.ndarray:
+    """Stiffness (6, 6) of a connection."""
+    if len(connection[_STIFFNESS]) == _UNCOUPLED:
+        axial, first, second, torsion, *bending = kept_numbers(connection, _STIFFNESS, (0.0,) * _UNCOUPLED)
+        of_bending = np.array([[bending[:2], bending[1:]]])
+        one = SectionStiffness.uncoupled(
+            np.array([axial]), np.array([[first, second]]), np.array([torsion]), of_bending
+        )
+        return one.matrices[0]
+    matrix = np.zeros((6, 6))
+    matrix[_UPPER] = kept_numbers(connection, _STIFFNESS, (0.0,) * len(_UPPER[0]))
+    return matrix + np.triu(matrix, 1).T

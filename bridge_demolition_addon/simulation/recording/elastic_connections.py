@@ -251,7 +251,7 @@ class ElasticConnections:
         inverse = _effective_inverse_masses(
             rows, self._frames, motion.inverse_masses, self._reader.inverse_inertia_components()
         )
-        diagonal = self._stiffness[:, [0, 1, 2], [0, 1, 2]].reshape(6, -1)
+        diagonal = self._stiffness[np.arange(6), np.arange(6)]
         hardness = substep_s * (substep_s + self._damping_s) * diagonal * inverse
         softness = np.divide(1.0, hardness, out=np.full_like(hardness, np.inf), where=hardness > 0.0)
         self._softness = softness

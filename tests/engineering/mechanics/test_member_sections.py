@@ -25,7 +25,7 @@ from bridge_demolition_addon.engineering.structure.connections import (
 from bridge_demolition_addon.engineering.structure.face_sections import second_moments
 from bridge_demolition_addon.model.bridge.member import Member
 from bridge_demolition_addon.model.structure.equilibrium import at_rest, box_inertia
-from bridge_demolition_addon.model.structure.stiffness import connection_stiffness
+from bridge_demolition_addon.model.structure.stiffness import CutMembers, connection_stiffness
 
 DENSITY_KG_M3, PULL_M_S2 = 2400.0, 9.80665
 DEPTH_M, WIDTH_M, HEIGHT_M = 0.5, 1.0, 6.0
@@ -54,8 +54,8 @@ class PulledSlab:
         moments = second_moments(cut.shards, *faces)
         joints, rows = [Joint("FIXED", moduli=ElasticModuli(30e9, 0.2))], np.zeros(len(connections), int)
         of_shards = np.zeros(len(cut), int)
-        shards = cut.shards, cut.points, [SLAB], of_shards, of_shards > 0
-        stiffness = connection_stiffness(connections, moments, joints, rows, *shards)
+        members = CutMembers([SLAB], of_shards, cut.shards, cut.points, of_shards > 0)
+        stiffness = connection_stiffness(connections, moments, joints, rows, members)
         masses = DENSITY_KG_M3 * cut.volumes
         inertias = masses[:, None] * [box_inertia(np.ptp(shard.vertices, axis=0)) for shard in cut.shards]
         rest = at_rest(connections, stiffness, masses, inertias, cut.centres, gravity_m_s2=(PULL_M_S2, 0.0, 0.0))

@@ -25,7 +25,7 @@ from bridge_demolition_addon.model.bridge.mesh_files import exported
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.structure.equilibrium import at_rest, box_inertia
 from bridge_demolition_addon.model.structure.model import build_model
-from bridge_demolition_addon.model.structure.stiffness import connection_stiffness
+from bridge_demolition_addon.model.structure.stiffness import CutMembers, connection_stiffness
 
 MODULI = ElasticModuli(30e9, 0.2)
 DENSITY_KG_M3, GRAVITY_M_S2 = 2400.0, 9.80665
@@ -53,16 +53,13 @@ def standing_slab(shard_count, seed, *, held=False):
     moments = second_moments(
         cut.shards, connections.pairs[:, 0], connections.areas, connections.points, connections.normals
     )
+    of_shards = np.zeros(len(cut), int)
     stiffness = connection_stiffness(
         connections,
         moments,
         [Joint("FIXED", moduli=MODULI)],
         np.zeros(len(connections), int),
-        cut.shards,
-        cut.points,
-        [Member("slab", "deck", solid)],
-        np.zeros(len(cut), int),
-        np.zeros(len(cut), bool),
+        CutMembers([Member("slab", "deck", solid)], of_shards, cut.shards, cut.points, of_shards > 0),
     )
     return cut, connections, stiffness
 
@@ -96,17 +93,14 @@ def test_a_connection_without_an_area_is_refused():
     cut = fracture(box((1.0, 1.0, 4.0)), 8, 0)
     connections = connect(cut.centres, cut.faces, *neighbours_by_face(cut.faces), limit_per_shard=1000)
     connections.areas[0] = 0.0
+    member, of_shards = Member("slab", "deck", box((1.0, 1.0, 4.0))), np.zeros(len(cut), int)
     with pytest.raises(GeometryError, match="1 connections have no area"):
         connection_stiffness(
             connections,
             np.zeros((len(connections), 2, 2)),
             [Joint("FIXED", moduli=MODULI)],
             np.zeros(len(connections), int),
-            cut.shards,
-            cut.points,
-            [Member("slab", "deck", box((1.0, 1.0, 4.0)))],
-            np.zeros(len(cut), int),
-            np.zeros(len(cut), bool),
+            CutMembers([member], of_shards, cut.shards, cut.points, of_shards > 0),
         )
 
 

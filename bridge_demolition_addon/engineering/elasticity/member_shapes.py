@@ -1,0 +1,187 @@
+"""How the shape of a member decides by what part of a face two shards resist turning against each other.
+
+Shards are rigid, and a bridge of them bends in its faces. Where a member bends about an axis k, its shards turn by the
+curvature times how far they are apart along the longer (p) of the two directions across k, and its section resists with
+its depth along the shorter one (q). So a face resists that turning with ∫ q² dA about its own middle. The rest of its
+second moment, ∫ p² dA, is the slope of a face that is not at right angles to the member, and resists nothing: it is
+left out. For the same reason what slides along q is measured half-way between the two shards' points along p, not at
+the middle of the face: there the rotations of both shards shift it by the same. With both a bar, a wall or a slab in
+any number of irregular shards bends as beam and plate theory say.
+
+A member that is as long as wide has no such direction. Over all directions of faces two thirds of the second moment
+are bending.
+
+A face that is not a whole section may be a sliver. What the rotations of its shards do to it says nothing of the stress
+there: its levers are short, and its second moment is that of a face of a moderate slenderness.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from ..arrays import FloatArray, IntArray
+from ..geometry.mesh import TriangleMesh
+from ..geometry.vectors import symmetric_eigenvectors
+
+BENDING_SHARE = 2.0 / 3.0
+"""Part of the turning of two cells against each other that is bending: ⟨nx² z²⟩ / ⟨nx² (x² + z²)⟩ over all directions
+of normals n, of round faces that a bar along x is cut into, which bends about y."""
+
+TWISTING_SHARE = 0.1406 * 6.0
+"""Torsion constant of a square section over its polar second moment of area: W. C. Young and R. G. Budynas (2002),
+Roark's Formulas for Stress and Strain, 7th edition, table 10.1, case 4."""
+
+SLENDEREST = 4.0
+"""Ratio of its sides up to which a face that is not a whole section resists turning with all of its length."""
+
+_FILLED = 0.6
+"""Part of its box that a member fills at least whose shape is that of a bar or a plate."""
+
+_SLENDER = 2.0
+"""Ratio of two extents from which on a member bends along the longer alone."""
+
+_ALONG = (0.8, 0.95)
+"""Share of a normal, squared, that lies in the shorter direction: up to the first, shards turn by bending along the
+longer one; from the second on, they lie on each other, and turn as a block does."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class MemberShapes:
+    """Shapes of k members.
+
+    Attributes
+    ----------
+    axes : (k, 3, 3) float
+        Principal axes, the columns of each matrix, along the shortest extent first.
+    extents_m : (k, 3) float
+        Extents of the box with the same volume and moments of inertia; 1 for a member that is no bar or plate.
+    """
+
+    axes: FloatArray
+    extents_m: FloatArray
+
+    def only(self, rows: IntArray) -> MemberShapes:
+        """Return the shapes of some members (r,)."""
+        return MemberShapes(*(getattr(self, item.name)[rows] for item in fields(self)))
+
+
+def member_shapes(solids: list[TriangleMesh]) -> MemberShapes:
+    """Return the shapes of members with these solids."""
+    moments = np.array([_second_moments(solid) for solid in solids]).reshape(-1, 3, 3)
+    squares, axes = symmetric_eigenvectors(moments)
+    extents = np.sqrt(12.0 * np.maximum(squares, 0.0))
+    filled = np.array([solid.volume for solid in solids]) >= _FILLED * extents.prod(axis=1)
+    return MemberShapes(axes, np.where(filled[:, None], extents, 1.0))
+
+
+def turning_inertias(
+    shapes: MemberShapes, inertias_m4: FloatArray, normals: FloatArray, shear_over_young: FloatArray
+) -> FloatArray:
+    """Return the second moments (m, 3, 3) with which faces resist turning, in the axes of the world.
+
+    Parameters
+    ----------
+    shapes : MemberShapes
+        Of the member that each face is in.
+    inertias_m4, normals : (m, 3, 3), (m, 3) float
+        ∫ r rᵀ dA of the faces about their own middles, and their normals.
+    shear_over_young : (m,) float
+        Ratio of the moduli of the material.
+    """
+    own, along = in_axes(shapes.axes, inertias_m4), _components(shapes.axes, normals)
+    turning = np.zeros_like(own)
+    for axis in range(3):
+        shorter, longer = _across(axis)
+        slender = _slenderness(shapes.extents_m, longer, shorter)
+        lying = 1.0 - _bends_along(along, longer, shorter)
+        twisted = _slenderness(shapes.extents_m, axis, longer) if axis == 2 else np.zeros(len(own))
+        share = (1.0 - twisted) * BENDING_SHARE + twisted * TWISTING_SHARE * shear_over_young
+        of_shorter, of_longer = own[:, shorter, shorter], own[:, longer, longer]
+        turning[:, axis, axis] = slender * (of_shorter + lying * of_longer) + (1.0 - slender) * share * (
+            of_shorter + of_longer
+        )
+    turning[:, 0, 1] = turning[:, 1, 0] = -own[:, 0, 1] * _slenderness(shapes.extents_m, 2, 1)
+    return in_axes(np.swapaxes(shapes.axes, -1, -2), turning)
+
+
+def moderate_second_moments(second_moments_m4: FloatArray) -> FloatArray:
+    """Return second moments (m, 2, 2) of faces, those of slivers as if these were no longer than `SLENDEREST` says."""
+    smaller, larger = principal_moments(second_moments_m4)
+    most = SLENDEREST * SLENDEREST * smaller
+    share = np.divide(larger - most, larger - smaller, out=np.zeros_like(most), where=larger > most)
+    # What is left of the larger one: M - share (M - smaller).
+    rest = second_moments_m4 - smaller[:, None, None] * np.eye(2)
+    return np.asarray(second_moments_m4 - share[:, None, None] * rest)
+
+
+def turning_levers(
+    shapes: MemberShapes, to_middles_m: FloatArray, normals: FloatArray, longest_m: FloatArray
+) -> FloatArray:
+    """Return by how much shifts are to be larger for each turn (m, 3, 3), in the axes of the world.
+
+    Parameters
+    ----------
+    to_middles_m : (m, 3) float
+        From the middle of each face to half-way between the points of its two shards.
+    longest_m : (m,) float
+        Of the levers, either way.
+    """
+    away, along = _components(shapes.axes, to_middles_m), _components(shapes.axes, normals)
+    levers = np.zeros((len(away), 3, 3))
+    for axis in range(3):
+        shorter, longer = _across(axis)
+        counts = _slenderness(shapes.extents_m, longer, shorter) * _bends_along(along, longer, shorter)
+        sign = 1.0 if (longer - axis) % 3 == 1 else -1.0  # axis × longer = ± shorter
+        levers[:, shorter, axis] = sign * counts * np.clip(away[:, longer], -longest_m, longest_m)
+    return in_axes(np.swapaxes(shapes.axes, -1, -2), levers)
+
+
+def principal_moments(second_moments_m4: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return the smaller and the larger principal second moments (m,) of faces, from those about two axes (m, 2, 2)."""
+    one, beside, other = second_moments_m4[:, 0, 0], second_moments_m4[:, 0, 1], second_moments_m4[:, 1, 1]
+    mean, spread = (one + other) / 2.0, np.sqrt(np.square((one - other) / 2.0) + np.square(beside))
+    return np.maximum(mean - spread, 0.0), np.maximum(mean + spread, 0.0)
+
+
+def in_axes(axes: FloatArray, matrices: FloatArray) -> FloatArray:
+    """Return matrices (m, 3, 3) in other axes (m, 3, 3), the columns of each: aᵀ M a, summed in a fixed order."""
+    half = (axes[:, :, :, None] * matrices[:, :, None, :]).sum(axis=1)
+    return np.asarray((half[:, :, :, None] * axes[:, None, :, :]).sum(axis=2))
+
+
+def _components(axes: FloatArray, vectors: FloatArray) -> FloatArray:
+    return np.asarray((axes * vectors[:, :, None]).sum(axis=1))
+
+
+def _across(axis: int) -> tuple[int, int]:
+    """The shorter and the longer of the two extents across an axis."""
+    shorter, longer = (other for other in range(3) if other != axis)
+    return shorter, longer
+
+
+def _slenderness(extents_m: FloatArray, longer: int, shorter: int) -> FloatArray:
+    """0 where two extents are the same, 1 where the longer is at least so many times the shorter."""
+    ratio = extents_m[:, longer] / np.maximum(extents_m[:, shorter], 1e-12)
+    return np.clip((ratio - 1.0) / (_SLENDER - 1.0), 0.0, 1.0)
+
+
+def _bends_along(normals: FloatArray, longer: int, shorter: int) -> FloatArray:
+    """1 for faces across which shards bend along the longer direction, 0 for those that lie on each other."""
+    one, other = np.square(normals[:, longer]), np.square(normals[:, shorter])
+    share = other / np.maximum(one + other, 1e-12)
+    return np.asarray(1.0 - np.clip((share - _ALONG[0]) / (_ALONG[1] - _ALONG[0]), 0.0, 1.0))
+
+
+def _second_moments(solid: TriangleMesh) -> FloatArray:
+    """∫ r rᵀ dV / V (3, 3) of a solid about its centre."""
+    corners = solid.corners - solid.vertices.mean(axis=0)
+    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
+    volumes = (a * np.cross(b, c)).sum(axis=1) / 6.0
+    volume = volumes.sum()
+    centre = (volumes[:, None] * corners.sum(axis=1)).sum(axis=0) / (4.0 * volume)
+    # ∫ u v dV over a tetrahedron with a corner at 0 is V/20 (Σ u v + Σ u Σ v), sums over its corners.
+    sums = corners.sum(axis=1)
+    products = (corners[:, :, :, None] * corners[:, :, None, :]).sum(axis=1) + sums[:, :, None] * sums[:, None, :]
+    return np.asarray((volumes[:, None, None] * products).sum(axis=0) / (20.0 * volume) - centre[:, None] * centre)
