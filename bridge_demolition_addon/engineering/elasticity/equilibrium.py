@@ -24,6 +24,10 @@ _SOLUTIONS = 8
 _AT_REST = 1e-9
 """Unbalanced load, as a share of the largest weight, at which the structure rests."""
 
+_SLIDING = 0.02
+"""Frequency over that of swinging up and down, up to which a part slides: bearings that tilt as the bridge deforms
+hold it a little."""
+
 _ITERATIONS = 60
 _SAME_FREQUENCY = 1e-6
 
@@ -111,9 +115,9 @@ def _part_at_rest(
 
 def _first_frequency(system: BlockSystem, own: FloatArray, slack: float) -> float:
     """First frequency in Hz; of what is free to slide, that of its swinging up and down."""
-    lowest = _lowest_square(system, own) - slack
-    if lowest <= slack:  # it slides, or sways like a pendulum
-        lowest = _square_by_weight(system, own)
+    lowest, upright = _lowest_square(system, own) - slack, _square_by_weight(system, own)
+    if lowest <= max(slack, _SLIDING * _SLIDING * upright):  # it slides, or sways like a pendulum
+        lowest = upright
     return float(np.sqrt(max(lowest, 0.0)) / (2.0 * np.pi))
 
 
