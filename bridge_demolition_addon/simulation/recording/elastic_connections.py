@@ -165,6 +165,12 @@ class ElasticConnections:
         return RestingState(float(fallen.max(initial=0.0)), frequency, ratio, int(rest.held.sum()))
 
     @property
+    def built_positions(self) -> tuple[np.ndarray, np.ndarray]:
+        """Positions (n, 3) and rotations (n, 3, 3) of all bodies before they deform under their weight."""
+        built = self._built
+        return components_last(built.position_components_m), components_last(built.rotation_components)
+
+    @property
     def parts(self) -> np.ndarray:
         """Part of the bridge that each connection (m,) was in as the sub-step began, -1 for broken ones."""
         return given(self._structure).part_of_connection

@@ -55,7 +55,8 @@ class Meter:
         self._snapshots = world.snapshots(2 * rows + self._sides)
         self._sign = np.where(side == 0, 1.0, -1.0)[:, None]
         self._bodies = pairs[rows, side]
-        positions_m, rotations = world.bodies.positions()
+        # Positions of connections are those of the bridge as it was built, not as it rests under its weight.
+        positions_m, rotations = elastic.built_positions if elastic else world.bodies.positions()
         bodies = self._bodies
         levers = transformed_back(rotations[bodies], inventory.points_m - positions_m[bodies])
         self._local_points = by_component(*levers.T)
