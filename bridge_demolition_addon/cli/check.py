@@ -12,7 +12,7 @@ from ..model.scenario.contact_facts import contact_facts
 from ..model.scenario.file import read_scenario
 from ..model.sequence.checked_model import ModelWorksite, checked_model
 from ..model.stages.standing import made_elastic
-from ..model.structure.facts import connection_facts, foundation_facts, overlap_facts, rest_facts
+from ..model.structure.facts import accuracy_facts, connection_facts, foundation_facts, overlap_facts, rest_facts
 from ..model.structure.model import Model
 from ..model.terrain.built import terrain_facts
 from .arguments import naming
@@ -60,8 +60,10 @@ def scenario_facts(scenario: Scenario, *, stand: bool = False) -> Iterator[str]:
     if stand and model.stiffness is None:
         elastic = checked_model(as_elastic, prepared.members)
         yield from _section("At rest", rest_facts(scenario, elastic))
+        yield from _section("Fineness", accuracy_facts(elastic))
     elif model.stiffness is not None:
         yield from _section("At rest", rest_facts(scenario, model))
+        yield from _section("Fineness", accuracy_facts(model))
     yield from _section("Overlap at the start", overlap_facts(model))
     if model.soil:
         yield from _section("Foundations", foundation_facts(scenario, model))

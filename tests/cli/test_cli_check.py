@@ -8,6 +8,7 @@ import pytest
 from support.checkout import I235_FILE, SMALL
 from support.processes import run_bda, run_program
 from support.scenarios import I235
+from support.stage_beams import beam_file
 from support.terrain_files import EASTING, HEIGHT, NORTHING, plane, write_asc
 
 from bridge_demolition_addon.cli.check import scenario_facts
@@ -308,3 +309,12 @@ def test_terrain_is_described_with_its_error_and_what_lies_on_it(tmp_path, capsy
         assert section[name].startswith("dug up to ") and 0.08 < float(section[name].split()[3]) < 0.4
     # A triangle of 20 m², less the one with corners (12, 12), (12, 18) and (11.08, 15.69) where the ground is higher.
     assert section["road"] == "carriageway, 17.2 m² in plan"
+
+
+def test_how_finely_an_elastic_bridge_is_cut(tmp_path):
+    whole = '\n[[fracture.members]]\nmember = "start"\nshards = 1\n'
+    said = facts(read_scenario(beam_file(tmp_path, 4.0, more=whole)))
+    # 59 cubes of 0.324 m fill 4 m × 1 m × 0.5 m; what stays in its position has no line.
+    assert said["shards of beam"] == "12 along its length, 2 in its depth"
+    assert said["expected deviation"].startswith("up to 10% of reactions")
+    assert "shards of start" not in said

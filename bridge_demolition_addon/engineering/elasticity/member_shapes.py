@@ -21,7 +21,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from ..arrays import FloatArray, IntArray
+from ..arrays import BoolArray, FloatArray, IntArray
 from ..geometry.mesh import TriangleMesh
 from ..geometry.vectors import symmetric_eigenvectors
 
@@ -57,10 +57,13 @@ class MemberShapes:
         Principal axes, the columns of each matrix, along the shortest extent first.
     extents_m : (k, 3) float
         Extents of the box with the same volume and moments of inertia; 1 for a member that is no bar or plate.
+    are_filled : (k,) bool
+        Whether each is a bar or a plate.
     """
 
     axes: FloatArray
     extents_m: FloatArray
+    are_filled: BoolArray
 
     def only(self, rows: IntArray) -> MemberShapes:
         """Return the shapes of some members (r,)."""
@@ -73,7 +76,7 @@ def member_shapes(solids: list[TriangleMesh]) -> MemberShapes:
     squares, axes = symmetric_eigenvectors(moments)
     extents = np.sqrt(12.0 * np.maximum(squares, 0.0))
     filled = np.array([solid.volume for solid in solids]) >= _FILLED * extents.prod(axis=1)
-    return MemberShapes(axes, np.where(filled[:, None], extents, 1.0))
+    return MemberShapes(axes, np.where(filled[:, None], extents, 1.0), filled)
 
 
 def turning_inertias(

@@ -6,10 +6,13 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ...engineering.elasticity.accuracy import expected_deviation, spacing_m
+from ...engineering.elasticity.member_shapes import member_shapes
 from ...engineering.geometry.overlap import SHARD_OVERLAP_TOLERANCE, Overlaps, hulls, overlaps
 from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE, Strength
 from ..actions import Fact
+from ..bridge.member import Member
 from ..materials.bar_layers import AXES, SIDES
 from ..scenario import ConnectionBetween, ConnectionSettings, Scenario
 from ..scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
@@ -22,6 +25,12 @@ MOST_SHARDS_COMPARED = 2000
 """Comparing so many shards with their neighbours takes as long as cutting them."""
 
 MOST_PAIRS_NAMED = 5
+
+_NO_KIND = "member"
+"""Kind of members from files of which the scenario says none: they are named one by one."""
+
+_SPANS = 0.7
+"""Length over that of the longest member from which on a member spans."""
 
 
 def overlap_facts(model: Model) -> Iterator[Fact]:
@@ -99,6 +108,47 @@ def rest_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
     if held:
         yield "deflection", f"{1000.0 * deflection_m(model, rest):.2f} mm"
         yield "first frequency", f"{rest.frequency_hz:.3f} Hz"
+
+
+def accuracy_facts(model: Model) -> Iterator[Fact]:
+    """Yield how many shards members have along their length and depth, and how far elastic results are off for that."""
+    moves = np.bincount(model.member_of_shard[~model.fixed], minlength=len(model.members)) > 0
+    lengths_m, along, deep = _fineness(model)
+    kinds = np.array([member.name if member.kind == _NO_KIND else member.kind for member in model.members])
+    for kind in dict.fromkeys(kinds[moves].tolist()):
+        rows = np.flatnonzero(moves & (kinds == kind))
+        fewest = rows[np.argmin(along[rows])]
+        of_many = f", of {len(rows)} in the coarsest" if len(rows) > 1 else ""
+        yield f"shards of {kind}", f"{along[fewest]:.0f} along its length, {deep[fewest]:.0f} in its depth{of_many}"
+    spans = moves & (lengths_m >= _SPANS * lengths_m[moves].max(initial=0.0))
+    if spans.any():
+        fewest_along = float(along[spans].min())
+        yield (
+            "expected deviation",
+            f"up to {expected_deviation(fewest_along):.0%} of reactions, moments and deflections,",
+        )
+        yield "", f"with {fewest_along:.0f} shards along what spans: measured in docs/elastic.md"
+
+
+def _fineness(model: Model) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Lengths of members, m, and shards along their lengths and depths, (k,) each."""
+    counts = np.bincount(model.member_of_shard, minlength=len(model.members)).tolist()
+    shapes = member_shapes([member.solid for member in model.members])
+    fineness = []
+    for row, (member, count) in enumerate(zip(model.members, counts, strict=True)):
+        # What is neither bar nor plate, such as a box girder, is as thick as its walls.
+        extents = shapes.extents_m[row].tolist() if shapes.are_filled[row] else _extents_of_walls(member)
+        thickness, width, length = extents
+        spacing = spacing_m(member.volume_m3, max(count, 1), thickness, width)
+        fineness.append((length, length / spacing, max(1.0, thickness / spacing)))
+    lengths, along, deep = np.array(fineness).reshape(-1, 3).T
+    return lengths, along, deep
+
+
+def _extents_of_walls(member: Member) -> tuple[float, float, float]:
+    """Thickness, width and length of a member by its walls, m."""
+    _, width, length = sorted(np.ptp(member.solid.vertices, axis=0).tolist())
+    return member.thickness_m, width, length
 
 
 def foundation_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
