@@ -318,3 +318,14 @@ def test_how_finely_an_elastic_bridge_is_cut(tmp_path):
     assert said["shards of beam"] == "12 along its length, 2 in its depth"
     assert said["expected deviation"].startswith("up to 10% of reactions")
     assert "shards of start" not in said
+
+
+def test_how_an_elastic_bridge_is_damped(tmp_path):
+    path = beam_file(tmp_path, 4.0)
+    said = facts(read_scenario(path))
+    by_steps = np.pi * float(said["first frequency"].split()[0]) / (24 * 10)  # by its 10 sub-steps a frame
+    asked = f"{by_steps:.1%} by steps in time, more than the 5.0% asked for"
+    assert said["damping"].startswith(asked)
+    fine = path.read_text(encoding="utf-8").replace("per_second = 24", "per_second = 24\nsubsteps_per_frame = 1000")
+    path.write_text(fine, encoding="utf-8")
+    assert facts(read_scenario(path))["damping"] == f"5.0% of critical, {by_steps / 100.0:.1%} of it by steps in time"

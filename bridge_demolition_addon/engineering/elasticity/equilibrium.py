@@ -9,11 +9,9 @@ import numpy as np
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..geometry.rotations import rotated
 from .equations import RigidBodies, connected_parts, stiffness_blocks, stressed, summed_on_bodies
+from .frequencies import SLACK, first_frequency
 from .joint_rows import JointFrames, components_first, components_last, joint_positions
 from .sparse_system import BlockSystem
-
-_SLOWEST_S = 60.0
-"""Longest period of a part that is held; slower ones are mechanisms, or have no support."""
 
 _LARGEST_M = 0.5
 """Largest deformation; beyond it there is no equilibrium near the shape in which the part was built."""
@@ -23,13 +21,6 @@ _SOLUTIONS = 8
 
 _AT_REST = 1e-9
 """Unbalanced load, as a share of the largest weight, at which the structure rests."""
-
-_SLIDING = 0.02
-"""Frequency over that of swinging up and down, up to which a part slides: bearings that tilt as the bridge deforms
-hold it a little."""
-
-_ITERATIONS = 60
-_SAME_FREQUENCY = 1e-6
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -94,12 +85,11 @@ def _part_at_rest(
     if loads is not None:
         weights[:, members] += loads[:, members]
     unloaded = joint_positions(frames, positions_m, rotations).deformations()
-    slack = 1.0 / np.square(_SLOWEST_S / (2.0 * np.pi))
     for _ in range(_SOLUTIONS):
         positions = joint_positions(frames, positions_m, rotations)
         rows = positions.rows()
         own = bodies.mass_matrices(rotations, members)
-        system.factor(slack * own, *stiffness_blocks(rows, stiffness))
+        system.factor(SLACK * own, *stiffness_blocks(rows, stiffness))
         holding = rows.loads(stressed(stiffness, positions.deformations() - unloaded))
         left = (weights + summed_on_bodies(frames.first, frames.second, holding, count))[:, members]
         if abs(left[:3]).max() <= _AT_REST * abs(weights).max():
@@ -110,38 +100,4 @@ def _part_at_rest(
             return None
         positions_m = positions_m + moved[:3]
         rotations = components_first(rotated(components_last(rotations), components_last(moved[3:])))
-    return positions_m, rotations, _first_frequency(system, own, slack)
-
-
-def _first_frequency(system: BlockSystem, own: FloatArray, slack: float) -> float:
-    """First frequency in Hz; of what is free to slide, that of its swinging up and down."""
-    lowest, upright = _lowest_square(system, own) - slack, _square_by_weight(system, own)
-    if lowest <= max(slack, _SLIDING * _SLIDING * upright):  # it slides, or sways like a pendulum
-        lowest = upright
-    return float(np.sqrt(max(lowest, 0.0)) / (2.0 * np.pi))
-
-
-def _square_by_weight(system: BlockSystem, own: FloatArray) -> float:
-    """Square of the angular frequency of the shape (z alone) that the weight bends it to: Lord Rayleigh (1877)."""
-    masses = own[2, 2]
-    weights = np.zeros((6, len(masses)))
-    weights[2] = masses
-    down = system.solve(weights)[2]
-    return float((masses * down).sum() / (masses * down * down).sum())
-
-
-def _lowest_square(system: BlockSystem, own: FloatArray) -> float:
-    """Square of the lowest angular frequency, by inverse iteration from an even motion in all directions."""
-    shape = np.zeros((6, own.shape[2]))
-    shape[:3] = 1.0
-    square = 0.0
-    for _ in range(_ITERATIONS):
-        inert = own[:, 0] * shape[0]
-        for column in range(1, 6):
-            inert = inert + own[:, column] * shape[column]
-        answer = system.solve(inert)
-        before, square = square, float((shape * inert).sum() / (answer * inert).sum())
-        shape = answer / abs(answer).max()
-        if abs(square - before) <= _SAME_FREQUENCY * abs(square):
-            break
-    return square
+    return positions_m, rotations, first_frequency(system, own)

@@ -21,6 +21,7 @@ import numpy as np
 from ..arrays import BoolArray, FloatArray, IntArray
 from .cracks import Cracks
 from .equations import RigidBodies, connected_parts, stiffness_blocks, stressed, summed_on_bodies, without
+from .frequencies import SLACK, first_frequency
 from .joint_rows import JointFrames, JointPositions, JointRows, joint_positions
 from .sparse_system import BlockSystem
 
@@ -101,6 +102,7 @@ class _Part:
     def __init__(self, bodies: IntArray, connections: IntArray, first: IntArray, second: IntArray):
         self.bodies, self.connections = bodies, connections
         self.first, self.second = first, second
+        self.has_lost = False  # a connection, and its first frequency was not asked for since
         self._system: BlockSystem | None = None
 
     def is_of(self, bodies: IntArray, connections: IntArray) -> bool:
@@ -138,8 +140,8 @@ class ElasticStructure:
     """Bodies with elastic connections between them.
 
     `stiffness` (6, 6, m) is against shifts, N/m, and then turns, N·m/rad, in the axes of the first frames;
-    `damping_s` is damping over stiffness, β. What rounding leaves of deformations where the `bodies` are counts as
-    none.
+    `damping_s` (m,) is damping over stiffness, β, or one for all. What rounding leaves of deformations where the
+    `bodies` are counts as none.
     """
 
     def __init__(
@@ -147,11 +149,13 @@ class ElasticStructure:
         frames: JointFrames,
         stiffness: FloatArray,
         bodies: RigidBodies,
-        damping_s: float,
+        damping_s: FloatArray | float,
         cracks: Cracks | None = None,
         soil: SoilSpringLaw | None = None,
     ):
-        self._frames, self._bodies, self._damping_s, self._soil = frames, bodies, damping_s, soil
+        self._frames, self._bodies, self._soil = frames, bodies, soil
+        self._damping_s = np.broadcast_to(np.asarray(damping_s, float), len(frames))
+        self._with_soil = stiffness
         self._stiffness = stiffness if soil is None else without(stiffness, soil.rows)
         self._count, self._moves = len(bodies), bodies.moves
         positions = joint_positions(frames, bodies.positions_m, bodies.rotations)
@@ -164,6 +168,38 @@ class ElasticStructure:
         self._parts: list[_Part] = []
         self._part_of_body = np.full(self._count, -1)
         self._partition()
+        for part in self._parts:
+            part.has_lost = False
+
+    def damp(self, damping_s: FloatArray) -> None:
+        """Take over damping over stiffness, β (m,), from the next sub-step on."""
+        changed = damping_s != self._damping_s
+        self._damping_s = damping_s
+        self._stale[self.part_of_connection[changed]] = True
+        self._stale[-1] = False
+
+    def frequencies_after_breaks(self, positions_m: FloatArray, rotations: FloatArray) -> list[tuple[IntArray, float]]:
+        """Return connections and first frequency in Hz of each part that has lost connections since this was asked.
+
+        Bodies are at positions (3, n) in rotations (3, 3, n). Parts without a support are left out, and those with
+        cracks that reinforcement holds: it yields, and has no frequency.
+        """
+        found = []
+        for number, part in enumerate(self._parts):
+            if not part.has_lost:
+                continue
+            part.has_lost = False
+            ends = self._frames.first[part.connections], self._frames.second[part.connections]
+            is_cracked = not self._intact[part.connections].all()
+            if is_cracked or self._moves[np.concatenate(ends)].all():
+                continue
+            rows = joint_positions(self._frames.only(part.connections), positions_m, rotations).rows()
+            own = self._bodies.mass_matrices(rotations, part.bodies)
+            blocks = stiffness_blocks(rows, self._with_soil[..., part.connections])
+            part.system.factor(SLACK * own, *blocks)
+            self._stale[number] = True
+            found.append((part.connections, first_frequency(part.system, own)))
+        return found
 
     def step(self, start: StepInput, intact: BoolArray, substep_s: float) -> ElasticStep:
         """Return what connections do in a sub-step of a length in s, of those (m,) that are intact."""
@@ -183,7 +219,7 @@ class ElasticStructure:
         rows, stiffness = self._rows.only(acting), self._stiffness[..., acting]
         first, second = (start.velocities.take(ends, axis=1) for ends in (frames.first, frames.second))
         rates = rows.rates(first, second)
-        implicit = substep_s * (substep_s + self._damping_s)
+        implicit = substep_s * (substep_s + self._damping_s[acting])
         strains = substep_s * (deformations - self._offsets[:, acting]) - implicit * rates
         amounts = stressed(stiffness, strains)
         loads = summed_on_bodies(frames.first, frames.second, rows.loads(amounts), self._count)
@@ -291,6 +327,7 @@ class ElasticStructure:
             else:
                 ends = within[self._frames.first[connections]], within[self._frames.second[connections]]
                 self._parts.append(_Part(bodies, connections, *ends))
+                self._parts[-1].has_lost = True
             within[bodies] = -1
         # One more, the last, for what belongs to no part: -1.
         self._stale = np.append(np.ones(len(self._parts), bool), False)
@@ -352,7 +389,7 @@ class ElasticStructure:
         connections = acting[chosen]
         rows = positions.only(chosen).rows()
         self._rows.set(connections, rows)
-        implicit = self._substep_s * (self._substep_s + self._damping_s)
+        implicit = self._substep_s * (self._substep_s + self._damping_s[connections])
         blocks: Sequence[FloatArray] = stiffness_blocks(rows, implicit * self._stiffness[..., connections])
         own = self._bodies.mass_matrices(start.rotations, np.flatnonzero(bodies))
         row_of_body = np.cumsum(bodies) - 1

@@ -239,7 +239,8 @@ class ConnectionSettings(JointSettings):
     )
     damping_ratio: float | None = key(
         "Damping of the first frequency as a share of the critical one, with `stiffness` `elastic`; 0.05 where it is "
-        "left out. Steps in time damp by π × frequency × sub-step at least.",
+        "left out. It also holds for what is left when supports go. Steps in time damp by π × frequency × sub-step at "
+        "least.",
         default=None,
         **SHARE,
     )

@@ -8,6 +8,7 @@ import numpy as np
 
 from ...engineering.elasticity.accuracy import expected_deviation, spacing_m
 from ...engineering.elasticity.member_shapes import member_shapes
+from ...engineering.elasticity.section_stiffness import DAMPING_RATIO
 from ...engineering.geometry.overlap import SHARD_OVERLAP_TOLERANCE, Overlaps, hulls, overlaps
 from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE, Strength
@@ -108,6 +109,18 @@ def rest_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
     if held:
         yield "deflection", f"{1000.0 * deflection_m(model, rest):.2f} mm"
         yield "first frequency", f"{rest.frequency_hz:.3f} Hz"
+        if scenario.connections.is_elastic:
+            yield "damping", _damping_text(scenario, rest.frequency_hz)
+
+
+def _damping_text(scenario: Scenario, frequency_hz: float) -> str:
+    """How the first frequency is damped in a run, by what is asked for and by steps in time."""
+    asked = scenario.connections.damping_ratio
+    asked = DAMPING_RATIO if asked is None else asked
+    by_steps = float(np.pi * frequency_hz * scenario.time.step.substep_s)
+    if by_steps > asked:
+        return f"{by_steps:.1%} by steps in time, more than the {asked:.1%} asked for: take more sub-steps"
+    return f"{asked:.1%} of critical, {by_steps:.1%} of it by steps in time"
 
 
 def accuracy_facts(model: Model) -> Iterator[Fact]:

@@ -38,6 +38,10 @@ from ...model.schema import given
 from ...scene.connections.breaking_settings import Breaking
 from ...scene.world import scene_time_step
 
+_SOFTEST = 0.1
+"""Frequency over that of the bridge as it was built, down to which damping follows. What is softer is falling, and
+keeps the damping that it had: more of it would break what hangs by little."""
+
 
 @dataclass(frozen=True, slots=True)
 class RestingState:
@@ -69,7 +73,8 @@ class RestingState:
 class ElasticConnections:
     """All connections of a world that was bound just now, before any time passes.
 
-    The damping ratio is that of the first frequency, as a share of the critical one. Footings stand on soil where the
+    The damping ratio is that of the first frequency, as a share of the critical one, also of what is left once
+    connections break or supports go: of each part on a support, at most once a frame. Footings stand on soil where the
     ground yields.
 
     Raises
@@ -106,7 +111,9 @@ class ElasticConnections:
         self._axial_n_m = stiffness.axial_n_m
         self._masses = inventory.masses_kg
         self._inertias = _inertias(self._reader.inverse_inertia_components(), motion.rotation_components, self._masses)
-        self._shortest_s = scene_time_step(scene).substep_s
+        step = scene_time_step(scene)
+        self._shortest_s, self._frame_s = step.substep_s, step.frame_s
+        self._since_fit_s = np.inf
         self._gravity = np.array(scene.gravity, float) if scene.use_gravity else np.zeros(3)
         self._footings = None
         if soil is not None:
@@ -114,6 +121,7 @@ class ElasticConnections:
             self._footings = Footings(soil, *ends, moves, motion.position_components_m, motion.rotation_components)
             self._touching = np.ones(len(soil.rows))
         self._rest = self._settle(motion)
+        self._frequencies = np.full(len(self._frames), self._rest.frequency_hz)  # of the part of each connection
         self._structure: ElasticStructure | None = None
         self._is_first = is_first
         self._inventory = inventory
@@ -180,6 +188,7 @@ class ElasticConnections:
         self._motion = motion = self._reader.read()
         if substep_s != self._substep_s:
             self._prepare(motion, substep_s)
+        self._follow_frequencies(motion)
         left = np.where(motion.inverse_masses > 0.0, power(self._left_per_second, substep_s), 1.0)
         velocities = left * motion.velocity_components
         velocities += substep_s * self._accelerations(motion, motion.load_components)
@@ -241,16 +250,46 @@ class ElasticConnections:
         """Take over the length of sub-steps."""
         self._substep_s = substep_s
         if self._structure is None:
-            frequency = self._rest.frequency_hz
-            # Stiffness-proportional damping has the ratio π f β, to which implicit steps add π f dt.
-            damping_s = max(self._damping_ratio / (np.pi * frequency) - substep_s, 0.0) if frequency > 0.0 else 0.0
             bodies = RigidBodies(
                 self._masses, self._inertias, self._built.position_components_m, self._built.rotation_components
             )
             self._structure = ElasticStructure(
-                self._frames, self._stiffness, bodies, damping_s, self._cracks, self._footings
+                self._frames, self._stiffness, bodies, self._damping_s, self._cracks, self._footings
             )
-            self._damping_s = damping_s
+        self._structure.damp(self._damping_s)
+        self._soften(motion)
+
+    @property
+    def _damping_s(self) -> np.ndarray:
+        """Damping over stiffness, β (m,), with which the first frequencies of all parts have the damping ratio.
+
+        Damping in proportion to stiffness has the ratio π f β, to which implicit steps add π f dt.
+        """
+        frequencies = self._frequencies
+        wanted = np.divide(
+            self._damping_ratio, np.pi * frequencies, out=np.zeros_like(frequencies), where=frequencies > 0.0
+        )
+        return np.maximum(wanted - self._substep_s, 0.0)
+
+    def _follow_frequencies(self, motion: BodyMotion) -> None:
+        """Have the damping ratio hold for parts that have lost connections."""
+        self._since_fit_s += self._substep_s
+        if self._since_fit_s < (1.0 - 1e-6) * self._frame_s:
+            return
+        structure = given(self._structure)
+        fitted = structure.frequencies_after_breaks(motion.position_components_m, motion.rotation_components)
+        if not fitted:
+            return
+        self._since_fit_s = 0.0
+        for rows, frequency in fitted:
+            if frequency >= _SOFTEST * self._rest.frequency_hz:
+                self._frequencies[rows] = frequency
+        structure.damp(self._damping_s)
+        self._soften(motion)
+
+    def _soften(self, motion: BodyMotion) -> None:
+        """Make Bullet's own constraints as soft as the connections are in a sub-step."""
+        substep_s = self._substep_s
         positions = joint_positions(self._frames, motion.position_components_m, motion.rotation_components)
         intact = np.flatnonzero(self._world.constraints.intact())
         rows = positions.rows()
