@@ -109,8 +109,7 @@ def rest_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
     if held:
         yield "deflection", f"{1000.0 * deflection_m(model, rest):.2f} mm"
         yield "first frequency", f"{rest.frequency_hz:.3f} Hz"
-        if scenario.connections.is_elastic:
-            yield "damping", _damping_text(scenario, rest.frequency_hz)
+        yield "damping", _damping_text(scenario, rest.frequency_hz)
 
 
 def _damping_text(scenario: Scenario, frequency_hz: float) -> str:
