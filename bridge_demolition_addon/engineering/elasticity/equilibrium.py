@@ -8,7 +8,8 @@ import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..geometry.rotations import rotated
-from .equations import RigidBodies, connected_parts, stiffness_blocks, stressed, summed_on_bodies
+from .bearings import Bearings, PadsAtRest
+from .equations import RigidBodies, connected_parts, stiffness_blocks, stressed, summed_on_bodies, without
 from .joint_rows import JointFrames, components_first, components_last, joint_positions
 from .sparse_system import BlockSystem
 
@@ -23,6 +24,10 @@ _SOLUTIONS = 8
 
 _AT_REST = 1e-9
 """Unbalanced load, as a share of the largest weight, at which the structure rests."""
+
+_SOLUTIONS_ON_BEARINGS = 60
+_AT_REST_ON_BEARINGS = 1e-7
+"""The same with bearings, which lift off and slide: their springs are so stiff that rounding leaves more."""
 
 _ITERATIONS = 60
 _SAME_FREQUENCY = 1e-6
@@ -45,13 +50,17 @@ def equilibrium(
     bodies: RigidBodies,
     gravity_m_s2: FloatArray,
     loads: FloatArray | None = None,
+    bearings: Bearings | None = None,
 ) -> Equilibrium:
     """Return where bodies rest that elastic connections hold, which carry no load where they are now.
 
     `stiffness` (2, 3, 3, m) is as in `ElasticStructure`; `loads` (6, n) are further forces on the bodies, N, and
-    moments about their centres, N·m.
+    moments about their centres, N·m. Of connections that are bearings the stiffness does not count, and their loads are
+    forces along the axes of the world, and moments about the middles of their springs.
     """
     moves = bodies.moves
+    if bearings is not None:
+        stiffness = without(stiffness, bearings.rows)
     label = connected_parts(moves, frames.first, frames.second)
     ends = np.stack((frames.first, frames.second))
     supported = np.unique(label[ends][:, ~moves[ends].all(axis=0)])
@@ -62,14 +71,33 @@ def equilibrium(
     for part in supported[supported >= 0].tolist():
         members, rows = np.flatnonzero(label == part), np.flatnonzero(of_connections == part)
         started = replace(bodies, positions_m=positions_m, rotations=rotations)
-        rest = _part_at_rest(members, frames.only(rows), stiffness[..., rows], started, gravity_m_s2, loads)
+        pads = None if bearings is None else _PartOnBearings(bearings, rows)
+        rest = _part_at_rest(members, frames.only(rows), stiffness[..., rows], started, gravity_m_s2, loads, pads)
         if rest:
             held[members] = True
             positions, turned, frequency = rest
             positions_m[:, members], rotations[..., members] = positions[:, members], turned[..., members]
             frequencies.append(frequency)
     loads = stressed(stiffness, joint_positions(frames, positions_m, rotations).deformations() - unloaded)
+    if bearings is not None:
+        loads[:, bearings.rows] = bearings.loads_at_rest(positions_m, rotations)
     return Equilibrium(positions_m, rotations, held, min(frequencies, default=0.0), loads)
+
+
+class _PartOnBearings:
+    """Bearings among the connections (r,) of a part, in ascending order."""
+
+    def __init__(self, bearings: Bearings, rows: IntArray):
+        self._bearings = bearings
+        self._mine = np.flatnonzero(np.isin(bearings.rows, rows))
+        self._at = np.searchsorted(rows, bearings.rows[self._mine])
+
+    def at_rest(self, positions_m: FloatArray, rotations: FloatArray, *, whole: bool) -> PadsAtRest:
+        """Return forces and stiffness of those of the part, which are numbered among its connections."""
+        pads, mine = self._bearings.at_rest(positions_m, rotations, whole=whole), self._mine
+        first, second, between = (block[..., mine] for block in pads.blocks)
+        on_first, on_second = (load[:, mine] for load in pads.loads)
+        return PadsAtRest(self._at, (first, second, between), (on_first, on_second))
 
 
 def _part_at_rest(
@@ -79,6 +107,7 @@ def _part_at_rest(
     bodies: RigidBodies,
     gravity_m_s2: FloatArray,
     loads: FloatArray | None,
+    pads: _PartOnBearings | None,
 ) -> tuple[FloatArray, FloatArray, float] | None:
     """Positions, rotations and first frequency of connected bodies (b,) at rest; None for a mechanism."""
     count, positions_m, rotations = len(bodies), bodies.positions_m, bodies.rotations
@@ -91,14 +120,22 @@ def _part_at_rest(
         weights[:, members] += loads[:, members]
     unloaded = joint_positions(frames, positions_m, rotations).deformations()
     slack = 1.0 / np.square(_SLOWEST_S / (2.0 * np.pi))
-    for _ in range(_SOLUTIONS):
+    solutions, balanced = (_SOLUTIONS, _AT_REST) if pads is None else (_SOLUTIONS_ON_BEARINGS, _AT_REST_ON_BEARINGS)
+    for number in range(solutions):
         positions = joint_positions(frames, positions_m, rotations)
         rows = positions.rows()
         own = bodies.mass_matrices(rotations, members)
-        system.factor(slack * own, *stiffness_blocks(rows, stiffness))
+        blocks = stiffness_blocks(rows, stiffness)
         holding = rows.loads(stressed(stiffness, positions.deformations() - unloaded))
+        if pads is not None:
+            on_pads = pads.at_rest(positions_m, rotations, whole=number == 0)
+            for block, more in zip(blocks, on_pads.blocks, strict=True):
+                block[..., on_pads.rows] += more
+            for load, more in zip(holding, on_pads.loads, strict=True):
+                load[:, on_pads.rows] += more
+        system.factor(slack * own, *blocks)
         left = (weights + summed_on_bodies(frames.first, frames.second, holding, count))[:, members]
-        if abs(left[:3]).max() <= _AT_REST * abs(weights).max():
+        if abs(left[:3]).max() <= balanced * abs(weights).max():
             break
         moved = np.zeros((6, count))
         moved[:, members] = system.solve(left)

@@ -60,7 +60,7 @@ class ElasticStep:
 
 
 class NonlinearTerms(Protocol):
-    """Forces in a sub-step that are not proportional to deformation: of cracks, and of footings on soil."""
+    """Forces in a sub-step that are not proportional to deformation: of cracks, bearings, and footings on soil."""
 
     rows: IntArray
 
@@ -80,8 +80,8 @@ class NonlinearTerms(Protocol):
         """Return the sums (6, n) of loads (6, c) on the first and on the second bodies, for n bodies."""
 
 
-class SoilSpringLaw(Protocol):
-    """Footings on springs in place of some connections, whose own stiffness does not count."""
+class SpringLaw(Protocol):
+    """Springs of footings or bearings in place of some connections, whose own stiffness does not count."""
 
     rows: IntArray
 
@@ -149,10 +149,14 @@ class ElasticStructure:
         bodies: RigidBodies,
         damping_s: float,
         cracks: Cracks | None = None,
-        soil: SoilSpringLaw | None = None,
+        soil: SpringLaw | None = None,
+        bearings: SpringLaw | None = None,
     ):
-        self._frames, self._bodies, self._damping_s, self._soil = frames, bodies, damping_s, soil
-        self._stiffness = stiffness if soil is None else without(stiffness, soil.rows)
+        self._frames, self._bodies, self._damping_s = frames, bodies, damping_s
+        self._springs = [springs for springs in (soil, bearings) if springs is not None]
+        self._stiffness = stiffness
+        for springs in self._springs:
+            self._stiffness = without(self._stiffness, springs.rows)
         self._count, self._moves = len(bodies), bodies.moves
         positions = joint_positions(frames, bodies.positions_m, bodies.rotations)
         self._offsets = positions.deformations()
@@ -177,8 +181,9 @@ class ElasticStructure:
         acting = np.flatnonzero(acts)
         frames = self._frames.only(acting)
         positions, deformations = self._deformed(acting, start.positions_m, start.rotations)
-        cracks, soil = self._acting_terms(self._cracks, are_awake, start), self._acting_terms(self._soil, acts, start)
-        nonlinear = [terms for terms in (cracks, soil) if terms is not None]
+        cracks = self._acting_terms(self._cracks, are_awake, start)
+        springs = [terms for law in self._springs if (terms := self._acting_terms(law, acts, start)) is not None]
+        nonlinear = springs if cracks is None else [cracks, *springs]
         self._refresh(start, awake, acting, positions, nonlinear)
         rows, stiffness = self._rows.only(acting), self._stiffness[..., acting]
         first, second = (start.velocities.take(ends, axis=1) for ends in (frames.first, frames.second))
@@ -202,12 +207,12 @@ class ElasticStructure:
         if cracks is not None:
             of_cracks = cracks.loads(start.velocities + changes)
             of_bodies = of_bodies + cracks.of_bodies(of_cracks, self._count)
-        if soil is not None:
-            of_soil = soil.loads(start.velocities + changes)
-            of_bodies = of_bodies + soil.of_bodies(of_soil, self._count)
-            of_acting = np.searchsorted(acting, soil.rows)
-            of_first[:, of_acting] += of_soil[0]
-            of_second[:, of_acting] += of_soil[1]
+        for terms in springs:
+            of_springs = terms.loads(start.velocities + changes)
+            of_bodies = of_bodies + terms.of_bodies(of_springs, self._count)
+            of_acting = np.searchsorted(acting, terms.rows)
+            of_first[:, of_acting] += of_springs[0]
+            of_second[:, of_acting] += of_springs[1]
         return ElasticStep(
             acting=acting,
             deformations=deformations,
@@ -230,14 +235,15 @@ class ElasticStructure:
             stored[rows] += 0.5 * amount * deformation
         if self._cracks is not None and len(self._cracks):
             stored[self._cracks.rows] = self._cracks.stored_j(positions_m, rotations)
-        if self._soil is not None:
-            stored[self._soil.rows] = self._soil.stored_j(positions_m, rotations) * self._intact[self._soil.rows]
+        for law in self._springs:
+            stored[law.rows] = law.stored_j(positions_m, rotations) * self._intact[law.rows]
         return stored
 
     def settle(self, positions_m: FloatArray, rotations: FloatArray) -> None:
-        """Take over, before a sub-step, how far soil and reinforcement have yielded, and let go what has ruptured."""
-        if self._soil is not None:
-            self._soil.settle(positions_m, rotations)
+        """Take over, before a sub-step, how far springs and reinforcement have yielded, and let go what has ruptured.
+        """
+        for law in self._springs:
+            law.settle(positions_m, rotations)
         if self._cracks is None or not len(self._cracks):
             return
         gone = self._cracks.settle(positions_m, rotations)
@@ -313,9 +319,9 @@ class ElasticStructure:
         return awake
 
     def _acting_terms(
-        self, springs: Cracks | SoilSpringLaw | None, acts: BoolArray, start: StepInput
+        self, springs: Cracks | SpringLaw | None, acts: BoolArray, start: StepInput
     ) -> NonlinearTerms | None:
-        """Cracks that reinforcement holds, or footings, of connections that act (m,); None where there is none."""
+        """Cracks that reinforcement holds, or springs, of connections that act (m,); None where there is none."""
         if springs is None or not acts[springs.rows].any():
             return None
         chosen = np.flatnonzero(acts[springs.rows])

@@ -97,6 +97,7 @@ class StandingBridge:
             self._held_motions[:, rows],
             (0.0, 0.0, -factor * STANDARD_GRAVITY_M_S2),
             factor * loads,
+            model.bearings.springs.among(intact) if model.bearings else None,
         )
         carried = np.zeros((6, len(intact)))
         carried[:, rows] = solution.loads

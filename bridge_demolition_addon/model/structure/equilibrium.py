@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ...engineering.elasticity.bearings import Bearings, PadSprings
 from ...engineering.elasticity.equations import RigidBodies
 from ...engineering.elasticity.equilibrium import Equilibrium, equilibrium
 from ...engineering.elasticity.joint_rows import JointFrames, components_first
@@ -96,8 +97,10 @@ def model_at_rest(model: Model, joints: Sequence[Joint]) -> Equilibrium:
     Springs in motions that are free do not count.
     """
     masses = np.where(model.fixed, 0.0, model.masses_kg)
-    held = held_motions(model, joints)
-    return at_rest(model.connections, given(model.stiffness), masses, inertias_of(model), model.centres_m, held)
+    held, pads = held_motions(model, joints), model.bearings.springs if model.bearings else None
+    return at_rest(
+        model.connections, given(model.stiffness), masses, inertias_of(model), model.centres_m, held, pads=pads
+    )
 
 
 def held_motions(model: Model, joints: Sequence[Joint]) -> np.ndarray:
@@ -127,6 +130,7 @@ def at_rest(
     held: np.ndarray | None = None,
     gravity_m_s2: tuple[float, float, float] = (0.0, 0.0, -STANDARD_GRAVITY_M_S2),
     loads: np.ndarray | None = None,
+    pads: PadSprings | None = None,
 ) -> Equilibrium:
     """Return where n bodies rest under their own weight, and the ground as the last body.
 
@@ -138,6 +142,8 @@ def at_rest(
         Whether connections hold displacements along and rotations about the axes of the world; all by default.
     loads : (6, n) float, optional
         Further forces on the shards, N, and moments about their centres, N·m.
+    pads : PadSprings, optional
+        Springs in place of those connections that are bearings.
     """
     sections = components_first(section_axes(connections.normals))
     held = np.ones((6, len(connections)), bool) if held is None else held
@@ -148,10 +154,14 @@ def at_rest(
     levers = [components_first(connections.points - positions[ends]) for ends in (first, second)]
     tensors, unturned = np.zeros((3, 3, len(positions))), np.repeat(np.eye(3)[:, :, None], len(positions), axis=2)
     tensors[[0, 1, 2], [0, 1, 2], :-1] = inertias_kg_m2.T
+    bearings = None
+    if pads is not None:
+        bearings = Bearings(pads, first, second, first[pads.rows], components_first(positions), unturned)
     return equilibrium(
         JointFrames(first, second, axes, axes, *levers),
         in_frames(stiffness, sections, held),
         RigidBodies(np.append(masses_kg, 0.0), tensors, components_first(positions), unturned),
         np.array(gravity_m_s2),
         None if loads is None else np.column_stack((loads, np.zeros(6))),
+        bearings,
     )
