@@ -32,6 +32,7 @@ from .bodies import (
     keep_start_motion,
     mark_member,
 )
+from .connections.bearings import keep_pads, name_bearings
 from .connections.breaking_settings import Breaking, keep_bars, keep_breaking
 from .connections.constraints import create_connections
 from .connections.elasticity import forget_elasticity, keep_elasticity
@@ -107,6 +108,9 @@ def _build(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> list[bpy
         set_joints(made, joints, model.joint_of_connection, scenario.time.step)
         if model.soil:
             keep_soil(made, model.soil)
+        if model.bearings:
+            keep = name_bearings if model.stiffness is None else keep_pads
+            keep(made, model.bearings.names, model.bearings.springs)
         forget_elasticity(scene)
         if model.stiffness is not None:
             ratio = scenario.connections.damping_ratio
