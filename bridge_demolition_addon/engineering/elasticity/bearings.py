@@ -215,12 +215,21 @@ class Bearings:
         doubled = np.divide(forces * forces, stiffness, out=np.zeros_like(forces), where=stiffness > 0.0)
         return self._summed(0.5 * doubled.sum(axis=0))
 
-    def at_rest(self, positions_m: FloatArray, rotations: FloatArray, *, whole: bool) -> PadsAtRest:
-        """Return forces and stiffness with bodies at these positions; `whole` if no spring lifts off or slides yet."""
+    def pressed_at(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
+        """Return the pressing forces (p,) of springs with bodies at these positions."""
+        pressed: FloatArray = np.maximum(self._law.resisted(self._gaps(positions_m, rotations)[0])[0][2], 0.0)
+        return pressed
+
+    def at_rest(self, positions_m: FloatArray, rotations: FloatArray, pressed_n: FloatArray | None) -> PadsAtRest:
+        """Return forces and stiffness with bodies at these positions.
+
+        Springs slide by friction times `pressed_n` (p,); where that is None none of them slides, nor lifts off.
+        """
         gaps, arms, arms_below = self._gaps(positions_m, rotations)
-        forces, tangents = self._law.resisted(gaps)
-        if whole:
+        if pressed_n is None:
             forces, tangents = -turned(self._law.whole, gaps), self._law.whole
+        else:
+            forces, tangents = replace(self._law, pressed_n=pressed_n).resisted(gaps)
         above, below = motion_of_points(arms), motion_of_points(arms_below)
         stiff_above, stiff_below = matrix_products(tangents, above), matrix_products(tangents, below)
         blocks = self._ordered(
