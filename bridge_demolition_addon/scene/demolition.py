@@ -109,8 +109,9 @@ def _build(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> list[bpy
         if model.soil:
             keep_soil(made, model.soil)
         if model.bearings:
-            keep = name_bearings if model.stiffness is None else keep_pads
-            keep(made, model.bearings.names, model.bearings.springs)
+            name_bearings(made, model.bearings.names, model.bearings.springs)
+            if model.stiffness is not None:
+                keep_pads(made, model.bearings.springs)
         forget_elasticity(scene)
         if model.stiffness is not None:
             ratio = scenario.connections.damping_ratio

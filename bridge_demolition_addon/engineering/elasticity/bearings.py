@@ -62,6 +62,16 @@ class PadSprings:
             breaking_n=self.breaking_n[stays],
         )
 
+    def utilisations(self, forces_n: FloatArray, left: FloatArray) -> FloatArray:
+        """Return the part (c,) of its breaking force that the bearing of each connection carries.
+
+        Forces (3, c) are on what lies above, `left` (c,) is the part of its strength that each connection has.
+        """
+        count = int(self.bearings.max(initial=-1)) + 1
+        x, y, z = (np.bincount(self.bearings, force, count)[self.bearings] for force in forces_n)
+        used: FloatArray = np.maximum(np.sqrt(x * x + y * y), -z) / (self.breaking_n * left)
+        return used
+
     def middles_m(self) -> FloatArray:
         """Return the middles (c, 3) of the springs of each connection."""
         counts = np.bincount(self.parts, minlength=len(self.rows))
@@ -158,9 +168,7 @@ class Bearings:
             )
         )
         self._of_above = above
-        self._law = PadLaw(
-            springs.vertical_n_m, springs.sideways_n_m.T.copy(), springs.friction[of], springs.pulls[of]
-        )
+        self._law = PadLaw(springs.vertical_n_m, springs.sideways_n_m.T.copy(), springs.friction[of], springs.pulls[of])
         self._free = np.zeros((3, len(of)))  # gaps at which springs resist nothing
         self._pressed_n = np.zeros(len(of))
         self._forces_n = np.zeros((3, len(of)))
@@ -180,18 +188,15 @@ class Bearings:
         apart = np.stack([self._summed(gap) / counts for gap in gaps])
         self._gone = np.sqrt((apart * apart).sum(axis=0)) > self._springs.travel_m
 
-    def failed(self, intact: BoolArray) -> IntArray:
+    def failed(self, intact: BoolArray, left: FloatArray) -> IntArray:
         """Return which connections (k,) of those (m,) that are intact break, as it settled last.
 
-        A connection breaks alone where its bodies have left each other, all of a bearing by its force.
+        A connection breaks alone where its bodies have left each other, all of a bearing by its force; `left` (m,) is
+        the part of its strength that each has.
         """
-        springs = self._springs
         holds = intact[self.rows]
-        count = int(springs.bearings.max(initial=-1)) + 1
         of_parts = np.stack([self._summed(force) for force in self._forces_n]) * holds
-        x, y, z = (np.bincount(springs.bearings, force, count)[springs.bearings] for force in of_parts)
-        overloaded = np.maximum(np.sqrt(x * x + y * y), -z) > springs.breaking_n
-        return self.rows[holds & (self._gone | overloaded)]
+        return self.rows[holds & (self._gone | (self._springs.utilisations(of_parts, left[self.rows]) > 1.0))]
 
     @property
     def touching(self) -> FloatArray:
@@ -327,9 +332,7 @@ class BearingStep:
         tangents = self._tangents[..., mine]
         self._solved.take_over(mine, tangents)
         implicit = self._substep_s * self._substep_s * tangents
-        above, below = (
-            motion_of_points(arms[:, mine]) for arms in (self._gaps.second_arms_m, self._gaps.first_arms_m)
-        )
+        above, below = (motion_of_points(arms[:, mine]) for arms in (self._gaps.second_arms_m, self._gaps.first_arms_m))
         stiff_above, stiff_below = matrix_products(implicit, above), matrix_products(implicit, below)
         of_above, of_below, between = (
             self._summed_blocks(mine, values, chosen)

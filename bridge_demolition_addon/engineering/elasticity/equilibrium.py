@@ -11,7 +11,7 @@ from ..arrays import BoolArray, FloatArray, IntArray
 from ..geometry.rotations import rotated
 from .bearings import Bearings, PadsAtRest
 from .equations import RigidBodies, connected_parts, stiffness_blocks, stressed, summed_on_bodies, without
-from .joint_rows import JointFrames, components_first, components_last, joint_positions
+from .joint_rows import JointFrames, JointRows, components_first, components_last, joint_positions
 from .sparse_system import BlockSystem
 
 _SLOWEST_S = 60.0
@@ -30,8 +30,11 @@ _SOLUTIONS_ON_BEARINGS = 60
 _AT_REST_ON_BEARINGS = 1e-7
 """The same with bearings, which lift off and slide: their springs are so stiff that rounding leaves more."""
 
-_HALVINGS = 12
-"""How often the share of a step is halved: a step of 0.5 m is then right within 0.1 mm, and is followed by another."""
+_HALVINGS = 40
+"""How often the share of a step is halved at most: what slides may move by metres in one that is 0.1 µm too long."""
+
+_WORK_LEFT = 0.1
+"""Part of the work at the beginning of a step that may be left where it ends."""
 
 _ITERATIONS = 60
 _SAME_FREQUENCY = 1e-6
@@ -105,12 +108,14 @@ class _Part:
         self._unloaded = joint_positions(frames, bodies.positions_m, bodies.rotations).deformations()
         unknown = np.full(len(bodies), -1)
         unknown[members] = np.arange(len(members))
+        self._rows = JointRows.empty(0)
         self.system = BlockSystem(len(members), unknown[frames.first], unknown[frames.second])
 
     def unbalanced(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
         """Return the forces and moments (6, b) that are left on the bodies at these positions."""
         positions = joint_positions(self._frames, positions_m, rotations)
-        holding = positions.rows().loads(stressed(self._stiffness, positions.deformations() - self._unloaded))
+        self._rows = positions.rows()
+        holding = self._rows.loads(stressed(self._stiffness, positions.deformations() - self._unloaded))
         if self._pads is not None:
             self._pads.add_loads(holding, positions_m, rotations)
         on_bodies = summed_on_bodies(self._frames.first, self._frames.second, holding, len(self._bodies))
@@ -118,9 +123,8 @@ class _Part:
         return left
 
     def factor(self, own: FloatArray, positions_m: FloatArray, rotations: FloatArray) -> None:
-        """Make the equations at these positions, with an addition (6, 6, b) for each body."""
-        rows = joint_positions(self._frames, positions_m, rotations).rows()
-        blocks = stiffness_blocks(rows, self._stiffness)
+        """Make the equations where forces were balanced last, with an addition (6, 6, b) for each body."""
+        blocks = stiffness_blocks(self._rows, self._stiffness)
         if self._pads is not None:
             self._pads.add_blocks(blocks, positions_m, rotations)
         self.system.factor(own, *blocks)
@@ -134,7 +138,8 @@ class _PartOnBearings:
     """
 
     def __init__(self, bearings: Bearings, rows: IntArray):
-        self._bearings, self._pressed_n = bearings, None
+        self._bearings = bearings
+        self._pressed_n: FloatArray | None = None
         self._mine = np.flatnonzero(np.isin(bearings.rows, rows))
         self._at = np.searchsorted(rows, bearings.rows[self._mine])
 
@@ -176,8 +181,8 @@ def _part_at_rest(
     solutions, balanced = (_SOLUTIONS, _AT_REST) if pads is None else (_SOLUTIONS_ON_BEARINGS, _AT_REST_ON_BEARINGS)
     for _ in range(solutions):
         own = bodies.mass_matrices(rotations, members)
-        part.factor(slack * own, positions_m, rotations)
         left = part.unbalanced(positions_m, rotations)
+        part.factor(slack * own, positions_m, rotations)
         if abs(left[:3]).max() <= balanced * abs(weights).max():
             break
         moved = np.zeros((6, count))
@@ -206,13 +211,15 @@ def _share_of_step(
         left = part.unbalanced(*_moved(positions_m, rotations, share * step))
         return float((left * step[:, members]).sum())
 
-    if work(1.0) >= 0.0:
-        return 1.0
-    low, high = 0.0, 1.0
+    slack = _WORK_LEFT * work(0.0)
+    low, high, share = 0.0, 1.0, 1.0
     for _ in range(_HALVINGS):
+        done = work(share)
+        if abs(done) <= slack or (share == 1.0 and done > 0.0):
+            break
+        low, high = (share, high) if done > 0.0 else (low, share)
         share = 0.5 * (low + high)
-        low, high = (share, high) if work(share) > 0.0 else (low, share)
-    return high
+    return share
 
 
 def _first_frequency(system: BlockSystem, own: FloatArray, slack: float) -> float:

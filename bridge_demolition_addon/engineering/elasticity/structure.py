@@ -240,8 +240,7 @@ class ElasticStructure:
         return stored
 
     def settle(self, positions_m: FloatArray, rotations: FloatArray) -> None:
-        """Take over, before a sub-step, how far springs and reinforcement have yielded, and let go what has ruptured.
-        """
+        """Take over, before a sub-step, how far springs and bars have yielded, and let go what has ruptured."""
         for law in self._springs:
             law.settle(positions_m, rotations)
         if self._cracks is None or not len(self._cracks):

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from manifold3d import CrossSection, FillRule
 
-from ..arrays import BoolArray, FloatArray
+from ..arrays import FloatArray
 from .mesh import TriangleMesh, triangle_areas_and_normals
 from .plan_areas import outlines, signed_area, united
 from .vectors import cross_2d, dot
@@ -61,10 +61,13 @@ class LevelContact:
         plan[:, 0] += shift_m
         return np.column_stack((plan, self._heights(plan)))
 
-    def touched_by(self, points_m: FloatArray, tolerance_m: float) -> BoolArray:
-        """Return which points (n, 3) lie in the plane of the area, or in that beside it."""
-        touched: BoolArray = abs(points_m[:, 2] - self._heights(points_m[:, :2])) <= tolerance_m
-        return touched
+    @property
+    def plane(self) -> tuple[FloatArray, float]:
+        """Normal (3,), upwards, and offset of the plane of its largest triangle, m."""
+        areas, normals = triangle_areas_and_normals(self.planes)
+        largest = int(areas.argmax())
+        normal = -normals[largest]
+        return normal, float(dot(normal, self.planes[largest, 0]))
 
     def _heights(self, points: FloatArray) -> FloatArray:
         """Heights (k,) of the area at points (k, 2): of the triangle that is around a point, or nearest to that."""
@@ -127,7 +130,9 @@ def _contact(rings: list[FloatArray], planes: FloatArray) -> LevelContact:
         area += float(crossed.sum()) / 2.0
         first += (crossed[:, None] * (here + there)).sum(axis=0) / 6.0
         # ∫ y² dA and ∫ x y dA of the triangles from the base.
-        second[0] += float((crossed * (here[:, 1] * here[:, 1] + there[:, 1] * (here[:, 1] + there[:, 1]))).sum()) / 12.0
+        second[0] += (
+            float((crossed * (here[:, 1] * here[:, 1] + there[:, 1] * (here[:, 1] + there[:, 1]))).sum()) / 12.0
+        )
         mixed = here[:, 0] * (2.0 * here[:, 1] + there[:, 1]) + there[:, 0] * (here[:, 1] + 2.0 * there[:, 1])
         second[1] += float((crossed * mixed).sum()) / 24.0
     if area <= 0.0:

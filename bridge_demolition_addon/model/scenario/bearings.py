@@ -135,6 +135,14 @@ class Bearing(Table):
     )
 
     @property
+    def described(self) -> str:
+        """Kind and pads, for a reader."""
+        count = self.pads if self.positions_m is None else len(self.positions_m)
+        pads = "in a line" if count is None else f"on {count} pads"
+        friction = "" if self.friction is None else f" with a friction of {self.friction:g}"
+        return f"{self.kind}{friction}, {pads}{', holds against uplift' if self.tension else ''}"
+
+    @property
     def vertical_n_m(self) -> float:
         """Vertical stiffness of a pad, N/m."""
         given = UNYIELDING_MN_M if self.stiffness_mn_m is None else self.stiffness_mn_m
@@ -161,13 +169,13 @@ class Bearing(Table):
             return 0.0
         return float((_NEWTON_PER_MEGANEWTON * self.rotation_mnm_rad / self.vertical_n_m) ** 0.5)
 
-    def joint(self, own: Joint, *, is_elastic: bool) -> Joint:
+    def joint(self, own: Joint, strength_factor: float, *, is_elastic: bool) -> Joint:
         """Return the joint of its pads, by that of connections that follow no rule."""
         if is_elastic:
             return Joint("GENERIC", strength=own.strength, moduli=own.moduli)
         force, strength = own.breaking_force_n, own.strength
         if self.breaking_force_n is not None:
-            force, strength = self.breaking_force_n, None
+            force, strength = strength_factor * self.breaking_force_n, None
         return Joint("GENERIC", _FREE_WHEN_RIGID[self.kind], breaking_force_n=force, strength=strength)
 
     def check_rigid(self) -> None:

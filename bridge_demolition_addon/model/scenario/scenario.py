@@ -100,7 +100,8 @@ class Scenario(Table):
         Rules are those of `connections.between`.
         """
         own, *others = self.connections.joints(self.materials)
-        pads = [table.joint(own, is_elastic=self.connections.is_elastic) for table in self.bearings]
+        factor, is_elastic = self.connections.strength_factor, self.connections.is_elastic
+        pads = [table.joint(own, factor, is_elastic=is_elastic) for table in self.bearings]
         return (own, *others, *pads)
 
     @property
@@ -185,6 +186,7 @@ class Scenario(Table):
                 "expected shards.start_deactivated = false, or it would begin at rest"
             )
         self._check_foundations()
+
     def _check_foundations(self) -> None:
         if not self.foundations:
             return

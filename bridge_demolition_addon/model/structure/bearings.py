@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fnmatch import fnmatchcase
 
 import numpy as np
@@ -11,8 +11,8 @@ import numpy as np
 from ...engineering.elasticity.bearings import PadSprings
 from ...engineering.geometry.level_contacts import LevelContact, level_contacts
 from ...engineering.geometry.mesh import TriangleMesh
-from ...engineering.geometry.solids import contains
-from ...engineering.geometry.vectors import cross
+from ...engineering.geometry.solids import contains, from_manifold, to_manifold
+from ...engineering.geometry.vectors import cross, dot
 from ...engineering.mechanics.section_cuts import ConnectionLoads
 from ...engineering.structure.connections import Connections
 from ...errors import ScenarioError
@@ -54,21 +54,29 @@ class ModelBearings:
         """Return the connections (k,) of a bearing."""
         return self.springs.rows[self.springs.bearings == bearing]
 
-    def forces(self, loads: ConnectionLoads, first_above: np.ndarray | None = None) -> list[BearingForce]:
-        """Return the force of each bearing by loads on the first bodies of m connections.
+    def forces(self, loads: ConnectionLoads) -> list[BearingForce]:
+        """Return the force of each bearing, by the loads of all connections on their first bodies."""
+        return [self._force(number, loads) for number in range(len(self.names))]
 
-        These lie above, but where `first_above` (m,) says that they do not.
+    def utilisations(self, loads: ConnectionLoads, intact: np.ndarray, left: np.ndarray) -> np.ndarray:
+        """Return the part (c,) of its breaking force that the bearing of each of its connections carries.
+
+        All connections (m,) are `intact` or not, and have a part `left` of their strength.
         """
-        return [self._force(number, loads, first_above) for number in range(len(self.names))]
+        rows = self.springs.rows
+        return self.springs.utilisations((loads.forces_n[rows] * intact[rows, None]).T, left[rows])
 
-    def _force(self, number: int, loads: ConnectionLoads, first_above: np.ndarray | None) -> BearingForce:
+    def broken_together(self, rows: np.ndarray) -> np.ndarray:
+        """Return connections (k,) that break, with all others of the bearings among them."""
+        bearings = self.springs.bearings[np.isin(self.springs.rows, rows)]
+        return np.union1d(rows, self.springs.rows[np.isin(self.springs.bearings, bearings)])
+
+    def _force(self, number: int, loads: ConnectionLoads) -> BearingForce:
         rows = self.rows_of(number)
-        sides = np.ones(len(rows)) if first_above is None else np.where(first_above[rows], 1.0, -1.0)
-        forces, moments = (sides[:, None] * values[rows] for values in (loads.forces_n, loads.moments_nm))
         of_springs = np.isin(self.springs.parts, np.flatnonzero(self.springs.bearings == number))
         axis = self.springs.places_m[of_springs].mean(axis=0) if len(rows) else np.zeros(3)
-        moments = moments + cross(loads.points_m[rows] - axis, forces)
-        return BearingForce(self.names[number], axis, forces.sum(axis=0), moments.sum(axis=0))
+        moments = loads.moments_nm[rows] + cross(loads.points_m[rows] - axis, loads.forces_n[rows])
+        return BearingForce(self.names[number], axis, loads.forces_n[rows].sum(axis=0), moments.sum(axis=0))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -121,10 +129,12 @@ def bearing_connections(
     member_of_shard: np.ndarray,
     shards: Sequence[TriangleMesh],
     first_row: int,
+    strength_factor: float,
 ) -> tuple[Connections, ModelBearings, np.ndarray]:
     """Return the connections at pads, their bearings, and the table of each (c,); rows are counted from `first_row`.
 
-    Of each connection the first shard lies above. Its area is its share of that where the members touch.
+    Of each connection the first shard lies above. Its area is its share of that where the members touch. Breaking
+    forces are as many times as large as their tables say.
     """
     names, groups = [], []
     for number, bearing in enumerate(placed):
@@ -133,14 +143,13 @@ def bearing_connections(
         names.append(name)
         pads = list(_pads(table, bearing, name))
         places = np.concatenate([pad.places_m for pad in pads])
-        pairs = np.column_stack(
-            [
-                _shards_at(places + (0.0, 0.0, way * _INTO_M), np.flatnonzero(member_of_shard == member), shards)
-                for member, way in ((bearing.above, 1.0), (bearing.below, -1.0))
-            ]
-        )
-        groups += _groups(number, table, bearing, name, pads, pairs)
-    return _joined(groups, tables, placed, first_row, names)
+        sides = ((bearing.above, _INTO_M), (bearing.below, -_INTO_M))
+        pairs = [
+            _shards_at(places + np.array([0.0, 0.0, into_m]), np.flatnonzero(member_of_shard == member), shards)
+            for member, into_m in sides
+        ]
+        groups += _groups(number, name, pads, np.column_stack(pairs))
+    return _joined(groups, tables, placed, first_row, names, strength_factor)
 
 
 def raised_shards(
@@ -260,9 +269,7 @@ def _shards_at(points_m: np.ndarray, candidates: np.ndarray, shards: Sequence[Tr
     return found
 
 
-def _groups(
-    number: int, table: Bearing, bearing: PlacedBearing, name: str, pads: Sequence[_Pad], pairs: np.ndarray
-) -> list[_Group]:
+def _groups(number: int, name: str, pads: Sequence[_Pad], pairs: np.ndarray) -> list[_Group]:
     """Return the springs of all pads by the pair of shards (p, 2) that they are between."""
     shares = []
     first = 0
@@ -302,6 +309,7 @@ def _joined(
     placed: Sequence[PlacedBearing],
     first_row: int,
     names: Sequence[str],
+    strength_factor: float,
 ) -> tuple[Connections, ModelBearings, np.ndarray]:
     count = len(groups)
     table_of = np.array([placed[group.bearing].table for group in groups], int)
@@ -317,7 +325,7 @@ def _joined(
         pulls=np.array([table.tension for table in of_groups], bool),
         travel_m=np.array([table.travel_m for table in of_groups], float),
         bearings=np.array([group.bearing for group in groups], int),
-        breaking_n=np.array([table.breaking_force_n or np.inf for table in of_groups], float),
+        breaking_n=strength_factor * np.array([table.breaking_force_n or np.inf for table in of_groups], float),
     )
     connections = Connections(
         np.array([group.pair for group in groups], int).reshape(count, 2),
@@ -329,15 +337,14 @@ def _joined(
 
 
 def _raised(shard: TriangleMesh, contact: LevelContact, height_m: float) -> TriangleMesh:
-    """Return a shard with its underside in the plane of a contact raised, if it is near that."""
-    vertices = shard.vertices
+    """Return a shard cut off above the plane of a contact, if it stands on that plane near the contact."""
     corners = np.concatenate(contact.rings)
     low, high = corners.min(axis=0) - _BESIDE_M, corners.max(axis=0) + _BESIDE_M
     if (shard.bounds[1, :2] < low).any() or (shard.bounds[0, :2] > high).any():
         return shard
-    on_plane = contact.touched_by(vertices, _ON_PLANE_M)
-    if not on_plane.any():
+    normal, offset_m = contact.plane
+    heights = dot(shard.vertices, normal) - offset_m
+    if abs(heights.min()) > _ON_PLANE_M:
         return shard
-    raised = vertices.copy()
-    raised[on_plane, 2] += min(height_m, 0.5 * float(np.ptp(vertices[:, 2])))
-    return replace(shard, vertices=raised)
+    height_m = min(height_m, 0.5 * float(heights.max()))
+    return from_manifold(to_manifold(shard).trim_by_plane(normal.tolist(), offset_m + height_m))

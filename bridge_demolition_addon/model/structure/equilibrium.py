@@ -41,7 +41,15 @@ def overloaded(model: Model, rest: Equilibrium, joints: Sequence[Joint]) -> np.n
         is_one = model.breakable & (model.joint_of_connection == row)
         if joint.strength is not None:
             broken[_beyond_strength(model, rest, np.flatnonzero(is_one), joint.strength)] = True
+    if model.bearings:
+        whole = np.ones(len(model.connections))
+        broken[model.bearings.springs.rows] = model.bearings.utilisations(loads_of(model, rest), whole > 0.0, whole) > 1
     return broken
+
+
+def loads_of(model: Model, rest: Equilibrium) -> ConnectionLoads:
+    """Return the loads on the first bodies of all connections of a model at rest."""
+    return ConnectionLoads(rest.loads[:3].T, rest.loads[3:].T, model.connections.points)
 
 
 def force_utilisations(model: Model, rest: Equilibrium, joints: Sequence[Joint]) -> np.ndarray:
@@ -56,7 +64,7 @@ def force_utilisations(model: Model, rest: Equilibrium, joints: Sequence[Joint])
 
 def _beyond_strength(model: Model, rest: Equilibrium, rows: np.ndarray, strength: Strength) -> np.ndarray:
     """Return which connections (r,) with a strength would break first in a simulation, as indices (k,)."""
-    loads = ConnectionLoads(rest.loads[:3].T, rest.loads[3:].T, model.connections.points)
+    loads = loads_of(model, rest)
     axes = section_axes(model.connections.normals[rows])
     whole, together = np.ones(len(model.connections)), np.zeros(len(model.connections), int)
     judged = overloads_of(model, strength, member_sections_of(model))

@@ -113,7 +113,13 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
     bearings = None
     if placed:
         of_pads, bearings, tables = bearing_connections(
-            placed, scenario.bearings, members, fractured.member_of_shard, shards, len(connections)
+            placed,
+            scenario.bearings,
+            members,
+            fractured.member_of_shard,
+            shards,
+            len(connections),
+            scenario.connections.strength_factor,
         )
         connections = connecting.joined([connections, of_pads])
         joint_of_connection = np.concatenate((joint_of_connection, 1 + len(rules) + tables))

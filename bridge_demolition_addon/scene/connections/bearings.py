@@ -27,14 +27,13 @@ class BearingsOfScene:
     springs: PadSprings
 
 
-def keep_pads(connections: Sequence[bpy.types.Object], names: Sequence[str], springs: PadSprings) -> None:
+def keep_pads(connections: Sequence[bpy.types.Object], springs: PadSprings) -> None:
     """Keep springs of pads with their connections; no stress breaks these."""
     numbers = np.column_stack((springs.friction, springs.pulls, springs.travel_m, springs.breaking_n))
     of_springs = np.column_stack((springs.places_m, springs.vertical_n_m, springs.sideways_n_m))
     for number, (row, values) in enumerate(zip(springs.rows.tolist(), numbers.tolist(), strict=True)):
         connections[row][_PADS] = [*values, *of_springs[springs.parts == number].ravel().tolist()]
         set_strength(connections[row], None)
-    name_bearings(connections, names, springs)
 
 
 def name_bearings(connections: Sequence[bpy.types.Object], names: Sequence[str], springs: PadSprings) -> None:

@@ -113,8 +113,8 @@ class Breaker:
 
     def _failed_bearings(self) -> np.ndarray:
         """Connections (b,) at pads of bearings that break by their force, or whose bodies have left each other."""
-        elastic = self._resistance.elastic
-        return elastic.failed_bearings(self._intact) if elastic and self._warm_up.is_over else _NONE
+        elastic, left = self._resistance.elastic, self._resistance.remaining_strength
+        return elastic.failed_bearings(self._intact, left) if elastic and self._warm_up.is_over else _NONE
 
     def _overloaded(self, rows: np.ndarray, moment: Moment) -> np.ndarray:
         """Which of connections (r,) break (k,)."""

@@ -119,7 +119,8 @@ class ElasticConnections:
         self._gravity = np.array(scene.gravity, float) if scene.use_gravity else np.zeros(3)
         self._footings = self._bearings = None
         soil, pads = (springs.soil, springs.pads) if springs else (None, None)
-        ends, built = (self._frames.first, self._frames.second), (motion.position_components_m, motion.rotation_components)
+        ends = self._frames.first, self._frames.second
+        built = motion.position_components_m, motion.rotation_components
         if soil is not None:
             self._footings = Footings(soil, *ends, self._masses > 0.0, *built)
         if pads is not None:
@@ -146,6 +147,8 @@ class ElasticConnections:
         self._face_directions = components_first(sections.directions)
         ductility = given(breaking.ductility)
         even = ductility.strength_share * given(breaking.strength).tension_pa * self._inventory.areas_m2
+        if self._bearings:
+            even[self._bearings.rows] = 0.0  # no bars run through a bearing
         yield_n = np.tile(even / len(CORNERS), (len(CORNERS), 1))
         if breaking.bars:
             positions = components_first(transformed_back(sections.directions, breaking.bars.offsets_m))
@@ -235,9 +238,12 @@ class ElasticConnections:
         holding[self._cracks.rows] = True
         return holding
 
-    def failed_bearings(self, intact: np.ndarray) -> np.ndarray:
-        """Return the connections (b,) at pads, of those (m,) that are intact, that break before the coming sub-step."""
-        return self._bearings.failed(intact) if self._bearings else np.zeros(0, int)
+    def failed_bearings(self, intact: np.ndarray, left: np.ndarray) -> np.ndarray:
+        """Return the connections (b,) at pads, of those (m,) that are intact, that break before the coming sub-step.
+
+        Each has a part `left` (m,) of its strength.
+        """
+        return self._bearings.failed(intact, left) if self._bearings else np.zeros(0, int)
 
     def _settle(self, motion: BodyMotion) -> Equilibrium:
         """Put the bodies where they rest under their own weight."""
