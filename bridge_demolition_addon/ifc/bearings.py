@@ -40,7 +40,7 @@ _PROPERTIES = {"move": "DisplacementAccommodated", "turn": "RotationAccommodated
 
 
 @dataclass(frozen=True, slots=True)
-class Bearing:
+class BearingElement:
     """A bearing between members, given by their numbers in the list of members.
 
     It becomes part of the member below. `source` says where its free motions are from.
@@ -54,7 +54,7 @@ class Bearing:
 
 def bearing_of(
     element: Element, solid: TriangleMesh, contacts: NearbyMembers, names: Sequence[str], placement: Placement
-) -> Bearing | str:
+) -> BearingElement | str:
     """Return what a bearing with a solid connects of the members with these names, or why it is left out."""
     down, up = contacts.reached(solid, -TOUCHING_M), contacts.reached(solid, TOUCHING_M)
     # One that it is sunk into, or that is sunk into it, lies on the side that it reaches further into.
@@ -63,7 +63,7 @@ def bearing_of(
     if not below or not above:
         return f"nothing touches it from {'below' if not below else 'above'}{_gaps(solid, contacts, names)}"
     free, source = free_motions(element, placement)
-    return Bearing(below[0], tuple(above), free, source)
+    return BearingElement(below[0], tuple(above), free, source)
 
 
 def seated(solid: TriangleMesh) -> TriangleMesh:
@@ -79,7 +79,9 @@ def _gaps(solid: TriangleMesh, contacts: NearbyMembers, names: Sequence[str]) ->
     return f"; {names[index]} is {1e3 * gap_m:.1f} mm off: close that gap in the program that the file was made with"
 
 
-def bearing_rules(bearings: Sequence[Bearing], names: Sequence[str]) -> tuple[list[ConnectionBetween], list[str]]:
+def bearing_rules(
+    bearings: Sequence[BearingElement], names: Sequence[str]
+) -> tuple[list[ConnectionBetween], list[str]]:
     """Return the connections of bearings, one for each pair of members, and notes on bearings that differ."""
     rules: dict[tuple[str, str], tuple[str, ...]] = {}
     notes = []

@@ -228,7 +228,7 @@ class Bearings:
     def at_rest(self, positions_m: FloatArray, rotations: FloatArray, pressed_n: FloatArray | None) -> PadsAtRest:
         """Return forces and stiffness with bodies at these positions.
 
-        Springs slide by friction times `pressed_n` (p,); where that is None none of them slides, nor lifts off.
+        Springs slide by friction times `pressed_n` (p,); without it they neither slide nor lift off.
         """
         gaps, arms, arms_below = self._gaps(positions_m, rotations)
         if pressed_n is None:

@@ -86,6 +86,8 @@ def level_contacts(above: TriangleMesh, below: TriangleMesh) -> list[LevelContac
     """Return the areas where a solid lies on another, in order of x and y; none where it does not."""
     upper, lower = _level_faces(above, -1.0), _level_faces(below, 1.0)
     first, second = _touching(upper, lower)
+    if not first:
+        return []
     pieces = [_in_plan(upper[one]) ^ _in_plan(lower[other]) for one, other in zip(first, second, strict=True)]
     islands = united([piece for piece in pieces if piece.area() > 0.0]).decompose()
     contacts = [_contact(outlines(island), upper[np.unique(first)]) for island in islands]

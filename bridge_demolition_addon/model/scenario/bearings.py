@@ -1,6 +1,7 @@
 """Bearings between members: what carries one on the other, and the motions that it leaves free."""
 
 from dataclasses import dataclass
+from math import sqrt
 from typing import ClassVar
 
 from ...engineering.mechanics.joint import Joint
@@ -84,14 +85,14 @@ class Bearing(Table):
         at_most=100,
     )
     friction: float | None = key(
-        "Largest force sideways by the pressing force, of a `sliding` bearing; an `elastomeric` one slides only if it "
-        "is given. 0.03 to 0.08 for PTFE on steel.",
+        "Coefficient of friction. Needed for `sliding`, 0.03 to 0.08 with PTFE; an `elastomeric` one slides only where "
+        "it is given.",
         default=None,
         at_least=0,
         at_most=10,
     )
     stiffness_mn_m: float | None = key(
-        "Vertical stiffness of each pad, or of the line; by default it hardly yields. Needed for `elastomeric`.",
+        "Vertical stiffness of each pad, or of the line; by default 100 000. Needed for `elastomeric`.",
         default=None,
         unit="MN/m",
         above=0,
@@ -113,21 +114,22 @@ class Bearing(Table):
         at_most=1e6,
     )
     breaking_force_n: float | None = key(
-        "Force sideways, or of uplift with `tension`, at which the whole bearing breaks; by default none.",
+        "Horizontal force, or uplift where it has `tension`, at which the whole bearing breaks; by default none. Where "
+        "connections are rigid each part of it breaks at this force, and without it by their strength.",
         default=None,
         unit="N",
         above=0,
     )
     travel_m: float = key(
-        "Displacement at which what lies above a pad has left it: there it carries nothing any more.",
+        "Displacement at which what lies above a pad has left it for good, where connections are elastic.",
         default=0.2,
         unit="m",
         at_least=SHORTEST_LENGTH_M,
         at_most=100,
     )
     height_m: float = key(
-        "Height by which a bearing keeps the two members apart. What is above is so much thinner there, and falls by "
-        "it once the bearing is gone.",
+        "Height by which it keeps the two members apart: shards above it are cut off so far, but keep their mass, and "
+        "fall by it once the bearing has broken.",
         default=0.01,
         unit="m",
         at_least=0.001,
@@ -164,10 +166,10 @@ class Bearing(Table):
         if self.kind == FIXED:
             # Two rows resist turning as an even bed does: L² / 12 = a².
             length = self.pad_m[0] if self.pad_m else length_m
-            return float(length / 12.0**0.5)
+            return length / sqrt(12.0)
         if self.rotation_mnm_rad is None:
             return 0.0
-        return float((_NEWTON_PER_MEGANEWTON * self.rotation_mnm_rad / self.vertical_n_m) ** 0.5)
+        return sqrt(_NEWTON_PER_MEGANEWTON * self.rotation_mnm_rad / self.vertical_n_m)
 
     def joint(self, own: Joint, strength_factor: float, *, is_elastic: bool) -> Joint:
         """Return the joint of its pads, by that of connections that follow no rule."""

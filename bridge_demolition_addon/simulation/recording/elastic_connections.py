@@ -68,7 +68,7 @@ class RestingState:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Springs:
+class SupportSprings:
     """What is in place of some elastic connections: soil under footings, and pads of bearings; None where neither."""
 
     soil: SoilSprings | None = None
@@ -95,7 +95,7 @@ class ElasticConnections:
         bodies: Sequence[bpy.types.Object],
         stiffness: SectionStiffness,
         damping_ratio: float,
-        springs: Springs | None = None,
+        springs: SupportSprings | None = None,
     ):
         self._world, self._rows, self._reader = world, world.elastic_rows(), world.bodies.motion()
         self._damping_ratio = damping_ratio
