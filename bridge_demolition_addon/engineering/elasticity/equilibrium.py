@@ -193,7 +193,12 @@ def _part_at_rest(
             return None
         positions_m, rotations = _moved(positions_m, rotations, moved)
         if pads is not None:
+            if not abs(positions_m - bodies.positions_m)[:, members].max() <= _LARGEST_M:
+                return None
             pads.follow(positions_m, rotations)
+    else:
+        if pads is not None:  # it rocks or slides, and comes to no rest
+            return None
     return positions_m, rotations, _first_frequency(part.system, own, slack)
 
 

@@ -83,7 +83,7 @@ def pressed(force_n, sideways_n=0.0):
 
 @pytest.mark.parametrize("above_first", [True, False])
 def test_blocks_pressed_together_come_closer_by_force_over_stiffness(above_first):
-    blocks = Blocks(four_pads(), above_first=above_first).step(pressed(2e5), 300, slowed=0.3)
+    blocks = Blocks(four_pads(), above_first=above_first).step(pressed(2e5), 100, slowed=0.3)
     assert blocks.gap_m == pytest.approx([0.0, 0.0, -2e5 / VERTICAL_N_M], rel=1e-6, abs=1e-12)
     up = blocks.on_first_n if above_first else blocks.on_second_n
     assert up[:3] == pytest.approx([0.0, 0.0, 2e5], rel=1e-6, abs=1e-6)
@@ -99,13 +99,13 @@ def test_what_one_gets_the_other_loses(above_first):
 
 
 def test_it_holds_sideways_by_its_stiffness():
-    blocks = Blocks(four_pads()).step(pressed(2e5, 5e4), 300, slowed=0.3)
+    blocks = Blocks(four_pads()).step(pressed(2e5, 5e4), 100, slowed=0.3)
     assert blocks.gap_m[0] == pytest.approx(5e4 / SIDEWAYS_N_M, rel=1e-3)
 
 
 def test_it_slides_where_friction_ends_and_resists_by_that_meanwhile():
     """Pushed with 0.3 of the pressing force against a friction of 0.1: the difference moves both, by their masses."""
-    blocks = Blocks(four_pads(friction=0.1)).step(pressed(2e5), 300, slowed=0.3)
+    blocks = Blocks(four_pads(friction=0.1)).step(pressed(2e5), 100, slowed=0.3)
     before = blocks.velocities[0, 0] - blocks.velocities[0, 1]
     blocks.step(pressed(2e5, 6e4), 50)
     assert blocks.on_first_n[0] == pytest.approx(-0.1 * 2e5, rel=1e-3)
@@ -117,14 +117,14 @@ def test_it_lets_go_what_is_lifted_unless_it_holds_against_uplift():
     lifted = Blocks(four_pads()).step(pressed(-1e4), 20)
     assert lifted.on_first_n.tolist() == [0.0] * 6
     assert lifted.gap_m[2] > 0.0
-    held = Blocks(four_pads(pulls=True)).step(pressed(-1e4), 300, slowed=0.3)
+    held = Blocks(four_pads(pulls=True)).step(pressed(-1e4), 100, slowed=0.3)
     assert held.on_first_n[2] == pytest.approx(-1e4, rel=1e-6)
     assert held.gap_m[2] == pytest.approx(1e4 / VERTICAL_N_M, rel=1e-6)
 
 
 @pytest.mark.parametrize(("breaking_n", "fails"), [(5.1e4, False), (4.9e4, True)])
 def test_it_fails_by_the_force_sideways_not_by_that_which_presses(breaking_n, fails):
-    blocks = Blocks(four_pads(breaking_n=breaking_n)).step(pressed(2e5, 5e4), 300, slowed=0.3)
+    blocks = Blocks(four_pads(breaking_n=breaking_n)).step(pressed(2e5, 5e4), 100, slowed=0.3)
     assert blocks.bearings.failed(np.ones(1, bool), np.ones(1)).tolist() == ([0] if fails else [])
 
 
@@ -138,7 +138,7 @@ def test_it_fails_where_bodies_have_left_each_other():
 
 
 def test_energy_that_it_stores_is_that_of_a_spring():
-    blocks = Blocks(four_pads()).step(pressed(2e5), 300, slowed=0.3)
+    blocks = Blocks(four_pads()).step(pressed(2e5), 100, slowed=0.3)
     stored = blocks.structure.stored_j(blocks.positions, blocks.rotations)
     assert stored == pytest.approx([0.5 * 2e5**2 / VERTICAL_N_M], rel=1e-6)
 
