@@ -2,7 +2,7 @@
 
 Each pad is a row of springs. A spring presses what lies above upwards, and pulls only where the bearing holds against
 uplift. Sideways it holds by its stiffness, up to friction times the pressing force where the bearing slides (C. A. de
-Coulomb 1785), and not at all where it has lifted off. Bending of the body above reaches the one below only by the arms
+Coulomb 1785), and else as long as the bearing presses anywhere. Bending of the body above reaches the one below only by the arms
 of the springs: in one line across the road it turns freely about that.
 
 A sub-step is implicit, and solved as `elasticity.cracks` is: forces are linear about a guess, which is followed by
@@ -14,7 +14,7 @@ All arrays have their components first, except places.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
@@ -87,14 +87,11 @@ class PadLaw:
     sideways_n_m: FloatArray  # (2, q)
     friction: FloatArray  # (q,)
     pulls: BoolArray  # (q,)
-    pressed_n: FloatArray | None = None  # (q,), pressing force by which friction counts; the present one if None
+    pressed_n: FloatArray  # (q,), pressing force by which they hold sideways
 
     def only(self, which: IntArray) -> PadLaw:
         """Return the law of some springs."""
-        pressed = None if self.pressed_n is None else self.pressed_n[which]
-        return PadLaw(
-            self.vertical_n_m[which], self.sideways_n_m[:, which], self.friction[which], self.pulls[which], pressed
-        )
+        return PadLaw(*(getattr(self, item.name)[..., which] for item in fields(self)))
 
     @property
     def whole(self) -> FloatArray:
@@ -110,7 +107,7 @@ class PadLaw:
         upwards = np.where(acts, wanted, 0.0)
         held = -self.sideways_n_m * gaps_m[:2]
         size = np.sqrt(held[0] * held[0] + held[1] * held[1])
-        limit = self._limits(upwards if self.pressed_n is None else self.pressed_n)
+        limit = self._limits()
         slides = size > limit
         share = np.divide(limit, size, out=np.ones_like(size), where=slides)
         forces = np.stack((share * held[0], share * held[1], upwards))
@@ -121,12 +118,11 @@ class PadLaw:
         tangents[:2, :2] -= across * held[:, None] * held * self.sideways_n_m
         return forces, tangents
 
-    def _limits(self, pressed_n: FloatArray) -> FloatArray:
-        """Largest forces sideways (q,) with these pressing forces (q,)."""
-        pressing = np.maximum(pressed_n, 0.0)
+    def _limits(self) -> FloatArray:
+        """Largest forces sideways (q,)."""
         holds = np.isinf(self.friction)
-        by_friction = np.where(holds, 0.0, self.friction) * pressing
-        return np.where(holds & (self.pulls | (pressing > 0.0)), np.inf, by_friction)
+        by_friction = np.where(holds, 0.0, self.friction) * self.pressed_n
+        return np.where(holds & (self.pulls | (self.pressed_n > 0.0)), np.inf, by_friction)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -168,9 +164,9 @@ class Bearings:
             )
         )
         self._of_above = above
-        self._law = PadLaw(springs.vertical_n_m, springs.sideways_n_m.T.copy(), springs.friction[of], springs.pulls[of])
+        sideways, unpressed = springs.sideways_n_m.T.copy(), np.zeros(len(of))
+        self._law = PadLaw(springs.vertical_n_m, sideways, springs.friction[of], springs.pulls[of], unpressed)
         self._free = np.zeros((3, len(of)))  # gaps at which springs resist nothing
-        self._pressed_n = np.zeros(len(of))
         self._forces_n = np.zeros((3, len(of)))
         self._gone = np.zeros(len(self.rows), bool)
         self._solved_for = np.full((3, 3, len(of)), np.nan)
@@ -178,11 +174,11 @@ class Bearings:
     def settle(self, positions_m: FloatArray, rotations: FloatArray) -> None:
         """Take over, before a sub-step, how far springs have slid, and which bodies have left each other."""
         gaps = self._gaps(positions_m, rotations)[0]
+        self._law = replace(self._law, pressed_n=self._holding_by(gaps))
         self._forces_n = self._law.resisted(gaps - self._free)[0]
-        self._pressed_n = np.maximum(self._forces_n[2], 0.0)
         sideways = self._law.sideways_n_m
         slid = gaps[:2] + np.divide(self._forces_n[:2], sideways, out=np.zeros_like(sideways), where=sideways > 0.0)
-        slides = ~np.isinf(self._law.friction) | (~self._law.pulls & (self._pressed_n <= 0.0))
+        slides = ~np.isinf(self._law.friction) | (~self._law.pulls & (self._law.pressed_n <= 0.0))
         self._free[:2, slides] = slid[:, slides]
         counts = np.bincount(self._of, minlength=len(self.rows))
         apart = np.stack([self._summed(gap) / counts for gap in gaps])
@@ -202,7 +198,7 @@ class Bearings:
     def touching(self) -> FloatArray:
         """Part (c,) of the stiffness of each connection that acts, from 0 to 1, as it settled last."""
         stiffness = self._law.vertical_n_m
-        acts = self._law.pulls | (self._pressed_n > 0.0)
+        acts = self._law.pulls | (self._forces_n[2] > 0.0)
         return self._summed(np.where(acts, stiffness, 0.0)) / self._summed(stiffness)
 
     def diagonal(self) -> FloatArray:
@@ -221,9 +217,8 @@ class Bearings:
         return self._summed(0.5 * doubled.sum(axis=0))
 
     def pressed_at(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
-        """Return the pressing forces (p,) of springs with bodies at these positions."""
-        pressed: FloatArray = np.maximum(self._law.resisted(self._gaps(positions_m, rotations)[0])[0][2], 0.0)
-        return pressed
+        """Return the pressing forces (p,) by which springs hold sideways, with bodies at these positions."""
+        return self._holding_by(self._gaps(positions_m, rotations)[0])
 
     def at_rest(self, positions_m: FloatArray, rotations: FloatArray, pressed_n: FloatArray | None) -> PadsAtRest:
         """Return forces and stiffness with bodies at these positions.
@@ -249,7 +244,7 @@ class Bearings:
     def loads_at_rest(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
         """Return forces and moments (6, c) on the first bodies, about the middle of each connection's springs."""
         gaps, arms, _ = self._gaps(positions_m, rotations)
-        forces = self._law.resisted(gaps)[0]
+        forces = replace(self._law, pressed_n=self._holding_by(gaps)).resisted(gaps)[0]
         middles = turned(rotations[..., self._of_above], self._middles)
         on_above = self._moved_to_centres(arms - middles[:, self._of], forces)
         return np.where(self._above_first, on_above, -on_above)
@@ -268,10 +263,17 @@ class Bearings:
             self._above_first[chosen],
             number[self._of[which]],
             between,
-            replace(self._law, pressed_n=self._pressed_n).only(which),
+            self._law.only(which),
             SolvedTangents(self._solved_for, which),
             substep_s,
         )
+
+    def _holding_by(self, gaps_m: FloatArray) -> FloatArray:
+        """Pressing forces (p,) by which springs hold sideways: their own, or all of a bearing that does not slide."""
+        own = np.maximum(-self._law.vertical_n_m * gaps_m[2], 0.0)
+        bearing = self._springs.bearings[self._of]
+        whole = np.bincount(bearing, own, int(bearing.max(initial=-1)) + 1)[bearing]
+        return np.where(np.isinf(self._law.friction), whole, own)
 
     def _gaps(self, positions_m: FloatArray, rotations: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Gaps (3, p) below the bodies above, and arms (3, p) of the force there, from the centres of both bodies."""

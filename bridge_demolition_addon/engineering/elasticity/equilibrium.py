@@ -33,6 +33,9 @@ _AT_REST_ON_BEARINGS = 1e-7
 _HALVINGS = 40
 """How often the share of a step is halved at most: what slides may move by metres in one that is 0.1 µm too long."""
 
+_WHOLE_CHANGES = 20
+"""How often friction takes over all of the pressing force."""
+
 _WORK_LEFT = 0.1
 """Part of the work at the beginning of a step that may be left where it ends."""
 
@@ -134,18 +137,23 @@ class _PartOnBearings:
     """Bearings among the connections (r,) of a part, in ascending order.
 
     At first none of them has lifted off or slides. Friction counts by the pressing force of `follow`, which does not
-    change while forces are balanced with it.
+    change while forces are balanced with it. After some changes it goes half of the way only, so that it settles.
     """
 
     def __init__(self, bearings: Bearings, rows: IntArray):
         self._bearings = bearings
         self._pressed_n: FloatArray | None = None
+        self._changes = 0
         self._mine = np.flatnonzero(np.isin(bearings.rows, rows))
         self._at = np.searchsorted(rows, bearings.rows[self._mine])
 
     def follow(self, positions_m: FloatArray, rotations: FloatArray) -> None:
         """Let pads lift off and slide, by the pressing forces at these positions."""
-        self._pressed_n = self._bearings.pressed_at(positions_m, rotations)
+        pressed_n = self._bearings.pressed_at(positions_m, rotations)
+        if self._pressed_n is not None and self._changes > _WHOLE_CHANGES:
+            pressed_n = 0.5 * (self._pressed_n + pressed_n)
+        self._pressed_n = pressed_n
+        self._changes += 1
 
     def add_loads(self, loads: tuple[FloatArray, FloatArray], positions_m: FloatArray, rotations: FloatArray) -> None:
         """Add the forces of pads to those (6, r) on first and second bodies."""
