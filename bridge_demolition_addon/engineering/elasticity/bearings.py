@@ -2,8 +2,8 @@
 
 Each pad is a row of springs. A spring presses what lies above upwards, and pulls only where the bearing holds against
 uplift. Sideways it holds by its stiffness, up to friction times the pressing force where the bearing slides (C. A. de
-Coulomb 1785), and else as long as the bearing presses anywhere. Bending of the body above reaches the one below only by the arms
-of the springs: in one line across the road it turns freely about that.
+Coulomb 1785), and else as long as the bearing presses anywhere. Bending of the body above reaches the one below only by
+the arms of the springs: in one line across the road it turns freely about that.
 
 A sub-step is implicit, and solved as `elasticity.cracks` is: forces are linear about a guess, which is followed by
 another until both agree. Friction then counts by the pressing force at the beginning of the sub-step; at rest by that

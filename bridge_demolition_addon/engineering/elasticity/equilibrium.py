@@ -20,6 +20,9 @@ _SLOWEST_S = 60.0
 _LARGEST_M = 0.5
 """Largest deformation; beyond it there is no equilibrium near the shape in which the part was built."""
 
+_LARGEST_TURN = 0.2
+"""The same for rotations on bearings, rad: what topples may stand again on another side."""
+
 _SOLUTIONS = 8
 """Linear solutions, one after another, each of which corrects the turning of the last: two or three are enough."""
 
@@ -201,7 +204,8 @@ def _part_at_rest(
             return None
         positions_m, rotations = _moved(positions_m, rotations, moved)
         if pads is not None:
-            if not abs(positions_m - bodies.positions_m)[:, members].max() <= _LARGEST_M:
+            moved_m, turned = positions_m - bodies.positions_m, rotations - bodies.rotations
+            if not (abs(moved_m).max() <= _LARGEST_M and abs(turned).max() <= _LARGEST_TURN):
                 return None
             pads.follow(positions_m, rotations)
     else:
@@ -218,17 +222,21 @@ def _moved(positions_m: FloatArray, rotations: FloatArray, step: FloatArray) -> 
 def _share_of_step(
     part: _Part, positions_m: FloatArray, rotations: FloatArray, step: FloatArray, members: IntArray
 ) -> float:
-    """Return the share of a step (6, n) up to which the forces that are left do work: beyond it energy grows again."""
+    """Return the share of a step (6, n) up to which the forces that are left do work: beyond it energy grows again.
+
+    Of what falls it is so much that this is seen.
+    """
 
     def work(share: float) -> float:
         left = part.unbalanced(*_moved(positions_m, rotations, share * step))
         return float((left * step[:, members]).sum())
 
     slack = _WORK_LEFT * work(0.0)
-    low, high, share = 0.0, 1.0, 1.0
+    whole = 1.0 / max(1.0, float(abs(step[:3]).max()) / (2.0 * _LARGEST_M), float(abs(step[3:]).max()))
+    low, high, share = 0.0, whole, whole
     for _ in range(_HALVINGS):
         done = work(share)
-        if abs(done) <= slack or (share == 1.0 and done > 0.0):
+        if abs(done) <= slack or (share == whole and done > 0.0):
             break
         low, high = (share, high) if done > 0.0 else (low, share)
         share = 0.5 * (low + high)

@@ -70,8 +70,8 @@ def test_it_turns_freely_about_its_axis(continuous):
 @pytest.mark.parametrize("seed", [1, 2, 3])
 def test_it_is_coarse_cuts_that_share_loads_otherwise_not_supports(seed):
     reactions = kn(standing_deck(deck_text(on_axes(1.2), seed=seed, support_m=1.2))[2])
-    assert reactions[1] == pytest.approx(OPENSEES_KN[1], rel=0.02)
-    assert reactions == pytest.approx(OPENSEES_KN, rel=0.06)
+    assert reactions[1] == pytest.approx(OPENSEES_KN[1], rel=0.03)
+    assert reactions == pytest.approx(OPENSEES_KN, rel=0.08)
 
 
 def test_a_heavy_load_on_one_span_lifts_the_far_end():
