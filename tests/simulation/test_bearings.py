@@ -9,6 +9,8 @@ from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.model.results.arrays import load_results
 from bridge_demolition_addon.model.scenario.file import read_scenario
+from bridge_demolition_addon.report.run_folder import read_run
+from bridge_demolition_addon.report.sections.forces import force_section
 from bridge_demolition_addon.simulation.run import run_scenario
 
 SPAN_M = 10.0
@@ -49,13 +51,19 @@ def load(direction, times_s, forces_n, more=""):
     )
 
 
-def test_a_run_begins_and_stays_at_rest_as_stages_have_it(run):
+def test_a_run_begins_and_stays_at_rest_as_stages_have_it(run, tmp_path):
     text = deck_text(spans=(10.0, 15.0), shards=40, support_m=1.2)
     results = run(text)
     at_rest = standing_deck(text)[2]
     for wall, bearing in at_rest.items():
         assert forces_n(results, wall)[1:, 2] == pytest.approx(bearing.force_n[2], rel=1e-3)
     assert results.frames.intact.all()
+    names = [f"deck on {wall}" for wall in at_rest]
+    tables = {block.name: block for block in force_section(read_run(tmp_path / "run")).blocks if hasattr(block, "name")}
+    assert [row[0] for row in tables["bearings"].rows] == names
+    for row, bearing in zip(tables["bearings"].rows, at_rest.values(), strict=True):
+        assert row[1:4] == pytest.approx([bearing.force_n[2] / 1e3] * 3, rel=1e-3)
+        assert row[5] == 100.0
 
 
 def test_a_deck_slides_where_friction_ends(run):

@@ -1,6 +1,7 @@
 """Bearings between members: what carries one on the other, and the motions that it leaves free."""
 
 from dataclasses import dataclass
+from fnmatch import fnmatchcase
 from math import sqrt
 from typing import ClassVar
 
@@ -31,6 +32,11 @@ _ONLY = {
 """Keys that only some kinds have."""
 
 _NEEDED = {SLIDING: ("friction",), ELASTOMERIC: ("stiffness_mn_m", "shear_mn_m")}
+
+
+def names_one(pattern: str, name: str, kind: str) -> bool:
+    """Return whether a pattern is the name or the kind of a member, or stands for one of them."""
+    return any(text == pattern or fnmatchcase(text, pattern) for text in (name, kind))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -135,6 +141,10 @@ class Bearing(Table):
         at_least=0.001,
         at_most=1,
     )
+
+    def joins(self, above: tuple[str, str], below: tuple[str, str]) -> bool:
+        """Return whether it is between two members, each with its name and kind."""
+        return all(names_one(pattern, *member) for pattern, member in zip(self.members, (above, below), strict=True))
 
     @property
     def described(self) -> str:

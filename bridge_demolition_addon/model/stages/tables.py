@@ -13,10 +13,12 @@ import numpy as np
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...system.disk import whole_file
 from ..structure.model import Model
+from .bearing_rows import BEARING_COLUMNS, BEARINGS_FILE, bearing_rows
 from .stages import Criticality, Stage, reactions_n
 from .standing import StandingBridge
 
-FILES = STAGES_FILE, UTILISATION_FILE, CRITICALITY_FILE = "stages.csv", "utilisation.csv", "criticality.csv"
+STAGES_FILE, UTILISATION_FILE, CRITICALITY_FILE = "stages.csv", "utilisation.csv", "criticality.csv"
+FILES = STAGES_FILE, BEARINGS_FILE, UTILISATION_FILE, CRITICALITY_FILE
 
 STAGE_COLUMNS = (
     "stage",
@@ -66,6 +68,7 @@ def write_tables(
     folder.mkdir(parents=True, exist_ok=True)
     rows = [stage_row(number, stage, bridge) for number, stage in enumerate(stages, start=1)]
     write_table(folder / STAGES_FILE, STAGE_COLUMNS, rows)
+    write_table(folder / BEARINGS_FILE, BEARING_COLUMNS, bearing_rows(stages, bridge.model))
     used = (row for number, stage in enumerate(stages, start=1) for row in utilisation_rows(number, stage, bridge))
     write_table(folder / UTILISATION_FILE, UTILISATION_COLUMNS, used)
     write_table(folder / CRITICALITY_FILE, CRITICALITY_COLUMNS, map(criticality_row, members))

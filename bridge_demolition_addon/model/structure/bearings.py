@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from fnmatch import fnmatchcase
 
 import numpy as np
 
@@ -17,7 +16,7 @@ from ...engineering.mechanics.section_cuts import ConnectionLoads
 from ...engineering.structure.connections import Connections
 from ...errors import ScenarioError
 from ..bridge.member import Member
-from ..scenario.bearings import Bearing
+from ..scenario.bearings import Bearing, names_one
 from ..schema import shown
 
 _SPRINGS_OF_LINE = 64
@@ -188,11 +187,7 @@ class _Group:
 
 
 def _named(members: Sequence[Member], pattern: str, number: int) -> list[int]:
-    chosen = [
-        index
-        for index, member in enumerate(members)
-        if any(name == pattern or fnmatchcase(name, pattern) for name in (member.name, member.kind))
-    ]
+    chosen = [index for index, member in enumerate(members) if names_one(pattern, member.name, member.kind)]
     if not chosen:
         known = ", ".join(sorted({member.name for member in members} | {member.kind for member in members}))
         raise ScenarioError(

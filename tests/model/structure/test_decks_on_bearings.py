@@ -9,6 +9,7 @@ from bridge_demolition_addon.cli.check import scenario_facts
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.scenario.file import scenario_from_text
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
+from bridge_demolition_addon.model.stages.bearing_rows import bearing_rows
 from bridge_demolition_addon.model.stages.stages import stages_of
 from bridge_demolition_addon.model.stages.standing import StandingBridge
 
@@ -190,6 +191,10 @@ def test_a_stage_without_an_end_support(spans, falls):
     forces = [bearing.force_n[2] for bearing in bridge.model.bearings.forces(first.standing.loads)]
     assert sum(forces) == pytest.approx(WEIGHT_N_M * 19.0, rel=1e-6)
     assert last.loose.sum() == (12 if falls else 0)
+    rows = [row for row in bearing_rows([first, last], bridge.model) if row["stage"] == 1]
+    assert [row["bearing"] for row in rows] == ["deck on pier 1", "deck on pier 2", "deck on pier 3"]
+    assert [row["force_z_kN"] for row in rows] == pytest.approx([force / 1e3 for force in forces])
+    assert [row["axis_x_m"] for row in rows] == pytest.approx([0.0, spans[0], 18.0], abs=1e-6)
 
 
 def test_bearings_come_before_other_connections_of_their_members():
