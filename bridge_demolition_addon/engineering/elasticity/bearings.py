@@ -294,7 +294,8 @@ class Bearings:
         return np.bincount(self._of, values, len(self.rows))
 
     def _summed_matrices(self, values: FloatArray) -> FloatArray:
-        return np.stack([self._summed(entry) for entry in values.reshape(36, -1)]).reshape(6, 6, -1)
+        sums = [self._summed(entry) for entry in values.reshape(36, values.shape[2])]
+        return np.stack(sums).reshape(6, 6, len(self.rows))
 
 
 class BearingStep:
@@ -389,5 +390,5 @@ class BearingStep:
 
     def _summed_blocks(self, mine: IntArray, values: FloatArray, chosen: IntArray) -> FloatArray:
         count = len(self.rows)
-        sums = [np.bincount(self._of[mine], entry, count) for entry in values.reshape(36, -1)]
-        return np.stack(sums)[:, chosen].reshape(6, 6, -1)
+        sums = [np.bincount(self._of[mine], entry, count) for entry in values.reshape(36, len(mine))]
+        return np.stack(sums)[:, chosen].reshape(6, 6, len(chosen))

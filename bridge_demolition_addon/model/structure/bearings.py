@@ -26,6 +26,9 @@ _SPRINGS_OF_PAD = 16
 _INTO_M = 1e-3
 """How far into both members the shards at a spring are looked for."""
 
+_NUDGES_M = 1e-3 * np.array([(0.0, 0.0, 0.0), (1.0, 0.5, 0.0), (-1.0, 0.5, 0.0), (0.5, -1.0, 0.0), (-0.5, -1.0, 0.0)])
+"""What is just between two shards is looked for beside that."""
+
 _BESIDE_M = 0.25
 """How far from the area in which members touch the one above is made thinner: shards move that far at most."""
 
@@ -144,7 +147,7 @@ def bearing_connections(
         places = np.concatenate([pad.places_m for pad in pads])
         sides = ((bearing.above, _INTO_M), (bearing.below, -_INTO_M))
         pairs = [
-            _shards_at(places + np.array([0.0, 0.0, into_m]), np.flatnonzero(member_of_shard == member), shards)
+            shards_at(places + np.array([0.0, 0.0, into_m]), np.flatnonzero(member_of_shard == member), shards)
             for member, into_m in sides
         ]
         groups += _groups(number, name, pads, np.column_stack(pairs))
@@ -253,14 +256,18 @@ def _spread(chords: np.ndarray, count: int) -> np.ndarray:
     return np.asarray(chords[chord, 0] + along - (ends - lengths)[chord])
 
 
-def _shards_at(points_m: np.ndarray, candidates: np.ndarray, shards: Sequence[TriangleMesh]) -> np.ndarray:
-    """Return the shard (p,) of some that each point (p, 3) is in, or -1."""
+def shards_at(points_m: np.ndarray, candidates: np.ndarray, shards: Sequence[TriangleMesh]) -> np.ndarray:
+    """Return the shard (p,) of some that each point (p, 3) is in, or -1; between two shards it is in one of them."""
     found = np.full(len(points_m), -1)
-    for shard in candidates.tolist():
-        low, high = shards[shard].bounds
-        near = np.flatnonzero((found < 0) & (points_m >= low).all(axis=1) & (points_m <= high).all(axis=1))
-        if len(near):
-            found[near[contains(shards[shard], points_m[near])]] = shard
+    for nudge_m in _NUDGES_M:
+        nudged = points_m + nudge_m
+        for shard in candidates.tolist():
+            low, high = shards[shard].bounds
+            near = np.flatnonzero((found < 0) & (nudged >= low).all(axis=1) & (nudged <= high).all(axis=1))
+            if len(near):
+                found[near[contains(shards[shard], nudged[near])]] = shard
+        if (found >= 0).all():
+            break
     return found
 
 

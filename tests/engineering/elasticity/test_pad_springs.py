@@ -189,3 +189,10 @@ def test_springs_of_connections_that_are_left_are_numbered_among_these():
     assert left.parts.tolist() == [0, 0]
     assert left.friction.tolist() == [0.2]
     assert left.places_m.tolist() == PLACES_M[2:].tolist()
+
+
+def test_bearings_without_any_connection_left_carry_nothing():
+    none = four_pads().among(np.zeros(1, bool))
+    rest = at_rest(none, (0.0, 0.0, -2e5))
+    assert not rest.held[0]
+    assert not rest.loads.any()

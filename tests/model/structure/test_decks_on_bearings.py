@@ -6,12 +6,14 @@ import pytest
 from support.bearing_decks import OVERHANG_M, TOP_M, WEIGHT_N_M, deck_text, standing_deck
 
 from bridge_demolition_addon.cli.check import scenario_facts
+from bridge_demolition_addon.engineering.geometry.solids import box
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.scenario.file import scenario_from_text
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
 from bridge_demolition_addon.model.stages.bearing_rows import bearing_rows
 from bridge_demolition_addon.model.stages.stages import stages_of
 from bridge_demolition_addon.model.stages.standing import StandingBridge
+from bridge_demolition_addon.model.structure.bearings import shards_at
 
 SPANS_M = (10.0, 15.0)
 WHOLE_N = WEIGHT_N_M * (sum(SPANS_M) + 2.0 * OVERHANG_M)
@@ -195,6 +197,23 @@ def test_a_stage_without_an_end_support(spans, falls):
     assert [row["bearing"] for row in rows] == ["deck on pier 1", "deck on pier 2", "deck on pier 3"]
     assert [row["force_z_kN"] for row in rows] == pytest.approx([force / 1e3 for force in forces])
     assert [row["axis_x_m"] for row in rows] == pytest.approx([0.0, spans[0], 18.0], abs=1e-6)
+
+
+def test_a_deck_without_any_bearing_left_is_not_held():
+    """All its supports are taken away at once, with the pads on them."""
+    removal = '[[removals]]\nmembers = ["pier"]\ntime_s = 0.1\n'
+    scenario = scenario_from_text(deck_text(spans=(10.0,), shards=12, more=removal))
+    bridge = StandingBridge(checked_model(scenario), scenario.joints)
+    assert [stage.loose.sum() for stage in stages_of(scenario, bridge, lambda *_: None)] == [0, 12]
+
+
+def test_a_pad_between_two_shards_is_on_one_of_them():
+    """One pad in the middle of a deck of four equal boxes: the corners of all of them are there."""
+    boxes = [box((1.0, 1.0, 1.0), (x, y, 0.5)) for x in (-0.5, 0.5) for y in (-0.5, 0.5)]
+    points = np.array([[0.0, 0.0, 0.001], [0.0, 0.3, 0.001], [0.0, 1.0005, 0.001], [0.0, 1.1, 0.001]])
+    found = shards_at(points, np.arange(4), boxes)
+    assert (found[:3] >= 0).all()
+    assert found[3] == -1
 
 
 def test_bearings_come_before_other_connections_of_their_members():
