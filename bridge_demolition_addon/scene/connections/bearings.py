@@ -73,7 +73,7 @@ def bearings_of(connections: Sequence[bpy.types.Object]) -> BearingsOfScene | No
 def _numbers(connection: bpy.types.Object) -> np.ndarray:
     """Return the numbers of a connection and of its springs."""
     try:
-        numbers = np.array(connection[_PADS], float)
+        numbers = np.array(connection[_PADS], float).reshape(-1)
     except (TypeError, ValueError):
         numbers = np.zeros(0)
     of_springs = numbers[_OF_CONNECTION:]
