@@ -3,6 +3,7 @@
 
 import pytest
 from support.bearing_decks import deck_text
+from support.checkout import ROOT
 
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.scenario.bearings import Bearing
@@ -57,6 +58,13 @@ def test_stiffness_needs_elastic_connections(keys, said):
     text = deck_text((("pier", keys),), stiffness="rigid").replace("elastic_modulus_n_mm2 = 30000\n", "")
     with pytest.raises(ScenarioError, match="bearings"):
         scenario_from_text(text)
+
+
+def test_the_example_of_the_documentation_can_be_read():
+    page = (ROOT / "docs" / "connections.md").read_text(encoding="utf-8").partition("## Bearings")[2]
+    tables = page.split("```toml")[1].split("```")[0]
+    kinds = [table.kind for table in scenario_from_text(deck_text(()) + tables).bearings]
+    assert kinds == ["pinned", "sliding", "elastomeric"]
 
 
 def test_a_scenario_is_written_as_it_was_read():
