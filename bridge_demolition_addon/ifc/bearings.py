@@ -1,4 +1,4 @@
-"""Bearings as connections: the members below and above each, and the motions that it leaves free."""
+"""Bearings of a file: the members below and above each, and the motions that it leaves free."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from ..engineering.geometry.mesh import TriangleMesh
 from ..engineering.geometry.solids import union
 from ..engineering.geometry.vectors import transformed
 from ..model.scenario import ConnectionBetween
+from ..model.scenario.bearings import FIXED, PINNED, ROCKER, SLIDING, Bearing
 from .contacts import TOUCHING_M, NearbyMembers
 from .elements import Element
 from .library import library
@@ -35,12 +36,19 @@ _FREE_OF_TYPE = {
 
 _FREE_OTHERWISE = ("turn y",)
 
+_KIND_OF_MOVES = {
+    frozenset(): PINNED,
+    frozenset({"move x"}): ROCKER,
+    frozenset({"move x", "move y"}): SLIDING,
+}
+"""Kinds of bearings that rotate, by the motions that they leave free."""
+
 _PROPERTIES = {"move": "DisplacementAccommodated", "turn": "RotationAccommodated"}
 """Of Pset_BearingCommon: three truths each, along the bearing's own x, y and z."""
 
 
 @dataclass(frozen=True, slots=True)
-class Bearing:
+class BearingElement:
     """A bearing between members, given by their numbers in the list of members.
 
     It becomes part of the member below. `source` says where its free motions are from.
@@ -54,7 +62,7 @@ class Bearing:
 
 def bearing_of(
     element: Element, solid: TriangleMesh, contacts: NearbyMembers, names: Sequence[str], placement: Placement
-) -> Bearing | str:
+) -> BearingElement | str:
     """Return what a bearing with a solid connects of the members with these names, or why it is left out."""
     down, up = contacts.reached(solid, -TOUCHING_M), contacts.reached(solid, TOUCHING_M)
     # One that it is sunk into, or that is sunk into it, lies on the side that it reaches further into.
@@ -63,7 +71,7 @@ def bearing_of(
     if not below or not above:
         return f"nothing touches it from {'below' if not below else 'above'}{_gaps(solid, contacts, names)}"
     free, source = free_motions(element, placement)
-    return Bearing(below[0], tuple(above), free, source)
+    return BearingElement(below[0], tuple(above), free, source)
 
 
 def seated(solid: TriangleMesh) -> TriangleMesh:
@@ -79,19 +87,53 @@ def _gaps(solid: TriangleMesh, contacts: NearbyMembers, names: Sequence[str]) ->
     return f"; {names[index]} is {1e3 * gap_m:.1f} mm off: close that gap in the program that the file was made with"
 
 
-def bearing_rules(bearings: Sequence[Bearing], names: Sequence[str]) -> tuple[list[ConnectionBetween], list[str]]:
-    """Return the connections of bearings, one for each pair of members, and notes on bearings that differ."""
+@dataclass(frozen=True, slots=True)
+class BearingTables:
+    """Bearings of a scenario, connections in place of those that no kind of bearing is, and notes."""
+
+    bearings: tuple[Bearing, ...]
+    connections: tuple[ConnectionBetween, ...]
+    notes: tuple[str, ...]
+
+    @property
+    def members(self) -> set[str]:
+        """Names of the members that they connect."""
+        pairs = [table.members for table in self.bearings] + [table.members for table in self.connections]
+        return {name for pair in pairs for name in pair}
+
+
+def bearing_tables(found: Sequence[BearingElement], names: Sequence[str]) -> BearingTables:
+    """Return the tables of bearings, one for each pair of members, and notes on bearings that differ."""
     rules: dict[tuple[str, str], tuple[str, ...]] = {}
     notes = []
-    for bearing in bearings:
+    for bearing in found:
         for above in bearing.above:
             pair = (names[above], names[bearing.below])
             if rules.setdefault(pair, bearing.free) != bearing.free:
                 notes.append(f"bearings between {pair[0]} and {pair[1]} differ: the first counts for all of them")
-    connections = [
-        ConnectionBetween(members=pair, type="GENERIC" if free else "FIXED", free=free) for pair, free in rules.items()
-    ]
-    return connections, notes
+    tables = [_bearing(pair, free) or _connection(pair, free) for pair, free in rules.items()]
+    bearings = tuple(table for table in tables if isinstance(table, Bearing))
+    return BearingTables(bearings, tuple(table for table in tables if isinstance(table, ConnectionBetween)), (*notes,))
+
+
+def _bearing(pair: tuple[str, str], free: tuple[str, ...]) -> Bearing | None:
+    """Return the bearing between two members, the upper one first; None where none leaves just this free."""
+    moves, turns = ({motion for motion in free if motion.startswith(kind)} for kind in ("move", "turn"))
+    if not free:
+        return Bearing(members=pair, kind=FIXED)
+    kind = _KIND_OF_MOVES.get(frozenset(moves))
+    if kind is None or "turn y" not in turns:
+        return None
+    return Bearing(
+        members=pair,
+        kind=kind,
+        pads=1 if len(turns) == len(_ALL_TURNS) else None,  # at a point, it rotates about all axes
+        friction=0.0 if kind == SLIDING else None,
+    )
+
+
+def _connection(pair: tuple[str, str], free: tuple[str, ...]) -> ConnectionBetween:
+    return ConnectionBetween(members=pair, type="GENERIC", free=free)
 
 
 def free_motions(element: Element, placement: Placement) -> tuple[tuple[str, ...], str]:

@@ -24,7 +24,7 @@ from ..model.scenario import (
 )
 from ..model.scenario.connections import GROUND_NAME
 from ..model.schema import LINE_BREAKING_CATEGORIES, given
-from .bearings import bearing_of, bearing_rules, seated
+from .bearings import BearingTables, bearing_of, bearing_tables, seated
 from .contacts import NearbyMembers
 from .element_materials import Substance, substances
 from .elements import Element, elements_of
@@ -113,8 +113,8 @@ def _bridge(path: Path, table: MaterialTable, settings: ImportSettings) -> Impor
     placement = replace(near, origin_m=near.origin_m + origin)
     site, site_source = site_of(source, placement)
     outcomes = _members(elements, members, made_of, solids)
-    connected, rules, disagreements = _connected(outcomes, bearings, solids[len(members) :], placement)
-    scenario, meshes, held = _scenario(source, settings, connected, rules, site)
+    connected, tables = _connected(outcomes, bearings, solids[len(members) :], placement)
+    scenario, meshes, held = _scenario(source, settings, connected, tables, site)
     return ImportedBridge(
         scenario=scenario,
         meshes=meshes,
@@ -122,7 +122,7 @@ def _bridge(path: Path, table: MaterialTable, settings: ImportSettings) -> Impor
         ground_m=ground_m,
         ground_source=ground_source,
         site_source=site_source,
-        notes=(*source.notes, *notes, *disagreements, *held),
+        notes=(*source.notes, *notes, *tables.notes, *held),
     )
 
 
@@ -190,8 +190,8 @@ def _above_ground(solid: TriangleMesh) -> TriangleMesh | None:
 
 def _connected(
     outcomes: dict[int, Outcome], bearings: Sequence[Element], solids: Sequence[TriangleMesh], placement: Placement
-) -> tuple[dict[int, Outcome], list[ConnectionBetween], list[str]]:
-    """Return outcomes with those of the bearings, the connections of these, and notes on bearings that differ."""
+) -> tuple[dict[int, Outcome], BearingTables]:
+    """Return outcomes with those of the bearings, and the tables of these."""
     done, placed = dict(outcomes), []
     parts = [outcome.part for outcome in outcomes.values() if outcome.member]
     contacts, names = NearbyMembers([member.solid for member, _ in parts]), [member.name for member, _ in parts]
@@ -207,15 +207,14 @@ def _connected(
         why = f"between {above} and {below.name}, of which it is part; {bearing.source}"
         part = Member(below.name, below.kind, solid, below.density_kg_m3)
         done[number] = Outcome(element.facts, part, substance, "connection", why, seated(solid))
-    rules, notes = bearing_rules(placed, names)
-    return done, rules, notes
+    return done, bearing_tables(placed, names)
 
 
 def _scenario(
     source: IfcSource,
     settings: ImportSettings,
     outcomes: dict[int, Outcome],
-    rules: Sequence[ConnectionBetween],
+    tables: BearingTables,
     site: Site | None,
 ) -> tuple[Scenario, dict[str, TriangleMesh], list[str]]:
     kept = [outcome for outcome in outcomes.values() if outcome.member]
@@ -226,7 +225,7 @@ def _scenario(
     contacts = NearbyMembers([member.solid for member in members])
     supports, held = supports_of(members, contacts)
     # A member on a bearing touches the bearing, not the member below it.
-    connected = {support.member for support in supports} | {name for rule in rules for name in rule.members}
+    connected = {support.member for support in supports} | tables.members
     loose = loose_members(members, contacts, connected)
     parts = [outcome.part[0] for outcome in kept]
     meshes = {
@@ -244,7 +243,10 @@ def _scenario(
         geometry=geometry,
         fracture=FractureSettings(shards=max(settings.shards, len(members))),
         materials=tuple({own.name: own for outcome in kept if (own := outcome.part[1].row.own)}.values()),
-        connections=ConnectionSettings(type="FIXED", method="face", material=main, between=(*rules, *within)),
+        connections=ConnectionSettings(
+            type="FIXED", method="face", material=main, between=(*tables.connections, *within)
+        ),
+        bearings=tables.bearings,
         supports=tuple(supports),
         site=site,
     )

@@ -32,6 +32,7 @@ from .bodies import (
     keep_start_motion,
     mark_member,
 )
+from .connections.bearings import keep_pads, name_bearings
 from .connections.breaking_settings import Breaking, keep_bars, keep_breaking
 from .connections.constraints import create_connections
 from .connections.elasticity import forget_elasticity, keep_elasticity
@@ -109,6 +110,10 @@ def _build(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> list[bpy
         set_joints(made, joints, model.joint_of_connection, scenario.time.step)
         if model.soil:
             keep_soil(made, model.soil)
+        if model.bearings:
+            name_bearings(made, model.bearings.names, model.bearings.springs)
+            if model.stiffness is not None:
+                keep_pads(made, model.bearings.springs)
         forget_elasticity(scene)
         if model.stiffness is not None:
             ratio = scenario.connections.damping_ratio

@@ -30,6 +30,7 @@ from ..model.sequence.loads import PlacedLoad, placed_loads
 from .blast.charges import blast_of, charges_of
 from .bodies import Kind, start_motion_of
 from .body_settings import BodySettings, body_settings_of
+from .connections.bearings import BearingsOfScene, bearings_of
 from .connections.breaking_settings import Breaking, breaking_of
 from .connections.constraint_settings import ConstraintSettings, constraint_settings_of
 from .connections.elasticity import ConnectionElasticity, elasticity_of
@@ -89,6 +90,13 @@ def _soil_parts(setup: RunSetup) -> Parts:
     if setup.elasticity is None or setup.soil is None:
         return {}
     return {f"soil {name}": values for name, values in known_parts(setup.soil).items()}
+
+
+def _bearing_parts(setup: RunSetup) -> Parts:
+    """Return no parts for rigid connections: there pads are as other connections are."""
+    if setup.elasticity is None or setup.bearings is None:
+        return {}
+    return {f"bearings {name}": values for name, values in known_parts(setup.bearings.springs).items()}
 
 
 def _breaking_parts(setup: RunSetup) -> Parts:
@@ -259,6 +267,11 @@ class RunSetup:
         compared={"soil under footings": lambda setup: known_parts(setup.soil) if setup.soil else {}},
         written=_SAME_KEY,
     )
+    bearings: BearingsOfScene | None = decides(
+        hashed=_bearing_parts,
+        compared={"bearings": lambda setup: known_parts(setup.bearings.springs) if setup.bearings else {}},
+        written=_SAME_KEY,
+    )
     blast: BlastSettings = decides(hashed="hashed with charges", compared=_BY_KEY, written="written as panels show it")
     charges: tuple[Charge, ...] = decides(hashed=_blast_parts, compared=_BY_KEY, written="written as panels show them")
     time: TimeOfScene = decides(
@@ -357,6 +370,7 @@ def run_setup_of(scene: bpy.types.Scene, *, with_connections: bool = True) -> Ru
         loads=loads_of(scene),
         ground_motion=ground_motion_of(scene),
         soil=soil_of(connections.objects),
+        bearings=bearings_of(connections.objects),
         blast=blast_of(scene),
         charges=charges_of(scene),
         time=time_of(scene),

@@ -74,14 +74,15 @@ def test_footings_are_held_and_nothing_else(bridge):
     assert [(support.member, support.face) for support in bridge.scenario.supports] == [("footing", "all")]
 
 
-def test_bearings_are_connections_of_what_they_lie_between(bridge, schema):
-    rules = [rule for rule in bridge.scenario.connections.between if rule.free]
+def test_bearings_are_of_what_they_lie_between(bridge, schema):
+    rules = bridge.scenario.bearings
     lower = {"Abutment 1", "Crosshead", "Abutment 2"}
     expected = {(girder, below) for girder in ("Girder left", "Girder right") for below in lower}
     assert {rule.members for rule in rules} == expected
     for rule in rules:
         is_roller = schema == "IFC4X3" and rule.members[1] != "Crosshead"
-        assert rule.free == (("move x", "turn y") if is_roller else ("turn y",))
+        assert rule.kind == ("rocker" if is_roller else "pinned")
+    assert not any(rule.free for rule in bridge.scenario.connections.between)
 
 
 def test_strengths_by_material(bridge):

@@ -27,9 +27,8 @@ def bearings(tmp_path_factory):
     model = checked_model(scenario)
     rest = model_at_rest(model, scenario.joints)
     assert (rest.held[: len(model.shards)] | model.fixed).all()
-    rows = [row for row, joint in enumerate(scenario.joints) if "turn y" in (joint.free or ())]
-    is_bearing = np.isin(model.joint_of_connection, rows)
-    return model.connections.points[is_bearing], rest.loads[:, is_bearing].T
+    rows = model.bearings.springs.rows
+    return model.connections.points[rows], rest.loads[:, rows].T
 
 
 def test_each_bearing_is_one_connection_where_it_lies(bearings):

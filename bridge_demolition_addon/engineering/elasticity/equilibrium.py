@@ -2,25 +2,43 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..geometry.rotations import rotated
-from .equations import RigidBodies, connected_parts, stiffness_blocks, stressed, summed_on_bodies
+from .bearings import Bearings
+from .equations import RigidBodies, connected_parts, stiffness_blocks, stressed, summed_on_bodies, without
 from .frequencies import SLACK, first_frequency
-from .joint_rows import JointFrames, components_first, components_last, joint_positions
+from .joint_rows import JointFrames, JointRows, components_first, components_last, joint_positions
 from .sparse_system import BlockSystem
 
 _LARGEST_M = 0.5
 """Largest deformation; beyond it there is no equilibrium near the shape in which the part was built."""
+
+_LARGEST_TURN = 0.2
+"""The same for rotations on bearings, rad: what topples may stand again on another side."""
 
 _SOLUTIONS = 8
 """Linear solutions, one after another, each of which corrects the turning of the last: two or three are enough."""
 
 _AT_REST = 1e-9
 """Unbalanced load, as a share of the largest weight, at which the structure rests."""
+
+_SOLUTIONS_ON_BEARINGS = 60
+_AT_REST_ON_BEARINGS = 1e-7
+"""The same with bearings, which lift off and slide: their springs are so stiff that rounding leaves more."""
+
+_HALVINGS = 40
+"""How often the share of a step is halved at most: what slides may move by metres in one that is 0.1 µm too long."""
+
+_WHOLE_CHANGES = 20
+"""How often friction takes over all of the pressing force."""
+
+_WORK_LEFT = 0.1
+"""Part of the work at the beginning of a step that may be left where it ends."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -40,13 +58,17 @@ def equilibrium(
     bodies: RigidBodies,
     gravity_m_s2: FloatArray,
     loads: FloatArray | None = None,
+    bearings: Bearings | None = None,
 ) -> Equilibrium:
     """Return where bodies rest that elastic connections hold, which carry no load where they are now.
 
     `stiffness` (6, 6, m) is as in `ElasticStructure`; `loads` (6, n) are further forces on the bodies, N, and
-    moments about their centres, N·m.
+    moments about their centres, N·m. Of connections that are bearings the stiffness does not count, and their loads are
+    forces along the axes of the world, and moments about the middles of their springs.
     """
     moves = bodies.moves
+    if bearings is not None:
+        stiffness = without(stiffness, bearings.rows)
     label = connected_parts(moves, frames.first, frames.second)
     ends = np.stack((frames.first, frames.second))
     supported = np.unique(label[ends][:, ~moves[ends].all(axis=0)])
@@ -57,14 +79,89 @@ def equilibrium(
     for part in supported[supported >= 0].tolist():
         members, rows = np.flatnonzero(label == part), np.flatnonzero(of_connections == part)
         started = replace(bodies, positions_m=positions_m, rotations=rotations)
-        rest = _part_at_rest(members, frames.only(rows), stiffness[..., rows], started, gravity_m_s2, loads)
+        pads = None if bearings is None else _PartOnBearings(bearings, rows)
+        rest = _part_at_rest(members, frames.only(rows), stiffness[..., rows], started, gravity_m_s2, loads, pads)
         if rest:
             held[members] = True
             positions, turned, frequency = rest
             positions_m[:, members], rotations[..., members] = positions[:, members], turned[..., members]
             frequencies.append(frequency)
     loads = stressed(stiffness, joint_positions(frames, positions_m, rotations).deformations() - unloaded)
+    if bearings is not None:
+        loads[:, bearings.rows] = bearings.loads_at_rest(positions_m, rotations)
     return Equilibrium(positions_m, rotations, held, min(frequencies, default=0.0), loads)
+
+
+class _Part:
+    """Connected bodies `members` (b,), held by connections `rows` of all, on which weight and loads (6, n) act."""
+
+    def __init__(
+        self,
+        members: IntArray,
+        frames: JointFrames,
+        stiffness: FloatArray,
+        bodies: RigidBodies,
+        weights: FloatArray,
+        pads: _PartOnBearings | None,
+    ):
+        self._members, self._frames, self._stiffness = members, frames, stiffness
+        self._bodies, self._weights, self._pads = bodies, weights, pads
+        self._unloaded = joint_positions(frames, bodies.positions_m, bodies.rotations).deformations()
+        unknown = np.full(len(bodies), -1)
+        unknown[members] = np.arange(len(members))
+        self._rows = JointRows.empty(0)
+        self.system = BlockSystem(len(members), unknown[frames.first], unknown[frames.second])
+
+    def unbalanced(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
+        """Return the forces and moments (6, b) that are left on the bodies at these positions."""
+        positions = joint_positions(self._frames, positions_m, rotations)
+        self._rows = positions.rows()
+        holding = self._rows.loads(stressed(self._stiffness, positions.deformations() - self._unloaded))
+        if self._pads is not None:
+            self._pads.add_loads(holding, positions_m, rotations)
+        on_bodies = summed_on_bodies(self._frames.first, self._frames.second, holding, len(self._bodies))
+        left: FloatArray = (self._weights + on_bodies)[:, self._members]
+        return left
+
+    def factor(self, own: FloatArray, positions_m: FloatArray, rotations: FloatArray) -> None:
+        """Make the equations where forces were balanced last, with an addition (6, 6, b) for each body."""
+        blocks = stiffness_blocks(self._rows, self._stiffness)
+        if self._pads is not None:
+            self._pads.add_blocks(blocks, positions_m, rotations)
+        self.system.factor(own, *blocks)
+
+
+class _PartOnBearings:
+    """Bearings among the connections (r,) of a part, in ascending order.
+
+    At first none of them has lifted off or slides. Friction counts by the pressing force of `follow`, which does not
+    change while forces are balanced with it. After some changes it goes half of the way only, so that it settles.
+    """
+
+    def __init__(self, bearings: Bearings, rows: IntArray):
+        self._bearings, self._rows = bearings, rows
+        self._pressed_n: FloatArray | None = None
+        self._changes = 0
+        self._mine = np.flatnonzero(np.isin(bearings.rows, rows))
+        self._at = np.searchsorted(rows, bearings.rows[self._mine])
+
+    def follow(self, positions_m: FloatArray, rotations: FloatArray) -> None:
+        """Let pads lift off and slide, by the pressing forces at these positions."""
+        pressed_n = self._bearings.pressed_at(positions_m, rotations)
+        if self._pressed_n is not None and self._changes > _WHOLE_CHANGES:
+            pressed_n = 0.5 * (self._pressed_n + pressed_n)
+        self._pressed_n = pressed_n
+        self._changes += 1
+
+    def add_loads(self, loads: tuple[FloatArray, FloatArray], positions_m: FloatArray, rotations: FloatArray) -> None:
+        """Add the forces of pads to those (6, r) on first and second bodies."""
+        on_pads = self._bearings.at_rest(positions_m, rotations, self._pressed_n)
+        for load, more in zip(loads, on_pads.loads, strict=True):
+            load[:, self._at] += more[:, self._mine]
+
+    def add_blocks(self, blocks: Sequence[FloatArray], positions_m: FloatArray, rotations: FloatArray) -> None:
+        """Add the stiffness of pads to the blocks (6, 6, r) of connections."""
+        self._bearings.add_stiffness(blocks, self._rows, positions_m, rotations, self._pressed_n)
 
 
 def _part_at_rest(
@@ -74,30 +171,64 @@ def _part_at_rest(
     bodies: RigidBodies,
     gravity_m_s2: FloatArray,
     loads: FloatArray | None,
+    pads: _PartOnBearings | None,
 ) -> tuple[FloatArray, FloatArray, float] | None:
     """Positions, rotations and first frequency of connected bodies (b,) at rest; None for a mechanism."""
     count, positions_m, rotations = len(bodies), bodies.positions_m, bodies.rotations
-    unknown = np.full(count, -1)
-    unknown[members] = np.arange(len(members))
-    system = BlockSystem(len(members), unknown[frames.first], unknown[frames.second])
     weights = np.zeros((6, count))
     weights[:3, members] = bodies.masses_kg[members] * gravity_m_s2[:, None]
     if loads is not None:
         weights[:, members] += loads[:, members]
-    unloaded = joint_positions(frames, positions_m, rotations).deformations()
-    for _ in range(_SOLUTIONS):
-        positions = joint_positions(frames, positions_m, rotations)
-        rows = positions.rows()
+    part = _Part(members, frames, stiffness, bodies, weights, pads)
+    solutions, balanced = (_SOLUTIONS, _AT_REST) if pads is None else (_SOLUTIONS_ON_BEARINGS, _AT_REST_ON_BEARINGS)
+    for _ in range(solutions):
         own = bodies.mass_matrices(rotations, members)
-        system.factor(SLACK * own, *stiffness_blocks(rows, stiffness))
-        holding = rows.loads(stressed(stiffness, positions.deformations() - unloaded))
-        left = (weights + summed_on_bodies(frames.first, frames.second, holding, count))[:, members]
-        if abs(left[:3]).max() <= _AT_REST * abs(weights).max():
+        left = part.unbalanced(positions_m, rotations)
+        part.factor(SLACK * own, positions_m, rotations)
+        if abs(left[:3]).max() <= balanced * abs(weights).max():
             break
         moved = np.zeros((6, count))
-        moved[:, members] = system.solve(left)
+        moved[:, members] = part.system.solve(left)
+        if pads is not None:
+            moved *= _share_of_step(part, positions_m, rotations, moved, members)
         if not abs(moved[:3]).max() <= _LARGEST_M:
             return None
-        positions_m = positions_m + moved[:3]
-        rotations = components_first(rotated(components_last(rotations), components_last(moved[3:])))
-    return positions_m, rotations, first_frequency(system, own)
+        positions_m, rotations = _moved(positions_m, rotations, moved)
+        if pads is not None:
+            moved_m, turned = positions_m - bodies.positions_m, rotations - bodies.rotations
+            if not (abs(moved_m).max() <= _LARGEST_M and abs(turned).max() <= _LARGEST_TURN):
+                return None
+            pads.follow(positions_m, rotations)
+    else:
+        if pads is not None:  # it rocks or slides, and comes to no rest
+            return None
+    return positions_m, rotations, first_frequency(part.system, own)
+
+
+def _moved(positions_m: FloatArray, rotations: FloatArray, step: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Positions and rotations after a step (6, n)."""
+    return positions_m + step[:3], components_first(rotated(components_last(rotations), components_last(step[3:])))
+
+
+def _share_of_step(
+    part: _Part, positions_m: FloatArray, rotations: FloatArray, step: FloatArray, members: IntArray
+) -> float:
+    """Return the share of a step (6, n) up to which the forces that are left do work: beyond it energy grows again.
+
+    Of what falls it is so much that this is seen.
+    """
+
+    def work(share: float) -> float:
+        left = part.unbalanced(*_moved(positions_m, rotations, share * step))
+        return float((left * step[:, members]).sum())
+
+    slack = _WORK_LEFT * work(0.0)
+    whole = 1.0 / max(1.0, float(abs(step[:3]).max()) / (2.0 * _LARGEST_M), float(abs(step[3:]).max()))
+    low, high, share = 0.0, whole, whole
+    for _ in range(_HALVINGS):
+        done = work(share)
+        if abs(done) <= slack or (share == whole and done > 0.0):
+            break
+        low, high = (share, high) if done > 0.0 else (low, share)
+        share = 0.5 * (low + high)
+    return share

@@ -19,6 +19,7 @@ from typing import Protocol
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
+from .bearings import Bearings
 from .cracks import Cracks
 from .equations import RigidBodies, connected_parts, stiffness_blocks, stressed, summed_on_bodies, without
 from .frequencies import SLACK, first_frequency
@@ -61,7 +62,7 @@ class ElasticStep:
 
 
 class NonlinearTerms(Protocol):
-    """Forces in a sub-step that are not proportional to deformation: of cracks, and of footings on soil."""
+    """Forces in a sub-step that are not proportional to deformation: of cracks, bearings, and footings on soil."""
 
     rows: IntArray
 
@@ -81,8 +82,8 @@ class NonlinearTerms(Protocol):
         """Return the sums (6, n) of loads (6, c) on the first and on the second bodies, for n bodies."""
 
 
-class SoilSpringLaw(Protocol):
-    """Footings on springs in place of some connections, whose own stiffness does not count."""
+class SpringLaw(Protocol):
+    """Springs of footings or bearings in place of some connections, whose own stiffness does not count."""
 
     rows: IntArray
 
@@ -151,12 +152,17 @@ class ElasticStructure:
         bodies: RigidBodies,
         damping_s: FloatArray | float,
         cracks: Cracks | None = None,
-        soil: SoilSpringLaw | None = None,
+        soil: SpringLaw | None = None,
+        bearings: Bearings | None = None,
     ):
-        self._frames, self._bodies, self._soil = frames, bodies, soil
+        self._frames, self._bodies = frames, bodies
         self._damping_s = np.broadcast_to(np.asarray(damping_s, float), len(frames))
-        self._with_soil = stiffness
-        self._stiffness = stiffness if soil is None else without(stiffness, soil.rows)
+        self._springs = [springs for springs in (soil, bearings) if springs is not None]
+        self._bearings = bearings
+        self._with_soil = stiffness if bearings is None else without(stiffness, bearings.rows)
+        self._stiffness = stiffness
+        for springs in self._springs:
+            self._stiffness = without(self._stiffness, springs.rows)
         self._count, self._moves = len(bodies), bodies.moves
         positions = joint_positions(frames, bodies.positions_m, bodies.rotations)
         self._offsets = positions.deformations()
@@ -196,6 +202,8 @@ class ElasticStructure:
             rows = joint_positions(self._frames.only(part.connections), positions_m, rotations).rows()
             own = self._bodies.mass_matrices(rotations, part.bodies)
             blocks = stiffness_blocks(rows, self._with_soil[..., part.connections])
+            if self._bearings is not None:  # neither lifted off nor sliding, as at first
+                self._bearings.add_stiffness(blocks, part.connections, positions_m, rotations, None)
             part.system.factor(SLACK * own, *blocks)
             self._stale[number] = True
             found.append((part.connections, first_frequency(part.system, own)))
@@ -213,8 +221,9 @@ class ElasticStructure:
         acting = np.flatnonzero(acts)
         frames = self._frames.only(acting)
         positions, deformations = self._deformed(acting, start.positions_m, start.rotations)
-        cracks, soil = self._acting_terms(self._cracks, are_awake, start), self._acting_terms(self._soil, acts, start)
-        nonlinear = [terms for terms in (cracks, soil) if terms is not None]
+        cracks = self._acting_terms(self._cracks, are_awake, start)
+        springs = [terms for law in self._springs if (terms := self._acting_terms(law, acts, start)) is not None]
+        nonlinear = springs if cracks is None else [cracks, *springs]
         self._refresh(start, awake, acting, positions, nonlinear)
         rows, stiffness = self._rows.only(acting), self._stiffness[..., acting]
         first, second = (start.velocities.take(ends, axis=1) for ends in (frames.first, frames.second))
@@ -238,12 +247,12 @@ class ElasticStructure:
         if cracks is not None:
             of_cracks = cracks.loads(start.velocities + changes)
             of_bodies = of_bodies + cracks.of_bodies(of_cracks, self._count)
-        if soil is not None:
-            of_soil = soil.loads(start.velocities + changes)
-            of_bodies = of_bodies + soil.of_bodies(of_soil, self._count)
-            of_acting = np.searchsorted(acting, soil.rows)
-            of_first[:, of_acting] += of_soil[0]
-            of_second[:, of_acting] += of_soil[1]
+        for terms in springs:
+            of_springs = terms.loads(start.velocities + changes)
+            of_bodies = of_bodies + terms.of_bodies(of_springs, self._count)
+            of_acting = np.searchsorted(acting, terms.rows)
+            of_first[:, of_acting] += of_springs[0]
+            of_second[:, of_acting] += of_springs[1]
         return ElasticStep(
             acting=acting,
             deformations=deformations,
@@ -266,14 +275,14 @@ class ElasticStructure:
             stored[rows] += 0.5 * amount * deformation
         if self._cracks is not None and len(self._cracks):
             stored[self._cracks.rows] = self._cracks.stored_j(positions_m, rotations)
-        if self._soil is not None:
-            stored[self._soil.rows] = self._soil.stored_j(positions_m, rotations) * self._intact[self._soil.rows]
+        for law in self._springs:
+            stored[law.rows] = law.stored_j(positions_m, rotations) * self._intact[law.rows]
         return stored
 
     def settle(self, positions_m: FloatArray, rotations: FloatArray) -> None:
-        """Take over, before a sub-step, how far soil and reinforcement have yielded, and let go what has ruptured."""
-        if self._soil is not None:
-            self._soil.settle(positions_m, rotations)
+        """Take over, before a sub-step, how far springs and bars have yielded, and let go what has ruptured."""
+        for law in self._springs:
+            law.settle(positions_m, rotations)
         if self._cracks is None or not len(self._cracks):
             return
         gone = self._cracks.settle(positions_m, rotations)
@@ -350,9 +359,9 @@ class ElasticStructure:
         return awake
 
     def _acting_terms(
-        self, springs: Cracks | SoilSpringLaw | None, acts: BoolArray, start: StepInput
+        self, springs: Cracks | SpringLaw | None, acts: BoolArray, start: StepInput
     ) -> NonlinearTerms | None:
-        """Cracks that reinforcement holds, or footings, of connections that act (m,); None where there is none."""
+        """Cracks that reinforcement holds, or springs, of connections that act (m,); None where there is none."""
         if springs is None or not acts[springs.rows].any():
             return None
         chosen = np.flatnonzero(acts[springs.rows])

@@ -31,6 +31,7 @@ from ..schema import (
     subtable_fields,
 )
 from .ball import Ball
+from .bearings import Bearing
 from .bodies import Equipment, Ground, ShardSettings, Support
 from .bridge import Bridge
 from .connections import ConnectionSettings
@@ -66,6 +67,7 @@ class Scenario(Table):
     materials: tuple[Material, ...] = ()
     reinforcement: tuple[BarLayer, ...] = ()
     connections: ConnectionSettings
+    bearings: tuple[Bearing, ...] = ()
     supports: tuple[Support, ...] = ()
     foundations: tuple[Foundation, ...] = ()
     shards: ShardSettings = field(default_factory=ShardSettings)
@@ -95,8 +97,14 @@ class Scenario(Table):
 
     @property
     def joints(self) -> tuple[Joint, ...]:
-        """Return the joint of connections that follow no rule of `connections.between`, then that of each rule."""
-        return self.connections.joints(self.materials)
+        """Return the joint of connections that follow no rule, then that of each rule, then that of each bearing.
+
+        Rules are those of `connections.between`.
+        """
+        own, *others = self.connections.joints(self.materials)
+        factor, is_elastic = self.connections.strength_factor, self.connections.is_elastic
+        pads = [table.joint(own, factor, is_elastic=is_elastic) for table in self.bearings]
+        return (own, *others, *pads)
 
     @property
     def weighed_bridge(self) -> Bridge | None:
@@ -173,6 +181,9 @@ class Scenario(Table):
         object.__setattr__(self, "connections", self.connections.with_strength(self.fracture.shards))
         check_materials(self.materials)
         self._check_reinforcement()
+        if not self.connections.is_elastic:
+            for table in self.bearings:
+                table.check_rigid()
         _ = self.joints  # refuses materials that are unknown, or do not say how they deform
         if self.bridge and self._material_density_kg_m3 is None:
             check_exactly_one(self.bridge, "density_kg_m3", "mass_kg")

@@ -97,6 +97,7 @@ class StandingBridge:
             self._held_motions[:, rows],
             (0.0, 0.0, -factor * STANDARD_GRAVITY_M_S2),
             factor * loads,
+            model.bearings.springs.among(intact) if model.bearings else None,
         )
         carried = np.zeros((6, len(intact)))
         carried[:, rows] = solution.loads
@@ -154,6 +155,9 @@ class StandingBridge:
                 directions[rows] = FORCE
             elif len(rows):
                 directions[rows] = _directions(judge, rows, standing.loads.in_sections(rows, self._axes[rows]))
+        if self.model.bearings:
+            pads = self.model.bearings.springs.rows
+            directions[pads] = np.where(np.isfinite(standing.alone[pads]), FORCE, "")
         return directions
 
     def parts(self, intact: np.ndarray) -> np.ndarray:
@@ -186,6 +190,9 @@ class StandingBridge:
                 by_force = largest[rows] / (joint.breaking_force_n * left[rows])
                 alone[rows] = np.fmax(alone[rows], by_force)
                 together[rows] = np.fmax(together[rows], by_force)
+        if bearings := self.model.bearings:
+            used = np.where(intact[bearings.springs.rows], bearings.utilisations(loads, intact, left), np.nan)
+            alone[bearings.springs.rows] = together[bearings.springs.rows] = used
         return alone, together
 
     def _broken(self, standing: Standing, intact: np.ndarray) -> np.ndarray:
@@ -193,7 +200,8 @@ class StandingBridge:
         rows = np.flatnonzero(intact & (standing.used > 1.0))
         if not len(rows):
             return rows
-        return rows[worst_around(self._pairs[rows], standing.together[rows], self._moves)]
+        worst = rows[worst_around(self._pairs[rows], standing.together[rows], self._moves)]
+        return self.model.bearings.broken_together(worst) if self.model.bearings else worst
 
 
 def _directions(judge: Overloads, rows: np.ndarray, carried: SectionForces) -> np.ndarray:

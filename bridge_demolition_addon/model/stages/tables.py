@@ -13,13 +13,15 @@ import numpy as np
 from ...engineering.units import STANDARD_GRAVITY_M_S2, mass_text, with_digits
 from ...system.disk import whole_file
 from ..structure.model import Model
+from .bearing_rows import BEARING_COLUMNS, BEARINGS_FILE, bearing_rows
 from .reactions import SupportPoint, supports_of
 from .stages import Criticality, Stage, reactions_n
 from .standing import StandingBridge
 
-FILES = STAGES_FILE, REACTIONS_FILE, UTILISATION_FILE, CRITICALITY_FILE = (
+FILES = STAGES_FILE, REACTIONS_FILE, _, UTILISATION_FILE, CRITICALITY_FILE = (
     "stages.csv",
     "reactions.csv",
+    BEARINGS_FILE,
     "utilisation.csv",
     "criticality.csv",
 )
@@ -99,6 +101,7 @@ def write_tables(
     rows = [stage_row(number, stage, bridge) for number, stage in enumerate(stages, start=1)]
     write_table(folder / STAGES_FILE, STAGE_COLUMNS, rows)
     write_table(folder / REACTIONS_FILE, REACTION_COLUMNS, all_reaction_rows(stages, bridge.model))
+    write_table(folder / BEARINGS_FILE, BEARING_COLUMNS, bearing_rows(stages, bridge.model))
     used = (row for number, stage in enumerate(stages, start=1) for row in utilisation_rows(number, stage, bridge))
     write_table(folder / UTILISATION_FILE, UTILISATION_COLUMNS, used)
     write_table(folder / CRITICALITY_FILE, CRITICALITY_COLUMNS, map(criticality_row, members))

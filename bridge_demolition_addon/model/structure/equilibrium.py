@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ...engineering.elasticity.bearings import Bearings, PadSprings
 from ...engineering.elasticity.equations import RigidBodies
 from ...engineering.elasticity.equilibrium import Equilibrium, equilibrium
 from ...engineering.elasticity.joint_rows import JointFrames, components_first
@@ -40,7 +41,15 @@ def overloaded(model: Model, rest: Equilibrium, joints: Sequence[Joint]) -> np.n
         is_one = model.breakable & (model.joint_of_connection == row)
         if joint.strength is not None:
             broken[_beyond_strength(model, rest, np.flatnonzero(is_one), joint.strength)] = True
+    if model.bearings:
+        whole = np.ones(len(model.connections))
+        broken[model.bearings.springs.rows] = model.bearings.utilisations(loads_of(model, rest), whole > 0.0, whole) > 1
     return broken
+
+
+def loads_of(model: Model, rest: Equilibrium) -> ConnectionLoads:
+    """Return the loads on the first bodies of all connections of a model at rest."""
+    return ConnectionLoads(rest.loads[:3].T, rest.loads[3:].T, model.connections.points)
 
 
 def force_utilisations(model: Model, rest: Equilibrium, joints: Sequence[Joint]) -> np.ndarray:
@@ -55,7 +64,7 @@ def force_utilisations(model: Model, rest: Equilibrium, joints: Sequence[Joint])
 
 def _beyond_strength(model: Model, rest: Equilibrium, rows: np.ndarray, strength: Strength) -> np.ndarray:
     """Return which connections (r,) with a strength would break first in a simulation, as indices (k,)."""
-    loads = ConnectionLoads(rest.loads[:3].T, rest.loads[3:].T, model.connections.points)
+    loads = loads_of(model, rest)
     axes = section_axes(model.connections.normals[rows])
     whole, together = np.ones(len(model.connections)), np.zeros(len(model.connections), int)
     judged = overloads_of(model, strength, member_sections_of(model))
@@ -96,8 +105,10 @@ def model_at_rest(model: Model, joints: Sequence[Joint]) -> Equilibrium:
     Springs in motions that are free do not count.
     """
     masses = np.where(model.fixed, 0.0, model.masses_kg)
-    held = held_motions(model, joints)
-    return at_rest(model.connections, given(model.stiffness), masses, inertias_of(model), model.centres_m, held)
+    held, pads = held_motions(model, joints), model.bearings.springs if model.bearings else None
+    return at_rest(
+        model.connections, given(model.stiffness), masses, inertias_of(model), model.centres_m, held, pads=pads
+    )
 
 
 def held_motions(model: Model, joints: Sequence[Joint]) -> np.ndarray:
@@ -127,6 +138,7 @@ def at_rest(
     held: np.ndarray | None = None,
     gravity_m_s2: tuple[float, float, float] = (0.0, 0.0, -STANDARD_GRAVITY_M_S2),
     loads: np.ndarray | None = None,
+    pads: PadSprings | None = None,
 ) -> Equilibrium:
     """Return where n bodies rest under their own weight, and the ground as the last body.
 
@@ -138,6 +150,8 @@ def at_rest(
         Whether connections hold displacements along and rotations about the axes of the world; all by default.
     loads : (6, n) float, optional
         Further forces on the shards, N, and moments about their centres, N·m.
+    pads : PadSprings, optional
+        Springs in place of those connections that are bearings.
     """
     sections = components_first(section_axes(connections.normals))
     held = np.ones((6, len(connections)), bool) if held is None else held
@@ -148,10 +162,14 @@ def at_rest(
     levers = [components_first(connections.points - positions[ends]) for ends in (first, second)]
     tensors, unturned = np.zeros((3, 3, len(positions))), np.repeat(np.eye(3)[:, :, None], len(positions), axis=2)
     tensors[[0, 1, 2], [0, 1, 2], :-1] = inertias_kg_m2.T
+    bearings = None
+    if pads is not None:
+        bearings = Bearings(pads, first, second, first[pads.rows], components_first(positions), unturned)
     return equilibrium(
         JointFrames(first, second, axes, axes, *levers),
         in_frames(stiffness, sections, held),
         RigidBodies(np.append(masses_kg, 0.0), tensors, components_first(positions), unturned),
         np.array(gravity_m_s2),
         None if loads is None else np.column_stack((loads, np.zeros(6))),
+        bearings,
     )

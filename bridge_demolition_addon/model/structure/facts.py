@@ -18,7 +18,7 @@ from ..materials.bar_layers import AXES, SIDES
 from ..scenario import ConnectionBetween, ConnectionSettings, Scenario
 from ..scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
 from ..schema import given
-from .equilibrium import deflection_m, force_utilisations, model_at_rest, overloaded
+from .equilibrium import deflection_m, force_utilisations, loads_of, model_at_rest, overloaded
 from .face_bars import layers_of_members
 from .model import Model
 
@@ -32,6 +32,12 @@ _NO_KIND = "member"
 
 _SPANS = 0.7
 """Length over that of the longest member from which on a member spans."""
+
+_ACROSS = {"turn x": (1, 2), "turn y": (0, 2), "turn z": (0, 1)}
+"""Axes along which faces that are apart hold against a rotation that each of them leaves free."""
+
+_ONE_ROW_M = 0.02
+"""Distance up to which faces turn about one axis."""
 
 
 def overlap_facts(model: Model) -> Iterator[Fact]:
@@ -72,6 +78,8 @@ def connection_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
             yield "", f'strength of {MATERIAL_OF_LARGE_MODELS} give none, and method "face"'
     yield from _bar_facts(scenario, model)
     yield from _rule_facts(scenario)
+    yield from _clamping_facts(scenario, model)
+    yield from _bearing_facts(scenario, model)
 
 
 def _bar_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
@@ -105,7 +113,12 @@ def rest_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
         yield "", "by the force or moment of each that is largest, in N or N·m, as Bullet breaks it"
     if loose:
         yield "not held", f"{loose} shards, by no connection to a support: they fall, or tremble on others. Bearings"
-        yield "", "would hold them: [[connections.between]] with type GENERIC"
+        yield "", "would hold them: [[bearings]]"
+    if model.bearings and held:
+        for bearing in model.bearings.forces(loads_of(model, rest)):
+            along, across, up = bearing.force_n / 1000.0
+            lifted = "" if up else ": it has lifted off"
+            yield bearing.name, f"{up:.1f} kN up, {along:.1f} kN along, {across:.1f} kN across{lifted}"
     if held:
         yield "deflection", f"{1000.0 * deflection_m(model, rest):.2f} mm"
         yield "first frequency", f"{rest.frequency_hz:.3f} Hz"
@@ -192,8 +205,40 @@ def _stress_facts(force_n: float, scenario: Scenario, model: Model) -> Iterator[
 
 
 def _rule_facts(scenario: Scenario) -> Iterator[Fact]:
-    for rule, joint in zip(scenario.connections.between, scenario.joints[1:], strict=True):
+    rules = scenario.connections.between
+    for rule, joint in zip(rules, scenario.joints[1 : 1 + len(rules)], strict=True):
         yield "between", f"{' and '.join(rule.members)}: {'none' if rule.none else _joint_text(rule, joint)}"
+
+
+def _clamping_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
+    """Yield which faces between members turn freely one by one, but clamp together."""
+    of_body = np.append(model.member_of_shard, len(model.members))  # the ground is -1, the last
+    names = [member.name for member in model.members] + ["the ground"]
+    for number, joint in enumerate(scenario.joints[: 1 + len(scenario.connections.between)]):
+        rows = np.flatnonzero(model.joint_of_connection == number)
+        between = np.sort(of_body[model.connections.pairs[rows]], axis=1)
+        rows, between = rows[between[:, 0] != between[:, 1]], between[between[:, 0] != between[:, 1]]
+        for motion in (motion for motion in joint.free if motion in _ACROSS):
+            for pair in np.unique(between, axis=0):
+                points = model.connections.points[rows[(between == pair).all(axis=1)]]
+                depth_m = max(float(np.ptp(points[:, axis])) for axis in _ACROSS[motion])
+                if depth_m > _ONE_ROW_M:
+                    yield "clamps", f"{' and '.join(names[member] for member in pair)}: free to {motion}, but in faces"
+                    yield "", f"{depth_m:.2f} m apart across that axis, which press and pull: [[bearings]] turn freely"
+
+
+def _bearing_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
+    if not model.bearings:
+        return
+    bearings = model.bearings
+    first_joint = 1 + len(scenario.connections.between)
+    for number, name in enumerate(bearings.names):
+        rows = bearings.rows_of(number)
+        if len(rows):
+            table = scenario.bearings[int(model.joint_of_connection[rows[0]]) - first_joint]
+            yield "bearing", f"{name}: {table.described}, {len(rows)} connections"
+    if not scenario.connections.is_elastic:
+        yield "", "with rigid connections they hold what is lifted, and slide without friction"
 
 
 def _joint_text(rule: ConnectionBetween, joint: Joint) -> str:

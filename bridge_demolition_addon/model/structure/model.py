@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 
 import numpy as np
@@ -23,6 +23,7 @@ from ..bridge.preparation import prepared_members
 from ..scenario import ConnectionSettings, Geometry, Scenario
 from ..schema import given
 from ..terrain.built import BuiltGround, built_ground
+from .bearings import ModelBearings, bearing_connections, have_bearing, placed_bearings, raised_shards
 from .connection_rules import rules_of_pairs
 from .face_bars import face_bars
 from .footings import on_footings, second_moments_of, soil_springs, with_soil
@@ -51,8 +52,9 @@ class Model:
         Whether each shard never moves, as supports hold it; no connection lies between two of these.
     held_parts : tuple of HeldPart
         What supports hold, each shard of `fixed` in one of them.
-    stiffness, soil, bars
-        None where connections are rigid, where the ground does not settle, and without layers of reinforcement.
+    stiffness, soil, bars, bearings
+        None where connections are rigid, where the ground does not settle, without layers of reinforcement, and without
+        `[[bearings]]`.
     """
 
     members: tuple[Member, ...]
@@ -69,6 +71,7 @@ class Model:
     ground: BuiltGround = field(default_factory=BuiltGround)
     soil: SoilSprings | None = None
     bars: FaceBars | None = None
+    bearings: ModelBearings | None = None
 
     def thicknesses_m(self) -> np.ndarray:
         """Return the thickness (m,) of the thinner of the members that each connection is between."""
@@ -78,8 +81,10 @@ class Model:
 
     @property
     def breakable(self) -> np.ndarray:
-        """Return which connections (m,) can break: not those that are footings on soil."""
+        """Return which connections (m,) can break by stress: not footings on soil, nor pads that deform."""
         can = np.ones(len(self.connections), bool)
+        if self.bearings and self.stiffness is not None:
+            can[self.bearings.springs.rows] = False
         if self.soil:
             can[self.soil.rows] = False
         return can
@@ -101,17 +106,34 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
     rules_of = partial(rules_of_pairs, rules, members, fractured.member_of_shard)
     excluded = np.array([False, *(rule.none for rule in rules)])
     heights_at = None if ground.terrain is None else ground.terrain.heights_at
-    connections = _connections(
-        scenario.connections, shards, centres, faces, lambda pairs: ~excluded[rules_of(pairs)], heights_at
-    )
+    placed = placed_bearings(scenario.bearings, members)
+
+    def allowed(pairs: np.ndarray) -> np.ndarray:
+        return ~excluded[rules_of(pairs)] & ~have_bearing(placed, fractured.member_of_shard, pairs)
+
+    connections = _connections(scenario.connections, shards, centres, faces, allowed, heights_at)
+    joint_of_connection = rules_of(connections.pairs)
+    bearings = None
+    if placed:
+        of_pads, bearings, tables = bearing_connections(
+            placed,
+            scenario.bearings,
+            members,
+            fractured.member_of_shard,
+            shards,
+            len(connections),
+            scenario.connections.strength_factor,
+        )
+        connections = connecting.joined([connections, of_pads])
+        joint_of_connection = np.concatenate((joint_of_connection, 1 + len(rules) + tables))
     held = held_parts(scenario.supports, members, shards, fractured.member_of_shard)
     fixed = np.zeros(len(shards), dtype=bool)
     for part in held:
         fixed[part.shards] = True
     # The ground, at index -1, is fixed as well.
     moves = ~np.append(fixed, True)[connections.pairs].all(axis=1)
-    connections = connections.only(moves)
-    joint_of_connection = rules_of(connections.pairs)
+    connections, joint_of_connection = connections.only(moves), joint_of_connection[moves]
+    bearings = replace(bearings, springs=bearings.springs.among(moves)) if bearings else None
     moments = second_moments(
         shards, connections.pairs[:, 0], connections.areas, connections.points, connections.normals
     )
@@ -142,7 +164,12 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
         moments[soil.rows] = second_moments_of(soil)
     return Model(
         members=members,
-        shards=shards_with_gaps(fractured, members, scenario.fracture.margin_m),
+        shards=raised_shards(
+            shards_with_gaps(fractured, members, scenario.fracture.margin_m),
+            placed,
+            scenario.bearings,
+            fractured.member_of_shard,
+        ),
         member_of_shard=fractured.member_of_shard,
         masses_kg=fractured.masses_kg,
         centres_m=centres,
@@ -155,6 +182,7 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
         ground=ground,
         soil=soil,
         bars=bars,
+        bearings=bearings,
     )
 
 

@@ -54,7 +54,8 @@ LIMITS = (
     "Peak forces of impacts depend on the time step, their impulses do not.",
     "Where and how a bridge breaks depends on its connections. One breaking force for all of them makes the result "
     "depend on how finely the bridge is cut.",
-    "Soil, friction of bearings, and pressures of blast behind or inside members are not modelled.",
+    "Soil and friction of bearings count only where the scenario has foundations and sliding bearings, with elastic "
+    "connections. Pressures of blast behind or inside members are not modelled.",
     "Nothing here has been calibrated against a measured demolition.",
 )
 

@@ -79,11 +79,11 @@ class Breaker:
     def break_predicted(self, both_sides: np.ndarray, begin_s: float, substep_s: float) -> np.ndarray:
         """Break the connections (b,) that predicted loads (2, 6, m) on their bodies overload, and return them."""
         loads = self._meter.predicted_loads(both_sides)
-        rows = self._candidates(loads)
-        if not len(rows):
+        rows, failed = self._candidates(loads), self._failed_bearings()
+        if not len(rows) and not len(failed):
             return _NONE
         moment = self._meter.moment(self._meter.predicted(loads, substep_s, begin_s))
-        rows = self._overloaded(rows, moment)
+        rows = np.union1d(self._overloaded(rows, moment), failed) if len(rows) else failed
         if len(rows):
             self._broken_before.append(Breaks(begin_s, rows, self._meter.section_forces(moment, rows)))
             self._break(rows, moment)
@@ -110,6 +110,11 @@ class Breaker:
         resistance = self._resistance
         rows = given(resistance.overloads).candidates(loads, self._meter.lever_arms_m, resistance.remaining_strength)
         return rows[self._intact[rows]]
+
+    def _failed_bearings(self) -> np.ndarray:
+        """Connections (b,) at pads of bearings that break by their force, or whose bodies have left each other."""
+        elastic, left = self._resistance.elastic, self._resistance.remaining_strength
+        return elastic.failed_bearings(self._intact, left) if elastic and self._warm_up.is_over else _NONE
 
     def _overloaded(self, rows: np.ndarray, moment: Moment) -> np.ndarray:
         """Which of connections (r,) break (k,)."""

@@ -21,7 +21,7 @@ from ...scene.tools.ground_motion import rows_on_moving_ground
 from .blast import Blast
 from .breaking import Breaker, Breaks, ElasticPrediction, Resistance
 from .drivers import LastSubstepLoads, ThresholdScale, WarmUp
-from .elastic_connections import ElasticConnections
+from .elastic_connections import ElasticConnections, SupportSprings
 from .events import AppliedEvent, Events
 from .frame_sums import FrameSums
 from .ground_drive import GroundDrive
@@ -128,7 +128,8 @@ class BulletReader:
         bodies, elasticity = setup.bodies.objects, given(setup.elasticity)
         stiffness, ratio = elasticity.stiffness, elasticity.damping_ratio
         try:
-            return ElasticConnections(self._scene, self._world, self._inventory, bodies, stiffness, ratio, setup.soil)
+            springs = SupportSprings(setup.soil, setup.bearings.springs if setup.bearings else None)
+            return ElasticConnections(self._scene, self._world, self._inventory, bodies, stiffness, ratio, springs)
         except LayoutError as error:
             self.rigid_because = error
             return None

@@ -12,11 +12,12 @@ import bpy
 import numpy as np
 
 from ...bullet.body_motion import BodyMotion
-from ...bullet.constraint_rows import check_frames
+from ...bullet.constraint_rows import ConstraintRows, check_frames
 from ...bullet.world import BulletWorld
 from ...engineering.arithmetic import power
+from ...engineering.elasticity.bearings import Bearings, PadSprings
 from ...engineering.elasticity.cracks import CORNERS, Cracks, corner_positions, corner_shares
-from ...engineering.elasticity.equations import RigidBodies
+from ...engineering.elasticity.equations import RigidBodies, without
 from ...engineering.elasticity.equilibrium import Equilibrium, equilibrium
 from ...engineering.elasticity.joint_rows import (
     JointFrames,
@@ -70,12 +71,20 @@ class RestingState:
         return {"sag_m": values.pop("deflection_m")} | values
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class SupportSprings:
+    """What is in place of some elastic connections: soil under footings, and pads of bearings; None where neither."""
+
+    soil: SoilSprings | None = None
+    pads: PadSprings | None = None
+
+
 class ElasticConnections:
     """All connections of a world that was bound just now, before any time passes.
 
     The damping ratio is that of the first frequency, as a share of the critical one, also of what is left once
     connections break or supports go: of each part on a support, at most once a frame. Footings stand on soil where the
-    ground yields.
+    ground yields, and pads of bearings press, lift off and slide.
 
     Raises
     ------
@@ -91,7 +100,7 @@ class ElasticConnections:
         bodies: Sequence[bpy.types.Object],
         stiffness: SectionStiffness,
         damping_ratio: float,
-        soil: SoilSprings | None = None,
+        springs: SupportSprings | None = None,
     ):
         self._world, self._rows, self._reader = world, world.elastic_rows(), world.bodies.motion()
         self._damping_ratio = damping_ratio
@@ -115,11 +124,16 @@ class ElasticConnections:
         self._shortest_s, self._frame_s = step.substep_s, step.frame_s
         self._since_fit_s = np.inf
         self._gravity = np.array(scene.gravity, float) if scene.use_gravity else np.zeros(3)
-        self._footings = None
+        self._footings = self._bearings = None
+        soil, pads = (springs.soil, springs.pads) if springs else (None, None)
+        ends = self._frames.first, self._frames.second
+        built = motion.position_components_m, motion.rotation_components
         if soil is not None:
-            moves, ends = self._masses > 0.0, (self._frames.first, self._frames.second)
-            self._footings = Footings(soil, *ends, moves, motion.position_components_m, motion.rotation_components)
-            self._touching = np.ones(len(soil.rows))
+            self._footings = Footings(soil, *ends, self._masses > 0.0, *built)
+        if pads is not None:
+            self._bearings = Bearings(pads, *ends, inventory.pairs[pads.rows, 0], *built)
+            self._stiffness = without(self._stiffness, pads.rows)
+        self._lifting = [_Lifting(law) for law in (self._footings, self._bearings) if law]
         self._rest = self._settle(motion)
         self._frequencies = np.full(len(self._frames), self._rest.frequency_hz)  # of the part of each connection
         self._structure: ElasticStructure | None = None
@@ -141,6 +155,8 @@ class ElasticConnections:
         self._face_directions = components_first(sections.directions)
         ductility = given(breaking.ductility)
         even = ductility.strength_share * given(breaking.strength).tension_pa * self._inventory.areas_m2
+        if self._bearings:
+            even[self._bearings.rows] = 0.0  # no bars run through a bearing
         yield_n = np.tile(even / len(CORNERS), (len(CORNERS), 1))
         if breaking.bars:
             positions = components_first(transformed_back(sections.directions, breaking.bars.offsets_m))
@@ -193,8 +209,8 @@ class ElasticConnections:
         velocities = left * motion.velocity_components
         velocities += substep_s * self._accelerations(motion, motion.load_components)
         given(self._structure).settle(motion.position_components_m, motion.rotation_components)
-        if self._footings:
-            self._follow_lifting()
+        for lifting in self._lifting:
+            lifting.follow(self._rows, self._softness, self._world.constraints.intact())
         self._start = StepInput(motion.position_components_m, motion.rotation_components, velocities, motion.asleep)
 
     def predict(self) -> np.ndarray:
@@ -237,11 +253,18 @@ class ElasticConnections:
         holding[self._cracks.rows] = True
         return holding
 
+    def failed_bearings(self, intact: np.ndarray, left: np.ndarray) -> np.ndarray:
+        """Return the connections (b,) at pads, of those (m,) that are intact, that break before the coming sub-step.
+
+        Each has a part `left` (m,) of its strength.
+        """
+        return self._bearings.failed(intact, left) if self._bearings else np.zeros(0, int)
+
     def _settle(self, motion: BodyMotion) -> Equilibrium:
         """Put the bodies where they rest under their own weight."""
         masses = np.where(motion.inverse_masses > 0.0, self._masses, 0.0)
         bodies = RigidBodies(masses, self._inertias, motion.position_components_m, motion.rotation_components)
-        rest = equilibrium(self._frames, self._stiffness, bodies, self._gravity)
+        rest = equilibrium(self._frames, self._stiffness, bodies, self._gravity, bearings=self._bearings)
         rows = np.flatnonzero(rest.held)
         self._reader.set_positions(rows, rest.positions_m[:, rows], rest.rotations[..., rows])
         return rest
@@ -254,7 +277,7 @@ class ElasticConnections:
                 self._masses, self._inertias, self._built.position_components_m, self._built.rotation_components
             )
             self._structure = ElasticStructure(
-                self._frames, self._stiffness, bodies, self._damping_s, self._cracks, self._footings
+                self._frames, self._stiffness, bodies, self._damping_s, self._cracks, self._footings, self._bearings
             )
         self._structure.damp(self._damping_s)
         self._soften(motion)
@@ -296,28 +319,17 @@ class ElasticConnections:
         inverse = _effective_inverse_masses(
             rows, self._frames, motion.inverse_masses, self._reader.inverse_inertia_components()
         )
-        diagonal = self._stiffness[np.arange(6), np.arange(6)]
+        diagonal = self._stiffness[np.arange(6), np.arange(6)].copy()
+        if self._bearings:
+            diagonal[:, self._bearings.rows] = self._bearings.diagonal()
         hardness = substep_s * (substep_s + self._damping_s) * diagonal * inverse
         softness = np.divide(1.0, hardness, out=np.full_like(hardness, np.inf), where=hardness > 0.0)
         self._softness = softness
-        if self._footings:
-            self._touching[:] = 1.0
+        for lifting in self._lifting:
+            lifting.begin()
         self._rows.soften(intact, softness[:, intact])
         # Sleeping bodies are held as they are, in the sub-step in which Bullet finds what wakes them.
         self._rows.expect(intact, positions.deformations()[:, intact])
-
-    def _follow_lifting(self) -> None:
-        """Make Bullet's own constraint of a footing softer as less of it touches the ground."""
-        footings = given(self._footings)
-        touching, rows = footings.touching, footings.rows
-        changed = np.flatnonzero((touching != self._touching) & self._world.constraints.intact()[rows])
-        if not len(changed):
-            return
-        share = touching[changed]
-        softness = self._softness[:, rows[changed]]
-        softer = np.divide(softness, share, out=np.full_like(softness, np.inf), where=share > 0.0)
-        self._rows.soften(rows[changed], softer)
-        self._touching[changed] = share
 
     def _accelerations(self, motion: BodyMotion, loads: np.ndarray) -> np.ndarray:
         """Accelerations (6, n) by forces and torques (6, n)."""
@@ -333,6 +345,29 @@ class ElasticConnections:
         ):
             points = components_last(motion.position_components_m[:, bodies] + levers)
             check_frames(components_last(axes), points, self._world.connection_objects)
+
+
+class _Lifting:
+    """Makes Bullet's own constraints of footings or pads softer as less of them touches."""
+
+    def __init__(self, law: Footings | Bearings):
+        self._law, self._touching = law, np.ones(len(law.rows))
+
+    def begin(self) -> None:
+        """Take all of them for touching, as constraints are made."""
+        self._touching[:] = 1.0
+
+    def follow(self, constraints: ConstraintRows, softness: np.ndarray, intact: np.ndarray) -> None:
+        """Soften constraints (m,) that are intact, of which all (6, m) have a softness where they touch all over."""
+        touching, rows = self._law.touching, self._law.rows
+        changed = np.flatnonzero((touching != self._touching) & intact[rows])
+        if not len(changed):
+            return
+        share = touching[changed]
+        softness = softness[:, rows[changed]]
+        softer = np.divide(softness, share, out=np.full_like(softness, np.inf), where=share > 0.0)
+        constraints.soften(rows[changed], softer)
+        self._touching[changed] = share
 
 
 def _inertias(inverse: np.ndarray, rotations: np.ndarray, masses_kg: np.ndarray) -> np.ndarray:

@@ -74,9 +74,7 @@ class StageProperties:
     """Part of the settings of a scene."""
 
     stages_directory: path_property(
-        "Tables",
-        "Folder for stages.csv, reactions.csv, utilisation.csv and criticality.csv; none to write no tables",
-        "DIR_PATH",
+        "Tables", "Folder for stages.csv, reactions.csv and the other tables; none to write no tables", "DIR_PATH"
     )
     stage_shown: IntProperty(
         name="Stage",

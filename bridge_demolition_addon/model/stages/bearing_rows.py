@@ -1,0 +1,41 @@
+"""The table of bearings: a row for each bearing in each stage, with its force on what lies above it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from ..structure.model import Model
+from .stages import Stage
+
+BEARINGS_FILE = "bearings.csv"
+
+BEARING_COLUMNS = (
+    "stage",
+    "bearing",
+    "axis_x_m",
+    "axis_y_m",
+    "axis_z_m",
+    "force_x_kN",
+    "force_y_kN",
+    "force_z_kN",
+    "moment_x_kNm",
+    "moment_y_kNm",
+    "moment_z_kNm",
+)
+
+_KILO = 1000.0
+
+
+def bearing_rows(stages: Sequence[Stage], model: Model) -> Iterator[dict[str, Any]]:
+    """Yield the rows of all bearings in all stages; none without `[[bearings]]`.
+
+    Moments are about the middle of the axis. What has lifted off has no force.
+    """
+    if model.bearings is None:
+        return
+    for number, stage in enumerate(stages, start=1):
+        for bearing in model.bearings.forces(stage.standing.loads):
+            values = *(bearing.force_n / _KILO).tolist(), *(bearing.moment_nm / _KILO).tolist()
+            row = number, bearing.name, *bearing.axis_m.tolist(), *values
+            yield dict(zip(BEARING_COLUMNS, row, strict=True))

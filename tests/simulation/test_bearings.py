@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Decks on bearings in Blender's own simulation: what they carry at rest, and how they slide, lift off and break."""
+
+import numpy as np
+import pytest
+from support.bearing_decks import OVERHANG_M, PINNED_AND_ROCKERS, TOP_M, WEIGHT_N_M, deck_text, standing_deck
+
+from bridge_demolition_addon.cli.progress import Silence
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.model.results.arrays import load_results
+from bridge_demolition_addon.model.scenario.file import read_scenario
+from bridge_demolition_addon.report.run_folder import read_run
+from bridge_demolition_addon.report.sections.forces import force_section
+from bridge_demolition_addon.simulation.run import run_scenario
+
+SPAN_M = 10.0
+WEIGHT_N = WEIGHT_N_M * (SPAN_M + 2.0 * OVERHANG_M)
+
+
+@pytest.fixture
+def run(blender, tmp_path):
+    def ran(text):
+        path = tmp_path / "deck.toml"
+        path.write_text(text, encoding="utf-8")
+        run_scenario(read_scenario(path), tmp_path / "run", overwrite=True, pictures=False, progress=Silence())
+        return load_results(tmp_path / "run" / "results.npz")
+
+    return ran
+
+
+def forces_n(results, wall):
+    """Force (k, 3) of a wall on the deck in each frame."""
+    inventory = results.inventory
+    above, below = np.array(inventory.body_members)[inventory.pairs.T]
+    rows = (above == "deck") & (below == wall)
+    return results.frames.loads.connection_forces_n[:, rows].astype(float).sum(axis=1)
+
+
+def deck_position_m(results):
+    """Centre of mass (k, 3) of the deck in each frame."""
+    inventory = results.inventory
+    deck = np.flatnonzero(np.array(inventory.body_members) == "deck")
+    masses = inventory.masses_kg[deck]
+    return (results.frames.positions_m[:, deck] * masses[:, None]).sum(axis=1) / masses.sum()
+
+
+def load(direction, times_s, forces_n, more=""):
+    return (
+        f'[[loads]]\nmembers = ["deck"]\ndirection = {list(direction)}\ntimes_s = {list(times_s)}\n'
+        f"forces_n = {list(forces_n)}\n{more}"
+    )
+
+
+def test_a_run_begins_and_stays_at_rest_as_stages_have_it(run, tmp_path):
+    text = deck_text(spans=(10.0, 15.0), shards=40, support_m=1.2)
+    results = run(text)
+    at_rest = standing_deck(text)[2]
+    for wall, bearing in at_rest.items():
+        assert forces_n(results, wall)[1:, 2] == pytest.approx(bearing.force_n[2], rel=1e-3)
+    assert results.frames.intact.all()
+    names = [f"deck on {wall}" for wall in at_rest]
+    tables = {block.name: block for block in force_section(read_run(tmp_path / "run")).blocks if hasattr(block, "name")}
+    assert [row[0] for row in tables["bearings"].rows] == names
+    for row, bearing in zip(tables["bearings"].rows, at_rest.values(), strict=True):
+        assert row[1:4] == pytest.approx([bearing.force_n[2] / 1e3] * 3, rel=1e-3)
+        assert row[5] == 100.0
+
+
+def test_a_deck_slides_where_friction_ends(run):
+    """Pushed with 0.15 of its weight against a friction of 0.1, it is moved by the difference, a twentieth of g."""
+    push = load((1, 0, 0), (0.05, 0.1, 1.0), (0.0, 0.15 * WEIGHT_N, 0.15 * WEIGHT_N))
+    sliding = (("pier", 'kind = "sliding"\nfriction = 0.1'),)
+    results = run(deck_text(sliding, spans=(SPAN_M,), shards=12, support_m=1.2, duration_s=0.4, more=push))
+    along_m = deck_position_m(results)[:, 0]
+    assert abs(along_m[2] - along_m[1]) < 1e-5  # in frame 0 it is as it was built
+    total = forces_n(results, "pier 1") + forces_n(results, "pier 2")
+    late = slice(12, None)
+    assert total[late, 0] == pytest.approx(-0.1 * total[late, 2], rel=0.01)
+    frame_s = 1.0 / 50.0
+    time_s = frame_s * np.arange(len(along_m))
+    speed_m_s = np.diff(along_m)[late].mean() / frame_s
+    middle_s = time_s[late].mean()
+    # It is pushed in full from 0.1 s on, and slides since the load was 0.1 of the weight, at 0.05 + 0.05 / 1.5 s.
+    begun_s = 0.1 - 0.5 * (0.05 / 0.15) * 0.05
+    assert speed_m_s == pytest.approx(0.05 * STANDARD_GRAVITY_M_S2 * (middle_s - begun_s), rel=0.02)
+
+
+def test_a_deck_lifts_off_its_far_support(run):
+    """A load on one of two spans grows slowly, to where the other end of the deck hangs in the air."""
+    load_n = 1.5e6
+    more = load((0, 0, -1), (0.0, 0.6), (0.0, load_n), f"point_m = [17.5, 0.0, {TOP_M}]\n")
+    results = run(deck_text(spans=(10.0, 15.0), shards=40, duration_s=0.8, more=more))
+    lifted = forces_n(results, "pier 1")
+    assert lifted[1, 2] == pytest.approx(forces_n(results, "pier 3")[1, 2] * 171.8 / 337.6, rel=0.1)
+    assert not lifted[-5:].any()
+    assert results.frames.intact.all()
+    middle, last = (forces_n(results, wall)[-20:, 2].mean() for wall in ("pier 2", "pier 3"))
+    weight_n = WEIGHT_N_M * 26.0
+    assert last == pytest.approx((weight_n * 2.5 + load_n * 7.5) / 15.0, rel=0.1)
+    assert middle + last == pytest.approx(weight_n + load_n, rel=0.1)
+
+
+def test_a_bearing_breaks_as_a_whole_and_the_deck_comes_off(run):
+    """It resists 300 kN along the road, which the load passes at 0.1 s; the rocker is left after 0.2 m."""
+    push = load((1, 0, 0), (0.0, 0.1, 2.0), (0.0, 3e5, 6e6))
+    bearings = (("pier 1", 'kind = "pinned"\nbreaking_force_n = 3e5'), PINNED_AND_ROCKERS[1])
+    results = run(deck_text(bearings, spans=(SPAN_M,), shards=12, support_m=0.4, duration_s=0.8, more=push))
+    inventory = results.inventory
+    below = np.array(inventory.body_members)[inventory.pairs[:, 1]]
+    broken_in = {
+        wall: (~results.frames.intact[:, below == wall]).argmax(axis=0).tolist() for wall in ("pier 1", "pier 2")
+    }
+    assert len(set(broken_in["pier 1"])) == 1
+    assert 4 <= broken_in["pier 1"][0] <= 7
+    moved_m = deck_position_m(results)[:, 0] - deck_position_m(results)[0, 0]
+    for frame in broken_in["pier 2"]:
+        assert moved_m[frame - 1] < 0.21
+        assert moved_m[frame] > 0.19
