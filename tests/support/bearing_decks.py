@@ -33,8 +33,7 @@ kind = "wall"
 column_length_m = {support_m}
 column_width_m = 3.0
 height_m = 1.0
-[[supports]]
-member = "pier"
+{supports}
 [fracture]
 shards = {shards}
 [[fracture.members]]
@@ -72,9 +71,13 @@ def deck_text(
     support_m=0.6,
     stiffness="elastic",
     duration_s=0.2,
+    are_held=True,
     more="",
 ):
-    """A deck in so many shards, and a wall under each end of a span; bearings are walls and the other keys of each."""
+    """A deck in so many shards, and a wall under each end of a span; bearings are walls and the other keys of each.
+
+    Walls are held, or stand on the ground by a connection and can be taken away.
+    """
     tables = [f'[[bearings]]\nmembers = ["deck", "{wall}"]\n{keys}\n' for wall, keys in bearings]
     text = _SCENARIO.format(
         seed=seed,
@@ -83,6 +86,7 @@ def deck_text(
         support_m=support_m,
         shards=shards + len(spans) + 1,
         stiffness=stiffness,
+        supports='[[supports]]\nmember = "pier"' if are_held else "",
     )
     return "".join((text, *tables, more))
 

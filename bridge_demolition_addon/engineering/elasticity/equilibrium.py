@@ -66,18 +66,14 @@ def equilibrium(
     moments about their centres, N·m. Of connections that are bearings the stiffness does not count, and their loads are
     forces along the axes of the world, and moments about the middles of their springs.
     """
-    moves = bodies.moves
     if bearings is not None:
         stiffness = without(stiffness, bearings.rows)
-    label = connected_parts(moves, frames.first, frames.second)
-    ends = np.stack((frames.first, frames.second))
-    supported = np.unique(label[ends][:, ~moves[ends].all(axis=0)])
     unloaded = joint_positions(frames, bodies.positions_m, bodies.rotations).deformations()
     positions_m, rotations = bodies.positions_m.copy(), bodies.rotations.copy()
     held, frequencies = np.zeros(len(bodies), bool), []
-    of_connections = label[ends].max(axis=0, initial=-1)
-    for part in supported[supported >= 0].tolist():
-        members, rows = np.flatnonzero(label == part), np.flatnonzero(of_connections == part)
+    parts = _supported_parts(bodies.moves, frames, np.arange(len(frames)))
+    while parts:
+        members, rows = parts.pop(0)
         started = replace(bodies, positions_m=positions_m, rotations=rotations)
         pads = None if bearings is None else _PartOnBearings(bearings, rows)
         rest = _part_at_rest(members, frames.only(rows), stiffness[..., rows], started, gravity_m_s2, loads, pads)
@@ -86,10 +82,23 @@ def equilibrium(
             positions, turned, frequency = rest
             positions_m[:, members], rotations[..., members] = positions[:, members], turned[..., members]
             frequencies.append(frequency)
+        elif bearings is not None and (is_bearing := np.isin(rows, bearings.rows)).any():
+            # What topples off its bearings leaves standing what they stood on.
+            parts += _supported_parts(bodies.moves, frames, rows[~is_bearing])
     loads = stressed(stiffness, joint_positions(frames, positions_m, rotations).deformations() - unloaded)
     if bearings is not None:
         loads[:, bearings.rows] = bearings.loads_at_rest(positions_m, rotations)
     return Equilibrium(positions_m, rotations, held, min(frequencies, default=0.0), loads)
+
+
+def _supported_parts(moves: BoolArray, frames: JointFrames, rows: IntArray) -> list[tuple[IntArray, IntArray]]:
+    """Return bodies and connections of each part that connections (r,) hold to a body that does not move."""
+    ends = np.stack((frames.first[rows], frames.second[rows]))
+    label = connected_parts(moves, *ends)
+    supported = np.unique(label[ends][:, ~moves[ends].all(axis=0)])
+    of_connections = label[ends].max(axis=0, initial=-1)
+    parts = supported[supported >= 0].tolist()
+    return [(np.flatnonzero(label == part), rows[of_connections == part]) for part in parts]
 
 
 class _Part:

@@ -187,7 +187,7 @@ def test_all_of_a_bearing_breaks_by_its_force():
 def test_a_stage_without_an_end_support(spans, falls):
     """With the longer span in the air the deck topples over its other support; with the shorter one it does not."""
     removal = '[[removals]]\nmembers = ["pier 3"]\ntime_s = 0.1\n'
-    scenario = scenario_from_text(deck_text(spans=spans, shards=12, more=removal))
+    scenario = scenario_from_text(deck_text(spans=spans, shards=12, are_held=False, more=removal))
     bridge = StandingBridge(checked_model(scenario), scenario.joints)
     first, last = stages_of(scenario, bridge, lambda *_: None)
     forces = [bearing.force_n[2] for bearing in bridge.model.bearings.forces(first.standing.loads)]
@@ -202,7 +202,7 @@ def test_a_stage_without_an_end_support(spans, falls):
 def test_a_deck_without_any_bearing_left_is_not_held():
     """All its supports are taken away at once, with the pads on them."""
     removal = '[[removals]]\nmembers = ["pier"]\ntime_s = 0.1\n'
-    scenario = scenario_from_text(deck_text(spans=(10.0,), shards=12, more=removal))
+    scenario = scenario_from_text(deck_text(spans=(10.0,), shards=12, are_held=False, more=removal))
     bridge = StandingBridge(checked_model(scenario), scenario.joints)
     assert [stage.loose.sum() for stage in stages_of(scenario, bridge, lambda *_: None)] == [0, 12]
 
