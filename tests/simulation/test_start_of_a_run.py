@@ -41,9 +41,13 @@ def shown_where_it_fell(blocks, folder):
     contours_of(blocks.scene).refresh()
 
 
-def height_shown_m(blender, blocks):
+def position_shown_m(blender, blocks):
     block = blocks.world.collection.objects[1]
-    return block.evaluated_get(blender.context.evaluated_depsgraph_get()).matrix_world.translation.z
+    return tuple(block.evaluated_get(blender.context.evaluated_depsgraph_get()).matrix_world.translation)
+
+
+def height_shown_m(blender, blocks):
+    return position_shown_m(blender, blocks)[2]
 
 
 def test_a_run_begins_with_the_bridge_where_colours_show_the_rubble_of_the_last(blender, falling, tmp_path):
@@ -61,6 +65,29 @@ def test_so_does_what_is_played_without_recording(blender, falling, tmp_path):
     contours_of(falling.scene).settings = None  # shows where Blender has the block, and edits nothing
     falling.scene.frame_set(4)
     assert height_shown_m(blender, falling) > HEIGHT_M - 0.2
+
+
+def parent(block, beside):
+    block.parent = beside
+
+
+def constrain(block, beside):
+    constraint = block.constraints.new("COPY_LOCATION")
+    constraint.target, constraint.use_offset = beside, True
+
+
+@pytest.mark.parametrize("follow", [parent, constrain])
+def test_it_also_begins_where_a_parent_or_a_constraint_has_a_body(follow, blender, falling, tmp_path):
+    beside = blender.data.objects.new("beside", None)
+    falling.scene.collection.objects.link(beside)
+    beside.location.x = 2.0
+    follow(falling.world.collection.objects[1], beside)
+    shown_where_it_fell(falling, tmp_path / "first")
+    for frame in (1, 2, 3):
+        falling.scene.frame_set(frame)
+    contours_of(falling.scene).settings = None
+    falling.scene.frame_set(4)
+    assert position_shown_m(blender, falling) == pytest.approx((2.0, 0.0, HEIGHT_M - 0.1), abs=0.1)
 
 
 SHARDS, BUILT_FRAMES = 12, 6

@@ -87,8 +87,7 @@ def place(
     for body in _bodies(scene):
         row = rows.get(body.name)
         if row is not None and (evaluated := body.evaluated_get(depsgraph)).is_evaluated:
-            rotation = Matrix(rotations[row]).to_quaternion()
-            evaluated.matrix_world = Matrix.LocRotScale(Vector(positions_m[row]), rotation, body.scale)
+            evaluated.matrix_world = _recorded_matrix(body, positions_m[row], rotations[row])
 
 
 def put_back(scene: bpy.types.Scene) -> None:
@@ -97,18 +96,32 @@ def put_back(scene: bpy.types.Scene) -> None:
         body.update_tag()
 
 
-def put_back_to_start(scene: bpy.types.Scene) -> None:
+def put_back_to_start(
+    scene: bpy.types.Scene, rows: Mapping[str, int], positions_m: np.ndarray, rotations: np.ndarray
+) -> None:
     """Show bodies that were placed where they stand as a simulation begins, which begins where they are shown.
 
     Evaluated again in the frame in which Blender makes the simulation, they would have no meshes yet, and get boxes.
+    Blender may make it before it evaluates constraints: bodies that have them go where the run began with them.
+
+    The start of the run is given by bodies' names and rows, origins as positions (n, 3) and rotations as matrices
+    (n, 3, 3).
     """
-    for layer in scene.view_layers:
-        if not layer.depsgraph:
-            continue
-        for body in _bodies(scene):
-            if (evaluated := body.evaluated_get(layer.depsgraph)).is_evaluated:
-                parent = body.parent.matrix_world @ body.matrix_parent_inverse if body.parent else Matrix()
-                evaluated.matrix_world = parent @ body.matrix_basis
+    for body in _bodies(scene):
+        row = rows.get(body.name)
+        if len(body.constraints) and row is not None:
+            start = _recorded_matrix(body, positions_m[row], rotations[row])
+        else:
+            parent = body.parent.matrix_world @ body.matrix_parent_inverse if body.parent else Matrix()
+            start = parent @ body.matrix_basis
+        for layer in scene.view_layers:
+            if layer.depsgraph and (evaluated := body.evaluated_get(layer.depsgraph)).is_evaluated:
+                evaluated.matrix_world = start
+                evaluated.matrix_basis = body.matrix_basis  # which constraints, evaluated later, begin with
+
+
+def _recorded_matrix(body: bpy.types.Object, position_m: np.ndarray, rotation: np.ndarray) -> Matrix:
+    return Matrix.LocRotScale(Vector(position_m), Matrix(rotation).to_quaternion(), body.scale)
 
 
 def unpaint(scene: bpy.types.Scene) -> None:

@@ -107,10 +107,8 @@ class ShownResults:
 
     def place(self, depsgraph: bpy.types.Depsgraph, shown: Frame) -> None:
         """Show the bodies of an evaluated scene where a frame has them."""
-        series = self.series
-        moving = {name: row for row, name in enumerate(series.body_names) if series.moves[row]} if series else {}
         self._has_placed = True
-        place(self.scene, depsgraph, moving, shown.positions_m, shown.rotations)
+        place(self.scene, depsgraph, self._moving_rows(), shown.positions_m, shown.rotations)
 
     def before_frame(self) -> None:
         """Put bodies back before the frame from which Blender simulates: it would begin where they are shown."""
@@ -118,7 +116,9 @@ class ShownResults:
         if not (self._has_placed and world and world.collection):
             return
         if self.are_placed and self.scene.frame_current <= world.point_cache.frame_start + 1:
-            put_back_to_start(self.scene)
+            if series := self.series:
+                first = series.frame(0)
+                put_back_to_start(self.scene, self._moving_rows(), first.positions_m, first.rotations)
             self._has_placed = False
 
     def put_bodies_back(self) -> None:
@@ -126,6 +126,10 @@ class ShownResults:
         if self._has_placed:
             put_back(self.scene)
             self._has_placed = False
+
+    def _moving_rows(self) -> dict[str, int]:
+        series = self.series
+        return {name: row for row, name in enumerate(series.body_names) if series.moves[row]} if series else {}
 
     def _drop(self) -> None:
         self.put_bodies_back()
