@@ -49,6 +49,8 @@ class BodyMotionReader:
         self._bodies, self._body = bodies, body
         self._motion = Fields(bodies, np.concatenate(offsets))
         self._inertia = Fields(bodies, np.concatenate([body.inverse_inertia + 32 * row + _VECTOR for row in range(3)]))
+        self._torques = Fields(bodies, body.total_torque + _VECTOR)
+        self._spins = Fields(bodies, body.angular_velocity + _VECTOR)
 
     def read(self) -> BodyMotion:
         """Return how all bodies move."""
@@ -70,6 +72,21 @@ class BodyMotionReader:
         """Set the forces and torques (6, r) that act on bodies (r,) in the coming sub-step."""
         body = self._body
         self._write([body.total_force + _VECTOR, body.total_torque + _VECTOR], rows, load_components)
+
+    def turn_by_torques(self, times_s: np.ndarray) -> None:
+        """Change the angular velocities of bodies that are awake by what torques do in times (n,), and end the torques.
+
+        To be called before a sub-step: Bullet forgets torques after it. Where a time is infinite they stay.
+        """
+        torques, states = self._torques.copy(), INTEGERS.gather(self._bodies + np.uint64(self._body.activation))
+        rows = np.flatnonzero(torques.any(axis=0) & ~np.isin(states, list(SLEEPING)) & np.isfinite(times_s))
+        if not len(rows):
+            return
+        acting, inverse = torques[:, rows], self.inverse_inertia_components()[..., rows]
+        changes = inverse[:, 0] * acting[0] + inverse[:, 1] * acting[1] + inverse[:, 2] * acting[2]
+        body, spins = self._body, self._spins.copy()[:, rows] + times_s[rows] * changes
+        fields = [body.angular_velocity + _VECTOR, body.total_torque + _VECTOR]
+        self._write(fields, rows, np.concatenate((spins, np.zeros_like(acting))))
 
     def set_positions(
         self, rows: np.ndarray, position_components_m: np.ndarray, rotation_components: np.ndarray

@@ -30,6 +30,7 @@ from .meter import Meter
 from .motion_reader import unknown_loads
 from .reinforcement import Reinforcement
 from .substeps import SubstepRecorder, in_order
+from .torques import Torques
 
 
 class BulletReader:
@@ -102,6 +103,7 @@ class BulletReader:
                 blast,
                 Loads(world.bodies, setup.placed_loads),
                 ElasticPrediction(elastic, breaker) if elastic else None,
+                Torques(world.bodies, np.array(setup.bodies.rigid["angular_damping"])),
             )
         )
         if loads:

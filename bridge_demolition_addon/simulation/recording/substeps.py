@@ -18,6 +18,7 @@ from .ground_drive import GroundDrive
 from .loads import Loads
 from .meter import Meter
 from .reinforcement import Reinforcement
+from .torques import Torques
 
 ORDER = (
     LastSubstepLoads,
@@ -29,9 +30,11 @@ ORDER = (
     Blast,
     Loads,
     ElasticPrediction,
+    Torques,
 )
 """Order in which drivers act, which decides the last bits of a run. The ground moves before events decide which
-connections and reinforcement are left; elastic connections come last, as they take over all forces on the bodies."""
+connections and reinforcement are left; elastic connections come after all forces on the bodies, which they take over,
+and torques turn the bodies when all of them are there."""
 
 
 def in_order(drivers: Iterable[Driver | None]) -> list[Driver]:

@@ -1,0 +1,31 @@
+"""Torques on bodies, which turn them before Bullet steps: its friction would not see them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from ...bullet.bodies import BodyTable
+from ...engineering.arithmetic import power
+from .drivers import Driver
+
+
+class Torques(Driver):
+    """Gives bodies (n,) the angular velocities that torques make in a sub-step, in place of the torques.
+
+    Bullet's friction stops what contact points would slip by external forces alone, and leaves torques out
+    (`btSequentialImpulseConstraintSolver::setupFrictionConstraint`). Where a connection bends a shard that touches
+    something, friction then pushes against a slip that there is not, often along the real one, and makes energy. What
+    turns already, it stops. Everything else in Bullet is the same either way.
+
+    `angular_damping` (n,) are the shares of angular velocities that Bullet takes away in a second, before the
+    solver: what torques make is larger by that, as Bullet does not damp it. Bodies that lose all keep their torques.
+    """
+
+    def __init__(self, bodies: BodyTable, angular_damping: np.ndarray):
+        self._motion, self._left_per_second = bodies.motion(), 1.0 - angular_damping
+
+    def before_substep(self, elapsed_s: float, substep_s: float) -> None:
+        """Turn the bodies; to be called after all torques are there."""
+        left = power(self._left_per_second, substep_s)
+        times_s = np.divide(substep_s, left, out=np.full_like(left, np.inf), where=left > 0.0)
+        self._motion.turn_by_torques(times_s)
