@@ -249,7 +249,8 @@ def test_a_beam_that_lies_on_supports_by_contact_alone_bends_as_theory_says(blen
     blocks = Blocks(substeps_per_frame=20, solver_iterations=iterations)
     parts = [blocks.block(((i + 0.5) * size, 0, 10), DENSITY_KG_M3 * size, (size, 1, 1)) for i in range(count)]
     for x in (size / 2, LENGTH_M - size / 2):
-        blocks.block((x, 0, 9), 0.0, (support_m, 1, 1))
+        # With friction the supports would hold a thrust that depends on how the beam came to rest.
+        blocks.block((x, 0, 9), 0.0, (support_m, 1, 1)).rigid_body.friction = 0.0
     joints = [blocks.connect("FIXED", (i * size, 0, 10), parts[i - 1], parts[i]) for i in range(1, count)]
     for joint in joints:
         joint["bda_area_m2"], joint["bda_normal"] = 1.0, (1.0, 0.0, 0.0)
@@ -263,13 +264,12 @@ def test_a_beam_that_lies_on_supports_by_contact_alone_bends_as_theory_says(blen
     # A bent beam lies on the inner edges of its supports.
     span_m, beyond_m = LENGTH_M - size - support_m, (size + support_m) / 2
     moment = WEIGHT_N_M * (span_m**2 - 4 * beyond_m**2) / 8
-    assert abs(moments).mean() == pytest.approx(moment, rel=0.01)
+    assert abs(moments).mean() == pytest.approx(moment, rel=1e-3)
     sag = WEIGHT_N_M * span_m**2 * (5 * span_m**2 / (384 * BENDING_NM2) + 1 / (8 * SHEAR_N))
     found = heights[:, [0, -1]].mean() - heights[:, [count // 2 - 1, count // 2]].mean()
     # Contacts are not in the equations of the connections: the sag is found by the solver's iterations, and too large.
     assert sag < found < 1.15 * sag
-    # It trembles, but stays where it lies.
-    assert np.linalg.norm(results.frames.velocities_m_s[last][:, bodies], axis=2).max() < 0.1
+    assert np.linalg.norm(results.frames.velocities_m_s[last][:, bodies], axis=2).max() < 1e-3
 
 
 def test_a_beam_that_nothing_holds_falls_freely(blender, tmp_path):
