@@ -6,7 +6,8 @@ stretched, or pushes apart hulls that overlap, it does work that no real connect
 A constant force changes the kinetic energy of a body by the force times the mean of its velocities before and after,
 times the step. So the work of an impulse is the impulse times that mean velocity where it acts, and all works together
 are the change of kinetic energy. Between two bodies only their relative velocity counts: an impulse that slows it takes
-energy away, as impacts, friction and breaking do. One that speeds it up makes energy.
+energy away, as impacts, friction and breaking do. One that speeds it up makes energy. All points where two bodies touch count
+together.
 """
 
 from __future__ import annotations
@@ -204,8 +205,10 @@ class WorkAccumulator:
         if between.angular_impulses_nms is not None:
             about_origin += between.angular_impulses_nms
         loads = [*_rows(between.impulses_ns), *_rows(about_origin)]
-        of_first, of_second = motion.take(first, axis=1), motion.take(second, axis=1)
-        total = _dot(loads, [one - other for one, other in zip(of_first, of_second, strict=True)])
+        on_first, on_second = (_dot(loads, motion.take(bodies, axis=1)) for bodies in (first, second))
+        if between.substeps is not None:
+            first, second, on_first, on_second = _of_both_bodies(first, second, on_first, on_second)
+        total = on_first - on_second
         if between.stored_j is not None:
             total = self._after_storing(total, between.stored_j)
         is_free = free.ravel()
@@ -213,15 +216,16 @@ class WorkAccumulator:
         total[~(first_free | second_free)] = 0.0
         rows = np.flatnonzero(total > 0.0)
         gains = [
-            np.maximum(sign * _dot(loads, moving).take(rows), 0.0) * are_free.take(rows)
-            for sign, moving, are_free in ((1.0, of_first, first_free), (-1.0, of_second, second_free))
+            np.maximum(gain.take(rows), 0.0) * are_free.take(rows)
+            for gain, are_free in ((on_first, first_free), (-on_second, second_free))
         ]
         both, made, taken = gains[0] + gains[1], total.take(rows), np.minimum(total, 0.0)
         share = np.divide(made, both, out=np.zeros_like(both), where=both > 0.0)
-        starts = np.searchsorted(rows, [substep.start for substep in substeps] + [len(total)]).tolist()
+        ends = np.searchsorted(first // free.shape[1], np.arange(len(free) + 1))  # of sub-steps
+        starts = np.searchsorted(rows, ends)
         return PairWork(
-            taken_j=[float(taken[substep].sum()) for substep in substeps],
-            made_j=[float(made[start:end].sum()) for start, end in itertools.pairwise(starts)],
+            taken_j=[float(taken[start:end].sum()) for start, end in itertools.pairwise(ends.tolist())],
+            made_j=[float(made[start:end].sum()) for start, end in itertools.pairwise(starts.tolist())],
             made_by_body_j=[
                 np.bincount(bodies.take(rows), share * gain, free.size).reshape(free.shape)
                 for bodies, gain in zip((first, second), gains, strict=True)
@@ -283,6 +287,18 @@ def _of_tools(
             works_j.append(sign * float(work.sum()))
         works.append(works_j)
     return works
+
+
+def _of_both_bodies(
+    first: IntArray, second: IntArray, on_first: FloatArray, on_second: FloatArray
+) -> tuple[IntArray, IntArray, FloatArray, FloatArray]:
+    """Return the work on two bodies (p,) that touch, of that at all points (k,) where they do.
+
+    How the solver shares an impulse out to points says nothing: what rocks gains at one of them and loses at others.
+    """
+    is_other = (first[1:] != first[:-1]) | (second[1:] != second[:-1])
+    starts = np.concatenate(([0], 1 + np.flatnonzero(is_other)))
+    return first[starts], second[starts], np.add.reduceat(on_first, starts), np.add.reduceat(on_second, starts)
 
 
 def _components(*vectors: FloatArray) -> FloatArray:

@@ -99,6 +99,20 @@ def test_bodies_that_are_pushed_apart_from_rest_got_their_energy_from_the_solver
     assert (frame.made_by_connections_j, frame.made_by_lifting_j) == (0.0, pytest.approx(0.0, abs=1e-12))
 
 
+def test_a_plate_that_rocks_from_one_edge_to_the_other_makes_no_energy():
+    """It turns about y by ω: at the edge that comes down it loses J ω b / 2, at the other it gains less."""
+    spins = np.array([[0.0, 0.0, 0.0], [0.0, 2.0, 0.0]])
+    edges = np.array([[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]])  # at x > 0 its velocity is -ω b: down
+    impulses = np.array([[0.0, 0.0, -3.0], [0.0, 0.0, -1.0]])  # on the ground
+    contact = PairImpulses(np.repeat(PAIR, 2, axis=0), impulses, edges, substeps=np.zeros(2, int))
+    still = motion(np.zeros((2, 3)), spins=spins)
+    work = accumulator([0.0, 1.0], still)
+    add(work, still, np.array([False, True]), NONE, contact)
+    frame = work.finish()
+    assert frame.made_j.sum() == 0.0
+    assert frame.dissipated_j == pytest.approx((3.0 - 1.0) * 2.0 * 1.0)
+
+
 def test_a_moment_that_sets_bodies_turning_against_each_other_made_energy():
     inertia, moment = 2.0, 3.0
     spins = np.array([[0.0, 0.0, moment / inertia], [0.0, 0.0, -moment / inertia]])
