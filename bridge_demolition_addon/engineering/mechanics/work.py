@@ -6,8 +6,8 @@ stretched, or pushes apart hulls that overlap, it does work that no real connect
 A constant force changes the kinetic energy of a body by the force times the mean of its velocities before and after,
 times the step. So the work of an impulse is the impulse times that mean velocity where it acts, and all works together
 are the change of kinetic energy. Between two bodies only their relative velocity counts: an impulse that slows it takes
-energy away, as impacts, friction and breaking do. One that speeds it up makes energy. All points where two bodies touch count
-together.
+energy away, as impacts, friction and breaking do. One that speeds it up makes energy. All points where two bodies touch
+count together.
 """
 
 from __future__ import annotations
