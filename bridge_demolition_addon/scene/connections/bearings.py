@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 
 from ...engineering.elasticity.bearings import PadSprings
-from ..custom_properties import edited
+from ..custom_properties import edited, kept_series
 from .breaking_settings import set_strength
 
 _NAME = "bda_bearing"
@@ -72,12 +72,10 @@ def bearings_of(connections: Sequence[bpy.types.Object]) -> BearingsOfScene | No
 
 def _numbers(connection: bpy.types.Object) -> np.ndarray:
     """Return the numbers of a connection and of its springs."""
-    try:
-        numbers = np.array(connection[_PADS], float).reshape(-1)
-    except (TypeError, ValueError):
-        numbers = np.zeros(0)
+    expected = "the numbers of a bearing and of its springs"
+    numbers = kept_series(connection, _PADS, expected)
     of_springs = numbers[_OF_CONNECTION:]
-    is_whole = len(of_springs) > 0 and len(of_springs) % _OF_SPRING == 0 and not np.isnan(numbers).any()
+    is_whole = len(of_springs) > 0 and len(of_springs) % _OF_SPRING == 0
     if not is_whole or not (of_springs.reshape(-1, _OF_SPRING)[:, 3] > 0.0).all():
-        raise edited(connection, _PADS, "the numbers of a bearing and of its springs")
+        raise edited(connection, _PADS, expected)
     return numbers
