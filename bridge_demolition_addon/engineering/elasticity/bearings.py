@@ -70,8 +70,14 @@ class PadSprings:
         """
         count = int(self.bearings.max(initial=-1)) + 1
         x, y, z = (np.bincount(self.bearings, force, count)[self.bearings] for force in forces_n)
-        used: FloatArray = np.maximum(np.sqrt(x * x + y * y), -z) / (self.breaking_n * left)
-        return used
+        can_break = np.isfinite(self.breaking_n)
+        limit = np.multiply(self.breaking_n, left, out=np.full_like(self.breaking_n, np.inf), where=can_break)
+        used: FloatArray = np.maximum(np.sqrt(x * x + y * y), -z)
+        return np.divide(used, limit, out=np.full_like(used, np.inf), where=limit > 0.0)
+
+    def sideways_of_connections(self) -> FloatArray:
+        """Return the stiffness (c, 2) of each connection along x and y, N/m."""
+        return np.stack([np.bincount(self.parts, k, len(self.rows)) for k in self.sideways_n_m.T], axis=1)
 
     def middles_m(self) -> FloatArray:
         """Return the middles (c, 3) of the springs of each connection."""

@@ -27,6 +27,15 @@ class BearingsOfScene:
     springs: PadSprings
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class NamedBearings:
+    """Connections (c,) at the pads of bearings, which of b bearings each is part of, and the names (b,) of these."""
+
+    names: tuple[str, ...]
+    rows: np.ndarray
+    bearings: np.ndarray
+
+
 def keep_pads(connections: Sequence[bpy.types.Object], springs: PadSprings) -> None:
     """Keep springs of pads with their connections; no stress breaks these."""
     numbers = np.column_stack((springs.friction, springs.pulls, springs.travel_m, springs.breaking_n))
@@ -40,6 +49,16 @@ def name_bearings(connections: Sequence[bpy.types.Object], names: Sequence[str],
     """Keep with the connections of pads which bearing they are part of."""
     for row, bearing in zip(springs.rows.tolist(), springs.bearings.tolist(), strict=True):
         connections[row][_NAME] = names[bearing]
+
+
+def named_bearings_of(connections: Sequence[bpy.types.Object]) -> NamedBearings | None:
+    """Return the bearings among connections, elastic or rigid; None without any."""
+    rows = [row for row, connection in enumerate(connections) if _NAME in connection]
+    if not rows:
+        return None
+    named = [str(connections[row][_NAME]) for row in rows]
+    names = tuple(dict.fromkeys(named))
+    return NamedBearings(names, np.array(rows), np.array([names.index(name) for name in named]))
 
 
 def bearings_of(connections: Sequence[bpy.types.Object]) -> BearingsOfScene | None:
