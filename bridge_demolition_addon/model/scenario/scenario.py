@@ -103,8 +103,13 @@ class Scenario(Table):
         """
         own, *others = self.connections.joints(self.materials)
         factor, is_elastic = self.connections.strength_factor, self.connections.is_elastic
-        pads = [table.joint(own, factor, is_elastic=is_elastic) for table in self.bearings]
+        pads = [table.joint(own, factor, is_elastic=is_elastic) for table in self.bearing_tables]
         return (own, *others, *pads)
+
+    @property
+    def bearing_tables(self) -> tuple[Bearing, ...]:
+        """Return all bearings, first those that count before others: the scenario's own, then those of the bridge."""
+        return (*self.bearings, *(self.bridge.bearing_tables if self.bridge else ()))
 
     @property
     def weighed_bridge(self) -> Bridge | None:

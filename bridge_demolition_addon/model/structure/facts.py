@@ -235,7 +235,7 @@ def _bearing_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
     for number, name in enumerate(bearings.names):
         rows = bearings.rows_of(number)
         if len(rows):
-            table = scenario.bearings[int(model.joint_of_connection[rows[0]]) - first_joint]
+            table = scenario.bearing_tables[int(model.joint_of_connection[rows[0]]) - first_joint]
             yield "bearing", f"{name}: {table.described}, {len(rows)} connections"
     if not scenario.connections.is_elastic:
         yield "", "with rigid connections they hold what is lifted, and slide without friction"

@@ -106,7 +106,7 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
     rules_of = partial(rules_of_pairs, rules, members, fractured.member_of_shard)
     excluded = np.array([False, *(rule.none for rule in rules)])
     heights_at = None if ground.terrain is None else ground.terrain.heights_at
-    placed = placed_bearings(scenario.bearings, members)
+    placed = placed_bearings(scenario.bearing_tables, members)
 
     def allowed(pairs: np.ndarray) -> np.ndarray:
         return ~excluded[rules_of(pairs)] & ~have_bearing(placed, fractured.member_of_shard, pairs)
@@ -117,7 +117,7 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
     if placed:
         of_pads, bearings, tables = bearing_connections(
             placed,
-            scenario.bearings,
+            scenario.bearing_tables,
             members,
             fractured.member_of_shard,
             shards,
@@ -167,7 +167,7 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
         shards=raised_shards(
             shards_with_gaps(fractured, members, scenario.fracture.margin_m),
             placed,
-            scenario.bearings,
+            scenario.bearing_tables,
             fractured.member_of_shard,
         ),
         member_of_shard=fractured.member_of_shard,

@@ -26,7 +26,7 @@ _NOTES = (
 
 def bearing_blocks(run: ReportedRun) -> list[Block]:
     """Return a table and a chart of all bearings of a run; none without `[[bearings]]`."""
-    histories = bearing_histories(run.recorded, run.scenario.bearings if run.scenario else ())
+    histories = bearing_histories(run.recorded, run.scenario.bearing_tables if run.scenario else ())
     extremes = run.summary.bearings if run.summary else []
     blocks: list[Block] = []
     if extremes:
