@@ -11,6 +11,7 @@ import numpy as np
 from ...charts.histories import compared_histories
 from ...engineering.geometry.vectors import length
 from ...model.results.bearings import BearingHistory, bearing_histories
+from ...model.scenario.scenario import bearing_tables
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture
 from ..run_folder import ReportedRun
 
@@ -26,7 +27,7 @@ _NOTES = (
 
 def bearing_blocks(run: ReportedRun) -> list[Block]:
     """Return a table and a chart of all bearings of a run; none without `[[bearings]]`."""
-    histories = bearing_histories(run.recorded, run.scenario.bearing_tables if run.scenario else ())
+    histories = bearing_histories(run.recorded, bearing_tables(run.scenario) if run.scenario else ())
     extremes = run.summary.bearings if run.summary else []
     blocks: list[Block] = []
     if extremes:

@@ -8,6 +8,7 @@ from bridge_demolition_addon.cli.check import scenario_facts
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.scenario.file import scenario_from_text, scenario_text
+from bridge_demolition_addon.model.scenario.scenario import bearing_tables
 
 BRIDGE = """
 [scenario]
@@ -95,7 +96,7 @@ def test_a_bridge_has_a_bearing_at_each_support_that_carries_its_deck(text, kind
     model, _, forces = standing_deck(text)
     first_joint = 1 + len(scenario.connections.between)
     tables = [
-        scenario.bearing_tables[int(model.joint_of_connection[model.bearings.rows_of(number)[0]]) - first_joint]
+        bearing_tables(scenario)[int(model.joint_of_connection[model.bearings.rows_of(number)[0]]) - first_joint]
         for number in range(len(model.bearings.names))
     ]
     assert {name: table.kind for name, table in zip(model.bearings.names, tables, strict=True)} == kinds
