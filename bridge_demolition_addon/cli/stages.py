@@ -11,11 +11,13 @@ from pathlib import Path
 from ..errors import OutputError
 from ..model.scenario.file import read_scenario
 from ..model.sequence.checked_model import checked_model
+from ..model.stages.bearing_rows import bearing_rows
 from ..model.stages.stages import Criticality, Stage, criticality, stages_of
 from ..model.stages.standing import StandingBridge, made_elastic
 from ..model.stages.tables import (
     FILES,
     all_reaction_rows,
+    bearing_sentences,
     criticality_sentences,
     reaction_sentences,
     stage_sentences,
@@ -62,20 +64,22 @@ def execute(arguments: argparse.Namespace) -> None:
     with writing(output):
         rows = write_tables(output, stages, members, bridge)
     if not arguments.quiet:
-        _print(stages, rows, all_reaction_rows(stages, model), members, paths)
+        _print(stages, rows, all_reaction_rows(stages, model), list(bearing_rows(stages, model)), members, paths)
 
 
 def _print(
     stages: Sequence[Stage],
     rows: Sequence[dict],
     reactions: Sequence[dict],
+    bearings: Sequence[dict],
     members: Sequence[Criticality],
     paths: Sequence[Path],
 ) -> None:
     print()
     for stage, row in zip(stages, rows, strict=True):
         carried = reaction_sentences([reaction for reaction in reactions if reaction["stage"] == row["stage"]])
-        first, *others = [*stage_sentences(stage, row), *carried]
+        on_bearings = bearing_sentences([bearing for bearing in bearings if bearing["stage"] == row["stage"]])
+        first, *others = [*stage_sentences(stage, row), *carried, *on_bearings]
         print(first)
         for line in others:
             print(f"  {line}")

@@ -19,7 +19,7 @@ from ..errors import MissingLibraryError
 from ..model.results.arrays import Results
 from ..model.results.energy import energy_of
 from ..model.results.motion import throw
-from ..model.run_folder.files import BREAKING_LOG, DEBRIS_LOG, EXPLOSION_LOG, FORCE_LOG, TABLE_FOLDER
+from ..model.run_folder.files import BEARING_LOG, BREAKING_LOG, DEBRIS_LOG, EXPLOSION_LOG, FORCE_LOG, TABLE_FOLDER
 from ..system.progress import Progress
 
 MOST_ROWS = 1_048_575
@@ -206,7 +206,7 @@ def _along_axes(name: str, vectors: np.ndarray, unit: str) -> dict[str, np.ndarr
 
 def _files_tables(folder: Path) -> Iterator[_Table]:
     """Give the tables that are there as CSV: logs, and below their own names those of a report."""
-    logs = [folder / name for name in (FORCE_LOG, DEBRIS_LOG, BREAKING_LOG, EXPLOSION_LOG)]
+    logs = [folder / name for name in (FORCE_LOG, DEBRIS_LOG, BREAKING_LOG, EXPLOSION_LOG, BEARING_LOG)]
     reported = sorted((folder / TABLE_FOLDER).glob("*.csv"))
     for path in [*logs, *reported]:
         if path.is_file():

@@ -9,10 +9,10 @@ import numpy as np
 
 from ..engineering.geometry.vectors import length
 from ..errors import SimulationError
-from ..model.scenario.kept import values_from_text, values_text
+from ..model.scenario.kept import values_text
 from .bodies import Kind
 from .body_settings import BodySettings, body_settings_of
-from .custom_properties import keep
+from .custom_properties import edited, keep, kept_values
 from .run_setup import RunSetup, run_setup_of
 
 _AS_BUILT = "bda_as_built"
@@ -34,7 +34,7 @@ def keep_as_built(scene: bpy.types.Scene) -> None:
 
 def manual_edits(scene: bpy.types.Scene, setup: RunSetup) -> list[str]:
     """Return short texts on what is no longer as it was built; none where that is not known."""
-    before = values_from_text(scene.get(_AS_BUILT, ""), {})
+    before = kept_values(scene, _AS_BUILT, {})
     return [text for text, digest in setup.compared().items() if before.get(text, digest) != digest]
 
 
@@ -54,9 +54,16 @@ def forget_built_bodies(scene: bpy.types.Scene) -> None:
 
 def changed_bodies(scene: bpy.types.Scene) -> list[str]:
     """Return sentences on bodies that are missing, were added or moved since a scene was built."""
-    kept = values_from_text(scene.get(_BODIES, ""), {})
-    bodies = body_settings_of(scene)
-    built = {name: np.array(position) for positions in kept.values() for name, position in positions.items()}
+    kept, bodies = kept_values(scene, _BODIES, {}), body_settings_of(scene)
+    try:
+        built = {
+            name: np.array(position, float).reshape(3)
+            for kind, positions in kept.items()
+            if Kind(kind)
+            for name, position in positions.items()
+        }
+    except (AttributeError, TypeError, ValueError) as error:
+        raise edited(scene, _BODIES, "the positions of bodies by kind and name") from error
     if built.keys().isdisjoint(bodies.names):  # another demolition, or none that was built here
         return []
     return [*_missing(kept, bodies), *_added(built, bodies), *_moved(scene, built, bodies)]

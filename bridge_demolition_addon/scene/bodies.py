@@ -13,9 +13,9 @@ import numpy as np
 from ..engineering.geometry.mesh import TriangleMesh
 from ..engineering.geometry.solids import box
 from ..model.scenario import GroundSurface, ShardSettings, SurfaceValues
-from ..model.scenario.kept import values_from_text, values_text
+from ..model.scenario.kept import values_text
 from ..model.terrain.built import TerrainFacts
-from .custom_properties import kept_numbers
+from .custom_properties import kept_numbers, kept_values
 from .naming import make_named, numbered_names
 
 _KIND = "bda_kind"
@@ -184,8 +184,7 @@ def is_uneven_ground(body: bpy.types.Object) -> bool:
 
 def terrain_facts(scene: bpy.types.Scene) -> dict[str, Any] | None:
     """Return the facts on the file of a scene's terrain, by the names of `TerrainFacts`; None where it is flat."""
-    texts = (str(body[_TERRAIN]) for body in bodies_of(scene) if _TERRAIN in body)
-    return next((values_from_text(text, {}) for text in texts), None)
+    return next((kept_values(body, _TERRAIN, {}) for body in bodies_of(scene) if _TERRAIN in body), None)
 
 
 def create_surface(

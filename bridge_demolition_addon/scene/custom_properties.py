@@ -6,8 +6,10 @@ from collections.abc import Sequence
 from typing import Any
 
 import bpy
+import numpy as np
 
-from ..errors import SimulationError
+from ..errors import ScenarioError, SimulationError
+from ..model.scenario.kept import values_from_text
 from ..model.schema import LARGEST_NUMBER
 
 
@@ -21,14 +23,32 @@ def keep(holder: bpy.types.ID, name: str, value: Any) -> None:
 
 def kept_numbers(holder: bpy.types.ID, name: str, default: Sequence[float]) -> tuple[float, ...]:
     """Return the numbers of a property, as many as its default, which is returned where there is none."""
-    value = holder.get(name, default)
-    try:
-        numbers = tuple(map(float, value))
-    except (TypeError, ValueError):
-        numbers = ()
+    if name not in holder:
+        return tuple(map(float, default))
+    numbers = kept_series(holder, name, f"{len(default)} numbers")
     if len(numbers) != len(default):
         raise edited(holder, name, f"{len(default)} numbers")
+    return tuple(numbers.tolist())
+
+
+def kept_series(holder: bpy.types.ID, name: str, expected: str) -> np.ndarray:
+    """Return the numbers (k,) of a property, of which none is nan; an error says what was expected there."""
+    value = holder.get(name)
+    try:
+        numbers = np.array([] if isinstance(value, str | bytes) else [float(number) for number in value])
+    except (TypeError, ValueError) as error:
+        raise edited(holder, name, expected) from error
+    if isinstance(value, str | bytes) or np.isnan(numbers).any():
+        raise edited(holder, name, expected)
     return numbers
+
+
+def kept_values(holder: bpy.types.ID, name: str, nothing: Any) -> Any:
+    """Return the values that a property holds as JSON, of the type of `nothing`, which is returned without any."""
+    try:
+        return values_from_text(holder.get(name, ""), nothing)
+    except ScenarioError as error:
+        raise edited(holder, name, "the text that the add-on wrote") from error
 
 
 def kept_number(holder: bpy.types.ID, name: str, default: float) -> float:

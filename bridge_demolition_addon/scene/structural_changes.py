@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TypeVar
 
 import bpy
 
+from ..errors import ScenarioError
 from ..model.scenario import Change, Load, Removal, SawCut, Weakening
 from ..model.scenario.kept import tables_from_text, tables_text
-from .custom_properties import keep
+from .custom_properties import edited, keep
 
 _CHANGES, _LOADS = "bda_changes", "bda_loads"
+
+_Kept = TypeVar("_Kept", Change, Load)
 
 
 def keep_changes(scene: bpy.types.Scene, changes: Sequence[Change]) -> None:
@@ -26,9 +30,16 @@ def keep_loads(scene: bpy.types.Scene, loads: Sequence[Load]) -> None:
 def changes_of(scene: bpy.types.Scene) -> tuple[Change, ...]:
     """Return the changes that a scene keeps."""
     classes: tuple[type[Change], ...] = (Removal, SawCut, Weakening)
-    return tables_from_text(scene.get(_CHANGES, ""), classes)
+    return _kept_tables(scene, _CHANGES, classes)
 
 
 def loads_of(scene: bpy.types.Scene) -> tuple[Load, ...]:
     """Return the loads that a scene keeps."""
-    return tables_from_text(scene.get(_LOADS, ""), (Load,))
+    return _kept_tables(scene, _LOADS, (Load,))
+
+
+def _kept_tables(scene: bpy.types.Scene, name: str, classes: Sequence[type[_Kept]]) -> tuple[_Kept, ...]:
+    try:
+        return tables_from_text(scene.get(name, ""), classes)
+    except ScenarioError as error:
+        raise edited(scene, name, f"the text that the add-on wrote ({error})") from error

@@ -2,43 +2,94 @@
 """What Blender data keeps in custom properties can be edited by hand: what reads it then says so in a sentence."""
 
 import pytest
+from support.bearing_decks import deck_text
 from support.checkout import SMALL, TESTS
 
-from bridge_demolition_addon.errors import DemolitionError
-from bridge_demolition_addon.model.scenario.file import read_scenario
+from bridge_demolition_addon.errors import DemolitionError, SimulationError
+from bridge_demolition_addon.model.scenario.file import scenario_from_text
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
 
 EVERYTHING = TESTS / "simulation" / "everything.toml"
-WRONG = ("", "nonsense", -1, 1e300, [], [1.0], {"a": 1}, "{}", "[[1]]", "5")
+WRONG = (
+    "",
+    "nonsense",
+    -1,
+    5,
+    1e300,
+    float("nan"),
+    [],
+    [1.0],
+    {"a": 1},
+    {"1": 1},
+    ["a"],
+    "{}",
+    "[[1]]",
+    "5",
+    '{"a": 1}',
+)
 
 
 def read_all(scene):
     """Read all that a recording reads of a scene when it begins."""
+    from bridge_demolition_addon.scene.as_built import changed_bodies, manual_edits
     from bridge_demolition_addon.scene.blast.charges import blast_of, charges_of
     from bridge_demolition_addon.scene.blast.force_fields import force_objects
-    from bridge_demolition_addon.scene.bodies import bodies_of
+    from bridge_demolition_addon.scene.bodies import bodies_of, terrain_facts
     from bridge_demolition_addon.scene.connections.breaking_settings import breaking_of, rewrite_thresholds
     from bridge_demolition_addon.scene.connections.constraints import connections_of
+    from bridge_demolition_addon.scene.rendering.surroundings import points_in_view
     from bridge_demolition_addon.scene.run_setup import run_setup_of
     from bridge_demolition_addon.scene.tools.ball import lifts_of
 
     bodies, connections = bodies_of(scene), connections_of(scene)
+    points_in_view(scene)
+    terrain_facts(scene)
+    changed_bodies(scene)
     charges_of(scene)
     force_objects(scene)
     blast_of(scene)
     breaking_of(scene, connections)
     rewrite_thresholds(scene)
-    _ = run_setup_of(scene).events
+    setup = run_setup_of(scene)
+    _ = setup.events
+    manual_edits(scene, setup)
     for body in bodies:
         lifts_of(body)
 
 
-@pytest.mark.parametrize("file", [SMALL, EVERYTHING], ids=["ball", "strength"])
-def test_every_property_may_be_edited(blender, file):
+ON_SOIL = deck_text(
+    spans=(10.0,),
+    shards=6,
+    are_held=False,
+    more="""
+[[foundations]]
+member = "pier"
+soil = "medium dense sand"
+footing_m = [2.0, 4.0]
+
+[ground_motion]
+directions = ["along"]
+
+[ground_motion.spectrum]
+acceleration_m_s2 = 1.0
+ground_type = "C"
+""",
+)
+SCENARIOS = {
+    "ball": SMALL.read_text(encoding="utf-8"),
+    "strength": EVERYTHING.read_text(encoding="utf-8"),
+    "soil": ON_SOIL,
+}
+OWN_KEYS = ("bda_mass_kg", "bda_explosive", "bda_delay_s", "bda_burst")
+"""Properties of charges, whose messages name the key of the scenario."""
+
+
+@pytest.mark.parametrize("name", SCENARIOS)
+def test_every_property_may_be_edited(blender, name):
     from bridge_demolition_addon.scene.connections.breaking_settings import set_strength
     from bridge_demolition_addon.scene.demolition import build_demolition
 
-    scenario, scene, refused = read_scenario(file), blender.context.scene, 0
+    scenario, scene, refused = scenario_from_text(SCENARIOS[name]), blender.context.scene, 0
     build_demolition(scene, scenario, checked_model(scenario))
     connection = next(obj for obj in blender.data.objects if obj.rigid_body_constraint)
     set_strength(connection, None)
@@ -46,14 +97,37 @@ def test_every_property_may_be_edited(blender, file):
     shard["bda_lifts"] = "[[3, [0.0, 1.0], [0.0, 0.0, 1.0]]]"
     scene.view_layers[0].update()
     read_all(scene)
-    for holder in (scene, shard, connection, *(obj for obj in blender.data.objects if "bda_mass_kg" in obj)):
+    others = [
+        next((obj for obj in blender.data.objects if name in obj), None)
+        for name in ("bda_mass_kg", "bda_soil", "bda_pads")
+    ]
+    for holder in filter(None, (scene, shard, connection, *others)):
         for name in [name for name in holder.keys() if name.startswith("bda_")]:  # noqa: SIM118
             before = holder[name].to_list() if hasattr(holder[name], "to_list") else holder[name]
             for wrong in WRONG:
                 holder[name] = wrong
                 try:
                     read_all(scene)
-                except DemolitionError:
+                except DemolitionError as error:
                     refused += 1
+                    assert holder.name in str(error)
+                    assert name in str(error) or name in OWN_KEYS
             holder[name] = before
     assert refused > 50
+
+
+def test_soil_that_was_edited_is_named_with_its_object(blender):
+    from bridge_demolition_addon.scene.connections.constraints import connections_of
+    from bridge_demolition_addon.scene.connections.soil import soil_of
+    from bridge_demolition_addon.scene.demolition import build_demolition
+
+    scenario, scene = scenario_from_text(ON_SOIL), blender.context.scene
+    build_demolition(scene, scenario, checked_model(scenario))
+    scene.view_layers[0].update()
+    connection = next(obj for obj in connections_of(scene) if "bda_soil" in obj)
+    for wrong in (5, 0.5, "nonsense", "1234", [1.0, 2.0, 3.0], [float("nan")] * 8, {"a": 1}):
+        connection["bda_soil"] = wrong
+        with pytest.raises(
+            SimulationError, match=f"{connection.name}: its custom property bda_soil was edited: expected"
+        ):
+            soil_of(connections_of(scene))

@@ -6,8 +6,9 @@ Coulomb 1785), and else as long as the bearing presses anywhere. Bending of the 
 the arms of the springs: in one line across the road it turns freely about that.
 
 A sub-step is implicit, and solved as `elasticity.cracks` is: forces are linear about a guess, which is followed by
-another until both agree. Friction then counts by the pressing force at the beginning of the sub-step; at rest by that
-at rest.
+another until both agree. Friction then counts by the pressing force that was solved in the sub-step before, and at rest
+by that at rest. Positions do not say it: at the stiffness of a pad their rounding is a good part of the weight, and
+where a deck slides on a pier that rotates, both move by more than the pad deforms in a sub-step.
 
 All arrays have their components first, except places.
 """
@@ -70,8 +71,14 @@ class PadSprings:
         """
         count = int(self.bearings.max(initial=-1)) + 1
         x, y, z = (np.bincount(self.bearings, force, count)[self.bearings] for force in forces_n)
-        used: FloatArray = np.maximum(np.sqrt(x * x + y * y), -z) / (self.breaking_n * left)
-        return used
+        can_break = np.isfinite(self.breaking_n)
+        limit = np.multiply(self.breaking_n, left, out=np.full_like(self.breaking_n, np.inf), where=can_break)
+        used: FloatArray = np.maximum(np.sqrt(x * x + y * y), -z)
+        return np.divide(used, limit, out=np.full_like(used, np.inf), where=limit > 0.0)
+
+    def sideways_of_connections(self) -> FloatArray:
+        """Return the stiffness (c, 2) of each connection along x and y, N/m."""
+        return np.stack([np.bincount(self.parts, k, len(self.rows)) for k in self.sideways_n_m.T], axis=1)
 
     def middles_m(self) -> FloatArray:
         """Return the middles (c, 3) of the springs of each connection."""
@@ -169,13 +176,16 @@ class Bearings:
         self._law = PadLaw(springs.vertical_n_m, sideways, springs.friction[of], springs.pulls[of], unpressed)
         self._free = np.zeros((3, len(of)))  # gaps at which springs resist nothing
         self._forces_n = np.zeros((3, len(of)))
+        self._pressed_n = np.full(len(of), np.nan)  # pressing forces as they were solved last
         self._gone = np.zeros(len(self.rows), bool)
         self._solved_for = np.full((3, 3, len(of)), np.nan)
 
     def settle(self, positions_m: FloatArray, rotations: FloatArray) -> None:
         """Take over, before a sub-step, how far springs have slid, and which bodies have left each other."""
         gaps = self._gaps(positions_m, rotations)[0]
-        self._law = replace(self._law, pressed_n=self._holding_by(gaps))
+        unknown = np.isnan(self._pressed_n)
+        self._pressed_n[unknown] = self._pressing(gaps)[unknown]
+        self._law = replace(self._law, pressed_n=self._holding_by(self._pressed_n))
         self._forces_n = self._law.resisted(gaps - self._free)[0]
         sideways = self._law.sideways_n_m
         slid = gaps[:2] + np.divide(self._forces_n[:2], sideways, out=np.zeros_like(sideways), where=sideways > 0.0)
@@ -199,7 +209,7 @@ class Bearings:
     def touching(self) -> FloatArray:
         """Part (c,) of the stiffness of each connection that acts, from 0 to 1, as it settled last."""
         stiffness = self._law.vertical_n_m
-        acts = self._law.pulls | (self._forces_n[2] > 0.0)
+        acts = self._law.pulls | (self._pressed_n > 0.0)
         return self._summed(np.where(acts, stiffness, 0.0)) / self._summed(stiffness)
 
     def diagonal(self) -> FloatArray:
@@ -219,7 +229,7 @@ class Bearings:
 
     def pressed_at(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
         """Return the pressing forces (p,) by which springs hold sideways, with bodies at these positions."""
-        return self._holding_by(self._gaps(positions_m, rotations)[0])
+        return self._holding_by(self._pressing(self._gaps(positions_m, rotations)[0]))
 
     def at_rest(self, positions_m: FloatArray, rotations: FloatArray, pressed_n: FloatArray | None) -> PadsAtRest:
         """Return forces and stiffness with bodies at these positions.
@@ -259,7 +269,7 @@ class Bearings:
     def loads_at_rest(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
         """Return forces and moments (6, c) on the first bodies, about the middle of each connection's springs."""
         gaps, arms, _ = self._gaps(positions_m, rotations)
-        forces = replace(self._law, pressed_n=self._holding_by(gaps)).resisted(gaps)[0]
+        forces = replace(self._law, pressed_n=self._holding_by(self._pressing(gaps))).resisted(gaps)[0]
         middles = turned(rotations[..., self._of_above], self._middles)
         on_above = self._moved_to_centres(arms - middles[:, self._of], forces)
         return np.where(self._above_first, on_above, -on_above)
@@ -279,13 +289,17 @@ class Bearings:
             number[self._of[which]],
             between,
             self._law.only(which),
-            SolvedTangents(self._solved_for, which),
+            SolvedPads(SolvedTangents(self._solved_for, which), self._pressed_n, which),
             substep_s,
         )
 
-    def _holding_by(self, gaps_m: FloatArray) -> FloatArray:
+    def _pressing(self, gaps_m: FloatArray) -> FloatArray:
+        """Pressing forces (p,) of springs with these gaps."""
+        own: FloatArray = np.maximum(-self._law.vertical_n_m * gaps_m[2], 0.0)
+        return own
+
+    def _holding_by(self, own: FloatArray) -> FloatArray:
         """Pressing forces (p,) by which springs hold sideways: their own, or all of a bearing that does not slide."""
-        own = np.maximum(-self._law.vertical_n_m * gaps_m[2], 0.0)
         bearing = self._springs.bearings[self._of]
         whole = np.bincount(bearing, own, int(bearing.max(initial=-1)) + 1)[bearing]
         return np.where(np.isinf(self._law.friction), whole, own)
@@ -313,6 +327,19 @@ class Bearings:
         return np.stack(sums).reshape(6, 6, len(self.rows))
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class SolvedPads:
+    """What some of all springs were solved with: tangents, and where pressing forces (p,) of all are kept."""
+
+    tangents: SolvedTangents
+    pressed_n: FloatArray
+    which: IntArray
+
+    def take_over(self, forces_n: FloatArray) -> None:
+        """Keep the upward forces (q,) of these springs."""
+        self.pressed_n[self.which] = np.maximum(forces_n, 0.0)
+
+
 class BearingStep:
     """Forces of c connections with q springs in a sub-step.
 
@@ -327,12 +354,12 @@ class BearingStep:
         parts: IntArray,
         gaps: Gaps,
         law: PadLaw,
-        solved: SolvedTangents,
+        solved: SolvedPads,
         substep_s: float,
     ):
         self.rows = rows
         self._above_first, self._of, self._gaps = above_first, parts, gaps
-        self._law, self._solved, self._substep_s = law, solved, substep_s
+        self._law, self._solved, self._substep_s, self._kept = law, solved.tangents, substep_s, solved
         self._begin_at(np.zeros_like(gaps.widths_m))
         size = abs(self._forces).max(axis=0)
         counts = np.bincount(parts, minlength=len(rows))
@@ -369,7 +396,9 @@ class BearingStep:
 
     def loads(self, velocities: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the impulses (6, c) on the first and second bodies, which have velocities (6, n) then."""
-        push = self._substep_s * self._linear(self._substep_s * self._gaps.rates(velocities))
+        forces = self._linear(self._substep_s * self._gaps.rates(velocities))
+        self._kept.take_over(forces[2])
+        push = self._substep_s * forces
         above, below = (
             np.stack([self._summed(value) for value in np.concatenate((force, cross_products(arms, force)))])
             for force, arms in ((push, self._gaps.second_arms_m), (-push, self._gaps.first_arms_m))

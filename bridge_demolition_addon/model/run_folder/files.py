@@ -5,6 +5,7 @@ from ..results.arrays import BALLS_FILE, CONTACTS_FILE, FRAMES_FILE, INVENTORY_F
 SUMMARY_FILE = "summary.json"
 FORCE_LOG, DEBRIS_LOG = "force_log.csv", "debris_log.csv"
 BREAKING_LOG, EXPLOSION_LOG = "breaking_log.csv", "explosion_log.csv"
+BEARING_LOG = "bearing_log.csv"
 GROUND_MOTION_FILE = "ground_motion.csv"
 FORCE_CHART = "force_over_time.png"
 BLEND_FILE = "scene.blend"
@@ -31,6 +32,7 @@ RESULT_FILES = (
     DEBRIS_LOG,
     BREAKING_LOG,
     EXPLOSION_LOG,
+    BEARING_LOG,
     GROUND_MOTION_FILE,
     RESULTS_FILE,
     FRAMES_FILE,

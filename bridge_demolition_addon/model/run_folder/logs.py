@@ -11,6 +11,7 @@ from typing import Generic, TypeVar
 
 import numpy as np
 
+from ...engineering.mechanics.bearing_loads import BearingLoads
 from ...engineering.mechanics.section_forces import SectionForces
 from ...engineering.mechanics.stress import principal_stresses
 from ...errors import OutputError, UnreadableError
@@ -94,6 +95,14 @@ class FrameBlast:
         return self.loads.impulses_ns / self.frame_s
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class FrameBearings:
+    """Forces of b bearings in a frame, and the part (b,) of the connections of each that is there at its end."""
+
+    loads: BearingLoads
+    intact: np.ndarray
+
+
 FORCE_TABLE: LogTable[Frame] = LogTable(
     ("body",),
     (
@@ -142,6 +151,21 @@ EXPLOSION_TABLE: LogTable[FrameBlast] = LogTable(
         LogColumn("mean_pressure", "Pa", lambda blast: blast.loads.pressure_impulses_pa_s / blast.frame_s),
         LogColumn("force", "N", lambda blast: blast.forces_n[:, None] * blast.loads.directions, _XYZ),
         LogColumn("impulse", "Ns", lambda blast: blast.loads.impulses_ns),
+    ),
+)
+BEARING_TABLE: LogTable[FrameBearings] = LogTable(
+    ("bearing",),
+    (
+        LogColumn("force", "N", lambda bearings: bearings.loads.forces_n, _XYZ),
+        LogColumn("moment", "Nm", lambda bearings: bearings.loads.moments_nm, _XYZ),
+        LogColumn("largest_up", "N", lambda bearings: bearings.loads.largest_up_n),
+        LogColumn("least_up", "N", lambda bearings: bearings.loads.least_up_n),
+        LogColumn("largest_horizontal", "N", lambda bearings: bearings.loads.largest_horizontal_n),
+        LogColumn("largest_moment_y", "Nm", lambda bearings: bearings.loads.largest_moment_y_nm),
+        LogColumn("open_share", "", lambda bearings: bearings.loads.open_shares),
+        LogColumn("displacement", "m", lambda bearings: bearings.loads.displacements_m, _XYZ),
+        LogColumn("slip", "m", lambda bearings: bearings.loads.slips_m),
+        LogColumn("intact", "", lambda bearings: bearings.intact),
     ),
 )
 

@@ -94,6 +94,11 @@ class RunSummary:
         return self.values.get("hits_of_the_ball", [])
 
     @property
+    def bearings(self) -> list[dict[str, Any]]:
+        """The largest and least that each bearing carried; empty of runs that were recorded before."""
+        return self.values.get("bearings", [])
+
+    @property
     def came_to_rest_s(self) -> float | None:
         """When everything came to rest; None where it did not."""
         return self.values.get("came_to_rest_s")
@@ -170,6 +175,8 @@ def _checked(summary: Any) -> dict[str, Any]:
         _check_table("creeping", summary["creeping"], _CREEPING)
         for number, shard in enumerate(summary["creeping"]["fastest"]):
             _check_table(f"creeping.fastest[{number}]", shard, _CREEPING_SHARD)
+    for number, bearing in enumerate(summary.get("bearings", ())):
+        _check_table(f"bearings[{number}]", bearing, _BEARING)
     for number, hit in enumerate(summary.get("hits_of_the_ball", ())):
         _check_table(f"hits_of_the_ball[{number}]", hit, _HIT, optional=_ESTIMATES)
     return summary
@@ -235,6 +242,21 @@ _TERRAIN = {
     "filled_in_share": _is_number,
     "levelled": _is_list,
 }
+_BEARING = {
+    "name": _is_text,
+    "at_rest_up_N": _is_number,
+    "largest_up_N": _is_number,
+    "least_up_N": _is_number,
+    "largest_horizontal_N": _is_number,
+    "largest_moment_y_Nm": _is_number,
+    "largest_open_share": _is_number,
+    "largest_displacement_m": _is_number,
+    "left_share": _is_number,
+    "opened": lambda value: isinstance(value, bool),
+    "opened_s": _is_number_or_none,
+    "gone_s": _is_number_or_none,
+    "slid": lambda value: value is None or isinstance(value, bool),
+}
 _LEVELLED = {"name": _is_text, "dug_m": _is_number, "filled_m": _is_number}
 _SUMMARY = {
     "terrain": _is_table_or_none,
@@ -249,6 +271,7 @@ _SUMMARY = {
     "impact": _is_table_or_none,
     "key_frame": lambda value: isinstance(value, dict),
     "hits_of_the_ball": _is_list,
+    "bearings": _is_list,
 }
 
 _ESTIMATES = {"half_sine_peak_force_N": _is_number, "hertz_peak_force_N": _is_number}

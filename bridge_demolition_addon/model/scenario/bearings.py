@@ -213,3 +213,15 @@ class Bearing(Table):
             raise self.unexpected("spacing_m", f"none without two or more {self.table}.pads")
         if self.pad_m is not None and self.pads is None and self.positions_m is None:
             raise ScenarioError(f"{self.table}.pads is missing: expected it with {self.table}.pad_m")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BearingOfBridge(Bearing):
+    """A bearing that follows from `[bridge.bearings]`."""
+
+    table: ClassVar[str] = "bridge.bearings"
+
+    @property
+    def source(self) -> str:
+        """Where the scenario says it, for a message."""
+        return f"[{self.table}]"

@@ -7,6 +7,7 @@ from typing import ClassVar
 from ...engineering.arithmetic import cosine, sine
 from ...errors import ScenarioError
 from ..schema import DENSITY, FARTHEST_M, ROUNDING, SIZE, Table, check_exactly_one, given, key
+from .bearings import PINNED, ROCKER, SLIDING, BearingOfBridge
 
 _OWN_DENSITY = "Density of {}, where it is not that of the whole bridge."
 
@@ -142,6 +143,43 @@ class Abutments(Table):
     density_kg_m3: float | None = key(_OWN_DENSITY.format("the abutments"), **DENSITY)
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BridgeBearings(Table):
+    """The bearings: one between whatever lies on a pier cap, column, wall or abutment and that, at the axis of each.
+    `[[bearings]]` come before these, for those that differ."""
+
+    table: ClassVar[str] = "bridge.bearings"
+
+    pinned_at: int | None = key(
+        "Number of the support, from 1 at the first end, whose bearings are `pinned`; those of all others move along "
+        "the road. By default the first; with `deck.per_span` each deck has pinned ones at its own first end.",
+        default=None,
+        at_least=1,
+    )
+    friction: float | None = key(
+        "Coefficient of friction of those that move: they are `sliding` with it, and `rocker` without it.",
+        default=None,
+        at_least=0,
+        at_most=10,
+    )
+    pads: int | None = key(
+        "Number of pads in a row across the road, under the deck or under each girder; without it each bearing is one "
+        "line.",
+        default=None,
+        at_least=1,
+        at_most=100,
+    )
+    tension: bool = key("Whether they hold what is lifted; otherwise that lifts off.", default=False)
+
+    def between(self, above: str, below: str, *, is_pinned: bool) -> BearingOfBridge:
+        """Return the bearing between members, by their names or kinds."""
+        kind = PINNED if is_pinned else ROCKER if self.friction is None else SLIDING
+        friction = self.friction if kind == SLIDING else None
+        return BearingOfBridge(
+            members=(above, below), kind=kind, friction=friction, pads=self.pads, tension=self.tension
+        )
+
+
 LARGEST_SKEW_DEG = 75.0
 
 
@@ -185,6 +223,37 @@ class Bridge(Table):
     piers: Piers | None = None
     pier_caps: PierCaps | None = None
     abutments: Abutments | None = None
+    bearings: BridgeBearings | None = None
+
+    @property
+    def bearing_tables(self) -> tuple[BearingOfBridge, ...]:
+        """Return the bearings between each deck, or its girders, and its supports, in their order along the road."""
+        if self.bearings is None:
+            return ()
+        above, supports = "girder" if self.girders else "deck", self._support_names()
+        if not self.deck.per_span or len(self.span_lengths_m) == 1:
+            pinned = (self.bearings.pinned_at or 1) - 1
+            return tuple(
+                self.bearings.between(above, below, is_pinned=number == pinned) for number, below in enumerate(supports)
+            )
+        above = "girder *" if self.girders else "deck"
+        return tuple(
+            self.bearings.between(f"span {span} {above}", supports[span - 1 + end], is_pinned=end == 0)
+            for span in range(1, len(self.span_lengths_m) + 1)
+            for end in (0, 1)
+        )
+
+    def _support_names(self) -> list[str]:
+        """Names of what carries the deck at each axis, from the first end on."""
+        count = len(self.span_lengths_m) + 1
+        if self.abutments:
+            return ["abutment 1", *(self._pier_name(number) for number in range(1, count - 1)), "abutment 2"]
+        return [self._pier_name(number) for number in range(1, count + 1)]
+
+    def _pier_name(self, number: int) -> str:
+        if self.pier_caps:
+            return f"pier {number} cap"
+        return f"pier {number}" if given(self.piers).columns == 1 else f"pier {number} column *"
 
     @property
     def spans_m(self) -> float:
@@ -230,6 +299,21 @@ class Bridge(Table):
             self._check_room_across(self.piers)
         if self.merge:
             self._check_one_density()
+        if self.bearings:
+            self._check_bearings(self.bearings)
+
+    def _check_bearings(self, bearings: BridgeBearings) -> None:
+        if self.merge:
+            raise ScenarioError("bridge.bearings is given: expected none with bridge.merge, where no member is left")
+        supports, spans = len(self.span_lengths_m) + 1, len(self.span_lengths_m)
+        if bearings.pinned_at is None:
+            return
+        if self.deck.per_span and spans > 1:
+            raise bearings.unexpected(
+                "pinned_at", "none with bridge.deck.per_span: each deck is pinned at its first end"
+            )
+        if bearings.pinned_at > supports:
+            raise bearings.unexpected("pinned_at", f"at most {supports}, the number of supports of the bridge")
 
     def _check_parts(self) -> None:
         if self.girders and self.box_girder:

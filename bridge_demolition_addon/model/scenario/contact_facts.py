@@ -37,6 +37,8 @@ def contact_facts(scenario: Scenario) -> Iterator[Fact]:
     if sentence := own_values_sentence(scenario):
         yield "given", sentence
     pairs = list(contact_pairs(scenario))
+    if unused := _unused_keys(scenario):
+        yield "of no use", f"{', '.join(unused)}: no such body is in the scenario"
     for name, values in pairs:
         yield name, values_text(values)
     if largest := max(values.restitution for _, values in pairs):
@@ -44,6 +46,14 @@ def contact_facts(scenario: Scenario) -> Iterator[Fact]:
         speeds = (slowest_bounce_m_s(largest, size_m * math.sqrt(0.75), substep_s) for size_m in _SIZES_M)
         named = (f"{speed:.2g} m/s of one of {size_m:g} m" for size_m, speed in zip(_SIZES_M, speeds, strict=True))
         yield "bounce", f"none below {' and '.join(named)}, with sub-steps of {1000.0 * substep_s:.3g} ms"
+
+
+def _unused_keys(scenario: Scenario) -> list[str]:
+    """Return the keys of pairs that are given, and of which there is no body."""
+    if scenario.contacts is None:
+        return []
+    there = {body.contact for body in scenario.bodies_in_contact}
+    return [name for name in scenario.contacts.given_keys if name.split(".")[1] not in there]
 
 
 def own_values_sentence(scenario: Scenario) -> str:

@@ -103,7 +103,7 @@ class Scenario(Table):
         """
         own, *others = self.connections.joints(self.materials)
         factor, is_elastic = self.connections.strength_factor, self.connections.is_elastic
-        pads = [table.joint(own, factor, is_elastic=is_elastic) for table in self.bearings]
+        pads = [table.joint(own, factor, is_elastic=is_elastic) for table in bearing_tables(self)]
         return (own, *others, *pads)
 
     @property
@@ -277,3 +277,8 @@ def _action_fields(scenario_class: type[Table]) -> tuple[str, ...]:
         for item in subtable_fields(scenario_class)
         if issubclass(subtable_class(item) or Table, PlannedAction)
     )
+
+
+def bearing_tables(scenario: Scenario) -> tuple[Bearing, ...]:
+    """Return all bearings, first those that count before others: the scenario's own, then those of its bridge."""
+    return (*scenario.bearings, *(scenario.bridge.bearing_tables if scenario.bridge else ()))

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Any
 
+import numpy as np
+
 from ..structure.model import Model
 from .stages import Stage
 
@@ -12,6 +14,8 @@ BEARINGS_FILE = "bearings.csv"
 
 BEARING_COLUMNS = (
     "stage",
+    "time_s",
+    "step",
     "bearing",
     "axis_x_m",
     "axis_y_m",
@@ -22,6 +26,7 @@ BEARING_COLUMNS = (
     "moment_x_kNm",
     "moment_y_kNm",
     "moment_z_kNm",
+    "left_share",
 )
 
 _KILO = 1000.0
@@ -30,12 +35,14 @@ _KILO = 1000.0
 def bearing_rows(stages: Sequence[Stage], model: Model) -> Iterator[dict[str, Any]]:
     """Yield the rows of all bearings in all stages; none without `[[bearings]]`.
 
-    Moments are about the middle of the axis. What has lifted off has no force.
+    Moments are about the middle of the axis. What has lifted off has no force, and what is gone no `left_share`.
     """
     if model.bearings is None:
         return
     for number, stage in enumerate(stages, start=1):
-        for bearing in model.bearings.forces(stage.standing.loads):
+        for index, bearing in enumerate(model.bearings.forces(stage.standing.loads)):
+            left = np.isfinite(stage.standing.used[model.bearings.rows_of(index)])
             values = *(bearing.force_n / _KILO).tolist(), *(bearing.moment_nm / _KILO).tolist()
-            row = number, bearing.name, *bearing.axis_m.tolist(), *values
+            of_stage = number, stage.time_s, stage.step
+            row = *of_stage, bearing.name, *bearing.axis_m.tolist(), *values, float(left.mean()) if len(left) else 0.0
             yield dict(zip(BEARING_COLUMNS, row, strict=True))

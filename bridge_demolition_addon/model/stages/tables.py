@@ -209,10 +209,32 @@ def reaction_sentences(rows: Sequence[Mapping[str, Any]]) -> list[str]:
     """Return what the supports of one stage carry, by their rows in the table: the least and the most, and uplift."""
     if not rows:
         return []
+    return [_carried(rows, "support"), *_named("held down against uplift", _pulling(rows), "support")]
+
+
+def bearing_sentences(rows: Sequence[Mapping[str, Any]]) -> list[str]:
+    """Return what the bearings of one stage carry, by their rows in the table, and which lifted off or are gone."""
+    there, gone = [row for row in rows if row["left_share"]], [row for row in rows if not row["left_share"]]
+    lifted = [row for row in there if abs(row["force_z_kN"]) <= UPLIFT_KN]
+    return [
+        *([_carried(there, "bearing")] if there else []),
+        *_named("held down against uplift", _pulling(there), "bearing"),
+        *_named("lifted off", lifted, "bearing"),
+        *_named("gone", gone, "bearing"),
+    ]
+
+
+def _carried(rows: Sequence[Mapping[str, Any]], kind: str) -> str:
     least, most = (choose(rows, key=lambda row: row["force_z_kN"]) for choose in (min, max))
-    sentence = f"supports carry {_kilonewtons(least)} ({least['support']}) to {_kilonewtons(most)} ({most['support']})"
-    lifted = [row["support"] for row in rows if row["force_z_kN"] < -UPLIFT_KN]
-    return [sentence, *([f"held down against uplift: {', '.join(lifted)}"] if lifted else [])]
+    return f"{kind}s carry {_kilonewtons(least)} ({least[kind]}) to {_kilonewtons(most)} ({most[kind]})"
+
+
+def _pulling(rows: Sequence[Mapping[str, Any]]) -> list[Mapping[str, Any]]:
+    return [row for row in rows if row["force_z_kN"] < -UPLIFT_KN]
+
+
+def _named(what: str, rows: Sequence[Mapping[str, Any]], kind: str) -> list[str]:
+    return [f"{what}: {', '.join(row[kind] for row in rows)}"] if rows else []
 
 
 def _kilonewtons(row: Mapping[str, Any]) -> str:

@@ -16,7 +16,7 @@ from ...engineering.mechanics.section_cuts import ConnectionLoads
 from ...engineering.structure.connections import Connections
 from ...errors import ScenarioError
 from ..bridge.member import Member
-from ..scenario.bearings import Bearing, names_one
+from ..scenario.bearings import Bearing, BearingOfBridge, names_one
 from ..schema import shown
 
 _SPRINGS_OF_LINE = 64
@@ -95,7 +95,7 @@ def placed_bearings(tables: Sequence[Bearing], members: Sequence[Member]) -> lis
     """Return the bearings between all members that tables name and that lie on each other."""
     placed: dict[tuple[int, int], PlacedBearing] = {}
     for number, table in enumerate(tables):
-        above, below = (_named(members, name, number) for name in table.members)
+        above, below = (_named(members, name, _source(table, number)) for name in table.members)
         pairs = [(one, other) for one in above for other in below if one != other]
         found = [
             PlacedBearing(number, one, other, tuple(contacts))
@@ -106,7 +106,7 @@ def placed_bearings(tables: Sequence[Bearing], members: Sequence[Member]) -> lis
             turned = any(level_contacts(members[other].solid, members[one].solid) for one, other in pairs)
             hint = "the first lies below: give it as the second" if turned else "the first to lie on the second"
             raise ScenarioError(
-                f"[[bearings]] number {number + 1}: members are {' and '.join(map(shown, table.members))}: expected "
+                f"{_source(table, number)}: members are {' and '.join(map(shown, table.members))}: expected "
                 f"{hint}, with level faces that touch"
             )
         for bearing in found:
@@ -189,13 +189,17 @@ class _Group:
     area_m2: float
 
 
-def _named(members: Sequence[Member], pattern: str, number: int) -> list[int]:
+def _source(table: Bearing, number: int) -> str:
+    """Where a scenario says a bearing, for a message."""
+    return table.source if isinstance(table, BearingOfBridge) else f"[[bearings]] number {number + 1}"
+
+
+def _named(members: Sequence[Member], pattern: str, source: str) -> list[int]:
     chosen = [index for index, member in enumerate(members) if names_one(pattern, member.name, member.kind)]
     if not chosen:
         known = ", ".join(sorted({member.name for member in members} | {member.kind for member in members}))
         raise ScenarioError(
-            f"[[bearings]] number {number + 1}: members has {shown(pattern)}: expected names or kinds of members, "
-            f"such as {known}"
+            f"{source}: members has {shown(pattern)}: expected names or kinds of members, such as {known}"
         )
     return chosen
 

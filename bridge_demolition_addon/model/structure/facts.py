@@ -17,6 +17,7 @@ from ..bridge.member import Member
 from ..materials.bar_layers import AXES, SIDES
 from ..scenario import ConnectionBetween, ConnectionSettings, Scenario
 from ..scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
+from ..scenario.scenario import bearing_tables
 from ..schema import given
 from .equilibrium import deflection_m, force_utilisations, loads_of, model_at_rest, overloaded
 from .face_bars import layers_of_members
@@ -235,7 +236,7 @@ def _bearing_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
     for number, name in enumerate(bearings.names):
         rows = bearings.rows_of(number)
         if len(rows):
-            table = scenario.bearings[int(model.joint_of_connection[rows[0]]) - first_joint]
+            table = bearing_tables(scenario)[int(model.joint_of_connection[rows[0]]) - first_joint]
             yield "bearing", f"{name}: {table.described}, {len(rows)} connections"
     if not scenario.connections.is_elastic:
         yield "", "with rigid connections they hold what is lifted, and slide without friction"

@@ -21,6 +21,7 @@ from ..bridge.extent import room_around
 from ..bridge.member import Member, mean_density
 from ..bridge.preparation import prepared_members
 from ..scenario import ConnectionSettings, Geometry, Scenario
+from ..scenario.scenario import bearing_tables
 from ..schema import given
 from ..terrain.built import BuiltGround, built_ground
 from .bearings import ModelBearings, bearing_connections, have_bearing, placed_bearings, raised_shards
@@ -106,7 +107,7 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
     rules_of = partial(rules_of_pairs, rules, members, fractured.member_of_shard)
     excluded = np.array([False, *(rule.none for rule in rules)])
     heights_at = None if ground.terrain is None else ground.terrain.heights_at
-    placed = placed_bearings(scenario.bearings, members)
+    placed = placed_bearings(bearing_tables(scenario), members)
 
     def allowed(pairs: np.ndarray) -> np.ndarray:
         return ~excluded[rules_of(pairs)] & ~have_bearing(placed, fractured.member_of_shard, pairs)
@@ -117,7 +118,7 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
     if placed:
         of_pads, bearings, tables = bearing_connections(
             placed,
-            scenario.bearings,
+            bearing_tables(scenario),
             members,
             fractured.member_of_shard,
             shards,
@@ -167,7 +168,7 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
         shards=raised_shards(
             shards_with_gaps(fractured, members, scenario.fracture.margin_m),
             placed,
-            scenario.bearings,
+            bearing_tables(scenario),
             fractured.member_of_shard,
         ),
         member_of_shard=fractured.member_of_shard,

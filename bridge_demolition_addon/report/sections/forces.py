@@ -10,13 +10,12 @@ import numpy as np
 
 from ...charts.histories import breaking_history, contact_force_history, load_history, logged_load_history
 from ...charts.stress_elevation import stress_elevation
-from ...engineering.geometry.vectors import length
 from ...model.results.arrays import Results
-from ...model.results.bearings import BearingHistory, bearing_histories
 from ...model.results.force_history import breaking_by_kind, contact_forces, most_loaded
 from ...model.run_folder.logs import LoggedForces
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section
 from ..run_folder import ReportedRun
+from .bearings import bearing_blocks
 
 _BEYOND_THE_FORCE = (
     "The force of a connection is the resultant of its three directions. Each direction by itself is held up to the "
@@ -44,7 +43,7 @@ def force_section(run: ReportedRun) -> Section:
             ),
             _loaded_bodies(results),
             _loaded_connections(results),
-            *_bearings(run),
+            *bearing_blocks(run),
         ]
         if run.scenario and run.scenario.connections.breaking_force_newton is not None:
             blocks.append(Paragraph(_BEYOND_THE_FORCE))
@@ -105,31 +104,6 @@ def _loaded_connections(results: Results) -> DataTable:
     )
     peaks = most_loaded(frames.loads.connection_peaks_n, np.arange(len(inventory.pairs)))
     return DataTable.of("most_loaded_connections", "The ten most loaded connections", columns, peaks)
-
-
-def _bearings(run: ReportedRun) -> list[Block]:
-    results = run.recorded
-    histories = bearing_histories(results, run.scenario.bearings if run.scenario else ())
-    if not histories:
-        return []
-
-    def upwards(choose: Callable[[np.ndarray], Any]) -> Callable[[BearingHistory], float]:
-        return lambda bearing: float(choose(bearing.forces_n[1:, 2])) / 1e3
-
-    columns = (
-        Column("bearing", "bearing", "", lambda bearing: bearing.name),
-        Column("up at first (kN)", "first_up_kN", ".1f", upwards(lambda forces: forces[0])),
-        Column("least (kN)", "least_up_kN", ".1f", upwards(np.nanmin)),
-        Column("largest (kN)", "largest_up_kN", ".1f", upwards(np.nanmax)),
-        Column(
-            "largest horizontal (kN)",
-            "largest_horizontal_kN",
-            ".1f",
-            lambda bearing: float(np.nanmax(length(bearing.forces_n[1:, :2]))) / 1e3,
-        ),
-        Column("left at the end (%)", "left_percent", ".0f", lambda bearing: 100.0 * float(bearing.intact[-1])),
-    )
-    return [DataTable.of("bearings", "Forces of bearings, each the mean over a frame", columns, histories)]
 
 
 def _area_m2(area_m2: float) -> float | None:

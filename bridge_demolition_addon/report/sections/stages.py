@@ -12,6 +12,7 @@ from typing import Any
 
 from ...engineering.units import mass_text
 from ...errors import OutputError, UnreadableError
+from ...model.stages.bearing_rows import BEARING_COLUMNS, BEARINGS_FILE
 from ...model.stages.tables import (
     CRITICALITY_COLUMNS,
     CRITICALITY_FILE,
@@ -57,6 +58,17 @@ _REACTIONS = (
     "weight of what is held"
 )
 _MOMENTS = "Reactions of the supports: least and largest moments (kN·m) about the point of the support"
+_BEARING = (
+    Column("Bearing", "bearing", "", lambda rows: rows[0]["bearing"]),
+    Column("at x (m)", "axis_x_m", ".2f", lambda rows: float(rows[0]["axis_x_m"])),
+    Column("y (m)", "axis_y_m", ".2f", lambda rows: float(rows[0]["axis_y_m"])),
+    Column("z (m)", "axis_z_m", ".2f", lambda rows: float(rows[0]["axis_z_m"])),
+)
+_BEARINGS = (
+    "Bearings: least and largest forces (kN) on what lies above them over the stages, z upwards. They go on into the "
+    "supports, and are no part of their sum"
+)
+_OF_BEARINGS = "Bearings: least and largest moments (kN·m) about the middle of their axes"
 
 
 def has_stages(folder: Path) -> bool:
@@ -79,7 +91,13 @@ def stages_section(folder: Path) -> Section:
         falls = [(row["member"], float(row["falls_kg"]) / 1e3, float(row["share_of_the_bridge"])) for row in members]
     except ValueError as error:
         raise OutputError(f"{folder}: the tables of stages are damaged ({error}); run bda stages again") from error
-    blocks: list[Block] = [Paragraph(_WORDS), *_warnings(stages), table, *_reaction_blocks(folder)]
+    blocks: list[Block] = [
+        Paragraph(_WORDS),
+        *_warnings(stages),
+        table,
+        *_reaction_blocks(folder),
+        *_bearing_blocks(folder),
+    ]
     blocks.append(Paragraph(_on_members(falls)))
     if critical := sorted((fall for fall in falls if fall[1] > 0.0), key=lambda fall: -fall[1]):
         columns = (
@@ -94,28 +112,59 @@ def stages_section(folder: Path) -> Section:
 def _reaction_blocks(folder: Path) -> list[Block]:
     """Return the least and largest reactions of each support; nothing where an earlier version wrote the tables."""
     path = folder / REACTIONS_FILE
-    if not path.is_file():
+    supports = _by_name(path, REACTION_COLUMNS, "support")
+    if not supports:
         return []
-    by_support: dict[str, list[dict[str, str]]] = {}
-    for row in _rows(path, REACTION_COLUMNS, may_be_empty=True):
-        by_support.setdefault(row["support"], []).append(row)
-    if not by_support:
-        return []
-    supports = list(by_support.values())
     try:
         forces = DataTable.of("reaction_forces", _REACTIONS, (*_SUPPORT, *_extremes("force", "kN")), supports)
         moments = DataTable.of("reaction_moments", _MOMENTS, (*_SUPPORT, *_extremes("moment", "kNm")), supports)
+        return [*_uplift(supports, "support"), forces, moments]
     except ValueError as error:
-        raise OutputError(f"{path}: is damaged ({error}); run bda stages again") from error
-    return [*_uplift(supports), forces, moments]
+        raise _damaged(path, error) from error
 
 
-def _uplift(supports: Sequence[Sequence[dict[str, str]]]) -> list[Block]:
-    """Return a notice of each support that is held down against uplift."""
+def _bearing_blocks(folder: Path) -> list[Block]:
+    """Return the least and largest forces of each bearing while it is there; nothing without bearings."""
+    path = folder / BEARINGS_FILE
+    try:
+        bearings = [
+            there
+            for rows in _by_name(path, BEARING_COLUMNS, "bearing")
+            if (there := [row for row in rows if float(row["left_share"]) > 0.0])
+        ]
+        if not bearings:
+            return []
+        forces = DataTable.of("bearing_forces", _BEARINGS, (*_BEARING, *_extremes("force", "kN")), bearings)
+        moments = DataTable.of("bearing_moments", _OF_BEARINGS, (*_BEARING, *_extremes("moment", "kNm")), bearings)
+        return [*_uplift(bearings, "bearing"), *_lifted(bearings), forces, moments]
+    except ValueError as error:
+        raise _damaged(path, error) from error
+
+
+def _by_name(path: Path, columns: Sequence[str], kind: str) -> list[list[dict[str, str]]]:
+    """Return the rows of each support or bearing over the stages; nothing where an earlier version wrote the tables."""
+    by_name: dict[str, list[dict[str, str]]] = {}
+    for row in _rows(path, columns, may_be_empty=True) if path.is_file() else ():
+        by_name.setdefault(row[kind], []).append(row)
+    return list(by_name.values())
+
+
+def _damaged(path: Path, error: ValueError) -> OutputError:
+    return OutputError(f"{path}: is damaged ({error}); run bda stages again")
+
+
+def _lifted(bearings: Sequence[Sequence[dict[str, str]]]) -> list[Block]:
+    """Return a notice of the stages in which bearings have lifted off."""
+    lifted = [row for rows in bearings for row in rows if abs(float(row["force_z_kN"])) <= UPLIFT_KN]
+    return [Paragraph(f"Stage {row['stage']}: {row['bearing']} has lifted off.", True) for row in lifted]
+
+
+def _uplift(supports: Sequence[Sequence[dict[str, str]]], kind: str) -> list[Block]:
+    """Return a notice of each support or bearing that is held down against uplift."""
     lowest = [min(rows, key=lambda row: float(row["force_z_kN"])) for rows in supports]
     return [
         Paragraph(
-            f"Stage {row['stage']}: {row['support']} is held down with {-float(row['force_z_kN']):.1f} kN against "
+            f"Stage {row['stage']}: {row[kind]} is held down with {-float(row['force_z_kN']):.1f} kN against "
             "uplift. Make sure that it can be.",
             True,
         )

@@ -10,12 +10,13 @@ import bpy
 from mathutils import Matrix, Vector
 
 from ...engineering.geometry.solids import sphere
-from ...errors import BlastError, DemolitionError
+from ...errors import BlastError, DemolitionError, ScenarioError
 from ...model.blast.charges import EXPLOSIVES, MS_PER_S, Charge, explosive_named
 from ...model.blast.settings import BlastSettings
 from ...model.scenario.kept import table_from_values, table_values
 from ..bodies import mesh_of
 from ..collections import collection_for, find_collection
+from ..custom_properties import edited
 from ..rendering.materials import SurfaceMaterial, material_of
 from ..tools.keyframes import curves_of
 
@@ -87,8 +88,14 @@ def blast_of(scene: bpy.types.Scene) -> BlastSettings:
     """Return the settings that a scene keeps; nothing goes off in a scene without settings."""
     if _OF_BLAST + "explosion" not in scene:
         return BlastSettings(explosion=False)
-    kept = {name: scene.get(_OF_BLAST + name, _NO_VALUE) for name in table_values(BlastSettings())}
-    return table_from_values(BlastSettings, {name: value for name, value in kept.items() if value != _NO_VALUE})
+    names = [name for name in table_values(BlastSettings()) if scene.get(_OF_BLAST + name, _NO_VALUE) != _NO_VALUE]
+    kept = {name: scene[_OF_BLAST + name] for name in names}
+    for name, value in kept.items():
+        try:
+            table_from_values(BlastSettings, {name: value})
+        except ScenarioError as error:
+            raise edited(scene, _OF_BLAST + name, f"a value of its key ({error})") from error
+    return table_from_values(BlastSettings, kept)
 
 
 def show_until(charge: bpy.types.Object, frame: int) -> None:

@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 
 from ...engineering.elasticity.bearings import PadSprings
-from ..custom_properties import edited
+from ..custom_properties import edited, kept_series
 from .breaking_settings import set_strength
 
 _NAME = "bda_bearing"
@@ -27,6 +27,15 @@ class BearingsOfScene:
     springs: PadSprings
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class NamedBearings:
+    """Connections (c,) at the pads of bearings, which of b bearings each is part of, and the names (b,) of these."""
+
+    names: tuple[str, ...]
+    rows: np.ndarray
+    bearings: np.ndarray
+
+
 def keep_pads(connections: Sequence[bpy.types.Object], springs: PadSprings) -> None:
     """Keep springs of pads with their connections; no stress breaks these."""
     numbers = np.column_stack((springs.friction, springs.pulls, springs.travel_m, springs.breaking_n))
@@ -40,6 +49,16 @@ def name_bearings(connections: Sequence[bpy.types.Object], names: Sequence[str],
     """Keep with the connections of pads which bearing they are part of."""
     for row, bearing in zip(springs.rows.tolist(), springs.bearings.tolist(), strict=True):
         connections[row][_NAME] = names[bearing]
+
+
+def named_bearings_of(connections: Sequence[bpy.types.Object]) -> NamedBearings | None:
+    """Return the bearings among connections, elastic or rigid; None without any."""
+    rows = [row for row, connection in enumerate(connections) if _NAME in connection]
+    if not rows:
+        return None
+    named = [str(connections[row][_NAME]) for row in rows]
+    names = tuple(dict.fromkeys(named))
+    return NamedBearings(names, np.array(rows), np.array([names.index(name) for name in named]))
 
 
 def bearings_of(connections: Sequence[bpy.types.Object]) -> BearingsOfScene | None:
@@ -72,12 +91,10 @@ def bearings_of(connections: Sequence[bpy.types.Object]) -> BearingsOfScene | No
 
 def _numbers(connection: bpy.types.Object) -> np.ndarray:
     """Return the numbers of a connection and of its springs."""
-    try:
-        numbers = np.array(connection[_PADS], float).reshape(-1)
-    except (TypeError, ValueError):
-        numbers = np.zeros(0)
+    expected = "the numbers of a bearing and of its springs"
+    numbers = kept_series(connection, _PADS, expected)
     of_springs = numbers[_OF_CONNECTION:]
-    is_whole = len(of_springs) > 0 and len(of_springs) % _OF_SPRING == 0 and not np.isnan(numbers).any()
+    is_whole = len(of_springs) > 0 and len(of_springs) % _OF_SPRING == 0
     if not is_whole or not (of_springs.reshape(-1, _OF_SPRING)[:, 3] > 0.0).all():
-        raise edited(connection, _PADS, "the numbers of a bearing and of its springs")
+        raise edited(connection, _PADS, expected)
     return numbers

@@ -10,7 +10,7 @@ import numpy as np
 
 from ...engineering.elasticity.section_stiffness import SectionStiffness
 from ...errors import SimulationError
-from ..custom_properties import keep, kept_number, kept_numbers
+from ..custom_properties import edited, keep, kept_number, kept_series
 
 _STIFFNESS = "bda_stiffness"
 _DAMPING_RATIO = "bda_damping_ratio"
@@ -78,21 +78,26 @@ def _stiffness_of(connections: Sequence[bpy.types.Object]) -> SectionStiffness:
             raise SimulationError(
                 f"connection {connection.name!r} has no stiffness as the others have: delete it, or build again"
             )
-    matrices = np.array([_kept_matrix(connection) for connection in connections]).reshape(-1, 6, 6)
-    if not ((matrices[:, range(6), range(6)] >= 0.0).all() and np.isfinite(matrices).all()):
-        raise SimulationError("the stiffness of a connection was edited to a negative number: undo that")
-    return SectionStiffness(matrices)
+    return SectionStiffness(np.array([_kept_matrix(connection) for connection in connections]).reshape(-1, 6, 6))
 
 
 def _kept_matrix(connection: bpy.types.Object) -> np.ndarray:
     """Stiffness (6, 6) of a connection."""
-    if len(connection[_STIFFNESS]) == _UNCOUPLED:
-        axial, first, second, torsion, *bending = kept_numbers(connection, _STIFFNESS, (0.0,) * _UNCOUPLED)
-        of_bending = np.array([[bending[:2], bending[1:]]])
-        one = SectionStiffness.uncoupled(
-            np.array([axial]), np.array([[first, second]]), np.array([torsion]), of_bending
-        )
-        return one.matrices[0]
-    matrix = np.zeros((6, 6))
-    matrix[_UPPER] = kept_numbers(connection, _STIFFNESS, (0.0,) * len(_UPPER[0]))
-    return matrix + np.triu(matrix, 1).T
+    expected = f"{len(_UPPER[0])} finite numbers of a stiffness, none negative on its diagonal"
+    numbers = kept_series(connection, _STIFFNESS, expected)
+    if len(numbers) not in (len(_UPPER[0]), _UNCOUPLED) or not np.isfinite(numbers).all():
+        raise edited(connection, _STIFFNESS, expected)
+    matrix = _uncoupled_matrix(numbers) if len(numbers) == _UNCOUPLED else np.zeros((6, 6))
+    if len(numbers) != _UNCOUPLED:
+        matrix[_UPPER] = numbers
+        matrix += np.triu(matrix, 1).T
+    if (np.diagonal(matrix) < 0.0).any():
+        raise edited(connection, _STIFFNESS, expected)
+    return matrix
+
+
+def _uncoupled_matrix(numbers: np.ndarray) -> np.ndarray:
+    axial, first, second, torsion, *bending = numbers.tolist()
+    of_bending = np.array([[bending[:2], bending[1:]]])
+    one = SectionStiffness.uncoupled(np.array([axial]), np.array([[first, second]]), np.array([torsion]), of_bending)
+    return one.matrices[0]

@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 
 from ...engineering.foundations.footings import SoilSprings
-from ..custom_properties import edited
+from ..custom_properties import edited, kept_series
 from .breaking_settings import set_strength
 
 _SOIL = "bda_soil"
@@ -39,10 +39,8 @@ def soil_of(connections: Sequence[bpy.types.Object]) -> SoilSprings | None:
 
 def _numbers(connection: bpy.types.Object) -> np.ndarray:
     """Return the numbers of a footing and of each point under it (1 + p, 4)."""
-    try:
-        numbers = np.array(connection[_SOIL], float)
-    except (TypeError, ValueError):
-        numbers = np.zeros(0)
+    expected = "the numbers of a footing and of the points under it"
+    numbers = kept_series(connection, _SOIL, expected)
     if len(numbers) <= _COUNT or len(numbers) % _COUNT or not (numbers[:2] > 0.0).all():
-        raise edited(connection, _SOIL, "the numbers of a footing and of the points under it")
+        raise edited(connection, _SOIL, expected)
     return numbers.reshape(-1, _COUNT)

@@ -6,8 +6,8 @@ from collections.abc import Iterable
 
 import bpy
 
-from ...model.scenario.kept import values_from_text, values_text
-from ..custom_properties import keep
+from ...model.scenario.kept import values_text
+from ..custom_properties import keep, kept_values
 
 _OURS = "bda_markers"
 """Property of a scene: frames and names of the add-on's markers, as markers have no properties."""
@@ -33,7 +33,7 @@ def mark_moments(scene: bpy.types.Scene, moments: Iterable[tuple[int, str]]) -> 
 
 def clear_markers(scene: bpy.types.Scene) -> None:
     """Remove the add-on's markers that are still where they were put."""
-    ours = values_from_text(str(scene.get(_OURS, "")), [])
+    ours = kept_values(scene, _OURS, [])
     for marker in list(scene.timeline_markers):
         if [marker.frame, marker.name] in ours:
             scene.timeline_markers.remove(marker)

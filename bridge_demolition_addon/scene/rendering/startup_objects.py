@@ -5,6 +5,8 @@ from __future__ import annotations
 import bpy
 from mathutils import Matrix, Vector
 
+from ..custom_properties import kept_numbers
+
 _PUT_AWAY = "bda_put_away"
 """Property of a hidden object: whether it was hidden in renders before, and whether it was the scene's camera."""
 
@@ -34,7 +36,7 @@ def bring_startup_objects_back(scene: bpy.types.Scene) -> None:
     """Show what was hidden, and give the scene its camera back where it has none now."""
     for obj in scene.objects:
         if _PUT_AWAY in obj:
-            hidden, was_camera = obj[_PUT_AWAY]
+            hidden, was_camera = kept_numbers(obj, _PUT_AWAY, (0.0, 0.0))
             del obj[_PUT_AWAY]
             obj.hide_render = bool(hidden)
             for layer in scene.view_layers:

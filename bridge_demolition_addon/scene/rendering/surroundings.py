@@ -11,7 +11,7 @@ from ...engineering.geometry.solids import box
 from ...model.scenario.recording import PictureSettings
 from ..bodies import SOIL, bodies_of, is_uneven_ground, mesh_of, scaled_mesh
 from ..collections import ROLE, collection_for, remove_marked
-from ..custom_properties import keep
+from ..custom_properties import edited, keep, kept_series
 from .camera import aim_camera
 from .materials import SurfaceMaterial, material_of, new_nodes
 from .startup_objects import bring_startup_objects_back, put_startup_objects_away
@@ -65,7 +65,12 @@ def surround(scene: bpy.types.Scene, points: np.ndarray, view: PictureSettings |
 
 def points_in_view(scene: bpy.types.Scene) -> np.ndarray | None:
     """Return the points (n, 3) float, m, that cameras of a scene are to see; None where it was not built here."""
-    return np.array(scene[_POINTS]).reshape(-1, 3) if _POINTS in scene else None
+    if _POINTS not in scene:
+        return None
+    numbers = kept_series(scene, _POINTS, "three numbers for each point")
+    if not len(numbers) or len(numbers) % 3:
+        raise edited(scene, _POINTS, "three numbers for each point")
+    return numbers.reshape(-1, 3)
 
 
 def clear_surroundings(scene: bpy.types.Scene) -> None:

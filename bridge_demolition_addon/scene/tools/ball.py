@@ -11,11 +11,11 @@ from mathutils import Matrix
 from ...engineering.geometry.solids import box, sphere
 from ...model.scenario import Ball, BallCable
 from ...model.scenario.ball import lift_path
-from ...model.scenario.kept import values_from_text, values_text
+from ...model.scenario.kept import values_text
 from ...model.schema import given
 from ..bodies import Kind, create_body, mesh_of, set_surface
 from ..connections.constraints import mark_cable
-from ..custom_properties import edited
+from ..custom_properties import edited, kept_values
 from ..world import START_FRAME
 from .build_site import BuildSite
 from .keyframes import key_values
@@ -106,14 +106,14 @@ def plan_lift(
     The shares (k,), 0 to 1, of the lift's time have passed in the frame before `lift_frame` and those after it. The
     start is a guess, which `lift_from` corrects.
     """
-    lifts = values_from_text(ball.get(_LIFTS, ""), [])
+    lifts = kept_values(ball, _LIFTS, [])
     ball[_LIFTS] = values_text([*lifts, [lift_frame, np.asarray(shares).tolist(), list(end_m)]])
     key_values(ball, "location", _frames(lift_frame, shares), lift_path(start_m, end_m, shares))
 
 
 def lifts_of(ball: bpy.types.Object) -> list[tuple[int, np.ndarray, np.ndarray]]:
     """Return first frame, shares of time (k,) and end (3,), m, of every planned lift."""
-    lifts = values_from_text(ball.get(_LIFTS, ""), [])
+    lifts = kept_values(ball, _LIFTS, [])
     try:
         return [(int(frame), np.array(shares, float), np.array(end, float)) for frame, shares, end in lifts]
     except (TypeError, ValueError) as error:

@@ -12,7 +12,7 @@ from ...engineering.ground_motion.record import GroundRecord, integrated
 from ...engineering.timing.timeline import Timeline
 from ...errors import SimulationError
 from ..bodies import Kind, bodies_of, kind_of
-from ..custom_properties import edited, keep, kept_number
+from ..custom_properties import edited, keep, kept_number, kept_series
 from .keyframes import key_values
 
 _TIMES = "bda_ground_motion_times_s"
@@ -44,14 +44,13 @@ def ground_motion_of(scene: bpy.types.Scene) -> GroundMotionOfScene | None:
     """Return how the ground of a scene moves, None where it rests."""
     if _TIMES not in scene:
         return None
-    try:
-        times = np.array(scene[_TIMES], float)
-        accelerations = np.array(scene[_ACCELERATIONS], float).reshape(len(times), 3)
-        if len(times) < 2 or not (np.diff(times) > 0.0).all() or not np.isfinite(accelerations).all():
-            raise ValueError("times have to ascend, and accelerations to be finite")
-    except (KeyError, TypeError, ValueError) as error:
-        raise edited(scene, _TIMES, "times and accelerations of a record") from error
-    return GroundMotionOfScene(integrated(times, accelerations), kept_number(scene, _START, 0.0))
+    of_times, of_accelerations = "two or more times that ascend", "three finite numbers for each time of the record"
+    times, accelerations = kept_series(scene, _TIMES, of_times), kept_series(scene, _ACCELERATIONS, of_accelerations)
+    if len(times) < 2 or not (np.isfinite(times).all() and (np.diff(times) > 0.0).all()):
+        raise edited(scene, _TIMES, of_times)
+    if len(accelerations) != 3 * len(times) or not np.isfinite(accelerations).all():
+        raise edited(scene, _ACCELERATIONS, of_accelerations)
+    return GroundMotionOfScene(integrated(times, accelerations.reshape(-1, 3)), kept_number(scene, _START, 0.0))
 
 
 def move_with_ground(

@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 
 from ...bullet.world import BulletWorld
+from ...engineering.mechanics.bearing_loads import BearingAccumulator, BearingLoads, BearingPads
 from ...engineering.mechanics.frame_loads import FrameLoads
 from ...engineering.mechanics.member_sections import MemberSections, kinds_of
 from ...engineering.mechanics.overloads import Overloads
@@ -16,6 +17,7 @@ from ...engineering.mechanics.work import FrameWork, Motion, WorkAccumulator
 from ...errors import LayoutError
 from ...model.results.frames import BallHistory, ContactHistory, Frame
 from ...model.schema import given
+from ...scene.connections.bearings import named_bearings_of
 from ...scene.run_setup import RunSetup
 from ...scene.tools.ground_motion import rows_on_moving_ground
 from .blast import Blast
@@ -67,6 +69,7 @@ class BulletReader:
         self._built_positions_m, self._built_rotations = world.bodies.positions()
         elastic = self._elastic_connections(setup) if setup.elasticity and len(setup.connections) else None
         self.resting_state = elastic.resting_state if elastic else None
+        self._named_bearings = named_bearings_of(setup.connections.objects)
         self._last_loads = None if every_substep else LastSubstepLoads(world.constraints)
         self._sums: FrameSums | None = None
         self._no_loads = None if loads else unknown_loads(setup.inventory)
@@ -107,7 +110,8 @@ class BulletReader:
             )
         )
         if loads:
-            self._sums = FrameSums(meter, inventory, self._work(), every_substep=self._every_substep)
+            bearings = BearingAccumulator(pads) if (pads := self._bearing_pads()) else None
+            self._sums = FrameSums(meter, inventory, self._work(), bearings, every_substep=self._every_substep)
         return SubstepRecorder(constraints, drivers, meter, breaker, warm_up, self._sums)
 
     def before_frame(self, substeps: int) -> None:
@@ -155,6 +159,27 @@ class BulletReader:
             sections = MemberSections(inventory.faces, self._built_positions_m, inventory.moves, kinds, thicknesses_m)
         return Overloads(inventory.faces, inventory.moves, strength, sections)
 
+    def _bearing_pads(self) -> BearingPads | None:
+        """Return the connections at pads of bearings; None without any."""
+        named, inventory, elastic = self._named_bearings, self._inventory, self._setup.bearings
+        if named is None:
+            return None
+        sideways_n_m, lifts_off = np.full((len(inventory.pairs), 2), np.inf), np.zeros(len(inventory.pairs), bool)
+        if elastic and self.resting_state:
+            sideways_n_m[elastic.springs.rows] = elastic.springs.sideways_of_connections()
+            lifts_off[elastic.springs.rows] = ~elastic.springs.pulls
+        return BearingPads.as_built(
+            named.rows,
+            named.bearings,
+            inventory.pairs[named.rows],
+            inventory.points_m[named.rows],
+            inventory.areas_m2[named.rows],
+            sideways_n_m[named.rows],
+            lifts_off[named.rows],
+            self._built_positions_m,
+            self._built_rotations,
+        )
+
     def _work(self) -> WorkAccumulator:
         """Return the sum of work in each frame, which begins with the present motion."""
         bodies, rigid = self._world.bodies, self._setup.bodies.rigid
@@ -170,6 +195,11 @@ class BulletReader:
     def applied_events(self) -> Sequence[AppliedEvent]:
         """Removals, saw cuts and weakenings so far."""
         return self._events.applied
+
+    @property
+    def of_bearings(self) -> BearingLoads | None:
+        """Forces of bearings in the frame that was read last; None where they are not known."""
+        return self._sums.of_bearings if self._sums else None
 
     def take_ball_history(self) -> BallHistory:
         """Return the hits of the balls since the last call."""

@@ -17,6 +17,7 @@ import numpy as np
 
 from ...bullet.contacts import Contacts
 from ...bullet.snapshots import BodyHistory
+from ...engineering.mechanics.bearing_loads import BearingAccumulator, BearingLoads
 from ...engineering.mechanics.frame_loads import FrameLoads, LoadAccumulator, SubstepLoads
 from ...engineering.mechanics.work import FrameWork, Motion, PairImpulses, WorkAccumulator
 from ...model.results.frames import BallHistory
@@ -78,9 +79,19 @@ class MeasuredSubstep:
 class FrameSums:
     """Adds up the sub-steps of each frame; the work of a frame is known only where every sub-step is measured."""
 
-    def __init__(self, meter: Meter, inventory: Inventory, work: WorkAccumulator, *, every_substep: bool):
+    def __init__(
+        self,
+        meter: Meter,
+        inventory: Inventory,
+        work: WorkAccumulator,
+        bearings: BearingAccumulator | None,
+        *,
+        every_substep: bool,
+    ):
         self._meter, self._inventory, self._work, self._every_substep = meter, inventory, work, every_substep
         self._frame = LoadAccumulator(inventory.pairs, inventory.volumes_m3, meter.normals)
+        self._bearings = bearings
+        self._of_bearings: BearingLoads | None = None
         self._waiting: list[MeasuredSubstep] = []
         self._background = BackgroundWork()
         self._substeps, self._substeps_before = 0, 0
@@ -113,7 +124,15 @@ class FrameSums:
         loads, work, breaks = self._frame.finish(), self._work.finish(), self._breaks
         self._frame.begin()
         self._breaks = []
+        if self._bearings:
+            self._of_bearings = self._bearings.finish()
+            self._bearings.begin()
         return loads, work, breaks
+
+    @property
+    def of_bearings(self) -> BearingLoads | None:
+        """Forces of bearings in the frame that was finished last; None where no time passed, or without bearings."""
+        return self._of_bearings
 
     def close(self) -> None:
         """Wait for the thread, and end it."""
@@ -138,6 +157,8 @@ class FrameSums:
             return
         bodies, loads = self._meter.loads([substep.reading for substep in substeps])
         resultants_n = self._frame.add(loads)
+        if self._bearings:
+            self._bearings.add(loads)
         motion = Motion(bodies.positions_m, bodies.velocities_m_s, bodies.angular_velocities_rad_s)
         if self._every_substep and work_counts:
             resultants_ns = loads.substeps_s[:, None, None] * resultants_n

@@ -14,8 +14,9 @@ from ...errors import OutputError, SimulationError
 from ...model.blast.explosion import StepLoads
 from ...model.results.frames import Frame
 from ...model.results.inventory import Inventory
-from ...model.run_folder.files import BREAKING_LOG, DEBRIS_LOG, EXPLOSION_LOG, FORCE_LOG
+from ...model.run_folder.files import BEARING_LOG, BREAKING_LOG, DEBRIS_LOG, EXPLOSION_LOG, FORCE_LOG
 from ...model.run_folder.logs import (
+    BEARING_TABLE,
     BREAKING_TABLE,
     DEBRIS_TABLE,
     EXPLOSION_TABLE,
@@ -23,6 +24,7 @@ from ...model.run_folder.logs import (
     BodyLog,
     EntryLog,
     Flights,
+    FrameBearings,
     FrameBlast,
 )
 from ...model.schema import given
@@ -44,18 +46,24 @@ _IN_THE_FOLDER = LogFiles()
 class Logs:
     """All logs of a recording, in an existing folder, in which they replace others.
 
-    Charges are named where there is a blast; `files` says which logs go elsewhere.
+    Charges are named where there is a blast, bearings where there are any; `files` says which logs go elsewhere.
     """
 
     def __init__(
-        self, folder: Path, inventory: Inventory, charges: Sequence[str] = (), files: LogFiles = _IN_THE_FOLDER
+        self,
+        folder: Path,
+        inventory: Inventory,
+        charges: Sequence[str] = (),
+        bearings: Sequence[str] = (),
+        files: LogFiles = _IN_THE_FOLDER,
     ):
         bodies = inventory.body_names.tolist()
-        self._folder, self._inventory, self._charges = folder, inventory, charges
+        self._folder, self._inventory, self._charges, self._bearings = folder, inventory, charges, bearings
         self._forces = BodyLog(files.forces or folder / FORCE_LOG, FORCE_TABLE, bodies)
         self._debris = BodyLog(files.debris or folder / DEBRIS_LOG, DEBRIS_TABLE, bodies)
         self._breaking = EntryLog(folder / BREAKING_LOG, BREAKING_TABLE)
         self._explosion = EntryLog(folder / EXPLOSION_LOG, EXPLOSION_TABLE) if charges else None
+        self._bearing = EntryLog(folder / BEARING_LOG, BEARING_TABLE) if bearings else None
         self._first_positions: np.ndarray | None = None
         self._made_j = np.zeros(len(bodies))
         self._largest_kinetic_j = np.zeros(len(bodies))
@@ -86,13 +94,17 @@ class Logs:
         entries = [(bodies[body], self._charges[charge]) for body, charge in pairs]
         given(self._explosion).write(frame.number, frame.time_s, entries, FrameBlast(loads, frame_s))
 
+    def write_bearings(self, frame: Frame, bearings: FrameBearings) -> None:
+        """Log the forces of all bearings in a frame."""
+        given(self._bearing).write(frame.number, frame.time_s, [(name,) for name in self._bearings], bearings)
+
     def close(self, last_frame: Frame | None) -> None:
         """Log all positions of the last frame, if there is one, and close the files.
 
         Raises an `OutputError` if the disk is full; the files are closed all the same.
         """
         with ExitStack() as files:
-            for log in (self._forces, self._debris, self._breaking, self._explosion):
+            for log in (self._forces, self._debris, self._breaking, self._explosion, self._bearing):
                 if log:
                     files.callback(log.close)
             if last_frame:

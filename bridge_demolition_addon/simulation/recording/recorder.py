@@ -18,12 +18,14 @@ from ...model.results.frames import BallHistory, ContactHistory, Frame
 from ...model.schema import given
 from ...scene.as_built import changed_bodies, check_start
 from ...scene.bodies import bodies_of
+from ...scene.connections.bearings import named_bearings_of
 from ...scene.connections.breaking_settings import rewrite_thresholds
 from ...scene.connections.constraints import connections_of
 from ...scene.connections.elasticity import is_elastic
 from ...scene.run_setup import RunSetup, run_setup_of
 from ...scene.time_scale import time_step_at
 from ...scene.tools.ball import begin_lifts, lifts_of
+from .bearings import RecordedBearings
 from .blast import Blast, check_blast
 from .bullet_reader import BulletReader
 from .elastic_connections import RestingState
@@ -110,6 +112,7 @@ class Recording(RecordedFrames):
         self._momentum: MomentumReader | None = None
         self._logs: Logs | None = None
         self._blast: Blast | None = None
+        self._bearings: RecordedBearings | None = None
         self.substeps = 0
 
     def before_frame(self) -> None:
@@ -183,6 +186,11 @@ class Recording(RecordedFrames):
     def resting_state(self) -> RestingState | None:
         """How the bridge deforms under its own weight; None where its connections are rigid."""
         return self._reader.resting_state if self._reader else None
+
+    @property
+    def bearings(self) -> list[dict[str, Any]]:
+        """The largest and least that each bearing carried so far, ready for JSON."""
+        return self._bearings.summary() if self._bearings else []
 
     @property
     def rigid_because(self) -> LayoutError | None:
@@ -276,7 +284,10 @@ class Recording(RecordedFrames):
         self._begin_frames(self.folder, load_sampling, setup.inventory, contacts=self._has_contacts)
         if self.has_loads:
             charges = [given(charge.name) for charge in setup.charges] if self._blast else []
-            self._logs = Logs(self.folder, setup.inventory, charges, self._log_files)
+            named = named_bearings_of(setup.connections.objects) if world else None
+            self._bearings = RecordedBearings(named, setup.breaking.warm_up_s) if named else None
+            bearings = self._bearings.names if self._bearings else ()
+            self._logs = Logs(self.folder, setup.inventory, charges, bearings, self._log_files)
 
     def _keep(self, frame: Frame, balls: BallHistory, contacts: ContactHistory | None = None) -> None:
         """Keep and log a frame, with its blast loads, hits of the balls and contacts."""
@@ -288,8 +299,15 @@ class Recording(RecordedFrames):
         self._append(frame, balls, contacts)
         if self._logs:
             self._logs.write_frame(frame)
+            self._write_bearings(self._logs, frame)
             if blast_loads is not None:
                 self._logs.write_blast(frame, blast_loads, frame_s)
+
+    def _write_bearings(self, logs: Logs, frame: Frame) -> None:
+        """Log the forces of bearings, and note the largest of them."""
+        loads = self._reader.of_bearings if self._reader else None
+        if self._bearings and loads:
+            logs.write_bearings(frame, self._bearings.note(frame.time_s, loads, frame.intact))
 
 
 def _begin_motion(setup: RunSetup, world: BulletWorld, held: bool) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -46,6 +46,8 @@ class ShownRun:
         Totals, in short lines.
     explained_peak
         What the peak force is, and why the contours show another number.
+    bearings
+        Rows of the table of bearings, with its head; none without bearings.
     results
         Loads what was recorded.
     """
@@ -58,6 +60,7 @@ class ShownRun:
     peak_force: LargestValue | None
     largest_throw: LargestValue | None
     explained_peak: str
+    bearings: tuple[tuple[str, ...], ...]
     results: Callable[[], Results]
 
     @classmethod
@@ -74,6 +77,7 @@ class ShownRun:
                 peak_force=force and LargestValue(f"{force.value / _N_PER_KN:,.0f} kN", force.body, force.frame),
                 largest_throw=throw and LargestValue(f"{throw.value:.2f} m", throw.body, last_frame),
                 explained_peak=explained_peak(summary.values),
+                bearings=bearing_rows(summary.bearings),
                 results=results,
             )
         except (KeyError, TypeError, ValueError) as error:
@@ -106,6 +110,25 @@ def explained_peak(summary: Mapping[str, Any]) -> str:
         f"The resultant on a shard in its worst sub-step, of {shortened}{longest * _MS_PER_S:.3g} ms. Contours show "
         "the frame mean, or with Peak So Far this peak"
     )
+
+
+def bearing_rows(bearings: Sequence[Mapping[str, Any]]) -> tuple[tuple[str, ...], ...]:
+    """Return the table of bearings of a run, with its head: vertical forces at rest, least and largest; horizontal."""
+    keys = ("at_rest_up_N", "least_up_N", "largest_up_N", "largest_horizontal_N")
+    rows = [
+        (bearing["name"], *(f"{bearing[key] / _N_PER_KN:.1f}" for key in keys), _happened(bearing))
+        for bearing in bearings
+    ]
+    return (("Bearings, kN", "at rest", "least", "most", "sideways", ""), *rows) if rows else ()
+
+
+def _happened(bearing: Mapping[str, Any]) -> str:
+    """What a bearing did, in few letters."""
+    if bearing["gone_s"] is not None:
+        return f"gone at {bearing['gone_s']:.2f} s"
+    percent = round(100.0 * bearing["largest_open_share"])
+    opened = "" if not percent else "opened" if bearing["opened"] else f"opened by {percent} %"
+    return " and ".join(filter(None, (opened, "slid" if bearing["slid"] else "")))
 
 
 def lines_of(summary: Mapping[str, Any]) -> list[str]:

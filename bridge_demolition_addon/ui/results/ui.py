@@ -32,6 +32,12 @@ class BDA_PT_results(SidebarPanel, bpy.types.Panel):
         if run.peak_force:
             draw_sentence(layout, context, run.explained_peak, icon="INFO")
         self._draw_largest("Largest throw", run.largest_throw)
+        if run.bearings:
+            grid = layout.column(align=True)
+            for cells in run.bearings:
+                line = grid.row(align=True)
+                for text in cells:
+                    line.label(text=text)
         layout.operator("bda.look_at_bridge", icon="LOOP_BACK")
         row = layout.row(align=True)
         row.operator("bda.open_results")

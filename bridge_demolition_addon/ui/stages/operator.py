@@ -7,10 +7,12 @@ import bpy
 from ...display.contour_quantities import ContourQuantity
 from ...display.stage_contours import StageContours
 from ...model.sequence.checked_model import checked_model
+from ...model.stages.bearing_rows import bearing_rows
 from ...model.stages.stages import criticality, stages_of
 from ...model.stages.standing import StandingBridge, made_elastic
 from ...model.stages.tables import (
     all_reaction_rows,
+    bearing_sentences,
     criticality_sentences,
     reaction_sentences,
     stage_row,
@@ -61,15 +63,18 @@ class BDA_OT_check_stages(ModalTask, bpy.types.Operator):
             reactions = tuple(
                 tuple(reaction for reaction in all_reactions if reaction["stage"] == row["stage"]) for row in rows
             )
+            all_bearings = list(bearing_rows(stages, model))
+            bearings = tuple(tuple(one for one in all_bearings if one["stage"] == row["stage"]) for row in rows)
             sentences = tuple(
-                (*stage_sentences(stage, row), *reaction_sentences(carried))
-                for stage, row, carried in zip(stages, rows, reactions, strict=True)
+                (*stage_sentences(stage, row), *reaction_sentences(carried), *bearing_sentences(on_bearings))
+                for stage, row, carried, on_bearings in zip(stages, rows, reactions, bearings, strict=True)
             )
             keep(
                 CheckedStages(
                     scene_uid=scene_uid,
                     rows=tuple(rows),
                     reactions=reactions,
+                    bearings=bearings,
                     sentences=sentences,
                     members=tuple(criticality_sentences(members)),
                     contours=StageContours.of_stages(model, stages),

@@ -23,6 +23,8 @@ class CheckedStages:
         Rows of the table of stages.
     reactions
         Rows of the table of reactions, of each stage.
+    bearings
+        Rows of the table of bearings, of each stage.
     sentences
         What is said of each stage: first which it is.
     members
@@ -34,6 +36,7 @@ class CheckedStages:
     scene_uid: int
     rows: tuple[dict, ...]
     reactions: tuple[tuple[dict, ...], ...]
+    bearings: tuple[tuple[dict, ...], ...]
     sentences: tuple[tuple[str, ...], ...]
     members: tuple[str, ...]
     contours: StageContours
@@ -74,7 +77,9 @@ class StageProperties:
     """Part of the settings of a scene."""
 
     stages_directory: path_property(
-        "Tables", "Folder for stages.csv, reactions.csv and the other tables; none to write no tables", "DIR_PATH"
+        "Tables",
+        "Folder for stages.csv, reactions.csv, bearings.csv and the other tables; none to write no tables",
+        "DIR_PATH",
     )
     stage_shown: IntProperty(
         name="Stage",

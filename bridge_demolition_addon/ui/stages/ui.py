@@ -11,6 +11,12 @@ from ..task_progress import draw_task_progress, going_on
 from .operator import BDA_OT_check_stages
 from .shown import checked_in
 
+_UNITS = {"force": "kN", "moment": "kNm"}
+_HEADS = {
+    "support": {"force": "Reactions, kN", "moment": "Moments, kN·m"},
+    "bearing": {"force": "Bearings, kN", "moment": "Bearings, kN·m"},
+}
+
 
 class BDA_PT_stages(SidebarPanel, bpy.types.Panel):
     """How the bridge stands between the steps of its demolition, by its stiffness and without a simulation."""
@@ -36,19 +42,20 @@ class BDA_PT_stages(SidebarPanel, bpy.types.Panel):
         shown = min(settings.stage_shown, len(checked.rows)) - 1
         for sentence in (*checked.sentences[shown], *checked.members):
             draw_sentence(layout, context, sentence, icon="NONE")
-        for quantity, unit in (("force", "kN"), ("moment", "kNm")) if checked.reactions[shown] else ():
-            grid = layout.column(align=True)
-            for row in [{}, *checked.reactions[shown]]:
-                line = grid.row(align=True)
-                for text in reaction_cells_of(row, quantity, unit):
-                    line.label(text=text)
+        for kind, rows in (("support", checked.reactions[shown]), ("bearing", checked.bearings[shown])):
+            for quantity in _HEADS[kind] if rows else ():
+                grid = layout.column(align=True)
+                for row in [{}, *rows]:
+                    line = grid.row(align=True)
+                    for text in reaction_cells_of(row, quantity, kind):
+                        line.label(text=text)
 
 
-def reaction_cells_of(row: dict, quantity: str, unit: str) -> tuple[str, ...]:
-    """Return what the table of reactions says of a support: its force or moment; its head for no row."""
+def reaction_cells_of(row: dict, quantity: str, kind: str) -> tuple[str, ...]:
+    """Return what the tables say of a support or bearing: its force or moment; the head of the table for no row."""
     if not row:
-        return {"force": "Reactions, kN", "moment": "Moments, kN·m"}[quantity], "x", "y", "z"
-    return row["support"], *(f"{row[f'{quantity}_{axis}_{unit}']:.1f}" for axis in "xyz")
+        return _HEADS[kind][quantity], "x", "y", "z"
+    return row[kind], *(f"{row[f'{quantity}_{axis}_{_UNITS[quantity]}']:.1f}" for axis in "xyz")
 
 
 def cells_of(row: dict) -> tuple[str, ...]:

@@ -122,6 +122,17 @@ def test_it_lets_go_what_is_lifted_unless_it_holds_against_uplift():
     assert held.gap_m[2] == pytest.approx(1e4 / VERTICAL_N_M, rel=1e-6)
 
 
+def test_what_presses_in_every_sub_step_holds_sideways_though_it_is_apart_before_each():
+    """As where it slides on a body that rotates, and by rounding. It would have gone by 65 mm, a t² / 2."""
+    sideways_n = 1e4
+    blocks = Blocks(four_pads()).step(pressed(1e5, sideways_n), 300, slowed=0.05)
+    for _ in range(100):
+        blocks.step(pressed(1e5, sideways_n), 1, slowed=0.0)
+        blocks.positions[2, 0] += 3e-4  # it is pressed together by 0.25 mm
+    assert blocks.gap_m[2] > 0.0
+    assert abs(blocks.gap_m[0]) < 2e-3
+
+
 @pytest.mark.parametrize(("breaking_n", "fails"), [(5.1e4, False), (4.9e4, True)])
 def test_it_fails_by_the_force_sideways_not_by_that_which_presses(breaking_n, fails):
     blocks = Blocks(four_pads(breaking_n=breaking_n)).step(pressed(2e5, 5e4), 100, slowed=0.3)

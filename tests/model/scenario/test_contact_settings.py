@@ -137,6 +137,13 @@ def test_a_pair_without_its_body_is_not_refused(tmp_path):
     assert products(read(tmp_path, text)) == {"shard on shard": (0.0, 0.0), "shard on ground": (0.0, 0.0)}
 
 
+def test_check_names_pairs_of_which_there_is_no_body(tmp_path):
+    text = 'without = ["ball"]\n[contacts.ball]\nfriction = 0.3\n[contacts.ground]\nfriction = 0.4\n'
+    facts = dict(contact_facts(read(tmp_path, text)))
+    assert facts["of no use"] == "contacts.ball.friction: no such body is in the scenario"
+    assert "of no use" not in dict(contact_facts(read(tmp_path, "[contacts.ball]\nfriction = 0.3\n")))
+
+
 def test_bullet_has_no_more_than_10():
     contacts = ContactSettings(shards=ShardContact(friction=0.1), ground=GroundContact(friction=5.0))
     rough = replace(I235, contacts=replace(contacts, ball=BallContact(friction=5.0)))

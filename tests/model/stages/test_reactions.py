@@ -2,10 +2,13 @@
 """Reactions of each support, held against statics of beams and frames, and how they are tabled."""
 
 import csv
+import re
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from support.bearing_decks import PINNED_AND_ROCKERS, deck_text
+from support.bearing_decks import WEIGHT_N_M as DECK_N_M
 from support.scenarios import I235
 from support.stage_beams import (
     BLOCK_M,
@@ -182,3 +185,50 @@ def test_the_table_has_a_row_for_each_stage_and_support_whose_sums_are_those_of_
         for axis in "xyz":
             forces = [float(row[f"force_{axis}_kN"]) for row in rows if row["stage"] == stage["stage"]]
             assert sum(forces) == pytest.approx(float(stage[f"reaction_{axis}_kN"]), abs=1e-3)
+
+
+def test_bearings_are_beside_supports_and_no_part_of_their_sum(tmp_path, capfd):
+    """Walls of 4.5 t stand on the ground; the deck that they carry is held down at one end when it loses a wall."""
+    bearings = (("pier 1", 'kind = "pinned"\ntension = true'), PINNED_AND_ROCKERS[1])
+    removal = '[[removals]]\nmembers = ["pier 3"]\ntime_s = 0.1\n'
+    path, output = tmp_path / "deck.toml", tmp_path / "out"
+    path.write_text(deck_text(bearings, shards=12, are_held=False, more=removal), encoding="utf-8")
+    assert main(["stages", str(path), "--output", str(output)]) == 0
+    deck_kn = 1e-3 * DECK_N_M * 26.0
+    wall_kn = 1e-3 * 2500.0 * STANDARD_GRAVITY_M_S2 * 0.6 * 3.0 * 1.0
+    said = capfd.readouterr().out
+    [*_, of_ends] = re.findall(
+        r"bearings carry ([-0-9.]+) kN \(deck on pier 1\) to ([0-9.]+) kN \(deck on pier 2\)", said
+    )
+    assert list(map(float, of_ends)) == pytest.approx([-0.25 * deck_kn, 1.25 * deck_kn], abs=1.0)
+    assert "held down against uplift: deck on pier 1" in said
+    assert "gone: deck on pier 3" in said
+    reactions, of_bearings, stages = (
+        list(csv.DictReader((output / name).open(encoding="utf-8")))
+        for name in ("reactions.csv", "bearings.csv", "stages.csv")
+    )
+    assert [row["support"] for row in reactions[:3]] == ["pier 1", "pier 2", "pier 3"]
+    assert [row["bearing"] for row in of_bearings[:3]] == [f"deck on pier {number}" for number in (1, 2, 3)]
+    for stage, walls in zip(stages, (3, 2), strict=True):
+        mine = [
+            [float(row["force_z_kN"]) for row in rows if row["stage"] == stage["stage"]]
+            for rows in (reactions, of_bearings)
+        ]
+        assert sum(mine[0]) == pytest.approx(deck_kn + walls * wall_kn, rel=EXACT)
+        assert sum(mine[0]) == pytest.approx(float(stage["reaction_z_kN"]), rel=1e-5)
+        assert sum(mine[1]) == pytest.approx(deck_kn, rel=EXACT)
+        there = slice(0, walls)
+        assert mine[0][there] == pytest.approx([force + wall_kn for force in mine[1][there]], abs=EXACT * deck_kn)
+    last = of_bearings[3:]
+    assert [float(row["force_z_kN"]) for row in last] == pytest.approx(
+        [-0.25 * deck_kn, 1.25 * deck_kn, 0.0], abs=EXACT * deck_kn
+    )
+    assert [float(row["left_share"]) for row in last] == [1.0, 1.0, 0.0]
+    assert main(["report", str(output), "--quiet"]) == 0
+    page = (output / "report.html").read_text(encoding="utf-8")
+    [uplift_kn] = re.findall(r"Stage 2: deck on pier 1 is held down with ([0-9.]+) kN against uplift", page)
+    assert float(uplift_kn) == pytest.approx(0.25 * deck_kn, rel=EXACT)
+    tabled = list(csv.DictReader((output / "tables" / "bearing_forces.csv").open(encoding="utf-8")))
+    assert [row["least_force_z_kN_in_stage"] for row in tabled] == ["2", "1", "1"]
+    assert float(tabled[0]["least_force_z_kN"]) == pytest.approx(-0.25 * deck_kn, rel=EXACT)
+    assert float(tabled[2]["largest_force_z_kN"]) == float(of_bearings[2]["force_z_kN"])
