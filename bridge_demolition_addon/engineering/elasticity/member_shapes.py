@@ -172,8 +172,7 @@ def _slenderness(extents_m: FloatArray, longer: int, shorter: int) -> FloatArray
 
 def _bends_along(normals: FloatArray, longer: int, shorter: int) -> FloatArray:
     """1 for faces across which shards bend along the longer direction, 0 for those that lie on each other."""
-    one, other = np.square(normals[:, longer]), np.square(normals[:, shorter])
-    share = other / np.maximum(one + other, 1e-12)
+    share = np.square(normals[:, shorter])
     return np.asarray(1.0 - np.clip((share - _ALONG[0]) / (_ALONG[1] - _ALONG[0]), 0.0, 1.0))
 
 
