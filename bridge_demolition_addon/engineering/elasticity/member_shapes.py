@@ -97,7 +97,7 @@ def turning_inertias(
     for axis in range(3):
         shorter, longer = _across(axis)
         slender = slenderness(shapes.extents_m, longer, shorter)
-        lying = 1.0 - _bends_along(along, longer, shorter)
+        lying = 1.0 - _bends_along(along, shorter)
         twisted = slenderness(shapes.extents_m, axis, longer) if axis == 2 else np.zeros(len(own))
         share = (1.0 - twisted) * BENDING_SHARE + twisted * shear_over_young * (1.0 - shear_over_young)
         of_shorter, of_longer = own[:, shorter, shorter], own[:, longer, longer]
@@ -134,7 +134,7 @@ def turning_levers(
     levers = np.zeros((len(away), 3, 3))
     for axis in range(3):
         shorter, longer = _across(axis)
-        counts = slenderness(shapes.extents_m, longer, shorter) * _bends_along(along, longer, shorter)
+        counts = slenderness(shapes.extents_m, longer, shorter) * _bends_along(along, shorter)
         sign = 1.0 if (longer - axis) % 3 == 1 else -1.0  # axis × longer = ± shorter
         levers[:, shorter, axis] = sign * counts * np.clip(away[:, longer], -longest_m, longest_m)
     return in_axes(np.swapaxes(shapes.axes, -1, -2), levers)
@@ -169,7 +169,7 @@ def slenderness(extents_m: FloatArray, longer: int, shorter: int) -> FloatArray:
     return np.clip((ratio - 1.0) / (_SLENDER - 1.0), 0.0, 1.0)
 
 
-def _bends_along(normals: FloatArray, longer: int, shorter: int) -> FloatArray:
+def _bends_along(normals: FloatArray, shorter: int) -> FloatArray:
     """1 for faces across which shards bend along the longer direction, 0 for those that lie on each other."""
     share = np.square(normals[:, shorter])
     return np.asarray(1.0 - np.clip((share - _ALONG[0]) / (_ALONG[1] - _ALONG[0]), 0.0, 1.0))

@@ -9,13 +9,13 @@ whatever the normal of the face, an even shear slides the faces across by τ/k a
 The same holds for the shear of plates along their thickness.
 
 **Plates** are stretched both ways. Let springs in their plane have a E across faces and b E along them, and let faces
-resist turning about their trace in the plane by a E, and about their normal by b E. Over all directions of faces,
-energy gives an even plate D (1 - ν²) = E I for 1, with (3 a + b) / 4 = 1 / (1 - ν²) and (a - b) / 4 = ν / (1 - ν²):
-a = 1 / (1 - ν) and b = (1 - 3 ν) / (1 - ν²). It is the plane case of lattices with two stiffnesses: J. E. Bolander and
-S. Saito (1998), Fracture analyses using spring networks with random geometry, Engineering Fracture Mechanics 61,
-569-591. Irregular cells no longer deform evenly, and yield a little more than on average: `_UNEVEN` of the difference
-from 1 gives plates that bend, stretch and twist within a tenth of theory, and stretch within 3 %. One row
-of shards has none beside it to contract against.
+resist turning about their trace in the plane by a E, and about their normal by b E. Summed over all directions of
+faces, the energy of an evenly bent plate gives its stiffness D and Poisson's ratio, by E I of a unit of its width:
+(3 a + b) / 4 = 1 / (1 - ν²) and (a - b) / 4 = ν / (1 - ν²), so that a = 1 / (1 - ν) and b = (1 - 3 ν) / (1 - ν²).
+Stretching has the same sums. Lattices with two stiffnesses are in J. E. Bolander and S. Saito (1998), Fracture analyses
+using spring networks with random geometry, Engineering Fracture Mechanics 61, 569-591. Irregular cells no longer deform
+evenly, and yield a little more than on average: with `_UNEVEN` of the difference from 1, plates of concrete bend and
+twist within a tenth of theory, and stretch within 3 %. One row of shards has none beside it to contract against.
 """
 
 from __future__ import annotations
@@ -32,7 +32,6 @@ measured: with all of it, they stretch by 4 to 8 % too much."""
 
 _LARGEST = 0.3
 """Poisson's ratio up to which plates have its effect: beyond 1/3, b would be less than 0."""
-
 
 _ROWS = 3.0
 """Rows of shards side by side from which on a plate has its effect in full: in one there is none to contract beside."""
