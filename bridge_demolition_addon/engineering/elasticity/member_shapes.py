@@ -9,7 +9,10 @@ the middle of the face: there the rotations of both shards shift it by the same.
 any number of irregular shards bends as beam and plate theory say.
 
 A member that is as long as wide has no such direction. Over all directions of faces two thirds of the second moment
-are bending.
+are bending. About the axis of a bar that is as deep as wide, a twist θ' shears each shard by an energy of G θ'² times
+its polar second moment. A part is in the faces along the bar: where faces slide as `poisson_effect` says, shards at y
+are inclined by G/E θ' y against each other, and at z, too, which faces there resist with E (G/E)². The rest,
+G (1 - G/E), is left for the faces across.
 
 A face that is not a whole section may be a sliver. What the rotations of its shards do to it says nothing of the stress
 there: its levers are short, and its second moment is that of a face of a moderate slenderness.
@@ -28,10 +31,6 @@ from ..geometry.vectors import symmetric_eigenvectors
 BENDING_SHARE = 2.0 / 3.0
 """Part of the turning of two cells against each other that is bending: ⟨nx² z²⟩ / ⟨nx² (x² + z²)⟩ over all directions
 of normals n, of round faces that a bar along x is cut into, which bends about y."""
-
-TWISTING_SHARE = 0.1406 * 6.0
-"""Torsion constant of a square section over its polar second moment of area: W. C. Young and R. G. Budynas (2002),
-Roark's Formulas for Stress and Strain, 7th edition, table 10.1, case 4."""
 
 SLENDEREST = 4.0
 """Ratio of its sides up to which a face that is not a whole section resists turning with all of its length."""
@@ -97,15 +96,15 @@ def turning_inertias(
     turning = np.zeros_like(own)
     for axis in range(3):
         shorter, longer = _across(axis)
-        slender = _slenderness(shapes.extents_m, longer, shorter)
-        lying = 1.0 - _bends_along(along, longer, shorter)
-        twisted = _slenderness(shapes.extents_m, axis, longer) if axis == 2 else np.zeros(len(own))
-        share = (1.0 - twisted) * BENDING_SHARE + twisted * TWISTING_SHARE * shear_over_young
+        slender = slenderness(shapes.extents_m, longer, shorter)
+        lying = 1.0 - _bends_along(along, shorter)
+        twisted = slenderness(shapes.extents_m, axis, longer) if axis == 2 else np.zeros(len(own))
+        share = (1.0 - twisted) * BENDING_SHARE + twisted * shear_over_young * (1.0 - shear_over_young)
         of_shorter, of_longer = own[:, shorter, shorter], own[:, longer, longer]
         turning[:, axis, axis] = slender * (of_shorter + lying * of_longer) + (1.0 - slender) * share * (
             of_shorter + of_longer
         )
-    turning[:, 0, 1] = turning[:, 1, 0] = -own[:, 0, 1] * _slenderness(shapes.extents_m, 2, 1)
+    turning[:, 0, 1] = turning[:, 1, 0] = -own[:, 0, 1] * slenderness(shapes.extents_m, 2, 1)
     return in_axes(np.swapaxes(shapes.axes, -1, -2), turning)
 
 
@@ -135,7 +134,7 @@ def turning_levers(
     levers = np.zeros((len(away), 3, 3))
     for axis in range(3):
         shorter, longer = _across(axis)
-        counts = _slenderness(shapes.extents_m, longer, shorter) * _bends_along(along, longer, shorter)
+        counts = slenderness(shapes.extents_m, longer, shorter) * _bends_along(along, shorter)
         sign = 1.0 if (longer - axis) % 3 == 1 else -1.0  # axis × longer = ± shorter
         levers[:, shorter, axis] = sign * counts * np.clip(away[:, longer], -longest_m, longest_m)
     return in_axes(np.swapaxes(shapes.axes, -1, -2), levers)
@@ -164,16 +163,15 @@ def _across(axis: int) -> tuple[int, int]:
     return shorter, longer
 
 
-def _slenderness(extents_m: FloatArray, longer: int, shorter: int) -> FloatArray:
+def slenderness(extents_m: FloatArray, longer: int, shorter: int) -> FloatArray:
     """0 where two extents are the same, 1 where the longer is at least so many times the shorter."""
     ratio = extents_m[:, longer] / np.maximum(extents_m[:, shorter], 1e-12)
     return np.clip((ratio - 1.0) / (_SLENDER - 1.0), 0.0, 1.0)
 
 
-def _bends_along(normals: FloatArray, longer: int, shorter: int) -> FloatArray:
+def _bends_along(normals: FloatArray, shorter: int) -> FloatArray:
     """1 for faces across which shards bend along the longer direction, 0 for those that lie on each other."""
-    one, other = np.square(normals[:, longer]), np.square(normals[:, shorter])
-    share = other / np.maximum(one + other, 1e-12)
+    share = np.square(normals[:, shorter])
     return np.asarray(1.0 - np.clip((share - _ALONG[0]) / (_ALONG[1] - _ALONG[0]), 0.0, 1.0))
 
 

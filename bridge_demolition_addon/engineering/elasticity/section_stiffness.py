@@ -3,9 +3,9 @@
 Between two Voronoi cells, springs with the same stiffness along a face as across it, E by the distance between the
 cells' points, deform evenly under every even stress, however irregular the cells are: J. E. Bolander and S. Saito
 (1998), Fracture analyses using spring networks with random geometry, Engineering Fracture Mechanics 61, 569-591. That
-stands for a material without Poisson's effect. By what part of a face its shards resist turning, the shape of their
-member decides: `member_shapes`. Where one shard is as deep as its member, the stiffness along the face is κ G, as in a
-beam of Timoshenko.
+stands for a material without Poisson's effect, which `poisson_effect` brings in. By what part of a face its shards
+resist turning, the shape of their member decides: `member_shapes`. Where one shard is as deep as its member, the
+stiffness along the face is κ G, as in a beam of Timoshenko.
 """
 
 from __future__ import annotations
@@ -108,6 +108,7 @@ def section_stiffness(
     turning_m4: FloatArray,
     levers_m: FloatArray | None = None,
     slips_m_n: FloatArray | None = None,
+    moduli_pa: FloatArray | None = None,
 ) -> SectionStiffness:
     """Return the stiffness of connections by faces.
 
@@ -127,13 +128,20 @@ def section_stiffness(
         By how much shifts are larger for each turn, where they are not measured at the middle of the face.
     slips_m_n : (m, 2) float, optional
         How much farther shards shift along y and z, m/N.
+    moduli_pa : (m, 3, 3) float, optional
+        With which faces resist shifts along x, y and z; `young_pa` in all directions where it is not given.
     """
     lengths = np.maximum(lengths_m, SHORTEST * np.sqrt(areas_m2))
-    along = np.where(is_deep, (SHEAR_FACTOR * shear_pa)[:, None], young_pa[:, None]) * (areas_m2 / lengths)[:, None]
-    if slips_m_n is not None:
-        along = along / (1.0 + along * slips_m_n)
+    if moduli_pa is None:
+        moduli_pa = young_pa[:, None, None] * np.eye(3)
     matrices = np.zeros((len(lengths), 6, 6))
-    matrices[:, 0, 0], matrices[:, 1, 1], matrices[:, 2, 2] = young_pa * areas_m2 / lengths, *along.T
+    matrices[:, :3, :3] = moduli_pa * (areas_m2 / lengths)[:, None, None]
+    for row in (1, 2):
+        deep = is_deep[:, row - 1]
+        along = np.where(deep, SHEAR_FACTOR * shear_pa * areas_m2 / lengths, matrices[:, row, row])
+        matrices[deep, row, :3] = matrices[deep, :3, row] = 0.0
+        slips = 0.0 if slips_m_n is None else slips_m_n[:, row - 1]
+        matrices[:, row, row] = along / (1.0 + along * slips)
     matrices[:, 3:, 3:] = turning_m4 * (young_pa / lengths)[:, None, None]
     if levers_m is not None:
         by_turns = product(matrices[:, :3, :3], levers_m)

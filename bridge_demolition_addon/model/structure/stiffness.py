@@ -17,6 +17,7 @@ from ...engineering.elasticity.member_shapes import (
     turning_inertias,
     turning_levers,
 )
+from ...engineering.elasticity.poisson_effect import contraction_shares, plate_turning, shifting_moduli
 from ...engineering.elasticity.section_stiffness import (
     SectionStiffness,
     section_stiffness,
@@ -106,12 +107,14 @@ def connection_stiffness(
     shares, slips = _interfaces(connections, second_moments_m4, young, lengths.sum(axis=0), deforms, cut)
     moments = second_moments_m4 * shares[:, ::-1, None] * shares[:, None, ::-1]  # about y counts the length along z
     is_whole = is_deep.all(axis=1) & (_widths(areas, second_moments_m4) >= _WIDE * _thicknesses(connections, cut))
-    turning, levers = _turning(connections, moments, sections, shear / young, away, lengths, is_whole, cut)
+    shapes = member_shapes([member.solid for member in cut.members])
+    turning, levers = _turning(connections, moments, sections, shear / young, away, lengths, is_whole, cut, shapes)
+    moduli, turning = _with_poisson_effect(connections, turning, sections, young, shear, cut, shapes)
     whole_turning = whole_section_turning(areas, second_moments_m4, shear / young)
     turning = np.where(is_whole[:, None, None], whole_turning, turning)
     turns_freely = np.array([bool(joint.free) for joint in joints])[joint_of_connection]
     levers = np.where(turns_freely[:, None, None], 0.0, levers)  # a bearing turns about its own middle
-    return section_stiffness(young, shear, areas, lengths.sum(axis=0), is_deep, turning, levers, slips)
+    return section_stiffness(young, shear, areas, lengths.sum(axis=0), is_deep, turning, levers, slips, moduli)
 
 
 def _turning(
@@ -123,12 +126,12 @@ def _turning(
     lengths_m: np.ndarray,
     is_whole: np.ndarray,
     cut: CutMembers,
+    shapes: MemberShapes,
 ) -> tuple[np.ndarray, np.ndarray]:
     """Second moments that resist turning, and levers of shifts (m, 3, 3) in the axes of sections: means of both sides.
 
     The points of the two sides are away (2, m, 3) from the faces, and count by how long they are (2, m).
     """
-    shapes = member_shapes([member.solid for member in cut.members])
     inertias = _face_inertias(moderate_second_moments(second_moments_m4), sections)
     widths = _widths(connections.areas, second_moments_m4)
     longest = _LEVER * np.square(widths) / np.maximum(lengths_m.sum(axis=0), 1e-12)
@@ -144,6 +147,32 @@ def _turning(
         turning += weights * turning_inertias(of_members, inertias, normals, shear_over_young)
         levers += weights * turning_levers(of_members, middles, normals, longest)
     return in_axes(sections, turning), in_axes(sections, levers)
+
+
+def _with_poisson_effect(
+    connections: Connections,
+    turning_m4: np.ndarray,
+    sections: np.ndarray,
+    young_pa: np.ndarray,
+    shear_pa: np.ndarray,
+    cut: CutMembers,
+    shapes: MemberShapes,
+) -> tuple[np.ndarray, np.ndarray]:
+    """Moduli that resist shifts, and second moments that resist turning, (m, 3, 3) in the axes of sections.
+
+    Between two members, where neither decides, faces are as stiff along as across.
+    """
+    moduli, turning = young_pa[:, None, None] * np.eye(3), turning_m4.copy()
+    of_members = np.append(cut.member_of_shard, -1)[connections.pairs]
+    rows = np.flatnonzero((of_members[:, 0] == of_members[:, 1]) & (of_members[:, 0] >= 0))
+    within = of_members[rows, 0]
+    shards = np.bincount(cut.member_of_shard, minlength=len(cut.members))
+    chosen, shares = shapes.only(within), contraction_shares(shapes, shards)[within]
+    normals, young, shear, frames = connections.normals[rows], young_pa[rows], shear_pa[rows], sections[rows]
+    moduli[rows] = in_axes(frames, shifting_moduli(chosen, shares, normals, young, shear))
+    in_world = in_axes(np.swapaxes(frames, 1, 2), turning[rows])
+    turning[rows] = in_axes(frames, plate_turning(in_world, chosen, shares, normals, shear / young))
+    return moduli, turning
 
 
 def _widths(areas_m2: np.ndarray, second_moments_m4: np.ndarray) -> np.ndarray:

@@ -90,8 +90,8 @@ def test_bars_in_irregular_shards_deform_as_beams_do(bar, count, within):
     along, one_way, other_way, twisted = np.median([bar.works(count, seed) for seed in (1, 2, 3)], axis=0)
     assert along == pytest.approx(1.0, abs=within / 2.0)
     assert (one_way, other_way) == pytest.approx((1.0, 1.0), abs=within)
-    # Springs along faces are as stiff as across them: E stands for G, and torsion is resisted too much.
-    assert 0.55 < twisted < 1.1
+    # Feet hold the warping of sections, and a girder in one row of shards has no shear between rows.
+    assert 0.8 < twisted < 1.2
 
 
 def test_a_plate_one_shard_deep_bends_as_a_plate():

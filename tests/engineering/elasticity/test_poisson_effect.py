@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Poisson's effect on members of rigid shards, against sums done by hand."""
+
+import numpy as np
+import pytest
+
+from bridge_demolition_addon.engineering.elasticity.member_shapes import member_shapes
+from bridge_demolition_addon.engineering.elasticity.poisson_effect import (
+    contraction_shares,
+    plate_turning,
+    shifting_moduli,
+)
+from bridge_demolition_addon.engineering.geometry.solids import box
+
+YOUNG, SHEAR = np.array([30e9]), np.array([12.5e9])  # Poisson's ratio 0.2
+BAR, PLATE = member_shapes([box((12.0, 1.0, 1.0))]), member_shapes([box((12.0, 6.0, 0.6))])
+
+
+def test_faces_across_and_along_a_bar_yield_together_as_the_shear_modulus_says():
+    along, aside = np.array([(1.0, 0.0, 0.0)]), np.array([(0.0, 1.0, 0.0)])
+    across = shifting_moduli(BAR, np.zeros(1), along, YOUNG, SHEAR)[0]
+    lengthwise = shifting_moduli(BAR, np.zeros(1), aside, YOUNG, SHEAR)[0]
+    assert 1.0 / across[1, 1] + 1.0 / lengthwise[0, 0] == pytest.approx(1.0 / SHEAR[0])
+    assert across[0, 0] == pytest.approx(YOUNG[0])
+
+
+def test_a_plate_resists_bending_more_and_twist_less():
+    """a = 1.25 and b = 0.4167 for a ratio of 0.2; irregular shards have 0.65 of what differs from 1."""
+    normal, one = np.array([(0.6, 0.8, 0.0)]), np.ones(1)
+    beside = np.array((-0.8, 0.6, 0.0))
+    turning = plate_turning(np.eye(3)[None], PLATE, one, normal, SHEAR / YOUNG)[0]
+    assert beside @ turning @ beside == pytest.approx(1.0 + 0.65 * 0.25)
+    assert normal[0] @ turning @ normal[0] == pytest.approx(1.0 - 0.65 * 0.58333, rel=1e-5)
+    moduli = shifting_moduli(PLATE, one, normal, YOUNG, SHEAR)[0] / YOUNG[0]
+    assert normal[0] @ moduli @ normal[0] == pytest.approx(1.0 + 0.65 * 0.25)
+    assert beside @ moduli @ beside == pytest.approx(1.0 - 0.65 * 0.58333, rel=1e-5)
+
+
+def test_a_face_in_the_plane_of_a_plate_is_as_stiff_as_before_across():
+    flat = np.array([(0.0, 0.0, 1.0)])
+    moduli = shifting_moduli(PLATE, np.ones(1), flat, YOUNG, SHEAR)[0]
+    assert np.isfinite(moduli).all()
+    assert moduli[2, 2] == pytest.approx(30e9 / 1.4)
+
+
+@pytest.mark.parametrize(("shards", "share"), [(2, 0.0), (8, 0.5), (18, 1.0), (600, 1.0)])
+def test_rows_of_shards_beside_each_other_contract_a_plate(shards, share):
+    """Square cells in 12 m × 6 m: 2 in one row, 8 in two rows, 18 in three rows."""
+    assert contraction_shares(PLATE, np.array([shards])) == pytest.approx(share)
+    assert contraction_shares(BAR, np.array([shards])) == pytest.approx(0.0)
