@@ -45,7 +45,8 @@ STUDY = """\
 ![Plan of the study with its limit, and how many of its runs reach how far](pictures/study_i235_one_span.png)
 
 93 runs of the first of these examples, each with other shards, another height and place of the ball, another strength
-and another mass. Shaded is where the probability of debris may be above 5 % and 50 %. What the study says stands in the
+and another mass. Shaded is where the probability of debris may be above 5 % and 50 %. Its runs are of an earlier
+version, before friction was that of pairs of surfaces and saw torques. What the study says stands in the
 [README](../README.md#a-plan-is-a-study), all its runs are in [a table](data/studies/i235_one_span.csv), and
 `scripts/pictures/study_picture.py` draws the picture from its folder.
 

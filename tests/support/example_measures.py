@@ -217,7 +217,8 @@ def course_of_the_steps(run: ExampleRun) -> dict[str, float | None]:
         "broken_by_jackhammer": broken[run.at(1.9)],
         "broken_by_first_fall": broken[run.at(4.0)] - broken[run.at(1.9)],
         "broken_later": broken[-1] - broken[run.at(4.0)],
-        "hits_of_first_fall": ((hits_s > 3.0) & (hits_s < 3.6)).sum(),
+        # It is let go at 2.0 s, and what stands up from the deck may meet it before it would be there.
+        "hits_of_first_fall": ((hits_s > 2.5) & (hits_s < 3.6)).sum(),
         "hits_of_second_fall": ((hits_s > 6.7) & (hits_s < 7.3)).sum(),
         "hits_while_lifted": ((hits_s > 4.0) & (hits_s < 5.7)).sum(),
     }
