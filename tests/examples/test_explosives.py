@@ -13,7 +13,7 @@ from bridge_demolition_addon.model.study.outcome import evaluate
 
 NAMES = ("single_span_explosives", "two_spans_20m_delays")
 SAG_M = {"single_span_explosives": 0.03, "two_spans_20m_delays": 0.03}
-"""Elastic with slivers that settle, 4 to 11 mm over 20 seeds; and of Bullet, with 50 iterations, not of concrete."""
+"""Elastic with slivers that settle, 4 to 5 mm over 20 seeds; and of Bullet, with 50 iterations, not of concrete."""
 
 
 def quiet(scenario):
@@ -30,7 +30,8 @@ def loud(request, tmp_path_factory):
 def test_bridge_stands_without_its_explosion(blender, tmp_path, name):
     run = run_example(quiet(example(name, 0.7)), tmp_path)
     connections = run.summary["connections"]
-    # Slivers between members, and parts of the feet of columns: 0 to 2.8 % over 20 seeds, and 1 to 20 mm of sag.
+    # Slivers between members, and parts of the feet of columns. When the charges would go off, 0 to 0.9 % are broken
+    # over 20 seeds, and shards have moved by 4 to 20 mm.
     assert connections["broken"] <= 0.05 * connections["count"]
     assert run.fallen_m(run.shards).max() < SAG_M[name]
     assert run.summary["charges"] is run.summary["blast"] is None
