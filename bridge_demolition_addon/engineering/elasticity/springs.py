@@ -149,7 +149,7 @@ class PressedSprings:
 class SpringStep:
     """Forces of c connections, `rows` (c,), with q springs in a sub-step.
 
-    `gaps` are from the bodies below to those above, and from where springs resist nothing. `keep` is told the upward
+    `gaps` are from the bodies below to those above, and from where springs resist nothing. `keep` gets the upward
     forces (q,) that are solved.
     """
 
