@@ -53,6 +53,7 @@ type = "FIXED"
 method = "face"
 material = "strong"
 stiffness = "{stiffness}"
+{damping}
 limit_per_shard = 1000
 [shards]
 use_deactivation = false
@@ -70,6 +71,7 @@ def deck_text(
     seed=1,
     support_m=0.6,
     stiffness="elastic",
+    damping_ratio=None,
     duration_s=0.2,
     are_held=True,
     more="",
@@ -86,6 +88,7 @@ def deck_text(
         support_m=support_m,
         shards=shards + len(spans) + 1,
         stiffness=stiffness,
+        damping="" if damping_ratio is None else f"damping_ratio = {damping_ratio}",
         supports='[[supports]]\nmember = "pier"' if are_held else "",
     )
     return "".join((text, *tables, more))
