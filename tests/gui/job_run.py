@@ -78,7 +78,12 @@ def run_to_the_end(person: Person) -> Steps:
     with np.load(folder / "results.npz") as arrays:
         person.expect("results have every frame", arrays["frames"].tolist(), list(range(2, person.scene.frame_end + 1)))
     person.expect("no recording runs", recording_runs(), False)
-    person.expect_reports("nothing but the results is reported", "Results are in", "Pictures of the run are in")
+    person.expect_reports(
+        "what creeps and the results are reported",
+        "creep at the end",
+        "Results are in",
+        "Pictures of the run are in",
+    )
 
 
 def bake(person: Person) -> Steps:

@@ -100,5 +100,5 @@ def creep_text(summary: Mapping[str, Any]) -> str:
     return (
         f"{creeping['shards']} {creep} at the end, by up to {1000.0 * fastest['speed_m_s']:.0f} mm/s "
         f"({fastest['body']}{of_member}, {1000.0 * fastest['moved_m']:.0f} mm from where it was): {they}. "
-        "Simulate for longer to see whether the bridge comes down"
+        "Simulate for longer to see whether more comes down"
     )
