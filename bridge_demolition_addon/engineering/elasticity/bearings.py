@@ -165,10 +165,8 @@ class Bearings:
 
     def stored_j(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
         """Return the energy (c,) that the springs would give back."""
-        forces = self._law.resisted(self._positions.gaps(positions_m, rotations)[0] - self._free)[0]
-        stiffness = np.stack((*self._law.sideways_n_m, self._law.vertical_n_m))
-        doubled = np.divide(forces * forces, stiffness, out=np.zeros_like(forces), where=stiffness > 0.0)
-        return self._positions.summed(0.5 * doubled.sum(axis=0))
+        gaps = self._positions.gaps(positions_m, rotations)[0]
+        return self._positions.summed(self._law.stored_j(gaps - self._free))
 
     def pressed_at(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
         """Return the pressing forces (p,) by which springs hold sideways, with bodies at these positions."""

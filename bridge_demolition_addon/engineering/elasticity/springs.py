@@ -139,6 +139,13 @@ class PressedSprings:
         tangents[:2, :2] -= across * held[:, None] * held * self.sideways_n_m
         return forces, tangents
 
+    def stored_j(self, gaps_m: FloatArray) -> FloatArray:
+        """Return the energy (q,) that springs across gaps (3, q) would give back."""
+        forces, stiffness = self.resisted(gaps_m)[0], np.stack((*self.sideways_n_m, self.vertical_n_m))
+        doubled = np.divide(forces * forces, stiffness, out=np.zeros_like(forces), where=stiffness > 0.0)
+        stored: FloatArray = 0.5 * doubled.sum(axis=0)
+        return stored
+
     def _limits(self) -> FloatArray:
         """Largest forces sideways (q,)."""
         holds = np.isinf(self.friction)

@@ -93,9 +93,8 @@ class Footings:
 
     def stored_j(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
         """Return the energy (f,) that the springs would give back."""
-        forces = self._soil.resisted(self._positions.gaps(positions_m, rotations)[0] - self._unloaded)[0]
-        stiffness = np.stack((*self._soil.sideways_n_m, self._soil.vertical_n_m))
-        return self._positions.summed(0.5 * (forces * forces / stiffness).sum(axis=0))
+        gaps = self._positions.gaps(positions_m, rotations)[0]
+        return self._positions.summed(self._soil.stored_j(gaps - self._unloaded))
 
     def in_substep(
         self, chosen: IntArray, positions_m: FloatArray, rotations: FloatArray, substep_s: float

@@ -1,5 +1,6 @@
 """Settings of the panels Study, Search and Optimise, apart from the keys of their files, which come from the schema."""
 
+import logging
 import os
 
 import bpy
@@ -7,6 +8,8 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty
 
 from ..sidebar import path_property
 from ..viewport import redraw_views
+
+_CONSOLE = logging.getLogger(__name__)
 
 CHARGES, BALL_MASS, DROP_HEIGHT, ANOTHER_KEY = "CHARGES", "BALL_MASS", "DROP_HEIGHT", "ANOTHER_KEY"
 KEYS = {CHARGES: "charges.mass_kg", BALL_MASS: "ball.mass_kg", DROP_HEIGHT: "ball.drop_height_m"}
@@ -33,7 +36,7 @@ def read_earlier_names(settings: bpy.types.PropertyGroup, _context: bpy.types.Co
     """Move values that are set under an earlier name to the present one."""
     for name in _EARLIER_NAMES:
         if settings.is_property_set(f"search_{name}"):
-            print(f"scene.bda.search_{name} is scene.bda.search.{name} now")
+            _CONSOLE.warning("scene.bda.search_%s is scene.bda.search.%s now", name, name)
             setattr(settings.search, name, getattr(settings, f"search_{name}"))
             settings.property_unset(f"search_{name}")
 

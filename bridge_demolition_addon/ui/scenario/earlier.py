@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Iterator
 
 import bpy
@@ -12,13 +13,15 @@ from ...model.scenario.contacts import BodyInContact
 from ...model.scenario.file import scenario_from_text
 from .prop import USE
 
+_CONSOLE = logging.getLogger(__name__)
+
 
 @bpy.app.handlers.persistent
 def read_earlier_bodies(*_arguments: object) -> None:
     """Called by Blender when a file is loaded."""
     for scene in bpy.data.scenes:
         if tick_own_values(scene.bda):
-            print(f"{scene.name}: friction and restitution are those of single bodies, as this file was saved with")
+            _CONSOLE.warning("%s: friction and restitution are those of single bodies, as saved", scene.name)
 
 
 def tick_own_values(settings: bpy.types.PropertyGroup) -> bool:

@@ -90,11 +90,11 @@ def test_without_a_folder_there_is_no_search(blender, panel):
     assert not blender.ops.bda.start_search.poll()
 
 
-def test_values_under_earlier_names_are_read(extension, panel, capsys):
+def test_values_under_earlier_names_are_read(extension, panel, caplog):
     """Files that were saved before have them; scripts may set them still."""
     panel.search_lowest = 0.07
     assert panel.search.lowest == pytest.approx(0.07) and not panel.is_property_set("search_lowest")
-    assert "scene.bda.search_lowest is scene.bda.search.lowest now" in capsys.readouterr().out
+    assert "scene.bda.search_lowest is scene.bda.search.lowest now" in caplog.text
     assert [handler.__name__ for handler in extension.app.handlers.load_post].count("read_earlier_files") == 1
 
 

@@ -41,11 +41,11 @@ def saved_as_earlier(bpy, path, *, were_shown):
 
 
 @pytest.mark.parametrize("were_shown", [True, False])
-def test_a_file_that_was_built_opens_and_can_be_run_as_it_was(extension, tmp_path, capfd, were_shown):
+def test_a_file_that_was_built_opens_and_can_be_run_as_it_was(extension, tmp_path, caplog, were_shown):
     saved_as_earlier(extension, tmp_path / "earlier.blend", were_shown=were_shown)
     extension.ops.wm.open_mainfile(filepath=str(tmp_path / "earlier.blend"))
     scene = extension.context.scene
-    assert "friction and restitution are those of single bodies" in capfd.readouterr().out
+    assert "friction and restitution are those of single bodies" in caplog.text
     assert changes(scene.bda) == []
     scenario = scenario_to_run(scene.bda)
     assert scenario.contacts is None
