@@ -9,7 +9,7 @@ import queue
 import tempfile
 import time
 import uuid
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -83,12 +83,13 @@ class DaskCluster:
         self._futures.add(future)
         future.add_done_callback(lambda ended: self._ended.put((task, ended)))
 
-    def collect(self, timeout_s: float) -> list[tuple[Task, RunOutcome]]:
-        """Return runs that have ended, with their files where they belong; see `Engine`."""
+    def collect(self, timeout_s: float) -> Iterator[tuple[Task, RunOutcome]]:
+        """Yield runs that have ended, with their files where they belong; see `Engine`."""
         ended = ended_items(self._ended, timeout_s)
         if not ended and self._client.status not in ("running", "connecting"):
             raise SimulationError(f"{self._address}: {_GONE}")
-        return [(task, self._outcome_of(task, future)) for task, future in ended]
+        for task, future in ended:
+            yield task, self._outcome_of(task, future)
 
     def close(self) -> None:
         """Drop the runs under way: they go on to their end where they are, unused."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import queue
 import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Protocol, TypeVar
@@ -41,8 +41,11 @@ class Engine(Protocol):
     def submit(self, task: Task) -> None:
         """Have a run made as soon as there is room for it."""
 
-    def collect(self, timeout_s: float) -> Sequence[tuple[Task, RunOutcome]]:
-        """Return runs that have ended since the last call; wait for the first one up to a time."""
+    def collect(self, timeout_s: float) -> Iterator[tuple[Task, RunOutcome]]:
+        """Yield runs that have ended since the last call; wait for the first one up to a time.
+
+        What stops all runs, such as a full disk, is raised after those that ended well.
+        """
 
     def close(self) -> None:
         """Stop at once; runs under way are lost. It may be called again."""
@@ -91,14 +94,16 @@ class LocalProcesses:
         """Have a run made as soon as a process is free."""
         self._tasks.put(task)
 
-    def collect(self, timeout_s: float) -> list[tuple[Task, RunOutcome]]:
-        """Return runs that have ended; see `Engine`."""
-        ended = []
+    def collect(self, timeout_s: float) -> Iterator[tuple[Task, RunOutcome]]:
+        """Yield runs that have ended; see `Engine`."""
+        error = None
         for task, outcome in ended_items(self._ended, timeout_s):
             if isinstance(outcome, Exception):
-                raise outcome
-            ended.append((task, outcome))
-        return ended
+                error = error or outcome
+            else:
+                yield task, outcome
+        if error is not None:
+            raise error
 
     def close(self) -> None:
         """Stop at once; runs under way are lost."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from ..errors import ScenarioError
 from ..model.ensemble.folder import EnsembleFolder
 from ..model.study.runs_table import REFUSED, RunOutcome
@@ -41,14 +43,13 @@ class RunQueue:
             self._engine.submit(Task(key, run.request, self._folder.work_folder(key)))
         return outcome
 
-    def collect(self, timeout_s: float) -> list[tuple[SampledRun, RunOutcome]]:
-        """Return runs that have ended, and keep their outcomes; wait for the first one up to a time."""
-        ended = []
+    def collect(self, timeout_s: float) -> Iterator[tuple[SampledRun, RunOutcome]]:
+        """Yield runs that have ended, their outcomes kept; wait for the first one up to a time."""
         for task, outcome in self._engine.collect(0.0 if self.is_empty else timeout_s):
             runs = self._under_way.pop(task.cache_key)
             self._folder.keep(task.cache_key, runs[0].inputs, outcome)
-            ended += [(run, outcome) for run in runs]
-        return ended
+            for run in runs:
+                yield run, outcome
 
     def cancel(self) -> None:
         """End all runs that are under way; what is done is kept."""
