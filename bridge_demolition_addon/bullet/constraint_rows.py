@@ -47,6 +47,7 @@ class ConstraintRows:
         self._limits = self._doubles(layout.spring.lower)
         self.held = self._limits == self._doubles(layout.spring.upper)
         self._resists = self.held.copy()
+        self._built: dict[tuple[int, int], np.ndarray] = {}  # both frames as Blender made them, of those that were moved
 
     def frame_components(self) -> tuple[tuple[np.ndarray, np.ndarray], ...]:
         """Return axes (3, 3, k) and positions (3, k) of the frames in Bullet's body A, and of those in its body B."""
@@ -55,6 +56,22 @@ class ConstraintRows:
             gather_doubles(self._addresses + np.uint64(start), 15).T for start in (spring.frame_a, spring.frame_b)
         ]
         return tuple((values[:12].reshape(3, 4, -1)[:, :3].copy(), values[12:].copy()) for values in frames)
+
+    def move_frames(self, rows: np.ndarray, axes: Sequence[np.ndarray], points_m: Sequence[np.ndarray]) -> None:
+        """Put the frames of existing constraints (r,) elsewhere in Bullet's bodies A and B; `restore` puts them back.
+
+        Axes (3, 3, r), as columns, and positions (3, r) are those in each of the two bodies.
+        """
+        spring = self._layout.spring
+        for number, start in enumerate((spring.frame_a, spring.frame_b)):
+            addresses = self._addresses[rows] + np.uint64(start)
+            before = gather_doubles(addresses, 15)
+            for row, values in zip(rows.tolist(), before, strict=True):
+                self._built.setdefault((number, row), values)
+            frames = before.copy()
+            frames[:, :12].reshape(-1, 3, 4)[..., :3] = np.moveaxis(axes[number], -1, 0)
+            frames[:, 12:] = points_m[number].T
+            _write_frames(addresses, frames)
 
     def soften(self, rows: np.ndarray, softness: np.ndarray) -> None:
         """Have all of an error of existing constraints (r,) corrected in a sub-step, with a softness (6, r).
@@ -67,6 +84,10 @@ class ConstraintRows:
 
     def restore(self, rows: np.ndarray) -> None:
         """Leave constraints (r,) as Blender made them."""
+        starts = self._layout.spring.frame_a, self._layout.spring.frame_b
+        for (number, row), frame in self._built.items():
+            if row in rows:
+                _write_frames(self._addresses[[row]] + np.uint64(starts[number]), frame[None])
         self._resists[:, rows] = self.held[:, rows]
         self._hold_at(rows, self._limits[:, rows])
         self._write(rows, SPRING_CORRECTION, 0.0, 0)
@@ -109,6 +130,10 @@ class ConstraintRows:
                 value = read_value(address + offset, "d")
                 if not abs(value - expected) <= _SAME_VALUE:
                     raise LayoutError(f"{field} of connection {name!r} is {value:g}, not {expected:g}")
+
+
+def _write_frames(addresses: np.ndarray, frames: np.ndarray) -> None:
+    DOUBLES.everywhere[DOUBLES.indices(addresses)[:, None] + np.arange(15)] = frames
 
 
 def check_frames(axes: np.ndarray, positions_m: np.ndarray, connections: Sequence[bpy.types.Object]) -> None:

@@ -32,6 +32,8 @@ class ConstraintTable:
     ----------
     exists
         (m,) whether each exists; kept up to date.
+    cracked
+        (m,) whether each has broken, and holds on by its reinforcement; kept up to date.
     """
 
     def __init__(
@@ -43,6 +45,7 @@ class ConstraintTable:
         feedback: np.ndarray,
     ):
         self.addresses, self.exists, self.feedback = addresses, addresses != 0, feedback
+        self.cracked = np.zeros(len(addresses), bool)
         self._layout, self._constraint = layout, layout.constraint
         self._thresholds = gather_doubles(self._fields(layout.constraint.breaking_threshold))[:, 0]
         self._threshold_factor, self._holds = 1.0, False
@@ -77,6 +80,7 @@ class ConstraintTable:
             self._enabled = self.exists.copy(), Fields(self.existing, [self._constraint.enabled], BYTES)
         intact = np.zeros(len(self), bool)
         intact[self.exists] = self._enabled[1].copy()[0] != 0
+        intact[self.cracked] = False
         return intact
 
     def first_bodies(self) -> np.ndarray:
@@ -88,6 +92,13 @@ class ConstraintTable:
         rows = rows[self.exists[rows]]
         BYTES.write(self.addresses[rows] + np.uint64(self._constraint.enabled), 0)
         self.feedback[rows] = 0.0  # Bullet would leave the last load of one whose bodies are not simulated any more
+        self.cracked[rows] = False
+
+    def crack_rows(self, rows: np.ndarray) -> None:
+        """Have Bullet keep the rows of connections (k,) that broke: reinforcement holds on, and resists contacts."""
+        rows = rows[self.exists[rows]]
+        BYTES.write(self.addresses[rows] + np.uint64(self._constraint.enabled), 1)
+        self.cracked[rows] = True
 
     def weaken(self, rows: np.ndarray, factor: float) -> None:
         """Multiply the breaking thresholds of connections (k,)."""

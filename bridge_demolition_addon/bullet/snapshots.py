@@ -86,6 +86,7 @@ class SnapshotTaker:
     def __init__(self, layout: Layout, bodies: BodyTable, constraints: ConstraintTable, sides: np.ndarray):
         self._constraint, self._connections = layout.constraint, constraints.addresses
         self._exists, self._removed, self._contacts = constraints.exists, bodies.removed, bodies.contacts
+        self._cracked = constraints.cracked
         self._feedback = constraints.feedback.reshape(-1)
         self._loads = 8 * np.asarray(sides) + _FEEDBACK_COLUMNS[:, None]
         body = layout.body
@@ -102,7 +103,7 @@ class SnapshotTaker:
             body_components=self._bodies.copy(),
             load_components=self._feedback.take(self._loads),
             applied_impulses=self._of_all(self._impulses.copy()[0]),
-            intact=self._of_all(self._enabled.copy()[0] != 0),
+            intact=self._of_all(self._enabled.copy()[0] != 0) & ~self._cracked,
             contacts=self._contacts.copy(),
             removed=self._removed.copy() if self._removed.any() else None,
         )

@@ -14,7 +14,7 @@ All arrays have their components first. Places are numbered corner by corner, in
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import TypeVar
 
 import numpy as np
@@ -22,7 +22,16 @@ import numpy as np
 from ..arrays import BoolArray, FloatArray, IntArray
 from .equations import summed_on_bodies
 from .gaps import Gaps, SolvedTangents, motion_of_points
-from .joint_rows import cross_products, dot_products, matrix_products, transposed, turned, turned_back
+from .joint_rows import (
+    JointPositions,
+    JointRows,
+    cross_products,
+    dot_products,
+    matrix_products,
+    transposed,
+    turned,
+    turned_back,
+)
 from .steel_bars import Bars, Steel, bar_response
 
 Numbers = TypeVar("Numbers", FloatArray, IntArray, BoolArray)
@@ -184,6 +193,30 @@ class Cracks:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class CrackJoints:
+    """How c cracks resist small changes of their opening: along axes through the middle of their stiffness, and about them.
+
+    So the sides of a crack that is closed at one edge turn about that edge, against its bars alone.
+    """
+
+    first: IntArray  # (c,), bodies
+    second: IntArray
+    first_arms_m: FloatArray  # (3, c), from the centres of the bodies to the middle
+    second_arms_m: FloatArray
+    axes: FloatArray  # (3, 3, c), as columns; the first are the normals
+    stiffness: FloatArray  # (6, c), against shifts along the axes, N/m, and against turns about them, N·m/rad
+
+    def only(self, which: BoolArray) -> CrackJoints:
+        """Return those of some cracks."""
+        return CrackJoints(*(getattr(self, item.name)[..., which] for item in fields(self)))
+
+    def rows(self) -> JointRows:
+        """Return the rows of joints with these axes, which are not deformed yet."""
+        none = np.zeros_like(self.first_arms_m)
+        return JointPositions(self.axes, self.axes, self.first_arms_m, self.second_arms_m, none).rows()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class CrackLaw:
     """Resistance of b bars, and of the sides of their cracks, in the axes of the world."""
 
@@ -270,6 +303,31 @@ class CrackStep:
             rises = float((self._out_of_balance(opening + share * step, balance + share * change) * step).sum()) > 0.0
             low, high = (low, share) if rises else (share, high)
         return opening + high * step, balance + high * change
+
+    def joints(self) -> CrackJoints:
+        """Return how the cracks resist changes of the motion that was guessed last."""
+        count, law, gaps = len(self.rows), self._law, self._gaps
+        normal = law.normals[:, :count]
+        corners = gaps.first_arms_m.reshape(3, _COUNT, count)
+        side = corners[:, 2] - corners[:, 0]
+        side = side - dot_products(side, normal) * normal
+        side = side / np.sqrt(dot_products(side, side))
+        axes = np.stack((normal, side, cross_products(normal, side)), axis=1)
+        pressed = dot_products(law.normals, turned(self._tangents, law.normals))
+        total = _summed(pressed)
+        shares = np.where(np.tile(total, _COUNT) > 0.0, pressed, 1.0)
+        shares = shares / np.tile(_summed(shares), _COUNT)
+        middles = [_summed(shares * arms) for arms in (gaps.first_arms_m, gaps.second_arms_m)]
+        levers = gaps.first_arms_m - np.tile(middles[0], _COUNT)
+        stiffness = []
+        for axis in np.moveaxis(axes, 1, 0):
+            along = np.tile(axis, _COUNT)
+            stiffness.append(_summed(dot_products(along, turned(self._tangents, along))))
+        for axis in np.moveaxis(axes, 1, 0):
+            moved = cross_products(np.tile(axis, _COUNT), levers)
+            stiffness.append(_summed(dot_products(moved, turned(self._tangents, moved))))
+        first, second = gaps.first[:count], gaps.second[:count]
+        return CrackJoints(first, second, *middles, axes, np.stack(stiffness))
 
     def of_bodies(self, loads: tuple[FloatArray, FloatArray], count: int) -> FloatArray:
         """Return the sums (6, n) of loads (6, c) on the first and on the second bodies, for n bodies."""

@@ -12,7 +12,7 @@ cloth simulation, SIGGRAPH 98, equation 6, for springs in general; here C = β K
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -20,7 +20,7 @@ import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
 from .bearings import Bearings
-from .cracks import Cracks
+from .cracks import CrackJoints, Cracks, CrackStep
 from .equations import RigidBodies, connected_parts, stiffness_blocks, stressed, summed_on_bodies, without
 from .frequencies import SLACK, first_frequency
 from .joint_rows import JointFrames, JointPositions, JointRows, joint_positions
@@ -59,6 +59,8 @@ class ElasticStep:
     of_cracks_on_first: FloatArray  # (6, c), its impulses
     of_cracks_on_second: FloatArray
     of_bodies: FloatArray  # (6, n), the sum on every body
+    velocities: FloatArray  # (6, n), at its end
+    crack_joints: Callable[[], CrackJoints] | None  # how the cracks resist changes; None where there is none
 
 
 class NonlinearTerms(Protocol):
@@ -222,6 +224,7 @@ class ElasticStructure:
         frames = self._frames.only(acting)
         positions, deformations = self._deformed(acting, start.positions_m, start.rotations)
         cracks = self._acting_terms(self._cracks, are_awake, start)
+        assert cracks is None or isinstance(cracks, CrackStep)
         springs = [terms for law in self._springs if (terms := self._acting_terms(law, acts, start)) is not None]
         nonlinear = springs if cracks is None else [cracks, *springs]
         self._refresh(start, awake, acting, positions, nonlinear)
@@ -263,6 +266,8 @@ class ElasticStructure:
             of_cracks_on_first=of_cracks[0],
             of_cracks_on_second=of_cracks[1],
             of_bodies=of_bodies,
+            velocities=start.velocities + changes,
+            crack_joints=None if cracks is None else cracks.joints,
         )
 
     def stored_j(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
@@ -279,17 +284,18 @@ class ElasticStructure:
             stored[law.rows] = law.stored_j(positions_m, rotations) * self._intact[law.rows]
         return stored
 
-    def settle(self, positions_m: FloatArray, rotations: FloatArray) -> None:
-        """Take over, before a sub-step, how far springs and bars have yielded, and let go what has ruptured."""
+    def settle(self, positions_m: FloatArray, rotations: FloatArray) -> IntArray:
+        """Take over, before a sub-step, how far springs and bars have yielded; return what ruptured (d,), let go."""
         for law in self._springs:
             law.settle(positions_m, rotations)
         if self._cracks is None or not len(self._cracks):
-            return
+            return np.zeros(0, int)
         gone = self._cracks.settle(positions_m, rotations)
         if len(gone):
             self._stale[self.part_of_connection[gone]] = True
             self._stale[-1] = False
             self._has_broken = True
+        return gone
 
     def end_substep(self) -> None:
         """Find the parts again, if a connection broke since this was done last."""

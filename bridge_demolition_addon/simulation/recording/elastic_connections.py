@@ -27,9 +27,10 @@ from ...engineering.elasticity.joint_rows import (
     joint_positions,
     matrix_products,
     transposed,
+    turned_back,
 )
 from ...engineering.elasticity.section_stiffness import SectionStiffness, in_frames
-from ...engineering.elasticity.structure import ElasticStructure, StepInput
+from ...engineering.elasticity.structure import ElasticStep, ElasticStructure, StepInput
 from ...engineering.foundations.footings import Footings, SoilSprings
 from ...engineering.geometry.vectors import transformed_back
 from ...engineering.mechanics.section_forces import section_axes
@@ -178,6 +179,7 @@ class ElasticConnections:
         self._cracks.add(
             rows, first, second, positions, outwards, motion.position_components_m, motion.rotation_components
         )
+        self._world.constraints.crack_rows(rows)
 
     @property
     def resting_state(self) -> RestingState:
@@ -208,7 +210,8 @@ class ElasticConnections:
         left = np.where(motion.inverse_masses > 0.0, power(self._left_per_second, substep_s), 1.0)
         velocities = left * motion.velocity_components
         velocities += substep_s * self._accelerations(motion, motion.load_components)
-        given(self._structure).settle(motion.position_components_m, motion.rotation_components)
+        gone = given(self._structure).settle(motion.position_components_m, motion.rotation_components)
+        self._world.constraints.break_rows(gone)
         for lifting in self._lifting:
             lifting.follow(self._rows, self._softness, self._world.constraints.intact())
         self._start = StepInput(motion.position_components_m, motion.rotation_components, velocities, motion.asleep)
@@ -232,7 +235,29 @@ class ElasticConnections:
         moved = np.flatnonzero(step.of_bodies.any(axis=0) & (motion.inverse_masses > 0.0))
         self._reader.set_loads(moved, motion.load_components[:, moved] + step.of_bodies[:, moved] / self._substep_s)
         self._rows.expect(step.acting, step.deformations - self._substep_s * step.rates)
+        self._expect_cracks(motion, step)
         given(self._structure).end_substep()
+
+    def _expect_cracks(self, motion: BodyMotion, step: ElasticStep) -> None:
+        """Have Bullet's rows in place of the cracks resist what contacts change of their motion, as bars and sides do."""
+        if step.crack_joints is None:
+            return
+        joints, substep_s = step.crack_joints(), self._substep_s
+        exists = self._world.constraints.exists[step.cracks]
+        joints, rows = joints.only(exists), step.cracks[exists]
+        ends = joints.first, joints.second
+        turns = [motion.rotation_components[..., bodies] for bodies in ends]
+        axes = [matrix_products(transposed(turn), joints.axes) for turn in turns]
+        arms = zip(turns, (joints.first_arms_m, joints.second_arms_m), strict=True)
+        self._rows.move_frames(rows, axes, [turned_back(turn, arm) for turn, arm in arms])
+        lines = joints.rows()
+        inverse = _effective_inverse_masses(
+            lines, ends, motion.inverse_masses, self._reader.inverse_inertia_components()
+        )
+        hardness = substep_s * substep_s * joints.stiffness * inverse
+        self._rows.soften(rows, np.divide(1.0, hardness, out=np.full_like(hardness, np.inf), where=hardness > 0.0))
+        rates = lines.rates(*(step.velocities[:, bodies] for bodies in ends))
+        self._rows.expect(rows, -substep_s * rates)
 
     def stored_j(self, intact: np.ndarray) -> np.ndarray:
         """Return the energy that is now in connections (m,) that are intact, or in their reinforcement."""
@@ -315,9 +340,9 @@ class ElasticConnections:
         substep_s = self._substep_s
         positions = joint_positions(self._frames, motion.position_components_m, motion.rotation_components)
         intact = np.flatnonzero(self._world.constraints.intact())
-        rows = positions.rows()
+        rows, ends = positions.rows(), (self._frames.first, self._frames.second)
         inverse = _effective_inverse_masses(
-            rows, self._frames, motion.inverse_masses, self._reader.inverse_inertia_components()
+            rows, ends, motion.inverse_masses, self._reader.inverse_inertia_components()
         )
         diagonal = self._stiffness[np.arange(6), np.arange(6)].copy()
         if self._bearings:
@@ -387,11 +412,11 @@ def _inertias(inverse: np.ndarray, rotations: np.ndarray, masses_kg: np.ndarray)
 
 
 def _effective_inverse_masses(
-    rows: JointRows, frames: JointFrames, inverse_masses: np.ndarray, inverse_inertias: np.ndarray
+    rows: JointRows, ends: tuple[np.ndarray, np.ndarray], inverse_masses: np.ndarray, inverse_inertias: np.ndarray
 ) -> np.ndarray:
     """By how much a unit impulse in each row (6, m) changes the velocity in it."""
     of_bodies = []
-    for body, turning in ((frames.first, rows.first_turning), (frames.second, rows.second_turning)):
+    for body, turning in zip(ends, (rows.first_turning, rows.second_turning), strict=True):
         inertia = inverse_inertias[..., body]
         shifts = inverse_masses[body] + _squares(turning, inertia)
         of_bodies.append(np.concatenate((shifts, _squares(rows.turning, inertia))))
