@@ -47,13 +47,22 @@ ellipse, as normal and shear stress by von Mises' criterion.
 Bars pull less hard along an inclined crack than across it: otherwise cracks that zigzag would be held too strongly.
 """
 
+FRICTION = 0.7
+"""Friction of the sides of a crack, which is rough: EN 1992-1-1:2004, 6.2.5 (2)."""
+
+_SHEARED = 0.4
+"""Stiffness against sliding of sides that do not slip, by that against pressing: shear over normal stiffness of
+concrete, G / E."""
+
 _COUNT = len(CORNERS)
 
 _HALVINGS = 12
 """Halvings of the way from one guess to the next."""
 
 _AGREES = 1e-4
-"""Largest error of the force of a bar, by its yield force."""
+"""Largest error of the force at a corner, by what its bars yield at, or presses its sides together so far."""
+
+_LITTLE_M = 1e-5
 
 
 class Cracks:
@@ -81,6 +90,7 @@ class Cracks:
         self._first_anchors, self._second_anchors = np.zeros((3, 0)), np.zeros((3, 0))
         self._normals = np.zeros((3, 0))
         self._slips, self._flows, self._holds = np.zeros((3, 0)), np.zeros(0), np.zeros(0, bool)
+        self._rests, self._grips_n = np.zeros((3, 0)), np.zeros(0)  # where sides that rub do not pull, and at most by
         self._solved_for = np.zeros((3, 3, 0))
 
     def __len__(self) -> int:
@@ -112,6 +122,8 @@ class Cracks:
         self._normals = _joined(self._normals, normals)
         self._slips, self._flows = _joined(self._slips, np.zeros((3, count))), _joined(self._flows, np.zeros(count))
         self._holds = _joined(self._holds, np.ones(count, bool))
+        self._rests = _joined(self._rests, np.zeros((3, count)))
+        self._grips_n = _joined(self._grips_n, np.zeros(count))
         self._solved_for = _joined(self._solved_for, np.full((3, 3, count), np.nan))
 
     def settle(self, positions_m: FloatArray, rotations: FloatArray) -> IntArray:
@@ -122,11 +134,20 @@ class Cracks:
         response = bar_response(self._bars(), local, self._slips, self._flows)
         self._slips = np.where(self._holds, response.slips_m, self._slips)
         self._flows = np.where(self._holds, response.flows_m, self._flows)
+        self._rub(turned_back(rotations[..., self._first], gaps))
         holds = self._holds.reshape(_COUNT, -1).any(axis=0) & (self._shares[self.rows] > 0.0)
         gone = self.rows[~holds]
         if len(gone):
             self._keep(holds)
         return gone
+
+    def _rub(self, gaps: FloatArray) -> None:
+        """Take over how far sides have slid by now, and how much those that are pressed may resist next."""
+        pressed = self._stiffness_pressed()
+        closing = np.minimum(dot_products(self._normals, gaps), 0.0)
+        rubbing = _friction(self._grips_n, pressed)
+        self._rests = bar_response(rubbing, _along(gaps, self._normals), self._rests, np.zeros_like(pressed)).slips_m
+        self._grips_n = -FRICTION * pressed * closing
 
     def stored_j(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
         """Return the energy (t,) that bars and pressed sides would give back."""
@@ -137,8 +158,11 @@ class Cracks:
         doubled = np.divide(
             dot_products(forces, forces), bars.stiffness_n_m, out=np.zeros(len(self._flows)), where=holds
         )
-        closing = np.minimum(dot_products(self._normals, gaps), 0.0)
-        return 0.5 * _summed(doubled + self._stiffness_pressed() * closing * closing)
+        pressed, closing = self._stiffness_pressed(), np.minimum(dot_products(self._normals, gaps), 0.0)
+        rubbing = _friction(self._grips_n, pressed)
+        forces = bar_response(rubbing, _along(gaps, self._normals), self._rests, np.zeros_like(pressed)).forces_n
+        doubled += dot_products(forces, forces) / rubbing.stiffness_n_m
+        return 0.5 * _summed(doubled + pressed * closing * closing)
 
     def in_substep(
         self, chosen: IntArray, positions_m: FloatArray, rotations: FloatArray, substep_s: float
@@ -155,6 +179,8 @@ class Cracks:
             self._flows[which],
             turned(rotations[..., first], self._normals[:, which]),
             self._stiffness_pressed()[which],
+            turned(rotations[..., first], self._rests[:, which]),
+            self._grips_n[which],
         )
         between = Gaps(first, second, first_levers + 0.5 * gaps, second_levers - 0.5 * gaps, gaps)
         return CrackStep(self.rows[chosen], between, law, SolvedTangents(self._solved_for, which), substep_s)
@@ -187,6 +213,8 @@ class Cracks:
             "_slips",
             "_flows",
             "_holds",
+            "_rests",
+            "_grips_n",
         ):
             setattr(self, name, getattr(self, name)[..., bars])
         self._solved_for = self._solved_for[..., bars]
@@ -225,6 +253,8 @@ class CrackLaw:
     flows_m: FloatArray  # (b,), length of the path of the slip
     normals: FloatArray  # (3, b), of the cracks
     pressed_n_m: FloatArray  # (b,), stiffness where the sides press on each other
+    rests_m: FloatArray  # (3, b), sliding at which they do not resist it
+    grips_n: FloatArray  # (b,), by which they resist at most, of how they were pressed before
 
     def resisted(self, gaps_m: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return forces (3, b) across gaps (3, b), and how they change with these, (3, 3, b)."""
@@ -234,7 +264,12 @@ class CrackLaw:
         closing = np.minimum(dot_products(self.normals, gaps_m), 0.0)
         pressed = np.where(closing < 0.0, self.pressed_n_m, 0.0)
         tangents = matrix_products(bearing, matrix_products(response.tangents_n_m, bearing))
-        return turned(bearing, response.forces_n) + pressed * closing * self.normals, tangents + pressed * across
+        rubbing = _friction(self.grips_n, self.pressed_n_m)
+        rubs = bar_response(rubbing, _along(gaps_m, self.normals), self.rests_m, np.zeros_like(self.grips_n))
+        aside = np.eye(3)[:, :, None] - across
+        forces = turned(bearing, response.forces_n) + rubs.forces_n + pressed * closing * self.normals
+        tangents = tangents + matrix_products(aside, matrix_products(rubs.tangents_n_m, aside)) + pressed * across
+        return forces, tangents
 
 
 class CrackStep:
@@ -243,7 +278,7 @@ class CrackStep:
     def __init__(self, rows: IntArray, gaps: Gaps, law: CrackLaw, solved: SolvedTangents, substep_s: float):
         self.rows = rows
         self._gaps, self._law, self._solved, self._substep_s = gaps, law, solved, substep_s
-        self._mean_n = np.tile(_summed(law.bars.yield_n) / _COUNT, _COUNT)
+        self._mean_n = np.maximum(np.tile(_summed(law.bars.yield_n) / _COUNT, _COUNT), _LITTLE_M * law.pressed_n_m)
         self._guess: tuple[FloatArray, FloatArray] | None = None
         self._begin_at(np.zeros_like(gaps.widths_m))
 
@@ -360,6 +395,16 @@ def _as_bars(gaps_m: FloatArray, normals: FloatArray) -> FloatArray:
     """Stretches of bars (3, b) by gaps (3, b) of cracks with normals (3, b): less along the crack, as dowels."""
     stretches: FloatArray = DOWEL_SHARE * gaps_m + (1.0 - DOWEL_SHARE) * dot_products(gaps_m, normals) * normals
     return stretches
+
+
+def _along(gaps_m: FloatArray, normals: FloatArray) -> FloatArray:
+    """Parts (3, b) of gaps along cracks with normals (3, b)."""
+    return gaps_m - dot_products(gaps_m, normals) * normals
+
+
+def _friction(grips_n: FloatArray, pressed_n_m: FloatArray) -> Bars:
+    """Friction of b pressed places, as of bars that yield at it and do not harden."""
+    return Bars(grips_n, _SHEARED * pressed_n_m, np.zeros_like(grips_n))
 
 
 def _joined(before: Numbers, added: Numbers) -> Numbers:

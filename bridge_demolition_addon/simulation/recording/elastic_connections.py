@@ -166,9 +166,9 @@ class ElasticConnections:
 
     def tear(self, rows: np.ndarray, points_m: np.ndarray, axes: np.ndarray) -> None:
         """Let the reinforcement hold of connections (r,) that broke at points (r, 3), with section axes (r, 3, 3)."""
-        if self._cracks is not None:
-            held = self._cracks.have_bars[rows]
-            rows, points_m, axes = rows[held], points_m[held], axes[held]
+        if self._bearings:
+            crosses = ~np.isin(rows, self._bearings.rows)
+            rows, points_m, axes = rows[crosses], points_m[crosses], axes[crosses]
         if self._cracks is None or not len(rows):
             return
         motion = self._reader.read()
