@@ -32,7 +32,7 @@ from .joint_rows import (
     turned,
     turned_back,
 )
-from .steel_bars import Bars, Steel, bar_response
+from .steel_bars import BarResponse, Bars, Steel, bar_response
 
 Numbers = TypeVar("Numbers", FloatArray, IntArray, BoolArray)
 
@@ -56,7 +56,7 @@ concrete, G / E."""
 
 _COUNT = len(CORNERS)
 
-_HALVINGS = 12
+_HALVINGS = 6
 """Halvings of the way from one guess to the next."""
 
 _AGREES = 1e-4
@@ -256,20 +256,33 @@ class CrackLaw:
     rests_m: FloatArray  # (3, b), sliding at which they do not resist it
     grips_n: FloatArray  # (b,), by which they resist at most, of how they were pressed before
 
-    def resisted(self, gaps_m: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return forces (3, b) across gaps (3, b), and how they change with these, (3, 3, b)."""
-        response = bar_response(self.bars, _as_bars(gaps_m, self.normals), self.slips_m, self.flows_m)
-        across = self.normals[:, None] * self.normals
-        bearing = DOWEL_SHARE * np.eye(3)[:, :, None] + (1.0 - DOWEL_SHARE) * across
+    def forces(self, gaps_m: FloatArray) -> FloatArray:
+        """Return the forces (3, b) across gaps (3, b)."""
+        bars, rubs = self._responses(gaps_m)
         closing = np.minimum(dot_products(self.normals, gaps_m), 0.0)
-        pressed = np.where(closing < 0.0, self.pressed_n_m, 0.0)
-        tangents = matrix_products(bearing, matrix_products(response.tangents_n_m, bearing))
-        rubbing = _friction(self.grips_n, self.pressed_n_m)
-        rubs = bar_response(rubbing, _along(gaps_m, self.normals), self.rests_m, np.zeros_like(self.grips_n))
-        aside = np.eye(3)[:, :, None] - across
-        forces = turned(bearing, response.forces_n) + rubs.forces_n + pressed * closing * self.normals
-        tangents = tangents + matrix_products(aside, matrix_products(rubs.tangents_n_m, aside)) + pressed * across
-        return forces, tangents
+        pulls: FloatArray = _as_bars(bars.forces_n, self.normals)
+        return pulls + rubs.forces_n + self.pressed_n_m * closing * self.normals
+
+    def tangents(self, gaps_m: FloatArray) -> FloatArray:
+        """Return how the forces across gaps (3, b) change with these, (3, 3, b)."""
+        bars, rubs = self._responses(gaps_m)
+        normals, pulls = self.normals, _as_bars(bars.directions, self.normals)
+        pressed = np.where(dot_products(normals, gaps_m) < 0.0, self.pressed_n_m, 0.0)
+        even = DOWEL_SHARE * DOWEL_SHARE
+        across = (1.0 - even) * bars.across_n_m - rubs.across_n_m + pressed
+        tangents: FloatArray = across * (normals[:, None] * normals)
+        tangents += (bars.along_n_m - bars.across_n_m) * (pulls[:, None] * pulls)
+        tangents += (rubs.along_n_m - rubs.across_n_m) * (rubs.directions[:, None] * rubs.directions)
+        tangents[[0, 1, 2], [0, 1, 2]] += even * bars.across_n_m + rubs.across_n_m
+        return tangents
+
+    def _responses(self, gaps_m: FloatArray) -> tuple[BarResponse, BarResponse]:
+        """What bars do across gaps (3, b), and sides that rub on each other."""
+        rubbing, never = _friction(self.grips_n, self.pressed_n_m), np.zeros_like(self.grips_n)
+        return (
+            bar_response(self.bars, _as_bars(gaps_m, self.normals), self.slips_m, self.flows_m),
+            bar_response(rubbing, _along(gaps_m, self.normals), self.rests_m, never),
+        )
 
 
 class CrackStep:
@@ -323,7 +336,7 @@ class CrackStep:
 
     def _out_of_balance(self, opening: FloatArray, balance: FloatArray) -> FloatArray:
         """Resistance (3, 4 c) of cracks with this opening, less the forces that are in balance with all else."""
-        return self._law.resisted(self._gaps.widths_m + opening)[0] - balance
+        return self._law.forces(self._gaps.widths_m + opening) - balance
 
     def _least(
         self, opening: FloatArray, balance: FloatArray, coming: FloatArray, coming_balance: FloatArray
@@ -371,8 +384,9 @@ class CrackStep:
 
     def _begin_at(self, opening: FloatArray) -> None:
         """Take forces for linear about cracks that have opened further (3, 4 c)."""
-        forces, self._tangents = self._law.resisted(self._gaps.widths_m + opening)
-        self._forces = forces - turned(self._tangents, opening)
+        widths_m = self._gaps.widths_m + opening
+        self._tangents = self._law.tangents(widths_m)
+        self._forces = self._law.forces(widths_m) - turned(self._tangents, opening)
 
 
 def corner_positions(points_m: FloatArray, axes: FloatArray, sides_m: FloatArray) -> FloatArray:

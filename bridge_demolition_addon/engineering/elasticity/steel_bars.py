@@ -85,7 +85,16 @@ class BarResponse:
     forces_n: FloatArray  # (3, b), along the stretch; they pull its ends together
     slips_m: FloatArray  # (3, b), part of the stretch that stays
     flows_m: FloatArray  # (b,), length of the path on which that came
-    tangents_n_m: FloatArray  # (3, 3, b), derivatives of the forces by the stretch
+    directions: FloatArray  # (3, b), of the forces
+    across_n_m: FloatArray  # (b,), growth of the force with a stretch across its direction
+    along_n_m: FloatArray  # (b,), and along it
+
+    @property
+    def tangents_n_m(self) -> FloatArray:
+        """Derivatives (3, 3, b) of the forces by the stretch."""
+        tangents: FloatArray = (self.along_n_m - self.across_n_m) * (self.directions[:, None] * self.directions)
+        tangents[[0, 1, 2], [0, 1, 2]] += self.across_n_m
+        return tangents
 
 
 def bar_response(bars: Bars, stretches_m: FloatArray, slips_m: FloatArray, flows_m: FloatArray) -> BarResponse:
@@ -102,7 +111,11 @@ def bar_response(bars: Bars, stretches_m: FloatArray, slips_m: FloatArray, flows
         yields, np.divide(limit + bars.modulus_n_m * flow, size, out=np.ones_like(size), where=yields), 1.0
     )
     along = np.where(yields, bars.modulus_n_m / resists, 1.0)
-    across = bars.stiffness_n_m * share
-    tangents = (bars.stiffness_n_m * along - across) * (direction[:, None] * direction)
-    tangents[[0, 1, 2], [0, 1, 2]] += across
-    return BarResponse(forces, slips_m + flow * direction, flows_m + flow, tangents)
+    return BarResponse(
+        forces,
+        slips_m + flow * direction,
+        flows_m + flow,
+        direction,
+        bars.stiffness_n_m * share,
+        bars.stiffness_n_m * along,
+    )
