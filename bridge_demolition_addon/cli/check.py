@@ -91,4 +91,4 @@ def _section(heading: str, facts: Iterable[Fact]) -> Iterator[str]:
     yield ""
     yield heading
     for name, value in facts:
-        yield f"  {name:<24}{value}"
+        yield f"  {name:<23} {value}"
