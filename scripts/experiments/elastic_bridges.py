@@ -129,7 +129,7 @@ thickness_m = {thickness}
 overhang_m = 0.0
 {girders}
 [bridge.abutments]
-length_m = 0.1
+length_m = {abutment}
 width_m = 8.0
 height_m = 2.0
 [[supports]]
@@ -156,6 +156,14 @@ free = [{turns}]
 members = ["{on_bearings}", "abutment 2"]
 type = "GENERIC"
 free = [{slides}, {turns}]
+"""
+SINGLE_SPAN_ON_BEARINGS = """
+[[bearings]]
+members = ["{on_bearings}", "abutment 1"]
+kind = "pinned"
+[[bearings]]
+members = ["{on_bearings}", "abutment 2"]
+kind = {slides}
 """
 NO_BEARINGS = """
 [[connections.between]]
@@ -276,40 +284,52 @@ def example_text() -> str:
     return re.sub(r"(?m)^shards = \d+", "shards = {shards}", text)
 
 
+SHORT = 0.02
+"""Length, m, of abutments under bearings, whose axes are in the middle of what of it is below the deck: a half."""
+
+FOUR_GIRDERS = (
+    ("span", 16.0),
+    ("skew", 0.0),
+    ("thickness", 0.25),
+    ("girders", GIRDERS),
+    ("on_bearings", "girder"),
+    ("slides", '"move x"'),
+    ("turns", '"turn y"'),
+)
+SKEWED_SLAB = (
+    ("span", 12.0),
+    ("skew", 40.0),
+    ("thickness", 0.6),
+    ("girders", ""),
+    ("on_bearings", "deck"),
+    ("slides", '"move x", "move y"'),
+    ("turns", '"turn x", "turn y"'),
+)
+
 BRIDGES = {
     "portal": Bridge(PORTAL + STRONG, portal),
     "frame of an example": Bridge(example_text(), example_frame),
     "deck over two spans": Bridge(TWO_SPANS + STRONG + TWO_SPANS_BEARINGS, two_spans, 3, (("wall", 0.05),)),
-    "the same on bearings": Bridge(
-        TWO_SPANS + STRONG + ON_BEARINGS, two_spans, 3, (("wall", 1.2),), "deck over two spans"
-    ),
+    "deck on bearings": Bridge(TWO_SPANS + STRONG + ON_BEARINGS, two_spans, 3, (("wall", 1.2),), "deck over two spans"),
     "four girders": Bridge(
-        SINGLE_SPAN + STRONG + SINGLE_SPAN_BEARINGS + NO_BEARINGS,
+        SINGLE_SPAN + STRONG + SINGLE_SPAN_BEARINGS + NO_BEARINGS, grillage, 2, (*FOUR_GIRDERS, ("abutment", 0.1))
+    ),
+    "girders on bearings": Bridge(
+        SINGLE_SPAN + STRONG + SINGLE_SPAN_ON_BEARINGS + NO_BEARINGS,
         grillage,
         2,
-        (
-            ("span", 16.0),
-            ("skew", 0.0),
-            ("thickness", 0.25),
-            ("girders", GIRDERS),
-            ("on_bearings", "girder"),
-            ("slides", '"move x"'),
-            ("turns", '"turn y"'),
-        ),
+        (*FOUR_GIRDERS, ("abutment", SHORT), ("slides", '"rocker"')),
+        "four girders",
     ),
     "skewed slab": Bridge(
-        SINGLE_SPAN + STRONG + SINGLE_SPAN_BEARINGS,
+        SINGLE_SPAN + STRONG + SINGLE_SPAN_BEARINGS, skewed_slab, 2, (*SKEWED_SLAB, ("abutment", 0.1))
+    ),
+    "skewed on bearings": Bridge(
+        SINGLE_SPAN + STRONG + SINGLE_SPAN_ON_BEARINGS,
         skewed_slab,
         2,
-        (
-            ("span", 12.0),
-            ("skew", 40.0),
-            ("thickness", 0.6),
-            ("girders", ""),
-            ("on_bearings", "deck"),
-            ("slides", '"move x", "move y"'),
-            ("turns", '"turn x", "turn y"'),
-        ),
+        (*SKEWED_SLAB, ("abutment", SHORT), ("slides", '"sliding"\nfriction = 0.0')),
+        "skewed slab",
     ),
 }
 

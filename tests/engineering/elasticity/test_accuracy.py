@@ -27,9 +27,11 @@ ALONG = {
     "portal": {40: 9.3, 100: 14.7, 200: 20.8, 600: 36.0},
     "frame of an example": {40: 7.4, 100: 11.7, 200: 16.5, 600: 28.6},
     "deck over two spans": {40: 18.6, 100: 29.4, 200: 41.6, 600: 58.2},
-    "the same on bearings": {40: 18.6, 100: 29.4, 200: 41.6, 600: 58.2},
+    "deck on bearings": {40: 18.6, 100: 29.4, 200: 41.6, 600: 58.2},
     "four girders": {40: 4.2, 100: 10.4, 200: 20.1, 600: 35.0},
+    "girders on bearings": {40: 4.2, 100: 10.4, 200: 20.1, 600: 35.0},
     "skewed slab": {40: 9.5, 100: 14.9, 200: 21.2, 600: 31.4},
+    "skewed on bearings": {40: 9.5, 100: 14.9, 200: 21.2, 600: 31.4},
 }
 
 
@@ -45,12 +47,23 @@ def test_what_was_measured_is_off_by_no_more_than_is_said():
                 assert abs(statistics.median(deviations)) <= expected_deviation(along)
 
 
-def test_a_continuous_deck_on_bearings_meets_the_aims():
-    """Reactions 2 %, moments and deflections 5 %, frequencies 3 % from 100 shards on, on supports 1.2 m long."""
-    for (bridge, quantity), by_shards in elastic_bridges.deviations().items():
-        if bridge == "the same on bearings":
-            for shards in (100, 200, 600):
-                assert abs(statistics.median(by_shards[shards])) <= elastic_bridges.aim(quantity)
+@pytest.mark.parametrize(
+    "bridge, missed",
+    [
+        ("deck on bearings", set()),
+        ("girders on bearings", {("deflection", 100), ("first frequency", 100)}),
+        ("skewed on bearings", {(AT_ACUTE_CORNERS, shards) for shards in (100, 200, 600)}),
+    ],
+)
+def test_bridges_on_bearings_meet_the_aims(bridge, missed):
+    """Reactions 2 %, moments and deflections 5 %, frequencies 3 %, but for what docs/elastic.md says in bold."""
+    found = {
+        (quantity, shards)
+        for (name, quantity), by_shards in elastic_bridges.deviations().items()
+        for shards, deviations in by_shards.items()
+        if name == bridge and shards >= 100 and abs(statistics.median(deviations)) > elastic_bridges.aim(quantity)
+    }
+    assert found == missed
 
 
 def test_the_page_has_the_table_that_is_measured(capsys):
