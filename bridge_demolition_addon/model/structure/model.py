@@ -150,6 +150,8 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
             scenario.joints,
             joint_of_connection,
             scenario.connections.strength_factor,
+            scenario.steel,
+            scenario.connections.ductile_elongation_m,
         )
     stiffness = None
     if scenario.connections.is_elastic:
