@@ -41,8 +41,8 @@ CORNERS = np.array([(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)])
 
 DOWEL_SHARE = 1.3 * 4.0 / np.pi * np.sqrt(35.0 / 500.0)
 """Force across themselves that bars resist as dowels, by that along them: 1.3 d² √(f_c f_y) by π/4 d² f_y, for C35/45
-and B500 (B. H. Rasmussen, 1963, Bygningsstatiske Meddelelser 34, on bolts and dowels in concrete). Both together are on an
-ellipse, as normal and shear stress by von Mises' criterion.
+and B500 (B. H. Rasmussen, 1963, Bygningsstatiske Meddelelser 34, on bolts and dowels in concrete). Both together are
+on an ellipse, as normal and shear stress by von Mises' criterion.
 """
 
 FRICTION = 0.7

@@ -146,7 +146,7 @@ def face_bars(
     count = len(connections)
     pulled_n, forces, by_position, by_opening = np.zeros(count), *np.zeros((2, count, 3)), np.zeros(count)
     of_pair = np.append(member_of_shard, -1)[connections.pairs]
-    is_within = (of_pair[:, 0] == of_pair[:, 1]) & (of_pair[:, 0] >= 0) & (connections.areas > 0.0)
+    is_within = _are_within(of_pair) & (connections.areas > 0.0)
     for group in layers_of_members(layers, members):
         own = is_within & (of_pair[:, 0] == group.member)
         for joint in np.unique(joint_of_connection[own]):
@@ -176,6 +176,21 @@ def face_bars(
         transformed_back(axes, directions),
         np.divide(by_opening, pulled_n, out=np.zeros(count), where=has_bars),
     )
+
+
+def within_reinforced(
+    layers: Sequence[BarLayer], members: Sequence[Member], member_of_shard: np.ndarray, connections: Connections
+) -> np.ndarray:
+    """Return whether each connection (m,) is between two shards of one member that has bars."""
+    of_pair = np.append(member_of_shard, -1)[connections.pairs]
+    reinforced = [group.member for group in layers_of_members(layers, members)]
+    return _are_within(of_pair) & np.isin(of_pair[:, 0], reinforced)
+
+
+def _are_within(of_pair: np.ndarray) -> np.ndarray:
+    """Whether connections between members (m, 2), -1 for the ground, are within one."""
+    within: np.ndarray = (of_pair[:, 0] == of_pair[:, 1]) & (of_pair[:, 0] >= 0)
+    return within
 
 
 def _corners(shards: Sequence[TriangleMesh], connections: Connections) -> tuple[np.ndarray, np.ndarray]:
