@@ -14,6 +14,7 @@ All arrays have their components first. Places are numbered corner by corner, in
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, fields
 from typing import TypeVar
 
@@ -54,8 +55,9 @@ concrete, G / E."""
 
 _COUNT = len(CORNERS)
 
-_HALVINGS = 6
-"""Halvings of the way from one guess to the next."""
+_MOST_SECANTS = 12
+_FLAT = 0.01
+"""Slope of the energy on the way from one guess to the next, by that at its beginning, which is taken for none."""
 
 _AGREES = 1e-4
 """Largest error of the force at a corner, by what its bars yield at, or presses its sides together so far."""
@@ -352,14 +354,13 @@ class CrackStep:
     ) -> tuple[FloatArray, FloatArray]:
         """Go from one guess towards the next as long as that takes energy off; what balances changes evenly."""
         step, change = coming - opening, coming_balance - balance
-        low, high = 0.0, 1.0
-        if float((self._out_of_balance(coming, coming_balance) * step).sum()) <= 0.0:
-            return coming, coming_balance
-        for _ in range(_HALVINGS):
-            share = 0.5 * (low + high)
-            rises = float((self._out_of_balance(opening + share * step, balance + share * change) * step).sum()) > 0.0
-            low, high = (low, share) if rises else (share, high)
-        return opening + high * step, balance + high * change
+
+        def slope(share: float) -> float:
+            out_of_balance = self._out_of_balance(opening + share * step, balance + share * change)
+            return float((out_of_balance * step).sum())
+
+        share = _zero_of(slope)
+        return opening + share * step, balance + share * change
 
     def joints(self) -> CrackJoints:
         """Return how the cracks resist changes of the motion that was guessed last."""
@@ -429,6 +430,28 @@ def _along(gaps_m: FloatArray, normals: FloatArray) -> FloatArray:
 def _friction(grips_n: FloatArray, pressed_n_m: FloatArray) -> Bars:
     """Friction of b pressed places, as of bars that yield at it and do not harden."""
     return Bars(grips_n, _SHEARED * pressed_n_m, np.zeros_like(grips_n))
+
+
+def _zero_of(slope: Callable[[float], float]) -> float:
+    """Return where a slope that grows becomes 0, from below 0 at 0 on; at most 1.
+
+    M. Dowell and P. Jarratt (1971), A modified regula falsi method for computing the root of an equation, BIT 11, for
+    the Illinois method.
+    """
+    low, high, at_low, at_high = 0.0, 1.0, slope(0.0), slope(1.0)
+    flat = _FLAT * abs(at_low)
+    if at_high <= 0.0 or at_low >= 0.0:
+        return 1.0
+    for _ in range(_MOST_SECANTS):
+        share = (low * at_high - high * at_low) / (at_high - at_low)
+        at_share = slope(share)
+        if abs(at_share) <= flat:
+            return share
+        if at_share < 0.0:
+            low, at_low, at_high = share, at_share, 0.5 * at_high
+        else:
+            high, at_high, at_low = share, at_share, 0.5 * at_low
+    return high
 
 
 def _joined(before: Numbers, added: Numbers) -> Numbers:
