@@ -40,14 +40,14 @@ Numbers = TypeVar("Numbers", FloatArray, IntArray, BoolArray)
 CORNERS = np.array([(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)])
 """Places as shares of half of the sides of the rectangle."""
 
-DOWEL_SHARE = 1.3 * 4.0 / np.pi * np.sqrt(35.0 / 500.0)
-"""Force across themselves that bars resist as dowels, by that along them: 1.3 d² √(f_c f_y) by π/4 d² f_y, for C35/45
-and B500 (B. H. Rasmussen, 1963, Bygningsstatiske Meddelelser 34, on bolts and dowels in concrete). Both together are
-on an ellipse, as normal and shear stress by von Mises' criterion.
+DOWEL_SHARE = 0.9 * np.sqrt(35.0 / 500.0)
+"""Force across themselves that bars resist as dowels, by that along them: 0.9 √(f_c / f_y) for rough cracks, of C35/45
+and B500 (fib Model Code 2010, equation 7.3-51 and table 7.3-2). Both together are on an ellipse, as normal and shear
+stress by von Mises' criterion.
 """
 
 FRICTION = 0.7
-"""Friction of the sides of a crack, which is rough: EN 1992-1-1:2004, 6.2.5 (2)."""
+"""Friction of the sides of a crack, which is rough: EN 1992-1-1:2004, 6.2.5 (2), and fib Model Code 2010, table 7.3-2."""
 
 _SHEARED = 0.4
 """Stiffness against sliding of sides that do not slip, by that against pressing: shear over normal stiffness of
