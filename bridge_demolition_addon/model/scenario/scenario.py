@@ -181,6 +181,7 @@ class Scenario(Table):
         object.__setattr__(self, "charges", named_charges(self.charges))
         self._check_slow_motion()
         object.__setattr__(self, "connections", self.connections.with_strength(self.fracture.shards))
+        object.__setattr__(self, "connections", self.connections.with_stiffness(self.materials))
         check_materials(self.materials)
         self._check_reinforcement()
         if not self.connections.is_elastic:
@@ -235,18 +236,19 @@ class Scenario(Table):
             raise self.connections.unexpected("foundation", "true with foundations: they connect to the ground")
 
     def _check_reinforcement(self) -> None:
-        connections, opening = self.connections, "ductile_elongation_m"
-        is_given = getattr(connections, opening) is not None
+        connections = self.connections
         if not self.reinforcement:
-            if is_given and connections.ductile_share == 0.0:
+            if connections.ductile_elongation_m is not None and connections.ductile_share == 0.0:
                 wanted = "none where connections.ductile_share is 0 and there is no [[reinforcement]]"
-                raise connections.unexpected(opening, wanted)
+                raise connections.unexpected("ductile_elongation_m", wanted)
+            if connections.ductile_share == 0.0:
+                connections.check_no_steel()
             return
         if connections.material is None:
             raise ScenarioError("connections.material is missing: expected it with [[reinforcement]]")
-        if not is_given:
-            wanted = "a number above 0 (m), how far a crack opens until bars rupture, with [[reinforcement]]"
-            raise ScenarioError(f"connections.{opening} is missing: expected {wanted}")
+        if not connections.is_elastic:
+            wanted = '"elastic" with [[reinforcement]]: bars between rigid bodies would make energy'
+            raise connections.unexpected("stiffness", wanted)
 
     def _check_slow_motion(self) -> None:
         blast = self.blast
