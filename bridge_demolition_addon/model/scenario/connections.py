@@ -227,8 +227,8 @@ class ConnectionSettings(JointSettings):
     stiffness: str | None = key(
         "Whether connections hold bodies rigidly, so that redundant ones share a load as the solver leaves it "
         "(`rigid`, as in 2019), or deform by their material, so that loads go where stiffness sends them (`elastic`). "
-        "`elastic` needs method `face`, a material with a modulus of elasticity, and `type` `FIXED` or `GENERIC`. Where "
-        "it is left out connections are elastic if they can be.",
+        "`elastic` needs method `face`, a material with a modulus of elasticity, and `type` `FIXED` or `GENERIC`. If "
+        "it is left out connections are elastic where they can be.",
         default=None,
         choices=("rigid", "elastic"),
     )

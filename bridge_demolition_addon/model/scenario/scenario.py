@@ -109,6 +109,11 @@ class Scenario(Table):
         return (own, *others, *pads, *self.connections.joints(self.materials, have_bars=True), *pads)
 
     @property
+    def is_reinforced(self) -> bool:
+        """Return whether bars hold where connections break."""
+        return bool(self.reinforcement) or self.connections.ductile_share > 0.0
+
+    @property
     def weighed_bridge(self) -> Bridge | None:
         """Return the bridge with the density of its material, where it gives neither a density nor its mass."""
         if self.bridge is None or self.bridge.density_kg_m3 is not None or self.bridge.mass_kg is not None:
@@ -182,6 +187,8 @@ class Scenario(Table):
         self._check_slow_motion()
         object.__setattr__(self, "connections", self.connections.with_strength(self.fracture.shards))
         object.__setattr__(self, "connections", self.connections.with_stiffness(self.materials))
+        if self.is_reinforced and self.connections.is_elastic:
+            object.__setattr__(self, "time", self.time.with_bars())
         check_materials(self.materials)
         self._check_reinforcement()
         if not self.connections.is_elastic:
