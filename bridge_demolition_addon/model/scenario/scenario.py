@@ -39,6 +39,7 @@ from .contacts import BodyInContact, ContactSettings, SurfaceValues, check_not_b
 from .fracture import FractureSettings
 from .geometry import Geometry
 from .jackhammer import Jackhammer
+from .reinforcement import BridgeReinforcement
 from .recording import PictureSettings, RecordingSettings
 from .site import Exclusion, Neighbour, Site, Zone
 from .structural_changes import Change, Removal, SawCut, Weakening
@@ -126,10 +127,18 @@ class Scenario(Table):
     @property
     def steel(self) -> Steel:
         steel, layers = self.connections.steel, self.reinforcement
+        if self.bars_by_rule:
+            return self.connections.steel_or(self.bars_by_rule.grade)
         if self.connections.ductile_yield_n_mm2 is not None or not layers:
             return steel
         yields = sum(layer.area_m2 * layer.yield_pa for layer in layers) / sum(layer.area_m2 for layer in layers)
         return replace(steel, yield_pa=yields)
+
+    @property
+    def bars_by_rule(self) -> BridgeReinforcement | None:
+        """Return the rule that the bridge has bars by; None where it has none."""
+        rule = self.bridge.reinforcement if self.bridge else None
+        return rule if rule and rule.has_bars else None
 
     @property
     def warm_up_s(self) -> float:
@@ -235,15 +244,16 @@ class Scenario(Table):
     def _check_reinforcement(self) -> None:
         connections, opening = self.connections, "ductile_elongation_m"
         is_given = getattr(connections, opening) is not None
-        if not self.reinforcement:
+        table = "[[reinforcement]]" if self.reinforcement else "[bridge.reinforcement]"
+        if not self.reinforcement and not self.bars_by_rule:
             if is_given and connections.ductile_share == 0.0:
                 wanted = "none where connections.ductile_share is 0 and there is no [[reinforcement]]"
                 raise connections.unexpected(opening, wanted)
             return
         if connections.material is None:
-            raise ScenarioError("connections.material is missing: expected it with [[reinforcement]]")
+            raise ScenarioError(f"connections.material is missing: expected it with {table}")
         if not is_given:
-            wanted = "a number above 0 (m), how far a crack opens until bars rupture, with [[reinforcement]]"
+            wanted = f"a number above 0 (m), how far a crack opens until bars rupture, with {table}"
             raise ScenarioError(f"connections.{opening} is missing: expected {wanted}")
 
     def _check_slow_motion(self) -> None:
