@@ -7,6 +7,8 @@ from ..model.actions import Fact, PlannedAction
 from ..model.bridge.layout import bridge_facts
 from ..model.bridge.member import member_facts
 from ..model.bridge.preparation import prepared_members
+from ..model.reinforcement.design import bar_schedule
+from ..model.reinforcement.facts import schedule_facts
 from ..model.scenario import Charge, Scenario
 from ..model.scenario.contact_facts import contact_facts
 from ..model.scenario.file import read_scenario
@@ -51,6 +53,9 @@ def scenario_facts(scenario: Scenario, *, stand: bool = False) -> Iterator[str]:
     yield from _section("Members", member_facts(prepared.members))
     if prepared.notes:
         yield from _section("Repaired", (note.partition(": ")[::2] for note in prepared.notes))
+    if scenario.bars_by_rule:
+        schedule = bar_schedule(scenario, prepared.members)
+        yield from _section("Reinforcement", schedule_facts(scenario, prepared.members, schedule))
     yield from _section("Time", scenario.time.facts(scenario.timeline))
     model = checked_model(scenario, prepared.members)
     if not model.ground.is_plain:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from scipy.linalg import solveh_banded
@@ -20,6 +21,9 @@ _FEWEST_ELEMENTS = 4
 _OF_OVERHANG = 4
 _RIGID = 1e12
 """Stiffness of supports, by that of the beam over its span cubed."""
+
+
+_ROUNDING_M = 1e-9
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -45,6 +49,7 @@ class MovingLoad:
     offsets_m: tuple[float, ...] = ()
     uniform_n_m: float = 0.0
     hogging_only: bool = False  # counts for moments over supports and reactions alone
+    clear_m: float = 0.0  # least distance of all axles from the ends; with 0 some may be off the beam
 
 
 def influence_lines(supports_m: Sequence[float], begin_m: float, end_m: float) -> InfluenceLines:
@@ -76,7 +81,7 @@ def _points(supports_m: Sequence[float], begin_m: float, end_m: float) -> tuple[
     elements = max(_FEWEST_ELEMENTS, min(_ELEMENTS, _MOST_ELEMENTS // max(len(supports_m) - 1, 1)))
     ends = [begin_m, *supports_m, end_m]
     points, supports = [ends[0]], []
-    for number, (start, end) in enumerate(zip(ends[:-1], ends[1:], strict=True)):
+    for number, (start, end) in enumerate(pairwise(ends)):
         if end > start:
             inner = 0 < number < len(ends) - 2
             parts = elements if inner or len(supports_m) == 1 else _OF_OVERHANG
@@ -113,8 +118,7 @@ def _section_forces(lengths: FloatArray, moved: FloatArray) -> tuple[FloatArray,
 
 def permanent_effects(points_m: FloatArray, lines: FloatArray, uniform_n_m: float) -> FloatArray:
     """Return the effects (s,) of a load over the whole beam, of influence lines (s, n)."""
-    effects: FloatArray = uniform_n_m * np.trapezoid(lines, points_m, axis=1)
-    return effects
+    return uniform_n_m * np.asarray(np.trapezoid(lines, points_m, axis=1), float)
 
 
 def extreme_effects(
@@ -145,7 +149,13 @@ def _positions(points_m: FloatArray, load: MovingLoad) -> FloatArray:
     axles, offsets = np.array(load.axles_n), np.array(load.offsets_m)
     rows = []
     for distances in (offsets, -offsets):
-        places = (points_m[:, None] - distances[None, :]).ravel()[:, None] + distances[None, :]
+        stops = points_m
+        if load.clear_m:
+            stops = np.concatenate((points_m, (points_m[0] + load.clear_m, points_m[-1] - load.clear_m)))
+        places = (stops[:, None] - distances[None, :]).ravel()[:, None] + distances[None, :]
+        if load.clear_m:
+            low, high = points_m[0] + load.clear_m - _ROUNDING_M, points_m[-1] - load.clear_m + _ROUNDING_M
+            places = places[((places >= low) & (places <= high)).all(axis=1)]
         rows.append(_shared(points_m, places, axles))
     return np.concatenate(rows)
 

@@ -9,7 +9,7 @@ from ..elasticity.steel_bars import Steel
 
 PERMANENT_FACTOR = 1.35
 VARIABLE_FACTOR = 1.5
-"""γ_G and γ_Q: EN 1990:2002, table A1.2(B). Its annex A2 has 1.35 for road traffic, so that this is on the safe side."""
+"""γ_G and γ_Q: EN 1990:2002, table A1.2(B). Its annex A2 has 1.35 for road traffic: this is on the safe side."""
 
 CONCRETE_FACTOR = 1.5
 STEEL_FACTOR = 1.15

@@ -18,8 +18,9 @@ def without_links_n(width_m: float, depth_m: float, bars_m2: float, concrete: Co
     size = min(1.0 + math.sqrt(0.2 / depth_m), 2.0)
     ratio = min(bars_m2 / (width_m * depth_m), 0.02)
     f_ck = concrete.strength_pa / _MEGA
-    stress = 0.18 / CONCRETE_FACTOR * size * (100.0 * ratio * f_ck) ** (1.0 / 3.0)
-    return max(stress, 0.035 * size**1.5 * math.sqrt(f_ck)) * _MEGA * width_m * depth_m
+    stress = 0.18 / CONCRETE_FACTOR * size * math.cbrt(100.0 * ratio * f_ck)
+    least = 0.035 * math.sqrt(size**3 * f_ck)
+    return max(stress, least) * _MEGA * width_m * depth_m
 
 
 @dataclass(frozen=True, slots=True)

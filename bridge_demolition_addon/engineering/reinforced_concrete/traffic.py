@@ -30,6 +30,7 @@ class Traffic:
     uniform_factors: tuple[float, ...]
     rest_n_m2: float  # on the carriageway beside the lanes
     wheel_distance_m: float  # across a vehicle
+    edge_m: float  # least distance of a wheel from the edge of the carriageway
     presence: tuple[float, ...] = ()  # factor on all lanes if so many are loaded; empty for 1
 
     @property
@@ -84,11 +85,15 @@ class Traffic:
             for load in self.loads
         )
 
-    def wheels_across(self, strip_m: float) -> tuple[MovingLoad, ...]:
+    def clear_m(self, deck_m: float) -> float:
+        """Return the least distance of a wheel from the edge of a deck with the carriageway in its middle."""
+        return 0.5 * (deck_m - self.carriageway_m) + self.edge_m
+
+    def wheels_across(self, strip_m: float, deck_m: float) -> tuple[MovingLoad, ...]:
         """Return the wheels of one lane, of two and so on, side by side, on a strip of slab that spans across the road.
 
         `strip_m` is the length along the road over which one axle is spread; loads are those by length along the
-        road.
+        road. `deck_m` is the width of the deck.
         """
         intensity = max(_by_length(load, strip_m) for load in self.loads)
         even = max(load.uniform_n_m for load in self.loads) / self.lane_m
@@ -100,7 +105,7 @@ class Traffic:
                 force = 0.5 * self.presence_of(loaded) * self.axle_factors[lane] * intensity
                 forces += [force, force]
                 offsets += [lane * self.lane_m, lane * self.lane_m + 2.0 * wheels]
-            across.append(MovingLoad(tuple(forces), tuple(offsets), even))
+            across.append(MovingLoad(tuple(forces), tuple(offsets), even, clear_m=self.clear_m(deck_m)))
         return tuple(across)
 
 
@@ -139,8 +144,16 @@ def load_model_1(carriageway_m: float) -> Traffic:
         lanes, lane = int(carriageway_m / 3.0 + 1e-9), 3.0
     axles = (300.0, 200.0, 100.0, *[0.0] * lanes)[:lanes]
     tandem = MovingLoad((_KILO,) * 2, (0.0, 1.2), _KILO * lane)
+    wheels = min(2.0, 0.8 * lane)
     return Traffic(
-        carriageway_m, lane, (tandem,), axles, (9.0, *[2.5] * (lanes - 1)), 2.5 * _KILO, min(2.0, 0.8 * lane)
+        carriageway_m,
+        lane,
+        (tandem,),
+        axles,
+        (9.0, *[2.5] * (lanes - 1)),
+        2.5 * _KILO,
+        wheels,
+        0.5 * (lane - wheels),
     )
 
 
@@ -161,7 +174,18 @@ def hl_93(carriageway_m: float) -> Traffic:
     two = tuple(0.9 * impact * force for force in truck * 2)
     loads.append(MovingLoad(two, (0.0, 4.3, 8.6, 23.6, 27.9, 32.2), 0.9 * uniform, hogging_only=True))
     ones = (1.0,) * lanes
-    return Traffic(carriageway_m, lane, tuple(loads), ones, ones, 0.0, min(1.8, 0.8 * lane), (1.2, 1.0, 0.85, 0.65))
+    wheels = min(1.8, 0.8 * lane)
+    return Traffic(
+        carriageway_m,
+        lane,
+        tuple(loads),
+        ones,
+        ones,
+        0.0,
+        wheels,
+        min(0.3, 0.5 * (lane - wheels)),
+        (1.2, 1.0, 0.85, 0.65),
+    )
 
 
 def own_traffic(
@@ -171,13 +195,14 @@ def own_traffic(
     offsets = (0.0, *np.cumsum(np.array(distances_m, float)).tolist())[: len(axles_n)]
     lane = min(3.0, carriageway_m)
     load = MovingLoad(tuple(axles_n), tuple(offsets), uniform_n_m2 * lane)
-    return Traffic(carriageway_m, lane, (load,), (1.0,), (1.0,), uniform_n_m2, min(2.0, 0.8 * lane))
+    wheels = min(2.0, 0.8 * lane)
+    return Traffic(carriageway_m, lane, (load,), (1.0,), (1.0,), uniform_n_m2, wheels, 0.5 * (lane - wheels))
 
 
 def lever_rule(supports_m: FloatArray, number: int) -> Callable[[FloatArray], FloatArray]:
     """Return what one of several beams carries of a unit load by its position across them.
 
-    The slab between beams is taken for hinged over each, and cantilevers beyond the outer ones: AASHTO LRFD, C4.6.2.2.1.
+    The slab is taken for hinged over each beam, and for a cantilever beyond the outer ones: AASHTO LRFD, C4.6.2.2.1.
     """
     if len(supports_m) == 1:
         return np.ones_like
@@ -192,13 +217,13 @@ def lever_rule(supports_m: FloatArray, number: int) -> Callable[[FloatArray], Fl
     return share
 
 
-def strip_widths_m(span_m: float, overhang_m: float) -> tuple[float, float]:
+def strip_widths_m(span_m: float, beyond_m: float) -> tuple[float, float]:
     """Return the length along the road over which a slab across beams shares an axle: for sagging and for hogging.
 
     AASHTO LRFD, table 4.6.2.1.3-1, cast in place: 0.66 + 0.55 S, 1.22 + 0.25 S, and 1.14 + 0.833 X of an overhang with
-    the wheel at X from the outer beam, here 0.3 m from its edge.
+    the wheel at X from the outer beam, `beyond_m`; it is below 0 where no wheel gets there.
     """
     hogging = 1.22 + 0.25 * span_m if span_m > 0.0 else math.inf
-    if overhang_m > 0.3:
-        hogging = min(hogging, 1.14 + 0.833 * (overhang_m - 0.3))
+    if beyond_m > 0.0:
+        hogging = min(hogging, 1.14 + 0.833 * beyond_m)
     return 0.66 + 0.55 * span_m, hogging if math.isfinite(hogging) else 1.22

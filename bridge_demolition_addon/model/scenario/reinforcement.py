@@ -37,7 +37,9 @@ class RatiosOfMember(Table):
 
     def _check_together(self) -> None:
         if not any(getattr(self, name) for name in RATIOS):
-            raise ScenarioError(f"{self.table} of {self.member} has no ratio above 0: expected one of {', '.join(RATIOS)}")
+            raise ScenarioError(
+                f"{self.table} of {self.member} has no ratio above 0: expected one of {', '.join(RATIOS)}"
+            )
 
 
 RATIOS = (
@@ -155,7 +157,9 @@ class BridgeReinforcement(Table):
 
     def refused(self, why: str) -> ScenarioError:
         """Return the error of a load that the bridge cannot be designed for."""
-        name = next((n for n in ("designed_for", "traffic_kn_m2", "axles_kn") if getattr(self, n) is not None), "ratios")
+        name = next(
+            (n for n in ("designed_for", "traffic_kn_m2", "axles_kn") if getattr(self, n) is not None), "ratios"
+        )
         value = getattr(self, name)
         shown = f'"{value}"' if isinstance(value, str) else f"{value}"
         return ScenarioError(f"{self.table}.{name} is {shown}: {why}")

@@ -39,8 +39,8 @@ from .contacts import BodyInContact, ContactSettings, SurfaceValues, check_not_b
 from .fracture import FractureSettings
 from .geometry import Geometry
 from .jackhammer import Jackhammer
-from .reinforcement import BridgeReinforcement
 from .recording import PictureSettings, RecordingSettings
+from .reinforcement import BridgeReinforcement
 from .site import Exclusion, Neighbour, Site, Zone
 from .structural_changes import Change, Removal, SawCut, Weakening
 from .time import MOST_FRAMES, TimeSettings
