@@ -12,6 +12,7 @@ from ..model.reinforcement.facts import schedule_facts
 from ..model.scenario import Charge, Scenario
 from ..model.scenario.contact_facts import contact_facts
 from ..model.scenario.file import read_scenario
+from ..model.scenario.scenario import bars_by_rule
 from ..model.sequence.checked_model import ModelWorksite, checked_model
 from ..model.stages.standing import made_elastic
 from ..model.structure.facts import accuracy_facts, connection_facts, foundation_facts, overlap_facts, rest_facts
@@ -53,7 +54,7 @@ def scenario_facts(scenario: Scenario, *, stand: bool = False) -> Iterator[str]:
     yield from _section("Members", member_facts(prepared.members))
     if prepared.notes:
         yield from _section("Repaired", (note.partition(": ")[::2] for note in prepared.notes))
-    if scenario.bars_by_rule:
+    if bars_by_rule(scenario):
         schedule = bar_schedule(scenario, prepared.members)
         yield from _section("Reinforcement", schedule_facts(scenario, prepared.members, schedule))
     yield from _section("Time", scenario.time.facts(scenario.timeline))

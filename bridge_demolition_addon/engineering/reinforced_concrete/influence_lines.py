@@ -15,10 +15,10 @@ from scipy.linalg import solveh_banded
 
 from ..arrays import FloatArray
 
-_ELEMENTS = 32
+_ELEMENTS = 64
 _MOST_ELEMENTS = 960
 _FEWEST_ELEMENTS = 4
-_OF_OVERHANG = 4
+_OF_OVERHANG = 8
 _RIGID = 1e12
 """Stiffness of supports, by that of the beam over its span cubed."""
 

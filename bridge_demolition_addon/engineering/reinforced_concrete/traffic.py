@@ -218,7 +218,7 @@ def lever_rule(supports_m: FloatArray, number: int) -> Callable[[FloatArray], Fl
 
 
 def strip_widths_m(span_m: float, beyond_m: float) -> tuple[float, float]:
-    """Return the length along the road over which a slab across beams shares an axle: for sagging and for hogging.
+    """Return the length along the road over which a slab across beams shares an axle: between them and over them.
 
     AASHTO LRFD, table 4.6.2.1.3-1, cast in place: 0.66 + 0.55 S, 1.22 + 0.25 S, and 1.14 + 0.833 X of an overhang with
     the wheel at X from the outer beam, `beyond_m`; it is below 0 where no wheel gets there.

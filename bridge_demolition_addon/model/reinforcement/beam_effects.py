@@ -36,9 +36,14 @@ class BeamEffects:
         return float(max(-self.least_nm.min(), 0.0))
 
     def shear_beyond_n(self, supports_m: Sequence[float], distance_m: float) -> float:
-        """Return the largest shear force farther from all supports than a distance; 0 where nothing is."""
+        """Return the largest shear force farther from all supports than a distance; 0 where nothing is.
+
+        Between two points a shear is that of axles at or beyond the next one: so the part before the distance counts.
+        """
         apart = np.abs(self.lines.between_m[:, None] - np.array(supports_m)).min(axis=1)
-        return float(self.shears_n[apart >= distance_m].max(initial=0.0))
+        before = 1.5 * np.diff(self.lines.points_m)
+        is_beyond = (apart >= distance_m - before) & (apart.max() >= distance_m)
+        return float(self.shears_n[is_beyond].max(initial=0.0))
 
     def hogging_beyond_nm(self, supports_m: Sequence[float], distance_m: float) -> float:
         """Return the largest hogging moment at the faces of supports or farther from these."""

@@ -10,6 +10,7 @@ from ..bridge.substructure import substructure
 from ..bridge.superstructure import superstructure
 from ..materials.materials import strengths
 from ..scenario import Scenario
+from ..scenario.scenario import bars_by_rule
 
 _TORN_BY_CRUSHED = 0.25
 """Tensile by compressive strength from which on a material of the user is no concrete, as steel or timber."""
@@ -93,6 +94,6 @@ def _kind_or_name(member: Named, plain: Sequence[Named], members: Iterable[Named
 def _with_bars(scenario: Scenario) -> set[str]:
     """Return names and kinds of members with bars."""
     named = {name for layer in scenario.reinforcement for name in layer.members}
-    if rule := scenario.bars_by_rule:
+    if rule := bars_by_rule(scenario):
         named |= {table.member for table in rule.ratios} or names_of_bridge(scenario)
     return named

@@ -14,6 +14,7 @@ from ..materials.bar_layers import BarLayer
 from ..materials.materials import strengths
 from ..scenario import Bridge, Scenario
 from ..scenario.reinforcement import BridgeReinforcement
+from ..scenario.scenario import bars_by_rule
 from ..schema import given
 from .concrete_members import is_concrete, names_of_bridge
 from .design_basis import DesignBasis
@@ -38,7 +39,7 @@ def all_layers(scenario: Scenario, members: Sequence[Member]) -> tuple[BarLayer,
 
 def bar_schedule(scenario: Scenario, members: Sequence[Member]) -> Schedule:
     """Return the bars of a bridge by its rule; of no member that `[[reinforcement]]` names, nor one not of concrete."""
-    rule = scenario.bars_by_rule
+    rule = bars_by_rule(scenario)
     if rule is None:
         return Schedule()
     bridge = given(scenario.weighed_bridge)

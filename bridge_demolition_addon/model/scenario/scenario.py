@@ -127,18 +127,12 @@ class Scenario(Table):
     @property
     def steel(self) -> Steel:
         steel, layers = self.connections.steel, self.reinforcement
-        if self.bars_by_rule:
-            return self.connections.steel_or(self.bars_by_rule.grade)
+        if rule := bars_by_rule(self):
+            return self.connections.steel_or(rule.grade)
         if self.connections.ductile_yield_n_mm2 is not None or not layers:
             return steel
         yields = sum(layer.area_m2 * layer.yield_pa for layer in layers) / sum(layer.area_m2 for layer in layers)
         return replace(steel, yield_pa=yields)
-
-    @property
-    def bars_by_rule(self) -> BridgeReinforcement | None:
-        """Return the rule that the bridge has bars by; None where it has none."""
-        rule = self.bridge.reinforcement if self.bridge else None
-        return rule if rule and rule.has_bars else None
 
     @property
     def warm_up_s(self) -> float:
@@ -245,7 +239,7 @@ class Scenario(Table):
         connections, opening = self.connections, "ductile_elongation_m"
         is_given = getattr(connections, opening) is not None
         table = "[[reinforcement]]" if self.reinforcement else "[bridge.reinforcement]"
-        if not self.reinforcement and not self.bars_by_rule:
+        if not self.reinforcement and not bars_by_rule(self):
             if is_given and connections.ductile_share == 0.0:
                 wanted = "none where connections.ductile_share is 0 and there is no [[reinforcement]]"
                 raise connections.unexpected(opening, wanted)
@@ -292,3 +286,9 @@ def _action_fields(scenario_class: type[Table]) -> tuple[str, ...]:
 def bearing_tables(scenario: Scenario) -> tuple[Bearing, ...]:
     """Return all bearings, first those that count before others: the scenario's own, then those of its bridge."""
     return (*scenario.bearings, *(scenario.bridge.bearing_tables if scenario.bridge else ()))
+
+
+def bars_by_rule(scenario: Scenario) -> BridgeReinforcement | None:
+    """Return the rule that a bridge has bars by; None where it has none."""
+    rule = scenario.bridge.reinforcement if scenario.bridge else None
+    return rule if rule and rule.has_bars else None
