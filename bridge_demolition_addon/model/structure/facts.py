@@ -95,7 +95,7 @@ def _bar_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
         resisted = ", ".join(f"{moment / 1000.0:.4g} kN·m with its {side} pressed" for side, moment in moments)
         yield "reinforcement", f"{model.members[group.member].name}, along {AXES[along]}: {resisted}"
     if text := plain_concrete_text(scenario):
-        yield "reinforcement", text
+        yield "without bars", text
 
 
 def rest_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
