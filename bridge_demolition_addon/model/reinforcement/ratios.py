@@ -35,7 +35,7 @@ def ratio_bars(basis: DesignBasis) -> Iterator[ScheduledBars | ScheduledLinks]:
 
 
 def _of_member(basis: DesignBasis, member: Member, table: RatiosOfMember) -> Iterator[ScheduledBars | ScheduledLinks]:
-    extents = np.ptp(member.solid.vertices, axis=0)
+    extents = np.ptp(member.without_skew(member.solid.vertices), axis=0)
     outside = basis.rule.cover_m + basis.link_m + 0.5 * basis.bar_m
     for name, (side, along) in _SIDES.items():
         if ratio := getattr(table, name):

@@ -23,8 +23,9 @@ from ..materials.bar_layers import AXES, BarLayer, ReinforcedSection
 class LayersOfMember:
     """Layers of bars of a member that run the same way, beside the same two sides.
 
-    The member lies between `lowest` and `highest` along the axis across the layers, m, and the layers at `levels_m`,
-    where it is as wide as `widths_m`; `width_m` is its whole width.
+    All is that of the member without skew: its layers are skewed with it. It lies between `lowest` and `highest` along
+    the axis across the layers, m, and the layers at `levels_m`, where it is as wide as `widths_m`; `width_m` is its
+    whole width.
     """
 
     member: int
@@ -67,9 +68,10 @@ def layers_of_members(layers: Sequence[BarLayer], members: Sequence[Member]) -> 
 
 def _together(index: int, member: Member, layers: tuple[BarLayer, ...], axes: tuple[int, int, int]) -> LayersOfMember:
     _, across, beside = axes
-    lowest, highest = (getattr(member.solid.vertices, which)(axis=0) for which in ("min", "max"))
+    corners = member.without_skew(member.solid.corners)
+    lowest, highest = (getattr(corners, which)(axis=(0, 1)) for which in ("min", "max"))
     levels = tuple(float(layer.level_m(lowest[across], highest[across])) for layer in layers)
-    widths = [_width(member.solid, across, beside, level) for level in levels]
+    widths = [_width(corners, across, beside, level) for level in levels]
     for layer, width in zip(layers, widths, strict=True):
         if width <= 0.0:
             thickness = highest[across] - lowest[across]
@@ -81,8 +83,8 @@ def _together(index: int, member: Member, layers: tuple[BarLayer, ...], axes: tu
     return LayersOfMember(index, layers, float(lowest[across]), float(highest[across]), width_m, levels, tuple(widths))
 
 
-def _width(solid: TriangleMesh, across: int, beside: int, level: float) -> float:
-    _, points = _crossings(solid.corners, across, level)
+def _width(corners: np.ndarray, across: int, beside: int, level: float) -> float:
+    _, points = _crossings(corners, across, level)
     return float(np.ptp(points[..., beside])) if len(points) else 0.0
 
 
@@ -131,11 +133,13 @@ def face_bars(
             if strength is None or not len(rows):
                 continue
             forces = group.section(strength.compression_pa, factor).across_cracks_n()
+            member = members[group.member]
             face, corners = _corners(shards, connections.only(rows))
+            corners = member.without_skew(corners)
             for force, level, width in zip(forces, group.levels_m, group.widths_m, strict=True):
                 pulls, positions = _pulls(face, corners, group.axes, level, force / width, len(rows))
                 yield_n[rows] += pulls
-                by_position[rows] += positions
+                by_position[rows] += member.with_skew(positions)
     positions = np.divide(by_position, yield_n[:, None], out=connections.points.copy(), where=yield_n[:, None] > 0.0)
     across = section_axes(connections.normals)[:, :, 1:]
     return FaceBars(yield_n, transformed_back(across, positions - connections.points))
