@@ -39,9 +39,9 @@ _COLUMNS = (
 )
 
 _NOTES = (
-    "Used: area that the design requires by the area of the bars. Bars run along the whole of a member, those at the "
-    "top as well; laps, hooks and bars that detailing adds are not in it. Fatigue, widths of cracks, punching and torsion "
-    "are not designed for."
+    "Used: area that the design requires by the area of the bars. Bars run along the whole of a member, at the top as "
+    "well; laps, hooks and bars that detailing adds are not in it. Fatigue, widths of cracks, punching and torsion are "
+    "not designed for."
 )
 
 

@@ -7,12 +7,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from support.bridges_by_rule import CAPS, LM1, OWN_WEIGHT, PIERS, bridge, layer, links, scenario, scheduled
+from support.checkout import ROOT
 
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.bridge.preparation import prepared_members
 from bridge_demolition_addon.model.materials.bar_layers import ReinforcedSection
 from bridge_demolition_addon.model.reinforcement.design import all_layers, bar_schedule
+from bridge_demolition_addon.model.reinforcement.facts import schedule_facts
 from bridge_demolition_addon.model.scenario import (
     Abutments,
     BarLayer,
@@ -24,6 +26,7 @@ from bridge_demolition_addon.model.scenario import (
     Piers,
     RatiosOfMember,
 )
+from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.structure.face_bars import layers_of_members
 from bridge_demolition_addon.model.structure.model import build_model
 
@@ -392,3 +395,23 @@ def test_concrete_is_needed():
     plan = replace(plan, connections=replace(plan.connections, material="steel"))
     with pytest.raises(ScenarioError, match=r'connections.material is "steel": expected concrete'):
         bar_schedule(plan, prepared_members(plan).members)
+
+
+def test_the_page_shows_what_is_printed():
+    """Rows of the schedule in docs/reinforcement.md, of the example that it names."""
+    plan = read_scenario(ROOT / "examples" / "two_spans_13m_ball.toml")
+    connections = replace(plan.connections, ductile_elongation_m=0.05)
+    kg_m3 = {}
+    for designed_for in ("LM1", "HL-93", "own weight"):
+        rule = BridgeReinforcement(designed_for=designed_for)
+        ruled = replace(plan, connections=connections, bridge=replace(plan.bridge, reinforcement=rule))
+        members = prepared_members(ruled).members
+        schedule = bar_schedule(ruled, members)
+        kg_m3[designed_for] = next(steel / concrete for kind, steel, concrete in schedule.masses(members))
+        if designed_for == "LM1":
+            lines = [f"  {name:<24}{value}" for name, value in schedule_facts(ruled, members, schedule)]
+    page = (ROOT / "docs" / "reinforcement.md").read_text(encoding="utf-8")
+    shown = page.partition('`designed_for = "LM1"`:\n\n```\n')[2].partition("```")[0].splitlines()
+    assert len(shown) == 5 and set(shown) <= set(lines)
+    assert [round(value) for value in kg_m3.values()] == [137, 92, 53]
+    assert "have 92 kg/m³, for their own weight alone\n53." in page
