@@ -24,6 +24,7 @@ _PLANES = {0: (1, 2), 1: (0, 2), 2: (1, 0)}
 
 _AXIS_OF_KIND = {"deck": 0, "girder": 0, "pier cap": 1, "pier": 2, "abutment": 2}
 _NAMES = {0: "x along the road (m)", 1: "y across the road (m)", 2: "height (m)"}
+_SHORT = "xyz"
 _CONCRETE, _ACROSS, _BARS = "0.9", "#2166ac", "#b2182b"
 _LINE = 0.09
 """Distance of labels below each other, by the height of the axes."""
@@ -74,7 +75,7 @@ def _draw(axes: Axes, section: MemberSection, schedule: Schedule) -> None:
         for ring in rings:
             colour = "white" if _is_hole(ring) else _CONCRETE
             axes.add_patch(Polygon(ring, facecolor=colour, edgecolor="black", linewidth=0.8))
-        for row in (row for row in schedule.bars if member.name in row.members):
+        for row in (row for row in schedule.bars if member.name in row.members and _is_at(row, section)):
             if row.layer.axes[0] == section.axis:
                 _draw_points(axes, bar_positions(row, member, section), row)
             elif row.layer.axes[1] != section.axis:
@@ -84,8 +85,15 @@ def _draw(axes: Axes, section: MemberSection, schedule: Schedule) -> None:
     axes.set_aspect("equal", adjustable="datalim")
     axes.autoscale_view()
     axes.set(xlabel=_NAMES[right], ylabel=_NAMES[up])
-    axes.set_title(plain(section.title), fontsize=9)
+    at = f", {_SHORT[section.axis]} = {section.at_m:.2f} m"
+    axes.set_title(plain(section.title + at), fontsize=9)
     _write(axes, labels)
+
+
+def _is_at(row: ScheduledBars, section: MemberSection) -> bool:
+    """Return whether bars that cross the plane of a section go as far as it."""
+    begin, end = row.layer.ends_m
+    return row.layer.axes[0] != section.axis or begin <= section.at_m <= end
 
 
 def _label(row: ScheduledBars) -> str:

@@ -50,11 +50,12 @@ def scheduled(of_bridge):
     return bar_schedule(plan, prepared_members(plan).members)
 
 
-def layer(schedule, member, side, along):
-    """The rows of a schedule of a member's layers at a side."""
-    return [
+def layer(schedule, member, side, along, at_m=None):
+    """The rows of a schedule of a member's layers at a side, or of those that go through a position along them."""
+    rows = [
         row for row in schedule.bars if member in row.members and (row.layer.side, row.layer.along) == (side, along)
     ]
+    return [row for row in rows if at_m is None or row.layer.ends_m[0] <= at_m <= row.layer.ends_m[1]]
 
 
 def links(schedule, member):

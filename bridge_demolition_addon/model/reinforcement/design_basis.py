@@ -37,6 +37,9 @@ _NARROW_M = 1.0
 _MOST_SPACING_M = 0.25
 """Largest distance of bars; EN 1992-1-1:2004, 9.3.1.1 (3), allows up to 0.4 m in slabs."""
 
+LEAST = "least area"
+"""Reason of bars that no load asks for."""
+
 _LINK_DIAMETERS_M = (0.010, 0.012, 0.014, 0.016, 0.020)
 _LEAST_LINK_SPACING_M = 0.08
 _MOST_LEGS_APART_M = 0.6
@@ -161,7 +164,7 @@ class DesignBasis:
         least = self.of_beam_m2(width_m, effective) if least_m2 is None else least_m2(effective)
         required, reason = for_moment.area_m2, f"M_Ed = {moment_nm / _KILO:.0f} kN·m"
         if least > required:
-            required, reason = least, "least area"
+            required, reason = least, LEAST
         if required > LARGEST_SHARE * width_m * shape.height_m:
             raise self.refused(
                 f"{name} needs {_MM2 * required:.0f} mm² of bars, {required / width_m / shape.height_m:.1%} of its "
@@ -201,8 +204,12 @@ class DesignBasis:
         section_m2: float,
         length_m: float,
         depth_m: float | None = None,
+        between_m: tuple[float, float] | None = None,
     ) -> ScheduledBars:
-        """Return a layer of the schedule; `depth_m` below its side where that is not the one of its section."""
+        """Return a layer of the schedule; `depth_m` below its side where that is not the one of its section.
+
+        `between_m` are positions along the bars where these do not run along the whole member.
+        """
         layer = BarLayer(
             members=tuple(names),
             along=along,
@@ -210,6 +217,8 @@ class DesignBasis:
             depth_m=found.depth_m if depth_m is None else depth_m,
             area_mm2=found.choice.area_m2 * _MM2,
             yield_n_mm2=self.yield_pa / _MM2,
+            from_m=None if between_m is None else between_m[0],
+            to_m=None if between_m is None else between_m[1],
         )
         return ScheduledBars(layer, kind, found.choice, section_m2, found.required_m2, found.reason, length_m)
 
@@ -237,7 +246,7 @@ class DesignBasis:
         if shear_n <= concrete_n:
             if is_slab:
                 return None
-            needed, reason = Links(least, 2.5), "least area"
+            needed, reason = Links(least, 2.5), LEAST
         else:
             found = links(shear_n, width_m, depth_m, self.concrete, self.design_yield_pa)
             if found is None:
@@ -247,7 +256,7 @@ class DesignBasis:
                 )
             needed, reason = found, f"V_Ed = {shear_n / _KILO:.0f} kN"
             if least > found.area_m2_m:
-                needed, reason = Links(least, found.cot_strut), "least area"
+                needed, reason = Links(least, found.cot_strut), LEAST
         most = min(0.75 * depth_m, 0.6 if is_slab else 0.3)  # 9.2.2 (6)
         apart = 1.5 * depth_m if is_slab else min(0.75 * depth_m, _MOST_LEGS_APART_M)  # 9.3.2 (5) and 9.2.2 (8)
         legs = max(2 * webs, webs * (1 + int(np.ceil((width_m / webs - 2.0 * self.rule.cover_m) / apart - 1e-9))))

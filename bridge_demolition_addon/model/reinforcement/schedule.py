@@ -50,7 +50,8 @@ class ScheduledBars:
 
     @property
     def where(self) -> str:
-        return f"{self.layer.side} at {_MM * self.layer.depth_m:.0f} mm, along {self.layer.along}"
+        between = "" if self.layer.from_m is None else f", {self.layer.from_m:.1f} to {self.layer.to_m:.1f} m"
+        return f"{self.layer.side} at {_MM * self.layer.depth_m:.0f} mm, along {self.layer.along}{between}"
 
     @property
     def bars_text(self) -> str:
@@ -164,6 +165,11 @@ def _without(rows: Sequence[_Row], names: Collection[str]) -> Iterator[_Row]:
 def named_text(row: ScheduledBars | ScheduledLinks) -> str:
     """Return the members of a row, by kind where it has several."""
     return row.members[0] if len(row.members) == 1 else f"{len(row.members)} × {row.kind}"
+
+
+def row_area(row: ScheduledBars | ScheduledLinks) -> float:
+    """Return the area of a layer, mm², or of links by length, mm²/m."""
+    return row.layer.area_mm2 if isinstance(row, ScheduledBars) else row.link_area_mm2_per_m
 
 
 def row_text(row: ScheduledBars | ScheduledLinks) -> str:

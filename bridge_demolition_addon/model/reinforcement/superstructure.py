@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...engineering.reinforced_concrete.bar_choice import BarChoice
 from ...engineering.reinforced_concrete.bending import PressedShape, flange_width_m
 from ...engineering.reinforced_concrete.influence_lines import (
     InfluenceLines,
@@ -19,7 +20,7 @@ from ..bridge.layout import deck_ends, pier_axes
 from ..bridge.member import Member
 from ..schema import given
 from .beam_effects import BeamEffects, beam_effects
-from .design_basis import DesignBasis, Tension
+from .design_basis import LEAST, DesignBasis, Tension
 from .schedule import ScheduledBars, ScheduledLinks
 
 Rows = Iterator[ScheduledBars | ScheduledLinks]
@@ -28,6 +29,10 @@ _KILO = 1e3
 _AT_SIMPLE_END = {True: 0.25, False: 0.15}
 """Moment at an end that is free to turn in design, by that in the span, of slabs and beams: EN 1992-1-1:2004, 9.3.1.2
 (2) and 9.2.1.2 (1)."""
+
+
+_MOST_COVERED = 0.8
+"""Part of a deck from which on bars over its supports may as well run all along it."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -95,15 +100,72 @@ def _slab(basis: DesignBasis, line: DeckLine) -> Rows:
         return basis.tension(name, moment_nm, shape, bars_width_m=width, outside_m=cover, is_slab=True, advice=advice)
 
     bottom, top = along(effects.sagging_nm), along(_top_moment_nm(effects, is_slab=True))
-    for side, found in (("bottom", bottom), ("top", top)):
-        yield basis.scheduled([name], "deck", side, "x", found, section_m2=height * width, length_m=length)
-        yield _secondary(basis, name, side, "y", found, height, width, length)
+    yield basis.scheduled([name], "deck", "bottom", "x", bottom, section_m2=height * width, length_m=length)
+    yield _secondary(basis, name, "bottom", "y", bottom, height, width, length)
+    yield from _top_bars(basis, line, top, effects, height, height)
+    yield _secondary(basis, name, "top", "y", top, height, width, length)
     yield from _links(basis, [name], "deck", effects, line, bottom, width, 1, height, is_slab=True, advice=advice)
 
 
 def _top_moment_nm(effects: BeamEffects, *, is_slab: bool) -> float:
     """Return the moment that bars along the top are for: over supports, or at ends that turn less than thought."""
     return max(effects.hogging_nm, _AT_SIMPLE_END[is_slab] * effects.sagging_nm)
+
+
+def _top_bars(
+    basis: DesignBasis, line: DeckLine, found: Tension, effects: BeamEffects, height_m: float, slab_m: float
+) -> Rows:
+    """Yield the bars along the top of a deck: half of them all along it, and the others over its supports.
+
+    These end where half of the largest moment is left, and farther by the shift of 9.2.1.3 (2) with z = 0.9 d and
+    cot θ = 2.5. A section with half of the bars resists more than half of the moment, as its lever arm is longer.
+    """
+    choice, width = found.choice, basis.bridge.deck.width_m
+    through = -(-choice.number // 2)
+    shift = 0.5 * 0.9 * 2.5 * (height_m - found.depth_m)
+    share = through / choice.number
+    parts = _where_above(effects.lines.points_m, -effects.least_nm, share * effects.hogging_nm, shift)
+    ends = line.lines.points_m[0], line.lines.points_m[-1]
+    covered = sum(min(end, ends[1]) - max(begin, ends[0]) for begin, end in parts)
+    is_least = found.reason == LEAST or not parts or covered > _MOST_COVERED * line.length_m
+    if is_least or len(line.supports_m) < 3 or choice.number < 4:
+        yield basis.scheduled(
+            [line.deck.name], "deck", "top", "x", found, section_m2=slab_m * width, length_m=line.length_m
+        )
+        return
+    room = (choice.number - 1) * choice.spacing_m
+    for number, stretches in ((through, [None]), (choice.number - through, parts)):
+        own = BarChoice(number, choice.diameter_m, 1, room / max(number - 1, 1))
+        part = Tension(own, found.depth_m, found.required_m2 * number / choice.number, found.reason)
+        for between in stretches:
+            yield basis.scheduled(
+                [line.deck.name],
+                "deck",
+                "top",
+                "x",
+                part,
+                section_m2=slab_m * width,
+                length_m=_length_m(between, ends, line.length_m),
+                between_m=between,
+            )
+
+
+def _where_above(points_m: np.ndarray, values: np.ndarray, limit: float, shift_m: float) -> list[tuple[float, float]]:
+    """Return from where to where values are above a limit, each longer by a shift at both ends; what meets is one."""
+    parts: list[tuple[float, float]] = []
+    above = np.flatnonzero(values > limit)
+    runs = np.split(above, np.flatnonzero(np.diff(above) > 1) + 1)
+    for run in (run for run in runs if len(run)):
+        begin, end = float(points_m[run[0]]) - shift_m, float(points_m[run[-1]]) + shift_m
+        if parts and begin <= parts[-1][1]:
+            parts[-1] = parts[-1][0], end
+        else:
+            parts.append((begin, end))
+    return parts
+
+
+def _length_m(between_m: tuple[float, float] | None, ends_m: tuple[float, float], whole_m: float) -> float:
+    return whole_m if between_m is None else min(between_m[1], ends_m[1]) - max(between_m[0], ends_m[0])
 
 
 def _secondary(
@@ -195,7 +257,7 @@ def _girder_deck(basis: DesignBasis, line: DeckLine) -> Rows:
     yield basis.scheduled(names, "girder", "bottom", "x", bottom, section_m2=web * girders.depth_m, length_m=length)
     strongest = max(worst, key=lambda effects: float(effects.shears_n.max()))
     yield from _links(basis, names, "girder", strongest, line, bottom, web, 1, height, is_slab=False, advice=advice)
-    hogging = max(_top_moment_nm(effects, is_slab=False) for effects in worst)
+    hogging = max(worst, key=lambda effects: _top_moment_nm(effects, is_slab=False))
     yield from _slab_of_beams(
         basis, line, across_bottom, across_top, hogging, PressedShape.rectangle(height, web), girders.number, advice
     )
@@ -257,14 +319,14 @@ def _slab_of_beams(
     line: DeckLine,
     across_bottom: Tension,
     across_top: Tension,
-    hogging_nm: float,
+    effects: BeamEffects,
     shape: PressedShape,
     beams: int,
     advice: str,
 ) -> Rows:
     """Yield the bars of a slab on beams: across the road, and along it inside of these.
 
-    `hogging_nm` and `shape` are of one beam; bars along the top resist what all of them need.
+    `effects` and `shape` are of one beam; bars along the top resist what all of them need.
     """
     name, length, width = line.deck.name, line.length_m, basis.bridge.deck.width_m
     slab, is_box = basis.bridge.deck.thickness_m, basis.bridge.box_girder is not None
@@ -283,7 +345,7 @@ def _slab_of_beams(
 
     top = basis.tension(
         f"{name} over its supports",
-        beams * hogging_nm,
+        beams * _top_moment_nm(effects, is_slab=False),
         wide,
         bars_width_m=width,
         outside_m=basis.rule.cover_m + across_top.choice.diameter_m,
@@ -292,7 +354,7 @@ def _slab_of_beams(
         preferred_m=basis.secondary_m,
         advice=advice,
     )
-    yield basis.scheduled([name], "deck", "top", "x", top, section_m2=slab * width, length_m=length)
+    yield from _top_bars(basis, line, top, effects, shape.height_m, slab)
 
 
 def _box_girder(basis: DesignBasis, line: DeckLine) -> Rows:
@@ -321,5 +383,5 @@ def _box_girder(basis: DesignBasis, line: DeckLine) -> Rows:
     yield basis.scheduled([name], "deck", "bottom", "x", bottom, section_m2=section, length_m=length)
     yield _secondary(basis, name, "bottom", "y", bottom, box.bottom_thickness_m, box.width_m, length)
     below = PressedShape(height, web, min(web + inner, box.width_m), box.bottom_thickness_m)
-    yield from _slab_of_beams(basis, line, *across, _top_moment_nm(effects, is_slab=False), below, 1, advice)
+    yield from _slab_of_beams(basis, line, *across, effects, below, 1, advice)
     yield from _links(basis, [name], "deck", effects, line, bottom, web, webs, height, is_slab=False, advice=advice)

@@ -93,9 +93,17 @@ def _bar_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
         sides = sorted((highest, side) for side, (axis, highest) in SIDES.items() if axis == across)
         moments = zip([side for _, side in reversed(sides)], section.moments_nm(), strict=True)
         resisted = ", ".join(f"{moment / 1000.0:.4g} kN·m with its {side} pressed" for side, moment in moments)
-        yield "reinforcement", f"{model.members[group.member].name}, along {AXES[along]}: {resisted}"
+        where = _between_text(group.between_m)
+        yield "reinforcement", f"{model.members[group.member].name}, along {AXES[along]}{where}: {resisted}"
     if text := plain_concrete_text(scenario):
         yield "without bars", text
+
+
+def _between_text(between_m: tuple[float, float]) -> str:
+    """Return the part of a member between two positions as text; empty for all of it."""
+    begin, end = between_m
+    texts = [f"from {begin:.2f} m" if begin > -np.inf else "", f"to {end:.2f} m" if end < np.inf else ""]
+    return "".join(f" {text}" for text in texts if text)
 
 
 def rest_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:

@@ -18,7 +18,7 @@ from ...model.bridge.preparation import prepared_members
 from ...model.reinforcement.concrete_members import plain_concrete_text
 from ...model.reinforcement.design import bar_schedule
 from ...model.reinforcement.facts import steel_facts
-from ...model.reinforcement.schedule import Schedule, ScheduledBars, ScheduledLinks, named_text
+from ...model.reinforcement.schedule import Schedule, ScheduledBars, ScheduledLinks, named_text, row_area
 from ...model.scenario import Scenario
 from ...model.scenario.scenario import bars_by_rule
 from ...model.schema import given
@@ -30,6 +30,8 @@ _COLUMNS = (
     Column("Members", "members"),
     Column("Bars", "side"),
     Column("along", "along"),
+    Column("from (m)", "from_m", ".1f"),
+    Column("to (m)", "to_m", ".1f"),
     Column("below the side (mm)", "depth_mm", ".0f"),
     Column("area (mm², links mm²/m)", "area", ".0f"),
     Column("choice", "choice"),
@@ -39,9 +41,9 @@ _COLUMNS = (
 )
 
 _NOTES = (
-    "Used: area that the design requires by the area of the bars. Bars run along the whole of a member, at the top as "
-    "well; laps, hooks and bars that detailing adds are not in it. Fatigue, widths of cracks, punching and torsion are "
-    "not designed for."
+    "Used: area that the design requires by the area of the bars. Bars run along the whole of a member, or between two "
+    "positions; laps, hooks and bars that detailing adds are not in it. Fatigue, widths of cracks, punching and torsion "
+    "are not designed for."
 )
 
 
@@ -79,9 +81,8 @@ def _schedule_blocks(scenario: Scenario, members: Sequence[Member], schedule: Sc
 
 def _row(row: ScheduledBars | ScheduledLinks) -> tuple[str | float | None, ...]:
     numbers = 100.0 * row.ratio, 100.0 * row.utilisation
+    shown: tuple[str | float | None, ...] = "links", "", None, None, None, row_area(row)
     if isinstance(row, ScheduledBars):
         layer = row.layer
-        shown = layer.side, layer.along, 1e3 * layer.depth_m, layer.area_mm2
-    else:
-        shown = "links", "", None, row.link_area_mm2_per_m
+        shown = layer.side, layer.along, layer.from_m, layer.to_m, 1e3 * layer.depth_m, row_area(row)
     return named_text(row), *shown, row.bars_text, *numbers, row.reason

@@ -70,6 +70,8 @@ TYPICAL: dict[str, Any] = {
     "materials.bending_n_mm2": 3.0,
     "reinforcement.depth_m": 0.05,
     "reinforcement.area_mm2": 10000.0,
+    "reinforcement.from_m": 10.0,
+    "reinforcement.to_m": 16.0,
     "connections.search_radius_m": 1.0,
     "connections.neighbours": 12,
     "connections.damping_ratio": 0.05,

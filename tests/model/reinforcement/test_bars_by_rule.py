@@ -75,6 +75,23 @@ def test_two_continuous_spans_carry_the_moment_over_the_pier():
     assert 0.99 * in_span <= resisted <= 1.1 * in_span  # both are not at the same point: the sum is less than that
 
 
+def test_bars_over_a_pier_end_where_the_others_are_enough():
+    """w = 1.35 × weight on both spans: M(x) = 3/8 w L x - w x² / 2. Bars at the top carry it wherever it pulls there,
+    and in the middle of the spans half of them are left."""
+    schedule = scheduled(bridge(OWN_WEIGHT, spans=(13.0, 13.0)))
+    w = 1.35 * G * 0.6 * 3.7
+    for x in np.linspace(0.0, 13.0, 131):
+        moment = 3 / 8 * w * 13.0 * x - w * x**2 / 2
+        _, resisted = design_moments(layer(schedule, "deck", "top", "x", at_m=x), 0.6, 3.7)
+        assert resisted >= -0.998 * moment
+    through, over = layer(schedule, "deck", "top", "x", at_m=13.0)
+    assert layer(schedule, "deck", "top", "x", at_m=6.5) == [through]
+    assert through.choice.number - over.choice.number in (0, 1)
+    begin, end = over.layer.ends_m
+    assert begin + end == pytest.approx(26.0)  # even about the pier
+    assert over.length_m == pytest.approx(end - begin)
+
+
 def test_decks_of_their_own_have_no_moment_over_piers():
     deck = Deck(width_m=3.7, thickness_m=0.6, per_span=True, joint_gap_m=0.04)
     schedule = scheduled(bridge(OWN_WEIGHT, spans=(13.0, 13.0), deck=deck))
@@ -209,7 +226,7 @@ def test_a_box_girder_carries_its_weight_over_the_piers():
     schedule = scheduled(replace(BOX, reinforcement=OWN_WEIGHT, skew_deg=0.0, deck=replace(BOX.deck, overhang_m=0.0)))
     area = 9.0 * 0.25 + 2 * 0.4 * 1.05 + 5.0 * 0.25
     by_hand = 1.35 * G * area * (12.0**3 + 16.0**3) / (4 * (2 * 28.0 + 16.0))
-    top = [row for row in layer(schedule, "deck", "top", "x") if row.layer.depth_m < 0.1]
+    top = [row for row in layer(schedule, "deck", "top", "x", at_m=12.0) if row.layer.depth_m < 0.1]
     _, resisted = design_moments(top, 1.55, 5.0)
     assert 0.998 * by_hand <= resisted <= 1.1 * by_hand
 
