@@ -20,10 +20,8 @@ def schedule_facts(scenario: Scenario, members: Sequence[Member], schedule: Sche
     for row in schedule.rows:
         yield named_text(row), row_text(row)
     yield from steel_facts(members, schedule)
-    yield (
-        "",
-        "bars run along the whole of a member where no positions are given; laps, hooks and bars that detailing adds are not in it",
-    )
+    yield "", "bars run along the whole of a member where no positions are given; laps, hooks and bars that"
+    yield "", "detailing adds are not in it"
     for note in schedule.notes:
         yield "note", note
 

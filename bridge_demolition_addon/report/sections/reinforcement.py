@@ -42,8 +42,8 @@ _COLUMNS = (
 
 _NOTES = (
     "Used: area that the design requires by the area of the bars. Bars run along the whole of a member, or between two "
-    "positions; laps, hooks and bars that detailing adds are not in it. Fatigue, widths of cracks, punching and torsion "
-    "are not designed for."
+    "positions; laps, hooks and bars that detailing adds are not in it. Fatigue, widths of cracks, punching and "
+    "torsion are not designed for."
 )
 
 
