@@ -82,7 +82,7 @@ def _points(supports_m: Sequence[float], begin_m: float, end_m: float) -> tuple[
     ends = [begin_m, *supports_m, end_m]
     points, supports = [ends[0]], []
     for number, (start, end) in enumerate(pairwise(ends)):
-        if end > start:
+        if end - start > _ROUNDING_M:
             inner = 0 < number < len(ends) - 2
             parts = elements if inner or len(supports_m) == 1 else _OF_OVERHANG
             points += np.linspace(start, end, parts + 1)[1:].tolist()
@@ -118,7 +118,13 @@ def _section_forces(lengths: FloatArray, moved: FloatArray) -> tuple[FloatArray,
 
 def permanent_effects(points_m: FloatArray, lines: FloatArray, uniform_n_m: float) -> FloatArray:
     """Return the effects (s,) of a load over the whole beam, of influence lines (s, n)."""
-    return uniform_n_m * np.asarray(np.trapezoid(lines, points_m, axis=1), float)
+    return uniform_n_m * _areas(points_m, lines)
+
+
+def _areas(points_m: FloatArray, lines: FloatArray) -> FloatArray:
+    """Return the areas (s,) under lines (s, n), by trapezoids."""
+    areas: FloatArray = (0.5 * (lines[:, 1:] + lines[:, :-1]) * np.diff(points_m)).sum(axis=1)
+    return areas
 
 
 def extreme_effects(
@@ -135,8 +141,8 @@ def extreme_effects(
         positions = _positions(points_m, load)
         up = (raising @ positions.T).max(axis=1, initial=0.0)
         down = (lowering @ positions.T).min(axis=1, initial=0.0)
-        up += load.uniform_n_m * np.trapezoid(raising, points_m, axis=1)
-        down += load.uniform_n_m * np.trapezoid(lowering, points_m, axis=1)
+        up += load.uniform_n_m * _areas(points_m, raising)
+        down += load.uniform_n_m * _areas(points_m, lowering)
         least = np.minimum(least, down)
         largest = largest if load.hogging_only else np.maximum(largest, up)
     return least, largest

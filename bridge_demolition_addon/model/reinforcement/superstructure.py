@@ -31,6 +31,9 @@ _AT_SIMPLE_END = {True: 0.25, False: 0.15}
 (2) and 9.2.1.2 (1)."""
 
 
+_STRIPS = 400
+"""Strips of a deck whose weights are shared out to the girders."""
+
 _MOST_COVERED = 0.8
 """Part of a deck from which on bars over its supports may as well run all along it."""
 
@@ -267,12 +270,13 @@ def _of_girders(basis: DesignBasis, line: DeckLine, axes: np.ndarray) -> list[Be
     """Return the effects on each girder of one half, by the lever rule."""
     width = basis.bridge.deck.width_m
     by_area = basis.weight_n(line.deck) / line.length_m / width + _KILO * basis.rule.permanent_kn_m2
-    across = np.linspace(-0.5 * width, 0.5 * width, 401)
+    strip = width / _STRIPS
+    across = strip * (np.arange(_STRIPS) + 0.5) - 0.5 * width
     effects = []
     for number in range((len(axes) + 1) // 2):
         share = lever_rule(axes, number)
         own = basis.weight_n(line.girders[number]) / line.length_m
-        permanent = own + by_area * float(np.trapezoid(share(across), across))
+        permanent = own + by_area * float(share(across).sum()) * strip
         moving = basis.traffic.on_part(share) if basis.traffic else ()
         effects.append(beam_effects(line.lines, permanent, moving))
     return effects

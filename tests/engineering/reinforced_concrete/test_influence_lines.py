@@ -54,6 +54,12 @@ def test_three_spans():
     assert permanent_effects(lines.points_m, lines.reactions, 1.0) == pytest.approx([4.0, 11.0, 11.0, 4.0], rel=EVEN)
 
 
+def test_ends_that_rounding_parts_from_a_support_are_there():
+    end = 26.9 + 19.2 + 12.9
+    lines = influence_lines([0.0, end], 0.0, end * (1.0 + 1e-15))
+    assert permanent_effects(lines.points_m, lines.reactions, 1.0) == pytest.approx([end / 2, end / 2])
+
+
 def test_overhang_and_single_support():
     lines = influence_lines([0.0, 10.0], -2.0, 10.0)
     moments = permanent_effects(lines.points_m, lines.moments, 1.0)
