@@ -26,8 +26,7 @@ _AXIS_OF_KIND = {"deck": 0, "girder": 0, "pier cap": 1, "pier": 2, "abutment": 2
 _NAMES = {0: "x along the road (m)", 1: "y across the road (m)", 2: "height (m)"}
 _SHORT = "xyz"
 _CONCRETE, _ACROSS, _BARS = "0.9", "#2166ac", "#b2182b"
-_LINE = 0.09
-"""Distance of labels below each other, by the height of the axes."""
+_LETTERS_PT = 7.0
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -84,10 +83,12 @@ def _draw(axes: Axes, section: MemberSection, schedule: Schedule) -> None:
                 labels.append((_label_height(row, member, up), _label(row)))
     axes.set_aspect("equal", adjustable="datalim")
     axes.autoscale_view()
-    axes.set(xlabel=_NAMES[right], ylabel=_NAMES[up])
     at = f", {_SHORT[section.axis]} = {section.at_m:.2f} m"
-    axes.set_title(plain(section.title + at), fontsize=9)
-    _write(axes, labels)
+    axes.set_title(plain(section.title + at), fontsize=_LETTERS_PT + 1.5)
+    axes.tick_params(labelsize=_LETTERS_PT)
+    axes.set_ylabel(_NAMES[up], fontsize=_LETTERS_PT)
+    lines = [_NAMES[right], *(text for _, text in sorted(labels, key=lambda label: -label[0]))]
+    axes.set_xlabel("\n".join(lines), fontsize=_LETTERS_PT)
 
 
 def _is_at(row: ScheduledBars, section: MemberSection) -> bool:
@@ -104,12 +105,6 @@ def _label_height(row: ScheduledBars, member: Member, up: int) -> float:
     """Return the height of a layer in the drawing; the middle of the member for layers that stand in it."""
     lowest, highest = _ends(member, up)
     return row.layer.level_m(lowest, highest) if row.layer.axes[1] == up else 0.5 * (lowest + highest)
-
-
-def _write(axes: Axes, labels: Sequence[tuple[float, str]]) -> None:
-    """Write labels beside the axes, from the top down by the height of their layers."""
-    for number, (_, text) in enumerate(sorted(labels, key=lambda label: -label[0])):
-        axes.text(1.02, 1.0 - number * _LINE, text, transform=axes.transAxes, fontsize=6.5, va="top")
 
 
 def _ends(member: Member, axis: int) -> tuple[float, float]:

@@ -188,7 +188,7 @@ def _secondary(
     that less the one of the bars in their slab.
     """
     area = SECONDARY_SHARE * main.required_m2 / main_width_m * width_m
-    outside = basis.rule.cover_m + main.choice.diameter_m
+    outside = main.depth_m + 0.5 * main.choice.diameter_m
     found = basis.least_bars(name, height_m, width_m, area, outside, f"{SECONDARY_SHARE:.0%} of the main bars")
     depth = None if depth_from is None else depth_from - found.depth_m
     return basis.scheduled(

@@ -221,6 +221,17 @@ def test_a_box_girder_has_bars_where_its_concrete_is():
     assert depths[0] == pytest.approx(0.045, abs=0.02) and depths[1] == pytest.approx(0.25 - 0.045, abs=0.02)
 
 
+def test_bars_of_a_box_lie_on_each_other():
+    """None goes through another: axes of bars that cross are at least both radii apart."""
+    rows = [row for row in scheduled(BOX).bars if row.kind == "deck"]
+    heights = [1.55 - row.layer.depth_m if row.layer.side == "top" else row.layer.depth_m for row in rows]
+    for one, height in zip(rows, heights, strict=True):
+        for other, at in zip(rows, heights, strict=True):
+            if one.layer.along != other.layer.along:
+                radii = 0.5 * (one.choice.diameter_m + other.choice.diameter_m)
+                assert abs(height - at) >= radii - 1e-9
+
+
 def test_a_box_girder_carries_its_weight_over_the_piers():
     """Three spans of 12, 16 and 12 m, w: the three-moment equation gives M = -w (12³ + 16³) / (4 (2 × 28 + 16))."""
     schedule = scheduled(replace(BOX, reinforcement=OWN_WEIGHT, skew_deg=0.0, deck=replace(BOX.deck, overhang_m=0.0)))
