@@ -12,7 +12,10 @@ import pytest
 from support.checkout import ROOT
 
 PACKAGE = ROOT / "bridge_demolition_addon"
-PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [
+    *(ROOT / f"{name}.md" for name in ("README", "CHANGELOG", "CONTRIBUTING")),
+    *sorted((ROOT / "docs").glob("*.md")),
+]
 EXAMPLES = sorted((ROOT / "examples").rglob("*.toml"))
 MODULES = sorted(PACKAGE.rglob("*.py"))
 LISTS_WORDS = {"glossary.md"}

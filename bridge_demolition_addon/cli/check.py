@@ -66,10 +66,10 @@ def scenario_facts(scenario: Scenario, *, stand: bool = False) -> Iterator[str]:
     if stand and model.stiffness is None:
         elastic = checked_model(as_elastic, prepared.members)
         yield from _section("At rest", rest_facts(scenario, elastic))
-        yield from _section("Fineness", accuracy_facts(elastic))
+        yield from _section("Fineness", accuracy_facts(scenario, elastic))
     elif model.stiffness is not None:
         yield from _section("At rest", rest_facts(scenario, model))
-        yield from _section("Fineness", accuracy_facts(model))
+        yield from _section("Fineness", accuracy_facts(scenario, model))
     yield from _section("Overlap at the start", overlap_facts(model))
     if model.soil:
         yield from _section("Foundations", foundation_facts(scenario, model))
@@ -97,4 +97,4 @@ def _section(heading: str, facts: Iterable[Fact]) -> Iterator[str]:
     yield ""
     yield heading
     for name, value in facts:
-        yield f"  {name:<24}{value}"
+        yield f"  {name:<23} {value}"

@@ -86,6 +86,8 @@ def _report(bridge: ImportedBridge, cut_off: tuple[str, ...]) -> Iterator[str]:
     yield f"  {'strength of':<24}{connections.material}"
     for support in bridge.scenario.supports:
         yield f"  {'held':<24}{support.member}{'' if support.face == 'all' else ', its underside'}"
+    for bearing in bridge.scenario.bearings:
+        yield f"  {'bearing':<24}{' on '.join(bearing.members)}: {bearing.described}"
     for rule in connections.between:
         free = f", free: {', '.join(rule.free)}" if rule.free else ""
         connection = f"strength of {rule.material}" if rule.material else f"bearing{free}"
@@ -112,7 +114,7 @@ def _where(bridge: ImportedBridge) -> str:
 
 def _row(name: str, members: Sequence[Member]) -> str:
     volume_m3, mass_kg = sum(member.volume_m3 for member in members), sum(member.mass_kg for member in members)
-    return f"  {name:<24}{volume_text(volume_m3, width=9)} {mass_text(mass_kg, width=10)}"
+    return f"  {name:<23} {volume_text(volume_m3, width=9)} {mass_text(mass_kg, width=10)}"
 
 
 def _left_out(outcomes: tuple[Outcome, ...]) -> Iterator[str]:
@@ -121,7 +123,7 @@ def _left_out(outcomes: tuple[Outcome, ...]) -> Iterator[str]:
         yield ""
         yield "Left out"
     for (name, why), count in Counter((outcome.facts.classes[0], outcome.why) for outcome in left_out).items():
-        yield f"  {f'{count} {name}':<24}{why}"
+        yield f"  {f'{count} {name}':<23} {why}"
 
 
 def _reasons(outcomes: tuple[Outcome, ...]) -> Iterator[str]:

@@ -44,6 +44,24 @@ def test_the_files_hold_what_was_told(path, tmp_path):
     assert len(list((folder / "members").iterdir())) == len(scenario.geometry) == 16
 
 
+def test_bearings_are_listed_and_long_names_keep_off_what_follows(path, tmp_path, capsys):
+    folder = tmp_path / "bridge"
+    assert main(["import", str(path), "--output", str(folder)]) == 0
+    listed = [line.split(maxsplit=1) for line in (folder / "import.txt").read_text().splitlines() if line.strip()]
+    bearings = {words[1] for words in listed if words[0] == "bearing"}
+    scenario = read_scenario(folder / "scenario.toml")
+    assert len(bearings) == 6
+    assert bearings == {f"{' on '.join(table.members)}: {table.described}" for table in scenario.bearings}
+
+    text = (folder / "scenario.toml").read_text(encoding="utf-8")
+    longer = text.replace('"Carriageway"', '"Carriageway between both abutments"')
+    assert longer != text
+    (folder / "scenario.toml").write_text(longer, encoding="utf-8")
+    capsys.readouterr()
+    assert main(["check", str(folder / "scenario.toml")]) == 0
+    assert "  Carriageway between both abutments  " in capsys.readouterr().out
+
+
 def test_the_same_file_gives_the_same_folder(path, tmp_path):
     folders = [tmp_path / "one", tmp_path / "other"]
     for folder in folders:

@@ -89,6 +89,37 @@ def test_a_run_begins_and_stays_at_rest_as_stages_have_it(run, tmp_path):
         assert float(line["slip_m"]) < 1e-6
 
 
+def asleep(text):
+    """The same deck, asleep until something wakes it."""
+    awake = "use_deactivation = false\nstart_deactivated = false"
+    assert awake in text
+    return text.replace(awake, "use_deactivation = true\nstart_deactivated = true")
+
+
+def test_what_bearings_carry_is_not_known_while_a_deck_sleeps(run, tmp_path):
+    """It carries its weight all the same, and has not lifted off: once it is pushed, its bearings have all of it."""
+    deck = {"spans": (SPAN_M,), "shards": 12, "support_m": 1.2}
+    run(asleep(deck_text(PINNED_AND_ROCKERS, **deck)))
+    assert (
+        {line["force_z_N"] for line in log_of(tmp_path)} == {line["open_share"] for line in log_of(tmp_path)} == {"nan"}
+    )
+    assert bearings_of(tmp_path) == []
+    names = {getattr(block, "name", "") for block in force_section(read_run(tmp_path / "run")).blocks}
+    assert "bearings" not in names
+
+    push = load((0, 0, -1), (0.1, 0.11, 1.0), (0.0, 1000.0, 1000.0))
+    run(asleep(deck_text(PINNED_AND_ROCKERS, **deck, duration_s=0.4, more=push)))
+    assert log_of(tmp_path)[0]["force_z_N"] == "nan"
+    upwards_n = [float(line["force_z_N"]) for line in log_of(tmp_path)[-2:]]
+    assert sum(upwards_n) == pytest.approx(WEIGHT_N + 1000.0, rel=0.01)
+    for bearing in bearings_of(tmp_path):
+        assert bearing["at_rest_up_N"] is None and not bearing["opened"]
+    (extremes,) = (
+        block for block in force_section(read_run(tmp_path / "run")).blocks if getattr(block, "name", "") == "bearings"
+    )
+    assert [cells[1] for cells in extremes.rows] == [None, None]
+
+
 def test_a_deck_slides_where_friction_ends(run, tmp_path):
     """Pushed with 0.15 of its weight against a friction of 0.1, it is moved by the difference, a twentieth of g."""
     push = load((1, 0, 0), (0.05, 0.1, 1.0), (0.0, 0.15 * WEIGHT_N, 0.15 * WEIGHT_N))

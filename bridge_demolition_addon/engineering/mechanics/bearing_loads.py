@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
@@ -80,6 +80,20 @@ class BearingLoads:
     open_shares: FloatArray  # (b,), largest share of its area that had lifted off in a sub-step
     displacements_m: FloatArray  # (b, 3), at the end of the frame, from where they were built
     slips_m: FloatArray  # (b,), horizontal displacement there that no elastic deformation explains; nan if not known
+
+    @property
+    def carry_nothing(self) -> BoolArray:
+        """Bearings (b,) on which no force acted in any sub-step."""
+        nothing: BoolArray = (self.largest_up_n == 0.0) & (self.least_up_n == 0.0) & (self.largest_horizontal_n == 0.0)
+        return nothing
+
+    def unknown_at(self, bearings: BoolArray) -> BearingLoads:
+        """Return them with nan for the forces of some bearings (b,), and for what follows from these."""
+        of_forces = {item.name: getattr(self, item.name).copy() for item in fields(self)}
+        for name, values in of_forces.items():
+            if name != "displacements_m":
+                values[bearings] = np.nan
+        return BearingLoads(**of_forces)
 
 
 class BearingAccumulator:

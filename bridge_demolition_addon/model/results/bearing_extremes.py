@@ -53,6 +53,9 @@ class BearingExtremes:
         for number, bearing in enumerate(self._bearings):
             if "gone_s" in bearing:
                 continue
+            if np.isnan(loads.largest_up_n[number]):
+                bearing["slept"] = True
+                continue
             _note_largest(bearing, time_s, loads, number)
             bearing["left_share"] = float(left[number])
             if left[number] > 0.0:
@@ -63,7 +66,8 @@ class BearingExtremes:
     def summary(self) -> list[dict[str, Any]]:
         """Return the extremes of the bearings that were noted, ready for JSON.
 
-        Times are the ends of frames. Slip is None where connections are rigid: these slide without friction.
+        Times are the ends of frames. Slip is None where connections are rigid: these slide without friction. The force
+        at rest is None where the bodies slept at first, and so are not solved until something wakes them.
         """
         return [
             {key: (bearing | _judged(bearing))[key] for key in KEYS}
@@ -89,7 +93,8 @@ def _note_largest(bearing: dict[str, Any], time_s: float, loads: BearingLoads, n
 def _note_others(bearing: dict[str, Any], time_s: float, loads: BearingLoads, number: int) -> None:
     if "at_rest_up_N" not in bearing:
         at_first = {"largest_displacement_m": 0.0, "largest_open_share": 0.0, "opened_s": None, "slip_m": None}
-        bearing |= {"at_rest_up_N": float(loads.forces_n[number, 2]), **at_first}
+        at_rest_n = None if bearing.get("slept") else float(loads.forces_n[number, 2])
+        bearing |= {"at_rest_up_N": at_rest_n, **at_first}
     along, across, _ = loads.displacements_m[number].tolist()
     _keep_largest(bearing, "least_up_N", loads.least_up_n[number], time_s, sign=-1.0)
     displacement_m = float(np.sqrt(along * along + across * across))

@@ -20,7 +20,7 @@ class BearingHistory:
     name
         The member above ``on`` the one below.
     forces_n
-        (k, 3), each the mean over its frame; nan where it is not known.
+        (k, 3), each the mean over its frame; nan where it is not known, as that of bodies that have slept so far.
     intact
         (k,) part of its connections that are there.
     """
@@ -44,5 +44,13 @@ def bearing_histories(results: Results, tables: Sequence[Bearing]) -> list[Beari
         if pair[0] != pair[1] and any(table.joins(*of_pair) for table in tables):
             forces_n = results.frames.loads.connection_forces_n[:, rows].astype(float).sum(axis=1)
             intact = results.frames.intact[:, rows].mean(axis=1)
+            forces_n[_unsolved(results, rows) & (intact > 0.0)] = np.nan
             histories.append(BearingHistory(f"{pair[0]} on {pair[1]}", forces_n, intact))
     return histories
+
+
+def _unsolved(results: Results, rows: np.ndarray) -> np.ndarray:
+    """Return the steps (k,) at which some connections had no forces as their bodies had slept until then."""
+    frames = results.frames
+    sleep = frames.asleep[:, results.inventory.pairs[rows]].any(axis=2).all(axis=1)
+    return sleep & ~frames.loads.connection_forces_n[:, rows].any(axis=(1, 2))

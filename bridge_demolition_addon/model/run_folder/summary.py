@@ -244,7 +244,7 @@ _TERRAIN = {
 }
 _BEARING = {
     "name": _is_text,
-    "at_rest_up_N": _is_number,
+    "at_rest_up_N": _is_number_or_none,
     "largest_up_N": _is_number,
     "least_up_N": _is_number,
     "largest_horizontal_N": _is_number,

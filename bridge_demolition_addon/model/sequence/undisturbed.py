@@ -14,7 +14,12 @@ from ..scenario import Scenario
 
 
 def first_event_s(scenario: Scenario) -> float:
-    """Return the time up to which nothing is done to the bridge, s; infinite where nothing ever is."""
+    """Return the time up to which nothing is done to the bridge, s; infinite where nothing ever is.
+
+    A member that begins with a velocity is thrown at once.
+    """
+    if any(table.is_moving for table in scenario.geometry):
+        return 0.0
     return min((action.begins_s(scenario) for action in scenario.actions), default=math.inf)
 
 

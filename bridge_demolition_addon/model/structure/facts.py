@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ...engineering.elasticity.accuracy import expected_deviation, spacing_m
+from ...engineering.elasticity.accuracy import expected_corner_deviation, expected_deviation, spacing_m
 from ...engineering.elasticity.member_shapes import member_shapes
 from ...engineering.elasticity.section_stiffness import DAMPING_RATIO
 from ...engineering.geometry.overlap import SHARD_OVERLAP_TOLERANCE, Overlaps, hulls, overlaps
@@ -131,7 +131,7 @@ def rest_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
         for bearing in model.bearings.forces(loads_of(model, rest)):
             along, across, up = bearing.force_n / 1000.0
             lifted = "" if up else ": it has lifted off"
-            yield bearing.name, f"{up:.1f} kN up, {along:.1f} kN along, {across:.1f} kN across{lifted}"
+            yield bearing.name, f"{up:z.1f} kN up, {along:z.1f} kN along, {across:z.1f} kN across{lifted}"
     if held:
         yield "deflection", f"{1000.0 * deflection_m(model, rest):.2f} mm"
         yield "first frequency", f"{rest.frequency_hz:.3f} Hz"
@@ -148,7 +148,7 @@ def _damping_text(scenario: Scenario, frequency_hz: float) -> str:
     return f"{asked:.1%} of critical, {by_steps:.1%} of it by steps in time"
 
 
-def accuracy_facts(model: Model) -> Iterator[Fact]:
+def accuracy_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
     """Yield how many shards members have along their length and depth, and how far elastic results are off for that."""
     moves = np.bincount(model.member_of_shard[~model.fixed], minlength=len(model.members)) > 0
     lengths_m, along, deep = _fineness(model)
@@ -166,6 +166,12 @@ def accuracy_facts(model: Model) -> Iterator[Fact]:
             f"up to {expected_deviation(fewest_along):.0%} of reactions, moments and deflections,",
         )
         yield "", f"with {fewest_along:.0f} shards along what spans: measured in docs/elastic.md"
+        if scenario.bridge and scenario.bridge.skew_deg:
+            at_corners = expected_corner_deviation(fewest_along)
+            yield (
+                "at acute corners",
+                f"up to {at_corners:.0%} of reactions, small as they are there: the bridge is skewed",
+            )
 
 
 def _fineness(model: Model) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -252,6 +258,8 @@ def _bearing_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
             yield "bearing", f"{name}: {table.described}, {len(rows)} connections"
     if not scenario.connections.is_elastic:
         yield "", "with rigid connections they hold what is lifted, and slide without friction"
+    if scenario.shards.start_deactivated:
+        yield "", "while shards sleep, a run does not know their forces: shards.start_deactivated = false"
 
 
 def _joint_text(rule: ConnectionBetween, joint: Joint) -> str:

@@ -27,7 +27,8 @@ _NOTES = (
 
 def bearing_blocks(run: ReportedRun) -> list[Block]:
     """Return a table and a chart of all bearings of a run; none without `[[bearings]]`."""
-    histories = bearing_histories(run.recorded, bearing_tables(run.scenario) if run.scenario else ())
+    of_all = bearing_histories(run.recorded, bearing_tables(run.scenario) if run.scenario else ())
+    histories = [bearing for bearing in of_all if np.isfinite(bearing.forces_n[1:]).any()]
     extremes = run.summary.bearings if run.summary else []
     blocks: list[Block] = []
     if extremes:

@@ -285,7 +285,7 @@ class Recording(RecordedFrames):
         if self.has_loads:
             charges = [given(charge.name) for charge in setup.charges] if self._blast else []
             named = named_bearings_of(setup.connections.objects) if world else None
-            self._bearings = RecordedBearings(named, setup.breaking.warm_up_s) if named else None
+            self._bearings = RecordedBearings(named, setup.inventory.pairs, setup.breaking.warm_up_s) if named else None
             bearings = self._bearings.names if self._bearings else ()
             self._logs = Logs(self.folder, setup.inventory, charges, bearings, self._log_files)
 
@@ -307,7 +307,7 @@ class Recording(RecordedFrames):
         """Log the forces of bearings, and note the largest of them."""
         loads = self._reader.of_bearings if self._reader else None
         if self._bearings and loads:
-            logs.write_bearings(frame, self._bearings.note(frame.time_s, loads, frame.intact))
+            logs.write_bearings(frame, self._bearings.note(frame, loads))
 
 
 def _begin_motion(setup: RunSetup, world: BulletWorld, held: bool) -> None:

@@ -116,10 +116,13 @@ def bearing_rows(bearings: Sequence[Mapping[str, Any]]) -> tuple[tuple[str, ...]
     """Return the table of bearings of a run, with its head: vertical forces at rest, least and largest; horizontal."""
     keys = ("at_rest_up_N", "least_up_N", "largest_up_N", "largest_horizontal_N")
     rows = [
-        (bearing["name"], *(f"{bearing[key] / _N_PER_KN:.1f}" for key in keys), _happened(bearing))
-        for bearing in bearings
+        (bearing["name"], *(_kilonewtons(bearing[key]) for key in keys), _happened(bearing)) for bearing in bearings
     ]
     return (("Bearings, kN", "at rest", "least", "most", "sideways", ""), *rows) if rows else ()
+
+
+def _kilonewtons(force_n: float | None) -> str:
+    return "not known" if force_n is None else f"{force_n / _N_PER_KN:.1f}"
 
 
 def _happened(bearing: Mapping[str, Any]) -> str:

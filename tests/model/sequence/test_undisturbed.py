@@ -10,7 +10,7 @@ from support.run_folders import G, flying_shards
 from support.scenarios import I235
 
 from bridge_demolition_addon.model.blast.settings import BlastSettings
-from bridge_demolition_addon.model.scenario import Charge, SawCut
+from bridge_demolition_addon.model.scenario import Charge, Geometry, SawCut
 from bridge_demolition_addon.model.sequence.undisturbed import fell_by_itself, first_event_s, self_collapse_text
 
 FRAME_S = 1 / 24
@@ -36,6 +36,15 @@ def test_the_first_event_is_what_is_done_first():
     assert first_event_s(replace(I235, blast=BlastSettings(start_s=0.2), charges=charges)) == pytest.approx(0.23)
     off = BlastSettings(start_s=0.2, explosion=False)
     assert first_event_s(replace(ALONE, blast=off, charges=charges)) == math.inf
+
+
+def test_a_member_that_is_thrown_does_not_fall_by_itself():
+    thrown = Geometry(name="block", file="block.stl", density_kg_m3=2400.0, velocity_m_s=(3.0, 0.0, 0.0))
+    awake = replace(ALONE.shards, start_deactivated=False)
+    still_member = replace(thrown, velocity_m_s=(0.0, 0.0, 0.0))
+    assert first_event_s(replace(ALONE, shards=awake, geometry=(thrown,))) == 0.0
+    assert fell_by_itself(flying_shards(), replace(ALONE, shards=awake, geometry=(thrown,))) is None
+    assert fell_by_itself(flying_shards(), replace(ALONE, shards=awake, geometry=(still_member,)))
 
 
 def test_a_bridge_that_falls_before_is_told_of():

@@ -30,6 +30,8 @@ def test_results_show_forces_and_what_happened():
     assert head == ("Bearings, kN", "at rest", "least", "most", "sideways", "")
     assert rows == [("deck on pier 1", *NUMBERS, said) for _, said in others]
     assert bearing_rows([]) == ()
+    _, slept = bearing_rows([STANDS | {"at_rest_up_N": None}])
+    assert slept[1:3] == ("not known", "-20.0")
 
 
 def test_stages_show_bearings_as_they_show_supports():
