@@ -271,7 +271,7 @@ def _of_girders(basis: DesignBasis, line: DeckLine, axes: np.ndarray) -> list[Be
     width = basis.bridge.deck.width_m
     by_area = basis.weight_n(line.deck) / line.length_m / width + _KILO * basis.rule.permanent_kn_m2
     strip = width / _STRIPS
-    across = strip * (np.arange(_STRIPS) + 0.5) - 0.5 * width
+    across = np.asarray(strip * (np.arange(_STRIPS) + 0.5) - 0.5 * width, np.float64)
     effects = []
     for number in range((len(axes) + 1) // 2):
         share = lever_rule(axes, number)
