@@ -117,11 +117,11 @@ def _together(
 
 
 def _width(corners: np.ndarray, across: int, beside: int, level: float) -> float:
-    _, points = _crossings(corners, across, level)
+    _, points = plane_cuts(corners, across, level)
     return float(np.ptp(points[..., beside])) if len(points) else 0.0
 
 
-def _crossings(corners: np.ndarray, across: int, level: float) -> tuple[np.ndarray, np.ndarray]:
+def plane_cuts(corners: np.ndarray, across: int, level: float) -> tuple[np.ndarray, np.ndarray]:
     """Return which triangles (t, 3, 3) a plane across an axis parts (c,), and the ends of the cuts (c, 2, 3)."""
     heights = corners[..., across] - level
     parted = np.flatnonzero((heights > 0.0).any(axis=1) & (heights <= 0.0).any(axis=1))
@@ -205,7 +205,7 @@ def _pulls(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Force (k,) of a layer in each of k faces, and that by its position (k, 3)."""
     along, across, beside = group.axes
-    parted, ends = _crossings(corners, across, level)
+    parted, ends = plane_cuts(corners, across, level)
     ends = _between(ends, along, group.between_m)
     lengths = abs(ends[:, 1, beside] - ends[:, 0, beside])
     pulls, positions = np.zeros(count), np.zeros((count, 3))
