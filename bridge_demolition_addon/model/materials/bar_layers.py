@@ -1,12 +1,13 @@
 """Layers of reinforcing bars, and the moments that sections with them resist."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
 from ...engineering.elasticity.steel_bars import MODULUS_PA, YIELD_PA
 from ...engineering.mechanics.strength import NEWTON_PER_SQUARE_MILLIMETRE
-from ..schema import Table, key
+from ..schema import POSITION, Table, key
 
 SIDES = {"start": (0, -1), "end": (0, 1), "right": (1, -1), "left": (1, 1), "bottom": (2, -1), "top": (2, 1)}
 """Axis across each side of a member, and whether the side is where that is lowest or highest."""
@@ -46,6 +47,14 @@ class BarLayer(Table):
         unit="mm²",
         above=0,
     )
+    from_m: float | None = key(
+        "Where the bars begin along their axis, in the coordinates of the bridge, and in a skewed member in the middle "
+        "of the road; by default where the member does. They have their whole strength from there on, so leave out "
+        "what anchors them.",
+        default=None,
+        **POSITION,
+    )
+    to_m: float | None = key("Where they end, by default where the member does.", default=None, **POSITION)
     yield_n_mm2: float = key(
         "Yield strength of the bars.",
         default=YIELD_PA / NEWTON_PER_SQUARE_MILLIMETRE,
@@ -84,7 +93,18 @@ class BarLayer(Table):
         """Return where the bars are along the axis across their side, of a member from the lowest to the highest."""
         return lowest + self.depth_m if SIDES[self.side][1] < 0 else highest - self.depth_m
 
+    @property
+    def ends_m(self) -> tuple[float, float]:
+        """Where the bars begin and end along their axis; infinite where they do so with the member."""
+        return (
+            -math.inf if self.from_m is None else self.from_m,
+            math.inf if self.to_m is None else self.to_m,
+        )
+
     def _check_together(self) -> None:
+        begin, end = self.ends_m
+        if begin >= end:
+            raise self.unexpected("to_m", f"more than reinforcement.from_m, {begin:g} (m)")
         if AXES[SIDES[self.side][0]] == self.along:
             wanted = f"a side that bars along {self.along} run beside, one of {', '.join(self._sides_beside())}"
             raise self.unexpected("side", wanted)

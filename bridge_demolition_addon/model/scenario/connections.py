@@ -300,8 +300,12 @@ class ConnectionSettings(JointSettings):
     @property
     def steel(self) -> Steel:
         """Return what the reinforcement of elastic connections is made of."""
+        return self.steel_or(USUAL_STEEL)
+
+    def steel_or(self, other: Steel) -> Steel:
+        """Return the same, with the values of another steel where none are given."""
         own = self.ductile_yield_n_mm2, self.ductile_hardening, self.ductile_rupture_strain
-        columns = zip(own, (NEWTON_PER_SQUARE_MILLIMETRE, 1.0, 1.0), astuple(USUAL_STEEL), strict=True)
+        columns = zip(own, (NEWTON_PER_SQUARE_MILLIMETRE, 1.0, 1.0), astuple(other), strict=True)
         return Steel(*(usual if value is None else unit * value for value, unit, usual in columns))
 
     @property
