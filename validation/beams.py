@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Beams of two rigid halves on hinges at their ends, which crack in the middle; bars hold the crack together."""
+"""Beams of two stiff halves on hinges at their ends, which crack in the middle; bars hold the crack together."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -7,10 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 from solids import block
 
+from bridge_demolition_addon.engineering.elasticity.steel_bars import MODULUS_PA
 from bridge_demolition_addon.engineering.geometry.mesh import TriangleMesh
 from bridge_demolition_addon.model.results.arrays import Results
 
 DENSITY_KG_M3 = 2400.0
+RUPTURE_STRAIN = 0.5
+"""As large as can be, so that bars do not rupture."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,6 +28,8 @@ class Beam:
         Side next to the bars, distance to them from the other side, their area and yield strength.
     compression_n_mm2, cracks_n_mm2 : float
         Strength of its concrete in compression, and stress by bending at which it cracks.
+    yields_at_m : float
+        Opening of its crack at the edge at which bars yield. They do not harden.
     """
 
     span_m: float
@@ -37,6 +42,7 @@ class Beam:
     yield_n_mm2: float
     compression_n_mm2: float
     cracks_n_mm2: float
+    yields_at_m: float
 
     @property
     def mass_kg(self) -> float:
@@ -48,6 +54,11 @@ class Beam:
         """Plastic moment by hand: A f_y (d - a / 2), a = A f_y / (b f_c)."""
         pull = self.area_mm2 * self.yield_n_mm2
         return pull * (self.depth_m - 0.5 * pull / (self.width_m * self.compression_n_mm2 * 1e6))
+
+    @property
+    def yields_by_m(self) -> float:
+        """Deflection of the middle at which its bars yield: halves turn about the pressed edge."""
+        return self.yields_at_m * self.span_m / (4.0 * self.height_m)
 
     @property
     def solids(self) -> Mapping[str, TriangleMesh]:
@@ -66,6 +77,7 @@ class Beam:
             f'[[geometry]]\nname = "{name}"\nkind = "{kind}"\nfile = "{name}.stl"\ndensity_kg_m3 = {DENSITY_KG_M3}\n'
             for name, kind in (("beam", "beam"), ("left", "post"), ("right", "post"))
         )
+        ruptures_at_m = self.yields_at_m * RUPTURE_STRAIN * MODULUS_PA / (1e6 * self.yield_n_mm2)
         middle = self.bottom_m + self.height_m / 2.0
         return f"""
 {members}
@@ -110,7 +122,10 @@ yield_n_mm2 = {self.yield_n_mm2}
 type = "FIXED"
 method = "face"
 material = "of the beam"
-ductile_elongation_m = 1.0
+stiffness = "elastic"
+ductile_elongation_m = {ruptures_at_m}
+ductile_hardening = 1.0
+ductile_rupture_strain = {RUPTURE_STRAIN}
 
 [[connections.between]]
 members = ["beam", "post"]

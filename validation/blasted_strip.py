@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from bridge_demolition_addon.engineering.blast.pulses import Pulses, blast_pulses, impulse_between
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2 as G
 
-STRIP = Beam(4.0, 1.0, 0.1, 14.0, "top", 0.08, 150.0, 500.0, 40.0, 3.5)
+STRIP = Beam(4.0, 1.0, 0.1, 14.0, "top", 0.08, 150.0, 500.0, 40.0, 3.5, 0.001)
 STAND_OFF_M, CHARGES_KG = 12.0, (15.0, 25.0, 35.0)
 STRENGTH_N = 8.0 * STRIP.moment_nm / STRIP.span_m
 STARTS_S, STEP_S = 0.01, 2e-5
