@@ -33,6 +33,9 @@ CASES = (
     "toppling_charge",
     "blasted_strip",
     "lost_support",
+    "sudden_loss",
+    "reinforced_slab",
+    "drop_on_shards",
     # published formulas
     "drop_weight",
     "airblast_far_away",
