@@ -41,14 +41,14 @@ def run(folder: Path) -> Found:
 
 
 def by_impulse_m(impulse_ns: float) -> float:
-    """Rise by an impulse I in no time: 3 I² L / (32 M m), less as the weight works like the strength, and what is elastic."""
+    """Rise by an impulse I in no time: 3 I² L / (32 M m), less as the weight works like the strength, and more by δ₁ / 2."""
     mass, weight = STRIP.mass_kg, STRIP.mass_kg * G
     alone = 3.0 * impulse_ns**2 * STRIP.span_m / (32.0 * STRIP.moment_nm * mass)
     return (alone + 0.5 * STRIP.yields_by_m) * STRENGTH_N / (STRENGTH_N + weight)
 
 
 def expected_m(charge_kg: float) -> float:
-    """Rise by the pulse as it is: (m / 3) dv/dt = P(t) / 2 - 4 M / L - m g / 2, until v < 0; M grows evenly until bars yield."""
+    """Rise by the pulse as it is: (m / 3) dv/dt = P(t) / 2 - 4 M / L - m g / 2 until v < 0, with M growing until bars yield."""
     pulses, area = _pulses(charge_kg), _area_m2()
     time_s = float(pulses.arrivals_s[0, 0])
     most_n, weight_n = 4.0 * STRIP.moment_nm / STRIP.span_m, 0.5 * STRIP.mass_kg * G
@@ -122,8 +122,8 @@ CASE = Case(
     "such a strip is more flexible, 51 mm by M L² / (12 E I); so few bars would not yield under the smallest charge. "
     "The blast is the same over each half, as each is one shard, and pushes head-on.",
     source="Two stiff halves and a plastic hinge: δ = 3 I² L / (32 M m), the impulsive asymptote of rigid-plastic "
-    "theory, here with δ₁ / 2 and the work of the weight, Ru / (Ru + m g), Ru = 8 M / L; and the same with the pulse as "
-    "long as it is, (m / 3) dv/dt = P(t) / 2 - 4 M / L - m g / 2, with M growing up to δ₁. M by hand, "
+    "theory, here with δ₁ / 2 and the work of the weight, Ru / (Ru + m g), Ru = 8 M / L; and the same with the pulse "
+    "as long as it is, (m / 3) dv/dt = P(t) / 2 - 4 M / L - m g / 2, with M growing up to δ₁. M by hand, "
     "A f_y (d - a / 2), a = A f_y / (b f_c), EN 1992-1-1:2004, 3.1.7 (3).",
     reason="5 % with the length of the pulse: until it cracks the strip is elastic. Sub-steps are 0.1 ms. 15 % of the "
     "rise by the impulse alone: the pulse takes a tenth of the time that the strip moves, which is worth 4 to 5 %.",

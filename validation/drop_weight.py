@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2 as G
 
 BEAM = Beam(3.0, 0.2, 0.25, 2.0, "bottom", 0.21, 402.0, 420.0, 40.0, 0.1, 0.0038)
-"""Its bars yield as the middle has gone down by 11 mm: M L² / (12 E I) with I = 75e6 mm⁴ of its cracked section, by hand."""
+"""Its bars yield as the middle has gone down by 11 mm: M L² / (12 E I), I = 75e6 mm⁴ of its cracked section by hand."""
 MASSES_KG, SPEEDS_M_S = (150.0, 300.0, 600.0), (3.0, 4.5, 6.0)
 CAPACITY_N = 4.0 * BEAM.moment_nm / BEAM.span_m
 SWINGS_S = 0.04, 0.16
@@ -21,7 +21,7 @@ SWINGS_S = 0.04, 0.16
 
 
 def expected_m(mass_kg: float, speed_m_s: float) -> float:
-    """Deflection of two stiff halves with an elastic-plastic hinge, after a plastic impact, with the work of gravity."""
+    """Largest deflection of two stiff halves with an elastic-plastic hinge, after a plastic impact, with gravity."""
     transmitted_j = energy_j(mass_kg, speed_m_s) * mass_kg / (mass_kg + BEAM.mass_kg / 3.0)
     return (transmitted_j + 0.5 * CAPACITY_N * BEAM.yields_by_m) / (CAPACITY_N - (mass_kg + BEAM.mass_kg / 2.0) * G)
 
@@ -107,8 +107,8 @@ CASE = Case(
     "1992-1-1, M L² / (12 E I). The crack is there before, and bars rupture at no deflection here.",
     source="Exact: E M / (M + m / 3) = (P - (M + m / 2) g) δ - P δ₁ / 2, a plastic impact on two stiff halves; M for P "
     "by hand, A f_y (d - a / 2), a = A f_y / (b f_c), EN 1992-1-1:2004, 3.1.7 (3). Lines through tests: δ = 0.63 E / P "
-    "at most and 0.42 E / P in the end (N. Kishi and H. Mikami, *ACI Struct. J.* 109 (2012), 36 beams; the first figure "
-    "as it is quoted, the second also by the Civil Engineering Research Institute for Cold Region, Sapporo).",
+    "at most and 0.42 E / P in the end (N. Kishi and H. Mikami, *ACI Struct. J.* 109 (2012), 36 beams; the first "
+    "figure as it is quoted, the second also by the Civil Engineering Research Institute for Cold Region, Sapporo).",
     reason="10 % of the exact deflection: sub-steps of 0.4 ms, and contacts that sink. The lines are means of tests "
     "with other masses, 40 %. The largest δ is beyond that, as theory is: its slope M / (M + m / 3) is 0.56 to 0.83 "
     "here, and the work of gravity and δ₁ / 2 add to it, by up to a half. What stays is the mean of four swings.",

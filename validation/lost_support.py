@@ -35,9 +35,7 @@ def run(folder: Path) -> Found:
 
     def draw(figure: Figure) -> None:
         axes = figure.subplots()
-        for (share, (times, sunk)), style in zip(
-            courses.items(), ("-", "--", ":", "-."), strict=True
-        ):
+        for (share, (times, sunk)), style in zip(courses.items(), ("-", "--", ":", "-."), strict=True):
             axes.plot(times, sunk, color="black", linestyle=style, label=f"{share:g}")
         axes.set(xlabel="time (s)", ylabel="way down of the middle (m)", ylim=(BOTTOM_M + 0.2, -0.1))
         axes.legend(title="moments over w L² / 4", fontsize=8)
