@@ -200,7 +200,8 @@ Cases with a known answer, side by side with what this add-on makes of them. `sc
 this page. Exact answers, published formulas and measurements are kept apart. What the model leaves out stands before
 the numbers. A case that misses stays in.
 
-Bodies are rigid, and contacts are Bullet's: damping is off but in examples of the add-on, and edges are sharp.
+Bodies are rigid, and contacts are Bullet's: damping is off but in examples of the add-on, and edges are sharp. In
+cases with bars the connections are elastic.
 """
 
 

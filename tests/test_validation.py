@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The validation: its page has every case, and what it says of a case is what the case says."""
 
+import math
+
 import pytest
 import validate
 from case import GROUPS, Comparison
@@ -75,6 +77,20 @@ def test_a_beam_that_loses_a_support_needs_the_moments_of_limit_analysis(blender
 
     _, sunk = lost_support.sunk_m(tmp_path, share, duration_s=0.8)
     assert (sunk[-1] < 0.15) == holds
+
+
+def test_a_beam_that_loses_a_support_goes_further_than_it_rests_by_its_damping(blender, tmp_path):
+    import sudden_loss
+
+    _, sunk = sudden_loss.sunk_m(tmp_path, 0.05)
+    assert sunk.max() == pytest.approx((1.0 + math.exp(-0.05 * math.pi)) * sudden_loss.at_rest_m(), rel=0.03)
+
+
+def test_a_slab_in_40_irregular_shards_comes_down_about_when_plastic_theory_says(blender, tmp_path):
+    """25 %, as cracks go along inclined faces: the page has what single seeds came to."""
+    import reinforced_slab
+
+    assert reinforced_slab.load_at(*reinforced_slab.course(tmp_path, 40, 1)) == pytest.approx(1.0, abs=0.25)
 
 
 @pytest.mark.parametrize(("share", "topples"), [(0.9, False), (1.1, True)])

@@ -41,14 +41,14 @@ def run(folder: Path) -> Found:
 
 
 def by_impulse_m(impulse_ns: float) -> float:
-    """Rise by an impulse I in no time: 3 I² L / (32 M m), less as the weight works like the strength, and more by δ₁ / 2."""
+    """Rise by an impulse I in no time: 3 I² L / (32 M m), less as the weight works as the strength does, and δ₁ / 2."""
     mass, weight = STRIP.mass_kg, STRIP.mass_kg * G
     alone = 3.0 * impulse_ns**2 * STRIP.span_m / (32.0 * STRIP.moment_nm * mass)
     return (alone + 0.5 * STRIP.yields_by_m) * STRENGTH_N / (STRENGTH_N + weight)
 
 
 def expected_m(charge_kg: float) -> float:
-    """Rise by the pulse as it is: (m / 3) dv/dt = P(t) / 2 - 4 M / L - m g / 2 until v < 0, with M growing until bars yield."""
+    """Rise by the pulse as it is: (m / 3) dv/dt = P(t) / 2 - 4 M / L - m g / 2 to v = 0; M grows until bars yield."""
     pulses, area = _pulses(charge_kg), _area_m2()
     time_s = float(pulses.arrivals_s[0, 0])
     most_n, weight_n = 4.0 * STRIP.moment_nm / STRIP.span_m, 0.5 * STRIP.mass_kg * G
