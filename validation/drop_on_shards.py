@@ -25,6 +25,12 @@ def run(folder: Path) -> Found:
         Comparison(f"deflection that stays, seed {seed}", "mm", 1e3 * expected, 1e3 * stays_m(*found), 0.2)
         for seed, found in courses.items()
     ]
+    shares = [stays_m(*found) / expected for found in courses.values()]
+    speeds = [float((np.diff(sunk) / np.diff(times)).max()) for times, sunk in courses.values()]
+    comparisons += [
+        Comparison("the same over that of theory, median", "", (0.3, 1.3), float(np.median(shares))),
+        Comparison("speed of the middle after the blow, median", "m/s", speed_m_s(), float(np.median(speeds)), 0.25),
+    ]
 
     def draw(figure: Figure) -> None:
         axes = figure.subplots()
@@ -41,6 +47,11 @@ def expected_m() -> float:
     """Deflection by rigid-plastic theory: E M / (M + m / 3) = (P - (M + m / 2) g) δ, P = 4 × moment / L."""
     transmitted_j = 0.5 * MASS_KG * SPEED_M_S**2 * MASS_KG / (MASS_KG + STRIP.mass_kg / 3.0)
     return transmitted_j / (4.0 * STRIP.moment_nm / STRIP.span_m - (MASS_KG + STRIP.mass_kg / 2.0) * G)
+
+
+def speed_m_s() -> float:
+    """Speed of the weight and the middle after a plastic impact, M v / (M + m / 3)."""
+    return MASS_KG * SPEED_M_S / (MASS_KG + STRIP.mass_kg / 3.0)
 
 
 def stays_m(times_s: np.ndarray, sunk_by_m: np.ndarray) -> float:
@@ -86,7 +97,10 @@ CASE = Case(
     f"breaks by bending and tension alone. Bars yield as a crack is open by {1e3 * STRIP.yields_at_m:g} mm.",
     source="Rigid-plastic theory: E M / (M + m / 3) = (P - (M + m / 2) g) δ, a plastic impact on two stiff halves. P "
     "by hand from 4 A f_y (d - a / 2) / L, a = A f_y / (b f_c), EN 1992-1-1:2004, 3.1.7 (3).",
-    reason="20 %: a strip in irregular shards carries up to a fifth more than by theory (the case before), cracks "
-    "along its length take energy, and what is elastic springs back.",
+    reason="20 % was wanted, and is missed. Two things take as much: the middle begins by a fifth slower than after a"
+    " plastic impact on two stiff halves, as more of the strip moves at first, and both ends lift off; and by "
+    "their reactions strips carry 1.3, 1.2 and 1.1 times P while they go down (seeds 1 to 3), as under a load "
+    "that grows (the case before). In halves with a crack that is there before, weights go as far as theory "
+    "says. From 0.3 to 1.3 times was the least that was asked for. The speed is that in a frame of 8 ms: 25 %.",
     run=run,
 )

@@ -10,10 +10,10 @@ from slabs import Slab, sunk_m
 
 SLAB = Slab(5.0, 1.5, 0.3, 0.25, 1300.0, 500.0, 30.0, 0.0015, 0.03)
 SHARDS, SEEDS = (40, 100), (1, 2, 3)
-GROWTH = ((0.0, 0.5), (0.1, 0.5), (0.3, 0.85), (1.9, 1.25))
+GROWTH = ((0.0, 0.5), (0.1, 0.5), (0.3, 0.85), (2.3, 1.35))
 """Times, and the whole load over that of plastic theory then."""
 
-FALLS_M, FAST_M_S = 0.08, 0.1
+FALLS_M, FAST_M_S = 0.08, 0.05
 """A slab that has gone down by the first at last is coming down from when it is faster than the second."""
 
 
@@ -91,7 +91,9 @@ CASE = Case(
     f"a crack is open by {1e3 * SLAB.yields_at_m:g} mm.",
     source="Plastic theory: w L² / 8 = M. M by hand, A f_y (d - a / 2), a = A f_y / (b f_c), EN 1992-1-1:2004, "
     "3.1.7 (3).",
-    reason="10 % in 100 shards, which is wanted. 25 % in 40: cracks go along inclined faces of shards, two to three of "
-    "which share a section, and close at edges that are not in line. The load grows by 1 % in the time of a frame.",
+    reason="10 % was wanted in 100 shards, and is missed; 25 % in 40. Cracks go along inclined faces of shards, so "
+    "that bars are dowels there, sides of cracks rub, and edges at which they close are not in line. 2 % are "
+    "the measure: the load grows by a quarter of that of theory in a second, and is taken as the middle sinks "
+    "by 5 cm/s.",
     run=run,
 )
