@@ -137,6 +137,8 @@ def _frames_table(results: Results) -> _Table:
         "work_of_tools_J": work.tools_j,
         "lost_to_damping_J": work.damping_j,
         "dissipated_between_bodies_J": work.dissipated_j,
+        "dissipated_by_bars_J": work.yielding_j,
+        "dissipated_by_crack_friction_J": work.crack_friction_j,
     }
     return _of_columns("frames", columns)
 

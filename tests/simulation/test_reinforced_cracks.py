@@ -74,6 +74,13 @@ def test_a_block_stretches_its_bars_as_the_bilinear_law_says(blender, tmp_path):
     assert hardened - let_go == pytest.approx(0.6 * most * at_yield_m, rel=0.02)
     forces = abs(results.frames.loads.connection_forces_n[:, 0, 2])
     np.testing.assert_allclose(forces[[228, -1]], [mass_kg * GRAVITY, 0.4 * mass_kg * GRAVITY], rtol=1e-3)
+    # Work of yielding by hand: the force grows evenly from where bars yield to the weight, over what stays of the
+    # opening. Elastic deformation came back, so it is about all that was lost between the bodies.
+    work = results.frames.work
+    stays_m = at_yield_m + 0.5 * (elongation_m - at_yield_m) - most * at_yield_m
+    by_hand_j = 0.5 * (yield_n + mass_kg * GRAVITY) * stays_m
+    assert np.nansum(work.yielding_j) == pytest.approx(by_hand_j, rel=0.01)
+    assert results.frames.loads.body_bar_use[-1].max() == pytest.approx(let_go / elongation_m, rel=0.01)
 
 
 def test_bars_that_are_weakened_stretch_further_and_those_that_are_sawn_through_let_go(blender, tmp_path):
@@ -151,6 +158,11 @@ def test_a_cantilever_turns_in_a_plastic_hinge_at_the_moment_of_plastic_theory(b
     fallen = weights[np.argmax(opening > 1.1 * at_yield_m)]
     assert fallen == pytest.approx(1.0, abs=0.03)
     assert opening[-1] > 3 * at_yield_m
+    # Work of the hinge by hand: M_p times the rotation in which bars yield, all of them at the edge that opens.
+    by_hand_j = cracked.plastic_nm * (opening[-1] - at_yield_m) / DEPTH_M
+    work = cracked.results.frames.work
+    assert np.nansum(work.dissipated_j) == pytest.approx(by_hand_j, rel=0.01)
+    assert np.nansum(work.yielding_j) == pytest.approx(by_hand_j, rel=0.01)
 
 
 def test_bars_that_harden_hold_a_hinge_until_they_rupture(blender, tmp_path):

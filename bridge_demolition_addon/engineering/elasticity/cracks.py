@@ -20,6 +20,7 @@ from typing import TypeVar
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
+from .crack_state import CornerState, CrackState
 from .equations import summed_on_bodies
 from .gaps import Gaps, SolvedTangents, motion_of_points
 from .joint_rows import (
@@ -149,20 +150,27 @@ class Cracks:
         self._rests = bar_response(rubbing, _along(gaps, self._normals), self._rests, np.zeros_like(pressed)).slips_m
         self._grips_n = -FRICTION * pressed * closing
 
-    def stored_j(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
-        """Return the energy (t,) that bars and pressed sides would give back."""
-        bars = self._bars()
+    def state(self, positions_m: FloatArray, rotations: FloatArray) -> CrackState:
+        """Return the state of all cracks after a sub-step, before it is settled."""
         gaps = turned_back(rotations[..., self._first], self._gaps(positions_m, rotations))
-        forces = bar_response(bars, _as_bars(gaps, self._normals), self._slips, self._flows).forces_n
-        holds = self._holds & (bars.stiffness_n_m > 0.0)
-        doubled = np.divide(
-            dot_products(forces, forces), bars.stiffness_n_m, out=np.zeros(len(self._flows)), where=holds
-        )
-        pressed, closing = self._stiffness_pressed(), np.minimum(dot_products(self._normals, gaps), 0.0)
+        bars, pressed = self._bars(), self._stiffness_pressed()
         rubbing = _friction(self._grips_n, pressed)
-        forces = bar_response(rubbing, _along(gaps, self._normals), self._rests, np.zeros_like(pressed)).forces_n
-        doubled += dot_products(forces, forces) / rubbing.stiffness_n_m
-        return 0.5 * _summed(doubled + pressed * closing * closing)
+        pulls = bar_response(bars, _as_bars(gaps, self._normals), self._slips, self._flows)
+        corners = CornerState(
+            gaps_m=gaps,
+            normals=self._normals,
+            bars=bars,
+            holds=self._holds.astype(float),
+            pulls=pulls,
+            forces_n=_as_bars(self._holds * pulls.forces_n, self._normals),
+            slips_m=self._slips,
+            rubbing=rubbing,
+            rubs=bar_response(rubbing, _along(gaps, self._normals), self._rests, np.zeros_like(pressed)),
+            rests_m=self._rests,
+            pressed_n_m=pressed,
+            elongations_m=np.full(len(pressed), self._elongation_m),
+        )
+        return corners.of_cracks(self.rows)
 
     def in_substep(
         self, chosen: IntArray, positions_m: FloatArray, rotations: FloatArray, substep_s: float

@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 
 from ...bullet.world import BulletWorld
+from ...engineering.elasticity.crack_state import CrackAccumulator, FrameCracks
 from ...engineering.mechanics.bearing_loads import BearingAccumulator, BearingLoads, BearingPads
 from ...engineering.mechanics.frame_loads import FrameLoads
 from ...engineering.mechanics.member_sections import MemberSections, kinds_of
@@ -111,7 +112,8 @@ class BulletReader:
         )
         if loads:
             bearings = BearingAccumulator(pads) if (pads := self._bearing_pads()) else None
-            self._sums = FrameSums(meter, inventory, self._work(), bearings, every_substep=self._every_substep)
+            cracks = CrackAccumulator(len(inventory.pairs)) if breaking.ductility and elastic else None
+            self._sums = FrameSums(meter, inventory, self._work(), bearings, cracks, every_substep=self._every_substep)
         return SubstepRecorder(constraints, drivers, meter, breaker, warm_up, self._sums)
 
     def before_frame(self, substeps: int) -> None:
@@ -200,6 +202,11 @@ class BulletReader:
     def of_bearings(self) -> BearingLoads | None:
         """Forces of bearings in the frame that was read last; None where they are not known."""
         return self._sums.of_bearings if self._sums else None
+
+    @property
+    def of_cracks(self) -> FrameCracks:
+        """What bars across cracks did in the frame that was read last; of no crack where it is not known."""
+        return self._sums.of_cracks if self._sums else FrameCracks.none()
 
     def take_ball_history(self) -> BallHistory:
         """Return the hits of the balls since the last call."""

@@ -16,6 +16,7 @@ from ...bullet.constraint_rows import ConstraintRows, check_frames
 from ...bullet.world import BulletWorld
 from ...engineering.arithmetic import power
 from ...engineering.elasticity.bearings import Bearings, PadSprings
+from ...engineering.elasticity.crack_state import CrackState
 from ...engineering.elasticity.cracks import CORNERS, Cracks, corner_positions, corner_shares
 from ...engineering.elasticity.equations import RigidBodies, without
 from ...engineering.elasticity.equilibrium import Equilibrium, equilibrium
@@ -78,6 +79,14 @@ class SupportSprings:
 
     soil: SoilSprings | None = None
     pads: PadSprings | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ElasticEnergy:
+    """Energy (m,) in connections and in cracks that reinforcement holds, and the state of these; None without any."""
+
+    stored_j: np.ndarray
+    cracks: CrackState | None
 
 
 class ElasticConnections:
@@ -259,12 +268,17 @@ class ElasticConnections:
         rates = lines.rates(*(step.velocities[:, bodies] for bodies in ends))
         self._rows.expect(rows, -substep_s * rates)
 
-    def stored_j(self, intact: np.ndarray) -> np.ndarray:
-        """Return the energy that is now in connections (m,) that are intact, or in their reinforcement."""
-        motion = self._reader.read()
-        return given(self._structure).stored_j(motion.position_components_m, motion.rotation_components) * self.holding(
-            intact
-        )
+    def energy(self, intact: np.ndarray) -> ElasticEnergy:
+        """Return what is stored now in connections (m,) that are intact, or in their reinforcement, and its state."""
+        motion, structure = self._reader.read(), given(self._structure)
+        bodies = motion.position_components_m, motion.rotation_components
+        cracks = structure.crack_state(*bodies)
+        return ElasticEnergy(structure.stored_j(*bodies, cracks) * self.holding(intact), cracks)
+
+    @property
+    def have_bars(self) -> np.ndarray | None:
+        """Connections (m,) whose cracks bars cross; None without reinforcement."""
+        return self._cracks.have_bars if self._cracks is not None else None
 
     def loads_on(self, sides: np.ndarray) -> np.ndarray:
         """Return forces and torques (6, m) in the last sub-step on Bullet's body A or B of each connection (m,)."""
