@@ -10,6 +10,7 @@ from types import ModuleType
 from typing import Any
 
 from ..errors import OutputError, SimulationError
+from ..model.results.bar_extremes import bars_text, largest_use_text
 from ..model.results.creep import creep_text
 from ..model.results.fingerprint import SHORT
 from ..model.results.summary import first_hit_s
@@ -189,6 +190,10 @@ def _print_paths(paths: Sequence[Path]) -> None:
 def _result_facts(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     connections, force = summary["connections"], summary["largest_force_sum"]
     yield "broken connections", f"{connections['broken']} of {connections['count']}"
+    if bars := bars_text(summary):
+        yield "reinforcement", bars
+    if use := largest_use_text(summary):
+        yield "largest use of bars", use
     if force:
         position = f"on {force['body']} at {force['time_s']:.3f} s"
         yield "largest sum of forces", f"{force['force_N'] / 1000.0:.1f} kN {position}"
@@ -203,6 +208,8 @@ def _result_facts(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     if energy := summary["energy"]:
         made = energy["made_by_solver"]
         share = f"{made['share_of_dissipated']:.1%} of the dissipated energy"
+        if by_bars_j := energy["dissipated_by_bars_J"]:
+            yield "work of bars", f"{by_bars_j / 1000.0:.1f} kJ of {energy['dissipated_J'] / 1000.0:.1f} kJ dissipated"
         yield "energy made by solver", f"{made['J'] / 1000.0:.1f} kJ, {share}"
         if doubtful := energy["doubtful_throws"]:
             yield "doubtful throws", f"{doubtful} shards, marked in debris_log.csv and summary.json"

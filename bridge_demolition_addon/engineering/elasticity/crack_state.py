@@ -9,7 +9,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from ..arrays import FloatArray, IntArray
+from ..arrays import BoolArray, FloatArray, IntArray
 from .joint_rows import dot_products
 from .steel_bars import BarResponse, Bars
 
@@ -25,7 +25,7 @@ class CrackState:
     openings_m: FloatArray  # (t,), largest distance of the sides at a corner where bars hold
     forces_n: FloatArray  # (t,), resultant of all bars
     yield_shares: FloatArray  # (t,), largest force at a corner by that at which its bars yield
-    rupture_shares: FloatArray  # (t,), largest opening by that at which bars rupture
+    rupture_shares: FloatArray  # (t,), largest opening by that at which bars rupture; 1 where they do
     ruptured_shares: FloatArray  # (t,), part of the bars, by force, that has ruptured
 
 
@@ -55,8 +55,8 @@ class CornerState:
             _stored(pulls, bars) + _stored(self.rubs.forces_n, self.rubbing) + self.pressed_n_m * closing * closing
         )
         openings = np.where(has_bars * self.holds > 0.0, np.sqrt(dot_products(self.gaps_m, self.gaps_m)), 0.0)
-        rupture_shares = openings / self.elongations_m
-        ruptured = bars.yield_n * ((self.holds == 0.0) | (rupture_shares > 1.0))
+        used = openings / self.elongations_m
+        ruptured = bars.yield_n * ((self.holds == 0.0) | (used > 1.0))
         whole, resultants = _of_corners(bars.yield_n).sum(axis=0), _of_corners(self.forces_n).sum(axis=1)
         return CrackState(
             rows=rows,
@@ -66,7 +66,7 @@ class CornerState:
             openings_m=_of_corners(openings).max(axis=0),
             forces_n=np.sqrt(dot_products(resultants, resultants)),
             yield_shares=_of_corners(_shares(np.sqrt(dot_products(pulls, pulls)), bars.yield_n)).max(axis=0),
-            rupture_shares=_of_corners(rupture_shares).max(axis=0),
+            rupture_shares=np.minimum(_of_corners(used).max(axis=0), 1.0),
             ruptured_shares=_shares(_of_corners(ruptured).sum(axis=0), whole),
         )
 
@@ -86,6 +86,10 @@ class FrameCracks:
     def none(cls) -> FrameCracks:
         """Return those of a frame without cracks."""
         return cls(np.zeros(0, int), *np.zeros((len(fields(cls)) - 1, 0)))
+
+    def only(self, which: BoolArray) -> FrameCracks:
+        """Return some of them (t,)."""
+        return FrameCracks(*(getattr(self, item.name)[which] for item in fields(self)))
 
     def use_of_bodies(self, pairs: IntArray, count: int) -> FloatArray:
         """Return the largest part of their rupture strain (n,) that bars use at n bodies, of pairs (m, 2) of these."""

@@ -76,7 +76,7 @@ class FrameWork(Generic[_Energy]):
     damping_j: _Energy  # energy of translation taken away by Blender's damping
     dissipated_j: _Energy  # taken away between bodies: by impacts, friction, and connections that yield
     yielding_j: _Energy  # part of it by bars that yield across cracks; nan where it is not known
-    crack_friction_j: _Energy  # part of it by sides of these cracks that slide on each other; nan likewise
+    crack_friction_j: _Energy  # part of it by sides of these cracks that slide on each other; nan as above
     made_by_connections_j: _Energy  # where stretched connections are pulled together
     made_by_contacts_j: _Energy  # where contacts are pushed apart
     made_by_lifting_j: _Energy  # where bodies move up without a velocity, as Bullet parts hulls that overlap

@@ -5,7 +5,7 @@ from ..results.arrays import BALLS_FILE, CONTACTS_FILE, FRAMES_FILE, INVENTORY_F
 SUMMARY_FILE = "summary.json"
 FORCE_LOG, DEBRIS_LOG = "force_log.csv", "debris_log.csv"
 BREAKING_LOG, EXPLOSION_LOG = "breaking_log.csv", "explosion_log.csv"
-BEARING_LOG = "bearing_log.csv"
+BEARING_LOG, BAR_LOG = "bearing_log.csv", "bar_log.csv"
 GROUND_MOTION_FILE = "ground_motion.csv"
 FORCE_CHART = "force_over_time.png"
 BLEND_FILE = "scene.blend"
@@ -33,6 +33,7 @@ RESULT_FILES = (
     BREAKING_LOG,
     EXPLOSION_LOG,
     BEARING_LOG,
+    BAR_LOG,
     GROUND_MOTION_FILE,
     RESULTS_FILE,
     FRAMES_FILE,

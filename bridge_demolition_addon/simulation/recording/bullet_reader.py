@@ -50,6 +50,8 @@ class BulletReader:
     ----------
     resting_state : RestingState or None
         How the bridge deforms under its own weight; None where connections are rigid.
+    have_bars : (m,) bool or None
+        Connections across whose cracks bars are followed; None where they are not.
     rigid_because : LayoutError or None
         Why connections that should be elastic are rigid.
     """
@@ -75,6 +77,7 @@ class BulletReader:
         self._sums: FrameSums | None = None
         self._no_loads = None if loads else unknown_loads(setup.inventory)
         self._substeps = self._substep_recorder(elastic, blast, loads)
+        self.have_bars = elastic.have_bars if elastic and loads else None
         world.call_around_substeps(
             self._substeps.before_substep, self._substeps.after_substep if every_substep else None
         )

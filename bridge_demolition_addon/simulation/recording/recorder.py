@@ -25,6 +25,7 @@ from ...scene.connections.elasticity import is_elastic
 from ...scene.run_setup import RunSetup, run_setup_of
 from ...scene.time_scale import time_step_at
 from ...scene.tools.ball import begin_lifts, lifts_of
+from .bars import RecordedBars
 from .bearings import RecordedBearings
 from .blast import Blast, check_blast
 from .bullet_reader import BulletReader
@@ -113,6 +114,7 @@ class Recording(RecordedFrames):
         self._logs: Logs | None = None
         self._blast: Blast | None = None
         self._bearings: RecordedBearings | None = None
+        self._bars: RecordedBars | None = None
         self.substeps = 0
 
     def before_frame(self) -> None:
@@ -193,6 +195,11 @@ class Recording(RecordedFrames):
         return self._bearings.summary() if self._bearings else []
 
     @property
+    def reinforcement(self) -> dict[str, Any] | None:
+        """What bars across cracks did so far, ready for JSON; None where they are not followed."""
+        return self._bars.summary() if self._bars else None
+
+    @property
     def rigid_because(self) -> LayoutError | None:
         """Why connections that should be elastic are rigid."""
         if self.layout_error and is_elastic(self.scene):
@@ -267,6 +274,9 @@ class Recording(RecordedFrames):
         self._reader = BulletReader(
             self.scene, setup, self.world, self._blast, every_substep=self._every_substep, loads=self.has_loads
         )
+        if self._logs and self._reader.have_bars is not None:
+            self._bars = RecordedBars(setup.inventory, self._reader.have_bars)
+            self._logs.begin_bars()
         return self._reader
 
     def _begin(self, setup: RunSetup, world: BulletWorld | None) -> None:
@@ -274,6 +284,7 @@ class Recording(RecordedFrames):
         if self._blast:
             self._blast.rest()
         self.setup = setup
+        self._bars = None
         self._lifted = [body for body in setup.bodies.objects if lifts_of(body)]
         self._blast = Blast(self.scene, setup, world) if setup.goes_off else None
         load_sampling = "every sub-step" if self._every_substep else "last sub-step of each frame"
@@ -300,6 +311,8 @@ class Recording(RecordedFrames):
         if self._logs:
             self._logs.write_frame(frame)
             self._write_bearings(self._logs, frame)
+            if self._bars and self._reader:
+                self._logs.write_bars(frame, *self._bars.note(frame, self._reader.of_cracks))
             if blast_loads is not None:
                 self._logs.write_blast(frame, blast_loads, frame_s)
 
