@@ -47,9 +47,7 @@ class ConstraintRows:
         self._limits = self._doubles(layout.spring.lower)
         self.held = self._limits == self._doubles(layout.spring.upper)
         self._resists = self.held.copy()
-        self._built: dict[
-            tuple[int, int], np.ndarray
-        ] = {}  # both frames as Blender made them, of those that were moved
+        self._built: dict[tuple[int, int], np.ndarray] = {}  # frames that were moved, as Blender made them
 
     def frame_components(self) -> tuple[tuple[np.ndarray, np.ndarray], ...]:
         """Return axes (3, 3, k) and positions (3, k) of the frames in Bullet's body A, and of those in its body B."""

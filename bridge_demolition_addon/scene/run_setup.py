@@ -104,7 +104,9 @@ def _breaking_parts(setup: RunSetup) -> Parts:
     limits = {"strength_pa": breaking.strength, "ductility": breaking.ductility}
     parts = {name: np.array(astuple(limit) if limit else (), float) for name, limit in limits.items()}
     bars = breaking.bars
-    return parts | ({"bars": np.column_stack((bars.yield_n, bars.offsets_m))} if bars else {})
+    if not bars:
+        return parts
+    return parts | {"bars": np.column_stack((bars.yield_n, bars.offsets_m, bars.directions, bars.openings_m))}
 
 
 def _load_parts(setup: RunSetup) -> Parts:

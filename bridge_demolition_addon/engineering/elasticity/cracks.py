@@ -14,6 +14,7 @@ All arrays have their components first. Places are numbered corner by corner, in
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, fields
 from typing import TypeVar
 
@@ -40,16 +41,14 @@ Numbers = TypeVar("Numbers", FloatArray, IntArray, BoolArray)
 CORNERS = np.array([(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)])
 """Places as shares of half of the sides of the rectangle."""
 
-DOWEL_SHARE = 1.3 * 4.0 / np.pi * np.sqrt(35.0 / 500.0)
-"""Force along a crack that bars resist as dowels, by that across it: 1.3 d² √(f_c f_y) by π/4 d² f_y, for C35/45 and
-B500 (B. H. Rasmussen, 1963, Bygningsstatiske Meddelelser 34, on bolts and dowels in concrete). Both together are on an
-ellipse, as normal and shear stress by von Mises' criterion.
-
-Bars pull less hard along an inclined crack than across it: otherwise cracks that zigzag would be held too strongly.
+DOWEL_SHARE = 0.9 * np.sqrt(35.0 / 500.0)
+"""Force across themselves that bars resist as dowels, by that along them: 0.9 √(f_c / f_y) for rough cracks, of C35/45
+and B500 (fib Model Code 2010, equation 7.3-51 and table 7.3-2). Both together are on an ellipse, as normal and shear
+stress by von Mises' criterion.
 """
 
 FRICTION = 0.7
-"""Friction of the sides of a crack, which is rough: EN 1992-1-1:2004, 6.2.5 (2)."""
+"""Friction of the sides of a crack, which is rough: EN 1992-1-1:2004, 6.2.5 (2), and fib Model Code 2010, table 7.3-2."""
 
 _SHEARED = 0.4
 """Stiffness against sliding of sides that do not slip, by that against pressing: shear over normal stiffness of
@@ -57,39 +56,44 @@ concrete, G / E."""
 
 _COUNT = len(CORNERS)
 
-_HALVINGS = 6
-"""Halvings of the way from one guess to the next."""
+_MOST_SECANTS = 12
+_FLAT = 0.01
+"""Slope of the energy on the way from one guess to the next, by that at its beginning, which is taken for none."""
 
 _AGREES = 1e-4
 """Largest error of the force at a corner, by what its bars yield at, or presses its sides together so far."""
 
 _LITTLE_M = 1e-5
 
+_PARTED_M = 0.01
+"""Opening from which on sides without bars have parted: where they meet again, they touch as any bodies."""
+
 
 class Cracks:
     """All cracks between n bodies, in place of some of m connections.
 
-    `yield_n` (4, m): forces at which the bars in each corner yield. `shares` (m,): part of the bars that is left, which
-    the caller keeps up to date. `pressed_n_m` (m,): stiffness along the normals, with which the sides of a closed crack
-    press on each other.
+    `yield_n` (4, m): forces at which the bars in each corner yield. `openings_m` (m,): how far they stretch until they
+    rupture. `shares` (m,): part of the bars that is left, which the caller keeps up to date. `pressed_n_m` (m,):
+    stiffness along the normals, with which the sides of a closed crack press on each other.
     """
 
     def __init__(
         self,
         steel: Steel,
-        elongation_m: float,  # opening at which a bar ruptures
+        openings_m: FloatArray,
         yield_n: FloatArray,
         shares: FloatArray,
         pressed_n_m: FloatArray,
     ):
-        self._steel, self._elongation_m, self._yield_n, self._shares = steel, elongation_m, yield_n, shares
+        self._steel, self._yield_n, self._shares = steel, yield_n, shares
         self.have_bars = (yield_n > 0.0).any(axis=0)  # (m,)
+        self._openings_m = np.where(self.have_bars, openings_m, _PARTED_M)
         self._pressed_n_m = pressed_n_m / _COUNT
         self.rows: IntArray = np.zeros(0, int)  # connections that cracks have replaced, oldest first
         self._first: IntArray = np.zeros(0, int)
         self._second: IntArray = np.zeros(0, int)
         self._first_anchors, self._second_anchors = np.zeros((3, 0)), np.zeros((3, 0))
-        self._normals = np.zeros((3, 0))
+        self._normals, self._directions = np.zeros((3, 0)), np.zeros((3, 0))
         self._slips, self._flows, self._holds = np.zeros((3, 0)), np.zeros(0), np.zeros(0, bool)
         self._rests, self._grips_n = np.zeros((3, 0)), np.zeros(0)  # where sides that rub do not pull, and at most by
         self._solved_for = np.zeros((3, 3, 0))
@@ -104,13 +108,14 @@ class Cracks:
         second: IntArray,
         places_m: FloatArray,
         normals: FloatArray,
+        directions: FloatArray,
         positions_m: FloatArray,
         rotations: FloatArray,
     ) -> None:
         """Let bars hold in place of connections `rows` (r,), whose bodies are `first` and `second`.
 
-        The cracks are still closed: bars cross them at `places_m` (3, 4, r), and `normals` (3, r) point from the first
-        to the second bodies.
+        The cracks are still closed: bars cross them at `places_m` (3, 4, r), along `directions` (3, r). These and the
+        `normals` (3, r) point from the first to the second bodies.
         """
         ends = [np.tile(bodies, _COUNT) for bodies in (first, second)]
         anchors = [turned_back(rotations[..., end], places_m.reshape(3, -1) - positions_m[:, end]) for end in ends]
@@ -119,8 +124,11 @@ class Cracks:
         self._first, self._second = _joined(self._first, ends[0]), _joined(self._second, ends[1])
         self._first_anchors = _joined(self._first_anchors, anchors[0])
         self._second_anchors = _joined(self._second_anchors, anchors[1])
-        normals = turned_back(rotations[..., ends[0]], np.tile(normals, _COUNT))
+        normals, directions = (
+            turned_back(rotations[..., ends[0]], np.tile(axes, _COUNT)) for axes in (normals, directions)
+        )
         self._normals = _joined(self._normals, normals)
+        self._directions = _joined(self._directions, directions)
         self._slips, self._flows = _joined(self._slips, np.zeros((3, count))), _joined(self._flows, np.zeros(count))
         self._holds = _joined(self._holds, np.ones(count, bool))
         self._rests = _joined(self._rests, np.zeros((3, count)))
@@ -130,8 +138,9 @@ class Cracks:
     def settle(self, positions_m: FloatArray, rotations: FloatArray) -> IntArray:
         """Take over how far bars have yielded by now; return the connections (d,) that no bar replaces any more."""
         gaps = self._gaps(positions_m, rotations)
-        self._holds = self._holds & (dot_products(gaps, gaps) <= self._elongation_m * self._elongation_m)
-        local = _as_bars(turned_back(rotations[..., self._first], gaps), self._normals)
+        openings_m = np.tile(self._openings_m[self.rows], _COUNT)
+        self._holds = self._holds & (dot_products(gaps, gaps) <= openings_m * openings_m)
+        local = _as_bars(turned_back(rotations[..., self._first], gaps), self._directions)
         response = bar_response(self._bars(), local, self._slips, self._flows)
         self._slips = np.where(self._holds, response.slips_m, self._slips)
         self._flows = np.where(self._holds, response.flows_m, self._flows)
@@ -155,20 +164,20 @@ class Cracks:
         gaps = turned_back(rotations[..., self._first], self._gaps(positions_m, rotations))
         bars, pressed = self._bars(), self._stiffness_pressed()
         rubbing = _friction(self._grips_n, pressed)
-        pulls = bar_response(bars, _as_bars(gaps, self._normals), self._slips, self._flows)
+        pulls = bar_response(bars, _as_bars(gaps, self._directions), self._slips, self._flows)
         corners = CornerState(
             gaps_m=gaps,
             normals=self._normals,
             bars=bars,
             holds=self._holds.astype(float),
             pulls=pulls,
-            forces_n=_as_bars(self._holds * pulls.forces_n, self._normals),
+            forces_n=_as_bars(self._holds * pulls.forces_n, self._directions),
             slips_m=self._slips,
             rubbing=rubbing,
             rubs=bar_response(rubbing, _along(gaps, self._normals), self._rests, np.zeros_like(pressed)),
             rests_m=self._rests,
             pressed_n_m=pressed,
-            elongations_m=np.full(len(pressed), self._elongation_m),
+            elongations_m=np.tile(self._openings_m[self.rows], _COUNT),
         )
         return corners.of_cracks(self.rows)
 
@@ -186,6 +195,7 @@ class Cracks:
             turned(rotations[..., first], self._slips[:, which]),
             self._flows[which],
             turned(rotations[..., first], self._normals[:, which]),
+            turned(rotations[..., first], self._directions[:, which]),
             self._stiffness_pressed()[which],
             turned(rotations[..., first], self._rests[:, which]),
             self._grips_n[which],
@@ -196,7 +206,7 @@ class Cracks:
     def _bars(self) -> Bars:
         """Return all bars, with their remaining area."""
         whole = self._yield_n[:, self.rows] * self._shares[self.rows]
-        return Bars.of(whole.ravel(), self._steel, self._elongation_m)
+        return Bars.of(whole.ravel(), self._steel, np.tile(self._openings_m[self.rows], _COUNT))
 
     def _gaps(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
         first, second = (
@@ -218,6 +228,7 @@ class Cracks:
             "_first_anchors",
             "_second_anchors",
             "_normals",
+            "_directions",
             "_slips",
             "_flows",
             "_holds",
@@ -230,7 +241,7 @@ class Cracks:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CrackJoints:
-    """How c cracks resist small changes of their opening: along axes through the middle of their stiffness, and about them.
+    """How c cracks resist small changes of their opening: along and about axes in the middle of their stiffness.
 
     So the sides of a crack that is closed at one edge turn about that edge, against its bars alone.
     """
@@ -260,6 +271,7 @@ class CrackLaw:
     slips_m: FloatArray  # (3, b), deformation that stays
     flows_m: FloatArray  # (b,), length of the path of the slip
     normals: FloatArray  # (3, b), of the cracks
+    directions: FloatArray  # (3, b), of the bars
     pressed_n_m: FloatArray  # (b,), stiffness where the sides press on each other
     rests_m: FloatArray  # (3, b), sliding at which they do not resist it
     grips_n: FloatArray  # (b,), by which they resist at most, of how they were pressed before
@@ -268,17 +280,17 @@ class CrackLaw:
         """Return the forces (3, b) across gaps (3, b)."""
         bars, rubs = self._responses(gaps_m)
         closing = np.minimum(dot_products(self.normals, gaps_m), 0.0)
-        pulls: FloatArray = _as_bars(bars.forces_n, self.normals)
+        pulls: FloatArray = _as_bars(bars.forces_n, self.directions)
         return pulls + rubs.forces_n + self.pressed_n_m * closing * self.normals
 
     def tangents(self, gaps_m: FloatArray) -> FloatArray:
         """Return how the forces across gaps (3, b) change with these, (3, 3, b)."""
         bars, rubs = self._responses(gaps_m)
-        normals, pulls = self.normals, _as_bars(bars.directions, self.normals)
+        normals, directions, pulls = self.normals, self.directions, _as_bars(bars.directions, self.directions)
         pressed = np.where(dot_products(normals, gaps_m) < 0.0, self.pressed_n_m, 0.0)
         even = DOWEL_SHARE * DOWEL_SHARE
-        across = (1.0 - even) * bars.across_n_m - rubs.across_n_m + pressed
-        tangents: FloatArray = across * (normals[:, None] * normals)
+        tangents: FloatArray = (pressed - rubs.across_n_m) * (normals[:, None] * normals)
+        tangents += (1.0 - even) * bars.across_n_m * (directions[:, None] * directions)
         tangents += (bars.along_n_m - bars.across_n_m) * (pulls[:, None] * pulls)
         tangents += (rubs.along_n_m - rubs.across_n_m) * (rubs.directions[:, None] * rubs.directions)
         tangents[[0, 1, 2], [0, 1, 2]] += even * bars.across_n_m + rubs.across_n_m
@@ -288,7 +300,7 @@ class CrackLaw:
         """What bars do across gaps (3, b), and sides that rub on each other."""
         rubbing, never = _friction(self.grips_n, self.pressed_n_m), np.zeros_like(self.grips_n)
         return (
-            bar_response(self.bars, _as_bars(gaps_m, self.normals), self.slips_m, self.flows_m),
+            bar_response(self.bars, _as_bars(gaps_m, self.directions), self.slips_m, self.flows_m),
             bar_response(rubbing, _along(gaps_m, self.normals), self.rests_m, never),
         )
 
@@ -351,14 +363,13 @@ class CrackStep:
     ) -> tuple[FloatArray, FloatArray]:
         """Go from one guess towards the next as long as that takes energy off; what balances changes evenly."""
         step, change = coming - opening, coming_balance - balance
-        low, high = 0.0, 1.0
-        if float((self._out_of_balance(coming, coming_balance) * step).sum()) <= 0.0:
-            return coming, coming_balance
-        for _ in range(_HALVINGS):
-            share = 0.5 * (low + high)
-            rises = float((self._out_of_balance(opening + share * step, balance + share * change) * step).sum()) > 0.0
-            low, high = (low, share) if rises else (share, high)
-        return opening + high * step, balance + high * change
+
+        def slope(share: float) -> float:
+            out_of_balance = self._out_of_balance(opening + share * step, balance + share * change)
+            return float((out_of_balance * step).sum())
+
+        share = _zero_of(slope)
+        return opening + share * step, balance + share * change
 
     def joints(self) -> CrackJoints:
         """Return how the cracks resist changes of the motion that was guessed last."""
@@ -413,9 +424,10 @@ def corner_shares(positions_m: FloatArray, sides_m: FloatArray) -> FloatArray:
     return shares
 
 
-def _as_bars(gaps_m: FloatArray, normals: FloatArray) -> FloatArray:
-    """Stretches of bars (3, b) by gaps (3, b) of cracks with normals (3, b): less along the crack, as dowels."""
-    stretches: FloatArray = DOWEL_SHARE * gaps_m + (1.0 - DOWEL_SHARE) * dot_products(gaps_m, normals) * normals
+def _as_bars(gaps_m: FloatArray, directions: FloatArray) -> FloatArray:
+    """Stretches of bars (3, b) with directions (3, b) by gaps (3, b): less across the bars, as dowels."""
+    along = dot_products(gaps_m, directions)
+    stretches: FloatArray = DOWEL_SHARE * gaps_m + (1.0 - DOWEL_SHARE) * along * directions
     return stretches
 
 
@@ -427,6 +439,28 @@ def _along(gaps_m: FloatArray, normals: FloatArray) -> FloatArray:
 def _friction(grips_n: FloatArray, pressed_n_m: FloatArray) -> Bars:
     """Friction of b pressed places, as of bars that yield at it and do not harden."""
     return Bars(grips_n, _SHEARED * pressed_n_m, np.zeros_like(grips_n))
+
+
+def _zero_of(slope: Callable[[float], float]) -> float:
+    """Return where a slope that grows becomes 0, from below 0 at 0 on; at most 1.
+
+    M. Dowell and P. Jarratt (1971), A modified regula falsi method for computing the root of an equation, BIT 11, for
+    the Illinois method.
+    """
+    low, high, at_low, at_high = 0.0, 1.0, slope(0.0), slope(1.0)
+    flat = _FLAT * abs(at_low)
+    if at_high <= 0.0 or at_low >= 0.0:
+        return 1.0
+    for _ in range(_MOST_SECANTS):
+        share = (low * at_high - high * at_low) / (at_high - at_low)
+        at_share = slope(share)
+        if abs(at_share) <= flat:
+            return share
+        if at_share < 0.0:
+            low, at_low, at_high = share, at_share, 0.5 * at_high
+        else:
+            high, at_high, at_low = share, at_share, 0.5 * at_low
+    return high
 
 
 def _joined(before: Numbers, added: Numbers) -> Numbers:

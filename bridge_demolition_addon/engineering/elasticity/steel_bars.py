@@ -63,7 +63,7 @@ class Bars:
     modulus_n_m: FloatArray  # (b,), growth of the yield force with the part of the opening that stays
 
     @classmethod
-    def of(cls, yield_n: FloatArray, steel: Steel, elongation_m: float) -> Bars:
+    def of(cls, yield_n: FloatArray, steel: Steel, elongation_m: FloatArray | float) -> Bars:
         """Return bars (b,) that rupture when a crack has opened so far."""
         at_yield_m = elongation_m * steel.yield_strain / steel.rupture_strain
         stiffness = yield_n / at_yield_m

@@ -29,12 +29,33 @@ class FaceBars:
 
     yield_n: FloatArray  # (m,), force at which all bars across a face yield; 0 where there are none
     offsets_m: FloatArray  # (m, 2), where it acts, from the connection's point along the section's y and z
+    directions: FloatArray  # (m, 3), of it, along the section's axes; the first is not below 0
+    openings_m: FloatArray  # (m,), opening along it at which they rupture
 
-    def with_even(self, even_n: FloatArray) -> FaceBars:
-        """Return them together with bars (m,) that are spread evenly over the faces."""
-        whole = self.yield_n + even_n
-        share = np.divide(self.yield_n, whole, out=np.zeros_like(whole), where=whole > 0.0)
-        return FaceBars(whole, share[:, None] * self.offsets_m)
+    def with_even(self, even_n: FloatArray, opening_m: float) -> FaceBars:
+        """Return them together with bars (m,) that are spread evenly over the faces, and pull across these.
+
+        Those rupture at an opening of their own.
+        """
+        forces = self.yield_n[:, None] * self.directions
+        forces[:, 0] += even_n
+        whole, parts = length(forces), self.yield_n + even_n
+        share = np.divide(self.yield_n, parts, out=np.zeros_like(parts), where=parts > 0.0)
+        along = np.zeros_like(forces)
+        along[:, 0] = 1.0
+        return FaceBars(
+            whole,
+            share[:, None] * self.offsets_m,
+            np.divide(forces, whole[:, None], out=along, where=whole[:, None] > 0.0),
+            share * self.openings_m + (1.0 - share) * opening_m,
+        )
+
+    @classmethod
+    def none(cls, count: int) -> FaceBars:
+        """Return no bars across m faces."""
+        along = np.zeros((count, 3))
+        along[:, 0] = 1.0
+        return cls(np.zeros(count), np.zeros((count, 2)), along, np.zeros(count))
 
 
 def parting(

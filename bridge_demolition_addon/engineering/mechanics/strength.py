@@ -78,6 +78,12 @@ Two of its numbers are not stresses in N/mm² and are not taken as such:
 Steel is S235 up to 40 mm thick, at yield: EN 1993-1-1:2005, table 3.1; in shear 1/√3 of it, equation 6.18.
 """
 
+SMEARED = dict.fromkeys(
+    ("reinforced concrete column", "reinforced concrete slab", "reinforced concrete wall"), "concrete"
+)
+"""Materials whose tension, bending, torsion and, of columns, shear stand for steel that is smeared over a face, and
+their plain concrete: where bars are given, that cracks, and the bars hold. No steel counts twice."""
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Sections:

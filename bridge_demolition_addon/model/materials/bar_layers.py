@@ -54,6 +54,18 @@ class BarLayer(Table):
         at_most=5000,
     )
 
+    diameter_mm: float = key(
+        "Diameter of one bar, which decides how far a crack opens until the bars rupture.",
+        default=20.0,
+        unit="mm",
+        above=0,
+        at_most=100,
+    )
+
+    @property
+    def diameter_m(self) -> float:
+        return 1e-3 * self.diameter_mm
+
     @property
     def area_m2(self) -> float:
         return _SQUARE_METRE_PER_SQUARE_MILLIMETRE * self.area_mm2

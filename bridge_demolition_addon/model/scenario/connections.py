@@ -7,7 +7,7 @@ from typing import ClassVar, Self
 from ...engineering.elasticity.section_stiffness import ElasticModuli
 from ...engineering.elasticity.steel_bars import MODULUS_PA, USUAL_STEEL, Steel
 from ...engineering.mechanics.joint import MOTIONS, TYPES, Joint, Springs
-from ...engineering.mechanics.strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE, Strength
+from ...engineering.mechanics.strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE, SMEARED, Strength
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...errors import ScenarioError
 from ..materials.materials import MODULUS, POISSON, Material, moduli, strengths
@@ -307,10 +307,15 @@ class ConnectionSettings(JointSettings):
     def is_elastic(self) -> bool:
         return self.stiffness == "elastic"
 
-    def joints(self, materials: Sequence[Material] = ()) -> tuple[Joint, ...]:
-        """Return the joint of connections that follow no rule, then that of each rule."""
+    def joints(self, materials: Sequence[Material] = (), *, have_bars: bool = False) -> tuple[Joint, ...]:
+        """Return the joint of connections that follow no rule, then that of each rule.
+
+        In members that have bars, concrete has no steel that is smeared.
+        """
         known = {name: strength.times(self.strength_factor) for name, strength in strengths(materials).items()}
         self._check_materials(known)
+        if have_bars:
+            known |= {name: known[plain] for name, plain in SMEARED.items()}
         factor = self.strength_factor
         own = Joint(
             self.type,

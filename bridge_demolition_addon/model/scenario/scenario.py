@@ -99,12 +99,14 @@ class Scenario(Table):
     def joints(self) -> tuple[Joint, ...]:
         """Return the joint of connections that follow no rule, then that of each rule, then that of each bearing.
 
-        Rules are those of `connections.between`.
+        Rules are those of `connections.between`. With reinforcement, the same follow for members that have bars.
         """
         own, *others = self.connections.joints(self.materials)
         factor, is_elastic = self.connections.strength_factor, self.connections.is_elastic
         pads = [table.joint(own, factor, is_elastic=is_elastic) for table in bearing_tables(self)]
-        return (own, *others, *pads)
+        if not self.reinforcement:
+            return (own, *others, *pads)
+        return (own, *others, *pads, *self.connections.joints(self.materials, have_bars=True), *pads)
 
     @property
     def weighed_bridge(self) -> Bridge | None:

@@ -3,12 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ...engineering.elasticity.bar_rupture import (
+    crack_spacing_m,
+    mean_strain_at_rupture,
+    rupture_opening_m,
+    tensile_strength_pa,
+)
+from ...engineering.elasticity.steel_bars import Steel
 from ...engineering.geometry.mesh import TriangleMesh
-from ...engineering.geometry.vectors import transformed, transformed_back
+from ...engineering.geometry.vectors import length, transformed, transformed_back
 from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.reinforcement import FaceBars
 from ...engineering.mechanics.section_forces import section_axes
@@ -50,6 +57,19 @@ class LayersOfMember:
             [layer.area_m2 for layer in self.layers],
             [factor * layer.yield_pa for layer in self.layers],
         )
+
+    def openings_m(self, compressive_pa: float, steel: Steel) -> list[float]:
+        """Return the opening of a crack at which the bars of each layer rupture."""
+        depth_m, tensile_pa = self.highest - self.lowest, tensile_strength_pa(compressive_pa)
+        openings = []
+        for layer, level, width in zip(self.layers, self.levels_m, self.widths_m, strict=True):
+            below_edge_m = min(level - self.lowest, self.highest - level)
+            spacing = crack_spacing_m(layer.diameter_m, layer.area_m2, width, below_edge_m, depth_m)
+            own = replace(steel, yield_pa=layer.yield_pa)
+            openings.append(
+                rupture_opening_m(mean_strain_at_rupture(own, layer.diameter_m, spacing, tensile_pa), depth_m)
+            )
+        return openings
 
 
 def layers_of_members(layers: Sequence[BarLayer], members: Sequence[Member]) -> Iterator[LayersOfMember]:
@@ -113,16 +133,20 @@ def face_bars(
     joints: Sequence[Joint],
     joint_of_connection: np.ndarray,
     factor: float,
+    steel: Steel,
+    opening_m: float | None,
 ) -> FaceBars:
     """Return the bars of layers that cross the faces of m connections; bars end where their member does.
 
     `member_of_shard` (n,) and `joint_of_connection` (m,) are indices, `shards` have no gaps yet, and bars are `factor`
-    times as strong as their layers say.
+    times as strong as their layers say. They rupture at an opening, or without one as their steel and bond say. Bars
+    that run different ways pull together in one direction, with which they do the same work where a crack opens:
+    as yield lines in slabs do (K. W. Johansen, 1943, Brudlinieteorier).
     """
     count = len(connections)
-    yield_n, by_position = np.zeros(count), np.zeros((count, 3))
+    pulled_n, forces, by_position, by_opening = np.zeros(count), *np.zeros((2, count, 3)), np.zeros(count)
     of_pair = np.append(member_of_shard, -1)[connections.pairs]
-    is_within = (of_pair[:, 0] == of_pair[:, 1]) & (of_pair[:, 0] >= 0) & (connections.areas > 0.0)
+    is_within = _are_within(of_pair) & (connections.areas > 0.0)
     for group in layers_of_members(layers, members):
         own = is_within & (of_pair[:, 0] == group.member)
         for joint in np.unique(joint_of_connection[own]):
@@ -130,15 +154,43 @@ def face_bars(
             rows = np.flatnonzero(own & (joint_of_connection == joint))
             if strength is None or not len(rows):
                 continue
-            forces = group.section(strength.compression_pa, factor).across_cracks_n()
+            layer_forces = group.section(strength.compression_pa, factor).across_cracks_n()
+            openings = group.openings_m(strength.compression_pa, steel)
             face, corners = _corners(shards, connections.only(rows))
-            for force, level, width in zip(forces, group.levels_m, group.widths_m, strict=True):
+            along = group.axes[0]
+            signs = np.where(connections.normals[rows, along] < 0.0, -1.0, 1.0)
+            columns = zip(layer_forces, openings, group.levels_m, group.widths_m, strict=True)
+            for force, opening, level, width in columns:
                 pulls, positions = _pulls(face, corners, group.axes, level, force / width, len(rows))
-                yield_n[rows] += pulls
+                pulled_n[rows] += pulls
+                forces[rows, along] += signs * pulls
                 by_position[rows] += positions
-    positions = np.divide(by_position, yield_n[:, None], out=connections.points.copy(), where=yield_n[:, None] > 0.0)
-    across = section_axes(connections.normals)[:, :, 1:]
-    return FaceBars(yield_n, transformed_back(across, positions - connections.points))
+                by_opening[rows] += (opening if opening_m is None else opening_m) * pulls
+    has_bars = pulled_n > 0.0
+    positions = np.divide(by_position, pulled_n[:, None], out=connections.points.copy(), where=has_bars[:, None])
+    axes, yield_n = section_axes(connections.normals), length(forces)
+    directions = np.divide(forces, yield_n[:, None], out=axes[:, :, 0].copy(), where=has_bars[:, None])
+    return FaceBars(
+        yield_n,
+        transformed_back(axes[:, :, 1:], positions - connections.points),
+        transformed_back(axes, directions),
+        np.divide(by_opening, pulled_n, out=np.zeros(count), where=has_bars),
+    )
+
+
+def within_reinforced(
+    layers: Sequence[BarLayer], members: Sequence[Member], member_of_shard: np.ndarray, connections: Connections
+) -> np.ndarray:
+    """Return whether each connection (m,) is between two shards of one member that has bars."""
+    of_pair = np.append(member_of_shard, -1)[connections.pairs]
+    reinforced = [group.member for group in layers_of_members(layers, members)]
+    return _are_within(of_pair) & np.isin(of_pair[:, 0], reinforced)
+
+
+def _are_within(of_pair: np.ndarray) -> np.ndarray:
+    """Whether connections between members (m, 2), -1 for the ground, are within one."""
+    within: np.ndarray = (of_pair[:, 0] == of_pair[:, 1]) & (of_pair[:, 0] >= 0)
+    return within
 
 
 def _corners(shards: Sequence[TriangleMesh], connections: Connections) -> tuple[np.ndarray, np.ndarray]:

@@ -26,7 +26,7 @@ from ..schema import given
 from ..terrain.built import BuiltGround, built_ground
 from .bearings import ModelBearings, bearing_connections, have_bearing, placed_bearings, raised_shards
 from .connection_rules import rules_of_pairs
-from .face_bars import face_bars
+from .face_bars import face_bars, within_reinforced
 from .footings import on_footings, second_moments_of, soil_springs, with_soil
 from .members import FracturedMembers, fractured_members, shards_with_gaps
 from .stiffness import CutMembers, connection_stiffness
@@ -141,6 +141,8 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
     soil = soil_springs(scenario.foundations, members, fractured.member_of_shard, shards, connections)
     bars = None
     if scenario.reinforcement:
+        within = within_reinforced(scenario.reinforcement, members, fractured.member_of_shard, connections)
+        joint_of_connection = joint_of_connection + np.where(within, len(scenario.joints) // 2, 0)
         bars = face_bars(
             scenario.reinforcement,
             members,
@@ -150,6 +152,8 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
             scenario.joints,
             joint_of_connection,
             scenario.connections.strength_factor,
+            scenario.steel,
+            scenario.connections.ductile_elongation_m,
         )
     stiffness = None
     if scenario.connections.is_elastic:

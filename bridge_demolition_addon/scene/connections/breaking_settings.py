@@ -24,6 +24,8 @@ _STEEL = "bda_steel"
 _BARS = "bda_bars"
 _FORCE = "bda_breaking_force_n"
 
+_NO_BARS = (0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
+
 _UNBREAKABLE = Strength(*[1e300] * len(fields(Strength)))
 """Strength of a connection that no stress breaks."""
 
@@ -71,16 +73,16 @@ def set_strength(connection: bpy.types.Object, strength: Strength | None) -> Non
 
 def keep_bars(connections: Sequence[bpy.types.Object], bars: FaceBars) -> None:
     """Keep bars with the connections (m,) that they cross."""
-    columns = zip(connections, bars.yield_n.tolist(), bars.offsets_m.tolist(), strict=True)
-    for connection, yield_n, offset_m in columns:
-        connection[_BARS] = (yield_n, *offset_m)
+    columns = np.column_stack((bars.yield_n, bars.offsets_m, bars.directions, bars.openings_m))
+    for connection, numbers in zip(connections, columns.tolist(), strict=True):
+        connection[_BARS] = numbers
 
 
 def _bars_of(connections: Sequence[bpy.types.Object]) -> FaceBars | None:
     if not any(_BARS in connection for connection in connections):
         return None
-    numbers = np.array([kept_numbers(connection, _BARS, (0.0, 0.0, 0.0)) for connection in connections])
-    return FaceBars(numbers[:, 0], numbers[:, 1:])
+    numbers = np.array([kept_numbers(connection, _BARS, _NO_BARS) for connection in connections])
+    return FaceBars(numbers[:, 0], numbers[:, 1:3], numbers[:, 3:6], numbers[:, 6])
 
 
 def breaking_of(scene: bpy.types.Scene, connections: Sequence[bpy.types.Object] = ()) -> Breaking:

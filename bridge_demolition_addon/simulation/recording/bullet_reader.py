@@ -115,7 +115,8 @@ class BulletReader:
         )
         if loads:
             bearings = BearingAccumulator(pads) if (pads := self._bearing_pads()) else None
-            cracks = CrackAccumulator(len(inventory.pairs)) if breaking.ductility and elastic else None
+            follows_bars = elastic is not None and elastic.have_bars is not None
+            cracks = CrackAccumulator(len(inventory.pairs)) if follows_bars else None
             self._sums = FrameSums(meter, inventory, self._work(), bearings, cracks, every_substep=self._every_substep)
         return SubstepRecorder(constraints, drivers, meter, breaker, warm_up, self._sums)
 

@@ -17,7 +17,7 @@ from ...bullet.world import BulletWorld
 from ...engineering.arithmetic import power
 from ...engineering.elasticity.bearings import Bearings, PadSprings
 from ...engineering.elasticity.crack_state import CrackState
-from ...engineering.elasticity.cracks import CORNERS, Cracks, corner_positions, corner_shares
+from ...engineering.elasticity.cracks import Cracks, corner_positions, corner_shares
 from ...engineering.elasticity.equations import RigidBodies, without
 from ...engineering.elasticity.equilibrium import Equilibrium, equilibrium
 from ...engineering.elasticity.joint_rows import (
@@ -33,7 +33,8 @@ from ...engineering.elasticity.joint_rows import (
 from ...engineering.elasticity.section_stiffness import SectionStiffness, in_frames
 from ...engineering.elasticity.structure import ElasticStep, ElasticStructure, StepInput
 from ...engineering.foundations.footings import Footings, SoilSprings
-from ...engineering.geometry.vectors import transformed_back
+from ...engineering.geometry.vectors import transformed, transformed_back
+from ...engineering.mechanics.reinforcement import FaceBars
 from ...engineering.mechanics.section_forces import section_axes
 from ...engineering.mechanics.strength import rectangular_sections
 from ...model.results.inventory import Inventory
@@ -163,15 +164,17 @@ class ElasticConnections:
         sections = rectangular_sections(self._inventory.areas_m2, self._inventory.second_moments_m4)
         self._face_sides_m = 6.0 * sections.bending_moduli_m3[:, ::-1].T / self._inventory.areas_m2
         self._face_directions = components_first(sections.directions)
-        ductility = given(breaking.ductility)
-        even = ductility.strength_share * given(breaking.strength).tension_pa * self._inventory.areas_m2
-        if self._bearings:
-            even[self._bearings.rows] = 0.0  # no bars run through a bearing
-        yield_n = np.tile(even / len(CORNERS), (len(CORNERS), 1))
-        if breaking.bars:
-            positions = components_first(transformed_back(sections.directions, breaking.bars.offsets_m))
-            yield_n = yield_n + breaking.bars.yield_n * corner_shares(positions, self._face_sides_m)
-        self._cracks = Cracks(breaking.steel, float(ductility.elongation_m), yield_n, left, self._axial_n_m)
+        bars = breaking.bars or FaceBars.none(len(self._frames))
+        if breaking.ductility:
+            ductility = breaking.ductility
+            even = ductility.strength_share * given(breaking.strength).tension_pa * self._inventory.areas_m2
+            if self._bearings:
+                even[self._bearings.rows] = 0.0  # no bars run through a bearing
+            bars = bars.with_even(even, float(ductility.elongation_m))
+        self._bar_directions = bars.directions
+        positions = components_first(transformed_back(sections.directions, bars.offsets_m))
+        yield_n = bars.yield_n * corner_shares(positions, self._face_sides_m)
+        self._cracks = Cracks(breaking.steel, bars.openings_m, yield_n, left, self._axial_n_m)
 
     def tear(self, rows: np.ndarray, points_m: np.ndarray, axes: np.ndarray) -> None:
         """Let the reinforcement hold of connections (r,) that broke at points (r, 3), with section axes (r, 3, 3)."""
@@ -183,10 +186,19 @@ class ElasticConnections:
         motion = self._reader.read()
         across = matrix_products(components_first(axes)[:, 1:], self._face_directions[..., rows])
         positions = corner_positions(components_first(points_m), across, self._face_sides_m[:, rows])
-        outwards = np.where(self._is_first[rows], 1.0, -1.0) * components_first(axes[:, :, 0])
+        signs = np.where(self._is_first[rows], 1.0, -1.0)
+        outwards = signs * components_first(axes[:, :, 0])
+        directions = signs * components_first(transformed(axes, self._bar_directions[rows]))
         first, second = self._frames.first[rows], self._frames.second[rows]
         self._cracks.add(
-            rows, first, second, positions, outwards, motion.position_components_m, motion.rotation_components
+            rows,
+            first,
+            second,
+            positions,
+            outwards,
+            directions,
+            motion.position_components_m,
+            motion.rotation_components,
         )
         self._world.constraints.crack_rows(rows)
 
@@ -248,7 +260,7 @@ class ElasticConnections:
         given(self._structure).end_substep()
 
     def _expect_cracks(self, motion: BodyMotion, step: ElasticStep) -> None:
-        """Have Bullet's rows in place of the cracks resist what contacts change of their motion, as bars and sides do."""
+        """Have Bullet's rows of cracks resist what contacts change of their motion, as bars and sides do."""
         if step.crack_joints is None:
             return
         joints, substep_s = step.crack_joints(), self._substep_s
