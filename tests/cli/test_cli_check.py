@@ -272,6 +272,14 @@ def test_moments_of_sections_with_bars_are_told():
     assert told["reinforcement"].endswith(" kN·m with its bottom pressed")
 
 
+def test_links_are_told_by_their_force_in_each_area_across_them():
+    connections = ConnectionSettings(method="face", material="reinforced concrete slab", ductile_elongation_m=0.05)
+    links = BarLayer(members=("deck",), along="z", spread_mm2_m2=1570.0)
+    told = facts(replace(I235, connections=connections, reinforcement=(links,), fracture=FractureSettings(shards=20)))
+    # 1570 mm²/m² × 500 N/mm² = 0.785 N/mm².
+    assert told["reinforcement"] == "deck, spread along z: 0.785 N/mm² of the area across them"
+
+
 def test_pictures_that_only_a_window_can_take_are_said():
     scenario = read_scenario(SMALL)
     told = facts(replace(scenario, pictures=PictureSettings(camera="own")))["none can be taken"]

@@ -6,7 +6,8 @@ from typing import ClassVar
 
 from ...engineering.elasticity.steel_bars import MODULUS_PA, YIELD_PA
 from ...engineering.mechanics.strength import NEWTON_PER_SQUARE_MILLIMETRE
-from ..schema import Table, key
+from ...errors import ScenarioError
+from ..schema import Table, given, key
 
 SIDES = {"start": (0, -1), "end": (0, 1), "right": (1, -1), "left": (1, 1), "bottom": (2, -1), "top": (2, 1)}
 """Axis across each side of a member, and whether the side is where that is lowest or highest."""
@@ -39,12 +40,23 @@ class BarLayer(Table):
         default="bottom",
         choices=tuple(SIDES),
     )
-    depth_m: float = key("How deep below that side the axes of the bars are.", unit="m", above=0)
-    area_mm2: float = key(
+    depth_m: float | None = key(
+        "How deep below that side the axes of the bars are; with `area_mm2`.", default=None, unit="m", above=0
+    )
+    area_mm2: float | None = key(
         "Area of steel of all bars of the layer together, in one section of one member. They are spread evenly over "
         "the width that the member has at their depth.",
+        default=None,
         unit="mm²",
         above=0,
+    )
+    spread_mm2_m2: float | None = key(
+        "Area of steel in each square metre across the bars, instead of `side`, `depth_m` and `area_mm2`: of bars that "
+        "are spread over the whole member, such as links, A_sw / (s b).",
+        default=None,
+        unit="mm²/m²",
+        above=0,
+        at_most=500_000,
     )
     yield_n_mm2: float = key(
         "Yield strength of the bars.",
@@ -55,12 +67,31 @@ class BarLayer(Table):
     )
 
     diameter_mm: float = key(
-        "Diameter of one bar, which decides how far a crack opens until the bars rupture.",
+        "Diameter of one bar, which decides how far a crack opens until the bars rupture, and how long straight ones "
+        "are anchored.",
         default=20.0,
         unit="mm",
         above=0,
         at_most=100,
     )
+    anchored: bool = key(
+        "Whether bars resist their yield force up to the ends of their member, by hooks, bends, laps or in the next "
+        "member. Straight ones, `false`, have less by bond alone near these ends.",
+        default=True,
+    )
+
+    @property
+    def is_spread(self) -> bool:
+        return self.spread_mm2_m2 is not None
+
+    @property
+    def ratio(self) -> float:
+        """Area of spread bars by that across them."""
+        return _SQUARE_METRE_PER_SQUARE_MILLIMETRE * given(self.spread_mm2_m2)
+
+    def is_in(self, name: str, kind: str) -> bool:
+        """Return whether a member of a name and kind has the bars."""
+        return bool({name, kind} & set(self.members))
 
     @property
     def diameter_m(self) -> float:
@@ -68,7 +99,7 @@ class BarLayer(Table):
 
     @property
     def area_m2(self) -> float:
-        return _SQUARE_METRE_PER_SQUARE_MILLIMETRE * self.area_mm2
+        return _SQUARE_METRE_PER_SQUARE_MILLIMETRE * given(self.area_mm2)
 
     @property
     def yield_pa(self) -> float:
@@ -82,12 +113,23 @@ class BarLayer(Table):
 
     def level_m(self, lowest: float, highest: float) -> float:
         """Return where the bars are along the axis across their side, of a member from the lowest to the highest."""
-        return lowest + self.depth_m if SIDES[self.side][1] < 0 else highest - self.depth_m
+        return lowest + given(self.depth_m) if SIDES[self.side][1] < 0 else highest - given(self.depth_m)
 
     def _check_together(self) -> None:
+        if self.is_spread:
+            self._check_spread()
+            return
+        for name in ("depth_m", "area_mm2"):
+            if getattr(self, name) is None:
+                raise ScenarioError(f"reinforcement.{name} is missing: expected it, or reinforcement.spread_mm2_m2")
         if AXES[SIDES[self.side][0]] == self.along:
             wanted = f"a side that bars along {self.along} run beside, one of {', '.join(self._sides_beside())}"
             raise self.unexpected("side", wanted)
+
+    def _check_spread(self) -> None:
+        for name, usual in (("side", "bottom"), ("depth_m", None), ("area_mm2", None), ("anchored", True)):
+            if getattr(self, name) != usual:
+                raise self.unexpected(name, "none with reinforcement.spread_mm2_m2: such bars lie at no depth")
 
     def _sides_beside(self) -> list[str]:
         return [name for name, (axis, _) in SIDES.items() if AXES[axis] != self.along]

@@ -130,8 +130,12 @@ class Scenario(Table):
         steel, layers = self.connections.steel, self.reinforcement
         if self.connections.ductile_yield_n_mm2 is not None or not layers:
             return steel
-        yields = sum(layer.area_m2 * layer.yield_pa for layer in layers) / sum(layer.area_m2 for layer in layers)
-        return replace(steel, yield_pa=yields)
+        at_depths = [layer for layer in layers if not layer.is_spread]
+        if not at_depths:
+            return replace(steel, yield_pa=sum(layer.yield_pa for layer in layers) / len(layers))
+        areas_m2 = [layer.area_m2 for layer in at_depths]
+        yields_n = sum(area * layer.yield_pa for area, layer in zip(areas_m2, at_depths, strict=True))
+        return replace(steel, yield_pa=yields_n / sum(areas_m2))
 
     @property
     def warm_up_s(self) -> float:

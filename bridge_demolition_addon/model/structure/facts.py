@@ -22,6 +22,7 @@ from ..schema import given
 from .equilibrium import deflection_m, force_utilisations, loads_of, model_at_rest, overloaded
 from .face_bars import layers_of_members
 from .model import Model
+from .spread_bars import spread_bars
 
 MOST_SHARDS_COMPARED = 2000
 """Comparing so many shards with their neighbours takes as long as cutting them."""
@@ -78,6 +79,7 @@ def connection_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
             yield "", "one force for all: the finer the bridge is cut, the stronger it is. To break by the"
             yield "", f'strength of {MATERIAL_OF_LARGE_MODELS} give none, and method "face"'
     yield from _bar_facts(scenario, model)
+    yield from _spread_facts(scenario, model)
     yield from _rule_facts(scenario)
     yield from _clamping_facts(scenario, model)
     yield from _bearing_facts(scenario, model)
@@ -92,6 +94,13 @@ def _bar_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
         moments = zip([side for _, side in reversed(sides)], section.moments_nm(), strict=True)
         resisted = ", ".join(f"{moment / 1000.0:.4g} kN·m with its {side} pressed" for side, moment in moments)
         yield "reinforcement", f"{model.members[group.member].name}, along {AXES[along]}: {resisted}"
+
+
+def _spread_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
+    for spread in spread_bars(scenario.reinforcement, model.members):
+        layer, name = spread.layer, model.members[spread.member].name
+        stress_n_mm2 = 1e-6 * scenario.connections.strength_factor * layer.ratio * layer.yield_pa
+        yield "reinforcement", f"{name}, spread along {layer.along}: {stress_n_mm2:.3g} N/mm² of the area across them"
 
 
 def rest_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:

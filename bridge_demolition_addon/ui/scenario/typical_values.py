@@ -69,6 +69,7 @@ TYPICAL: dict[str, Any] = {
     "materials.torsion_n_mm2": 2.0,
     "materials.bending_n_mm2": 3.0,
     "reinforcement.depth_m": 0.05,
+    "reinforcement.spread_mm2_m2": 1500.0,
     "reinforcement.area_mm2": 10000.0,
     "connections.search_radius_m": 1.0,
     "connections.neighbours": 12,
