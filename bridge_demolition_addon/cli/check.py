@@ -7,9 +7,12 @@ from ..model.actions import Fact, PlannedAction
 from ..model.bridge.layout import bridge_facts
 from ..model.bridge.member import member_facts
 from ..model.bridge.preparation import prepared_members
+from ..model.reinforcement.design import bar_schedule
+from ..model.reinforcement.facts import schedule_facts
 from ..model.scenario import Charge, Scenario
 from ..model.scenario.contact_facts import contact_facts
 from ..model.scenario.file import read_scenario
+from ..model.scenario.scenario import bars_by_rule
 from ..model.sequence.checked_model import ModelWorksite, checked_model
 from ..model.stages.standing import made_elastic
 from ..model.structure.facts import accuracy_facts, connection_facts, foundation_facts, overlap_facts, rest_facts
@@ -51,6 +54,9 @@ def scenario_facts(scenario: Scenario, *, stand: bool = False) -> Iterator[str]:
     yield from _section("Members", member_facts(prepared.members))
     if prepared.notes:
         yield from _section("Repaired", (note.partition(": ")[::2] for note in prepared.notes))
+    if bars_by_rule(scenario):
+        schedule = bar_schedule(scenario, prepared.members)
+        yield from _section("Reinforcement", schedule_facts(scenario, prepared.members, schedule))
     yield from _section("Time", scenario.time.facts(scenario.timeline))
     model = checked_model(scenario, prepared.members)
     if not model.ground.is_plain:

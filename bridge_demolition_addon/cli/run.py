@@ -10,6 +10,7 @@ from types import ModuleType
 from typing import Any
 
 from ..errors import OutputError, SimulationError
+from ..model.reinforcement.concrete_members import plain_concrete_text
 from ..model.results.bar_extremes import bars_text, largest_use_text
 from ..model.results.creep import creep_text
 from ..model.results.fingerprint import SHORT
@@ -115,6 +116,7 @@ def comparison_folders(scenarios: Sequence[str], output: Path) -> list[Path]:
 def _run_and_report(
     path: str, scenario: Scenario, model: Model | None, output: Path, arguments: argparse.Namespace, progress: Progress
 ) -> None:
+    plain = plain_concrete_text(scenario)
     with naming(path):
         summary = _simulation().run_scenario(
             scenario,
@@ -128,7 +130,7 @@ def _run_and_report(
     report = _report([output], None, progress) if arguments.report else []
     if not arguments.quiet:
         progress.finish()
-        _print_results(summary, output, report)
+        _print_results(summary, output, report, plain)
 
 
 def run_with_everything(scenario: Scenario, output: Path, progress: Progress, *, quiet: bool) -> Mapping[str, Any]:
@@ -170,8 +172,10 @@ def _report(folders: Sequence[Path], output: Path | None, progress: Progress) ->
     return write_report(folders, output, progress=progress)
 
 
-def _print_results(summary: Mapping[str, Any], output: Path, report: Sequence[Path]) -> None:
+def _print_results(summary: Mapping[str, Any], output: Path, report: Sequence[Path], plain: str) -> None:
     print()
+    if plain:
+        print(f"{plain}.\n")
     if fall := self_collapse_text(summary):
         print(f"{fall}.\n")
     for name, value in _result_facts(summary):

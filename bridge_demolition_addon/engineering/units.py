@@ -12,6 +12,8 @@ _KG_PER_T = 1000.0
 
 _ENDINGS = {
     "m_kg13": "m/kg^(1/3)",
+    "percent": "%",
+    "kn_m2": "kN/m²",
     "n_mm2": "N/mm²",
     "kg_m3": "kg/m³",
     "rad_s": "rad/s",

@@ -27,6 +27,7 @@ from .sections.debris import corner_table, debris_section, exclusion_section, te
 from .sections.forces import force_section, logged_section
 from .sections.ground_motion import motion_section, touchdown_section
 from .sections.model import model_section
+from .sections.reinforcement import reinforcement_section
 from .sections.stages import has_stages, stages_section
 from .site_plan import write_areas
 
@@ -84,6 +85,8 @@ def run_document(
         sections.append(logged_section(run))
     if stages is not None:
         sections.append(stages_section(stages))
+    if run.scenario and (reinforcement := reinforcement_section(run.scenario)):
+        sections.append(reinforcement)
     if run.scenario:
         sections.append(scenario_section(run, scenario_text(run.scenario)))
     subtitle = f"Report of a simulated demolition. Bridge Demolition Add-on {version}"

@@ -11,6 +11,7 @@ from typing import Any
 import bpy
 
 from ..engineering.elasticity.section_stiffness import DAMPING_RATIO
+from ..engineering.mechanics.reinforcement import FaceBars
 from ..engineering.mechanics.strength import Ductility, Strength
 from ..errors import SimulationError
 from ..model.actions import PlannedAction
@@ -93,7 +94,7 @@ def _build(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> list[bpy
         if make := TOOLS.get(type(action)):
             make(site, action)
     joints = scenario.joints
-    keep_breaking(scene, _breaking(scenario, joints[0].strength))
+    keep_breaking(scene, _breaking(scenario, joints[0].strength, model.bars))
     for kind, keep in KEPT.items():
         keep(scene, [action for action in scenario.actions if isinstance(action, kind)])
     with off_scene(scene) as (bodies, connections):
@@ -159,13 +160,13 @@ def _all_data() -> Iterator[bpy.types.ID]:
     return chain(bpy.data.objects, bpy.data.meshes, bpy.data.collections, bpy.data.actions)
 
 
-def _breaking(scenario: Scenario, strength: Strength | None) -> Breaking:
+def _breaking(scenario: Scenario, strength: Strength | None, bars: FaceBars | None) -> Breaking:
     settings = scenario.connections
     if strength is None:
         return Breaking(warm_up_s=settings.warm_up_s, warm_up_damping=settings.warm_up_damping)
     elongation = settings.ductile_elongation_m
     ductility = None if elongation is None else Ductility(settings.ductile_share, elongation)
-    return Breaking(strength, settings.warm_up_s, ductility, settings.warm_up_damping, scenario.steel)
+    return Breaking(strength, settings.warm_up_s, ductility, settings.warm_up_damping, scenario.steel, bars)
 
 
 def last_frame(scenario: Scenario) -> int:

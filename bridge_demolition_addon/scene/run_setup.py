@@ -82,7 +82,7 @@ def _elastic_parts(setup: RunSetup) -> Parts:
         return {}
     parts = known_parts(elasticity.stiffness)
     parts |= {"damping_ratio": elasticity.damping_ratio, "thicknesses_m": elasticity.thicknesses_m}
-    return parts | ({"steel": np.array(astuple(breaking.steel))} if breaking.ductility else {})
+    return parts | ({"steel": np.array(astuple(breaking.steel))} if breaking.is_reinforced else {})
 
 
 def _soil_parts(setup: RunSetup) -> Parts:

@@ -58,6 +58,12 @@ class BDA_PG_settings(
         default=True,
         update=redraw_views,
     )
+    show_bars: BoolProperty(
+        name="Show Bars",
+        description="Draw the reinforcing bars of what is built as lines, where it was built; at most 40 of a layer",
+        default=False,
+        update=redraw_views,
+    )
     debris_log_path: path_property("Debris Log", "File for the debris log; none for the folder of the results")
     force_log_path: path_property("Force Log", "File for the force log; none for the folder of the results")
 

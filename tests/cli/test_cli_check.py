@@ -92,6 +92,8 @@ def test_facts_of_the_i235_span(capsys):
         "connections": "1431, HINGE, nearest vertices within 1 m, at most 50 per shard",
         "breaking force": "98066.5 N = 98.07 kN",
         "breaking impulse": "408.6 N·s in a sub-step",  # 98 066.5 N / 240 Hz
+        "without bars": "no reinforcing bars in deck, pier cap, pier: what cracks there falls apart, as concrete with "
+        "bars does not; [bridge.reinforcement] or [[reinforcement]] gives them",
         # EN 1992-1-1 on concrete, Rabbat and Russell on steel, NAVFAC DM-7.02 on soil; 0.57 · 0.5 / 0.6 = 0.475.
         "shard on shard": "friction 0.6, restitution 0",
         "shard on ball": "friction 0.57, restitution 0",
@@ -270,6 +272,7 @@ def test_moments_of_sections_with_bars_are_told():
     # By hand, EN 1992-1-1: 6 MN, a = 6 / (8.5 × 35) m = 20.2 mm, 6 MN × (0.21 m - a / 2).
     assert told["reinforcement"].startswith("deck, along x: 1199 kN·m with its top pressed, ")
     assert told["reinforcement"].endswith(" kN·m with its bottom pressed")
+    assert told["without bars"].startswith("no reinforcing bars in pier cap, pier: ")
 
 
 def test_links_are_told_by_their_force_in_each_area_across_them():

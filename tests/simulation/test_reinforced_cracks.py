@@ -171,7 +171,7 @@ def test_bars_that_harden_hold_a_hinge_until_they_rupture(blender, tmp_path):
     cracked = CrackedCantilever(tmp_path, steel, elongation_m, {60: 0.95, 180: 1.4, 240: 1.4})
     at_yield_m = elongation_m * steel.yield_strain / steel.rupture_strain
     expected = at_yield_m + 0.4 / 2.0 * (elongation_m - at_yield_m)
-    # By then the arm has turned by 0.1 rad, and has swung on the slope on which bars harden: some per cent of the opening.
+    # The arm has turned by 0.1 rad by then, and has swung on the slope on which bars harden: some per cent of that.
     np.testing.assert_allclose(cracked.opening_m[-1], expected, rtol=0.06)
     np.testing.assert_allclose(
         abs(cracked.results.frames.loads.connection_moments_nm[-1, 0, 1]), 1.4 * cracked.plastic_nm, rtol=0.02

@@ -48,7 +48,7 @@ stress by von Mises' criterion.
 """
 
 FRICTION = 0.7
-"""Friction of the sides of a crack, which is rough: EN 1992-1-1:2004, 6.2.5 (2), and fib Model Code 2010, table 7.3-2."""
+"""Friction of the rough sides of a crack: EN 1992-1-1:2004, 6.2.5 (2), and fib Model Code 2010, table 7.3-2."""
 
 _SHEARED = 0.4
 """Stiffness against sliding of sides that do not slip, by that against pressing: shear over normal stiffness of

@@ -68,6 +68,17 @@ def skewed(bridge: Bridge, solid: TriangleMesh) -> TriangleMesh:
     return replace(solid, vertices=vertices)
 
 
+def without_shear(bridge: Bridge) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Return the rows that take positions on plan of what is sheared by the skew back to where it was."""
+    return (1.0, -bridge.shift_across), (0.0, 1.0)
+
+
+def without_turn(bridge: Bridge) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Return the rows that take positions on plan of what is rotated with its axis back, but for where it stands."""
+    (first, second), (third, fourth) = turn_in_plane(math.radians(bridge.skew_deg)).tolist()
+    return (first, second), (third, fourth)
+
+
 def turned_with_axis(bridge: Bridge, solid: TriangleMesh, along: float, across: float) -> TriangleMesh:
     """Return a solid at a position on an unskewed axis, moved to the skewed axis and rotated with it."""
     if bridge.skew_deg == 0.0:

@@ -5,11 +5,20 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from ...engineering.geometry.mesh import TriangleMesh, triangle_areas_and_normals
+from ...engineering.geometry.vectors import transformed
 from ...engineering.units import mass_text, volume_text
 from ...errors import ScenarioError
 from ..actions import Fact
 from ..schema import given
+
+Rows = tuple[tuple[float, float], tuple[float, float]]
+"""Rows of a matrix that positions on plan are multiplied with."""
+
+SQUARE: Rows = ((1.0, 0.0), (0.0, 1.0))
+"""Rows that leave positions on plan as they are."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,11 +36,30 @@ class Member:
     solid: TriangleMesh  # closed, in m
     density_kg_m3: float | None = None  # None as long as it is not known
     parts: tuple[TriangleMesh, ...] = ()
+    unskewed: Rows = SQUARE  # by which positions on plan are as they would be without skew
 
     @property
     def volume_m3(self) -> float:
         """Volume of the solid, m³."""
         return self.solid.volume
+
+    def without_skew(self, points_m: np.ndarray) -> np.ndarray:
+        """Return positions (..., 3) as they would be in the member if it stood square to the road."""
+        return self._mapped(points_m, self.unskewed)
+
+    def with_skew(self, points_m: np.ndarray) -> np.ndarray:
+        """Return positions (..., 3) in the member of what `without_skew` gave."""
+        (a, b), (c, d) = self.unskewed
+        whole = a * d - b * c
+        return self._mapped(points_m, ((d / whole, -b / whole), (-c / whole, a / whole)))
+
+    @staticmethod
+    def _mapped(points_m: np.ndarray, rows: Rows) -> np.ndarray:
+        if rows == SQUARE:
+            return points_m
+        mapped = points_m.copy()
+        mapped[..., :2] = transformed(np.array(rows), points_m[..., :2])
+        return mapped
 
     @property
     def thickness_m(self) -> float:

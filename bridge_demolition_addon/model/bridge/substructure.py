@@ -12,7 +12,7 @@ from ...errors import GeometryError
 from ..scenario import Bridge
 from ..scenario.bridge import Abutments, PierCaps
 from ..schema import given
-from .layout import deck_underside, pier_axes, skewed, turned_with_axis
+from .layout import deck_underside, pier_axes, skewed, turned_with_axis, without_shear, without_turn
 from .member import Member
 
 GroundHeight = Callable[[str, float, float], float]
@@ -45,7 +45,8 @@ def _abutments(bridge: Bridge, abutments: Abutments, axes: tuple[float, float], 
         name = f"abutment {number}"
         foot = _foot(name, axis, 0.0, top, ground)
         size = (abutments.length_m, abutments.width_m, top - foot)
-        parts.append(Member(name, "abutment", skewed(bridge, box(size, (axis, 0.0, (top + foot) / 2.0)))))
+        solid = skewed(bridge, box(size, (axis, 0.0, (top + foot) / 2.0)))
+        parts.append(Member(name, "abutment", solid, unskewed=without_shear(bridge)))
     return parts
 
 
@@ -64,7 +65,8 @@ def _piers(bridge: Bridge, axes: np.ndarray, ground: GroundHeight) -> list[Membe
     parts = []
     for number, axis in enumerate(axes, start=1):
         if bridge.pier_caps:
-            parts.append(Member(f"pier {number} cap", "pier cap", _pier_cap(bridge, bridge.pier_caps, axis)))
+            cap = _pier_cap(bridge, bridge.pier_caps, axis)
+            parts.append(Member(f"pier {number} cap", "pier cap", cap, unskewed=without_shear(bridge)))
         parts += _columns(bridge, number, axis, ground)
     return parts
 
@@ -86,5 +88,6 @@ def _columns(bridge: Bridge, number: int, axis: float, ground: GroundHeight) -> 
         upright = box(size, (axis, across, (piers.height_m + foot) / 2.0))
         is_wall = piers.kind == "wall"
         solid = skewed(bridge, upright) if is_wall else turned_with_axis(bridge, upright, axis, across)
-        parts.append(Member(name, "pier", solid))
+        unskewed = without_shear(bridge) if is_wall else without_turn(bridge)
+        parts.append(Member(name, "pier", solid, unskewed=unskewed))
     return parts

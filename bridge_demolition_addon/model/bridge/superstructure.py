@@ -6,7 +6,7 @@ from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.solids import box, difference, union
 from ..scenario import Bridge
 from ..schema import given
-from .layout import deck_ends, deck_top, deck_underside, skewed, slab_underside
+from .layout import deck_ends, deck_top, deck_underside, skewed, slab_underside, without_shear
 from .member import Member
 
 _BEYOND_M = 1.0
@@ -22,15 +22,16 @@ def superstructure(bridge: Bridge) -> list[Member]:
         parts.append(_deck(bridge, f"{prefix}deck", begin, end))
         for girder in range(bridge.girders.number if bridge.girders else 0):
             solid = skewed(bridge, _girder(bridge, begin, end, girder))
-            parts.append(Member(f"{prefix}girder {girder + 1}", "girder", solid))
+            parts.append(Member(f"{prefix}girder {girder + 1}", "girder", solid, unskewed=without_shear(bridge)))
     return parts
 
 
 def _deck(bridge: Bridge, name: str, begin: float, end: float) -> Member:
     if not bridge.box_girder:
-        return Member(name, "deck", skewed(bridge, _slab(bridge, begin, end)))
+        return Member(name, "deck", skewed(bridge, _slab(bridge, begin, end)), unskewed=without_shear(bridge))
     plates = (skewed(bridge, plate) for plate in _plates(bridge, begin, end))
-    return Member(name, "deck", skewed(bridge, _box_girder(bridge, begin, end)), parts=tuple(plates))
+    solid = skewed(bridge, _box_girder(bridge, begin, end))
+    return Member(name, "deck", solid, parts=tuple(plates), unskewed=without_shear(bridge))
 
 
 def _slab(bridge: Bridge, begin: float, end: float) -> TriangleMesh:

@@ -1,5 +1,6 @@
 """Layers of reinforcing bars, and the moments that sections with them resist."""
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
@@ -7,7 +8,7 @@ from typing import ClassVar
 from ...engineering.elasticity.steel_bars import MODULUS_PA, YIELD_PA
 from ...engineering.mechanics.strength import NEWTON_PER_SQUARE_MILLIMETRE
 from ...errors import ScenarioError
-from ..schema import Table, given, key
+from ..schema import POSITION, Table, given, key
 
 SIDES = {"start": (0, -1), "end": (0, 1), "right": (1, -1), "left": (1, 1), "bottom": (2, -1), "top": (2, 1)}
 """Axis across each side of a member, and whether the side is where that is lowest or highest."""
@@ -20,6 +21,16 @@ _CRUSHING_STRAIN = 0.0035
 _BLOCK = 0.8
 """Strain at which concrete up to C50/60 is crushed, and depth of its stress block by that of the neutral axis:
 EN 1992-1-1:2004, table 3.1 and equation 3.19. Its stress is the strength, equation 3.21, without factors of safety."""
+
+_OF_LAYERS = (
+    ("side", "bottom"),
+    ("depth_m", None),
+    ("area_mm2", None),
+    ("from_m", None),
+    ("to_m", None),
+    ("anchored", True),
+)
+"""Keys that say nothing of bars that are spread over a member, with the values by default."""
 
 _HALVINGS = 60
 
@@ -58,6 +69,14 @@ class BarLayer(Table):
         above=0,
         at_most=500_000,
     )
+    from_m: float | None = key(
+        "Where the bars begin along their axis, in the coordinates of the bridge, and in a skewed member in the middle "
+        "of the road; by default where the member does. They have their whole strength from there on, so leave out "
+        "what anchors them.",
+        default=None,
+        **POSITION,
+    )
+    to_m: float | None = key("Where they end, by default where the member does.", default=None, **POSITION)
     yield_n_mm2: float = key(
         "Yield strength of the bars.",
         default=YIELD_PA / NEWTON_PER_SQUARE_MILLIMETRE,
@@ -115,6 +134,14 @@ class BarLayer(Table):
         """Return where the bars are along the axis across their side, of a member from the lowest to the highest."""
         return lowest + given(self.depth_m) if SIDES[self.side][1] < 0 else highest - given(self.depth_m)
 
+    @property
+    def ends_m(self) -> tuple[float, float]:
+        """Where the bars begin and end along their axis; infinite where they do so with the member."""
+        return (
+            -math.inf if self.from_m is None else self.from_m,
+            math.inf if self.to_m is None else self.to_m,
+        )
+
     def _check_together(self) -> None:
         if self.is_spread:
             self._check_spread()
@@ -122,14 +149,17 @@ class BarLayer(Table):
         for name in ("depth_m", "area_mm2"):
             if getattr(self, name) is None:
                 raise ScenarioError(f"reinforcement.{name} is missing: expected it, or reinforcement.spread_mm2_m2")
+        begin, end = self.ends_m
+        if begin >= end:
+            raise self.unexpected("to_m", f"more than reinforcement.from_m, {begin:g} (m)")
         if AXES[SIDES[self.side][0]] == self.along:
             wanted = f"a side that bars along {self.along} run beside, one of {', '.join(self._sides_beside())}"
             raise self.unexpected("side", wanted)
 
     def _check_spread(self) -> None:
-        for name, usual in (("side", "bottom"), ("depth_m", None), ("area_mm2", None), ("anchored", True)):
+        for name, usual in _OF_LAYERS:
             if getattr(self, name) != usual:
-                raise self.unexpected(name, "none with reinforcement.spread_mm2_m2: such bars lie at no depth")
+                raise self.unexpected(name, "none with reinforcement.spread_mm2_m2, which is all over a member")
 
     def _sides_beside(self) -> list[str]:
         return [name for name, (axis, _) in SIDES.items() if AXES[axis] != self.along]

@@ -19,6 +19,7 @@ from .fracture import Finer, FracturePoint, FractureSettings, MemberFracture
 from .geometry import Geometry
 from .jackhammer import Jackhammer
 from .recording import PictureSettings, RecordingSettings
+from .reinforcement import BridgeReinforcement, RatiosOfMember
 from .scenario import Scenario
 from .site import Exclusion, Neighbour, Site, Zone
 from .structural_changes import Change, Removal, SawCut, Weakening
@@ -33,6 +34,7 @@ __all__ = [
     "BlastSettings",
     "BoxGirder",
     "Bridge",
+    "BridgeReinforcement",
     "Change",
     "Charge",
     "ConnectionBetween",
@@ -56,6 +58,7 @@ __all__ = [
     "PictureSettings",
     "PierCaps",
     "Piers",
+    "RatiosOfMember",
     "RecordingSettings",
     "Removal",
     "SawCut",

@@ -8,6 +8,7 @@ from ...engineering.arithmetic import cosine, sine
 from ...errors import ScenarioError
 from ..schema import DENSITY, FARTHEST_M, ROUNDING, SIZE, Table, check_exactly_one, given, key
 from .bearings import PINNED, ROCKER, SLIDING, BearingOfBridge
+from .reinforcement import BridgeReinforcement
 
 _OWN_DENSITY = "Density of {}, where it is not that of the whole bridge."
 
@@ -224,6 +225,7 @@ class Bridge(Table):
     pier_caps: PierCaps | None = None
     abutments: Abutments | None = None
     bearings: BridgeBearings | None = None
+    reinforcement: BridgeReinforcement | None = None
 
     @property
     def bearing_tables(self) -> tuple[BearingOfBridge, ...]:
@@ -301,6 +303,15 @@ class Bridge(Table):
             self._check_one_density()
         if self.bearings:
             self._check_bearings(self.bearings)
+        if self.reinforcement:
+            self._check_reinforcement(self.reinforcement)
+
+    def _check_reinforcement(self, reinforcement: BridgeReinforcement) -> None:
+        if self.merge and reinforcement.has_bars:
+            raise ScenarioError(
+                "bridge.reinforcement is given: expected none with bridge.merge, where no member is left"
+            )
+        reinforcement.check_deck(self.deck.width_m)
 
     def _check_bearings(self, bearings: BridgeBearings) -> None:
         if self.merge:

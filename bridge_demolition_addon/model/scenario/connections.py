@@ -4,7 +4,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import astuple, dataclass, fields, replace
 from typing import ClassVar, Self
 
-from ...engineering.elasticity.section_stiffness import ElasticModuli
+from ...engineering.elasticity.section_stiffness import ELASTIC_MODULI, ElasticModuli
 from ...engineering.elasticity.steel_bars import MODULUS_PA, USUAL_STEEL, Steel
 from ...engineering.mechanics.joint import MOTIONS, TYPES, Joint, Springs
 from ...engineering.mechanics.strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE, SMEARED, Strength
@@ -224,11 +224,12 @@ class ConnectionSettings(JointSettings):
         above=0,
         at_most=100,
     )
-    stiffness: str = key(
+    stiffness: str | None = key(
         "Whether connections hold bodies rigidly, so that redundant ones share a load as the solver leaves it "
-        "(`rigid`), or deform by their material, so that loads go where stiffness sends them (`elastic`). "
-        "`elastic` needs method `face`, a material and `type` `FIXED` or `GENERIC`.",
-        default="rigid",
+        "(`rigid`, as in 2019), or deform by their material, so that loads go where stiffness sends them (`elastic`). "
+        "`elastic` needs method `face`, a material with a modulus of elasticity, and `type` `FIXED` or `GENERIC`. If "
+        "it is left out connections are elastic where they can be.",
+        default=None,
         choices=("rigid", "elastic"),
     )
     elastic_modulus_n_mm2: float | None = key(
@@ -251,8 +252,8 @@ class ConnectionSettings(JointSettings):
         **SHARE,
     )
     ductile_elongation_m: float | None = key(
-        "How far the crack opens before the reinforcement ruptures. Needed with `ductile_share` and with "
-        "`[[reinforcement]]`, and only then.",
+        "How far the crack opens before the reinforcement ruptures. Needed with `ductile_share`. Bars of "
+        "`[[reinforcement]]` without it rupture as their steel and bond say: `bda check` prints at which opening.",
         default=None,
         unit="m",
         above=0,
@@ -299,8 +300,12 @@ class ConnectionSettings(JointSettings):
     @property
     def steel(self) -> Steel:
         """Return what the reinforcement of elastic connections is made of."""
+        return self.steel_or(USUAL_STEEL)
+
+    def steel_or(self, other: Steel) -> Steel:
+        """Return the same, with the values of another steel where none are given."""
         own = self.ductile_yield_n_mm2, self.ductile_hardening, self.ductile_rupture_strain
-        columns = zip(own, (NEWTON_PER_SQUARE_MILLIMETRE, 1.0, 1.0), astuple(USUAL_STEEL), strict=True)
+        columns = zip(own, (NEWTON_PER_SQUARE_MILLIMETRE, 1.0, 1.0), astuple(other), strict=True)
         return Steel(*(usual if value is None else unit * value for value, unit, usual in columns))
 
     @property
@@ -334,6 +339,24 @@ class ConnectionSettings(JointSettings):
         check_exactly_one(self, *STRENGTH_KEYS)
         return self
 
+    def with_stiffness(self, materials: Sequence[Material]) -> Self:
+        """Return the settings with a stiffness: elastic where none is given and nothing is against it."""
+        if self.stiffness is not None:
+            return self
+        return replace(self, stiffness="elastic" if self._can_be_elastic(materials) else "rigid")
+
+    def _can_be_elastic(self, materials: Sequence[Material]) -> bool:
+        if self.method != "face" or self.material is None:
+            return False
+        known = set(ELASTIC_MODULI) | {material.name for material in materials if material.moduli}
+        tables = [table for table in self._tables if not getattr(table, "none", False)]
+        return all(
+            (table.type or self.type) in ELASTIC_TYPES
+            and (table is self or table.breaking_force_newton is None)
+            and (table.elastic_modulus_n_mm2 is not None or (table.material or self.material) in known)
+            for table in tables
+        )
+
     @property
     def _tables(self) -> "tuple[ConnectionSettings | ConnectionBetween, ...]":
         return (self, *self.between)
@@ -363,11 +386,18 @@ class ConnectionSettings(JointSettings):
         self._check_method("search_radius_m", "a number above 0 (m)", ("vertex", "centre"))
         self._check_method("neighbours", "a whole number of at least 1", ("nearest",))
 
+    def check_no_steel(self) -> None:
+        """Check that no steel is described where there is no reinforcement."""
+        for name in _STEEL:
+            if getattr(self, name) is not None:
+                wanted = "none where connections.ductile_share is 0 and there is no [[reinforcement]]"
+                raise self.unexpected(name, wanted)
+
     def _check_steel(self) -> None:
         """Check that the steel is described only where it counts, and yields before it ruptures."""
         for name in _STEEL:
-            if getattr(self, name) is not None and not (self.is_elastic and self.ductile_elongation_m is not None):
-                wanted = 'none but with connections.stiffness "elastic" and a connections.ductile_elongation_m'
+            if getattr(self, name) is not None and self.stiffness == "rigid":
+                wanted = 'none but with connections.stiffness "elastic"'
                 raise self.unexpected(name, wanted)
         is_given = self.ductile_rupture_strain is not None
         rupture = USUAL_STEEL.rupture_strain if self.ductile_rupture_strain is None else self.ductile_rupture_strain
@@ -382,6 +412,8 @@ class ConnectionSettings(JointSettings):
 
     def _check_elastic(self) -> None:
         """Check that keys of elastic connections go with them, and that none is missing."""
+        if self.stiffness is None:
+            return
         names = ("elastic_modulus_n_mm2", "poisson_ratio", "damping_ratio")
         for table in self._tables:
             for name in names:

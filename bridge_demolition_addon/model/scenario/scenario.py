@@ -40,6 +40,7 @@ from .fracture import FractureSettings
 from .geometry import Geometry
 from .jackhammer import Jackhammer
 from .recording import PictureSettings, RecordingSettings
+from .reinforcement import BridgeReinforcement
 from .site import Exclusion, Neighbour, Site, Zone
 from .structural_changes import Change, Removal, SawCut, Weakening
 from .time import MOST_FRAMES, TimeSettings
@@ -104,9 +105,14 @@ class Scenario(Table):
         own, *others = self.connections.joints(self.materials)
         factor, is_elastic = self.connections.strength_factor, self.connections.is_elastic
         pads = [table.joint(own, factor, is_elastic=is_elastic) for table in bearing_tables(self)]
-        if not self.reinforcement:
+        if not self.reinforcement and not bars_by_rule(self):
             return (own, *others, *pads)
         return (own, *others, *pads, *self.connections.joints(self.materials, have_bars=True), *pads)
+
+    @property
+    def is_reinforced(self) -> bool:
+        """Return whether bars hold where connections break."""
+        return bool(self.reinforcement or bars_by_rule(self)) or self.connections.ductile_share > 0.0
 
     @property
     def weighed_bridge(self) -> Bridge | None:
@@ -128,6 +134,8 @@ class Scenario(Table):
     @property
     def steel(self) -> Steel:
         steel, layers = self.connections.steel, self.reinforcement
+        if rule := bars_by_rule(self):
+            return self.connections.steel_or(rule.grade)
         if self.connections.ductile_yield_n_mm2 is not None or not layers:
             return steel
         at_depths = [layer for layer in layers if not layer.is_spread]
@@ -185,6 +193,9 @@ class Scenario(Table):
         object.__setattr__(self, "charges", named_charges(self.charges))
         self._check_slow_motion()
         object.__setattr__(self, "connections", self.connections.with_strength(self.fracture.shards))
+        object.__setattr__(self, "connections", self.connections.with_stiffness(self.materials))
+        if self.is_reinforced and self.connections.is_elastic:
+            object.__setattr__(self, "time", self.time.with_bars())
         check_materials(self.materials)
         self._check_reinforcement()
         if not self.connections.is_elastic:
@@ -239,18 +250,21 @@ class Scenario(Table):
             raise self.connections.unexpected("foundation", "true with foundations: they connect to the ground")
 
     def _check_reinforcement(self) -> None:
-        connections, opening = self.connections, "ductile_elongation_m"
-        is_given = getattr(connections, opening) is not None
-        if not self.reinforcement:
-            if is_given and connections.ductile_share == 0.0:
+        connections = self.connections
+        table = "[[reinforcement]]" if self.reinforcement else "[bridge.reinforcement]"
+        if not self.reinforcement and not bars_by_rule(self):
+            says_none = self.bridge is not None and self.bridge.reinforcement is not None
+            if connections.ductile_elongation_m is not None and connections.ductile_share == 0.0 and not says_none:
                 wanted = "none where connections.ductile_share is 0 and there is no [[reinforcement]]"
-                raise connections.unexpected(opening, wanted)
+                raise connections.unexpected("ductile_elongation_m", wanted)
+            if connections.ductile_share == 0.0:
+                connections.check_no_steel()
             return
         if connections.material is None:
-            raise ScenarioError("connections.material is missing: expected it with [[reinforcement]]")
-        if not is_given:
-            wanted = "a number above 0 (m), how far a crack opens until bars rupture, with [[reinforcement]]"
-            raise ScenarioError(f"connections.{opening} is missing: expected {wanted}")
+            raise ScenarioError(f"connections.material is missing: expected it with {table}")
+        if not connections.is_elastic:
+            wanted = f'"elastic" with {table}: bars between rigid bodies would make energy'
+            raise connections.unexpected("stiffness", wanted)
 
     def _check_slow_motion(self) -> None:
         blast = self.blast
@@ -288,3 +302,9 @@ def _action_fields(scenario_class: type[Table]) -> tuple[str, ...]:
 def bearing_tables(scenario: Scenario) -> tuple[Bearing, ...]:
     """Return all bearings, first those that count before others: the scenario's own, then those of its bridge."""
     return (*scenario.bearings, *(scenario.bridge.bearing_tables if scenario.bridge else ()))
+
+
+def bars_by_rule(scenario: Scenario) -> BridgeReinforcement | None:
+    """Return the rule that a bridge has bars by; None where it has none."""
+    rule = scenario.bridge.reinforcement if scenario.bridge else None
+    return rule if rule and rule.has_bars else None

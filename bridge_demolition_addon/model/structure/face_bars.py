@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -16,7 +18,7 @@ from ...engineering.elasticity.bar_rupture import (
 )
 from ...engineering.elasticity.steel_bars import Steel
 from ...engineering.geometry.mesh import TriangleMesh
-from ...engineering.geometry.vectors import length, transformed, transformed_back
+from ...engineering.geometry.vectors import dot, length, transformed, transformed_back, unit
 from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.reinforcement import FaceBars
 from ...engineering.mechanics.section_forces import section_axes
@@ -27,13 +29,17 @@ from ..bridge.member import Member
 from ..materials.bar_layers import AXES, BarLayer, ReinforcedSection
 from .spread_bars import spread_bars
 
+_LEVEL_M = 1e-9
+"""Cuts whose ends are no farther apart along the bars than this are square to these."""
+
 
 @dataclass(frozen=True, slots=True)
 class LayersOfMember:
     """Layers of bars of a member that run the same way, beside the same two sides.
 
-    The member lies between `lowest` and `highest` along the axis across the layers, m, and the layers at `levels_m`,
-    where it is as wide as `widths_m`; `width_m` is its whole width.
+    All is that of the member without skew: its layers are skewed with it. It lies between `lowest` and `highest` along
+    the axis across the layers, m, and the layers at `levels_m`, where it is as wide as `widths_m`; `width_m` is its
+    whole width.
     """
 
     member: int
@@ -43,6 +49,7 @@ class LayersOfMember:
     width_m: float
     levels_m: tuple[float, ...]
     widths_m: tuple[float, ...]
+    between_m: tuple[float, float] = (-math.inf, math.inf)  # along the bars: part of the member with these layers
 
     @property
     def axes(self) -> tuple[int, int, int]:
@@ -84,14 +91,40 @@ def layers_of_members(layers: Sequence[BarLayer], members: Sequence[Member]) -> 
     for index, member in enumerate(members):
         own = [layer for layer in layers if not layer.is_spread and layer.is_in(member.name, member.kind)]
         for axes in sorted({layer.axes for layer in own}):
-            yield _together(index, member, tuple(layer for layer in own if layer.axes == axes), axes)
+            yield from _stretches(index, member, [layer for layer in own if layer.axes == axes], axes)
 
 
-def _together(index: int, member: Member, layers: tuple[BarLayer, ...], axes: tuple[int, int, int]) -> LayersOfMember:
+def _stretches(
+    index: int, member: Member, layers: Sequence[BarLayer], axes: tuple[int, int, int]
+) -> Iterator[LayersOfMember]:
+    """Yield the layers of each part of a member in which these are the same."""
+    corners = member.without_skew(member.solid.corners)
+    along = corners[..., axes[0]]
+    first, last = float(along.min()), float(along.max())
+    for layer in layers:
+        begin, end = layer.ends_m
+        if begin >= last or end <= first:
+            name, limit = ("from_m", f"less than {last:g}") if begin >= last else ("to_m", f"more than {first:g}")
+            raise layer.unexpected(name, f"{limit} (m), where {member.name!r} ends along {AXES[axes[0]]}")
+    ends = sorted({-math.inf, math.inf, *(end for layer in layers for end in layer.ends_m if first < end < last)})
+    for begin, end in pairwise(ends):
+        own = tuple(layer for layer in layers if max(layer.ends_m[0], begin) < min(layer.ends_m[1], end))
+        if own:
+            yield _together(index, member, corners, own, axes, (begin, end))
+
+
+def _together(
+    index: int,
+    member: Member,
+    corners: np.ndarray,
+    layers: tuple[BarLayer, ...],
+    axes: tuple[int, int, int],
+    between_m: tuple[float, float],
+) -> LayersOfMember:
     _, across, beside = axes
-    lowest, highest = (getattr(member.solid.vertices, which)(axis=0) for which in ("min", "max"))
+    lowest, highest = (getattr(corners, which)(axis=(0, 1)) for which in ("min", "max"))
     levels = tuple(float(layer.level_m(lowest[across], highest[across])) for layer in layers)
-    widths = [_width(member.solid, across, beside, level) for level in levels]
+    widths = [_width(corners, across, beside, level) for level in levels]
     for layer, width in zip(layers, widths, strict=True):
         if width <= 0.0:
             thickness = highest[across] - lowest[across]
@@ -100,15 +133,17 @@ def _together(index: int, member: Member, layers: tuple[BarLayer, ...], axes: tu
                 f"{AXES[across]}, {thickness:g} (m)"
             )
     width_m = float(highest[beside] - lowest[beside])
-    return LayersOfMember(index, layers, float(lowest[across]), float(highest[across]), width_m, levels, tuple(widths))
+    return LayersOfMember(
+        index, layers, float(lowest[across]), float(highest[across]), width_m, levels, tuple(widths), between_m
+    )
 
 
-def _width(solid: TriangleMesh, across: int, beside: int, level: float) -> float:
-    _, points = _crossings(solid.corners, across, level)
+def _width(corners: np.ndarray, across: int, beside: int, level: float) -> float:
+    _, points = plane_cuts(corners, across, level)
     return float(np.ptp(points[..., beside])) if len(points) else 0.0
 
 
-def _crossings(corners: np.ndarray, across: int, level: float) -> tuple[np.ndarray, np.ndarray]:
+def plane_cuts(corners: np.ndarray, across: int, level: float) -> tuple[np.ndarray, np.ndarray]:
     """Return which triangles (t, 3, 3) a plane across an axis parts (c,), and the ends of the cuts (c, 2, 3)."""
     heights = corners[..., across] - level
     parted = np.flatnonzero((heights > 0.0).any(axis=1) & (heights <= 0.0).any(axis=1))
@@ -124,6 +159,20 @@ def _crossings(corners: np.ndarray, across: int, level: float) -> tuple[np.ndarr
         share = height / (height - heights[rows, other])
         ends.append(first + share[:, None] * (corners[rows, other] - first))
     return parted, np.stack(ends, axis=1) if len(ends[0]) else np.zeros((0, 2, 3))
+
+
+def _between(ends: np.ndarray, along: int, between_m: tuple[float, float]) -> np.ndarray:
+    """Return the parts of cuts, by their ends (c, 2, 3), between two positions along an axis; others have no length."""
+    if between_m == (-math.inf, math.inf):
+        return ends
+    first, second = ends[:, 0], ends[:, 1]
+    length = second[:, along] - first[:, along]
+    is_across = abs(length) < _LEVEL_M
+    safe = np.where(is_across, 1.0, length)
+    shares = np.sort(np.clip((np.array(between_m)[:, None] - first[:, along]) / safe, 0.0, 1.0), axis=0)
+    inside = (first[:, along] >= between_m[0]) & (first[:, along] < between_m[1])
+    shares[:, is_across] = np.where(inside[is_across], np.array([[0.0], [1.0]]), 0.0)
+    return first[:, None] + shares.T[:, :, None] * (second - first)[:, None]
 
 
 def face_bars(
@@ -158,19 +207,20 @@ def face_bars(
                 continue
             layer_forces = group.section(strength.compression_pa, factor).across_cracks_n()
             openings = group.openings_m(strength.compression_pa, steel)
+            member = members[group.member]
             face, corners = _corners(shards, connections.only(rows))
-            along = group.axes[0]
-            signs = np.where(connections.normals[rows, along] < 0.0, -1.0, 1.0)
+            corners = member.without_skew(corners)
+            along = unit(member.with_skew(np.eye(3)[group.axes[0]]))
+            signs = np.where(dot(connections.normals[rows], along) < 0.0, -1.0, 1.0)
             columns = zip(group.layers, layer_forces, openings, group.levels_m, group.widths_m, strict=True)
             for layer, force, opening, level, width in columns:
-                pulls, positions = _pulls(face, corners, group.axes, level, force / width, len(rows))
+                pulls, positions = _pulls(face, corners, group, level, force / width, len(rows))
                 if not layer.anchored:
-                    solid, tensile_pa = members[group.member].solid, tensile_strength_pa(strength.compression_pa)
-                    held = _anchored(layer, solid, along, tensile_pa, pulls, positions)
+                    held = _anchored(layer, member, tensile_strength_pa(strength.compression_pa), pulls, positions)
                     pulls, positions = held * pulls, held[:, None] * positions
                 pulled_n[rows] += pulls
-                forces[rows, along] += signs * pulls
-                by_position[rows] += positions
+                forces[rows] += (signs * pulls)[:, None] * along
+                by_position[rows] += member.with_skew(positions)
                 by_opening[rows] += (opening if opening_m is None else opening_m) * pulls
     for spread in spread_bars(layers, members):
         own = is_within & (of_pair[:, 0] == spread.member)
@@ -198,16 +248,20 @@ def face_bars(
 
 
 def _anchored(
-    layer: BarLayer, solid: TriangleMesh, along: int, tensile_pa: float, pulls: np.ndarray, positions: np.ndarray
+    layer: BarLayer, member: Member, tensile_pa: float, pulls: np.ndarray, positions: np.ndarray
 ) -> np.ndarray:
-    """Return the parts (k,) of their forces (k,) that straight bars resist by bond, from there to the ends of a solid.
+    """Return the parts (k,) of their forces (k,) that straight bars resist by bond, from there to the member's ends.
 
-    `positions` (k, 3) are those of the bars by their forces.
+    `positions` (k, 3) are those of the bars by their forces, without the skew of the member. Where a layer says itself
+    where it begins or ends, it has its whole strength.
     """
-    across_m = np.divide(positions[:, along], pulls, out=np.zeros(len(pulls)), where=pulls > 0.0)
-    ends = solid.vertices[:, along]
+    axis = layer.axes[0]
+    along = np.divide(positions[:, axis], pulls, out=np.zeros(len(pulls)), where=pulls > 0.0)
+    of_member = member.without_skew(member.solid.vertices)[:, axis]
+    begin = of_member.min() if layer.from_m is None else -np.inf
+    end = of_member.max() if layer.to_m is None else np.inf
     length_m = anchorage_length_m(layer.diameter_m, layer.yield_pa, tensile_pa)
-    return anchored_shares(np.minimum(across_m - ends.min(), ends.max() - across_m), length_m)
+    return anchored_shares(np.minimum(along - begin, end - along), length_m)
 
 
 def within_reinforced(
@@ -235,11 +289,12 @@ def _corners(shards: Sequence[TriangleMesh], connections: Connections) -> tuple[
 
 
 def _pulls(
-    face: np.ndarray, corners: np.ndarray, axes: tuple[int, int, int], level: float, force_n_m: float, count: int
+    face: np.ndarray, corners: np.ndarray, group: LayersOfMember, level: float, force_n_m: float, count: int
 ) -> tuple[np.ndarray, np.ndarray]:
     """Force (k,) of a layer in each of k faces, and that by its position (k, 3)."""
-    _, across, beside = axes
-    parted, ends = _crossings(corners, across, level)
+    along, across, beside = group.axes
+    parted, ends = plane_cuts(corners, across, level)
+    ends = _between(ends, along, group.between_m)
     lengths = abs(ends[:, 1, beside] - ends[:, 0, beside])
     pulls, positions = np.zeros(count), np.zeros((count, 3))
     np.add.at(pulls, face[parted], force_n_m * lengths)

@@ -15,6 +15,8 @@ from ...engineering.mechanics.strength import MATERIALS, NEWTON_PER_SQUARE_MILLI
 from ..actions import Fact
 from ..bridge.member import Member
 from ..materials.bar_layers import AXES, SIDES
+from ..reinforcement.concrete_members import plain_concrete_text
+from ..reinforcement.design import all_layers
 from ..scenario import ConnectionBetween, ConnectionSettings, Scenario
 from ..scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
 from ..scenario.scenario import bearing_tables
@@ -86,18 +88,28 @@ def connection_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
 
 
 def _bar_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
-    for group in layers_of_members(scenario.reinforcement, model.members):
+    for group in layers_of_members(all_layers(scenario, model.members), model.members):
         compression_pa = float(given(scenario.joints[0].strength).compression_pa)
         section = group.section(compression_pa, scenario.connections.strength_factor)
         along, across, _ = group.axes
         sides = sorted((highest, side) for side, (axis, highest) in SIDES.items() if axis == across)
         moments = zip([side for _, side in reversed(sides)], section.moments_nm(), strict=True)
         resisted = ", ".join(f"{moment / 1000.0:.4g} kN·m with its {side} pressed" for side, moment in moments)
-        yield "reinforcement", f"{model.members[group.member].name}, along {AXES[along]}: {resisted}"
+        where = _between_text(group.between_m)
+        yield "reinforcement", f"{model.members[group.member].name}, along {AXES[along]}{where}: {resisted}"
+    if text := plain_concrete_text(scenario):
+        yield "without bars", text
+
+
+def _between_text(between_m: tuple[float, float]) -> str:
+    """Return the part of a member between two positions as text; empty for all of it."""
+    begin, end = between_m
+    texts = [f"from {begin:.2f} m" if begin > -np.inf else "", f"to {end:.2f} m" if end < np.inf else ""]
+    return "".join(f" {text}" for text in texts if text)
 
 
 def _spread_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
-    for spread in spread_bars(scenario.reinforcement, model.members):
+    for spread in spread_bars(all_layers(scenario, model.members), model.members):
         layer, name = spread.layer, model.members[spread.member].name
         stress_n_mm2 = 1e-6 * scenario.connections.strength_factor * layer.ratio * layer.yield_pa
         yield "reinforcement", f"{name}, spread along {layer.along}: {stress_n_mm2:.3g} N/mm² of the area across them"

@@ -20,6 +20,7 @@ from ...engineering.structure.face_sections import second_moments
 from ..bridge.extent import room_around
 from ..bridge.member import Member, mean_density
 from ..bridge.preparation import prepared_members
+from ..reinforcement.design import all_layers
 from ..scenario import ConnectionSettings, Geometry, Scenario
 from ..scenario.scenario import bearing_tables
 from ..schema import given
@@ -140,11 +141,11 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
     )
     soil = soil_springs(scenario.foundations, members, fractured.member_of_shard, shards, connections)
     bars = None
-    if scenario.reinforcement:
-        within = within_reinforced(scenario.reinforcement, members, fractured.member_of_shard, connections)
+    if layers := all_layers(scenario, members):
+        within = within_reinforced(layers, members, fractured.member_of_shard, connections)
         joint_of_connection = joint_of_connection + np.where(within, len(scenario.joints) // 2, 0)
         bars = face_bars(
-            scenario.reinforcement,
+            layers,
             members,
             fractured.member_of_shard,
             shards,

@@ -12,6 +12,7 @@ import numpy as np
 
 from ...engineering.units import mass_text
 from ...model.debris.throws import Debris
+from ...model.reinforcement.concrete_members import plain_concrete_text
 from ...model.results.arrays import Results
 from ...model.results.collapse import rest_of
 from ...model.results.creep import creep_summary, creep_text
@@ -139,6 +140,8 @@ def _run_facts(run: ReportedRun, version: str) -> Iterator[tuple[str, str]]:
         yield "Density", f"{summary.density_kg_m3:.0f} kg/m³"
     if run.scenario:
         yield "Connections break", _breaking_text(run)
+        if plain := plain_concrete_text(run.scenario):
+            yield "Without bars", plain
         yield "Contacts", "; ".join(f"{name}: {text}" for name, text in contact_facts(run.scenario))
         yield "Seed", str(run.scenario.seed)
     if summary.blender:

@@ -57,11 +57,16 @@ class Breaking:
     steel: Steel = USUAL_STEEL
     bars: FaceBars | None = None
 
+    @property
+    def is_reinforced(self) -> bool:
+        """Return whether anything holds where connections broke."""
+        return self.ductility is not None or self.bars is not None
+
 
 def keep_breaking(scene: bpy.types.Scene, breaking: Breaking) -> None:
     """Keep how connections break in the scene, and so in its file."""
     scene[_WARM_UP], scene[_DAMPING] = breaking.warm_up_s, breaking.warm_up_damping
-    steel = breaking.steel if breaking.ductility else None
+    steel = breaking.steel if breaking.is_reinforced else None
     for name, values in ((_STRENGTH, breaking.strength), (_DUCTILITY, breaking.ductility), (_STEEL, steel)):
         keep(scene, name, astuple(values) if values else None)
 

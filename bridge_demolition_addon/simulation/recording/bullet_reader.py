@@ -90,13 +90,13 @@ class BulletReader:
         breaking, constraints = setup.breaking, world.constraints
         self._events = events = Events(world, inventory.pairs, setup.events)
         reinforcement = None
-        if breaking.ductility and elastic:
+        if breaking.is_reinforced and elastic:
             elastic.reinforce(breaking, events.remaining_strength)
         elif breaking.ductility:
             reinforcement = Reinforcement(world.bodies, inventory, breaking, events.remaining_strength)
         warm_up = WarmUp(world, self._free_shards(), breaking, release=elastic is None)
         meter = Meter(world, inventory, elastic, reinforcement)
-        holding = elastic if breaking.ductility and elastic else reinforcement
+        holding = elastic if breaking.is_reinforced and elastic else reinforcement
         resistance = Resistance(self._overloads(elastic), events.remaining_strength, elastic, holding)
         breaker = Breaker(constraints, meter, resistance, warm_up)
         drivers = in_order(

@@ -13,6 +13,7 @@ from ...model.scenario import Scenario
 from ...model.schema import Table, holds_many, is_optional, key_name, subtable_class, value_type
 from ...scene.visibility import has_symbols, symbols_are_hidden
 from ..messages import draw_messages
+from ..preview.bars import shown_bars
 from ..sidebar import SidebarPanel, draw_sentence, letters_of
 from ..task_progress import draw_task_progress, going_on
 from .built import ChangedValue, Kept, built_values, change_of, change_of_use, changes, changes_of_table
@@ -47,6 +48,9 @@ _BUTTONS = {"geometry": "bda.add_selected_members", "fracture": "bda.use_paint"}
 
 _ELSEWHERE = {"blast.explosion", "study.scenario"}
 """Keys that are drawn by hand, or that the panels stand for."""
+
+_REINFORCEMENT = "reinforcement"
+"""Name of both tables of bars: by hand, and by the rule of the bridge."""
 
 _LETTERS_OF_VALUE = 9
 _LISTED = 4
@@ -141,6 +145,8 @@ class _TablePanel(SidebarPanel):
         layout = self.layout
         if not self.names and self.item.name in _BUTTONS:
             layout.operator(_BUTTONS[self.item.name])
+        if self.item.name == _REINFORCEMENT:
+            draw_bars(layout, context)
         if holds_many(self.item):
             draw_tables(layout, context, owner, self.item, kept)
             return
@@ -169,6 +175,14 @@ class _TablePanel(SidebarPanel):
     def _changes(self, context: Context, owner: PropertyGroup) -> bool:
         kept = self._kept(context)
         return kept is not None and any(True for _ in changes_of_table(owner, self.item, kept))
+
+
+def draw_bars(layout: UILayout, context: Context) -> None:
+    """Draw the switch that shows reinforcing bars, and why they cannot be shown."""
+    layout.prop(context.scene.bda, "show_bars")
+    _, reason = shown_bars(context.scene.bda)
+    if reason:
+        draw_sentence(layout, context, reason, icon="ERROR")
 
 
 def draw_run(layout: UILayout, settings: PropertyGroup, *, has_changed: bool) -> None:

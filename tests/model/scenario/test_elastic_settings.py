@@ -4,6 +4,7 @@
 from dataclasses import replace
 
 import pytest
+from support.scenarios import I235
 
 from bridge_demolition_addon.engineering.elasticity.section_stiffness import ELASTIC_MODULI, ElasticModuli
 from bridge_demolition_addon.engineering.elasticity.steel_bars import Steel
@@ -71,10 +72,6 @@ def test_rigid_connections_have_no_moduli():
         ({"elastic_modulus_n_mm2": 0.0}, "connections.elastic_modulus_n_mm2"),
         ({"elastic_modulus_n_mm2": 1e8}, "connections.elastic_modulus_n_mm2"),
         ({"damping_ratio": 1.5}, "connections.damping_ratio"),
-        (
-            {"ductile_hardening": 1.1},
-            'none but with connections.stiffness "elastic" and a connections.ductile_elongation_m',
-        ),
         (TIED | {"stiffness": "rigid", "ductile_rupture_strain": 0.1}, "none but with connections.stiffness"),
         (TIED | {"ductile_hardening": 0.9}, "connections.ductile_hardening"),
         (TIED | {"ductile_rupture_strain": 0.002}, "more than 0.0025, the strain at which the reinforcement yields"),
@@ -92,3 +89,16 @@ def test_what_does_not_go_together_is_refused(changes, message):
 def test_no_material_has_such_moduli(numbers):
     with pytest.raises(ScenarioError, match="expected"):
         ElasticModuli(*numbers)
+
+
+def test_connections_are_elastic_where_nothing_is_said_and_their_material_says_how():
+    by_face = ConnectionSettings(type="FIXED", method="face", material="concrete")
+    assert replace(I235, connections=by_face).connections.is_elastic
+    for settings in (
+        replace(by_face, stiffness="rigid"),
+        replace(by_face, type="HINGE"),
+        replace(by_face, material=None, breaking_force_n=1e5),
+        replace(by_face, between=(ConnectionBetween(members=("deck", "pier"), breaking_force_n=1e5),)),
+        replace(I235.connections),
+    ):
+        assert not replace(I235, connections=settings).connections.is_elastic

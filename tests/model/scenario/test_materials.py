@@ -48,7 +48,8 @@ def test_own_materials_go_between_members_too():
 
 
 def test_moduli_that_connections_give_go_before_those_of_the_material():
-    without = replace(SCENARIO, materials=(replace(LIKE_CONCRETE, elastic_modulus_n_mm2=None),))
+    materials = (replace(LIKE_CONCRETE, elastic_modulus_n_mm2=None),)
+    without = replace(SCENARIO, materials=materials, connections=BY_FACE)
     settings = replace(BY_FACE, stiffness="elastic", elastic_modulus_n_mm2=20_000.0, poisson_ratio=0.1)
     assert replace(without, connections=settings).joints[0].moduli == ElasticModuli(20e9, 0.1)
 

@@ -24,7 +24,7 @@ TOP = BarLayer(members=("deck",), side="top", depth_m=0.05, area_mm2=8_000.0)
 def model_with(*layers, **settings):
     """The I-235 span in 60 irregular shards, with bars."""
     connections = ConnectionSettings(
-        method="face", material="reinforced concrete slab", ductile_elongation_m=0.1, **settings
+        type="FIXED", method="face", material="reinforced concrete slab", ductile_elongation_m=0.1, **settings
     )
     fracture = replace(I235.fracture, shards=60)
     return build_model(replace(I235, fracture=fracture, connections=connections, reinforcement=layers))
@@ -99,12 +99,13 @@ def test_layers_have_to_be_in_their_members():
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
-        ({"ductile_elongation_m": None}, "connections.ductile_elongation_m is missing: expected a number above 0"),
+        ({"stiffness": "rigid"}, r'connections.stiffness is "rigid": expected "elastic" with \[\[reinforcement\]\]'),
+        ({"type": "HINGE"}, r'connections.stiffness is "rigid": expected "elastic" with \[\[reinforcement\]\]'),
         ({"material": None, "breaking_force_n": 1e5}, r"connections.material is missing: expected it with \[\[reinf"),
     ],
 )
-def test_bars_need_a_material_and_an_opening(changes, message):
-    settings = {"method": "face", "material": "concrete", "ductile_elongation_m": 0.1, **changes}
+def test_bars_need_a_material_and_elastic_connections(changes, message):
+    settings = {"type": "FIXED", "method": "face", "material": "concrete", "ductile_elongation_m": 0.1, **changes}
     with pytest.raises(ScenarioError, match=message):
         replace(I235, connections=ConnectionSettings(**settings), reinforcement=(BOTTOM,))
 
@@ -112,4 +113,10 @@ def test_bars_need_a_material_and_an_opening(changes, message):
 def test_an_opening_needs_reinforcement():
     connections = ConnectionSettings(method="face", material="concrete", ductile_elongation_m=0.1)
     with pytest.raises(ScenarioError, match=r"connections.ductile_elongation_m is 0.1: expected none where"):
+        replace(I235, connections=connections)
+
+
+def test_steel_needs_reinforcement():
+    connections = ConnectionSettings(type="FIXED", method="face", material="concrete", ductile_hardening=1.1)
+    with pytest.raises(ScenarioError, match=r"connections.ductile_hardening is 1.1: expected none where"):
         replace(I235, connections=connections)

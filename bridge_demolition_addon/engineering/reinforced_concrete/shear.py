@@ -1,0 +1,55 @@
+"""Shear: what concrete without links resists, and the links that a beam needs."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from .materials import CONCRETE_FACTOR, Concrete
+
+_MEGA = 1e6
+_LARGEST_COT = 2.5
+_LEVER_ARM = 0.9
+"""z / d: EN 1992-1-1:2004, 6.2.3 (1)."""
+
+
+def without_links_n(width_m: float, depth_m: float, bars_m2: float, concrete: Concrete) -> float:
+    """Return V_Rd,c of a section without axial force: EN 1992-1-1:2004, equations 6.2a, 6.2b and 6.3N."""
+    size = min(1.0 + math.sqrt(0.2 / depth_m), 2.0)
+    ratio = min(bars_m2 / (width_m * depth_m), 0.02)
+    f_ck = concrete.strength_pa / _MEGA
+    stress = 0.18 / CONCRETE_FACTOR * size * math.cbrt(100.0 * ratio * f_ck)
+    least = 0.035 * math.sqrt(size**3 * f_ck)
+    return max(stress, least) * _MEGA * width_m * depth_m
+
+
+@dataclass(frozen=True, slots=True)
+class Links:
+    """Links of a beam: their area by length along it, m²/m, and the slope of the struts between them."""
+
+    area_m2_m: float
+    cot_strut: float
+
+
+def struts_n(width_m: float, depth_m: float, concrete: Concrete, cot_strut: float) -> float:
+    """Return V_Rd,max, at which the struts are crushed: equations 6.9 and 6.6N, without axial force."""
+    weakened = 0.6 * (1.0 - concrete.strength_pa / _MEGA / 250.0)
+    return width_m * _LEVER_ARM * depth_m * weakened * concrete.design_pa / (cot_strut + 1.0 / cot_strut)
+
+
+def links(shear_n: float, width_m: float, depth_m: float, concrete: Concrete, yield_pa: float) -> Links | None:
+    """Return the links that a shear force needs, with struts as flat as they can be; None where no struts carry it.
+
+    Slopes are from cot θ = 2.5 to 1, as EN 1992-1-1:2004, equation 6.7N recommends; links by equation 6.8.
+    """
+    largest = struts_n(width_m, depth_m, concrete, 1.0)
+    if shear_n > largest:
+        return None
+    angle = 0.5 * math.asin(shear_n / largest)
+    cot = _LARGEST_COT if angle <= math.atan(1.0 / _LARGEST_COT) else 1.0 / math.tan(angle)
+    return Links(shear_n / (_LEVER_ARM * depth_m * yield_pa * cot), cot)
+
+
+def links_resist_n(area_m2_m: float, depth_m: float, yield_pa: float, cot_strut: float) -> float:
+    """Return V_Rd,s: equation 6.8."""
+    return area_m2_m * _LEVER_ARM * depth_m * yield_pa * cot_strut

@@ -1,0 +1,1 @@
+"""Bars of a bridge by a rule: designed for its own weight and traffic, or by ratios of steel."""

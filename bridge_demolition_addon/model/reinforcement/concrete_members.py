@@ -1,0 +1,99 @@
+"""Which members are of concrete, and which of these have no bars."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Protocol
+
+from ...engineering.mechanics.strength import Strength
+from ..bridge.substructure import substructure
+from ..bridge.superstructure import superstructure
+from ..materials.materials import strengths
+from ..scenario import Scenario
+from ..scenario.scenario import bars_by_rule
+
+_TORN_BY_CRUSHED = 0.25
+"""Tensile by compressive strength from which on a material of the user is no concrete, as steel or timber."""
+
+_OTHERS = ("masonry", "steel")
+
+
+class Named(Protocol):
+    """A member as far as it is named: of the model, or a table of the scenario."""
+
+    @property
+    def name(self) -> str: ...
+
+    @property
+    def kind(self) -> str: ...
+
+
+def is_concrete(scenario: Scenario, member: Named) -> bool:
+    """Return whether a member breaks by the strength of a concrete, or by one force, which any material can have."""
+    material = _material(scenario, member)
+    if material is None:
+        return True
+    return material not in _OTHERS and _is_weak_in_tension(strengths(scenario.materials)[material])
+
+
+def _is_weak_in_tension(strength: Strength) -> bool:
+    return float(strength.tension_pa) < _TORN_BY_CRUSHED * float(strength.compression_pa)
+
+
+def _material(scenario: Scenario, member: Named) -> str | None:
+    """Return the material within a member: of the first rule that names it twice, or of all connections."""
+    for rule in scenario.connections.between:
+        if all(name in (member.name, member.kind) for name in rule.members):
+            if rule.material is None and rule.breaking_force_newton is not None:
+                return None
+            return rule.material or scenario.connections.material
+    return scenario.connections.material
+
+
+def names_of_bridge(scenario: Scenario) -> set[str]:
+    """Return the names of the members of a parametric bridge."""
+    bridge = scenario.bridge
+    return {member.name for member in (*superstructure(bridge), *substructure(bridge))} if bridge else set()
+
+
+def named_members(scenario: Scenario) -> list[Named]:
+    """Return all members of a scenario by name and kind, without reading any file."""
+    bridge = scenario.bridge
+    of_bridge: list[Named] = [*superstructure(bridge), *substructure(bridge)] if bridge else []
+    return [*of_bridge, *scenario.geometry]
+
+
+def plain_concrete_text(scenario: Scenario) -> str:
+    """Return a sentence, without a full stop, on members of concrete without bars; empty where there are none, or where
+    the scenario says that the bridge has no bars."""
+    rule = scenario.bridge.reinforcement if scenario.bridge else None
+    if scenario.connections.ductile_share > 0.0 or (rule and not rule.has_bars):
+        return ""
+    if not (plain := _plain(scenario, named_members(scenario))):
+        return ""
+    return (
+        f"no reinforcing bars in {', '.join(plain)}: what cracks there falls apart, as concrete with bars does not; "
+        "[bridge.reinforcement] or [[reinforcement]] gives them"
+    )
+
+
+def _plain(scenario: Scenario, members: Sequence[Named]) -> list[str]:
+    """Return kinds of members none of which has bars, and names of those whose kind has some."""
+    with_bars = _with_bars(scenario)
+    plain = [
+        member for member in members if not {member.name, member.kind} & with_bars and is_concrete(scenario, member)
+    ]
+    return list(dict.fromkeys(_kind_or_name(member, plain, members) for member in plain))
+
+
+def _kind_or_name(member: Named, plain: Sequence[Named], members: Iterable[Named]) -> str:
+    alike = [other for other in members if other.kind == member.kind]
+    return member.kind if all(any(other is one for one in plain) for other in alike) else member.name
+
+
+def _with_bars(scenario: Scenario) -> set[str]:
+    """Return names and kinds of members with bars."""
+    named = {name for layer in scenario.reinforcement for name in layer.members}
+    if rule := bars_by_rule(scenario):
+        named |= {table.member for table in rule.ratios} or names_of_bridge(scenario)
+    return named

@@ -1,0 +1,112 @@
+"""The bars of a scenario: by the rule of its bridge, and as it gives them itself."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TypeVar
+
+from ...engineering.mechanics.strength import NEWTON_PER_SQUARE_MILLIMETRE
+from ...engineering.reinforced_concrete.least_areas import USUAL_LARGEST_SHARE
+from ...engineering.reinforced_concrete.materials import Concrete
+from ...errors import ScenarioError
+from ..bridge.member import Member
+from ..materials.bar_layers import BarLayer
+from ..materials.materials import strengths
+from ..scenario import Bridge, Scenario
+from ..scenario.reinforcement import BridgeReinforcement
+from ..scenario.scenario import bars_by_rule
+from ..schema import given
+from .concrete_members import is_concrete, names_of_bridge
+from .design_basis import DesignBasis
+from .link_layers import link_layers
+from .ratios import ratio_bars
+from .schedule import Schedule, ScheduledBars, ScheduledLinks, row_text
+from .substructure import pier_bars, support_loads
+from .superstructure import deck_bars, deck_lines
+
+_Row = TypeVar("_Row", ScheduledBars, ScheduledLinks)
+
+_STRONGEST_N_MM2 = 90.0
+"""Strongest concrete of EN 1992-1-1:2004, table 3.1."""
+
+_LARGEST_SKEW_DEG = 20.0
+"""Skew from which on strips along the road say too little of a slab."""
+
+
+def all_layers(scenario: Scenario, members: Sequence[Member]) -> tuple[BarLayer, ...]:
+    """Return the layers of bars of a scenario's members: `[[reinforcement]]`, and those by the rule of its bridge."""
+    schedule = bar_schedule(scenario, members)
+    return (*scenario.reinforcement, *schedule.layers, *link_layers(schedule, members))
+
+
+def bar_schedule(scenario: Scenario, members: Sequence[Member]) -> Schedule:
+    """Return the bars of a bridge by its rule; of no member that `[[reinforcement]]` names, nor one not of concrete."""
+    rule = bars_by_rule(scenario)
+    if rule is None:
+        return Schedule()
+    bridge = given(scenario.weighed_bridge)
+    basis = DesignBasis(
+        bridge, rule, _of_bridge(scenario, members), _concrete(scenario, rule), rule.traffic(bridge.deck.width_m)
+    )
+    rows = list(ratio_bars(basis) if rule.ratios else _designed(basis))
+    bars = _merged([row for row in rows if isinstance(row, ScheduledBars)])
+    links = _merged([row for row in rows if isinstance(row, ScheduledLinks)])
+    by_hand = {name for layer in scenario.reinforcement for name in layer.members}
+    left_out = {member.name for member in members if {member.name, member.kind} & by_hand}
+    other = {member.name for member in members if not is_concrete(scenario, member)}
+    notes = list(_notes(bridge, rule, bars))
+    if left_out:
+        notes.append(f"[[reinforcement]] replaces the rule for {', '.join(sorted(left_out))}")
+    if other:
+        notes.append(f"not of concrete, and without bars: {', '.join(sorted(other))}")
+    return Schedule(tuple(bars), tuple(links), tuple(notes)).without(left_out | other)
+
+
+def _of_bridge(scenario: Scenario, members: Sequence[Member]) -> tuple[Member, ...]:
+    """Return the members that are not from files."""
+    names = names_of_bridge(scenario)
+    return tuple(member for member in members if member.name in names)
+
+
+def _concrete(scenario: Scenario, rule: BridgeReinforcement) -> Concrete:
+    """Return the concrete that the bridge is designed with."""
+    if rule.concrete_n_mm2 is not None:
+        return Concrete(rule.concrete_n_mm2 * NEWTON_PER_SQUARE_MILLIMETRE)
+    name = given(scenario.connections.material)
+    compression_pa = float(strengths(scenario.materials)[name].compression_pa)
+    if compression_pa > _STRONGEST_N_MM2 * NEWTON_PER_SQUARE_MILLIMETRE:
+        raise ScenarioError(
+            f'connections.material is "{name}": expected concrete with [bridge.reinforcement], or '
+            "bridge.reinforcement.concrete_n_mm2"
+        )
+    return Concrete(compression_pa)
+
+
+def _designed(basis: DesignBasis) -> Iterator[ScheduledBars | ScheduledLinks]:
+    lines = deck_lines(basis)
+    for line in lines:
+        yield from deck_bars(basis, line)
+    yield from pier_bars(basis, support_loads(basis, lines))
+
+
+def _notes(bridge: Bridge, rule: BridgeReinforcement, bars: Sequence[ScheduledBars]) -> Iterator[str]:
+    if abs(bridge.skew_deg) > _LARGEST_SKEW_DEG and not rule.ratios:
+        yield (
+            f"skew of {bridge.skew_deg:g}°: strips along the road are designed; bars for twisting and for the obtuse "
+            "corners are not covered"
+        )
+    for row in bars:
+        if row.ratio > USUAL_LARGEST_SHARE:
+            yield (
+                f"{row.kind}, {row.where}: {row.ratio:.1%} of the section, more than the {USUAL_LARGEST_SHARE:.0%} "
+                "that EN 1992-1-1 has outside of laps"
+            )
+
+
+def _merged(rows: Sequence[_Row]) -> list[_Row]:
+    """Put members of a kind whose bars are shown alike into one row."""
+    merged: dict[tuple[str, str, str], tuple[_Row, list[str]]] = {}
+    for row in rows:
+        alike = row.kind, row_text(row), f"{row.length_m:.3f}"
+        merged.setdefault(alike, (row, []))[1].extend(row.members)
+    return [row.of_members(tuple(dict.fromkeys(names))) for row, names in merged.values()]

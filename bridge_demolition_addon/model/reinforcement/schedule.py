@@ -1,0 +1,182 @@
+"""The schedule of bars: layers and links of each member, what they are for, and what they weigh."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import TypeVar
+
+from ...engineering.reinforced_concrete.bar_choice import BarChoice
+from ...engineering.reinforced_concrete.materials import STEEL_DENSITY_KG_M3
+from ..bridge.member import Member
+from ..materials.bar_layers import BarLayer
+from ..schema import given
+
+_MM2 = 1e6
+"""mm² in a m²."""
+
+_MM = 1e3
+
+USUAL_KG_M3 = (80, 150)
+"""Steel of most bridge decks of reinforced concrete by their concrete, kg/m³, as estimators take it. A table of ratios
+of highway bridges designed to BS 5400, for tenders without drawings, has 150 for walls and abutments."""
+
+
+@dataclass(frozen=True, slots=True)
+class ScheduledBars:
+    """A layer of bars that the members of one kind have alike."""
+
+    layer: BarLayer  # with the names of its members
+    kind: str
+    choice: BarChoice | None  # None where only a ratio is given
+    section_m2: float  # of the concrete that the bars cross
+    required_m2: float
+    reason: str  # what the required area is for
+    length_m: float  # of a bar in one member
+
+    @property
+    def ratio(self) -> float:
+        return self.layer.area_m2 / self.section_m2
+
+    @property
+    def utilisation(self) -> float:
+        """Required area by that of the bars."""
+        return self.required_m2 / self.layer.area_m2
+
+    @property
+    def mass_kg(self) -> float:
+        """Mass in all members together."""
+        return len(self.layer.members) * self.layer.area_m2 * self.length_m * STEEL_DENSITY_KG_M3
+
+    @property
+    def where(self) -> str:
+        between = "" if self.layer.from_m is None else f", {self.layer.from_m:.1f} to {self.layer.to_m:.1f} m"
+        return f"{self.layer.side} at {_MM * given(self.layer.depth_m):.0f} mm, along {self.layer.along}{between}"
+
+    @property
+    def bars_text(self) -> str:
+        if self.choice is None:
+            return "by ratio"
+        bars = f"{self.choice.number} Ø{_MM * self.choice.diameter_m:g}"
+        if self.choice.rows > 1:
+            return f"{bars} in {self.choice.rows} rows"
+        return bars if math.isnan(self.choice.spacing_m) else f"{bars} / s = {_MM * self.choice.spacing_m:.0f} mm"
+
+    @property
+    def members(self) -> tuple[str, ...]:
+        return self.layer.members
+
+    def of_members(self, names: tuple[str, ...]) -> ScheduledBars:
+        """Return the same of other members."""
+        return replace(self, layer=replace(self.layer, members=names))
+
+
+@dataclass(frozen=True, slots=True)
+class ScheduledLinks:
+    """Links that the members of one kind have alike: bars around the others, across the member."""
+
+    members: tuple[str, ...]
+    kind: str
+    link_area_mm2_per_m: float  # A_sw / s: of all legs in a section, by length along the member
+    required_mm2_per_m: float
+    reason: str
+    legs: int
+    diameter_m: float  # 0 where only a ratio is given
+    spacing_m: float
+    width_m: float  # b_w
+    loop_m: float  # length of all bars of one set of links
+    length_m: float  # of one member
+    shear_n: float = 0.0
+    concrete_n: float = 0.0  # V_Rd,c
+    cot_strut: float = 2.5
+
+    @property
+    def ratio(self) -> float:
+        return self.link_area_mm2_per_m / _MM2 / self.width_m
+
+    @property
+    def utilisation(self) -> float:
+        return self.required_mm2_per_m / self.link_area_mm2_per_m
+
+    @property
+    def mass_kg(self) -> float:
+        """Mass in all members together."""
+        by_leg_m2 = self.link_area_mm2_per_m / _MM2 / self.legs
+        return len(self.members) * by_leg_m2 * self.loop_m * self.length_m * STEEL_DENSITY_KG_M3
+
+    @property
+    def bars_text(self) -> str:
+        if not self.diameter_m:
+            return "by ratio"
+        return f"{self.legs} legs Ø{_MM * self.diameter_m:g} / s = {_MM * self.spacing_m:.0f} mm"
+
+    def of_members(self, names: tuple[str, ...]) -> ScheduledLinks:
+        """Return the same of other members."""
+        return replace(self, members=names)
+
+
+@dataclass(frozen=True, slots=True)
+class Schedule:
+    """All bars of a bridge by a rule."""
+
+    bars: tuple[ScheduledBars, ...] = ()
+    links: tuple[ScheduledLinks, ...] = ()
+    notes: tuple[str, ...] = ()
+
+    @property
+    def rows(self) -> tuple[ScheduledBars | ScheduledLinks, ...]:
+        return (*self.bars, *self.links)
+
+    @property
+    def layers(self) -> tuple[BarLayer, ...]:
+        return tuple(row.layer for row in self.bars)
+
+    @property
+    def mass_kg(self) -> float:
+        return sum(row.mass_kg for row in self.rows)
+
+    def without(self, names: set[str]) -> Schedule:
+        """Return the schedule without some members."""
+        return Schedule(tuple(_without(self.bars, names)), tuple(_without(self.links, names)), self.notes)
+
+    def link_area_mm2_per_m(self, member: str) -> float:
+        """Return A_sw / s of a member; 0 without links."""
+        return sum(row.link_area_mm2_per_m for row in self.links if member in row.members)
+
+    def mass_of_kg(self, kind: str) -> float:
+        return sum(row.mass_kg for row in self.rows if row.kind == kind)
+
+    def masses(self, members: Sequence[Member]) -> list[tuple[str, float, float]]:
+        """Return kinds of members with bars, their steel, kg, and their concrete, m³."""
+        kinds = dict.fromkeys(row.kind for row in self.rows)
+        volumes = {kind: sum(member.volume_m3 for member in members if member.kind == kind) for kind in kinds}
+        return [(kind, self.mass_of_kg(kind), volumes[kind]) for kind in kinds]
+
+
+_Row = TypeVar("_Row", ScheduledBars, ScheduledLinks)
+
+
+def _without(rows: Sequence[_Row], names: Collection[str]) -> Iterator[_Row]:
+    for row in rows:
+        if left := tuple(name for name in row.members if name not in names):
+            yield row.of_members(left)
+
+
+def named_text(row: ScheduledBars | ScheduledLinks) -> str:
+    """Return the members of a row, by kind where it has several."""
+    return row.members[0] if len(row.members) == 1 else f"{len(row.members)} × {row.kind}"
+
+
+def row_area(row: ScheduledBars | ScheduledLinks) -> float:
+    """Return the area of a layer, mm², or of links by length, mm²/m."""
+    return given(row.layer.area_mm2) if isinstance(row, ScheduledBars) else row.link_area_mm2_per_m
+
+
+def row_text(row: ScheduledBars | ScheduledLinks) -> str:
+    """Return a row of the schedule as text."""
+    if isinstance(row, ScheduledBars):
+        area = f"{row.where}: {row_area(row):.0f} mm²"
+    else:
+        area = f"links: {row.link_area_mm2_per_m:.0f} mm²/m"
+    return f"{area}, {row.bars_text}, {row.ratio:.2%}, {row.utilisation:.0%} used, {row.reason}"

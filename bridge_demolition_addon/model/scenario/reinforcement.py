@@ -1,0 +1,179 @@
+"""Bars of a parametric bridge by a rule: designed for traffic, or by ratios of steel."""
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ...engineering.elasticity.steel_bars import Steel
+from ...engineering.reinforced_concrete.materials import GRADES
+from ...engineering.reinforced_concrete.traffic import Traffic, hl_93, load_model_1, own_traffic
+from ...errors import ScenarioError
+from ..schema import SIZE, Table, key
+
+LOAD_MODEL_1 = "LM1"
+HL_93 = "HL-93"
+OWN_WEIGHT = "own weight"
+NONE = "none"
+
+_KILO = 1e3
+_PERCENT = {"default": None, "unit": "%", "at_least": 0, "at_most": 8}
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class RatiosOfMember(Table):
+    """Ratios of steel of a member, or of all of a kind: areas of bars over the area of the section that they cross.
+    Those that are left out are 0."""
+
+    table: ClassVar[str] = "bridge.reinforcement.ratios"
+
+    member: str = key("Name or kind of a member.")
+    bottom_percent: float | None = key("Bars along the road at the bottom, or at the sides of what stands.", **_PERCENT)
+    top_percent: float | None = key("Bars along the road at the top.", **_PERCENT)
+    across_bottom_percent: float | None = key("Bars across the road at the bottom.", **_PERCENT)
+    across_top_percent: float | None = key("Bars across the road at the top.", **_PERCENT)
+    upright_percent: float | None = key("Upright bars of a pier or abutment, at its four sides together.", **_PERCENT)
+    links_percent: float | None = key(
+        "Links: their area over that of the member as seen along them, A_sw / (s b).", **_PERCENT
+    )
+
+    def _check_together(self) -> None:
+        if not any(getattr(self, name) for name in RATIOS):
+            raise ScenarioError(
+                f"{self.table} of {self.member} has no ratio above 0: expected one of {', '.join(RATIOS)}"
+            )
+
+
+RATIOS = (
+    "bottom_percent",
+    "top_percent",
+    "across_bottom_percent",
+    "across_top_percent",
+    "upright_percent",
+    "links_percent",
+)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BridgeReinforcement(Table):
+    """Bars by a rule, for a bridge without drawings: designed by EN 1992-1-1 for its own weight and traffic, or by
+    ratios. Give one of `designed_for`, traffic of your own and `ratios`. `[[reinforcement]]` of a member replaces what
+    this gives it. Needs what `[[reinforcement]]` needs. `bda check` prints the schedule of bars."""
+
+    table: ClassVar[str] = "bridge.reinforcement"
+
+    designed_for: str | None = key(
+        "Traffic that the bridge was designed for beside its own weight: load model 1 of EN 1991-2 with α = 1 (`LM1`), "
+        "HL-93 of AASHTO, none (`own weight`); or `none` for a bridge that has no bars.",
+        default=None,
+        choices=(LOAD_MODEL_1, HL_93, OWN_WEIGHT, NONE),
+    )
+    traffic_kn_m2: float | None = key(
+        "Uniform load of your own on the carriageway.", default=None, unit="kN/m²", at_least=0, at_most=1000
+    )
+    axles_kn: tuple[float, ...] | None = key(
+        "Axle loads of a vehicle of your own, from first to last, with impact.",
+        default=None,
+        unit="kN",
+        at_least=0,
+        at_most=100_000,
+    )
+    axle_spacing_m: tuple[float, ...] | None = key(
+        "Distances from each axle to the next; one less than axles.", default=None, unit="m", above=0, at_most=100
+    )
+    carriageway_m: float | None = key(
+        "Width of the carriageway, which says how many lanes there are; by default that of the deck.",
+        default=None,
+        **SIZE,
+    )
+    permanent_kn_m2: float = key(
+        "Permanent load on the deck that the bridge was designed for beside its own weight, as of surfacing. The "
+        "simulation does not have it.",
+        default=0.0,
+        unit="kN/m²",
+        at_least=0,
+        at_most=1000,
+    )
+    concrete_n_mm2: float | None = key(
+        "Characteristic strength of the concrete in compression, f_ck, that it was designed with; by default that of "
+        "`connections.material`.",
+        default=None,
+        unit="N/mm²",
+        at_least=12,
+        at_most=90,
+    )
+    steel: str = key("Grade of the bars.", default="B500B", choices=tuple(GRADES))
+    cover_m: float = key(
+        "Nominal cover of the outermost bars. By default that of EN 1992-1-1 for exposure XD1, class S4: 35 mm and 10 "
+        "mm for deviations.",
+        default=0.045,
+        unit="m",
+        above=0,
+        at_most=1,
+    )
+    bar_diameter_mm: float = key(
+        "Diameter of main bars; larger ones are taken where these do not fit.",
+        default=20.0,
+        unit="mm",
+        at_least=6,
+        at_most=40,
+    )
+    ratios: tuple[RatiosOfMember, ...] = ()
+
+    @property
+    def has_bars(self) -> bool:
+        return self.designed_for != NONE
+
+    @property
+    def grade(self) -> Steel:
+        return GRADES[self.steel]
+
+    @property
+    def described(self) -> str:
+        """What the bars follow from, for a heading."""
+        if self.ratios:
+            return "ratios of steel"
+        if self.designed_for is not None:
+            return "own weight" if self.designed_for == OWN_WEIGHT else f"own weight and {self.designed_for}"
+        parts = [] if self.traffic_kn_m2 is None else [f"{self.traffic_kn_m2:g} kN/m²"]
+        if self.axles_kn is not None:
+            parts.append(f"axles of {' + '.join(f'{axle:g}' for axle in self.axles_kn)} kN")
+        return f"own weight, {' and '.join(parts)}"
+
+    def traffic(self, deck_width_m: float) -> Traffic | None:
+        """Return the traffic of the design; None for own weight alone."""
+        width = self.carriageway_m or deck_width_m
+        if self.designed_for == LOAD_MODEL_1:
+            return load_model_1(width)
+        if self.designed_for == HL_93:
+            return hl_93(width)
+        if self.designed_for is not None:
+            return None
+        axles = [_KILO * axle for axle in self.axles_kn or ()]
+        return own_traffic(width, _KILO * (self.traffic_kn_m2 or 0.0), axles, self.axle_spacing_m or ())
+
+    def check_deck(self, width_m: float) -> None:
+        """Check that the carriageway is on the deck."""
+        if self.carriageway_m is not None and self.carriageway_m > width_m:
+            raise self.unexpected("carriageway_m", f"at most bridge.deck.width_m, {width_m:g} (m)")
+
+    def refused(self, why: str) -> ScenarioError:
+        """Return the error of a load that the bridge cannot be designed for."""
+        name = next(
+            (n for n in ("designed_for", "traffic_kn_m2", "axles_kn") if getattr(self, n) is not None), "ratios"
+        )
+        value = getattr(self, name)
+        shown = f'"{value}"' if isinstance(value, str) else f"{value}"
+        return ScenarioError(f"{self.table}.{name} is {shown}: {why}")
+
+    def _check_together(self) -> None:
+        own = self.traffic_kn_m2 is not None or self.axles_kn is not None
+        routes = [self.designed_for is not None, own, bool(self.ratios)]
+        if sum(routes) != 1:
+            state = "given together" if any(routes) else "all missing"
+            raise ScenarioError(
+                f"{self.table} has designed_for, traffic of your own (traffic_kn_m2, axles_kn) and ratios {state}: "
+                "expected exactly one of these"
+            )
+        needed = max(len(self.axles_kn or ()) - 1, 0)
+        if len(self.axle_spacing_m or ()) != needed:
+            wanted = f"{needed} numbers (m), from each axle to the next" if needed else "none with fewer than two axles"
+            raise self.unexpected("axle_spacing_m", wanted)

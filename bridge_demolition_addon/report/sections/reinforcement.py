@@ -1,0 +1,88 @@
+"""Reinforcement in a report of a run: schedule of bars by rule, sections with them, and concrete without any."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from functools import partial
+
+from ...charts.reinforced_sections import draw_sections, sections_to_draw
+from ...engineering.reinforced_concrete.materials import (
+    CONCRETE_FACTOR,
+    PERMANENT_FACTOR,
+    STEEL_FACTOR,
+    VARIABLE_FACTOR,
+)
+from ...errors import DemolitionError, text_of
+from ...model.bridge.member import Member
+from ...model.bridge.preparation import prepared_members
+from ...model.reinforcement.concrete_members import plain_concrete_text
+from ...model.reinforcement.design import bar_schedule
+from ...model.reinforcement.facts import steel_facts
+from ...model.reinforcement.schedule import Schedule, ScheduledBars, ScheduledLinks, named_text, row_area
+from ...model.scenario import Scenario
+from ...model.scenario.scenario import bars_by_rule
+from ...model.schema import given
+from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section, facts
+
+_HEIGHT_MM = 130.0
+
+_COLUMNS = (
+    Column("Members", "members"),
+    Column("Bars", "side"),
+    Column("along", "along"),
+    Column("from (m)", "from_m", ".1f"),
+    Column("to (m)", "to_m", ".1f"),
+    Column("below the side (mm)", "depth_mm", ".0f"),
+    Column("area (mm², links mm²/m)", "area", ".0f"),
+    Column("choice", "choice"),
+    Column("of the section (%)", "ratio_percent", ".2f"),
+    Column("used (%)", "used_percent", ".0f"),
+    Column("for", "for"),
+)
+
+_NOTES = (
+    "Used: area that the design requires by the area of the bars. Bars run along the whole of a member, or between two "
+    "positions; laps, hooks and bars that detailing adds are not in it. Fatigue, widths of cracks, punching and "
+    "torsion are not designed for."
+)
+
+
+def reinforcement_section(scenario: Scenario) -> Section | None:
+    """Return the section; None where all members have bars by hand, are no concrete, or have none on purpose."""
+    plain = plain_concrete_text(scenario)
+    blocks: list[Block] = [Paragraph(f"{plain[0].upper()}{plain[1:]}.", is_notice=True)] if plain else []
+    if bars_by_rule(scenario):
+        try:
+            members = prepared_members(scenario).members
+            blocks += _schedule_blocks(scenario, members, bar_schedule(scenario, members))
+        except (DemolitionError, OSError) as error:  # of the ground, whose file may be elsewhere by now
+            blocks.append(Paragraph(f"The schedule of bars cannot be made again: {text_of(error)}", is_notice=True))
+    return Section("Reinforcement", tuple(blocks)) if blocks else None
+
+
+def _schedule_blocks(scenario: Scenario, members: Sequence[Member], schedule: Schedule) -> Iterator[Block]:
+    rule = given(bars_by_rule(scenario))
+    design = (
+        ""
+        if rule.ratios
+        else f" Designed by EN 1992-1-1 with {PERMANENT_FACTOR:g} G + {VARIABLE_FACTOR:g} Q, "
+        f"γ_c = {CONCRETE_FACTOR:g}, γ_s = {STEEL_FACTOR:g}; elastic moments, traffic at its worst."
+    )
+    yield Paragraph(f"Bars by {rule.described}, of {rule.steel} with {1e3 * rule.cover_m:g} mm of cover.{design}")
+    yield DataTable("reinforcement", "Schedule of bars", _COLUMNS, [_row(row) for row in schedule.rows])
+    yield facts("Steel", list(steel_facts(members, schedule)))
+    yield Paragraph(_NOTES)
+    for note in schedule.notes:
+        yield Paragraph(f"{note[0].upper()}{note[1:]}.")
+    if sections := sections_to_draw(members, schedule):
+        caption = "Sections square to the axis of members, bars as large as they are: red across, blue in the section."
+        yield Picture(partial(draw_sections, sections=sections, schedule=schedule), caption, _HEIGHT_MM)
+
+
+def _row(row: ScheduledBars | ScheduledLinks) -> tuple[str | float | None, ...]:
+    numbers = 100.0 * row.ratio, 100.0 * row.utilisation
+    shown: tuple[str | float | None, ...] = "links", "", None, None, None, row_area(row)
+    if isinstance(row, ScheduledBars):
+        layer = row.layer
+        shown = layer.side, layer.along, layer.from_m, layer.to_m, 1e3 * given(layer.depth_m), row_area(row)
+    return named_text(row), *shown, row.bars_text, *numbers, row.reason
