@@ -266,7 +266,7 @@ def test_loads_are_told_with_what_bears_them():
 
 
 def test_moments_of_sections_with_bars_are_told():
-    connections = ConnectionSettings(method="face", material="reinforced concrete slab", ductile_elongation_m=0.05)
+    connections = ConnectionSettings(type="FIXED", method="face", material="reinforced concrete slab")
     layer = BarLayer(members=("deck",), depth_m=0.04, area_mm2=12_000.0)
     told = facts(replace(I235, connections=connections, reinforcement=(layer,), fracture=FractureSettings(shards=20)))
     # By hand, EN 1992-1-1: 6 MN, a = 6 / (8.5 × 35) m = 20.2 mm, 6 MN × (0.21 m - a / 2).
@@ -276,7 +276,7 @@ def test_moments_of_sections_with_bars_are_told():
 
 
 def test_links_are_told_by_their_force_in_each_area_across_them():
-    connections = ConnectionSettings(method="face", material="reinforced concrete slab", ductile_elongation_m=0.05)
+    connections = ConnectionSettings(type="FIXED", method="face", material="reinforced concrete slab")
     links = BarLayer(members=("deck",), along="z", spread_mm2_m2=1570.0)
     told = facts(replace(I235, connections=connections, reinforcement=(links,), fracture=FractureSettings(shards=20)))
     # 1570 mm²/m² × 500 N/mm² = 0.785 N/mm².
