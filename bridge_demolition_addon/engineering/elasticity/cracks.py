@@ -384,8 +384,8 @@ class CrackStep:
         total = _summed(pressed)
         shares = np.where(np.tile(total, _COUNT) > 0.0, pressed, 1.0)
         shares = shares / np.tile(_summed(shares), _COUNT)
-        middles = [_summed(shares * arms) for arms in (gaps.first_arms_m, gaps.second_arms_m)]
-        levers = gaps.first_arms_m - np.tile(middles[0], _COUNT)
+        first_arms, second_arms = (_summed(shares * arms) for arms in (gaps.first_arms_m, gaps.second_arms_m))
+        levers = gaps.first_arms_m - np.tile(first_arms, _COUNT)
         stiffness = []
         for axis in np.moveaxis(axes, 1, 0):
             along = np.tile(axis, _COUNT)
@@ -394,7 +394,7 @@ class CrackStep:
             moved = cross_products(np.tile(axis, _COUNT), levers)
             stiffness.append(_summed(dot_products(moved, turned(self._tangents, moved))))
         first, second = gaps.first[:count], gaps.second[:count]
-        return CrackJoints(first, second, *middles, axes, np.stack(stiffness))
+        return CrackJoints(first, second, first_arms, second_arms, axes, np.stack(stiffness))
 
     def of_bodies(self, loads: tuple[FloatArray, FloatArray], count: int) -> FloatArray:
         """Return the sums (6, n) of loads (6, c) on the first and on the second bodies, for n bodies."""

@@ -72,16 +72,14 @@ def parting(
     return distances, dot(speeds, directions), directions
 
 
-def effective_masses(masses_kg: FloatArray, pairs: IntArray, turning_kg: FloatArray | float = 0.0) -> FloatArray:
+def effective_masses(masses_kg: FloatArray, pairs: IntArray) -> FloatArray:
     """Mass (t,) that each bar between a pair (t, 2) of bodies (n,) may take to be its own, kg.
 
-    1/m = 1/m₁ + 1/m₂ + `turning_kg` (t,), 1/kg, for the turning of the bodies by a bar beside their middle. A body of
-    mass 0 does not move. The mass is shared out among all bars of a body, which would otherwise stop it several times
-    over.
+    1/m = 1/m₁ + 1/m₂. A body of mass 0 does not move. The mass is shared out among all bars of a body, which would
+    otherwise stop it several times over.
     """
     counts = np.bincount(pairs.ravel(), minlength=len(masses_kg))[pairs].max(axis=1)
     inverse = np.divide(1.0, masses_kg, out=np.zeros(len(masses_kg)), where=masses_kg > 0.0)[pairs].sum(axis=1)
-    inverse = inverse + turning_kg
     return np.divide(1.0, inverse * counts, out=np.zeros(len(pairs)), where=inverse > 0.0)
 
 

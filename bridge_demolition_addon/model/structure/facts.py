@@ -11,7 +11,7 @@ from ...engineering.elasticity.member_shapes import member_shapes
 from ...engineering.elasticity.section_stiffness import DAMPING_RATIO
 from ...engineering.geometry.overlap import SHARD_OVERLAP_TOLERANCE, Overlaps, hulls, overlaps
 from ...engineering.mechanics.joint import Joint
-from ...engineering.mechanics.strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE, Strength
+from ...engineering.mechanics.strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE, SMEARED, Strength
 from ..actions import Fact
 from ..bridge.member import Member
 from ..materials.bar_layers import AXES, SIDES
@@ -72,6 +72,9 @@ def connection_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
         usual = f", as in all models of {LARGE_MODEL} shards or more that give no strength" if is_usual else ""
         yield "strength of", f"{connections.material}{usual}"
         yield from _strength_facts(given(scenario.joints[0].strength))
+        if model.bars and connections.material in SMEARED:
+            yield "", f"Members with bars crack as {SMEARED[connections.material]}, and the bars hold on: these"
+            yield "", "strengths have steel that is smeared over each face, which would count twice."
     else:
         force = given(scenario.joints[0].breaking_force_n)
         yield "breaking force", f"{force:.1f} N = {force / 1000.0:.2f} kN"
@@ -97,6 +100,10 @@ def _bar_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
         resisted = ", ".join(f"{moment / 1000.0:.4g} kN·m with its {side} pressed" for side, moment in moments)
         where = _between_text(group.between_m)
         yield "reinforcement", f"{model.members[group.member].name}, along {AXES[along]}{where}: {resisted}"
+        own_m = scenario.connections.ductile_elongation_m
+        openings = group.openings_m(compression_pa, scenario.steel) if own_m is None else [own_m]
+        ranged = " to ".join(f"{1000.0 * opening:.3g}" for opening in sorted({min(openings), max(openings)}))
+        yield "", f"These bars rupture once a crack has opened by {ranged} mm."
     if text := plain_concrete_text(scenario):
         yield "without bars", text
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from ...bullet.bodies import BodyTable
-from ...engineering.elasticity.joint_rows import components_last
-from ...engineering.geometry.vectors import dot, transformed, transformed_back
+from ...engineering.geometry.vectors import transformed, transformed_back
 from ...engineering.mechanics.reinforcement import bar_forces, effective_masses, parting
 from ...model.results.inventory import Inventory
 from ...model.schema import given
@@ -25,10 +24,6 @@ class Reinforcement(Driver):
         self._bodies, self._inventory, self._ductility = bodies, inventory, given(breaking.ductility)
         self._remaining_strength = remaining_strength
         self._yield_n = self._ductility.strength_share * given(breaking.strength).tension_pa * inventory.areas_m2
-        self._offsets_m = self._reader = None
-        if breaking.bars:
-            bars = breaking.bars.with_even(self._yield_n)
-            self._yield_n, self._offsets_m, self._reader = bars.yield_n, bars.offsets_m, self._bodies.motion()
         self._rows = np.zeros(0, int)
         self._anchors = np.zeros((0, 2, 3))
         self._holding_n = np.zeros(0)
@@ -36,10 +31,6 @@ class Reinforcement(Driver):
 
     def tear(self, rows: np.ndarray, points_m: np.ndarray, axes: np.ndarray) -> None:
         """Let the reinforcement hold of connections (r,) that broke at points (r, 3), with section axes (r, 3, 3)."""
-        if self._offsets_m is not None:
-            points_m = points_m + transformed(axes[:, :, 1:], self._offsets_m[rows])
-            held = self._yield_n[rows] > 0.0
-            rows, points_m = rows[held], points_m[held]
         positions_m, rotations = self._bodies.positions()
         pairs = self._inventory.pairs[rows]
         anchors = transformed_back(rotations[pairs], points_m[:, None] - positions_m[pairs])
@@ -58,7 +49,7 @@ class Reinforcement(Driver):
         points = positions_m[pairs] + levers
         speeds = self._bodies.velocities()[pairs] + np.cross(self._bodies.angular_velocities()[pairs], levers)
         distances, rates, directions = parting(points[:, 0], points[:, 1], speeds[:, 0], speeds[:, 1])
-        masses = effective_masses(self._inventory.masses_kg, pairs, self._turning(pairs, levers, directions))
+        masses = effective_masses(self._inventory.masses_kg, pairs)
         yield_n = (self._remaining_strength * self._yield_n)[self._rows]
         tensions, self._holding_n = bar_forces(self._holding_n, rates, masses, yield_n, substep_s)
         holds = distances <= self._ductility.elongation_m
@@ -67,14 +58,3 @@ class Reinforcement(Driver):
         both = np.stack((pulls, -pulls), axis=1).reshape(-1, 3)
         self._bodies.add_forces(pairs.ravel(), both, np.cross(levers.reshape(-1, 3), both))
         self._rows, self._anchors, self._holding_n = self._rows[holds], self._anchors[holds], self._holding_n[holds]
-
-    def _turning(self, pairs: np.ndarray, levers: np.ndarray, directions: np.ndarray) -> np.ndarray | float:
-        """Return how fast a unit impulse along bars (t,) has their points part by rotation of their bodies, 1/kg.
-
-        Bars at the middles of faces hardly rotate their bodies; those at the depth of a layer do.
-        """
-        if self._reader is None:
-            return 0.0
-        inverse = components_last(self._reader.inverse_inertia_components())[pairs]
-        arms = np.cross(levers, directions[:, None])
-        return dot(arms, transformed(inverse, arms)).sum(axis=1)
