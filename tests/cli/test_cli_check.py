@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """``bda check`` says what follows from a scenario, and needs no Blender for it."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -390,3 +391,24 @@ def test_how_an_elastic_bridge_is_damped(tmp_path):
     fine = path.read_text(encoding="utf-8").replace("per_second = 24", "per_second = 24\nsubsteps_per_frame = 1000")
     path.write_text(fine, encoding="utf-8")
     assert facts(read_scenario(path))["damping"] == f"5.0% of critical, {by_steps / 100.0:.1%} of it by steps in time"
+
+
+def test_a_ball_over_a_slab_is_held_against_punching():
+    connections = ConnectionSettings(type="FIXED", method="face", material="reinforced concrete slab")
+    along = BarLayer(members=("deck",), depth_m=0.04, area_mm2=17_850.0)
+    across = BarLayer(members=("deck",), along="y", depth_m=0.06, area_mm2=14_000.0)
+    scenario = replace(
+        I235, connections=connections, reinforcement=(along, across), fracture=FractureSettings(shards=20)
+    )
+    told, ball, length_m = facts(scenario), scenario.ball, deck_length_m(scenario)
+    # By hand, EN 1992-1-1, 6.4: d = (0.21 + 0.19) / 2, k = 2, on 8.5 m of width 1 %, and along the deck what there is.
+    ratio = (17_850e-6 / 8.5 / 0.21 * 14_000e-6 / length_m / 0.19) ** 0.5
+    stress_pa = max(0.18e6 * 2.0 * (100.0 * ratio * 35.0) ** (1 / 3), 0.0525e6 * (8.0 * 35.0) ** 0.5)
+    low, high = (stress_pa * 0.2 * math.pi * (loaded + 0.8) / 1e3 for loaded in (0.0, ball.diameter_m))
+    assert told["punching"] == f"deck: {low:.4g} kN on a point, {high:.4g} kN on all of the ball"
+
+
+def deck_length_m(scenario):
+    """Length of the deck with its overhangs."""
+    bridge = scenario.bridge
+    return bridge.spans_m + 2.0 * bridge.deck.overhang_m

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -24,6 +25,7 @@ from ..schema import given
 from .equilibrium import deflection_m, force_utilisations, loads_of, model_at_rest, overloaded
 from .face_bars import layers_of_members
 from .model import Model
+from .punching import punching_of_decks
 from .spread_bars import spread_bars
 
 MOST_SHARDS_COMPARED = 2000
@@ -85,6 +87,7 @@ def connection_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
             yield "", f'strength of {MATERIAL_OF_LARGE_MODELS} give none, and method "face"'
     yield from _bar_facts(scenario, model)
     yield from _spread_facts(scenario, model)
+    yield from _punching_facts(scenario, model)
     yield from _rule_facts(scenario)
     yield from _clamping_facts(scenario, model)
     yield from _bearing_facts(scenario, model)
@@ -120,6 +123,19 @@ def _spread_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
         layer, name = spread.layer, model.members[spread.member].name
         stress_n_mm2 = 1e-6 * scenario.connections.strength_factor * layer.ratio * layer.yield_pa
         yield "reinforcement", f"{name}, spread along {layer.along}: {stress_n_mm2:.3g} N/mm² of the area across them"
+
+
+def _punching_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
+    ball, strength = scenario.ball, scenario.joints[0].strength
+    if ball is None or ball.cable or strength is None:
+        return
+    layers, strength_pa = all_layers(scenario, model.members), float(strength.compression_pa)
+    for deck in punching_of_decks(layers, model.members, strength_pa, ball.diameter_m):
+        forces = f"{deck.on_point_n / 1000.0:.4g} kN on a point, {deck.on_ball_n / 1000.0:.4g} kN on all of the ball"
+        yield "punching", f"{deck.member}: {forces}"
+        momentum_ns = ball.mass_kg * ball.impact_speed_m_s
+        stopped_ms = 1000.0 * math.pi * momentum_ns / 2.0 / deck.on_ball_n
+        yield "", f"without factors of safety; the ball punches if it stops in less than {stopped_ms:.3g} ms"
 
 
 def rest_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
