@@ -64,4 +64,4 @@ def _by_kind(kinds: Sequence[Mapping[str, Any]]) -> DataTable:
         Column("largest use (%)", "largest_use_percent", ".0f", value("largest_use_share", 100.0)),
         Column("at (s)", "largest_use_s", ".3f", value("largest_use_s")),
     )
-    return DataTable.of("reinforcement", "Cracked connections with bars, by kind of member", columns, kinds)
+    return DataTable.of("cracked_connections", "Cracked connections with bars, by kind of member", columns, kinds)
