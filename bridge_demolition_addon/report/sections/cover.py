@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterator
-from importlib.metadata import PackageNotFoundError
-from importlib.metadata import version as version_of
-from pathlib import Path
 
 import numpy as np
 
@@ -22,9 +18,6 @@ from ...model.scenario.contact_facts import contact_facts
 from ..document.blocks import Block, Listing, Paragraph, Photo, Section, facts
 from ..findings import IMPACT, findings
 from ..run_folder import ReportedRun
-
-_MANIFESTS = tuple(Path(__file__).parents[level] / "blender_manifest.toml" for level in (2, 3))
-"""Of an extension inside Blender, and of the project's own folder."""
 
 SOURCES = (
     ("Motion, contacts and connections", "Bullet, the rigid-body engine in Blender, stepped as this report says"),
@@ -64,15 +57,6 @@ ONE_RUN = (
     "One run is one possible course of events. Another seed, another number of shards or another strength shows how "
     "much of it is chance: run a study before relying on a distance."
 )
-
-
-def add_on_version() -> str:
-    """Return the version of this program."""
-    try:
-        return version_of("bridge-demolition-addon")
-    except PackageNotFoundError:  # an extension inside Blender, or a plain copy
-        found = [path for path in _MANIFESTS if path.is_file()]
-        return str(tomllib.loads(found[0].read_text(encoding="utf-8"))["version"]) if found else "unknown"
 
 
 def cover_section(run: ReportedRun, version: str, debris: Debris | None) -> Section:
