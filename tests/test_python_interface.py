@@ -31,14 +31,6 @@ ONLY_WHERE_ASKED = {
 }
 
 
-class _BesideBlender(doctest.OutputChecker):
-    """Compares what an example prints, without what Blender says of the file that it has saved."""
-
-    def check_output(self, want, got, optionflags):
-        lines = [line for line in got.splitlines(keepends=True) if not line.startswith("Info: Saved")]
-        return super().check_output(want, "".join(lines), optionflags)
-
-
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     """Where the examples are tried, as if it were the project's."""
@@ -53,7 +45,7 @@ def tried(folder):
     """What came of the examples in the docstrings, and the run that they made."""
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(folder)
-        runner = doctest.DocTestRunner(checker=_BesideBlender())
+        runner = doctest.DocTestRunner()
         for example in doctest.DocTestFinder().find(bridge_demolition_addon):
             runner.run(example)
     return runner.summarize(), bridge_demolition_addon.load_results(folder / "my_results")
