@@ -25,7 +25,7 @@ from ..model.run_folder.summary import RunSummary, read_summary
 from ..model.scenario import Scenario
 from ..model.scenario.file import read_scenario
 from ..model.schema import given
-from ..model.sequence.undisturbed import asleep_text, self_collapse_text
+from ..model.sequence.undisturbed import self_collapse_text
 from ..system.reading import MEGABYTE, check_file
 
 MOST_PICTURE_BYTES = 100 * MEGABYTE
@@ -101,8 +101,6 @@ def read_run(folder: Path) -> ReportedRun:
     if logged and logged.is_cut:
         shortcomings.append(f"The last frame in {FORCE_LOG} is not whole, and is left out.")
     scenario = _scenario(folder, shortcomings)
-    if scenario and (asleep := asleep_text(scenario)):
-        shortcomings.append(f"{asleep}.")
     return ReportedRun(
         folder=folder,
         scenario=scenario,

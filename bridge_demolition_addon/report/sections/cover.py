@@ -15,6 +15,7 @@ from ...model.results.motion import without_removed
 from ...model.run_folder.summary import RunSummary
 from ...model.scenario import Scenario
 from ...model.scenario.contact_facts import contact_facts
+from ...model.sequence.undisturbed import asleep_text
 from ..document.blocks import Block, Listing, Paragraph, Photo, Section, facts
 from ..findings import IMPACT, findings
 from ..run_folder import ReportedRun
@@ -155,6 +156,8 @@ def _doubts(run: ReportedRun) -> Iterator[str]:
     results = run.recorded
     if len(results.frames) < 2:
         yield "Only one frame was recorded: nothing has moved yet, and there are no forces."
+    if run.scenario and (asleep := asleep_text(run.scenario)):
+        yield f"{asleep}."
     rest = rest_of(results)
     if rest.moving_at_end:
         yield (
