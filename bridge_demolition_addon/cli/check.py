@@ -14,6 +14,8 @@ from ..model.scenario.contact_facts import contact_facts
 from ..model.scenario.file import read_scenario
 from ..model.scenario.scenario import bars_by_rule
 from ..model.sequence.checked_model import ModelWorksite, checked_model
+from ..model.sequence.undisturbed import asleep_text
+from ..model.stages.stages import equipment_facts
 from ..model.stages.standing import made_elastic
 from ..model.structure.facts import accuracy_facts, connection_facts, foundation_facts, overlap_facts, rest_facts
 from ..model.structure.model import Model
@@ -62,6 +64,8 @@ def scenario_facts(scenario: Scenario, *, stand: bool = False) -> Iterator[str]:
     if not model.ground.is_plain:
         yield from _section("Ground", terrain_facts(model.ground))
     yield from _section("Shards and connections", connection_facts(scenario, model))
+    if asleep := asleep_text(scenario):
+        yield from _section("At first", [("asleep", asleep)])
     yield from _section("Contacts", contact_facts(scenario))
     if stand and model.stiffness is None:
         elastic = checked_model(as_elastic, prepared.members)
@@ -75,6 +79,12 @@ def scenario_facts(scenario: Scenario, *, stand: bool = False) -> Iterator[str]:
         yield from _section("Foundations", foundation_facts(scenario, model))
     for heading, facts in _action_facts(scenario, model).items():
         yield from _section(heading, facts)
+    if scenario.equipment:
+        yield from _section("Equipment", equipment_facts(scenario, model))
+    if not scenario.actions:
+        yield from _section(
+            "Sequence", [("nothing", "is done to the bridge: add [ball], [[charges]] or another action")]
+        )
     if reason := scenario.pictures.why_not_without_window:
         yield from _section("Pictures", [("none can be taken", reason)])
 

@@ -9,6 +9,7 @@ from functools import partial
 from pathlib import Path
 
 from ..errors import OutputError
+from ..model.run_folder.folder import numbered_folder
 from ..model.scenario.file import read_scenario
 from ..model.sequence.checked_model import checked_model
 from ..model.stages.bearing_rows import bearing_rows
@@ -39,7 +40,9 @@ def add_to(commands: argparse._SubParsersAction) -> None:
         allow_abbrev=False,
     )
     parser.add_argument("scenario", metavar="SCENARIO.toml", type=Path, help="scenario file, see docs/stages.md")
-    parser.add_argument("--output", metavar="DIR", type=Path, required=True, help="folder for the tables, made if new")
+    parser.add_argument(
+        "--output", metavar="DIR", type=Path, help="folder for the tables, made if new (here, called like the scenario)"
+    )
     parser.add_argument("--overwrite", action="store_true", help="replace tables that are there")
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
     parser.set_defaults(execute=execute)
@@ -48,7 +51,7 @@ def add_to(commands: argparse._SubParsersAction) -> None:
 def execute(arguments: argparse.Namespace) -> None:
     """Work out the stages, write their tables and print what they say."""
     scenario = read_scenario(arguments.scenario)
-    output: Path = arguments.output
+    output: Path = arguments.output or numbered_folder(Path(), f"{scenario.title} stages")
     paths = [output / name for name in FILES]
     if not arguments.overwrite and (there := [path for path in paths if path.exists()]):
         raise OutputError(f"{there[0]}: exists already; choose another folder, or add --overwrite")

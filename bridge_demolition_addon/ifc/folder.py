@@ -30,6 +30,12 @@ _COLUMNS = (
 )
 
 
+def folder_beside(path: Path) -> Path:
+    """Return a folder beside the IFC file that is not there yet."""
+    folders = (path.with_name(f"{path.stem}_scenario{ending}") for ending in ("", *(f"_{n}" for n in range(2, 10_000))))
+    return next(folder for folder in folders if not folder.exists())
+
+
 def check_new(folder: Path) -> None:
     """Check that a folder does not exist, or is empty."""
     if folder.is_dir() and not any(folder.iterdir()):

@@ -98,7 +98,7 @@ def _content(path: Path) -> bytes:
     if beginning.startswith(b"<"):
         raise IfcError(f"{path}: is XML; save it as a STEP file, .ifc")
     if not beginning.startswith(_BEGINNING):
-        raise IfcError(f"{path}: is no IFC file, which begins with {_BEGINNING.decode()}")
+        raise IfcError(f"{path}: is no IFC file: expected one that begins with {_BEGINNING.decode()}")
     if _END not in content[-_HEAD:]:
         raise IfcError(f"{path}: is cut short, as {_END.decode()} is missing at its end; copy or export it again")
     schema = _SCHEMA.search(beginning)

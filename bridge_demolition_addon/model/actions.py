@@ -77,6 +77,9 @@ class Worksite(Protocol):
     def member_within(self, centre_m: Point, radius_m: float) -> str | None:
         """Return the name of a member that overlaps a sphere, None without one."""
 
+    def distance_to_bridge_m(self, point_m: Point) -> float:
+        """Return at least how far a point is from all members, m: from the boxes around them."""
+
     def affected_by(self, action: PlannedAction) -> Affected:
         """Return the shards that a change or a load acts on; refuse one that acts on nothing."""
 

@@ -18,11 +18,12 @@ from ..model.stages.stages import criticality, stages_of
 from ..model.stages.standing import StandingBridge, made_elastic
 from ..model.stages.tables import write_tables as write_stage_tables
 from ..system.progress import Progress
+from ..version import VERSION
 from .document.blocks import Document, Report
 from .run_folder import ReportedRun
 from .sections.blast import blast_section
 from .sections.collapse import collapse_section
-from .sections.cover import ONE_RUN, add_on_version, cover_section, scenario_section, trust_section
+from .sections.cover import ONE_RUN, cover_section, scenario_section, trust_section
 from .sections.debris import corner_table, debris_section, exclusion_section, terrain_section, zone_of
 from .sections.forces import force_section, logged_section
 from .sections.ground_motion import motion_section, touchdown_section
@@ -47,7 +48,7 @@ def run_report(
     plans = [] if zone is None else _write_plans(zone, run, target)
     with_stages = next((folder for folder in (target, run.folder) if has_stages(folder)), None)
     names = [path.name for path in plans]
-    document = run_document(run, add_on_version(), zone, names, trajectories=trajectories, stages=with_stages)
+    document = run_document(run, VERSION, zone, names, trajectories=trajectories, stages=with_stages)
     return Report(document, () if zone is None else (corner_table(zone),), tuple(plans))
 
 

@@ -16,6 +16,7 @@ from ..model.run_folder.folder import holds_run
 from ..model.study.files import OPTIMISE_FILE, REPORT_FOLDER, SEARCH_FILE, STUDY_FILE
 from ..system.folder_lock import FolderLock
 from ..system.progress import Progress
+from ..version import VERSION
 from .comparison import comparison
 from .document.blocks import Report, write_tables
 from .document.drawings import drawings
@@ -27,7 +28,6 @@ from .ensemble.study import study_report
 from .ensemble.study_runs import read_study_runs
 from .run import run_report
 from .run_folder import read_run
-from .sections.cover import add_on_version
 from .sections.stages import has_stages, stages_report
 
 
@@ -106,7 +106,7 @@ def _write_comparison(folders: Sequence[Path], output: Path | None, *, stages: b
     progress.stage(f"reading the results of {len(folders)} runs")
     runs = [read_run(folder) for folder in folders]
     with _written_to(output):
-        return _written(Report(comparison(runs, add_on_version())), output, progress)
+        return _written(Report(comparison(runs, VERSION)), output, progress)
 
 
 @contextmanager

@@ -20,8 +20,10 @@ from bridge_demolition_addon.model.scenario import (
     Ball,
     BallCable,
     BarLayer,
+    Charge,
     ConnectionBetween,
     ConnectionSettings,
+    Equipment,
     FractureSettings,
     Geometry,
     Load,
@@ -95,6 +97,8 @@ def test_facts_of_the_i235_span(capsys):
         "breaking impulse": "408.6 N·s in a sub-step",  # 98 066.5 N / 240 Hz
         "without bars": "no reinforcing bars in deck, pier cap, pier: what cracks there falls apart, as concrete with "
         "bars does not; [bridge.reinforcement] or [[reinforcement]] gives them",
+        "asleep": "All shards sleep until something hits them, so a run does not show whether the bridge stands by "
+        "itself: run it with shards.start_deactivated = false and without what is done to it",
         # EN 1992-1-1 on concrete, Rabbat and Russell on steel, NAVFAC DM-7.02 on soil; 0.57 · 0.5 / 0.6 = 0.475.
         "shard on shard": "friction 0.6, restitution 0",
         "shard on ball": "friction 0.57, restitution 0",
@@ -234,7 +238,11 @@ def test_how_a_rigid_bridge_would_stand_is_said_when_asked_for(tmp_path, capsys)
     assert "the bridge may fall by itself" in said_of_elastic
     assert main(["check", "--stand", str(I235_FILE)]) == 2
     printed = capsys.readouterr()
-    assert 'connections.method is "vertex": expected "face"' in printed.err and printed.out == ""
+    assert (
+        'connections.method is "vertex": how the bridge stands can only be worked out with method = "face"'
+        in printed.err
+        and printed.out == ""
+    )
 
 
 def test_a_ball_swings_beside_a_member_of_ones_own(tmp_path):
@@ -412,3 +420,55 @@ def deck_length_m(scenario):
     """Length of the deck with its overhangs."""
     bridge = scenario.bridge
     return bridge.spans_m + 2.0 * bridge.deck.overhang_m
+def said_after(scenario, name):
+    """The lines of a fact and of those without a name that follow it."""
+    lines = list(scenario_facts(scenario))
+    first = next(number for number, line in enumerate(lines) if line.startswith(f"  {name} "))
+    rest = next((number for number, line in enumerate(lines) if number > first and line[2:3] != " "), len(lines))
+    return [" ".join(line[26:].split()) for line in lines[first:rest]]
+
+
+def test_charges_that_lie_in_a_member_or_far_away_are_said():
+    def charged(place_m):
+        return replace(I235, ball=None, charges=(Charge(place_m=place_m, mass_kg=8.0),))
+
+    # The deck is 0.25 m thick, and its top 5.55 m above the ground.
+    assert said_after(charged((6.5, 0.0, 5.4)), "Charge 1") == [
+        "8 kg of TNT at (6.5, 0, 5.4) m, 0.5 s",
+        "lies in deck: it counts as a bare charge in air, as drill holes are not modelled",
+    ]
+    # Bridge from -0.5 to 13.5 m along the road; 40 m/kg^(1/3) of 8 kg are 80 m.
+    assert said_after(charged((513.5, 0.0, 1.0)), "Charge 1")[1:] == [
+        "is 500 m from the bridge: beyond 80 m its blast hardly loads anything"
+    ]
+    assert len(said_after(charged((13.5 + 79.0, 0.0, 1.0)), "Charge 1")) == 1
+
+
+def test_a_bridge_to_which_nothing_is_done_is_said():
+    advice = "is done to the bridge: add [ball], [[charges]] or another action"
+    assert facts(replace(I235, ball=None))["nothing"] == advice
+    assert "nothing" not in facts(I235)
+
+
+def test_equipment_is_listed_with_what_is_odd_about_it():
+    def with_excavator(**values):
+        excavator = Equipment(**{"name": "excavator", "footprint_m": (4.0, 3.0), "place_m": (6.5, 0.0)} | values)
+        return replace(I235, equipment=(excavator,))
+
+    assert said_after(with_excavator(mass_kg=24000.0), "excavator") == ["24 t at (6.5, 0) m"]
+    assert said_after(with_excavator(mass_kg=24.0), "excavator") == [
+        "0.024 t at (6.5, 0) m",
+        "equipment.mass_kg is 24: give it in kg, not in t",
+    ]
+    # The deck ends at 13.5 m: of 4 m along the road from 11.5 to 15.5, the half is beyond it.
+    beside = with_excavator(mass_kg=24000.0, place_m=(13.5, 0.0))
+    assert said_after(beside, "excavator")[1:] == ["50% of what it stands on is beside the bridge: move it"]
+
+
+def test_a_bridge_in_pieces_is_said():
+    assert "pieces" not in facts(I235)
+    rule = ConnectionBetween(members=("deck", "pier cap"), none=True)
+    connections = ConnectionSettings(type="FIXED", method="face", material="concrete", between=(rule,))
+    apart = replace(I235, connections=connections)
+    # The deck, and two piers of a cap on two columns each.
+    assert facts(apart)["pieces"].startswith("3, which no connection holds together")

@@ -97,8 +97,7 @@ def test_all_that_can_be_told(path, tmp_path, capsys):
 @pytest.mark.parametrize(
     "arguments, message",
     [
-        ([], "needs a file and --output FOLDER"),
-        (["{path}"], "needs a file and --output FOLDER"),
+        ([], "bda import needs an IFC file, or --write-materials FILE; see bda import --help"),
         (["{path}", "--output", "{folder}", "--unit", "miles"], "invalid choice: 'miles'"),
         (["{path}", "--output", "{folder}", "--kind", "Pier=dock"], "expected NAME=KIND, with one of deck, girder"),
         (["{path}", "--output", "{folder}", "--shards", "0"], "expected a whole number from 1"),

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from ...errors import IfcError
 from ...ifc.bridge import read_bridge
-from ...ifc.folder import SCENARIO_FILE, check_new, write_bridge
+from ...ifc.folder import SCENARIO_FILE, check_new, folder_beside, write_bridge
 from ...ifc.materials import write_material_table
 from ...ifc.settings import KINDS, UNITS, ImportSettings
 
@@ -21,7 +21,9 @@ def add_to(commands: argparse._SubParsersAction) -> None:
         allow_abbrev=False,
     )
     parser.add_argument("file", metavar="BRIDGE.ifc", type=Path, nargs="?", help="IFC file: IFC2X3, IFC4 or IFC4X3")
-    parser.add_argument("--output", metavar="FOLDER", type=Path, help="new folder for the scenario and its meshes")
+    parser.add_argument(
+        "--output", metavar="FOLDER", type=Path, help="new folder for the scenario and its meshes (beside the file)"
+    )
     parser.add_argument(
         "--materials", metavar="FILE", type=Path, help="table of materials by name, as --write-materials writes it"
     )
@@ -59,9 +61,10 @@ def import_ifc(arguments: argparse.Namespace) -> None:
         print(arguments.write_materials)
     if arguments.file is None and arguments.write_materials:
         return
-    if arguments.file is None or arguments.output is None:
-        raise IfcError("bda import needs a file and --output FOLDER, or --write-materials FILE; see bda import --help")
-    check_new(arguments.output)
+    if arguments.file is None:
+        raise IfcError("bda import needs an IFC file, or --write-materials FILE; see bda import --help")
+    output = arguments.output or folder_beside(arguments.file)
+    check_new(output)
     settings = ImportSettings(
         materials=arguments.materials,
         material=arguments.material,
@@ -71,9 +74,9 @@ def import_ifc(arguments: argparse.Namespace) -> None:
         without=tuple(arguments.without),
         kinds=tuple(arguments.kind),
     )
-    for line in write_bridge(read_bridge(arguments.file, settings), arguments.output):
+    for line in write_bridge(read_bridge(arguments.file, settings), output):
         print(line)
-    print(f"\n{arguments.output / SCENARIO_FILE}")
+    print(f"\n{output / SCENARIO_FILE}")
 
 
 def _height(text: str) -> float:

@@ -9,7 +9,7 @@ from ...engineering.elasticity.steel_bars import Steel
 from ...engineering.ground_motion.record import GroundRecord
 from ...engineering.mechanics.joint import Joint
 from ...engineering.timing.timeline import Timeline
-from ...errors import ScenarioError
+from ...errors import Faults, ScenarioError
 from ..actions import PlannedAction
 from ..blast.charges import Charge, named_charges
 from ..blast.settings import BlastSettings
@@ -206,10 +206,13 @@ class Scenario(Table):
             check_exactly_one(self.bridge, "density_kg_m3", "mass_kg")
         if self.bridge is None and not self.geometry:
             raise ScenarioError("bridge is missing: expected a table, or a member of your own under [[geometry]]")
+        faults = Faults()
         for action in self.actions:
-            action.check_plan(self)
-            for name, position in action.targets():
-                self._check_on_deck(name, position)
+            with faults.noted():
+                action.check_plan(self)
+                for name, position in action.targets():
+                    self._check_on_deck(name, position)
+        faults.check()
         if self.shards.start_deactivated and (moving := [table.name for table in self.geometry if table.is_moving]):
             raise ScenarioError(
                 f"geometry {shown(moving[0])} begins with a velocity or an angular velocity: "
@@ -282,11 +285,11 @@ class Scenario(Table):
         overhang, half_width = bridge.deck.overhang_m, bridge.deck.width_m / 2.0
         skewed_by = across * bridge.shift_across
         deck = ((skewed_by - overhang, skewed_by + bridge.spans_m + overhang), (-half_width, half_width))
-        for place, (position, (lowest, highest)) in enumerate(zip((along, across), deck, strict=True)):
+        for number, (position, (lowest, highest)) in enumerate(zip((along, across), deck, strict=True), start=1):
             slack = ROUNDING * (highest - lowest)
             if not lowest - slack <= position <= highest + slack:
                 raise ScenarioError(
-                    f"{name}[{place}] is {position}: "
+                    f"{name}.{number} is {position}: "
                     f"expected a position on the deck, from {lowest:.6g} to {highest:.6g} (m)"
                 )
 

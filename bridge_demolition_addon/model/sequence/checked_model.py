@@ -49,6 +49,11 @@ class ModelWorksite:
         )
         return next(names, None)
 
+    def distance_to_bridge_m(self, point_m: Point) -> float:
+        boxes = np.array([member.solid.bounds for member in self.model.members])
+        gaps = np.maximum(0.0, np.maximum(boxes[:, 0] - point_m, point_m - boxes[:, 1]))
+        return float(np.sqrt((gaps * gaps).sum(axis=1)).min())
+
     def affected_by(self, action: PlannedAction) -> Affected:
         model = self.model
         if isinstance(action, Load):

@@ -51,6 +51,16 @@ def fell_by_itself(results: Results, scenario: Scenario) -> dict[str, Any] | Non
     }
 
 
+def asleep_text(scenario: Scenario) -> str:
+    """Return that a run cannot show whether the bridge stands, where its shards sleep at first; empty otherwise."""
+    if not scenario.shards.start_deactivated:
+        return ""
+    return (
+        "All shards sleep until something hits them, so a run does not show whether the bridge stands by itself: "
+        "run it with shards.start_deactivated = false and without what is done to it"
+    )
+
+
 def self_collapse_text(summary: Mapping[str, Any]) -> str:
     """Return what a summary says under ``fell_by_itself``, as a sentence without a full stop; empty for nothing."""
     fall = summary.get("fell_by_itself")

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...errors import ScenarioError
+from ..actions import Fact
 from ..scenario import Equipment, Scenario
 from ..sequence.events import Event, model_structure, schedule
 from ..structure.model import Model
@@ -23,6 +24,10 @@ _AT_THE_TOP = 0.05
 
 _GRID = 8
 """Along each side of a footprint: its weight stands on a grid of so many by so many points."""
+
+
+_LEAST_MACHINE_KG = 500.0
+"""Lighter than the smallest excavators, of 800 kg: a mass below this was probably given in tonnes."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -96,6 +101,19 @@ def criticality(bridge: StandingBridge, progress: Callable[[int, int], None]) ->
         effects.append(Criticality(member.name, falls_kg, falls_kg / float(model.masses_kg[held].sum() or 1.0)))
         progress(number + 1, len(model.members))
     return effects
+
+
+def equipment_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
+    """Yield what `bda check` says of machines on the bridge: mass, position, and whether the bridge is under them."""
+    boxes, none = np.array([shard.bounds for shard in model.shards]), np.zeros(len(model.shards), bool)
+    for machine in scenario.equipment:
+        where = ", ".join(f"{coordinate:g}" for coordinate in machine.place_m)
+        yield machine.name, f"{machine.mass_kg / 1000.0:g} t at ({where}) m"
+        beside = sum(_highest_under(point, boxes, none) is None for point in _grid(machine))
+        if beside:
+            yield "", f"{beside / _GRID**2:.0%} of what it stands on is beside the bridge: move it"
+        if machine.mass_kg < _LEAST_MACHINE_KG:
+            yield "", f"equipment.mass_kg is {machine.mass_kg:g}: give it in kg, not in t"
 
 
 def equipment_loads(model: Model, equipment: Sequence[Equipment], removed: np.ndarray) -> np.ndarray:

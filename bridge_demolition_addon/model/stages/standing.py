@@ -226,6 +226,11 @@ def made_elastic(scenario: Scenario) -> Scenario:
     changes: dict[str, Any] = {"stiffness": "elastic", "between": between}
     if scenario.connections.material is None and scenario.connections.method == "face":
         changes |= {"breaking_force_n": None, "breaking_force_kgf": None, "material": MATERIAL_OF_LARGE_MODELS}
+    if (method := scenario.connections.method) != "face":
+        raise ScenarioError(
+            f'connections.method is "{method}": how the bridge stands can only be worked out with '
+            f'method = "face", without search_radius_m, and material = "{MATERIAL_OF_LARGE_MODELS}" or another'
+        )
     try:
         return replace(scenario, connections=replace(scenario.connections, **changes))
     except ScenarioError as error:

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from ...engineering.elasticity.accuracy import expected_corner_deviation, expected_deviation, spacing_m
+from ...engineering.elasticity.equations import connected_parts
 from ...engineering.elasticity.member_shapes import member_shapes
 from ...engineering.elasticity.section_stiffness import DAMPING_RATIO
 from ...engineering.geometry.overlap import SHARD_OVERLAP_TOLERANCE, Overlaps, hulls, overlaps
@@ -85,12 +86,23 @@ def connection_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
             yield from _stress_facts(force, scenario, model)
             yield "", "one force for all: the finer the bridge is cut, the stronger it is. To break by the"
             yield "", f'strength of {MATERIAL_OF_LARGE_MODELS} give none, and method "face"'
+    yield from _piece_facts(model)
     yield from _bar_facts(scenario, model)
     yield from _spread_facts(scenario, model)
     yield from _punching_facts(scenario, model)
     yield from _rule_facts(scenario)
     yield from _clamping_facts(scenario, model)
     yield from _bearing_facts(scenario, model)
+
+
+def _piece_facts(model: Model) -> Iterator[Fact]:
+    """Yield in how many pieces the bridge is that no connection holds together, if in more than one."""
+    pairs = model.connections.pairs[(model.connections.pairs >= 0).all(axis=1)]
+    pairs = pairs[(pairs < len(model.shards)).all(axis=1)]
+    label = connected_parts(np.ones(len(model.shards), bool), pairs[:, 0], pairs[:, 1])
+    pieces = len(np.unique(label))
+    if pieces > 1:
+        yield "pieces", f"{pieces}, which no connection holds together: they lie on each other by contact alone"
 
 
 def _bar_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:

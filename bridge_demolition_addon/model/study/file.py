@@ -8,7 +8,7 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar
 
-from ...errors import ScenarioError
+from ...errors import Faults, ScenarioError
 from ..run_folder.files import SCENARIO_FILE
 from ..scenario import Scenario
 from ..scenario.file import read_scenario, scenario_text
@@ -90,9 +90,15 @@ def read_ensemble_file(
     """Read a file of settings, and the scenario that goes with it."""
     path = Path(path)
     try:
-        settings = table_of_document(settings_class, document_of_file(path, description))
+        faults = Faults()
+        document = document_of_file(path, description, faults=faults)
+        with faults.noted():
+            settings = table_of_document(settings_class, document)
+        faults.check()
         return ensemble_of(settings, read_scenario(path.parent / settings.scenario))
-    except (ScenarioError, ValueError) as error:  # a NUL in a path, for one
+    except ScenarioError as error:
+        raise error.within(fspath(path)) from error
+    except ValueError as error:  # a NUL in a path, for one
         raise ScenarioError(f"{fspath(path)}: {error}") from error
 
 
@@ -139,9 +145,16 @@ def _check_range(scenario: Scenario, variations: list[Variation]) -> None:
         try:
             changed(scenario, values)
         except ScenarioError as error:
-            key, value = next(iter(values.items()))
-            first = f"{key.name} = {shown(value)}"
             raise ScenarioError(
-                f"the value may come to {first}, which the scenario cannot have: {error}. Set lowest and highest, or "
-                "take another distribution"
+                f"{_impossible(*next(iter(values.items())), str(error))}; set lowest and highest, or take another "
+                "distribution"
             ) from error
+
+
+def _impossible(key: ScenarioKey, value: Any, reason: str) -> str:
+    """Return that a value may be sampled which the scenario cannot have, and name key and value once."""
+    sampled = f"a run may sample {key.name} = {f'{value:.6g}' if isinstance(value, float) else shown(value)}"
+    of_key = f"{key.name} is {shown(value)}: "
+    if reason.startswith(of_key):
+        return f"{sampled}: {reason.removeprefix(of_key)}"
+    return f"{sampled}, which the scenario cannot have: {reason}"

@@ -24,9 +24,9 @@ from ...model.stages.tables import (
 )
 from ...system.progress import Progress
 from ...system.reading import MEGABYTE, file_text
+from ...version import VERSION
 from ..document.blocks import Block, Column, DataTable, Document, Paragraph, Report, Section
 from ..run_folder import shown_name
-from .cover import add_on_version
 
 _MOST_BYTES = 10 * MEGABYTE
 _WORDS = (
@@ -78,7 +78,7 @@ def has_stages(folder: Path) -> bool:
 
 def stages_report(folder: Path, _target: Path, _progress: Progress) -> Report:
     """Return the report of stages alone."""
-    subtitle = f"Report of the stages of a demolition. Bridge Demolition Add-on {add_on_version()}"
+    subtitle = f"Report of the stages of a demolition. Bridge Demolition Add-on {VERSION}"
     return Report(Document(shown_name(folder), subtitle, (stages_section(folder),)))
 
 

@@ -8,7 +8,7 @@ from bpy_extras.io_utils import ImportHelper
 
 from ...errors import IfcError
 from ...ifc.bridge import ImportedBridge, read_bridge
-from ...ifc.folder import REPORT_FILE, SCENARIO_FILE, write_bridge
+from ...ifc.folder import REPORT_FILE, SCENARIO_FILE, folder_beside, write_bridge
 from ...ifc.library import missing_reason
 from ...ifc.settings import UNITS, ImportSettings
 from ...model.scenario.file import read_scenario
@@ -72,7 +72,7 @@ class BDA_OT_import_ifc(UndoableAction, ImportHelper, bpy.types.Operator):
         if not self.filepath:
             raise IfcError("no IFC file was given: choose one")
         path = absolute(self.filepath)
-        bridge, folder = read_bridge(path, self._settings()), _new_folder(path)
+        bridge, folder = read_bridge(path, self._settings()), folder_beside(path)
         write_bridge(bridge, folder)
         settings = context.scene.bda
         show_scenario(settings, read_scenario(folder / SCENARIO_FILE))
@@ -100,12 +100,6 @@ def _kind(text: str) -> tuple[str, str]:
     if not equals:
         raise IfcError(f'kinds has "{text}": expected NAME=KIND')
     return name.strip(), kind.strip()
-
-
-def _new_folder(path: Path) -> Path:
-    """Return a folder beside the IFC file that is not there yet."""
-    folders = (path.with_name(f"{path.stem}_scenario{ending}") for ending in ("", *(f"_{n}" for n in range(2, 10_000))))
-    return next(folder for folder in folders if not folder.exists())
 
 
 def _done(bridge: ImportedBridge, folder: Path) -> str:
