@@ -24,6 +24,10 @@ class NearbyMembers:
     def __init__(self, solids: Sequence[TriangleMesh]) -> None:
         self._solids = tuple(solids)
 
+    def solid(self, index: int) -> TriangleMesh:
+        """Return the solid of a member."""
+        return self._solids[index]
+
     def near(self, index: int) -> list[tuple[float, int]]:
         """Return gaps in m to all members within `NEAR_M` of a member, and which they are, the nearest first."""
         return [(gap, other) for gap, other in self.near_to(self._solids[index]) if other != index]

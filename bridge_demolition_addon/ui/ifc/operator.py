@@ -7,8 +7,8 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, St
 from bpy_extras.io_utils import ImportHelper
 
 from ...errors import IfcError
-from ...ifc.bridge import ImportedBridge, read_bridge
-from ...ifc.folder import REPORT_FILE, SCENARIO_FILE, write_bridge
+from ...ifc.folder import REPORT_FILE, SCENARIO_FILE
+from ...ifc.import_process import Imported, import_bridge
 from ...ifc.library import missing_reason
 from ...ifc.settings import UNITS, ImportSettings
 from ...model.scenario.file import read_scenario
@@ -72,12 +72,12 @@ class BDA_OT_import_ifc(UndoableAction, ImportHelper, bpy.types.Operator):
         if not self.filepath:
             raise IfcError("no IFC file was given: choose one")
         path = absolute(self.filepath)
-        bridge, folder = read_bridge(path, self._settings()), _new_folder(path)
-        write_bridge(bridge, folder)
+        folder = _new_folder(path)
+        imported = import_bridge(path, folder, self._settings())
         settings = context.scene.bda
         show_scenario(settings, read_scenario(folder / SCENARIO_FILE))
         settings.scenario_path = settings.loaded_path = str(folder / SCENARIO_FILE)
-        return _done(bridge, folder)
+        return _done(imported, folder)
 
     def _settings(self) -> ImportSettings:
         return ImportSettings(
@@ -108,9 +108,8 @@ def _new_folder(path: Path) -> Path:
     return next(folder for folder in folders if not folder.exists())
 
 
-def _done(bridge: ImportedBridge, folder: Path) -> str:
-    became = [outcome.became for outcome in bridge.outcomes]
+def _done(imported: Imported, folder: Path) -> str:
     return (
-        f"Imported {bridge.scenario.title}: {became.count('member')} members, {became.count('connection')} bearings, "
-        f"{became.count('left out')} elements left out; {folder / REPORT_FILE} says why"
+        f"Imported {imported.title}: {imported.members} members, {imported.connections} bearings, "
+        f"{imported.left_out} elements left out; {folder / REPORT_FILE} says why"
     )

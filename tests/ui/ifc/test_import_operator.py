@@ -49,7 +49,7 @@ def test_importing_again_takes_another_folder(extension, settings, tmp_path):
         ({"filepath": "//bridge.ifc"}, "save it or give a full path"),
         ({"kinds": "deck"}, 'kinds has "deck": expected NAME=KIND'),
         ({"kinds": "IfcWall=dock"}, 'kind of "IfcWall" is "dock"'),
-        ({"material": ""}, "no material: Footing 1"),
+        ({"material": "marzipan"}, "the table of materials does not know"),
         ({"own_ground": True, "ground_m": 50.0}, "would cover the bridge"),
     ],
 )
