@@ -75,7 +75,8 @@ def read_bridge(path: Path, settings: ImportSettings, kept: KeptShapes | None = 
 
 def _bridge(path: Path, table: MaterialTable, settings: ImportSettings, kept: KeptShapes) -> ImportedBridge:
     source = open_source(path, settings)
-    elements, chosen = chosen_elements(source, elements_of(source, settings), settings)
+    chosen = chosen_elements(source, elements_of(source, settings), settings)
+    elements = chosen.elements
     _check_kinds(path, elements, settings)
     wanted = [element for element in elements if element.is_member]
     made_of = substances(source, wanted, table, settings)
@@ -99,7 +100,7 @@ def _bridge(path: Path, table: MaterialTable, settings: ImportSettings, kept: Ke
         result.hold(gap_m, table)
         result.drop_consumed()
         result.make_writable()
-    scenario, meshes, held = _scenario(source, settings, result, site)
+    scenario, meshes, held = _scenario(source, settings, result, site, chosen.title or _title(source))
     return ImportedBridge(
         scenario=scenario,
         meshes=meshes,
@@ -107,7 +108,7 @@ def _bridge(path: Path, table: MaterialTable, settings: ImportSettings, kept: Ke
         ground_m=ground_m,
         ground_source=ground_source,
         site_source=site_source,
-        notes=(*source.notes, *chosen, *result.notes, *held),
+        notes=(*source.notes, *chosen.notes, *result.notes, *held),
     )
 
 
@@ -167,7 +168,7 @@ def _placed(
 
 
 def _scenario(
-    source: IfcSource, settings: ImportSettings, result: Assembly, site: Site | None
+    source: IfcSource, settings: ImportSettings, result: Assembly, site: Site | None, title: str
 ) -> tuple[Scenario, dict[str, TriangleMesh], list[str]]:
     kept = [outcome for outcome in result.ordered() if outcome.member]
     of_members = [outcome for outcome in kept if outcome.became != CONNECTION]
@@ -192,7 +193,7 @@ def _scenario(
     main, within = _strength_rules(of_members)
     between = (*tables.connections, *within)
     scenario = Scenario(
-        title=_title(source),
+        title=title,
         time=TimeSettings(duration_s=_DURATION_S),
         geometry=geometry,
         fracture=FractureSettings(shards=max(settings.shards, len(members))),

@@ -53,8 +53,8 @@ class NearbyMembers:
 
     @cached_property
     def _lowest(self) -> np.ndarray:
-        return np.array([solid.bounds[0] for solid in self._solids])
+        return np.array([solid.bounds[0] for solid in self._solids]).reshape(-1, 3)
 
     @cached_property
     def _highest(self) -> np.ndarray:
-        return np.array([solid.bounds[1] for solid in self._solids])
+        return np.array([solid.bounds[1] for solid in self._solids]).reshape(-1, 3)

@@ -49,10 +49,17 @@ def bridges_in(source: IfcSource, elements: Sequence[Element]) -> list[BridgeInF
     return []
 
 
-def chosen_elements(
-    source: IfcSource, elements: Sequence[Element], settings: ImportSettings
-) -> tuple[tuple[Element, ...], list[str]]:
-    """Return elements of which those of other bridges are left out, and notes on the choice."""
+@dataclass(frozen=True, slots=True)
+class ChosenElements:
+    """Elements of which those of other bridges are left out, the name of the one that is taken, and notes on that."""
+
+    elements: tuple[Element, ...]
+    title: str = ""
+    notes: tuple[str, ...] = ()
+
+
+def chosen_elements(source: IfcSource, elements: Sequence[Element], settings: ImportSettings) -> ChosenElements:
+    """Return the elements of the bridge that the user wants, or of the one with the most members."""
     bridges = bridges_in(source, elements)
     names = ", ".join(f"{bridge.name} ({bridge.members} members)" for bridge in bridges)
     if settings.only is not None:
@@ -60,19 +67,20 @@ def chosen_elements(
         if not chosen:
             known = f"it has {names}" if bridges else "nothing in it stands for a bridge"
             raise IfcError(f'{source.path}: has no bridge "{settings.only}": {known}')
-        notes = []
+        notes: tuple[str, ...] = ()
     elif len(bridges) < 2:
-        return tuple(elements), []
+        return ChosenElements(tuple(elements))
     elif settings.strict:
         raise IfcError(f"{source.path}: holds {len(bridges)} bridges, {names}: say which one by --only NAME")
     else:
         chosen = bridges[:1]
-        notes = [
-            f"the file holds {len(bridges)} bridges, {names}: {chosen[0].name} is taken; --only NAME takes another"
-        ]
+        notes = (
+            f"the file holds {len(bridges)} bridges, {names}: {chosen[0].name} is taken; --only NAME takes another",
+        )
     kept = {bridge.number for bridge in chosen}
     others = LeftOut("it belongs to another bridge of the file: --only NAME takes that")
-    return tuple(
+    left = tuple(
         replace(element, kind=others) if element.is_member and kept.isdisjoint(element.wholes) else element
         for element in elements
-    ), notes
+    )
+    return ChosenElements(left, chosen[0].name, notes)

@@ -12,12 +12,12 @@ import numpy as np
 from manifold3d import CrossSection, Error, FillRule, Manifold, Mesh64
 
 from ..engineering.geometry.mesh import TriangleMesh, joined_meshes
-from ..engineering.geometry.plan_areas import outlines, signed_area
+from ..engineering.geometry.plan_areas import distances_outside, outlines, signed_area
 from ..engineering.geometry.repair import Repaired, repaired_solid
 from ..engineering.geometry.rotations import turn_in_plane
 from ..engineering.geometry.seams import loops_of_open_edges
 from ..engineering.geometry.solids import box, contains, from_manifold, union
-from ..engineering.geometry.vectors import length, transformed, transformed_back
+from ..engineering.geometry.vectors import dot, length, transformed, transformed_back
 from ..engineering.terrain.surface import Surface
 from ..errors import GeometryError
 
@@ -27,6 +27,9 @@ MOST_OFF = 0.05
 _INWARDS_M = 0.02
 _HEALED_M = 0.01
 """Distances in plan: how far within an outline its heights are looked up, and of slivers that are healed."""
+
+_SIMPLER_M = 0.002
+"""By how much faces may move that are made larger again."""
 
 _FINEST_STEP_M, _MOST_NODES = 0.25, 2000
 
@@ -50,6 +53,8 @@ def sound_solid(mesh: TriangleMesh, name: str, volume_m3: float | None) -> Repai
             made = repaired_solid(make(mesh), name)
         except (GeometryError, ValueError):  # of the libraries that triangulate: what it makes is no solid either
             continue
+        if volume_m3 is None and make is outwards:
+            own = made.solid.volume  # of a mesh whose bodies look both ways, the volumes cancel
         off = made.solid.volume / own - 1.0 if own > 0.0 else math.inf
         if abs(off) <= MOST_OFF:
             why = re.split(r" near |[,;]", str(refusal).removeprefix(f"{name}: "))[0].rstrip(".")
@@ -155,46 +160,55 @@ def box_around(mesh: TriangleMesh) -> TriangleMesh:
 def slab_between_heights(mesh: TriangleMesh) -> TriangleMesh:
     """Return the solid between the lowest and the highest faces of a mesh over its plan: a deck, whatever its inside.
 
-    Its nodes are 0.25 m apart, or as many as 2000 on a larger plan.
+    Heights are looked up at nodes 0.25 m apart, or as many as 2000 on a larger plan.
     """
-    from scipy.spatial import Delaunay  # few files need it
-
     middle = np.append(mesh.vertices[:, :2].mean(axis=0), 0.0)
     moved = replace(mesh, vertices=mesh.vertices - middle)
     plan = _plan_of(moved)
     if plan.is_empty():
         raise GeometryError("has no area in plan")
     step = max(_FINEST_STEP_M, math.sqrt(plan.area() / _MOST_NODES))
-    rings = [_divided(ring, step) for ring in outlines(plan)]
-    rim = np.concatenate(rings)
-    inside = np.concatenate([ring + _INWARDS_M * _inward(ring) for ring in rings])
-    within = _grid_within(plan, step)
-    nodes = np.concatenate([rim, within])
-    triangles = Delaunay(nodes).simplices
-    kept = contains_plan(plan, nodes[triangles].mean(axis=1))
-    triangles = triangles[kept]
-    turned = signed_area(nodes[triangles]) < 0.0
-    triangles[turned] = triangles[turned][:, ::-1]
-    looked_up = np.concatenate([inside, within])
+    plate = from_manifold(Manifold.extrude(plan, 1.0).refine_to_length(step))
+    nodes = plate.vertices
+    looked_up = _into(plan, nodes[:, :2])
     top = Surface(moved).heights_at(looked_up)
     upside_down = Surface(TriangleMesh(moved.vertices * (1.0, 1.0, -1.0), moved.triangles))
     bottom = -upside_down.heights_at(looked_up)
     if not (np.isfinite(top) & np.isfinite(bottom) & (top > bottom)).all():
         raise GeometryError("has no height somewhere")
-    return TriangleMesh(_between(nodes, top, bottom) + middle, _prism_faces(triangles, len(nodes)))
+    heights = bottom + nodes[:, 2] * (top - bottom)
+    simpler = Manifold(_as_mesh64(np.column_stack((nodes[:, :2], heights)), plate.triangles)).simplify(_SIMPLER_M)
+    made = from_manifold(simpler)
+    return TriangleMesh(made.vertices + middle, made.triangles)
 
 
-def contains_plan(plan: CrossSection, points: np.ndarray) -> np.ndarray:
-    """Return which points (n, 2) lie in an area, by the number of its sides that lie ahead of each along x."""
-    inside = np.zeros(len(points), bool)
-    for ring in outlines(plan):
-        starts, ends = ring, np.roll(ring, -1, axis=0)
-        for (x0, y0), (x1, y1) in zip(starts.tolist(), ends.tolist(), strict=True):
-            crosses = (y0 > points[:, 1]) != (y1 > points[:, 1])
-            if crosses.any():
-                at = x0 + (points[:, 1] - y0) * (x1 - x0) / (y1 - y0)
-                inside ^= crosses & (points[:, 0] < at)
-    return inside
+def _as_mesh64(vertices: np.ndarray, triangles: np.ndarray) -> Mesh64:
+    return Mesh64(np.ascontiguousarray(vertices), np.ascontiguousarray(triangles.astype(np.uint64)))
+
+
+def _into(plan: CrossSection, points: np.ndarray) -> np.ndarray:
+    """Return points (n, 2) of an area, those at its edge a little within it: the mesh has no height beside it."""
+    moved = points.copy()
+    inner = plan.offset(-_INWARDS_M)
+    outside = np.flatnonzero(distances_outside(inner, points) > 0.0)
+    for row in outside.tolist():
+        moved[row] = _nearest_on(inner, points[row])
+    return moved
+
+
+def _nearest_on(area: CrossSection, point: np.ndarray) -> np.ndarray:
+    """Return the point (2,) of the edge of an area that is nearest to one."""
+    best, nearest = math.inf, point
+    for ring in outlines(area):
+        starts, sides = ring, np.roll(ring, -1, axis=0) - ring
+        squares = np.maximum(dot(sides, sides), 1e-24)
+        shares = np.clip(dot(point - starts, sides) / squares, 0.0, 1.0)
+        feet = starts + shares[:, None] * sides
+        away = length(feet - point)
+        row = int(away.argmin())
+        if away[row] < best:
+            best, nearest = float(away[row]), feet[row]
+    return nearest
 
 
 def _plan_of(mesh: TriangleMesh) -> CrossSection:
@@ -205,46 +219,6 @@ def _plan_of(mesh: TriangleMesh) -> CrossSection:
     polygons = [ring if area > 0.0 else ring[::-1] for ring, area in zip(flat, areas, strict=True)]
     plan = CrossSection(polygons, FillRule.Positive)
     return plan.offset(_HEALED_M).offset(-_HEALED_M).simplify(_HEALED_M)
-
-
-def _divided(ring: np.ndarray, step: float) -> np.ndarray:
-    """Return a ring (k, 2) with sides no longer than a step."""
-    pieces = []
-    for start, end in zip(ring, np.roll(ring, -1, axis=0), strict=True):
-        count = max(1, math.ceil(float(length(end - start)) / step))
-        pieces.append(start + (end - start) * (np.arange(count) / count)[:, None])
-    return np.concatenate(pieces)
-
-
-def _inward(ring: np.ndarray) -> np.ndarray:
-    """Return unit vectors (k, 2) at the corners of a ring into the area to its left."""
-    along = np.roll(ring, -1, axis=0) - np.roll(ring, 1, axis=0)
-    long = np.maximum(length(along), 1e-12)
-    return np.column_stack((-along[:, 1], along[:, 0])) / long[:, None]
-
-
-def _grid_within(plan: CrossSection, step: float) -> np.ndarray:
-    inner = plan.offset(-0.5 * step)
-    if inner.is_empty():
-        return np.zeros((0, 2))
-    x0, y0, x1, y1 = inner.bounds()
-    x, y = np.meshgrid(np.arange(x0, x1, step), np.arange(y0, y1, step))
-    points = np.column_stack((x.ravel(), y.ravel()))
-    return points[contains_plan(inner, points)]
-
-
-def _between(nodes: np.ndarray, top: np.ndarray, bottom: np.ndarray) -> np.ndarray:
-    return np.concatenate([np.column_stack((nodes, top)), np.column_stack((nodes, bottom))])
-
-
-def _prism_faces(triangles: np.ndarray, count: int) -> np.ndarray:
-    """Return the faces of a prism over triangles (t, 3) of nodes: top, bottom (`count` further) and sides."""
-    edges = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
-    back = {(end, start) for start, end in edges.tolist()}
-    rim = np.array([edge for edge in edges.tolist() if tuple(edge) not in back], np.int64)
-    start, end = rim.T
-    sides = [np.column_stack((start, start + count, end + count)), np.column_stack((start, end + count, end))]
-    return np.concatenate([triangles, triangles[:, ::-1] + count, *sides]).astype(np.int64)
 
 
 _WAYS: tuple[tuple[Callable[[TriangleMesh], TriangleMesh], str], ...] = (
