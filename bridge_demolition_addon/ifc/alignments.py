@@ -25,7 +25,7 @@ _FLAT = 1e-12
 
 
 @dataclass(frozen=True, slots=True)
-class Frame:
+class CurveFrame:
     """Directions along a curve, to its left and upwards, and the point on it, (3,) each."""
 
     along: np.ndarray
@@ -38,7 +38,7 @@ class Frame:
 class Curve:
     """A curve: its frame at a distance along it, m, and the distances at which it has corners."""
 
-    at: Callable[[float], Frame]
+    at: Callable[[float], CurveFrame]
     corners_m: np.ndarray
 
 
@@ -86,19 +86,19 @@ def _polyline(points: np.ndarray) -> Curve:
         raise GeometryError("runs along a polyline with a side of no length")
     along, ways = np.concatenate([[0.0], np.cumsum(steps)]), unit(np.diff(points, axis=0))
 
-    def at(along_m: float) -> Frame:
+    def at(along_m: float) -> CurveFrame:
         row = int(np.clip(np.searchsorted(along, along_m, side="right") - 1, 0, len(ways) - 1))
         return _frame(ways[row], points[row] + ways[row] * (along_m - along[row]))
 
     return Curve(at, along[1:-1])
 
 
-def _frame(way: np.ndarray, point: np.ndarray) -> Frame:
+def _frame(way: np.ndarray, point: np.ndarray) -> CurveFrame:
     left = unit(np.array((-way[1], way[0], 0.0)))
-    return Frame(way, left, np.cross(way, left), point)
+    return CurveFrame(way, left, np.cross(way, left), point)
 
 
-def _level_frame(x: float, y: float, heading: float, z: float, slope: float) -> Frame:
+def _level_frame(x: float, y: float, heading: float, z: float, slope: float) -> CurveFrame:
     return _frame(unit(np.array((math.cos(heading), math.sin(heading), slope))), np.array((x, y, z)))
 
 
@@ -183,7 +183,7 @@ def _with_gradient(entity: Any, unit_m: float) -> Curve:
     plan = _Plan.of(entity.BaseCurve, unit_m)
     heights = _heights(entity, unit_m)
 
-    def at(along_m: float) -> Frame:
+    def at(along_m: float) -> CurveFrame:
         x, y, heading = plan.at(along_m)
         return _level_frame(x, y, heading, *heights(along_m))
 
@@ -234,11 +234,11 @@ def _offset(entity: Any, unit_m: float, deepest: int) -> Curve:
     order = np.argsort(places[:, 0], kind="stable")
     stations, left, up = places[order].T
 
-    def at(along_m: float) -> Frame:
+    def at(along_m: float) -> CurveFrame:
         on = along_m + stations[0]
         frame = basis.at(on)
         beside, above = float(np.interp(on, stations, left)), float(np.interp(on, stations, up))
         point = frame.point + beside * frame.left + above * np.array((0.0, 0.0, 1.0))
-        return Frame(frame.along, frame.left, frame.up, point)
+        return CurveFrame(frame.along, frame.left, frame.up, point)
 
     return Curve(at, basis.corners_m - stations[0])

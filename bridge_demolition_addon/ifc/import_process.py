@@ -8,9 +8,7 @@ from __future__ import annotations
 
 import json
 import queue
-import signal
 import subprocess
-import sys
 import tempfile
 import threading
 import time
@@ -21,6 +19,7 @@ from typing import IO, Any
 
 from .. import errors
 from ..errors import DemolitionError, IfcError
+from ..system.isolated import status_text
 from ..system.programs import program_command, start_program
 from ..system.progress import Progress
 from .folder import check_new
@@ -130,7 +129,7 @@ class _Attempt:
             if answer is None:
                 with suppress(subprocess.TimeoutExpired):
                     self._process.wait(_ENDS_WITHIN_S)
-                return {"crash": f"crashed its reader ({_status_text(self._process.poll())})"}
+                return {"crash": f"crashed its reader ({status_text(self._process.poll())})"}
             if "element" in answer:
                 self.element = answer["element"]
                 part = answer["part"], answer["of"], f"elements: {answer['title']}"
@@ -147,10 +146,3 @@ class _Attempt:
                 if line.startswith(MARK):
                     self._answers.put(json.loads(line.removeprefix(MARK)))
         self._answers.put(None)
-
-
-def _status_text(status: int | None) -> str:
-    if status is not None and status < 0 and sys.platform != "win32":
-        with suppress(ValueError):
-            return signal.Signals(-status).name
-    return f"status {status}"

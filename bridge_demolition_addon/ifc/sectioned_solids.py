@@ -61,7 +61,7 @@ def _swept(source: IfcSource, solid: Any) -> TriangleMesh:
 
 
 def _ring(curve: Curve, profile: np.ndarray, place: np.ndarray) -> np.ndarray:
-    """Return the corners (k, 3) of a section at a place along, beside and above a curve, m."""
+    """Return the corners (k, 3) of a section that is so far along, beside and above a curve, m."""
     frame, corners = curve.at(float(place[0])), profile + place[1:]
     return frame.point + corners[:, :1] * frame.left + corners[:, 1:] * frame.up
 

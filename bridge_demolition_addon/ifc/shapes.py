@@ -96,6 +96,11 @@ def _swept_or_none(source: IfcSource, entity: Any) -> TriangleMesh | None:
         return None
 
 
+def single_shape(source: IfcSource, entity: Any) -> TriangleMesh | None:
+    """Return the triangles of a product as the geometry library works them out; None where it finds none."""
+    return _shape(entity, _settings(), source.scale)
+
+
 def _settings() -> Any:
     settings = library("geom").settings()
     settings.set("weld-vertices", True)

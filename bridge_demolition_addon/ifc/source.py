@@ -21,6 +21,9 @@ MOST_BYTES = 2000 * MEGABYTE
 SCHEMAS = ("IFC2X3", "IFC4", "IFC4X3")
 
 _READ_AS = re.compile(r"IFC4X(1|2|3_(RC|TC|ADD1)\w*)(_\w*)?")
+_STRATUM = re.compile(rb"IFC(?:SOLID|VOID|WATER)STRATUM\s*\((.*?)\)\s*;", flags=re.IGNORECASE | re.DOTALL)
+"""Strata as release candidates have them, of classes of their own and without a predefined type."""
+
 _NEWEST = "IFC4X3_ADD2"
 """Schemas that came before IFC4X3, whose elements it has too, and what they are read as."""
 
@@ -122,7 +125,8 @@ def _relabelled(content: bytes) -> tuple[bytes, str]:
     name = found.group(1).decode("latin-1").upper() if found else ""
     if not found or not _READ_AS.fullmatch(name):
         return content, ""
-    return content[: found.start(1)] + _NEWEST.encode() + content[found.end(1) :], name
+    relabelled = content[: found.start(1)] + _NEWEST.encode() + content[found.end(1) :]
+    return _STRATUM.sub(rb"IFCGEOTECHNICALSTRATUM(\1,$);", relabelled), name
 
 
 def _text(content: bytes) -> str:
