@@ -29,12 +29,17 @@ _FEWEST_COLUMNS = 3
 
 def read_points(path: Path, no_data: float | None) -> Raster | Surface:
     """Read points: as a grid where they lie on one, else with the triangles of Delaunay between them."""
-    points = _numbers(file_text(path, _MOST_BYTES))
+    points = point_rows(path)
     if no_data is not None:
         points = points[points[:, 2] != no_data]
     if len(points) < 3:
         raise GeometryError(f"holds {len(points)} points: expected at least 3")
     return on_grid(points) or triangulated(points)
+
+
+def point_rows(path: Path) -> np.ndarray:
+    """Return the points (n, 3) of a file of lines."""
+    return _numbers(file_text(path, _MOST_BYTES))
 
 
 def on_grid(points: np.ndarray) -> Raster | None:
