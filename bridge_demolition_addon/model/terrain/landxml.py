@@ -78,6 +78,8 @@ def _triangles(definition: ElementTree.Element) -> tuple[TriangleMesh, tuple[str
         raise GeometryError(f"its surface is damaged: a point or triangle is none ({error})") from error
     if not len(triangles) or vertices.ndim != 2 or vertices.shape[1] != 3 or triangles.shape[1] != 3:
         raise GeometryError("its surface has no triangles: expected three numbers in each P and each F")
+    if not np.isfinite(vertices).all():
+        raise GeometryError("its surface is damaged: a point has no position; export it again")
     notes: tuple[str, ...] = ()
     if lost:
         notes = (f"{len(lost)} of {len(named)} triangles name points that are not there: left out",)

@@ -63,8 +63,8 @@ def test_the_share_inside_a_limit(limit_m, share):
 
 def test_points_of_noise_do_not_count_and_gaps_are_not_known():
     points = scan()
-    noise = points[::400] + np.array((0.0, 0.0, 30.0))  # birds
-    found = compared(hanging_chain(), np.concatenate([points, noise]), CELLS)
+    birds = points[::400] * (1.0, 1.0, 0.0) + np.full(3, 30.0) * (0.0, 0.0, 1.0)
+    found = compared(hanging_chain(), np.concatenate([points, birds]), CELLS)
     assert found.surveyed.sum() * found.cell_m2 == pytest.approx(0.5, abs=0.1)
     half = points[points[:, 0] < 3.0]
     found = compared(hanging_chain(), half, CELLS)
