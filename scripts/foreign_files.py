@@ -133,9 +133,9 @@ def page() -> str:
         "# Files of other programs",
         "",
         "What `bda import FILE` makes of them, with no option but `--only` where a bridge is named. *Lost* is what had",
-        "no geometry that can be used, beside what carries nothing anyway; *assumed* counts the lines of `import.txt` on",
-        "what was assumed and mended; the mass is compared with that which the file gives its elements. *Moves* is the",
-        "largest displacement of any shard in 1.5 s awake, of which the bridge settles for half a second; cracked",
+        "no geometry that can be used, beside what carries nothing anyway; *assumed* counts the lines of `import.txt`",
+        "on what was assumed and mended; the mass is compared with that which the file gives its elements. *Moves* is",
+        "the largest displacement of any shard in 1.5 s awake, of which the bridge settles for half a second; cracked",
         "connections are held by reinforcement.",
         "",
         "| file | written by | elements | members, bearings | left out, lost | supports added | assumed | mass | "
@@ -159,7 +159,7 @@ def page() -> str:
     lines += [
         "",
         "Each bridge was run once, [one of many](../README.md#one-run-is-one-possible-outcome).",
-        "Where there is no reinforcement in the file, that which the import assumes holds the cracks; a bridge of which",
+        "Where a file has no reinforcement, that which the import assumes holds the cracks; a bridge of which",
         "much is lost, such as the abutments of an OpenBrIM file, stands on supports that were added.",
         "",
         "Two of the files are in [tests/foreign/files](../tests/foreign/files), with their licences; the others may be",

@@ -12,7 +12,7 @@ from .elements import Element
 from .library import library
 from .materials import MaterialRow, MaterialTable
 from .quantities import QuantityUnits, material_name, quantities_of, units_of
-from .settings import ImportSettings
+from .settings import ImportSettings, matches
 from .source import IfcSource
 
 LEAST_KG_M3, MOST_KG_M3 = 50.0, 25_000.0
@@ -63,7 +63,7 @@ def substances(
     known: dict[int, Substance] = {}
     unknown: dict[str, list[str]] = {}
     for element in elements:
-        substance = reader.substance(element)
+        substance = _said(element, table, table_name, settings) or reader.substance(element)
         if isinstance(substance, str) and not settings.strict and element.kind != "bearing":
             substance = _assumed(element, substance, table) or substance
         if isinstance(substance, Substance):
@@ -78,6 +78,17 @@ def substances(
             "these names, and give it by --materials FILE"
         )
     return known
+
+
+def _said(element: Element, table: MaterialTable, table_name: str, settings: ImportSettings) -> Substance | None:
+    """Return the material that the user says an element has; None where the user says none."""
+    for pattern, name in settings.materials_of:
+        if matches(pattern, element.names):
+            row = table.row(name)
+            if row is None:
+                raise IfcError(f'material of "{pattern}" is "{name}", which {table_name} does not know')
+            return Substance(name, row.density_kg_m3, row, "its material is as the user says", is_by_file=True)
+    return None
 
 
 def _assumed(element: Element, name: str, table: MaterialTable) -> Substance | None:

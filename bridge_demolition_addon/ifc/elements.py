@@ -66,7 +66,8 @@ class Element:
 def elements_of(source: IfcSource, settings: ImportSettings) -> tuple[Element, ...]:
     """Return all elements of a file in its order, without openings and virtual elements."""
     elements = tuple(_elements(source.model, settings))
-    for pattern in (*settings.without, *(pattern for pattern, _ in settings.kinds)):
+    named = (pattern for pattern, _ in (*settings.kinds, *settings.materials_of))
+    for pattern in (*settings.without, *named):
         if not any(matches(pattern, element.names) for element in elements):
             known = ", ".join(element.facts.name for element in elements[:_LISTED])
             raise IfcError(

@@ -47,6 +47,40 @@ class Imported:
     left_out: int
 
 
+@dataclass(frozen=True, slots=True)
+class ListedElement:
+    """An element of a file, before anything is built: its kind and material as they are taken, and why.
+
+    The kind is empty where it is left out. `note` says what was assumed on the material, `bridge` which of several
+    bridges it belongs to.
+    """
+
+    name: str
+    ifc_class: str
+    global_id: str
+    kind: str
+    why: str
+    material: str
+    note: str
+    bridge: str
+
+
+def list_elements(path: Path, settings: ImportSettings, progress: Progress | None = None) -> tuple[ListedElement, ...]:
+    """Return the elements of a file, without working out their geometry."""
+    progress = progress or Progress()
+    progress.stage(f"reading {path.name}")
+    attempt = _Attempt(_request(path, settings) | {"is_listing": True}, settings.time_limit_s)
+    answer = attempt.answer(progress)
+    _raise_refusal(path, answer)
+    if "done" not in answer:
+        raise IfcError(_crash_text(path, answer["crash"], 0))
+    return tuple(ListedElement(**row) for row in answer["done"]["elements"])
+
+
+def _request(path: Path, settings: ImportSettings) -> dict[str, Any]:
+    return {"path": str(path.absolute()) if path.exists() else str(path), "settings": settings.as_json()}
+
+
 def import_bridge(path: Path, folder: Path, settings: ImportSettings, progress: Progress | None = None) -> Imported:
     """Make a scenario of a bridge in an IFC file, in a new folder, whole or not at all."""
     check_new(folder)
@@ -55,14 +89,8 @@ def import_bridge(path: Path, folder: Path, settings: ImportSettings, progress: 
     failed: dict[int, str] = {}
     with tempfile.TemporaryDirectory(prefix="bda-import-") as kept:
         while True:
-            request = {
-                "path": str(path.absolute()) if path.exists() else str(path),
-                "folder": str(folder.absolute()),
-                "kept": kept,
-                "failed": failed,
-                "settings": settings.as_json(),
-            }
-            attempt = _Attempt(request, settings.time_limit_s)
+            request = _request(path, settings) | {"is_listing": False, "folder": str(folder.absolute()), "kept": kept}
+            attempt = _Attempt(request | {"failed": failed}, settings.time_limit_s)
             answer = attempt.answer(progress)
             if "done" in answer:
                 done = answer["done"]

@@ -16,11 +16,15 @@ from typing import Any
 
 from ..errors import DemolitionError, text_of
 from .bridge import read_bridge
-from .elements import Element
+from .element_materials import substances
+from .elements import Element, elements_of
 from .folder import write_bridge
 from .import_process import MARK
+from .materials import material_table
 from .settings import ImportSettings
+from .several_bridges import bridges_in
 from .shapes import KeptShapes
+from .source import naming_contradictions, open_source
 
 Say = Callable[[Mapping[str, Any]], None]
 
@@ -30,7 +34,7 @@ def main() -> None:
     say = _sayer()
     request = json.loads(sys.stdin.readline())
     try:
-        say({"done": _imported(request, say)})
+        say({"done": _listed(request) if request["is_listing"] else _imported(request, say)})
     except (DemolitionError, OSError) as error:
         say({"refused": type(error).__name__, "text": text_of(error)})
     except MemoryError:
@@ -56,6 +60,34 @@ def _imported(request: Mapping[str, Any], say: Say) -> dict[str, Any]:
     became = [outcome.became for outcome in bridge.outcomes]
     counts = {word: became.count(word) for word in ("member", "connection", "left out")}
     return {"title": bridge.scenario.title, "lines": lines, "counts": counts}
+
+
+def _listed(request: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the elements of a file, with their kinds and materials, without working out any geometry."""
+    path, settings = Path(request["path"]), ImportSettings.from_json(request["settings"])
+    with naming_contradictions(path):
+        source = open_source(path, settings)
+        elements = elements_of(source, settings)
+        made_of = substances(
+            source, [one for one in elements if one.is_member], material_table(settings.materials), settings
+        )
+        bridges = bridges_in(source, elements)
+    rows = []
+    for element in elements:
+        substance = made_of.get(element.entity.id())
+        rows.append(
+            {
+                "name": element.facts.name,
+                "ifc_class": element.facts.classes[0],
+                "global_id": element.facts.global_id,
+                "kind": element.member_kind if element.is_member else "",
+                "why": element.why_left_out,
+                "material": substance.name if substance else "",
+                "note": substance.note if substance else "",
+                "bridge": next((one.name for one in bridges if one.number in element.wholes), ""),
+            }
+        )
+    return {"elements": rows}
 
 
 def _sayer() -> Say:

@@ -36,6 +36,8 @@ class ImportSettings:
         Height of the ground in the file; that of the lowest underside unless given.
     without
         Names, classes, kinds or GlobalIds of elements that are left out, with ``*`` for anything.
+    materials_of
+        Name, class or GlobalId of elements, with ``*`` for anything, and the name of their material in the table.
     kinds
         Name, class or GlobalId of elements, with ``*`` for anything, and their kind, one of `KINDS`.
     only
@@ -56,6 +58,7 @@ class ImportSettings:
     shards: int = 300
     without: tuple[str, ...] = ()
     kinds: tuple[tuple[str, str], ...] = ()
+    materials_of: tuple[tuple[str, str], ...] = ()
     only: str | None = None
     bearing_gap_m: float = 0.015
     strict: bool = False
@@ -78,7 +81,8 @@ class ImportSettings:
         plain = dict(values)
         plain["materials"] = Path(plain["materials"]) if plain["materials"] else None
         plain["without"] = tuple(plain["without"])
-        plain["kinds"] = tuple((pattern, kind) for pattern, kind in plain["kinds"])
+        for name in ("kinds", "materials_of"):
+            plain[name] = tuple((pattern, value) for pattern, value in plain[name])
         return cls(**plain)
 
 

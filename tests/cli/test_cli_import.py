@@ -68,10 +68,13 @@ def test_all_that_can_be_told(path, tmp_path, capsys):
         "Footing*",
         "--kind",
         "IfcPile=pier",
+        "--material-of",
+        "Carriageway=steel",
     ]
     assert main(["import", str(path), "--output", str(folder), "--material", "concrete", *told]) == 0
     kinds = {mesh.name: (mesh.kind, mesh.density_kg_m3) for mesh in read_scenario(folder / "scenario.toml").geometry}
     assert kinds["Column"] == ("pier", 2500.0)
+    assert kinds["Carriageway"] == ("deck", 7850.0)
     assert not any(name.startswith("Footing") for name in kinds)
     assert "ground                  at 0.500 m in the file: as given by --ground" in capsys.readouterr().out
 

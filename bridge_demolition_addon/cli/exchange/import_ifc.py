@@ -55,6 +55,14 @@ def add_to(commands: argparse._SubParsersAction) -> None:
         help=f"what elements of a name, class or GlobalId are: {', '.join(KINDS)}; may be repeated",
     )
     parser.add_argument(
+        "--material-of",
+        metavar="NAME=MATERIAL",
+        action="append",
+        type=_material_of,
+        default=[],
+        help="material of elements of a name, class or GlobalId, by its name in the table; may be repeated",
+    )
+    parser.add_argument(
         "--only", metavar="NAME", help="bridge that is taken of a file with several, with * for anything (the largest)"
     )
     parser.add_argument(
@@ -96,6 +104,7 @@ def import_ifc(arguments: argparse.Namespace) -> None:
         shards=arguments.shards,
         without=tuple(arguments.without),
         kinds=tuple(arguments.kind),
+        materials_of=tuple(arguments.material_of),
         only=arguments.only,
         bearing_gap_m=arguments.bearing_gap,
         strict=arguments.strict,
@@ -144,3 +153,10 @@ def _kind(text: str) -> tuple[str, str]:
     if not equals or kind not in KINDS:
         raise argparse.ArgumentTypeError(f"{text!r} is wrong: expected NAME=KIND, with one of {', '.join(KINDS)}")
     return name, kind
+
+
+def _material_of(text: str) -> tuple[str, str]:
+    name, equals, material = text.rpartition("=")
+    if not equals or not material:
+        raise argparse.ArgumentTypeError(f"{text!r} is wrong: expected NAME=MATERIAL")
+    return name, material

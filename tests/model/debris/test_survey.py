@@ -91,9 +91,10 @@ def written(path, points):
 def test_surveys_are_read_and_placed(ending, tmp_path):
     """In a map whose north is x of the scenario: a bearing of 0, and an origin far away."""
     there = np.array([(10.0, 2.0, 1.0), (11.0, 2.0, 1.5), (10.0, 3.0, 2.0)])
-    in_map = np.column_stack((-there[:, 1], there[:, 0], there[:, 2])) + (4000.0, 9000.0, 50.0)
+    origin = np.array((4000.0, 9000.0, 50.0))
+    in_map = np.column_stack((-there[:, 1], there[:, 0], there[:, 2])) + origin
     turn = np.array([[0.0, 1.0], [-1.0, 0.0]])
-    placing = Placing(np.array((4000.0, 9000.0, 50.0)), turn, 1.0)
+    placing = Placing(origin, turn, 1.0)
     points = read_survey(written(tmp_path / f"scan{ending}", in_map), placing)
     assert points == pytest.approx(there, abs=0.011)
 
