@@ -132,6 +132,10 @@ class Assembly:
         why = f"{why}; {mass} are missing"
         self.outcomes[number] = replace(outcome, member=None, substance=None, became=LEFT_OUT, why=why)
 
+    def members_by_number(self) -> dict[int, Member]:
+        """Return the members that are left, by the numbers of their elements in the file."""
+        return dict(self._members())
+
     def _members(self) -> list[tuple[int, Member]]:
         return [
             (number, given(outcome.member))

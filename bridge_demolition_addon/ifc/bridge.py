@@ -10,6 +10,7 @@ from pathlib import Path
 
 from ..engineering.geometry.mesh import TriangleMesh
 from ..errors import IfcError
+from ..model.materials.bar_layers import BarLayer
 from ..model.scenario import (
     ConnectionBetween,
     ConnectionSettings,
@@ -22,6 +23,7 @@ from ..model.scenario import (
 )
 from .added_supports import CLEARANCE_M
 from .assembly import Assembly, plain_text
+from .bars import bar_layers
 from .bodies import Bodies, bodies_of
 from .contacts import NearbyMembers
 from .element_materials import substances
@@ -100,9 +102,13 @@ def _bridge(path: Path, table: MaterialTable, settings: ImportSettings, kept: Ke
         result.hold(gap_m, table)
         result.drop_consumed()
         result.make_writable()
+    bars: list[BarLayer] = []
+    if not settings.strict:
+        bars, said = bar_layers(source, elements, result.members_by_number(), placement)
+        result.notes += said
     scenario, meshes, held = _scenario(source, settings, result, site, chosen.title or _title(source))
     return ImportedBridge(
-        scenario=scenario,
+        scenario=replace(scenario, reinforcement=tuple(bars)) if bars else scenario,
         meshes=meshes,
         outcomes=tuple(result.outcomes.values()),
         ground_m=ground_m,

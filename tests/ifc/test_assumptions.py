@@ -271,3 +271,39 @@ def test_a_beam_swept_through_sections_has_the_volume_of_its_frustum(tmp_path):
     assert swept.volume == pytest.approx(15.0)
     assert to_manifold(swept).status().name == "NoError"
     assert swept.bounds[:, 2] == pytest.approx((6.0, 8.0))
+
+
+# Reinforcement --------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("turn_deg", [0.0, 30.0])
+def test_reinforcing_bars_are_layers_of_their_members(turn_deg, tmp_path):
+    """Ten bars of 20 mm along the deck, 50 mm below its top, eight of them in two lengths of 10.5 m; 6 of 16 mm across.
+
+    π / 4 × 20² × 10 = 3141.6 mm² in each section along; across, 6 × π / 4 × 16² × 3.8 m / 4 m = 1146.1 mm².
+    """
+    made = whole_bridge(turn_deg=turn_deg)
+    make = made.file.create_entity
+
+    def bar(start, end, diameter):
+        line = make("IfcPolyline", [made.point(*start), made.point(*end)])
+        disk = make("IfcSweptDiskSolid", line, diameter / 2.0)
+        bar = made.element("IfcReinforcingBar", "B", disk, "DECK", shape_type="AdvancedSweptSolid")
+        bar.NominalDiameter = diameter
+
+    for number in range(10):
+        y = -1.8 + 0.4 * number
+        parts = ((-0.5, 10.0), (10.0, 20.5)) if number < 8 else ((-0.5, 20.5),)
+        for first, last in parts:
+            bar((first, y, 4.55), (last, y, 4.55), 0.02)
+    for number in range(6):
+        bar((1.0 + 3.0 * number, -1.9, 4.43), (1.0 + 3.0 * number, 1.9, 4.43), 0.016)
+    bar((0.0, 0.0, 4.45), (1.0, 1.0, 4.45), 0.02)
+    bridge = read(made, tmp_path)
+    along, across = bridge.scenario.reinforcement
+    assert (along.members, along.along, along.side) == (("Carriageway",), "x", "top")
+    assert (along.depth_m, along.area_mm2) == pytest.approx((0.05, 3141.6), rel=1e-3)
+    assert (across.along, across.side) == ("y", "bottom")
+    assert (across.depth_m, across.area_mm2) == pytest.approx((0.03, 1146.1), rel=1e-3)
+    assert any("24 reinforcing bars are 2 layers" in note for note in bridge.notes)
+    assert any("bent, inclined or in no member" in note for note in bridge.notes)
