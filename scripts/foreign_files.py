@@ -75,7 +75,7 @@ def _from_folder(folder: Path, lines: tuple[str, ...]) -> dict[str, str]:
     by_file = [line.rsplit(", ", 1)[1] for line in lines if " by the file for " in line]
     at = lines.index("To know") if "To know" in lines else len(lines)
     return {
-        "elements": str(len(elements) - became.count("added")),
+        "elements": str(len({row["global_id"] for row in elements if row["became"] != "added"})),
         "members": str(became.count("member")),
         "bearings": str(became.count("connection")),
         "left_out": str(became.count("left out") - len(lost)),

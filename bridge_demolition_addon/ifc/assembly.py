@@ -7,6 +7,8 @@ from dataclasses import dataclass, field, replace
 from itertools import chain, count
 from unicodedata import category
 
+from manifold3d import Manifold
+
 from ..engineering.geometry.mesh import TriangleMesh
 from ..engineering.geometry.repair import repaired_solid
 from ..engineering.geometry.solids import from_manifold, to_manifold
@@ -36,6 +38,9 @@ _BELOW_GROUND_M = 1e-3
 
 _SAME = 0.99
 """Part of two members' volumes that they have in common where one is the other's double."""
+
+_SCRAP = 0.02
+"""Part of a member's volume below which a body that is cut off it is left out."""
 
 _WITHIN = 0.5
 """Part of a member's volume in another, larger one from which on it is cut out of that, and not the other way."""
@@ -189,6 +194,24 @@ class Assembly:
                 self._lose(numbers[id(outcome)], "members before it take all of its room")
             else:
                 taken.append(solid)
+                self._part(numbers[id(outcome)], rest)
+        self._lose_loose()
+
+    def _part(self, number: int, rest: Manifold) -> None:
+        """Make members of the bodies that others cut a member into; a shard is one body."""
+        outcome = self.outcomes[number]
+        member = given(outcome.member)
+        bodies = sorted(rest.decompose(), key=lambda body: -body.volume())
+        large = [body for body in bodies if body.volume() >= _SCRAP * rest.volume()]
+        if len(bodies) < 2 or any(below == member.name for _, below in self._bearings):
+            return
+        self.outcomes[number] = replace(outcome, member=replace(member, solid=from_manifold(large[0])))
+        for row, body in enumerate(large[1:], start=2):
+            part = replace(member, name=f"{member.name} part {row}", solid=from_manifold(body))
+            self.outcomes[min(0, *self.outcomes) - 1] = replace(
+                outcome, member=part, file_volume_m3=None, file_mass_kg=None
+            )
+        self.notes.append(f"{member.name} is cut into {len(large)} members where others pass through it")
 
     def make_writable(self) -> None:
         """Give all meshes coordinates that a file holds; what is no solid with them is simplified, or left out."""
@@ -265,7 +288,7 @@ class Assembly:
         member = Member(name, KIND, solid, row.density_kg_m3)
         facts = ElementFacts(name=name, global_id="", classes=("",))
         why = "the file has nothing there: it stands on the ground and never moves"
-        self.outcomes[-1 - len(self.added)] = Outcome(facts, member, substance, ADDED, why)
+        self.outcomes[min(0, *self.outcomes) - 1] = Outcome(facts, member, substance, ADDED, why)
         self.added.append(member)
         return member, substance
 
@@ -282,6 +305,10 @@ class Assembly:
                 f"nothing holds {names}: {2 * len(self._unheld)} supports, which never move, are put under their ends, "
                 "pinned at the first end and free to move along the road at the other"
             )
+        self._lose_loose()
+
+    def _lose_loose(self) -> None:
+        """Leave out what touches nothing that is held."""
         for group in self._loose_groups():
             for number in group:
                 self._lose(number, "it touches no other member that is held, and would fall at once")

@@ -158,6 +158,17 @@ def test_a_bearing_on_nothing_gets_a_support_or_a_plinth(tmp_path):
     assert plinth.volume_m3 == pytest.approx(0.4 * 0.4 * (0.1 + 0.2 + 0.001), rel=1e-3)
 
 
+def test_a_member_that_others_cut_through_becomes_two(tmp_path):
+    """A brace of 3 m across both girders, which take 2 × 0.4 m of it: 1.6 m between them, and 0.3 m at either side."""
+    made = whole_bridge()
+    made.box("IfcMember", "Brace", (0.2, 3.0, 0.2), (5.0, 0.0, 4.0), "SUPERSTRUCTURE", material=made.material("Steel"))
+    bridge = read(made, tmp_path, kinds=(("Brace", "bracing"),))
+    parts = {o.member.name: o.member.volume_m3 for o in bridge.outcomes if o.facts.name == "Brace" and o.member}
+    assert parts == pytest.approx(
+        {"Brace": 1.6 * 0.04, "Brace part 2": 0.3 * 0.04, "Brace part 3": 0.3 * 0.04}, rel=1e-6
+    )
+
+
 def test_what_touches_nothing_is_left_out_with_its_mass(tmp_path):
     made = whole_bridge()
     made.box("IfcBeam", "Stray", (1, 1, 1), (10.0, 0.0, 8.0), "DECK", material=made.material("Steel"))
