@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -201,11 +202,38 @@ def _heights(entity: Any, unit_m: float) -> Callable[[float], tuple[float, float
     if not parts:
         raise GeometryError("runs along a curve without heights")
 
+    rows = [
+        (start, height, _heading_that_meets(part, heading, height, ahead, unit_m), part)
+        for (start, height, heading, part), ahead in zip(parts, _aheads(parts), strict=True)
+    ]
+
     def at(along_m: float) -> tuple[float, float]:
-        start, height, heading, part = next((row for row in reversed(parts) if row[0] <= along_m), parts[0])
+        start, height, heading, part = next((row for row in reversed(rows) if row[0] <= along_m), rows[0])
         return _on_vertical(part, along_m - start, height, heading, unit_m)
 
     return at
+
+
+def _aheads(parts: list[tuple[float, float, float, Any]]) -> list[tuple[float, float] | None]:
+    """Return how far from the beginning of each part, and how high, the next one begins; None for the last."""
+    following = [(after[0] - before[0], after[1]) for before, after in pairwise(parts)]
+    return [*following, None]
+
+
+def _heading_that_meets(
+    part: Any, heading: float, height: float, ahead: tuple[float, float] | None, unit_m: float
+) -> float:
+    """Return the direction in which a vertical segment begins, rad.
+
+    By the standard it is that of its placement. Some programs leave the parabola's own slope in its coefficients, and
+    its placement level: that counts where the segment then ends where the next one begins.
+    """
+    parent = part.ParentCurve
+    if ahead is None or not parent.is_a("IfcPolynomialCurve"):
+        return heading
+    coefficients = list(parent.CoefficientsY or ())
+    own = math.atan(math.tan(heading) + (coefficients[1] if len(coefficients) > 1 else 0.0))
+    return min((heading, own), key=lambda way: abs(_on_vertical(part, ahead[0], height, way, unit_m)[0] - ahead[1]))
 
 
 def _on_vertical(part: Any, x: float, height: float, heading: float, unit_m: float) -> tuple[float, float]:

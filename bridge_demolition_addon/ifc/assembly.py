@@ -9,6 +9,7 @@ from unicodedata import category
 
 from manifold3d import Manifold
 
+from ..engineering.geometry.level_contacts import level_contacts
 from ..engineering.geometry.mesh import TriangleMesh
 from ..engineering.geometry.repair import repaired_solid
 from ..engineering.geometry.solids import from_manifold, to_manifold
@@ -219,14 +220,29 @@ class Assembly:
             if outcome.member is None:
                 continue
             solid = _writable(outcome.mesh or outcome.member.solid)
-            if number in self._before and (solid is None or not cuts_well(solid)):
+            if number in self._before and (solid is None or not _is_sound(solid)):
                 solid = _writable(self._before[number])
+                self.notes.append(f"{outcome.member.name} is left as it was: made longer it would be no sound solid")
             if solid is None:
                 self._lose(number, "with the digits that a file holds its surface crosses itself")
             elif outcome.mesh is not None:
                 self.outcomes[number] = replace(outcome, mesh=solid)
             else:
                 self.outcomes[number] = replace(outcome, member=replace(outcome.member, solid=solid))
+
+        self._drop_bearings_without_contact()
+
+    def _drop_bearings_without_contact(self) -> None:
+        """Leave out bearings of added supports that what lies on them does not touch any more."""
+        by_name = {member.name: member for _, member in self._members()}
+        kept = []
+        for bearing in self._more_bearings:
+            above, below = (by_name.get(name) for name in bearing.members)
+            if above and below and level_contacts(above.solid, below.solid):
+                kept.append(bearing)
+            elif above and below:
+                self.notes.append(f"{above.name} does not lie level on {below.name}: they have no bearing")
+        self._more_bearings = kept
 
     def close_gaps(self, gap_m: float) -> None:
         """Bring members that end just above others down onto them."""
@@ -366,6 +382,8 @@ class Assembly:
                         solid = TriangleMesh(member.solid.vertices + shift, member.solid.triangles)
                         outcome = self.outcomes[number]
                         self.outcomes[number] = replace(outcome, member=replace(member, solid=solid))
+                        if before := self._before.get(number):
+                            self._before[number] = TriangleMesh(before.vertices + shift, before.triangles)
                     names = " and ".join(member.name for member in own[:3])
                     self.notes.append(f"{names} moved by {1e3 * gap:.1f} mm, to touch {others[other].name}")
                     return True
@@ -433,6 +451,12 @@ def _writable(solid: TriangleMesh) -> TriangleMesh | None:
             continue
         return solid if tolerance_m == 0.0 else sound
     return None
+
+
+def _is_sound(solid: TriangleMesh) -> bool:
+    """Return whether a solid needs no repair with the digits that a file holds, and can be cut."""
+    rounded = TriangleMesh(solid.vertices.round(_DIGITS), solid.triangles)
+    return not repaired_solid(rounded, "").repairs and cuts_well(rounded)
 
 
 def _boxes_meet(one: TriangleMesh, other: TriangleMesh) -> bool:

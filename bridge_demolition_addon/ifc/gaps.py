@@ -31,8 +31,9 @@ _STANDING = ("pier", "pier cap", "abutment", "wall", "wing wall", "footing")
 WAYS = [np.array(way) for way in ((0, 0, -1.0), (0, 0, 1.0), (0, 1.0, 0), (0, -1.0, 0), (1.0, 0, 0), (-1.0, 0, 0))]
 """Directions in which members are moved, down first."""
 
-_CUTS, _LOST = (0.13, 0.29, 0.47, 0.61, 0.83), 1e-7
-"""Where along a solid it is cut to see whether it can be, and part of its volume that may be lost then."""
+_CUTTING = ((1.0, 0.21, 0.13), (0.17, 1.0, 0.19), (0.11, 0.23, 1.0))
+_CUTS, _LOST = (0.13, 0.29, 0.47, 0.61, 0.83), 1e-9
+"""Planes by which a solid is cut to see whether it can be, where along it, and the part of it that may be lost then."""
 
 _UNDER_DECKS = ("girder", "arch")
 _ON_SOIL = ("approach slab", "fill")
@@ -67,7 +68,7 @@ def lengthened(solid: TriangleMesh, by_m: float) -> TriangleMesh:
 def cut_by(solid: TriangleMesh, others: Sequence[TriangleMesh]) -> TriangleMesh:
     """Return a solid without what it has in common with others."""
     rest = Manifold.batch_boolean([to_manifold(solid), *(to_manifold(other) for other in others)], OpType.Subtract)
-    return from_manifold(rest.simplify(_SIMPLER_M / 10.0))
+    return from_manifold(rest.simplify(_SIMPLER_M))
 
 
 def closed_gaps(members: Sequence[Member], gap_m: float) -> tuple[list[Member], list[str]]:
@@ -160,13 +161,16 @@ def _nearly_under(members: Sequence[Member], upper: int, gap_m: float) -> list[i
 
 def cuts_well(solid: TriangleMesh) -> bool:
     """Return whether the parts of a solid have its volume when it is cut: what crosses itself somewhere has not."""
-    whole, axis = to_manifold(solid), int(np.argmax(np.ptp(solid.vertices, axis=0)))
-    low, high = solid.bounds[:, axis]
-    normal = tuple(np.eye(3)[axis].tolist())
-    for share in _CUTS:
-        parts = whole.split_by_plane(normal, float(low + share * (high - low)))
-        if abs(sum(part.volume() for part in parts) - whole.volume()) > _LOST * whole.volume():
-            return False
+    whole = to_manifold(solid)
+    for normal in _CUTTING:
+        levels = solid.vertices @ np.array(normal)
+        for share in _CUTS:
+            level = float(levels.min() + share * np.ptp(levels))
+            pieces = [piece for part in whole.split_by_plane(normal, level) for piece in part.decompose()]
+            if abs(sum(piece.volume() for piece in pieces) - whole.volume()) > _LOST * whole.volume():
+                return False
+            if any(piece.volume() < 0.0 for piece in pieces):
+                return False
     return True
 
 

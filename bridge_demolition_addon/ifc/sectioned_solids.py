@@ -26,6 +26,9 @@ _CHORD_M = 0.005
 
 _TRIED = 16
 
+_LEAST_HEIGHT_M, _SAME_HEIGHT_M = 3.0, 0.05
+"""Height of a curve from which on sections may have it too, and how far a corner of theirs may lie from it."""
+
 
 def swept_mesh(source: IfcSource, entity: Any) -> TriangleMesh:
     """Return the body of an element that is swept through sections, in the axes of the file, m.
@@ -51,6 +54,7 @@ def _swept(source: IfcSource, solid: Any) -> TriangleMesh:
     places = [place_along(getattr(position, "Location", position), unit_m) for position in solid.CrossSectionPositions]
     if len(profiles) < 2 or len(places) != len(profiles) or len({len(profile) for profile in profiles}) != 1:
         raise GeometryError("has sections with different numbers of corners")
+    places = _without_heights(curve, profiles, places)
     rings = []
     for (first, start), (second, end) in pairwise(zip(profiles, places, strict=True)):
         stations = _stations(curve, float(start[0]), float(end[0]))
@@ -58,6 +62,24 @@ def _swept(source: IfcSource, solid: Any) -> TriangleMesh:
             rings.append(_ring(curve, first + share * (second - first), start + share * (end - start)))
     rings.append(_ring(curve, profiles[-1], places[-1]))
     return _loft(np.array(rings), profiles[0], profiles[-1])
+
+
+def _without_heights(curve: Curve, profiles: list[np.ndarray], places: list[np.ndarray]) -> list[np.ndarray]:
+    """Return where sections are, lower by the curve where they already have its heights.
+
+    Some programs write decks with heights of the map in their sections, along a curve that has them too. Then each
+    section has a corner at the height of the curve, and none anywhere near 0.
+    """
+    heights = [float(curve.at(float(place[0])).point[2]) for place in places]
+    both = [
+        height > _LEAST_HEIGHT_M
+        and float(np.abs(profile[:, 1] - height).min()) <= _SAME_HEIGHT_M
+        and float(profile[:, 1].min()) > 0.5 * height
+        for profile, height in zip(profiles, heights, strict=True)
+    ]
+    if not all(both):
+        return places
+    return [place - (0.0, 0.0, height) for place, height in zip(places, heights, strict=True)]
 
 
 def _ring(curve: Curve, profile: np.ndarray, place: np.ndarray) -> np.ndarray:

@@ -252,6 +252,16 @@ def test_an_arc_runs_on_its_circle_and_a_parabola_rises_as_it_should(way):
         assert frame.along[2] / np.hypot(*frame.along[:2]) == pytest.approx(0.02 - 2e-4 * along, abs=1e-9)
 
 
+def test_a_parabola_may_keep_its_own_slope_in_a_level_placement():
+    """As PGSuper writes it: 17.391888 m + 0.05 s - 0.000243876 s², which meets the next part at 41.148 m."""
+    line, parabola = Given("IfcLine"), Given("IfcPolynomialCurve", CoefficientsY=(0.0, 0.05, -0.000243875765529308))
+    plan = Given("IfcCompositeCurve", Segments=(segment(line, at(0.0, 0.0), 200.0),))
+    parts = segment(parabola, at(0.0, 17.391888), 41.148), segment(line, at(41.148, 19.03636782, 0.0299), 100.0)
+    curve = curve_of(Given("IfcGradientCurve", BaseCurve=plan, Segments=parts), 1.0)
+    assert curve.at(20.0).point[2] == pytest.approx(17.391888 + 1.0 - 0.000243875765529308 * 400.0)
+    assert curve.at(41.1479999).point[2] == pytest.approx(19.03636782, abs=1e-5)
+
+
 def test_a_clothoid_is_that_of_fresnel():
     """With A = 100 m, at its 80th metre: scipy's integrals of Fresnel, scaled by A √π."""
     from scipy.special import fresnel
