@@ -93,6 +93,18 @@ def test_a_norwegian_slab_bridge_is_what_it_is(imported):
 KINDS = {"deck": 2, "pier": 3, "abutment": 3, "footing": 3, "wing wall": 4, "approach slab": 2, "parapet": 2, "wall": 1}
 
 
+def test_the_example_is_that_bridge_with_a_valley_under_it():
+    """Its mass is that of Tekla's weights, 1032.8 t, and the valley is dug away under its footings alone."""
+    scenario = read_scenario(ROOT / "examples" / "imported" / "lillebruen.toml")
+    model = build_model(scenario)
+    masses = sum(member.mass_kg for member in model.members)
+    assert masses == pytest.approx(1_032_828.0, rel=0.01)
+    assert {name for removal in scenario.removals for name in removal.members} == {"SØYLE", "SØYLE 2", "SØYLE 3"}
+    dug = {row.name for row in model.ground.facts.levelled}
+    assert {"FUNDAMENT", "FUNDAMENT 2", "FUNDAMENT 3"} <= dug
+    assert "DECK" not in dug
+
+
 def test_of_three_bridges_in_a_file_each_can_be_had(imported, tmp_path):
     """Of the PCERT sample scene: 78 elements of a road bridge and two arches of granite of 4 segments."""
     road = elements(imported(HERE / "infra-bridge.ifc"))
