@@ -42,6 +42,7 @@ COMMANDS = {
     "optimise": "search",
     "report": "report",
     "export": "exchange.export",
+    "compare": "compare",
     "charge": "charge",
     "charts": "charts",
 }

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 from ..errors import OutputError, text_of
+from ..model.debris.survey import SurveySettings, compared, read_survey
 from ..model.ensemble.folder import holds_ensemble
 from ..model.run_folder.files import REPORT_PAGE, REPORT_PDF, TABLE_FOLDER
 from ..model.run_folder.folder import holds_run
 from ..model.study.files import OPTIMISE_FILE, REPORT_FOLDER, SEARCH_FILE, STUDY_FILE
+from ..model.terrain.placed import Placing
 from ..system.folder_lock import FolderLock
 from ..system.progress import Progress
 from ..version import VERSION
@@ -29,6 +31,7 @@ from .ensemble.study_runs import read_study_runs
 from .run import run_report
 from .run_folder import read_run
 from .sections.stages import has_stages, stages_report
+from .survey import survey_report, survey_rows
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,6 +67,10 @@ KINDS = (
 """A folder is of the first kind that recognises it."""
 
 
+SurveyPlace = tuple[Sequence[float] | None, float | None, float | None]
+"""Origin of the scenario in a survey, direction of its x axis, and metres in its unit; None for those of the ground."""
+
+
 def kind_of(folder: Path) -> FolderKind:
     """Return the kind of a folder; that of a run where none recognises it, whose reader says what is missing."""
     return next((kind for kind in KINDS if kind.recognised(folder)), RUN)
@@ -93,6 +100,33 @@ def write_report(
     content, target = kind.read(folder), folder / kind.subfolder if output is None else output
     with _written_to(target):
         return _written(make(content, target, progress), target, progress)
+
+
+def write_survey(
+    folder: Path, survey: Path, place: SurveyPlace, settings: SurveySettings, output: Path, progress: Progress
+) -> tuple[list[tuple[str, str]], list[Path]]:
+    """Compare a run with a survey of its debris, write that as a report, and return what it says and all files.
+
+    Where and how the survey lies is that of the ground of the run's scenario, but for what `place` says.
+    """
+    progress.stage("reading the results")
+    run = read_run(folder)
+    if run.results is None or run.scenario is None:
+        raise OutputError(f"{folder}: {' '.join(run.shortcomings)}")
+    progress.stage(f"reading {survey.name}")
+    origin, bearing_deg, scale = place
+    ground = run.scenario.ground
+    if origin is not None:
+        ground = replace(ground, origin=tuple(origin))
+    if bearing_deg is not None:
+        ground = replace(ground, bearing_deg=bearing_deg)
+    if scale is not None:
+        ground = replace(ground, scale=scale)
+    points = read_survey(survey, Placing.of(replace(run.scenario, ground=ground)))
+    comparison = compared(run.results, points, settings)
+    with _written_to(output):
+        written = _written(survey_report(comparison, run.name, survey), output, progress)
+    return survey_rows(comparison), written
 
 
 def _write_comparison(folders: Sequence[Path], output: Path | None, *, stages: bool, progress: Progress) -> list[Path]:

@@ -420,6 +420,8 @@ def deck_length_m(scenario):
     """Length of the deck with its overhangs."""
     bridge = scenario.bridge
     return bridge.spans_m + 2.0 * bridge.deck.overhang_m
+
+
 def said_after(scenario, name):
     """The lines of a fact and of those without a name that follow it."""
     lines = list(scenario_facts(scenario))
@@ -472,3 +474,27 @@ def test_a_bridge_in_pieces_is_said():
     apart = replace(I235, connections=connections)
     # The deck, and two piers of a cap on two columns each.
     assert facts(apart)["pieces"].startswith("3, which no connection holds together")
+
+
+def test_a_bridge_that_nothing_holds_is_not_said_to_stand(tmp_path):
+    """A block of 2 m × 1 m × 1 m in the air, of 4.8 t: none of its connections is overloaded, and all of it falls."""
+    (tmp_path / "block.stl").write_bytes(exported(box((2, 1, 1), (0, 0, 3)), ".stl"))
+    block = Geometry(name="block", file=str(tmp_path / "block.stl"), density_kg_m3=2400.0)
+    floating = replace(
+        I235,
+        bridge=None,
+        geometry=(block,),
+        ball=None,
+        fracture=replace(I235.fracture, shards=4),
+        connections=ConnectionSettings(type="FIXED", method="face", material="concrete"),
+    )
+    found = facts(floating, stand=True)
+    assert "overloaded" not in found
+    assert found["does not stand"].startswith(
+        "4 of 4 shards, 4.800 t, 100% of what can move, are held by no connection"
+    )
+    (tmp_path / "foot.stl").write_bytes(exported(box((1, 1, 1), (5, 0, 0.5)), ".stl"))
+    foot = Geometry(name="foot", file=str(tmp_path / "foot.stl"), density_kg_m3=2400.0)
+    found = facts(replace(floating, geometry=(block, foot)), stand=True)
+    assert found["overloaded"].endswith("by the bridge's own weight alone, where it is held")
+    assert ", 4.800 t, 67% of what can move" in found["not held"]

@@ -49,3 +49,6 @@ RESULT_FILES = (
     *REPORT_FILES,
 )
 """All that a run and its report can leave, in the order in which they are listed."""
+
+SURVEY_FOLDER = "survey"
+"""Of the report of a survey of the debris beside the run."""

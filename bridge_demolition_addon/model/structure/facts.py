@@ -14,6 +14,7 @@ from ...engineering.elasticity.section_stiffness import DAMPING_RATIO
 from ...engineering.geometry.overlap import SHARD_OVERLAP_TOLERANCE, Overlaps, hulls, overlaps
 from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE, SMEARED, Strength
+from ...engineering.units import mass_text
 from ..actions import Fact
 from ..bridge.member import Member
 from ..materials.bar_layers import AXES, SIDES
@@ -33,6 +34,7 @@ MOST_SHARDS_COMPARED = 2000
 """Comparing so many shards with their neighbours takes as long as cutting them."""
 
 MOST_PAIRS_NAMED = 5
+MOST_MEMBERS_NAMED = 3
 
 _NO_KIND = "member"
 """Kind of members from files of which the scenario says none: they are named one by one."""
@@ -156,7 +158,12 @@ def rest_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
     held = int(rest.held[: len(model.shards)].sum())
     loose = len(model.shards) - held - int(model.fixed.sum())
     broken = int(overloaded(model, rest, scenario.joints).sum())
-    yield "overloaded", f"{broken} of {len(model.connections)} connections, by the bridge's own weight alone"
+    if loose:
+        yield from _loose_facts(model, rest.held[: len(model.shards)], held)
+    if held or not loose:
+        of_held = ", where it is held" if loose else ""
+        weight = f"by the bridge's own weight alone{of_held}"
+        yield "overloaded", f"{broken} of {len(model.connections)} connections, {weight}"
     if not scenario.connections.is_elastic:
         yield "", "if they were elastic. Rigid ones share loads otherwise: a run says whether it stands"
     elif broken:
@@ -168,9 +175,6 @@ def rest_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
             f"{np.nanmax(used):.1%} used at most, {np.nanmean(used):.1%} in the mean of {by_force}",
         )
         yield "", "by the force or moment of each that is largest, in N or N·m, as Bullet breaks it"
-    if loose:
-        yield "not held", f"{loose} shards, by no connection to a support: they fall, or tremble on others. Bearings"
-        yield "", "would hold them: [[bearings]]"
     if model.bearings and held:
         for bearing in model.bearings.forces(loads_of(model, rest)):
             along, across, up = bearing.force_n / 1000.0
@@ -180,6 +184,22 @@ def rest_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
         yield "deflection", f"{1000.0 * deflection_m(model, rest):.2f} mm"
         yield "first frequency", f"{rest.frequency_hz:.3f} Hz"
         yield "damping", _damping_text(scenario, rest.frequency_hz)
+
+
+def _loose_facts(model: Model, is_held: np.ndarray, held: int) -> Iterator[Fact]:
+    """Yield what no connection to a support holds, and in which members that is most of all."""
+    loose = ~is_held & ~model.fixed
+    mass_kg = float(model.masses_kg[loose].sum())
+    share = mass_kg / float(model.masses_kg[~model.fixed].sum())
+    count = int(loose.sum())
+    how = f"{count} of {count + held} shards, {mass_text(mass_kg).strip()}, {share:.0%} of what can move"
+    yield "does not stand" if not held else "not held", f"{how}, are held by no connection to a support:"
+    by_member = np.bincount(model.member_of_shard[loose], model.masses_kg[loose], minlength=len(model.members))
+    heaviest = [row for row in np.argsort(-by_member, kind="stable")[:MOST_MEMBERS_NAMED].tolist() if by_member[row]]
+    names = ", ".join(model.members[row].name for row in heaviest)
+    more = " and more" if np.count_nonzero(by_member) > len(heaviest) else ""
+    yield "", f"they fall, or tremble on others. Most of it is in {names}{more}. Let members touch what"
+    yield "", "stands, or hold them: [[supports]], [[bearings]]"
 
 
 def _damping_text(scenario: Scenario, frequency_hz: float) -> str:
