@@ -16,8 +16,9 @@ from ..errors import SimulationError
 from ..model.actions import PlannedAction
 from ..model.blast.settings import Apply
 from ..model.bridge.extent import room_around, surface_height
-from ..model.scenario import Ball, Change, Jackhammer, Load, Scenario
+from ..model.scenario import Ball, Jackhammer, Load, Scenario
 from ..model.sequence.checked_model import check_actions
+from ..model.structure.blast_zones import zone_firings
 from ..model.structure.model import Model, start_motions
 from .as_built import keep_built_bodies
 from .blast.charges import charge_objects, create_charges, keep_blast
@@ -53,7 +54,6 @@ TOOLS: dict[type[PlannedAction], Callable[[BuildSite, Any], object]] = {
 """Makers of the actions that are bodies of their own, in the order of a scenario's actions."""
 
 KEPT: dict[type[PlannedAction], Callable[[bpy.types.Scene, Sequence[Any]], None]] = {
-    Change: keep_changes,
     Load: keep_loads,
 }
 """Actions on bodies that are there, and what keeps all of a kind with the scene until a recording applies them."""
@@ -96,6 +96,7 @@ def _build(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> list[bpy
     keep_breaking(scene, _breaking(scenario, joints[0].strength))
     for kind, keep in KEPT.items():
         keep(scene, [action for action in scenario.actions if isinstance(action, kind)])
+    keep_changes(scene, (*scenario.changes, *zone_firings(scenario, model.members)))
     with off_scene(scene) as (bodies, connections):
         surface = scenario.surface_of(scenario.shards)
         shards = create_shards(bodies, scenario.shards, surface, model.shards, model.centres_m, model.masses_kg)

@@ -22,6 +22,9 @@ THROW_KG_M3 = 1.0
 FACTOR_OF_DOUBT = 2.0
 """A specific charge beyond this factor of the table's is worth a question."""
 
+_ROUNDING = 1e-9
+"""A charge of exactly a threshold, up to rounding, has its effect."""
+
 _REFERENCE_RWS = 100.0
 """Relative weight strength of ANFO, which stands for the explosives of the table."""
 
@@ -117,6 +120,7 @@ def charge_a_hole_kg(
 
 def effect_of(specific_kg_m3: float, thresholds: Thresholds) -> Effect:
     """Return the effect of a specific charge: less than half of what breaks does nothing that counts."""
+    specific_kg_m3 *= 1.0 + _ROUNDING
     if specific_kg_m3 >= thresholds.throw_kg_m3:
         return Effect.THROWN
     if specific_kg_m3 >= thresholds.break_kg_m3:

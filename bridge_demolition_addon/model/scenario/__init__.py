@@ -5,6 +5,7 @@ The deck, with its girders, lies on the pier caps, or on the piers where there a
 tables.
 """
 
+from ..blast.blast_zones import BlastZone
 from ..blast.charges import Charge
 from ..blast.settings import BlastSettings
 from ..loads import Load
@@ -21,7 +22,7 @@ from .jackhammer import Jackhammer
 from .recording import PictureSettings, RecordingSettings
 from .scenario import Scenario
 from .site import Exclusion, Neighbour, Site, Zone
-from .structural_changes import Change, Removal, SawCut, Weakening
+from .structural_changes import Change, Removal, SawCut, Weakening, ZoneFiring
 from .time import TimeSettings
 
 __all__ = [
@@ -31,6 +32,7 @@ __all__ = [
     "BallHit",
     "BarLayer",
     "BlastSettings",
+    "BlastZone",
     "BoxGirder",
     "Bridge",
     "Change",
@@ -67,4 +69,5 @@ __all__ = [
     "TimeSettings",
     "Weakening",
     "Zone",
+    "ZoneFiring",
 ]

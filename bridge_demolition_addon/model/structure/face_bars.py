@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...engineering.geometry.mesh import TriangleMesh
+from ...engineering.geometry.sides import AXES
 from ...engineering.geometry.vectors import transformed, transformed_back
 from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.reinforcement import FaceBars
@@ -16,7 +17,7 @@ from ...engineering.structure.connections import Connections
 from ...engineering.structure.face_sections import triangles_in_faces
 from ...errors import ScenarioError
 from ..bridge.member import Member
-from ..materials.bar_layers import AXES, BarLayer, ReinforcedSection
+from ..materials.bar_layers import BarLayer, ReinforcedSection
 
 
 @dataclass(frozen=True, slots=True)

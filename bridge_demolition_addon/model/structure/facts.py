@@ -10,11 +10,11 @@ from ...engineering.elasticity.accuracy import expected_corner_deviation, expect
 from ...engineering.elasticity.member_shapes import member_shapes
 from ...engineering.elasticity.section_stiffness import DAMPING_RATIO
 from ...engineering.geometry.overlap import SHARD_OVERLAP_TOLERANCE, Overlaps, hulls, overlaps
+from ...engineering.geometry.sides import AXES, SIDES
 from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE, Strength
 from ..actions import Fact
 from ..bridge.member import Member
-from ..materials.bar_layers import AXES, SIDES
 from ..scenario import ConnectionBetween, ConnectionSettings, Scenario
 from ..scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
 from ..scenario.scenario import bearing_tables
