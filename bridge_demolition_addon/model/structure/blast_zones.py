@@ -156,7 +156,7 @@ class PlacedZone:
         """Yield what a blaster would ask about, a sentence without a full stop each."""
         zone, share = self.zone, self.zone.depth_m / self.thickness_m
         if zone.stemming_m < self.burden_m - _ROUNDING:
-            yield f"stemming of {zone.stemming_m:.2f} m is less than the burden, {self.burden_m:.2f} m"
+            yield f"stemming of {zone.stemming_m:.3g} m is less than the burden, {self.burden_m:.3g} m"
         least, most = USUAL_DEPTH_SHARES
         if not least - _ROUNDING <= share <= most + _ROUNDING:
             yield f"holes are {share:.2f} of the thickness deep: {least:g} to {most:g} are usual"

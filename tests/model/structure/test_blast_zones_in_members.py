@@ -60,7 +60,7 @@ def test_bars_stay_with_their_buckling():
 @pytest.mark.parametrize(
     ("values", "text"),
     [
-        ({"stemming_m": 0.16}, "stemming of 0.16 m is less than the burden, 0.17 m"),
+        ({"stemming_m": 0.16}, "stemming of 0.16 m is less than the burden, 0.175 m"),
         ({"depth_m": 0.6}, "holes are 0.86 of the thickness deep: 0.5 to 0.75 are usual"),
         ({"charge_g": 7.35}, "0.10 kg/m³ are outside half to twice the table"),
         ({"charge_g": 150.0}, "2.04 kg/m³ are outside half to twice the table"),
