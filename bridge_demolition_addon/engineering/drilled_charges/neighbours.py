@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..arithmetic import cube_root, logarithm, power
-from ..arrays import FloatArray
+from ..arrays import BoolArray, FloatArray
 
 BARE_KPA = 516.0
 STEMMED_KPA = 20.0
@@ -71,9 +71,16 @@ def largest_mass_together_kg(
 
     A spread (k,) is how much earlier or later than its time (k,) a charge may fire.
     """
+    within = fires_together(times_s, spreads_s, window_s)
+    return float((within * np.asarray(masses_kg, float)).sum(axis=1).max(initial=0.0))
+
+
+def fires_together(times_s: ArrayLike, spreads_s: ArrayLike = 0.0, window_s: float = DELAY_WINDOW_S) -> BoolArray:
+    """Return which charges (k, k) can fire within a window that begins as late as each of them can fire.
+
+    The fullest of all windows is among these. Times and spreads (k,) are those of `largest_mass_together_kg`.
+    """
     times, spreads = np.broadcast_arrays(np.asarray(times_s, float), np.asarray(spreads_s, float))
-    masses = np.asarray(masses_kg, float)
     first, last = times - spreads, times + spreads
-    # The fullest window begins as late as one of its charges can fire.
-    within = (first < last[:, None] + window_s) & (last >= last[:, None])
-    return float((within * masses).sum(axis=1).max(initial=0.0))
+    within: BoolArray = (first < last[:, None] + window_s) & (last >= last[:, None])
+    return within

@@ -137,6 +137,8 @@ TYPICAL: dict[str, Any] = {
     "ground_motion.sweep.acceleration_m_s2": 1.0,
     "ground_motion.spectrum.acceleration_m_s2": 2.0,
     "neighbours.place_m": [6.5, 30.0, 1.5],
+    "neighbours.limit_mm_s": 5.0,
+    "neighbours.limit_db": 120.0,
     "pictures.camera_m": [6.5, -30.0, 10.0],
     "pictures.look_at_m": [6.5, 0.0, 3.0],
     "vary.mean": 5.0,
