@@ -106,9 +106,18 @@ def charge_plan(scenario: Scenario, members: Sequence[Member]) -> ChargePlan:
         zones,
         rows,
         _totals(zones, rows, members),
-        tuple(_at_neighbour(neighbour, rows) for neighbour in scenario.neighbours),
+        _at_neighbours(scenario, rows),
         tuple(flyrock_of(placed, heights_at, scenario.seed) if placed.zone.mass_kg else None for placed in zones),
     )
+
+
+def neighbours_of_zones(scenario: Scenario, members: Sequence[Member]) -> tuple[AtNeighbour, ...]:
+    """Return what the zones of a scenario that fire do at its neighbours."""
+    return _at_neighbours(scenario, _rows(placed_zones(scenario, members)))
+
+
+def _at_neighbours(scenario: Scenario, rows: Sequence[FiredRow]) -> tuple[AtNeighbour, ...]:
+    return tuple(_at_neighbour(neighbour, rows) for neighbour in scenario.neighbours)
 
 
 def _rows(zones: Sequence[PlacedZone]) -> tuple[FiredRow, ...]:

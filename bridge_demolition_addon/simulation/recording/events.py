@@ -40,14 +40,15 @@ class _Leaving:
 class Events(Driver):
     """All events of a world in order of time, each before the first sub-step that begins at its time or later.
 
-    The connections are between pairs (m, 2) of bodies; `remaining_strength` (m,) is the part of its strength that each
-    has left.
+    The connections are between pairs (m, 2) of bodies with masses (n,); `remaining_strength` (m,) is the part of its
+    strength that each has left.
     """
 
-    def __init__(self, world: BulletWorld, pairs: np.ndarray, events: Sequence[Event]):
+    def __init__(self, world: BulletWorld, pairs: np.ndarray, masses_kg: np.ndarray, events: Sequence[Event]):
         self.remaining_strength = np.ones(len(pairs))
         self.applied: list[AppliedEvent] = []
-        self._world, self._pairs = world, pairs
+        self._world, self._pairs, self._masses_kg = world, pairs, masses_kg
+        self._impulses_ns = np.zeros((len(masses_kg), 3))
         self._coming = list(events)
         self._leaving: list[_Leaving] = []
         self._begins_s = 0.0
@@ -61,6 +62,11 @@ class Events(Driver):
             self._apply(self._coming.pop(0))
         self._leaving = [leaving for leaving in self._leaving if self._goes_on(leaving, substep_s)]
         self._begins_s += substep_s
+
+    def take_impulses_ns(self) -> np.ndarray:
+        """Return the impulses (n, 3) by which blast zones have moved bodies since the last call."""
+        impulses, self._impulses_ns = self._impulses_ns, np.zeros_like(self._impulses_ns)
+        return impulses
 
     def _apply(self, event: Event) -> None:
         connections = event.connections[self._world.constraints.intact()[event.connections]]
@@ -85,8 +91,10 @@ class Events(Driver):
         there = ~self._world.bodies.removed[leaving.bodies]
         bodies, resting = leaving.bodies[there], np.zeros((int(there.sum()), 3))
         goes_on = self._begins_s < leaving.until_s - _ROUNDING * substep_s
-        velocities = leaving.departure.leaving_m_s if goes_on else leaving.departure.after_m_s
-        self._world.bodies.set_velocities(bodies, velocities[there], resting)
+        velocities = (leaving.departure.leaving_m_s if goes_on else leaving.departure.after_m_s)[there]
+        gained_m_s = velocities - self._world.bodies.velocities()[bodies]
+        self._impulses_ns[bodies] += self._masses_kg[bodies, None] * gained_m_s
+        self._world.bodies.set_velocities(bodies, velocities, resting)
         if not goes_on:
             self._world.bodies.let_touch(bodies, touch=True)
         return goes_on

@@ -297,7 +297,7 @@ class Recording(RecordedFrames):
         blast_loads = None
         if self._blast is not None and frame_s > 0.0:
             blast_loads, impulses = self._blast.after_frame(frame.positions_m)
-            frame = replace(frame, blast_impulses_ns=impulses)
+            frame = replace(frame, blast_impulses_ns=frame.blast_impulses_ns + impulses)
         self._append(frame, balls, contacts)
         if self._logs:
             self._logs.write_frame(frame)
