@@ -69,3 +69,14 @@ def test_a_scenario_without_zones_is_refused(tmp_path, capsys):
     assert main(["plan", str(I235_FILE), "--output", str(tmp_path / "plan")]) == 2
     assert "has no [[blast_zones]], which a charge plan is made from" in capsys.readouterr().err
     assert not (tmp_path / "plan").exists()
+
+
+def test_a_check_says_what_zones_do(capsys):
+    assert main(["check", str(DRILLED)]) == 0
+    text = capsys.readouterr().out
+    section = text.split("\nBlast zones\n")[1]
+    assert "pier 2 column 1, z 0.75 to 2.25 m, 10 holes of 73.5 g = 0.735 kg of emulsion, 0.500 s" in section
+    assert "1.00 kg/m³ in 0.735 m³ (breaks from 0.47, is thrown out from 1.00): thrown out" in section
+    # 8 bars of 25 mm: 8 × 245.4 kN, and 8 × 186.9 kN × (0.9 / 1.5)² in compression
+    assert "8 bars of 25 mm resist 1.96 MN in tension and 0.54 MN in compression" in section
+    assert "22.5 g a tonne of the bridge; recorded jobs have 3 to 18" in section
