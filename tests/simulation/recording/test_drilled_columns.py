@@ -14,6 +14,8 @@ from bridge_demolition_addon.errors import SimulationError
 from bridge_demolition_addon.model.results.solver_energy import throws_of
 from bridge_demolition_addon.model.scenario import ZoneFiring
 from bridge_demolition_addon.scene.bodies import mark_member
+from bridge_demolition_addon.scene.demolition import build_demolition
+from bridge_demolition_addon.scene.removal import remove_demolition
 from bridge_demolition_addon.scene.structural_changes import changes_of, keep_changes
 
 WEIGHT_N = 100.0 * STANDARD_GRAVITY_M_S2
@@ -165,3 +167,14 @@ def test_zones_need_the_memory_of_blender(blender, tmp_path, monkeypatch):
     keep_changes(blocks.scene, [firing()])
     with pytest.raises(SimulationError, match="removals, saw cuts, weakenings and blast zones need Blender's memory"):
         blocks.play(tmp_path, 4)
+
+
+def test_a_scene_that_is_built_keeps_its_zones_and_forgets_them_with_its_bodies(blender, tmp_path):
+    scenario = column_scenario(tmp_path, replace(ZONE, bars=8, bar_diameter_mm=25.0))
+    scene = blender.context.scene
+    build_demolition(scene, scenario, column_model(scenario))
+    (kept,) = changes_of(scene)
+    assert (kept.name, kept.members, kept.time_s) == ("zone", ("column",), pytest.approx(FIRED_S))
+    assert kept.cage_compression_n == pytest.approx(538.3e3, rel=1e-3)  # 8 × 186.9 kN × (0.9 / 1.5)²
+    remove_demolition(scene)
+    assert changes_of(scene) == ()
