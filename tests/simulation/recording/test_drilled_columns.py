@@ -116,18 +116,20 @@ def firing(**values):
     )
 
 
-def tower():
+def tower(*, asleep=False):
     blocks = Blocks(solver_iterations=100)
     blocks.block((0, 0, -0.5), size_m=(40, 40, 1))
     stack = [blocks.block((0, 0, 0.5 + level), 100.0) for level in range(3)]
     for block in stack:
         mark_member(block, "pier", "pier")
+        block.rigid_body.use_deactivation = block.rigid_body.use_start_deactivated = asleep
     return blocks, stack
 
 
-def test_a_block_that_is_thrown_carries_nothing_on_its_way_out(blender, tmp_path):
+@pytest.mark.parametrize("asleep", [False, True])
+def test_a_block_that_is_thrown_carries_nothing_on_its_way_out(blender, tmp_path, asleep):
     """Loose blocks: the upper one falls through the middle one while that leaves, and none is flung."""
-    blocks, _ = tower()
+    blocks, _ = tower(asleep=asleep)
     keep_changes(blocks.scene, [firing()])
     results = blocks.play(tmp_path, 30)
     times, heights = results.frames.time_s, results.frames.positions_m[:, 1:, 2]
