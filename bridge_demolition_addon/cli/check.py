@@ -9,7 +9,7 @@ from ..model.bridge.member import member_facts
 from ..model.bridge.preparation import prepared_members
 from ..model.reinforcement.design import bar_schedule
 from ..model.reinforcement.facts import schedule_facts
-from ..model.scenario import Charge, Scenario
+from ..model.scenario import BlastZone, Charge, Scenario
 from ..model.scenario.contact_facts import contact_facts
 from ..model.scenario.file import read_scenario
 from ..model.scenario.scenario import bars_by_rule
@@ -17,6 +17,7 @@ from ..model.sequence.checked_model import ModelWorksite, checked_model
 from ..model.sequence.undisturbed import asleep_text
 from ..model.stages.stages import equipment_facts
 from ..model.stages.standing import made_elastic
+from ..model.structure.blast_zones import placed_zones, zone_totals
 from ..model.structure.facts import accuracy_facts, connection_facts, foundation_facts, overlap_facts, rest_facts
 from ..model.structure.model import Model
 from ..model.terrain.built import terrain_facts
@@ -98,6 +99,8 @@ def _action_facts(scenario: Scenario, model: Model) -> dict[str, list[Fact]]:
         sections.setdefault(action.heading, []).append(described)
     sections.get(PlannedAction.heading, []).sort()
     lines = {heading: [fact for _, facts in parts for fact in facts] for heading, parts in sections.items()}
+    if scenario.blast_zones:
+        lines[BlastZone.heading] += zone_totals(placed_zones(scenario, model.members), model.members)
     if scenario.charges:
         lines[Charge.heading] += scenario.blast.facts(scenario.charges, scenario.fracture.shards)
     return lines

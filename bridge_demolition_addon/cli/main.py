@@ -37,6 +37,7 @@ COMMANDS = {
     "import": "exchange.import_ifc",
     "run": "run",
     "stages": "stages",
+    "plan": "plan",
     "study": "study",
     "search": "search",
     "optimise": "search",

@@ -13,6 +13,7 @@ from ..model.run_folder.folder import numbered_folder
 from ..model.scenario.file import read_scenario
 from ..model.sequence.checked_model import checked_model
 from ..model.stages.bearing_rows import bearing_rows
+from ..model.stages.misfires import Misfire, misfire_sentences, misfires
 from ..model.stages.stages import Criticality, Stage, criticality, stages_of
 from ..model.stages.standing import StandingBridge, made_elastic
 from ..model.stages.tables import (
@@ -36,7 +37,7 @@ def add_to(commands: argparse._SubParsersAction) -> None:
         help="say how the bridge stands between the steps of its demolition, and which members hold it",
         description="Work out the bridge at rest before each step of a scenario and after the last, by the stiffness "
         "of its connections and without a simulation, and write stages.csv, reactions.csv, bearings.csv, "
-        "utilisation.csv and criticality.csv.",
+        "utilisation.csv, criticality.csv and misfires.csv.",
         allow_abbrev=False,
     )
     parser.add_argument("scenario", metavar="SCENARIO.toml", type=Path, help="scenario file, see docs/stages.md")
@@ -62,12 +63,15 @@ def execute(arguments: argparse.Namespace) -> None:
             bridge = StandingBridge(model, scenario.joints)
             stages = stages_of(scenario, bridge, partial(progress.part, text="stages"))
             members = criticality(bridge, partial(progress.part, text="members taken away"))
+            failures = misfires(scenario, bridge, partial(progress.part, text="zones that fail"))
     finally:
         progress.finish()
     with writing(output):
-        rows = write_tables(output, stages, members, bridge)
+        rows = write_tables(output, stages, members, bridge, failures)
     if not arguments.quiet:
-        _print(stages, rows, all_reaction_rows(stages, model), list(bearing_rows(stages, model)), members, paths)
+        _print(
+            stages, rows, all_reaction_rows(stages, model), list(bearing_rows(stages, model)), members, failures, paths
+        )
 
 
 def _print(
@@ -76,6 +80,7 @@ def _print(
     reactions: Sequence[dict],
     bearings: Sequence[dict],
     members: Sequence[Criticality],
+    failures: Sequence[Misfire],
     paths: Sequence[Path],
 ) -> None:
     print()
@@ -87,7 +92,7 @@ def _print(
         for line in others:
             print(f"  {line}")
     print()
-    for line in criticality_sentences(members):
+    for line in (*criticality_sentences(members), *misfire_sentences(failures)):
         print(line)
     print()
     for path in paths:

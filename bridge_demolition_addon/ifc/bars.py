@@ -9,11 +9,12 @@ from typing import Any
 
 import numpy as np
 
+from ..engineering.geometry.sides import AXES, SIDES
 from ..engineering.geometry.solids import contains
 from ..engineering.geometry.vectors import length, transformed
 from ..errors import GeometryError
 from ..model.bridge.member import Member
-from ..model.materials.bar_layers import AXES, SIDES, BarLayer
+from ..model.materials.bar_layers import BarLayer
 from .alignments import points_of
 from .elements import Element
 from .library import library

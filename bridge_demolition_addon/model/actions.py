@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import ClassVar, Protocol, Self
+from typing import Any, ClassVar, Protocol, Self
 
 from ..engineering.ground_motion.record import GroundRecord
 from ..engineering.timing.time_step import TimeStep
@@ -85,6 +85,12 @@ class Worksite(Protocol):
 
     def number_of(self, action: PlannedAction) -> int:
         """Return the number of an action in its list, from 1 on."""
+
+    def facts_of_zone(self, zone: Any) -> Iterator[Fact]:
+        """Yield what drilled charges do to a blast zone of the bridge."""
+
+    def check_zone(self, zone: Any) -> None:
+        """Check that a blast zone and its holes lie in their member."""
 
 
 class PlannedAction(Table):

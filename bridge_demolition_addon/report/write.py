@@ -10,17 +10,19 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import OutputError, text_of
+from ..exports.sheets import write_workbook
 from ..model.debris.survey import SurveySettings, compared, read_survey
 from ..model.ensemble.folder import holds_ensemble
-from ..model.run_folder.files import REPORT_PAGE, REPORT_PDF, TABLE_FOLDER
+from ..model.run_folder.files import PLAN_WORKBOOK, REPORT_PAGE, REPORT_PDF, TABLE_FOLDER
 from ..model.run_folder.folder import holds_run
+from ..model.scenario import Scenario
 from ..model.study.files import OPTIMISE_FILE, REPORT_FOLDER, SEARCH_FILE, STUDY_FILE
 from ..model.terrain.placed import Placing
 from ..system.folder_lock import FolderLock
 from ..system.progress import Progress
 from ..version import VERSION
 from .comparison import comparison
-from .document.blocks import Report, write_tables
+from .document.blocks import Document, Report, write_tables
 from .document.drawings import drawings
 from .document.html import write_html
 from .document.pdf import write_pdf
@@ -30,6 +32,7 @@ from .ensemble.study import study_report
 from .ensemble.study_runs import read_study_runs
 from .run import run_report
 from .run_folder import read_run
+from .sections.charge_plan import planned_section
 from .sections.stages import has_stages, stages_report
 from .survey import survey_report, survey_rows
 
@@ -141,6 +144,24 @@ def _write_comparison(folders: Sequence[Path], output: Path | None, *, stages: b
     runs = [read_run(folder) for folder in folders]
     with _written_to(output):
         return _written(Report(comparison(runs, VERSION)), output, progress)
+
+
+def write_charge_plan(scenario: Scenario, target: Path, progress: Progress) -> list[Path]:
+    """Write the charge plan of a scenario with blast zones to a folder, and return all files written.
+
+    Without XlsxWriter there is no workbook.
+    """
+    progress.stage("working out the charge plan")
+    section = planned_section(scenario)
+    subtitle = f"Charge plan. Bridge Demolition Add-on {VERSION}"
+    document = Document(scenario.title, subtitle, (section,))
+    with _written_to(target):
+        written = _written(Report(document), target, progress)
+        book = target / PLAN_WORKBOOK
+        tables = [
+            (table.name, [column.key for column in table.columns], table.rows) for table in document.named_tables()
+        ]
+        return [*written, book] if write_workbook(tables, book) else written
 
 
 @contextmanager

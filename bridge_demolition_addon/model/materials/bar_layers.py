@@ -6,14 +6,10 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ...engineering.elasticity.steel_bars import MODULUS_PA, YIELD_PA
+from ...engineering.geometry.sides import AXES, SIDES
 from ...engineering.mechanics.strength import NEWTON_PER_SQUARE_MILLIMETRE
 from ...errors import ScenarioError
 from ..schema import POSITION, Table, given, key
-
-SIDES = {"start": (0, -1), "end": (0, 1), "right": (1, -1), "left": (1, 1), "bottom": (2, -1), "top": (2, 1)}
-"""Axis across each side of a member, and whether the side is where that is lowest or highest."""
-
-AXES = ("x", "y", "z")
 
 _SQUARE_METRE_PER_SQUARE_MILLIMETRE = 1e-6
 

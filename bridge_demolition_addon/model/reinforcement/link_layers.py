@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from ..bridge.member import Member
-from ..materials.bar_layers import AXES, BarLayer
+from ..materials.bar_layers import BarLayer
 from .schedule import Schedule
 
 _MM = 1e3

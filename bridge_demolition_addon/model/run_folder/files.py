@@ -22,6 +22,7 @@ FILM_FILE, SLOW_FILM_FILE = "contours.mp4", "contours_slow_motion.mp4"
 REPORT_PAGE, REPORT_PDF = "report.html", "report.pdf"
 DXF_FILE, GEOJSON_FILE = "exclusion_zone.dxf", "exclusion_zone.geojson"
 TABLE_FOLDER = "tables"
+PLAN_WORKBOOK = "charge_plan.xlsx"
 
 REPORT_FILES = (REPORT_PAGE, REPORT_PDF, DXF_FILE, GEOJSON_FILE)
 """What a report leaves, without its tables."""

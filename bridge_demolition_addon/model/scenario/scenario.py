@@ -11,6 +11,7 @@ from ...engineering.mechanics.joint import Joint
 from ...engineering.timing.timeline import Timeline
 from ...errors import Faults, ScenarioError
 from ..actions import PlannedAction
+from ..blast.blast_zones import BlastZone, check_zones_apart, named_zones
 from ..blast.charges import Charge, named_charges
 from ..blast.settings import BlastSettings
 from ..foundations import Foundation
@@ -76,6 +77,7 @@ class Scenario(Table):
     ball: Ball | None = None
     blast: BlastSettings = field(default_factory=BlastSettings)
     charges: tuple[Charge, ...] = ()
+    blast_zones: tuple[BlastZone, ...] = ()
     jackhammers: tuple[Jackhammer, ...] = ()
     removals: tuple[Removal, ...] = ()
     saw_cuts: tuple[SawCut, ...] = ()
@@ -191,6 +193,8 @@ class Scenario(Table):
     def _check_together(self) -> None:
         self._settle_contacts()
         object.__setattr__(self, "charges", named_charges(self.charges))
+        object.__setattr__(self, "blast_zones", named_zones(self.blast_zones))
+        check_zones_apart(self.blast_zones)
         self._check_slow_motion()
         object.__setattr__(self, "connections", self.connections.with_strength(self.fracture.shards))
         object.__setattr__(self, "connections", self.connections.with_stiffness(self.materials))

@@ -12,6 +12,7 @@ from ...errors import ScenarioError
 from ..actions import Fact
 from ..scenario import Equipment, Scenario
 from ..sequence.events import Event, model_structure, schedule
+from ..structure.blast_zones import zone_firings
 from ..structure.model import Model
 from .reactions import supports_of
 from .standing import Standing, StandingBridge
@@ -56,7 +57,8 @@ class Criticality:
 def stages_of(scenario: Scenario, bridge: StandingBridge, progress: Callable[[int, int], None]) -> list[Stage]:
     """Return the stages of a scenario; after each, call `progress` with the numbers of those done and of all."""
     model = bridge.model
-    steps = _steps(scenario, schedule(scenario.changes, model_structure(model)))
+    changes = (*scenario.changes, *zone_firings(scenario, model.members))
+    steps = _steps(scenario, schedule(changes, model_structure(model)))
     intact, left = np.ones(len(model.connections), bool), np.ones(len(model.connections))
     removed, stages = np.zeros(len(model.shards), bool), []
     for number, (time_s, events) in enumerate(steps):
@@ -175,6 +177,8 @@ def _steps(scenario: Scenario, events: Sequence[Event]) -> list[tuple[float, lis
 
 
 def _described(event: Event, model: Model) -> str:
+    if event.zone:
+        return f"{event.zone.name} of {', '.join(event.zone.members or ())}: {event.zone.effect}"
     if len(event.bodies):
         names = {model.members[member].name for member in model.member_of_shard[event.bodies]}
         return f"{event.kind} of {', '.join(sorted(names))}"

@@ -14,16 +14,18 @@ from ...engineering.units import STANDARD_GRAVITY_M_S2, mass_text, with_digits
 from ...system.disk import whole_file
 from ..structure.model import Model
 from .bearing_rows import BEARING_COLUMNS, BEARINGS_FILE, bearing_rows
+from .misfires import MISFIRE_COLUMNS, MISFIRES_FILE, Misfire, misfire_row
 from .reactions import SupportPoint, supports_of
 from .stages import Criticality, Stage, reactions_n
 from .standing import StandingBridge
 
-FILES = STAGES_FILE, REACTIONS_FILE, _, UTILISATION_FILE, CRITICALITY_FILE = (
+FILES = STAGES_FILE, REACTIONS_FILE, _, UTILISATION_FILE, CRITICALITY_FILE, _ = (
     "stages.csv",
     "reactions.csv",
     BEARINGS_FILE,
     "utilisation.csv",
     "criticality.csv",
+    MISFIRES_FILE,
 )
 
 STAGE_COLUMNS = (
@@ -94,7 +96,11 @@ UPLIFT_KN = 0.1
 
 
 def write_tables(
-    folder: Path, stages: Sequence[Stage], members: Sequence[Criticality], bridge: StandingBridge
+    folder: Path,
+    stages: Sequence[Stage],
+    members: Sequence[Criticality],
+    bridge: StandingBridge,
+    failures: Sequence[Misfire] = (),
 ) -> list[dict[str, Any]]:
     """Write all tables to a folder, made if new, and return the rows of stages."""
     folder.mkdir(parents=True, exist_ok=True)
@@ -105,6 +111,7 @@ def write_tables(
     used = (row for number, stage in enumerate(stages, start=1) for row in utilisation_rows(number, stage, bridge))
     write_table(folder / UTILISATION_FILE, UTILISATION_COLUMNS, used)
     write_table(folder / CRITICALITY_FILE, CRITICALITY_COLUMNS, map(criticality_row, members))
+    write_table(folder / MISFIRES_FILE, MISFIRE_COLUMNS, map(misfire_row, failures))
     return rows
 
 

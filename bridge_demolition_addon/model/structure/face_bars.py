@@ -18,6 +18,7 @@ from ...engineering.elasticity.bar_rupture import (
 )
 from ...engineering.elasticity.steel_bars import Steel
 from ...engineering.geometry.mesh import TriangleMesh
+from ...engineering.geometry.sides import AXES
 from ...engineering.geometry.vectors import dot, length, transformed, transformed_back, unit
 from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.reinforcement import FaceBars
@@ -26,7 +27,7 @@ from ...engineering.structure.connections import Connections
 from ...engineering.structure.face_sections import triangles_in_faces
 from ...errors import ScenarioError
 from ..bridge.member import Member
-from ..materials.bar_layers import AXES, BarLayer, ReinforcedSection
+from ..materials.bar_layers import BarLayer, ReinforcedSection
 from .spread_bars import spread_bars
 
 _LEVEL_M = 1e-9

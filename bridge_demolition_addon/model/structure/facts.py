@@ -12,12 +12,12 @@ from ...engineering.elasticity.equations import connected_parts
 from ...engineering.elasticity.member_shapes import member_shapes
 from ...engineering.elasticity.section_stiffness import DAMPING_RATIO
 from ...engineering.geometry.overlap import SHARD_OVERLAP_TOLERANCE, Overlaps, hulls, overlaps
+from ...engineering.geometry.sides import AXES, SIDES
 from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE, SMEARED, Strength
 from ...engineering.units import mass_text
 from ..actions import Fact
 from ..bridge.member import Member
-from ..materials.bar_layers import AXES, SIDES
 from ..reinforcement.concrete_members import plain_concrete_text
 from ..reinforcement.design import all_layers
 from ..scenario import ConnectionBetween, ConnectionSettings, Scenario

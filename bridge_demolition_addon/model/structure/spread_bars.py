@@ -13,9 +13,10 @@ import numpy as np
 
 from ...engineering.elasticity.bar_rupture import mean_strain_at_rupture, spacing_of_ratio_m, tensile_strength_pa
 from ...engineering.elasticity.steel_bars import Steel
+from ...engineering.geometry.sides import AXES
 from ...engineering.structure.connections import Connections
 from ..bridge.member import Member
-from ..materials.bar_layers import AXES, BarLayer
+from ..materials.bar_layers import BarLayer
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from os import PathLike, fspath
 from pathlib import Path
@@ -10,12 +10,12 @@ from typing import Any, ClassVar, TypeVar
 
 from ...errors import Faults, ScenarioError
 from ..run_folder.files import SCENARIO_FILE
-from ..scenario import Scenario
+from ..scenario import BlastZone, Scenario
 from ..scenario.file import read_scenario, scenario_text
 from ..schema import shown
 from ..toml_tables import document_of_file, table_of_document, tables_text
 from .criteria import Criterion, check_criteria
-from .distributions import Distribution
+from .distributions import Chance, Distribution
 from .files import CONCLUSIONS_FILE, RUNS_FILE, STUDY_FILE
 from .keys import ScenarioKey, changed, keys_named
 from .settings import EnsembleSettings, StudySettings, Vary
@@ -123,7 +123,16 @@ def variations_of(tables: Sequence[Vary], scenario: Scenario) -> tuple[Variation
         except ScenarioError as error:
             raise ScenarioError(f"[[{Vary.table}]] number {number}: {error}") from error
         variations |= {variation.key.name: variation for variation in added}
-    return tuple(variations.values())
+    misfires = {variation.key.name: variation for variation in _misfires(scenario)}
+    return tuple((misfires | variations).values())
+
+
+def _misfires(scenario: Scenario) -> Iterator[Variation]:
+    """Yield the keys of blast zones that may misfire; a zone that is said not to fire never does."""
+    for number, zone in enumerate(scenario.blast_zones, start=1):
+        if zone.fires and zone.probability_fires < 1.0:
+            (key,) = keys_named(scenario, f"{BlastZone.table}.{number}.fires")
+            yield Variation(key, Chance(zone.probability_fires), factor=False)
 
 
 def _variations(scenario: Scenario, vary: Vary, earlier: dict[str, Variation]) -> list[Variation]:

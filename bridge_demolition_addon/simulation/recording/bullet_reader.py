@@ -88,7 +88,7 @@ class BulletReader:
         """Return the recorder that Bullet calls, with all drivers in order."""
         setup, world, inventory = self._setup, self._world, self._inventory
         breaking, constraints = setup.breaking, world.constraints
-        self._events = events = Events(world, inventory.pairs, setup.events)
+        self._events = events = Events(world, inventory.pairs, inventory.masses_kg, setup.events)
         reinforcement = None
         if breaking.is_reinforced and elastic:
             elastic.reinforce(breaking, events.remaining_strength)
@@ -275,7 +275,7 @@ class BulletReader:
             angular_velocities_rad_s=bodies.angular_velocities(),
             asleep=bodies.asleep(),
             intact=self._world.constraints.intact(),
-            blast_impulses_ns=np.zeros_like(positions_m),
+            blast_impulses_ns=self._events.take_impulses_ns(),
             loads=loads,
             work=work,
         )

@@ -15,6 +15,7 @@ from ...bullet.time_control import time_stands_still
 from ...bullet.world import BulletWorld, WorldState
 from ...errors import LayoutError, OutputError, SimulationError
 from ...model.results.frames import BallHistory, ContactHistory, Frame
+from ...model.scenario import ZoneFiring
 from ...model.schema import given
 from ...scene.as_built import changed_bodies, check_start
 from ...scene.bodies import bodies_of
@@ -172,7 +173,7 @@ class Recording(RecordedFrames):
 
     @property
     def applied_events(self) -> list[dict[str, Any]]:
-        """Removals, saw cuts and weakenings so far, ready for JSON: shards removed, connections concerned."""
+        """Changes to the structure so far, ready for JSON: shards that no longer carry, connections concerned."""
         names = self.inventory.body_names if self.inventory else ()
         return [
             {
@@ -180,6 +181,7 @@ class Recording(RecordedFrames):
                 "kind": event.kind,
                 "shards": [str(names[body]) for body in event.bodies],
                 "connections": len(event.connections),
+                **(_of_zone(event.zone) if event.zone else {}),
             }
             for event in (self._reader.applied_events if self._reader else ())
         ]
@@ -306,7 +308,7 @@ class Recording(RecordedFrames):
         blast_loads = None
         if self._blast is not None and frame_s > 0.0:
             blast_loads, impulses = self._blast.after_frame(frame.positions_m)
-            frame = replace(frame, blast_impulses_ns=impulses)
+            frame = replace(frame, blast_impulses_ns=frame.blast_impulses_ns + impulses)
         self._append(frame, balls, contacts)
         if self._logs:
             self._logs.write_frame(frame)
@@ -332,3 +334,13 @@ def _begin_motion(setup: RunSetup, world: BulletWorld, held: bool) -> None:
         raise SimulationError("a ground that moves needs the timeline played from its start frame")
     velocities, angular_velocities = setup.start_motion[moving, :3], setup.start_motion[moving, 3:]
     world.bodies.set_velocities(moving, velocities, angular_velocities)
+
+
+def _of_zone(zone: ZoneFiring) -> dict[str, Any]:
+    """Return what a blast zone did and what its bars would resist, ready for JSON."""
+    return {
+        "zone": zone.name,
+        "effect": zone.effect,
+        "cage_tension_n": zone.cage_tension_n,
+        "cage_compression_n": zone.cage_compression_n,
+    }

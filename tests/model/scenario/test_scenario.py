@@ -99,6 +99,9 @@ def test_every_key_with_a_unit_carries_it_in_its_name():
         "mm": "_mm",
         "mm²": "_mm2",
         "mm²/m²": "_mm2_m2",
+        "g": "_g",
+        "mm/s": "_mm_s",
+        "dB": "_db",
     }
     in_names |= {"N/mm²": "_n_mm2", "N/m": "_n_m", "N·s/m": "_ns_m", "N·m/rad": "_nm_rad", "N·m·s/rad": "_nms_rad"}
     in_names |= {"MN/m": "_mn_m", "MN·m/rad": "_mnm_rad"}

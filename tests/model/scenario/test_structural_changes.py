@@ -22,6 +22,7 @@ STRUCTURE = Structure(
     held=np.zeros(6, bool),
     pairs=np.array([(0, 1), (2, 3), (1, 4), (3, 4), (0, 5), (2, 5)]),
     points_m=np.array([(0, 0, 2), (10, 0, 2), (0, 0, 4), (10, 0, 4), (0, 0, 0), (10, 0, 0)], float),
+    boxes_m=np.zeros((6, 2, 3)),
 )
 
 
