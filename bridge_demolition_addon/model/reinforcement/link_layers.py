@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from ...engineering.geometry.sides import AXES
 from ..bridge.member import Member
 from ..materials.bar_layers import BarLayer
 from .schedule import Schedule
