@@ -81,8 +81,8 @@ def _charges(answers: Answers) -> str:
     number = len(answers.spans_m) // 2
     along = sum(answers.spans_m[:number]) - 0.8
     return f"""\
-# What is done: a charge detonates beside a pier. It is bare and in air, so that it takes far more than in drill holes,
-# which are not modelled.
+# What is done: a charge detonates beside a pier. It is bare and in air, so that it takes far more than charges in
+# drill holes, which [[blast_zones]] have: see docs/drilled_charges.md.
 [blast]
 start_s = 0.5
 apply = "direct"
