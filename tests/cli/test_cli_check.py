@@ -437,7 +437,7 @@ def test_charges_that_lie_in_a_member_or_far_away_are_said():
     # The deck is 0.25 m thick, and its top 5.55 m above the ground.
     assert said_after(charged((6.5, 0.0, 5.4)), "Charge 1") == [
         "8 kg of TNT at (6.5, 0, 5.4) m, 0.5 s",
-        "lies in deck: it counts as a bare charge in air; [[blast_zones]] have charges in drill holes",
+        "lies in deck: it counts as a bare charge in air; [[blast_zones]] have drill holes",
     ]
     # Bridge from -0.5 to 13.5 m along the road; 40 m/kg^(1/3) of 8 kg are 80 m.
     assert said_after(charged((513.5, 0.0, 1.0)), "Charge 1")[1:] == [
