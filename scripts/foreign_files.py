@@ -148,7 +148,9 @@ def page() -> str:
             lines.append(f"| {name} | {row['written_by']} | | | | | | | | refused: {row['said']} |")
             continue
         result = row["said"]
-        if row["moved_m"]:
+        if row["said"] == "falls":
+            result = f"does not stand, {row['cracked']} of {row['connections']} connections broken or cracked"
+        elif row["moved_m"]:
             moves = f"moves {100.0 * float(row['moved_m']):.1f} cm, {row['cracked']} of {row['connections']} cracked"
             result = f"{result}: {moves}"
         lines.append(
