@@ -101,7 +101,9 @@ def _run(folder: Path) -> dict[str, str]:
         return {"said": done.stderr.strip().splitlines()[-1].replace(f"{folder}/", "")}
     summary = json.loads((folder / "run" / "summary.json").read_text(encoding="utf-8"))
     fell, connections = summary["fell_by_itself"], summary["connections"]
-    moved = fell["largest_move_m"] if fell else 0.0
+    if not fell:
+        return {"said": f"stands, and none of {connections['count']} connections cracks"}
+    moved = fell["largest_move_m"]
     return {
         "moved_m": f"{moved:.3f}",
         "cracked": str(connections["broken"]),
@@ -148,7 +150,9 @@ def page() -> str:
             lines.append(f"| {name} | {row['written_by']} | | | | | | | | refused: {row['said']} |")
             continue
         result = row["said"]
-        if row["moved_m"]:
+        if row["said"] == "falls":
+            result = f"does not stand, {row['cracked']} of {row['connections']} connections broken or cracked"
+        elif row["moved_m"]:
             moves = f"moves {100.0 * float(row['moved_m']):.1f} cm, {row['cracked']} of {row['connections']} cracked"
             result = f"{result}: {moves}"
         lines.append(

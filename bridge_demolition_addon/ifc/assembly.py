@@ -138,11 +138,8 @@ class Assembly:
         why = f"{why}; {mass} are missing"
         self.outcomes[number] = replace(outcome, member=None, substance=None, became=LEFT_OUT, why=why)
 
-    def members_by_number(self) -> dict[int, Member]:
-        """Return the members that are left, by the numbers of their elements in the file."""
-        return dict(self._members())
-
-    def _members(self) -> list[tuple[int, Member]]:
+    def members(self) -> list[tuple[int, Member]]:
+        """Return the members that are left, with the numbers of their elements in the file."""
         return [
             (number, given(outcome.member))
             for number, outcome in self.outcomes.items()
@@ -151,7 +148,7 @@ class Assembly:
 
     def fit_together(self) -> None:
         """Leave out doubles, and have members that lie within larger ones cut out of these: columns in walls."""
-        members = self._members()
+        members = self.members()
         solids = [to_manifold(member.solid) for _, member in members]
         contacts = NearbyMembers([member.solid for _, member in members])
         gone: set[int] = set()
@@ -234,7 +231,7 @@ class Assembly:
 
     def _drop_bearings_without_contact(self) -> None:
         """Leave out bearings of added supports that what lies on them does not touch any more."""
-        by_name = {member.name: member for _, member in self._members()}
+        by_name = {member.name: member for _, member in self.members()}
         kept = []
         for bearing in self._more_bearings:
             above, below = (by_name.get(name) for name in bearing.members)
@@ -246,7 +243,7 @@ class Assembly:
 
     def close_gaps(self, gap_m: float) -> None:
         """Bring members that end just above others down onto them."""
-        members = self._members()
+        members = self.members()
         done, notes = closed_gaps([member for _, member in members], gap_m)
         done, more = brought_near(done, gap_m)
         for (number, before), after in zip(members, done, strict=True):
@@ -264,7 +261,7 @@ class Assembly:
         table: MaterialTable,
     ) -> None:
         """Put bearings between members; one that lies on nothing gets a support."""
-        members = self._members()
+        members = self.members()
         contacts = NearbyMembers([member.solid for _, member in members])
         names = [member.name for _, member in members]
         numbers: list[int] = []
@@ -288,7 +285,7 @@ class Assembly:
             numbers.append(number)
         self._names_above = names
         if gap_m:
-            along = {member.name: float(member.solid.bounds[:, 0].mean()) for _, member in self._members()}
+            along = {member.name: float(member.solid.bounds[:, 0].mean()) for _, member in self.members()}
             self._bearings = with_one_fixed(self._bearings, along)
         for number, (bearing, below_name) in zip(numbers, self._bearings, strict=True):
             above = " and ".join(names[index] for index in bearing.above)
@@ -297,7 +294,7 @@ class Assembly:
             self.outcomes[number] = replace(self.outcomes[number], why=why)
 
     def _add_support(self, solid: TriangleMesh, name: str, table: MaterialTable) -> tuple[Member, Substance]:
-        taken = {member.name for _, member in self._members()}
+        taken = {member.name for _, member in self.members()}
         name = next(text for text in chain([name], (f"{name} {n}" for n in count(2))) if text not in taken)
         row = given(table.row("concrete") or (table.materials[0] if table.materials else None))
         substance = Substance("concrete", row.density_kg_m3, row)
@@ -331,7 +328,7 @@ class Assembly:
 
     def _loose_groups(self) -> list[list[int]]:
         """Return numbers of members that touch each other and nothing that is held, group by group."""
-        members = self._members()
+        members = self.members()
         contacts = NearbyMembers([member.solid for _, member in members])
         rows = {member.name: row for row, (_, member) in enumerate(members)}
         group = list(range(len(members)))
@@ -368,7 +365,7 @@ class Assembly:
     def _move(self, group: list[int], gap_m: float) -> bool:
         """Move members by a gap to what is near, and return whether there is such a gap."""
         own = [given(self.outcomes[number].member) for number in group]
-        others = [member for number, member in self._members() if number not in group]
+        others = [member for number, member in self.members() if number not in group]
         contacts = NearbyMembers([member.solid for member in others])
         gaps = sorted(
             ((gap, row, other) for row, member in enumerate(own) for gap, other in contacts.near_to(member.solid)),
@@ -408,7 +405,7 @@ class Assembly:
     def bearing_tables(self) -> BearingTables:
         """Return the tables of all bearings."""
         tables = bearing_tables(self._bearings, self._names_above)
-        present = {member.name for _, member in self._members()}
+        present = {member.name for _, member in self.members()}
         bearings = [table for table in (*tables.bearings, *self._more_bearings) if present.issuperset(table.members)]
         connections = [table for table in tables.connections if present.issuperset(table.members)]
         return BearingTables(tuple(bearings), tuple(connections), tables.notes)

@@ -104,7 +104,7 @@ def _bridge(path: Path, table: MaterialTable, settings: ImportSettings, kept: Ke
         result.make_writable()
     bars: list[BarLayer] = []
     if not settings.strict:
-        bars, said = bar_layers(source, elements, result.members_by_number(), placement)
+        bars, said = bar_layers(source, elements, dict(result.members()), placement)
         result.notes += said
     scenario, meshes, held = _scenario(source, settings, result, site, chosen.title or _title(source))
     return ImportedBridge(
