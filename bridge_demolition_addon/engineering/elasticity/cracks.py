@@ -64,6 +64,9 @@ _AGREES = 1e-4
 
 _LITTLE_M = 1e-5
 
+_LITTLE_SHARE = 1e-9
+"""Part of the bars of a crack that is rounding, in a corner that has none."""
+
 _PARTED_M = 0.01
 """Opening from which on sides without bars have parted: where they meet again, they touch as any bodies."""
 
@@ -171,6 +174,17 @@ class Cracks:
         forces = bar_response(rubbing, _along(gaps, self._normals), self._rests, np.zeros_like(pressed)).forces_n
         doubled += dot_products(forces, forces) / rubbing.stiffness_n_m
         return 0.5 * _summed(doubled + pressed * closing * closing)
+
+    def used(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
+        """Return the force (t,) of bars in the most used corner, by that at which they rupture; nan without bars."""
+        bars = self._bars()
+        gaps = turned_back(rotations[..., self._first], self._gaps(positions_m, rotations))
+        forces = bar_response(bars, _as_bars(gaps, self._directions), self._slips, self._flows).forces_n
+        size, most = np.sqrt(dot_products(forces, forces)), self._steel.hardening * bars.yield_n
+        holds = self._holds & (most > _LITTLE_SHARE * np.tile(_summed(most), _COUNT))
+        shares = np.divide(size, most, out=np.full_like(size, np.nan), where=holds)
+        used: FloatArray = np.fmax.reduce(shares.reshape(_COUNT, -1), axis=0)
+        return used
 
     def in_substep(
         self, chosen: IntArray, positions_m: FloatArray, rotations: FloatArray, substep_s: float

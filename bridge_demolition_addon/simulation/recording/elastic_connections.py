@@ -16,7 +16,7 @@ from ...bullet.constraint_rows import ConstraintRows, check_frames
 from ...bullet.world import BulletWorld
 from ...engineering.arithmetic import power
 from ...engineering.elasticity.bearings import Bearings, PadSprings
-from ...engineering.elasticity.cracks import Cracks, corner_positions, corner_shares
+from ...engineering.elasticity.cracks import Cracks
 from ...engineering.elasticity.equations import RigidBodies, without
 from ...engineering.elasticity.equilibrium import Equilibrium, equilibrium
 from ...engineering.elasticity.joint_rows import (
@@ -32,10 +32,9 @@ from ...engineering.elasticity.joint_rows import (
 from ...engineering.elasticity.section_stiffness import SectionStiffness, in_frames
 from ...engineering.elasticity.structure import ElasticStep, ElasticStructure, StepInput
 from ...engineering.foundations.footings import Footings, SoilSprings
-from ...engineering.geometry.vectors import transformed, transformed_back
+from ...engineering.mechanics.crack_faces import CrackFaces, TornFaces
 from ...engineering.mechanics.reinforcement import FaceBars
 from ...engineering.mechanics.section_forces import section_axes
-from ...engineering.mechanics.strength import rectangular_sections
 from ...model.results.inventory import Inventory
 from ...model.schema import given
 from ...scene.connections.breaking_settings import Breaking
@@ -152,9 +151,6 @@ class ElasticConnections:
 
         Events keep up to date which part of its strength each connection (m,) has left.
         """
-        sections = rectangular_sections(self._inventory.areas_m2, self._inventory.second_moments_m4)
-        self._face_sides_m = 6.0 * sections.bending_moduli_m3[:, ::-1].T / self._inventory.areas_m2
-        self._face_directions = components_first(sections.directions)
         bars = breaking.bars or FaceBars.none(len(self._frames))
         if breaking.ductility:
             ductility = breaking.ductility
@@ -162,10 +158,8 @@ class ElasticConnections:
             if self._bearings:
                 even[self._bearings.rows] = 0.0  # no bars run through a bearing
             bars = bars.with_even(even, float(ductility.elongation_m))
-        self._bar_directions = bars.directions
-        positions = components_first(transformed_back(sections.directions, bars.offsets_m))
-        yield_n = bars.yield_n * corner_shares(positions, self._face_sides_m)
-        self._cracks = Cracks(breaking.steel, bars.openings_m, yield_n, left, self._axial_n_m)
+        self._faces = CrackFaces(self._inventory.areas_m2, self._inventory.second_moments_m4, bars)
+        self._cracks = self._faces.cracks(breaking.steel, left, self._axial_n_m)
 
     def tear(self, rows: np.ndarray, points_m: np.ndarray, axes: np.ndarray) -> None:
         """Let the reinforcement hold of connections (r,) that broke at points (r, 3), with section axes (r, 3, 3)."""
@@ -175,22 +169,9 @@ class ElasticConnections:
         if self._cracks is None or not len(rows):
             return
         motion = self._reader.read()
-        across = matrix_products(components_first(axes)[:, 1:], self._face_directions[..., rows])
-        positions = corner_positions(components_first(points_m), across, self._face_sides_m[:, rows])
         signs = np.where(self._is_first[rows], 1.0, -1.0)
-        outwards = signs * components_first(axes[:, :, 0])
-        directions = signs * components_first(transformed(axes, self._bar_directions[rows]))
-        first, second = self._frames.first[rows], self._frames.second[rows]
-        self._cracks.add(
-            rows,
-            first,
-            second,
-            positions,
-            outwards,
-            directions,
-            motion.position_components_m,
-            motion.rotation_components,
-        )
+        torn = TornFaces(rows, self._frames.first[rows], self._frames.second[rows], points_m, axes, signs)
+        self._faces.tear(self._cracks, torn, motion.position_components_m, motion.rotation_components)
         self._world.constraints.crack_rows(rows)
 
     @property

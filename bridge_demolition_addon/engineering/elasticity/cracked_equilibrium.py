@@ -1,0 +1,144 @@
+"""A structure at rest that has cracks, some held by bars: found by implicit steps in time that are very long.
+
+A sub-step of `structure` is implicit: forces are those at its end. In a long one from rest, inertia M / dt² counts next
+to nothing against stiffness, and what is left is the equilibrium of elastic connections, bars that yield, sides of
+cracks that press and rub, and springs: Newton's method, with a little mass beside the stiffness. Bodies stop after each
+step, so nothing swings. Where no equilibrium is near, bodies fall by metres in a step.
+
+All arrays have their components first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from copy import deepcopy
+
+import numpy as np
+
+from ..arrays import BoolArray, FloatArray, IntArray
+from ..geometry.rotations import rotated
+from .bearings import Bearings
+from .cracks import Cracks
+from .equations import RigidBodies, connected_parts
+from .joint_rows import JointFrames, components_first, components_last, cross_products, turned
+from .structure import ElasticStep, ElasticStructure, SpringLaw, StepInput
+
+_STEP_S = 1.0
+"""Length of a step: what hangs by a thousandth of the stiffness of a bridge with 5 Hz still finds its rest in it."""
+
+_AT_REST = 1e-4
+"""Force that is left on a body, by its largest load, at which it rests."""
+
+_MOST_STEPS = 60
+_MOST_ROUNDS = 200
+"""How often connections break one after another in one step, before the rest waits for the next."""
+
+_FARTHEST_M = 0.5
+"""Displacement from where it was built, beyond which a body has fallen."""
+
+Overloaded = Callable[[FloatArray, BoolArray], IntArray]
+"""Which connections (k,) break, of loads (6, m) on the first bodies about their points, and whether each is intact."""
+
+Tear = Callable[[Cracks, IntArray, FloatArray, FloatArray], None]
+"""Adds cracks in place of connections (k,), with bodies at positions (3, n) in rotations (3, 3, n)."""
+
+
+class CrackedStructure:
+    """Bodies, elastic connections, and the cracks in place of some, under loads that change little by little.
+
+    `stiffness` (6, 6, m) and `bodies` are as in `ElasticStructure`. `intact` (m,) are connections that are whole,
+    `held` (n,) bodies that hang by connections on what does not move. `left` (m,) is what `cracks` have as the shares
+    of their bars.
+    """
+
+    def __init__(
+        self,
+        frames: JointFrames,
+        stiffness: FloatArray,
+        bodies: RigidBodies,
+        cracks: Cracks,
+        left: FloatArray,
+        intact: BoolArray,
+        held: BoolArray,
+        soil: SpringLaw | None = None,
+        bearings: Bearings | None = None,
+    ):
+        self._frames, self._stiffness, self._bodies = frames, stiffness, bodies
+        self.cracks, self._left, self._soil, self._bearings = cracks, left, soil, bearings
+        self.positions_m, self.rotations = bodies.positions_m.copy(), bodies.rotations.copy()
+        self.intact, self.held = intact.copy(), held.copy()
+        self.loads = np.zeros((6, len(frames)))  # on the first bodies about their points, in the axes of the world
+
+    def copy(self) -> CrackedStructure:
+        """Return one in the same state, that goes on by itself."""
+        memo = {id(part): part for part in (self._frames, self._stiffness, self._bodies)}
+        return deepcopy(self, memo)
+
+    def load(self, accelerations: FloatArray, overloaded: Overloaded, tear: Tear) -> bool:
+        """Let it come to rest under loads by mass (6, n), connections breaking one after another.
+
+        Return whether it did. What falls, or goes on moving, is not held any more.
+        """
+        structure = ElasticStructure(
+            self._frames, self._stiffness, self._bodies, 0.0, self.cracks, self._soil, self._bearings
+        )
+        free = _STEP_S * accelerations
+        for _ in range(_MOST_STEPS):
+            ruptured = structure.settle(self.positions_m, self.rotations)
+            self._let_go()
+            start = StepInput(self.positions_m, self.rotations, np.where(self.held, free, 0.0), ~self.held)
+            broke, step = self._broken_in_step(structure, start, overloaded, tear)
+            self.loads = self._loads_of(step)
+            moving = np.where(self.held & self._bodies.moves, step.velocities, 0.0)
+            self._move(_STEP_S * moving)
+            structure.end_substep()
+            rests = abs(moving[:3]).max(axis=0) <= _AT_REST * abs(free[:3]).max()
+            if rests.all() and not broke and not len(ruptured):
+                return True
+        self._let_go()
+        self.held &= rests
+        return False
+
+    def _broken_in_step(
+        self, structure: ElasticStructure, start: StepInput, overloaded: Overloaded, tear: Tear
+    ) -> tuple[bool, ElasticStep]:
+        """Whether anything broke in a step, and the step without that."""
+        step = structure.step(start, self.intact, _STEP_S)
+        for number in range(_MOST_ROUNDS):
+            rows = overloaded(self._loads_of(step), self.intact)
+            if not len(rows):
+                return number > 0, step
+            self.intact[rows] = False
+            tear(self.cracks, rows, self.positions_m, self.rotations)
+            step = structure.step(start, self.intact, _STEP_S)
+        return True, step
+
+    def _loads_of(self, step: ElasticStep) -> FloatArray:
+        """Forces, and moments about their points, (6, m) of all connections and cracks on their first bodies."""
+        loads = np.zeros((6, len(self._frames)))
+        loads[:, step.acting] = step.of_first / _STEP_S
+        loads[:, step.cracks] = step.of_cracks_on_first / _STEP_S
+        first = self._frames.first
+        arms = turned(self.rotations[..., first], self._frames.first_points_m)
+        loads[3:] -= cross_products(arms, loads[:3])
+        return loads
+
+    def _move(self, step: FloatArray) -> None:
+        self.positions_m = self.positions_m + step[:3]
+        turned_on = rotated(components_last(self.rotations), components_last(step[3:]))
+        self.rotations = components_first(turned_on)
+
+    def _let_go(self) -> None:
+        """Take what has fallen, and what hangs by nothing any more, for gone."""
+        moves, frames = self._bodies.moves, self._frames
+        fallen = abs(self.positions_m - self._bodies.positions_m).max(axis=0) > _FARTHEST_M
+        lost = moves & (fallen | ~self.held)
+        of_lost = lost[frames.first] | lost[frames.second]
+        self.intact &= ~of_lost
+        self._left[of_lost] = 0.0  # its bars are gone as well
+        holds = self.intact.copy()
+        holds[self.cracks.rows[~of_lost[self.cracks.rows]]] = True
+        first, second = frames.first[holds], frames.second[holds]
+        label = connected_parts(moves, first, second)
+        supported = np.unique(np.concatenate((label[first[~moves[second]]], label[second[~moves[first]]])))
+        self.held &= ~lost & (np.isin(label, supported[supported >= 0]) | ~moves)
