@@ -33,6 +33,9 @@ _MOST_STEPS = 60
 _MOST_ROUNDS = 200
 """How often connections break one after another in one step, before the rest waits for the next."""
 
+_REGRIPS = 2
+"""How often sides of cracks rub by the pressing force that was found before, in one step."""
+
 _FARTHEST_M = 0.5
 """Displacement from where it was built, beyond which a body has fallen."""
 
@@ -89,8 +92,8 @@ class CrackedStructure:
             start = StepInput(self.positions_m, self.rotations, np.where(self.held, free, 0.0), ~self.held)
             broke, step = self._broken_in_step(structure, start, overloaded, tear)
             self.loads = self._loads_of(step)
-            moving = np.where(self.held & self._bodies.moves, step.velocities, 0.0)
-            self._move(_STEP_S * moving)
+            moving = self._moving(step)
+            self.positions_m, self.rotations = self._moved(moving)
             structure.end_substep()
             rests = abs(moving[:3]).max(axis=0) <= _AT_REST * abs(free[:3]).max()
             if rests.all() and not broke and not len(ruptured):
@@ -103,15 +106,28 @@ class CrackedStructure:
         self, structure: ElasticStructure, start: StepInput, overloaded: Overloaded, tear: Tear
     ) -> tuple[bool, ElasticStep]:
         """Whether anything broke in a step, and the step without that."""
-        step = structure.step(start, self.intact, _STEP_S)
+        step = self._with_friction(structure, start)
         for number in range(_MOST_ROUNDS):
             rows = overloaded(self._loads_of(step), self.intact)
             if not len(rows):
                 return number > 0, step
             self.intact[rows] = False
             tear(self.cracks, rows, self.positions_m, self.rotations)
-            step = structure.step(start, self.intact, _STEP_S)
+            step = self._with_friction(structure, start)
         return True, step
+
+    def _with_friction(self, structure: ElasticStructure, start: StepInput) -> ElasticStep:
+        """Return a step in which sides of cracks rub by how they are pressed in it."""
+        step = structure.step(start, self.intact, _STEP_S)
+        for _ in range(_REGRIPS if len(self.cracks) else 0):
+            self.cracks.grip(*self._moved(self._moving(step)))
+            step = structure.step(start, self.intact, _STEP_S)
+        return step
+
+    def _moving(self, step: ElasticStep) -> FloatArray:
+        """Velocities (6, n) of what is held, at the end of a step."""
+        moving: FloatArray = np.where(self.held & self._bodies.moves, step.velocities, 0.0)
+        return moving
 
     def _loads_of(self, step: ElasticStep) -> FloatArray:
         """Forces, and moments about their points, (6, m) of all connections and cracks on their first bodies."""
@@ -123,10 +139,10 @@ class CrackedStructure:
         loads[3:] -= cross_products(arms, loads[:3])
         return loads
 
-    def _move(self, step: FloatArray) -> None:
-        self.positions_m = self.positions_m + step[:3]
-        turned_on = rotated(components_last(self.rotations), components_last(step[3:]))
-        self.rotations = components_first(turned_on)
+    def _moved(self, moving: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Positions and rotations after a step with velocities (6, n)."""
+        turned_on = rotated(components_last(self.rotations), components_last(_STEP_S * moving[3:]))
+        return self.positions_m + _STEP_S * moving[:3], components_first(turned_on)
 
     def _let_go(self) -> None:
         """Take what has fallen, and what hangs by nothing any more, for gone."""

@@ -152,13 +152,19 @@ class Cracks:
             self._keep(holds)
         return gone
 
+    def grip(self, positions_m: FloatArray, rotations: FloatArray) -> None:
+        """Let sides resist sliding as they would be pressed with bodies at these positions, and yet keep their state."""
+        self._grip(turned_back(rotations[..., self._first], self._gaps(positions_m, rotations)))
+
     def _rub(self, gaps: FloatArray) -> None:
         """Take over how far sides have slid by now, and how much those that are pressed may resist next."""
         pressed = self._stiffness_pressed()
-        closing = np.minimum(dot_products(self._normals, gaps), 0.0)
         rubbing = _friction(self._grips_n, pressed)
         self._rests = bar_response(rubbing, _along(gaps, self._normals), self._rests, np.zeros_like(pressed)).slips_m
-        self._grips_n = -FRICTION * pressed * closing
+        self._grip(gaps)
+
+    def _grip(self, gaps: FloatArray) -> None:
+        self._grips_n = -FRICTION * self._stiffness_pressed() * np.minimum(dot_products(self._normals, gaps), 0.0)
 
     def stored_j(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
         """Return the energy (t,) that bars and pressed sides would give back."""
