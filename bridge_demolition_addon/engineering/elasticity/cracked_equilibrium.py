@@ -36,6 +36,9 @@ _MOST_ROUNDS = 200
 _REGRIPS = 2
 """How often sides of cracks rub by the pressing force that was found before, in one step."""
 
+_FALLS_M = 0.2
+"""Motion in one step of what falls: what else breaks waits for the next, without what has come loose by then."""
+
 _FARTHEST_M = 0.5
 """Displacement from where it was built, beyond which a body has fallen."""
 
@@ -108,6 +111,8 @@ class CrackedStructure:
         """Whether anything broke in a step, and the step without that."""
         step = self._with_friction(structure, start)
         for number in range(_MOST_ROUNDS):
+            if _STEP_S * abs(self._moving(step)[:3]).max() > _FALLS_M:
+                return True, step
             rows = overloaded(self._loads_of(step), self.intact)
             if not len(rows):
                 return number > 0, step
@@ -120,7 +125,9 @@ class CrackedStructure:
         """Return a step in which sides of cracks rub by how they are pressed in it."""
         step = structure.step(start, self.intact, _STEP_S)
         for _ in range(_REGRIPS if len(self.cracks) else 0):
-            self.cracks.grip(*self._moved(self._moving(step)))
+            moving = self._moving(step)
+            if not self.cracks.grip(*self._moved(moving)):
+                break
             step = structure.step(start, self.intact, _STEP_S)
         return step
 

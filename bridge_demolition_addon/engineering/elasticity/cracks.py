@@ -67,6 +67,9 @@ _LITTLE_M = 1e-5
 _LITTLE_SHARE = 1e-9
 """Part of the bars of a crack that is rounding, in a corner that has none."""
 
+_SAME_GRIP = 0.01
+"""Change of friction, by the largest in any crack, that is none."""
+
 _PARTED_M = 0.01
 """Opening from which on sides without bars have parted: where they meet again, they touch as any bodies."""
 
@@ -152,9 +155,14 @@ class Cracks:
             self._keep(holds)
         return gone
 
-    def grip(self, positions_m: FloatArray, rotations: FloatArray) -> None:
-        """Let sides resist sliding as they would be pressed with bodies at these positions, and yet keep their state."""
+    def grip(self, positions_m: FloatArray, rotations: FloatArray) -> bool:
+        """Let sides resist sliding by how they would be pressed with bodies at these positions.
+
+        All else stays as it is. Return whether they then resist another force.
+        """
+        before = self._grips_n
         self._grip(turned_back(rotations[..., self._first], self._gaps(positions_m, rotations)))
+        return bool((abs(self._grips_n - before) > _SAME_GRIP * self._grips_n.max(initial=0.0)).any())
 
     def _rub(self, gaps: FloatArray) -> None:
         """Take over how far sides have slid by now, and how much those that are pressed may resist next."""
