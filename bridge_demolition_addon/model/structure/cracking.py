@@ -11,6 +11,7 @@ from ...engineering.elasticity.bearings import Bearings
 from ...engineering.elasticity.cracked_equilibrium import CrackedStructure
 from ...engineering.elasticity.cracks import Cracks
 from ...engineering.elasticity.equations import RigidBodies
+from ...engineering.elasticity.equilibrium import Equilibrium
 from ...engineering.elasticity.joint_rows import JointFrames, components_first, turned_back
 from ...engineering.elasticity.section_stiffness import in_frames
 from ...engineering.foundations.footings import Footings
@@ -163,3 +164,13 @@ class CrackedBridge:
         axes = turns @ self._utilisations.axes[rows]
         torn = TornFaces(rows, first, self._second[rows], points, axes, np.ones(len(rows)))
         self._faces.tear(cracks, torn, positions_m, rotations)
+
+
+def cracked_by_weight(model: Model, joints: Sequence[Joint], rest: Equilibrium) -> CrackedBridge | None:
+    """Return a model that cracks under its own weight, which it has at `rest` without cracks; None without bars."""
+    if model.crack_bars is None:
+        return None
+    whole = np.ones(len(model.connections))
+    cracked = CrackedBridge(model, joints, Utilisations(model, joints), whole > 0.0, whole, rest.held)
+    cracked.carry(1.0)
+    return cracked
