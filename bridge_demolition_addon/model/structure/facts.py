@@ -143,7 +143,7 @@ def _crack_facts(bridge: CrackedBridge) -> Iterator[Fact]:
     used = bridge.bars_used
     if held := np.count_nonzero(np.isfinite(used)):
         yield "", f"bars hold {held} of them, with {np.nanmax(used):.0%} of the force at which they rupture at most"
-    yield "", "it stands. A run is shaken as it cracks: raise warm_up_s where it then falls"
+    yield "", "it stands at rest. A run cracks it at once, with a jerk: see docs/stages.md"
 
 
 def _damping_text(scenario: Scenario, frequency_hz: float) -> str:
