@@ -190,13 +190,17 @@ class Cracks:
         return 0.5 * _summed(doubled + pressed * closing * closing)
 
     def used(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
-        """Return the force (t,) of bars in the most used corner, by that at which they rupture; nan without bars."""
+        """Return the force (t,) of bars in the most used corner, by that at which they rupture; nan without bars.
+
+        Bars that are pressed do not count: those do not rupture.
+        """
         bars = self._bars()
         gaps = turned_back(rotations[..., self._first], self._gaps(positions_m, rotations))
         forces = bar_response(bars, _as_bars(gaps, self._directions), self._slips, self._flows).forces_n
         size, most = np.sqrt(dot_products(forces, forces)), self._steel.hardening * bars.yield_n
         holds = self._holds & (most > _LITTLE_SHARE * np.tile(_summed(most), _COUNT))
-        shares = np.divide(size, most, out=np.full_like(size, np.nan), where=holds)
+        pulled = np.where(dot_products(forces, self._directions) > 0.0, size, 0.0)
+        shares = np.divide(pulled, most, out=np.full_like(size, np.nan), where=holds)
         used: FloatArray = np.fmax.reduce(shares.reshape(_COUNT, -1), axis=0)
         return used
 

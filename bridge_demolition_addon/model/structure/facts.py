@@ -127,7 +127,9 @@ def rest_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
             lifted = "" if up else ": it has lifted off"
             yield bearing.name, f"{up:z.1f} kN up, {along:z.1f} kN along, {across:z.1f} kN across{lifted}"
     if held:
-        deflected_m, with_cracks = (stands.deflection_m, ", with its cracks") if stands else (deflection_m(model, rest), "")
+        deflected_m, with_cracks = (
+            (stands.deflection_m, ", with its cracks") if stands else (deflection_m(model, rest), "")
+        )
         yield "deflection", f"{1000.0 * deflected_m:.2f} mm{with_cracks}"
         yield "first frequency", f"{rest.frequency_hz:.3f} Hz{', without cracks' if stands else ''}"
         yield "damping", _damping_text(scenario, rest.frequency_hz)
