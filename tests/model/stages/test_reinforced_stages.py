@@ -42,7 +42,7 @@ def test_a_cracked_bridge_is_in_balance_and_nothing_in_it_is_overloaded(blocks):
     factor = 0.8 * blocks.theory
     standing = blocks.rest(factor)
     assert standing.cracked.any()
-    assert np.nanmax(standing.used) <= 1.0
+    assert np.nanmax(standing.used) <= 1.0 + 1e-9  # bars that yield are used in full
     assert (blocks.bridge.governed_by(standing)[standing.cracked] == BARS).all()
     up_n = [force.force_n[2] for force in blocks.model.bearings.forces(standing.loads)]
     np.testing.assert_allclose(up_n, factor * WEIGHT_N_M * LENGTH_M / 2.0, rtol=1e-3)
