@@ -65,10 +65,10 @@ _AGREES = 1e-4
 _LITTLE_M = 1e-5
 
 _LITTLE_SHARE = 1e-9
-"""Part of the bars of a crack that is rounding, in a corner that has none."""
+"""Part of the bars of a crack up to which a corner has no bars: what is left is rounding."""
 
 _SAME_GRIP = 0.01
-"""Change of friction, by the largest in any crack, that is none."""
+"""Change of friction, by the largest in any crack, up to which it counts as the same."""
 
 _PARTED_M = 0.01
 """Opening from which on sides without bars have parted: where they meet again, they touch as any bodies."""
