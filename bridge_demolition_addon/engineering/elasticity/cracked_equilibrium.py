@@ -20,6 +20,7 @@ from ..geometry.rotations import rotated
 from .bearings import Bearings
 from .cracks import Cracks
 from .equations import RigidBodies, connected_parts
+from .equilibrium import Equilibrium
 from .joint_rows import JointFrames, components_first, components_last, cross_products, turned
 from .structure import ElasticStep, ElasticStructure, SpringLaw, StepInput
 
@@ -52,9 +53,9 @@ Tear = Callable[[Cracks, IntArray, FloatArray, FloatArray], None]
 class CrackedStructure:
     """Bodies, elastic connections, and the cracks in place of some, under loads that change little by little.
 
-    `stiffness` (6, 6, m) and `bodies` are as in `ElasticStructure`. `intact` (m,) are connections that are whole,
-    `held` (n,) bodies that hang by connections on what does not move. `left` (m,) is what `cracks` have as the shares
-    of their bars.
+    `stiffness` (6, 6, m) and `bodies` are as in `ElasticStructure`. `intact` (m,) are connections that are whole, with
+    which it is at `rest` at first: springs that do not touch anything would not know where it rests. `left` (m,) is
+    what `cracks` have as the shares of their bars.
     """
 
     def __init__(
@@ -65,14 +66,14 @@ class CrackedStructure:
         cracks: Cracks,
         left: FloatArray,
         intact: BoolArray,
-        held: BoolArray,
+        rest: Equilibrium,
         soil: SpringLaw | None = None,
         bearings: Bearings | None = None,
     ):
         self._frames, self._stiffness, self._bodies = frames, stiffness, bodies
         self.cracks, self._left, self._soil, self._bearings = cracks, left, soil, bearings
-        self.positions_m, self.rotations = bodies.positions_m.copy(), bodies.rotations.copy()
-        self.intact, self.held = intact.copy(), held.copy()
+        self.positions_m, self.rotations = rest.positions_m, rest.rotations
+        self.intact, self.held = intact.copy(), rest.held.copy()
         self.loads = np.zeros((6, len(frames)))  # on the first bodies about their points, in the axes of the world
 
     def copy(self) -> CrackedStructure:

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ...engineering.elasticity.equilibrium import Equilibrium
 from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.overloads import Overloads
 from ...engineering.mechanics.section_cuts import ConnectionLoads
@@ -50,9 +51,8 @@ class Standing:
     together: np.ndarray  # (m,), utilisation of the sections of their members; nan as above
     sag_m: float  # largest downward displacement of a shard
     frequency_hz: float  # first natural frequency, without cracks
-    cracked: (
-        np.ndarray
-    )  # (m,), connections that have cracked and hold by their bars, which both utilisations are then of
+    cracked: np.ndarray  # (m,), connections that cracked and hold by their bars, of which both utilisations are then
+    uncracked: Equilibrium  # as if nothing cracked
 
     @property
     def used(self) -> np.ndarray:
@@ -92,6 +92,11 @@ class StandingBridge:
         cracked.carry(factor, loads)
         return standing if cracked.fallen.any() else self._on_bars(cracked, left, standing)
 
+    def held(self, intact: np.ndarray) -> np.ndarray:
+        """Return which shards (n,) connections that are `intact` (m,) hold, as if none broke."""
+        nothing = np.zeros((6, len(self.model.shards)))
+        return self._elastic(intact, np.ones(len(intact)), nothing, 1.0, every_section=False).held
+
     def _elastic(
         self, intact: np.ndarray, left: np.ndarray, loads: np.ndarray, factor: float, *, every_section: bool
     ) -> Standing:
@@ -119,13 +124,19 @@ class StandingBridge:
         deflections_m = model.centres_m[held, 2] - solution.positions_m[2, :-1][held]
         deflection_m = float(deflections_m.max(initial=0.0))
         return Standing(
-            held, of_connections, alone, together, deflection_m, solution.frequency_hz, np.zeros(len(intact), bool)
+            held=held,
+            loads=of_connections,
+            alone=alone,
+            together=together,
+            sag_m=deflection_m,
+            frequency_hz=solution.frequency_hz,
+            cracked=np.zeros(len(intact), bool),
+            uncracked=solution,
         )
 
     def _begun(self, intact: np.ndarray, left: np.ndarray, elastic: Standing) -> CrackedBridge:
         """Return a bridge whose concrete cracks under loads, before any."""
-        held = np.append(elastic.held, False)
-        return CrackedBridge(self.model, self._joints, self._utilisations, intact, left, held)
+        return CrackedBridge(self.model, self._joints, self._utilisations, intact, left, elastic.uncracked)
 
     def _on_bars(self, cracked: CrackedBridge, left: np.ndarray, elastic: Standing) -> Standing:
         """Return a bridge that stands with cracks."""
@@ -134,7 +145,15 @@ class StandingBridge:
         alone, together = self._utilisations.of(loads, intact, left, parts, every_section=True)
         used, has_bars = cracked.bars_used, cracked.cracked & np.isfinite(cracked.bars_used)
         alone[has_bars] = together[has_bars] = used[has_bars]
-        return Standing(cracked.held, loads, alone, together, cracked.deflection_m, elastic.frequency_hz, has_bars)
+        return replace(
+            elastic,
+            held=cracked.held,
+            loads=loads,
+            alone=alone,
+            together=together,
+            sag_m=cracked.deflection_m,
+            cracked=has_bars,
+        )
 
     def comes_down(self, intact: np.ndarray, left: np.ndarray, loads: np.ndarray, factor: float) -> np.ndarray:
         """Return which shards (n,) come down at a load factor, as overloaded connections break one after another.

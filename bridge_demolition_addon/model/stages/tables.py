@@ -82,8 +82,8 @@ UTILISATION_COLUMNS = (
 CRITICALITY_COLUMNS = ("member", "stands", "falls_kg", "share_of_the_bridge")
 
 SLOW_COLLAPSE = (
-    "without bars a broken face carries nothing here; in a run its two sides press on each other, and what stands on such cracks "
-    "may take seconds to come down"
+    "without bars a broken face carries nothing here; in a run its two sides press on each other, and what stands on "
+    "such cracks may take seconds to come down"
 )
 """What is said where a stage does not stand."""
 

@@ -32,8 +32,8 @@ FALLEN_SHARE = 0.005
 class CrackedBridge:
     """A model with bars, under loads that grow: what has cracked or yielded stays so.
 
-    `intact` (m,) are its connections that are whole, with a part `left` (m,) of their strength each; `held` (n + 1,)
-    are the shards that connections to a support hold, and the ground.
+    `intact` (m,) are its connections that are whole, with a part `left` (m,) of their strength each. At first it is at
+    `rest` without cracks.
     """
 
     def __init__(
@@ -43,12 +43,12 @@ class CrackedBridge:
         utilisations: Utilisations,
         intact: np.ndarray,
         left: np.ndarray,
-        held: np.ndarray,
+        rest: Equilibrium,
     ):
         self._model, self._utilisations, self._left = model, utilisations, left
         self._masses = np.append(np.where(model.fixed, 0.0, model.masses_kg), 0.0)
         self._inertias = np.vstack((inertias_of(model), np.zeros(3)))
-        self._held_at_first = held
+        self._held_at_first = rest.held
         bars, connections, stiffness = given(model.crack_bars), model.connections, given(model.stiffness)
         self._faces = CrackFaces(connections.areas, model.second_moments_m4, bars.bars)
         has_strength = np.array([joint.strength is not None for joint in joints])[model.joint_of_connection]
@@ -75,7 +75,7 @@ class CrackedBridge:
             self._faces.cracks(bars.steel, of_bars, stiffness.axial_n_m),
             of_bars,
             intact,
-            held,
+            rest,
             soil,
             pads,
         )
@@ -171,6 +171,6 @@ def cracked_by_weight(model: Model, joints: Sequence[Joint], rest: Equilibrium) 
     if model.crack_bars is None:
         return None
     whole = np.ones(len(model.connections))
-    cracked = CrackedBridge(model, joints, Utilisations(model, joints), whole > 0.0, whole, rest.held)
+    cracked = CrackedBridge(model, joints, Utilisations(model, joints), whole > 0.0, whole, rest)
     cracked.carry(1.0)
     return cracked

@@ -7,6 +7,7 @@ import pytest
 from bridge_demolition_addon.engineering.elasticity.cracked_equilibrium import CrackedStructure
 from bridge_demolition_addon.engineering.elasticity.cracks import FRICTION, Cracks, corner_positions
 from bridge_demolition_addon.engineering.elasticity.equations import RigidBodies
+from bridge_demolition_addon.engineering.elasticity.equilibrium import equilibrium
 from bridge_demolition_addon.engineering.elasticity.joint_rows import JointFrames
 from bridge_demolition_addon.engineering.elasticity.steel_bars import Steel
 
@@ -30,7 +31,8 @@ def plates(yield_n, opening_m, steel, side):
     stiffness = (STIFFNESS_N_M * np.diag([1.0] * 3 + [SIDE_M**2] * 3))[:, :, None]
     left, one = np.ones(1), np.full(1, True)
     cracks = Cracks(steel, np.array([opening_m]), np.full((4, 1), yield_n / 4.0), left, np.array([STIFFNESS_N_M]))
-    return CrackedStructure(frames, stiffness, bodies, cracks, left, one, np.array([False, True]))
+    rest = equilibrium(frames, stiffness, bodies, np.zeros(3))
+    return CrackedStructure(frames, stiffness, bodies, cracks, left, one, rest)
 
 
 def carries(structure, side, acceleration_m_s2):
