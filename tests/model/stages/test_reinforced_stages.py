@@ -1,13 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Bridges that crack and stand on their bars, held against statics and plastic theory by hand."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from support.reinforced_slab import LENGTH_M, WEIGHT_N_M, Slab, slab_text
 
 from bridge_demolition_addon.cli.check import scenario_facts
-from bridge_demolition_addon.model.scenario.file import scenario_from_text
-from bridge_demolition_addon.model.stages.standing import BARS
+from bridge_demolition_addon.engineering.structure.connections import GROUND
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_from_text
+from bridge_demolition_addon.model.sequence.checked_model import checked_model
+from bridge_demolition_addon.model.stages.standing import BARS, StandingBridge
+
+EXAMPLE = (Path(__file__).parents[3] / "examples" / "ground_motion" / "span_in_an_earthquake.toml").as_posix()
 
 
 @pytest.fixture(scope="module")
@@ -77,3 +84,22 @@ def test_check_says_what_cracks_and_what_bars_hold():
     assert any("mm, with its cracks" in line for line in lines)
     heavy = list(scenario_facts(scenario_from_text(text.replace("= 2400.0", "= 8000.0"))))
     assert any("bars do not hold it" in line for line in heavy)
+
+
+def test_a_bridge_on_soil_cracks_and_stands_with_its_whole_weight_on_it(tmp_path):
+    """Vertical balance, with footings that press on soil: what supports carry is the weight of all shards."""
+    path = tmp_path / "on_soil.toml"
+    path.write_text(
+        f'[scenario]\nbased_on = "{EXAMPLE}"\ntitle = "on soil"\n[connections]\nductile_share = 0.3\n'
+        'ductile_elongation_m = 0.05\n[[reinforcement]]\nmembers = ["deck"]\ndepth_m = 0.05\narea_mm2 = 8000.0\n',
+        encoding="utf-8",
+    )
+    scenario = read_scenario(path)
+    model = checked_model(scenario)
+    bridge, whole = StandingBridge(model, scenario.joints), np.ones(len(model.connections))
+    standing = bridge.rest(whole > 0.0, whole, np.zeros((6, len(model.shards))))
+    assert standing.cracked.any()
+    assert np.nanmax(standing.used) <= 1.0 + 1e-9
+    on_ground = (model.connections.pairs == GROUND).any(axis=1)
+    weight_n = STANDARD_GRAVITY_M_S2 * model.masses_kg[standing.held].sum()
+    assert abs(standing.loads.forces_n[on_ground, 2].sum()) == pytest.approx(weight_n, rel=1e-3)
