@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from copy import deepcopy
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -50,35 +51,37 @@ Tear = Callable[[Cracks, IntArray, FloatArray, FloatArray], None]
 """Adds cracks in place of connections (k,), with bodies at positions (3, n) in rotations (3, 3, n)."""
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class BuiltStructure:
+    """What an `ElasticStructure` is made of, as it was built."""
+
+    frames: JointFrames
+    stiffness: FloatArray  # (6, 6, m)
+    bodies: RigidBodies
+    soil: SpringLaw | None = None
+    bearings: Bearings | None = None
+
+
 class CrackedStructure:
     """Bodies, elastic connections, and the cracks in place of some, under loads that change little by little.
 
-    `stiffness` (6, 6, m) and `bodies` are as in `ElasticStructure`. `intact` (m,) are connections that are whole, with
+    `intact` (m,) are connections that are whole, with
     which it is at `rest` at first: springs that do not touch anything would not know where it rests. `left` (m,) is
     what `cracks` have as the shares of their bars.
     """
 
-    def __init__(
-        self,
-        frames: JointFrames,
-        stiffness: FloatArray,
-        bodies: RigidBodies,
-        cracks: Cracks,
-        left: FloatArray,
-        intact: BoolArray,
-        rest: Equilibrium,
-        soil: SpringLaw | None = None,
-        bearings: Bearings | None = None,
-    ):
-        self._frames, self._stiffness, self._bodies = frames, stiffness, bodies
-        self.cracks, self._left, self._soil, self._bearings = cracks, left, soil, bearings
+    def __init__(self, built: BuiltStructure, cracks: Cracks, left: FloatArray, intact: BoolArray, rest: Equilibrium):
+        self._built, self.cracks, self._left = built, cracks, left
+        self._frames, self._bodies = built.frames, built.bodies
         self.positions_m, self.rotations = rest.positions_m, rest.rotations
         self.intact, self.held = intact.copy(), rest.held.copy()
-        self.loads = np.zeros((6, len(frames)))  # on the first bodies about their points, in the axes of the world
+        self.loads = np.zeros(
+            (6, len(built.frames))
+        )  # on the first bodies about their points, in the axes of the world
 
     def copy(self) -> CrackedStructure:
         """Return one in the same state, that goes on by itself."""
-        memo = {id(part): part for part in (self._frames, self._stiffness, self._bodies)}
+        memo = {id(part): part for part in (self._frames, self._built.stiffness, self._bodies)}
         return deepcopy(self, memo)
 
     def load(self, accelerations: FloatArray, overloaded: Overloaded, tear: Tear) -> bool:
@@ -86,8 +89,9 @@ class CrackedStructure:
 
         Return whether it did. What falls, or goes on moving, is not held any more.
         """
+        built = self._built
         structure = ElasticStructure(
-            self._frames, self._stiffness, self._bodies, 0.0, self.cracks, self._soil, self._bearings
+            built.frames, built.stiffness, built.bodies, 0.0, self.cracks, built.soil, built.bearings
         )
         free = _STEP_S * accelerations
         for _ in range(_MOST_STEPS):

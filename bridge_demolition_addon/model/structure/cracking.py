@@ -8,7 +8,7 @@ from copy import copy
 import numpy as np
 
 from ...engineering.elasticity.bearings import Bearings
-from ...engineering.elasticity.cracked_equilibrium import CrackedStructure
+from ...engineering.elasticity.cracked_equilibrium import BuiltStructure, CrackedStructure
 from ...engineering.elasticity.cracks import Cracks
 from ...engineering.elasticity.equations import RigidBodies
 from ...engineering.elasticity.equilibrium import Equilibrium
@@ -68,17 +68,15 @@ class CrackedBridge:
             springs = model.bearings.springs
             pads = Bearings(springs, *ends, self._first[springs.rows], *built)
         of_bars = left.copy()
-        self._structure = CrackedStructure(
+        built = BuiltStructure(
             JointFrames(self._first, self._second, axes, axes, *levers),
             in_frames(stiffness, components_first(utilisations.axes), held_motions(model, joints)),
             bodies,
-            self._faces.cracks(bars.steel, of_bars, stiffness.axial_n_m),
-            of_bars,
-            intact,
-            rest,
             soil,
             pads,
         )
+        cracks = self._faces.cracks(bars.steel, of_bars, stiffness.axial_n_m)
+        self._structure = CrackedStructure(built, cracks, of_bars, intact, rest)
 
     def copy(self) -> CrackedBridge:
         """Return one in the same state, that goes on by itself."""

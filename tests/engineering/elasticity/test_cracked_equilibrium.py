@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.engineering.elasticity.cracked_equilibrium import CrackedStructure
+from bridge_demolition_addon.engineering.elasticity.cracked_equilibrium import BuiltStructure, CrackedStructure
 from bridge_demolition_addon.engineering.elasticity.cracks import FRICTION, Cracks, corner_positions
 from bridge_demolition_addon.engineering.elasticity.equations import RigidBodies
 from bridge_demolition_addon.engineering.elasticity.equilibrium import equilibrium
@@ -32,7 +32,7 @@ def plates(yield_n, opening_m, steel, side):
     left, one = np.ones(1), np.full(1, True)
     cracks = Cracks(steel, np.array([opening_m]), np.full((4, 1), yield_n / 4.0), left, np.array([STIFFNESS_N_M]))
     rest = equilibrium(frames, stiffness, bodies, np.zeros(3))
-    return CrackedStructure(frames, stiffness, bodies, cracks, left, one, rest)
+    return CrackedStructure(BuiltStructure(frames, stiffness, bodies), cracks, left, one, rest)
 
 
 def carries(structure, side, acceleration_m_s2):
