@@ -61,12 +61,12 @@ class CrackedBridge:
         tensors, unturned = np.zeros((3, 3, len(positions))), np.repeat(np.eye(3)[:, :, None], len(positions), axis=2)
         tensors[[0, 1, 2], [0, 1, 2]] = self._inertias.T
         bodies = RigidBodies(self._masses, tensors, components_first(positions), unturned)
-        ends, built = (self._first, self._second), (bodies.positions_m, unturned)
-        soil = Footings(model.soil, *ends, bodies.moves, *built) if model.soil else None
+        ends, positions_built = (self._first, self._second), (bodies.positions_m, unturned)
+        soil = Footings(model.soil, *ends, bodies.moves, *positions_built) if model.soil else None
         pads = None
         if model.bearings:
             springs = model.bearings.springs
-            pads = Bearings(springs, *ends, self._first[springs.rows], *built)
+            pads = Bearings(springs, *ends, self._first[springs.rows], *positions_built)
         of_bars = left.copy()
         built = BuiltStructure(
             JointFrames(self._first, self._second, axes, axes, *levers),
