@@ -91,13 +91,13 @@ def criticality(bridge: StandingBridge, progress: Callable[[int, int], None]) ->
     model = bridge.model
     count, ones = len(model.connections), np.ones(len(model.connections))
     nothing = np.zeros((6, len(model.shards)))
-    held = bridge.rest(ones > 0.0, ones, nothing).held
+    held = bridge.held(ones > 0.0)
     effects = []
     for number, member in enumerate(model.members):
         own = model.member_of_shard == number
         gone = np.isin(model.connections.pairs, np.flatnonzero(own)).any(axis=1)
         intact = np.ones(count, bool) & ~gone
-        loose = held & ~own & ~bridge.rest(intact, ones, nothing).held
+        loose = held & ~own & ~bridge.held(intact)
         loose |= bridge.comes_down(intact, ones, nothing, 1.0) & ~own
         falls_kg = float(model.masses_kg[loose].sum())
         effects.append(Criticality(member.name, falls_kg, falls_kg / float(model.masses_kg[held].sum() or 1.0)))

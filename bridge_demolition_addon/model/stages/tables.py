@@ -47,6 +47,7 @@ STAGE_COLUMNS = (
     "at_y_m",
     "at_z_m",
     "overloaded",
+    "cracked",
     "collapse_factor",
     "sag_mm",
     "first_frequency_Hz",
@@ -83,10 +84,13 @@ UTILISATION_COLUMNS = (
 CRITICALITY_COLUMNS = ("member", "stands", "falls_kg", "share_of_the_bridge")
 
 SLOW_COLLAPSE = (
-    "a broken face carries nothing here; in a run its two sides press on each other, and what stands on such cracks "
-    "may take seconds to come down"
+    "without bars a broken face carries nothing here; in a run its two sides press on each other, and what stands on "
+    "such cracks may take seconds to come down"
 )
 """What is said where a stage does not stand."""
+
+_FULL = 1.0 + 1e-9
+"""Utilisation beyond which it is above 1 by more than rounding: bars that yield are used in full."""
 
 _KILO = 1000.0
 _GROUND = "ground"
@@ -134,7 +138,8 @@ def stage_row(number: int, stage: Stage, bridge: StandingBridge) -> dict[str, An
         "reaction_x_kN": reaction[0],
         "reaction_y_kN": reaction[1],
         "reaction_z_kN": reaction[2],
-        "overloaded": int((standing.used > 1.0).sum()),
+        "overloaded": int((standing.used > _FULL).sum()),
+        "cracked": int(standing.cracked.sum()),
         "collapse_factor": stage.collapse_factor,
         "sag_mm": standing.sag_m * _KILO,
         "first_frequency_Hz": standing.frequency_hz,
@@ -198,6 +203,8 @@ def stage_sentences(stage: Stage, row: Mapping[str, Any]) -> list[str]:
             f"used most: {row['largest_utilisation']:.0%} by {row['governed_by']}, in {row['between']} at "
             f"[{row['at_x_m']:.1f}, {row['at_y_m']:.1f}, {row['at_z_m']:.1f}] m"
         )
+    if row["cracked"]:
+        sentences.append(f"{row['cracked']} connections have cracked, and hold by their bars")
     sentences.append(factor_in_words(stage.collapse_factor))
     if stage.collapse_factor < 1.0:
         sentences.append(SLOW_COLLAPSE)

@@ -24,6 +24,7 @@ from ..scenario import ConnectionBetween, ConnectionSettings, Scenario
 from ..scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
 from ..scenario.scenario import bearing_tables
 from ..schema import given
+from .cracking import CrackedBridge, cracked_by_weight
 from .equilibrium import deflection_m, force_utilisations, loads_of, model_at_rest, overloaded
 from .face_bars import layers_of_members
 from .model import Model
@@ -158,15 +159,19 @@ def rest_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
     held = int(rest.held[: len(model.shards)].sum())
     loose = len(model.shards) - held - int(model.fixed.sum())
     broken = int(overloaded(model, rest, scenario.joints).sum())
+    cracked = cracked_by_weight(model, scenario.joints, rest) if broken else None
+    stands = cracked if cracked and not cracked.fallen.any() else None
     if loose:
         yield from _loose_facts(model, rest.held[: len(model.shards)], held)
-    if held or not loose:
+    if cracked:
+        yield from _crack_facts(cracked)
+    elif held or not loose:
         of_held = ", where it is held" if loose else ""
         weight = f"by the bridge's own weight alone{of_held}"
         yield "overloaded", f"{broken} of {len(model.connections)} connections, {weight}"
     if not scenario.connections.is_elastic:
         yield "", "if they were elastic. Rigid ones share loads otherwise: a run says whether it stands"
-    elif broken:
+    elif broken and not cracked:
         yield "", "they break before anything is done to it, and the bridge may fall by itself"
     used = force_utilisations(model, rest, scenario.joints)
     if by_force := np.count_nonzero(~np.isnan(used)):
@@ -176,13 +181,16 @@ def rest_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
         )
         yield "", "by the force or moment of each that is largest, in N or N·m, as Bullet breaks it"
     if model.bearings and held:
-        for bearing in model.bearings.forces(loads_of(model, rest)):
+        for bearing in model.bearings.forces(stands.loads if stands else loads_of(model, rest)):
             along, across, up = bearing.force_n / 1000.0
             lifted = "" if up else ": it has lifted off"
             yield bearing.name, f"{up:z.1f} kN up, {along:z.1f} kN along, {across:z.1f} kN across{lifted}"
     if held:
-        yield "deflection", f"{1000.0 * deflection_m(model, rest):.2f} mm"
-        yield "first frequency", f"{rest.frequency_hz:.3f} Hz"
+        deflected_m, with_cracks = (
+            (stands.deflection_m, ", with its cracks") if stands else (deflection_m(model, rest), "")
+        )
+        yield "deflection", f"{1000.0 * deflected_m:.2f} mm{with_cracks}"
+        yield "first frequency", f"{rest.frequency_hz:.3f} Hz{', without cracks' if stands else ''}"
         yield "damping", _damping_text(scenario, rest.frequency_hz)
 
 
@@ -200,6 +208,19 @@ def _loose_facts(model: Model, is_held: np.ndarray, held: int) -> Iterator[Fact]
     more = " and more" if np.count_nonzero(by_member) > len(heaviest) else ""
     yield "", f"they fall, or tremble on others. Most of it is in {names}{more}. Let members touch what"
     yield "", "stands, or hold them: [[supports]], [[bearings]]"
+
+
+def _crack_facts(bridge: CrackedBridge) -> Iterator[Fact]:
+    """Yield how a bridge with bars cracks by its own weight, and whether it stands."""
+    cracks = np.count_nonzero(~bridge.intact)
+    yield "cracked", f"{cracks} of {len(bridge.intact)} connections, by the bridge's own weight alone"
+    if bridge.fallen.any():
+        yield "", f"bars do not hold it: {np.count_nonzero(bridge.fallen)} shards come down by themselves"
+        return
+    used = bridge.bars_used
+    if held := np.count_nonzero(np.isfinite(used)):
+        yield "", f"bars hold {held} of them, with {np.nanmax(used):.0%} of the force at which they rupture at most"
+    yield "", "it stands at rest. A run cracks it at once, with a jerk: see docs/stages.md"
 
 
 def _damping_text(scenario: Scenario, frequency_hz: float) -> str:

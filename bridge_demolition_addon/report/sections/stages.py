@@ -96,7 +96,8 @@ def stages_report(folder: Path, _target: Path, _progress: Progress) -> Report:
 
 def stages_section(folder: Path) -> Section:
     """Return what the tables of stages in a folder say."""
-    stages = _rows(folder / STAGES_FILE, STAGE_COLUMNS)
+    always = [name for name in STAGE_COLUMNS if name != "cracked"]  # which earlier versions did not write
+    stages = _rows(folder / STAGES_FILE, always)
     members = _rows(folder / CRITICALITY_FILE, CRITICALITY_COLUMNS)
     try:
         table = DataTable.of("stages", "Stages", _COLUMNS, stages)
