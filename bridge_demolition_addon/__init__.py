@@ -1,29 +1,57 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Bridge Demolition Add-on: plan the demolition of a bridge with Blender's rigid bodies.
 
-For Python there are three functions, which stay as they are: `read_scenario`, `run` and `load_results`. Blender is
-loaded by `run` alone. With the small bridge of ``docs/small_bridge.toml``:
+For Python there are the functions of `__all__`, which cover a job and stay as they are. They do what the command line
+does, and raise `DemolitionError` with a sentence where a file or a value is wrong. Blender is loaded by `run` alone.
+With the small bridge of ``docs/small_bridge.toml``:
 
->>> from bridge_demolition_addon import load_results, read_scenario, run
->>> scenario = read_scenario("docs/small_bridge.toml")
->>> results = run(scenario, "my_results")
+>>> import bridge_demolition_addon as bda
+>>> scenario = bda.read_scenario("docs/small_bridge.toml")
+>>> results = bda.run(scenario, "my_results")
 >>> results.frames.positions_m.shape == (len(results.frames), len(results.inventory.body_names), 3)
 True
->>> bool(load_results("my_results").frames.time_s[-1] == results.frames.time_s[-1])
+>>> bool(bda.load_results("my_results").frames.time_s[-1] == results.frames.time_s[-1])
 True
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from os import PathLike
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from .errors import DemolitionError
+from .version import VERSION
+
 if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from .model.debris.throws import Debris
+    from .model.ensemble.folder import EnsembleResult, EnsembleRuns
     from .model.results.arrays import Results
     from .model.scenario import Scenario
 
-__all__ = ["load_results", "read_scenario", "run"]
+__all__ = [
+    "DemolitionError",
+    "__version__",
+    "check",
+    "debris",
+    "debris_plan",
+    "export",
+    "force_chart",
+    "load_results",
+    "load_study",
+    "read_scenario",
+    "run",
+    "run_study",
+    "write_report",
+    "write_scenario",
+]
+
+__version__ = VERSION
+
+_Path = str | PathLike[str]
 
 
 def read_scenario(path: str | PathLike[str]) -> Scenario:
@@ -42,6 +70,41 @@ def read_scenario(path: str | PathLike[str]) -> Scenario:
     from .model.scenario.file import read_scenario as read
 
     return read(path)
+
+
+def write_scenario(scenario: Scenario, path: _Path) -> None:
+    """Write a scenario with all its values to a TOML file, in place of what is there; reading it gives an equal one.
+
+    Examples
+    --------
+    >>> scenario = read_scenario("docs/small_bridge.toml")
+    >>> write_scenario(scenario, "copy.toml")
+    >>> read_scenario("copy.toml") == scenario
+    True
+    """
+    from .model.scenario.file import scenario_text
+    from .system.disk import write_whole_text, writing
+
+    with writing(Path(path)):
+        write_whole_text(Path(path), scenario_text(scenario))
+
+
+def check(scenario: Scenario, *, stand: bool = False) -> list[str]:
+    """Return what ``bda check`` prints: what follows from a scenario, without running it.
+
+    With `stand` it says how the bridge stands under its own weight, as with elastic connections, also where they are
+    rigid.
+
+    Examples
+    --------
+    >>> for line in check(read_scenario("docs/small_bridge.toml")):
+    ...     if "impact speed" in line:
+    ...         print(line)
+      impact speed            2.43 m/s
+    """
+    from .cli.check import scenario_facts
+
+    return list(scenario_facts(scenario, stand=stand))
 
 
 def run(scenario: Scenario, output: str | PathLike[str], *, overwrite: bool = False, pictures: bool = False) -> Results:
@@ -66,6 +129,124 @@ def load_results(folder: str | PathLike[str]) -> Results:
     from .model.results.arrays import load_results as load
 
     return load(Path(folder))
+
+
+def debris(results: Results) -> Debris:
+    """Return the debris at the end of a run: its shards, with throws, masses and distances from the bridge's plan.
+
+    Examples
+    --------
+    >>> pile = debris(load_results("my_results"))
+    >>> len(pile.throws_m) == len(pile.masses_kg) == len(pile.bodies)
+    True
+    """
+    from .model.debris.throws import debris_of
+
+    return debris_of(results)
+
+
+def force_chart(results: Results, title: str = "") -> Figure:
+    """Draw the largest force on a shard, and how many connections are intact, over time.
+
+    Examples
+    --------
+    >>> force_chart(load_results("my_results"), "Small bridge").savefig("forces.png")
+    """
+    from .charts.histories import forces_figure
+
+    return forces_figure(results, title, None)
+
+
+def debris_plan(results: Results, scenario: Scenario | None = None) -> Figure:
+    """Draw where debris lies in plan, with the bridge before and the largest throws; with a scenario, also its zones.
+
+    Examples
+    --------
+    >>> debris_plan(load_results("my_results")).savefig("plan.png")
+    """
+    from .charts.plan_maps import debris_figure
+
+    return debris_figure(results, debris(results), () if scenario is None else scenario.zones)
+
+
+def write_report(folder: _Path | Sequence[_Path], output: _Path | None = None) -> list[Path]:
+    """Write the report of a run, study, search, optimisation or stages from its folder, and return the files.
+
+    The first file is the page. Several folders of runs are compared, in the folder `output`. By default the report goes
+    beside the results.
+
+    Examples
+    --------
+    >>> write_report("my_results")[0].name
+    'report.html'
+    """
+    from .cli.progress import Silence
+    from .report.write import write_report as write
+
+    folders = [folder] if isinstance(folder, str | PathLike) else folder
+    target = None if output is None else Path(output)
+    return write([Path(one) for one in folders], target, progress=Silence())
+
+
+def export(folder: _Path, to: str, output: _Path | None = None) -> Path:
+    """Write a run for another program, and return the file or folder, which must be new.
+
+    `to` is one of ``paraview``, ``xlsx``, ``gltf``, ``usd``, ``alembic`` and ``mat``, as ``bda export --to``. By
+    default it is written into the folder of the run.
+
+    Examples
+    --------
+    >>> export("my_results", "gltf").name
+    'export.glb'
+    """
+    from .cli.progress import Silence
+    from .errors import OutputError
+    from .exports.formats import FORMATS, new_export
+    from .exports.write import export_run
+
+    if to not in FORMATS:
+        raise OutputError(f"to is {to!r}: expected one of {', '.join(FORMATS)}")
+    target = new_export(Path(folder), FORMATS[to]) if output is None else Path(output)
+    export_run(Path(folder), FORMATS[to], target, Silence())
+    return target
+
+
+def run_study(file: _Path, output: _Path, *, jobs: int | None = None) -> EnsembleResult:
+    """Make all runs of a study, a search or an optimisation, each in a process of its own, and return their result.
+
+    `jobs` run at a time, by default as many as there are cores. A folder that holds some of the runs is gone on with.
+    A study gives its conclusions, a search its answer, an optimisation the best candidate.
+
+    Examples
+    --------
+    >>> result = run_study("docs/small_study.toml", "my_study", jobs=2)
+    >>> result.reach.runs, result.reach.is_known
+    (2, True)
+    """
+    from .model.ensemble.folder import ensemble_of_file
+    from .studies.engine import LocalProcesses, cores
+    from .studies.run_process import RunLimits
+    from .studies.session import EnsembleSession
+
+    ensemble = ensemble_of_file(Path(file))
+    engine = LocalProcesses(jobs or cores(), RunLimits.of(ensemble.settings))
+    return EnsembleSession(ensemble, Path(output), engine).complete()
+
+
+def load_study(folder: _Path) -> EnsembleRuns:
+    """Read a study, a search or an optimisation with its runs so far; `EnsembleRuns.result` gives what they state.
+
+    Examples
+    --------
+    >>> runs = load_study("my_study")
+    >>> runs.table.numbers.tolist(), runs.table.done.tolist()
+    ([1, 2], [True, True])
+    >>> runs.result().reach.limit_m == max(runs.table.largest("reach_m").tolist())
+    True
+    """
+    from .model.ensemble.folder import read_ensemble
+
+    return read_ensemble(Path(folder))
 
 
 def register() -> None:

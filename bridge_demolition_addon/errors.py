@@ -1,12 +1,51 @@
 """Errors that the user can mend, one family under one base."""
 
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 
 class DemolitionError(Exception):
     """Base of all errors of this project; its text is a sentence a user can act on."""
 
 
 class ScenarioError(DemolitionError):
-    """A scenario names an unknown key, lacks a needed one or holds a value that cannot be used."""
+    """A scenario names an unknown key, lacks a needed one or holds a value that cannot be used.
+
+    One error may hold several faults, each a sentence by itself.
+    """
+
+    def __init__(self, *faults: str) -> None:
+        super().__init__(*faults)
+        self.faults = faults
+
+    def __str__(self) -> str:
+        return "; ".join(self.faults)
+
+    def within(self, where: str) -> ScenarioError:
+        """Return the error with a file's or a table's name before each of its faults."""
+        return ScenarioError(*(f"{where}: {fault}" for fault in self.faults))
+
+
+class Faults:
+    """The faults of parts that are checked one after the other, so that the user hears of all of them at once."""
+
+    def __init__(self) -> None:
+        self.found: list[str] = []
+
+    @contextmanager
+    def noted(self) -> Iterator[None]:
+        """Note the faults of what is checked within, and go on after it."""
+        try:
+            yield
+        except ScenarioError as error:
+            self.found += error.faults
+
+    def check(self) -> None:
+        """Raise one error with all faults that were found, if there are any."""
+        if self.found:
+            raise ScenarioError(*self.found)
 
 
 class GeometryError(DemolitionError):

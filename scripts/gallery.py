@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Make the gallery: run every example, put its pictures side by side, and write what its file says of it.
 
-Runs go to runs/gallery/NAME, pictures to docs/pictures/gallery/NAME.jpg. The page docs/gallery.md and the table of
-examples in the README are rewritten. With names of examples only those are run again; all other texts and times stay.
+Runs go to runs/gallery/NAME, pictures to docs/pictures/gallery/NAME.jpg. The page docs/gallery.md is rewritten. With
+names of examples only those are run again; all other texts and times stay.
 """
 
 import json
@@ -16,7 +16,6 @@ from PIL import Image
 
 ROOT = Path(__file__).resolve().parent.parent
 EXAMPLES, RUNS = ROOT / "examples", ROOT / "runs" / "gallery"
-README, TABLE = ROOT / "README.md", ("<!-- examples: scripts/gallery -->\n", "<!-- end of examples -->\n")
 PAGE, PICTURES = ROOT / "docs" / "gallery.md", ROOT / "docs" / "pictures" / "gallery"
 TIMES = PICTURES / "times.json"
 """Seconds that each run took, kept so that a page can be written without all of them."""
@@ -34,9 +33,19 @@ HEADER = """\
 
 Every example is a [scenario file](scenario.md) to start from. Run it with `bda run examples/NAME.toml --output DIR`.
 Add `--report` for a [report](report.md). The pictures show the start, the impact (or the blast, or the largest force)
-and the end of one run. [One run is one possible outcome](../README.md#one-run-is-one-possible-outcome): with another
+and the end of one run. [One run is one possible outcome](accuracy.md#one-run-is-one-possible-outcome): with another
 seed single pieces end elsewhere. Times are those of a machine with two cores and nothing else to do, pictures included.
 All examples together took {minutes} minutes.
+
+Every demolition of the 2019 report is here, and some examples go beyond it.
+
+{table}
+
+`bda run examples/i235_three_spans_*.toml --output DIR --report` runs several examples one after the other and compares
+them: here four positions where the ball falls. A variant needs only the values that differ from another scenario; see
+`based_on` in [scenario files](scenario.md). There are also examples of [studies](../examples/studies),
+[searches](../examples/searches), [optimisations](../examples/optimisations), [stages](../examples/stages) and
+[ground motion](../examples/ground_motion).
 """
 
 STUDY = """\
@@ -46,8 +55,8 @@ STUDY = """\
 
 93 runs of the first of these examples, each with other shards, another height and place of the ball, another strength
 and another mass. Shaded is where the probability of debris may be above 5 % and 50 %. Its runs are of an earlier
-version, before friction was that of pairs of surfaces and saw torques. What the study says stands in the
-[README](../README.md#a-plan-is-a-study), all its runs are in [a table](data/studies/i235_one_span.csv), and
+version, before friction was that of pairs of surfaces and saw torques. What it says stands in
+[studies](studies.md#a-plan-is-a-study), all its runs are in [a table](data/studies/i235_one_span.csv), and
 `scripts/pictures/study_picture.py` draws the picture from its folder.
 
 Study: [i235_one_span.toml](../examples/studies/i235_one_span.toml).
@@ -67,7 +76,6 @@ def main(names: list[str]) -> int:
         side_by_side(RUNS / path.stem / "frames", PICTURES / f"{path.stem}.jpg")
         TIMES.write_text(json.dumps(times() | {path.stem: seconds}, indent=2, sort_keys=True) + "\n", encoding="utf-8")
     PAGE.write_text(page(), encoding="utf-8", newline="\n")
-    README.write_text(with_table(README.read_text(encoding="utf-8")), encoding="utf-8", newline="\n")
     return 0
 
 
@@ -103,20 +111,18 @@ def side_by_side(folder: Path, target: Path) -> None:
 def page() -> str:
     """Return the page, made of the comments of the examples."""
     taken = times()
-    header = HEADER.format(minutes=max(1, round(sum(taken.values()) / 60.0)))
+    header = HEADER.format(minutes=max(1, round(sum(taken.values()) / 60.0)), table=table())
     return "\n".join([header, *(section(path, taken.get(path.stem)) for path in examples()), STUDY])
 
 
-def with_table(readme: str) -> str:
-    """Return the README with a new table of all examples and their times."""
-    before, rest = readme.split(TABLE[0])
-    _, after = rest.split(TABLE[1])
+def table() -> str:
+    """Return a table of all examples and their times."""
     taken = times()
     rows = [
-        f"| [{path.stem}](examples/{path.name}) | {title(path)} | {rounded(taken[path.stem])} |" for path in examples()
+        f"| [{path.stem}](../examples/{path.name}) | {title(path)} | {rounded(taken[path.stem])} |"
+        for path in examples()
     ]
-    table = "\n".join(["", "| example | what it shows | s |", "| --- | --- | --- |", *rows, "", ""])
-    return before + TABLE[0] + table + TABLE[1] + after
+    return "\n".join(["| example | what it shows | s |", "| --- | --- | --- |", *rows])
 
 
 def title(path: Path) -> str:

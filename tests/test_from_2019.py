@@ -146,6 +146,7 @@ def test_every_column_of_our_logs_is_there_and_no_other():
         "debris_log.csv": logs.DEBRIS_TABLE.headers,
         "explosion_log.csv": logs.EXPLOSION_TABLE.headers,
         "breaking_log.csv": logs.BREAKING_TABLE.headers,
+        "bar_log.csv": logs.BAR_TABLE.headers,
     }
     told = {name: [] for name in columns}
     for _, now, _ in rows(section("## Logs")):

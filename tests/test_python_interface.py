@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The three functions for Python do what their examples and docs/results.md say, with one run for all of it."""
+"""The functions for Python do what their examples, docs/python.md and docs/results.md say, with one run for it all."""
 
 import doctest
+import inspect
 import json
 import re
 import shutil
@@ -12,11 +13,12 @@ import numpy as np
 import pytest
 from support.checkout import ROOT
 
-import bridge_demolition_addon
+import bridge_demolition_addon as interface
 from bridge_demolition_addon.engineering.units import name_and_unit
 from bridge_demolition_addon.errors import DemolitionError
 from bridge_demolition_addon.model.results.checks import check_arrays
 
+PAGE = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
 DOCUMENT = (ROOT / "docs" / "results.md").read_text(encoding="utf-8")
 NOTEBOOK = ROOT / "docs" / "results.ipynb"
 KINDS = {"text": "U", "whole": "i", "true or false": "b", "single": "f4", "double": "f8"}
@@ -31,20 +33,13 @@ ONLY_WHERE_ASKED = {
 }
 
 
-class _BesideBlender(doctest.OutputChecker):
-    """Compares what an example prints, without what Blender says of the file that it has saved."""
-
-    def check_output(self, want, got, optionflags):
-        lines = [line for line in got.splitlines(keepends=True) if not line.startswith("Info: Saved")]
-        return super().check_output(want, "".join(lines), optionflags)
-
-
 @pytest.fixture(scope="module")
 def folder(tmp_path_factory):
     """Where the examples are tried, as if it were the project's."""
     folder = tmp_path_factory.mktemp("tried")
     (folder / "docs").mkdir()
-    shutil.copy(ROOT / "docs" / "small_bridge.toml", folder / "docs")
+    for name in ("small_bridge.toml", "small_study.toml"):
+        shutil.copy(ROOT / "docs" / name, folder / "docs")
     return folder
 
 
@@ -53,10 +48,11 @@ def tried(folder):
     """What came of the examples in the docstrings, and the run that they made."""
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(folder)
-        runner = doctest.DocTestRunner(checker=_BesideBlender())
-        for example in doctest.DocTestFinder().find(bridge_demolition_addon):
+        runner = doctest.DocTestRunner()
+        # In the order of their lines, as some look at what those before them made.
+        for example in sorted(doctest.DocTestFinder().find(interface), key=lambda example: example.lineno or 0):
             runner.run(example)
-    return runner.summarize(), bridge_demolition_addon.load_results(folder / "my_results")
+    return runner.summarize(), interface.load_results(folder / "my_results")
 
 
 def told_arrays():
@@ -67,8 +63,37 @@ def told_arrays():
 
 def test_the_examples_in_the_docstrings_come_out_as_they_say(tried):
     outcome, _ = tried
-    assert outcome.attempted >= 7
+    assert outcome.attempted >= 20
     assert outcome.failed == 0
+
+
+def test_the_job_of_the_page_runs(tried, folder, monkeypatch, capsys):
+    monkeypatch.chdir(folder)
+    (job,) = re.findall(r"^```python\n(.*?)^```", PAGE, flags=re.S | re.M)
+    exec(job, found := {})
+    said = capsys.readouterr().out
+    assert "shards lie elsewhere" in said and "far too few for a plan" in said
+    assert found["page"].is_file() and (folder / "heavier_plan.png").stat().st_size > 10_000
+    assert found["stated"].reach.runs == 2
+
+
+def test_the_page_lists_all_functions_with_their_arguments():
+    rows = re.findall(r"^\| `(\w+)\((.*?)\)` \|", PAGE, flags=re.M)
+    functions = [name for name in interface.__all__ if inspect.isfunction(getattr(interface, name))]
+    assert sorted(name for name, _ in rows) == sorted(functions)
+    for name, arguments in rows:
+        parameters = inspect.signature(getattr(interface, name)).parameters.values()
+        told = [f"{one.name}={one.default!r}" if one.default is not one.empty else one.name for one in parameters]
+        assert ", ".join(told).replace("'", '"') == arguments
+
+
+@pytest.mark.parametrize(
+    "wrong", [lambda: interface.export("my_results", "dwg"), lambda: interface.run_study("no", "x")]
+)
+def test_what_is_wrong_is_a_sentence(wrong, tried, folder, monkeypatch):
+    monkeypatch.chdir(folder)
+    with pytest.raises(DemolitionError, match=r"to is 'dwg': expected one of|no: no such file: expected a study"):
+        wrong()
 
 
 def test_every_array_has_the_shape_and_kind_that_the_table_says(tried):
@@ -128,7 +153,7 @@ def test_nothing_is_loaded_before_it_is_needed_whatever_the_package_is_called(tm
 
 def test_what_is_no_run_is_a_sentence(tmp_path):
     with pytest.raises(DemolitionError, match="expected the results of a run"):
-        bridge_demolition_addon.load_results(tmp_path)
+        interface.load_results(tmp_path)
 
 
 def test_the_notebook_runs_from_its_first_cell_to_its_last(folder):

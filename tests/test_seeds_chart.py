@@ -34,8 +34,8 @@ def test_every_run_has_a_seed_of_its_own_and_is_in_order_of_its_largest_throw(ru
     assert (runs["throw_95_percent_m"] <= runs["largest_throw_m"]).all()
 
 
-def test_the_readme_gives_the_ranges_that_were_measured(runs):
-    text = words(ROOT / "README.md")
+def test_the_page_gives_the_ranges_that_were_measured(runs):
+    text = words(ROOT / "docs" / "accuracy.md")
     largest = runs["largest_throw_m"]
     assert f"run {len(runs)} times" in text
     assert f"stay within {spread(runs['throw_95_percent_m'])}" in text
@@ -79,6 +79,7 @@ def test_the_example_says_how_often_the_span_that_starts_awake_falls():
     falls = (runs["span_1_median_fall_m"] > 4.0).sum()
     assert falls > 0.5 * len(runs)
     assert f"With {falls} of {len(runs)} seeds the piers fail" in words(EXAMPLES / "single_span_awake.toml")
+    assert f"Awake, it falls by itself in {falls} of {len(runs)} runs" in words(ROOT / "README.md")
 
 
 def test_the_example_says_how_often_a_span_between_charges_of_a_ton_is_falling():

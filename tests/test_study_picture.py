@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The README says of the study that it shows what the study says."""
+"""The README and the page on studies say of the study that they show what the study says."""
 
 import json
 
@@ -13,10 +13,14 @@ from bridge_demolition_addon.model.study.runs_table import REACH, read_runs
 from bridge_demolition_addon.report.wording.study import limit_sentence
 
 
+def page(*path):
+    """A page in one line."""
+    return " ".join(ROOT.joinpath(*path).read_text(encoding="utf-8").split())
+
+
 @pytest.fixture(scope="module")
 def told():
-    """The README in one line."""
-    return " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
+    return page("docs", "studies.md")
 
 
 @pytest.fixture(scope="module")
@@ -33,7 +37,8 @@ def test_the_limit_is_that_of_the_runs(told, runs):
     assert limit.limit_m == said["limit_m"]
     words = limit_sentence(limit, ("what varies",), settings.least_mass_kg, None).split(". ")[0]
     stayed = words[words.index("debris stayed within") :]
-    assert f"{stayed} of them, and with 95 % confidence at least 95 % of such runs stay within it" in told
+    for text in (told, page("README.md")):
+        assert f"{stayed} of them, and with 95 % confidence at least 95 % of such runs stay within it" in text
 
 
 def test_the_criteria_are_those_of_the_runs(told, runs):

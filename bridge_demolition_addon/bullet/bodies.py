@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..errors import LayoutError
 from ..model.results.motion import OUT_OF_REACH_M
 from .body_motion import BodyMotionReader
 from .contacts import ContactReader
-from .layout import ASLEEP, AWAKE, DISABLED, SLEEPING, WANTS_SLEEP, Layout
+from .layout import ASLEEP, AWAKE, DISABLED, FIXED_FLAGS, NO_CONTACT_RESPONSE, SLEEPING, WANTS_SLEEP, Layout
 from .memory import DOUBLES, INTEGERS, Fields, add_vectors, gather_doubles, write_vectors
 
 _TRANSFORM = 8 * np.array([0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14])
@@ -131,6 +132,19 @@ class BodyTable:
         self.set_velocities(bodies, resting, resting)
         INTEGERS.write(addresses + np.uint64(self._body.activation), DISABLED)
         self.removed[bodies] = True
+
+    def check_contact_flags(self) -> None:
+        """Check that the flags of all bodies are where they are expected: those that never move are marked there."""
+        flags = INTEGERS.gather(self._fields(self._body.collision_flags))
+        if ((flags & ~FIXED_FLAGS) != 0).any() or ((flags != 0) & self.can_move()).any():
+            raise LayoutError("flags of bodies that tell which of them collide are not as expected")
+
+    def let_touch(self, bodies: np.ndarray, *, touch: bool) -> None:
+        """Have bodies (k,) pass through all others, or touch them again; `check_contact_flags` comes before."""
+        fields = self.addresses[bodies] + np.uint64(self._body.collision_flags)
+        flags = INTEGERS.gather(fields)
+        INTEGERS.write(fields, flags & ~NO_CONTACT_RESPONSE if touch else flags | NO_CONTACT_RESPONSE)
+        self.contacts.forget(bodies)
 
     def _once(self, bodies: np.ndarray) -> np.ndarray:
         """Return each of bodies (k,) once and in order."""

@@ -75,6 +75,7 @@ class BodyLayout:
     angular_velocity = Behind("inverse_mass", -32)
     total_force = Behind("gravity", 96)  # in the coming step, with the weight
     total_torque = Behind("gravity", 128)
+    collision_flags = Behind("user_pointer", -88)  # whether it is static or kinematic, and answers contacts
     activation = Behind("user_pointer", -72)  # state of activation
     deactivation_time = Behind("user_pointer", -64)  # how long the body has been slow
     ignored_bodies_count = Behind("user_pointer", 60)  # length of the list of bodies that it does not collide with
@@ -255,6 +256,9 @@ SLEEPING = frozenset({ASLEEP, DISABLED})
 
 ACTIVATION_STATES = frozenset({AWAKE, ASLEEP, WANTS_SLEEP, 4, DISABLED})
 """All activation states; 4 is that of a body that never sleeps."""
+
+FIXED_FLAGS, NO_CONTACT_RESPONSE = 3, 4
+"""Flags of bodies that are static (1) or kinematic (2), and of one whose contacts push nothing (btCollisionObject)."""
 
 CONSTRAINT_TYPES = {
     "POINT": frozenset({3}),

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.figure import FigureBase
+from matplotlib.figure import Figure, FigureBase
 
 from ..model.results.arrays import Results
 from ..model.results.collapse import Span
@@ -22,7 +22,14 @@ _MOST_KINDS = 7
 
 
 def plot_forces(results: Results, path: Path, title: str, impact_s: float | None) -> None:
-    """Draw a picture of the largest force on any shard, the intact connections and the hit of the ball over time."""
+    """Write a picture of the chart of forces."""
+    figure = forces_figure(results, title, impact_s)
+    with whole_file(path) as part:
+        figure.savefig(part)
+
+
+def forces_figure(results: Results, title: str, impact_s: float | None) -> Figure:
+    """Draw the largest force on any shard, the intact connections and the hit of the ball over time."""
     figure = blank_figure(9.0, 5.0, dpi=120, layout="constrained")
     force_axes = figure.add_subplot()
     times, (sums, resultants) = results.frames.time_s, _largest_loads(results)
@@ -40,8 +47,7 @@ def plot_forces(results: Results, path: Path, title: str, impact_s: float | None
         lines.append(force_axes.axvline(impact_s, color="black", linestyle=":", label="impact of the ball"))
     figure.legend(handles=lines, loc="outside lower center", ncols=2, frameon=False)
     lay_out(figure)
-    with whole_file(path) as part:
-        figure.savefig(part)
+    return figure
 
 
 def contact_force_history(figure: FigureBase, forces: ContactForces, impact_s: float | None) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 from manifold3d import CrossSection
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection, PolyCollection
-from matplotlib.figure import FigureBase
+from matplotlib.figure import Figure, FigureBase
 from matplotlib.patches import PathPatch
 from matplotlib.path import Path as Outline
 from matplotlib.ticker import MaxNLocator
@@ -23,7 +23,7 @@ from ..model.debris.footprint import plan_hulls
 from ..model.debris.throws import Debris, HeightMap
 from ..model.results.arrays import Results
 from ..model.scenario import Zone
-from .style import MM_PER_INCH, MM_PER_POINT, PAGE_WIDTH_MM, plain
+from .style import MM_PER_INCH, MM_PER_POINT, PAGE_WIDTH_MM, blank_figure, lay_out, plain
 
 NAMED_THROWS = 5
 """Largest throws that the map names."""
@@ -85,6 +85,16 @@ def debris_map(
     fit(axes, figure)
     name_zones(axes, zones)
     draw_ground(axes, debris.ground)
+
+
+def debris_figure(results: Results, debris: Debris, zones: Sequence[Zone] = ()) -> Figure:
+    """Draw `debris_map` on a figure of its own, as wide as a page."""
+    low, high = _bounds_of([("", debris)])
+    size = PAGE_WIDTH_MM / MM_PER_INCH, map_height_mm((*low, *high)) / MM_PER_INCH
+    figure = blank_figure(*size, layout="constrained", dpi=150)
+    debris_map(figure, results, debris, zones)
+    lay_out(figure)
+    return figure
 
 
 def draw_ground(axes: Axes, ground: RecordedGround) -> None:

@@ -29,7 +29,9 @@ def naming(path: str) -> Iterator[None]:
     """Put a scenario file's name before errors in it that are found after it was read."""
     try:
         yield
-    except (BlastError, GeometryError, ScenarioError) as error:
+    except ScenarioError as error:
+        raise error.within(path) from error
+    except (BlastError, GeometryError) as error:
         raise type(error)(f"{path}: {error}") from error
 
 

@@ -1,4 +1,4 @@
-"""``bda charge``: the smallest charge for a wanted load, or the effects of a charge around it."""
+"""``bda charge``: the smallest charge for a wanted load, the effects of a charge around it, or those of drill holes."""
 
 import argparse
 from collections.abc import Iterator
@@ -20,9 +20,12 @@ from ..engineering.blast.vibration import (
 )
 from ..engineering.blast.wave import scaled_distance
 from ..errors import BlastError
+from ..model.blast.blast_zones import DRILLED_EXPLOSIVES, DrilledExplosive
 from ..model.blast.charges import EXPLOSIVES, Explosive, explosive_named
 from ..model.blast.damage import THRESHOLDS
+from . import drilled_charge
 from .arguments import add_blast_options, quantity
+from .drilled_charge import drilled_explosive, zone_lines
 
 VIBRATION_DISTANCES_M = (10.0, 20.0, 50.0, 100.0, 200.0)
 
@@ -31,9 +34,10 @@ def add_to(commands: argparse._SubParsersAction) -> None:
     """Add the command to the command line."""
     parser = commands.add_parser(
         "charge",
-        help="find the smallest charge for a wanted load, or the effects of a charge around it",
+        help="find the smallest charge for a wanted load, or the effects of a charge around it or in drill holes",
         description="With --distance-m and a wanted load: the smallest charge that gives it there. "
-        "With --mass-kg: how far the thresholds of damage reach, and how much the ground shakes.",
+        "With --mass-kg: how far the thresholds of damage reach, and how much the ground shakes. "
+        "With --zone-m: what charges in drill holes do to a part of a member, see docs/drilled_charges.md.",
         allow_abbrev=False,
     )
     task = parser.add_mutually_exclusive_group(required=True)
@@ -43,24 +47,51 @@ def add_to(commands: argparse._SubParsersAction) -> None:
     load.add_argument("--overpressure-kpa", type=quantity, metavar="P", help="wanted peak incident overpressure")
     load.add_argument("--impulse-kpa-ms", type=quantity, metavar="I", help="wanted incident impulse per area")
     names = ", ".join(EXPLOSIVES).replace("%", "%%")  # help texts are formats
-    parser.add_argument("--explosive", type=_explosive, default="TNT", metavar="NAME", help=f"one of {names} (TNT)")
+    in_holes = ", ".join(DRILLED_EXPLOSIVES)
+    help_text = f"one of {names} (TNT); with --zone-m one of {in_holes} (gelatine)"
+    parser.add_argument("--explosive", type=_explosive, default=None, metavar="NAME", help=help_text)
     parser.add_argument("--ground", choices=list(GROUNDS), default="average", help="rock that shakes (average)")
     add_blast_options(parser)
+    drilled_charge.add_to(parser, task)
     parser.set_defaults(execute=charge)
 
 
 def charge(arguments: argparse.Namespace) -> None:
     """Print the charge for a wanted load, or the effects of a charge."""
     _check_together(arguments)
-    for line in _effects(arguments) if arguments.mass_kg else _smallest_charge(arguments):
+    if arguments.zone_m:
+        lines = zone_lines(arguments, _explosive_in_holes(arguments.explosive))
+    else:
+        arguments.explosive = _explosive_in_the_open(arguments.explosive)
+        lines = _effects(arguments) if arguments.mass_kg else _smallest_charge(arguments)
+    for line in lines:
         print(line)
 
 
-def _explosive(name: str) -> Explosive:
+def _explosive(name: str) -> str:
+    """Return a name of an explosive, for holes or the open."""
+    if drilled_explosive(name) is None:
+        try:
+            explosive_named(name)
+        except BlastError as error:
+            raise argparse.ArgumentTypeError(
+                f"{error}; with --zone-m one of {', '.join(DRILLED_EXPLOSIVES)}"
+            ) from error
+    return name
+
+
+def _explosive_in_the_open(name: str | None) -> Explosive:
     try:
-        return explosive_named(name)
+        return explosive_named(name or "TNT")
     except BlastError as error:
-        raise argparse.ArgumentTypeError(str(error)) from error
+        raise BlastError(f"--explosive: {error}") from error
+
+
+def _explosive_in_holes(name: str | None) -> DrilledExplosive:
+    explosive = drilled_explosive(name or "gelatine")
+    if explosive is None:
+        raise BlastError(f"--explosive is {name}: expected one of {', '.join(DRILLED_EXPLOSIVES)} with --zone-m")
+    return explosive
 
 
 def _check_together(arguments: argparse.Namespace) -> None:
@@ -68,7 +99,16 @@ def _check_together(arguments: argparse.Namespace) -> None:
     wanted = {option: value for option, value in loads.items() if value}
     if arguments.distance_m and not wanted:
         raise BlastError(f"--distance-m is {arguments.distance_m:g}: expected one of {', '.join(loads)} with it")
+    of_holes = [name for name in drilled_charge.OPTIONS if getattr(arguments, name)]
+    if of_holes and not arguments.zone_m:
+        raise BlastError(f"--{of_holes[0].replace('_', '-')} is given: expected --zone-m with it")
+    if arguments.zone_m and not (arguments.specific_kg_m3 or arguments.charge_g):
+        raise BlastError("--zone-m is given: expected --specific-kg-m3 or --charge-g with it")
+    if arguments.bars and not arguments.bar_diameter_mm:
+        raise BlastError(f"--bars is {arguments.bars}: expected --bar-diameter-mm with it")
     for option, value in wanted.items():
+        if arguments.zone_m:
+            raise BlastError(f"{option} is {value:g}: expected --distance-m with it, not --zone-m")
         if arguments.mass_kg:
             raise BlastError(f"{option} is {value:g}: expected --distance-m with it, not --mass-kg")
 

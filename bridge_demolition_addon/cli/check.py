@@ -9,12 +9,15 @@ from ..model.bridge.member import member_facts
 from ..model.bridge.preparation import prepared_members
 from ..model.reinforcement.design import bar_schedule
 from ..model.reinforcement.facts import schedule_facts
-from ..model.scenario import Charge, Scenario
+from ..model.scenario import BlastZone, Charge, Scenario
 from ..model.scenario.contact_facts import contact_facts
 from ..model.scenario.file import read_scenario
 from ..model.scenario.scenario import bars_by_rule
 from ..model.sequence.checked_model import ModelWorksite, checked_model
+from ..model.sequence.undisturbed import asleep_text
+from ..model.stages.stages import equipment_facts
 from ..model.stages.standing import made_elastic
+from ..model.structure.blast_zones import placed_zones, zone_totals
 from ..model.structure.facts import accuracy_facts, connection_facts, foundation_facts, overlap_facts, rest_facts
 from ..model.structure.model import Model
 from ..model.terrain.built import terrain_facts
@@ -62,6 +65,8 @@ def scenario_facts(scenario: Scenario, *, stand: bool = False) -> Iterator[str]:
     if not model.ground.is_plain:
         yield from _section("Ground", terrain_facts(model.ground))
     yield from _section("Shards and connections", connection_facts(scenario, model))
+    if asleep := asleep_text(scenario):
+        yield from _section("At first", [("asleep", asleep)])
     yield from _section("Contacts", contact_facts(scenario))
     if stand and model.stiffness is None:
         elastic = checked_model(as_elastic, prepared.members)
@@ -75,6 +80,12 @@ def scenario_facts(scenario: Scenario, *, stand: bool = False) -> Iterator[str]:
         yield from _section("Foundations", foundation_facts(scenario, model))
     for heading, facts in _action_facts(scenario, model).items():
         yield from _section(heading, facts)
+    if scenario.equipment:
+        yield from _section("Equipment", equipment_facts(scenario, model))
+    if not scenario.actions:
+        yield from _section(
+            "Sequence", [("nothing", "is done to the bridge: add [ball], [[charges]] or another action")]
+        )
     if reason := scenario.pictures.why_not_without_window:
         yield from _section("Pictures", [("none can be taken", reason)])
 
@@ -88,6 +99,8 @@ def _action_facts(scenario: Scenario, model: Model) -> dict[str, list[Fact]]:
         sections.setdefault(action.heading, []).append(described)
     sections.get(PlannedAction.heading, []).sort()
     lines = {heading: [fact for _, facts in parts for fact in facts] for heading, parts in sections.items()}
+    if scenario.blast_zones:
+        lines[BlastZone.heading] += zone_totals(placed_zones(scenario, model.members), model.members)
     if scenario.charges:
         lines[Charge.heading] += scenario.blast.facts(scenario.charges, scenario.fracture.shards)
     return lines

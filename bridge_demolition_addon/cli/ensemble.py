@@ -22,6 +22,11 @@ _SHOWN_REASONS = 5
 _MOST_JOBS = 1000
 
 
+def folder_beside(file: str | Path, kind: str) -> Path:
+    """Return the folder here that an ensemble goes to where none is named: the same each time, so that it goes on."""
+    return Path(f"{Path(file).stem}_{kind}")
+
+
 def add_ensemble_options(parser: argparse.ArgumentParser) -> None:
     """Add the options that say where runs are made, and what is printed."""
     parser.add_argument("--jobs", metavar="N", type=_jobs, help="runs at a time (as many as this machine has cores)")

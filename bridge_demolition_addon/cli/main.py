@@ -5,8 +5,9 @@ import signal
 import sys
 from collections.abc import Sequence
 from contextlib import suppress
+from difflib import get_close_matches
 from importlib import import_module
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from ..errors import (
     BlastError,
@@ -20,6 +21,7 @@ from ..errors import (
     text_of,
 )
 from ..system.signals import Interrupted, interrupt_by_system, interrupted_afterwards
+from ..version import VERSION
 from .console import StandardStream, end_process
 
 DONE = 0
@@ -29,15 +31,19 @@ SIGNALLED = 128
 """Added to the number of the signal that ended a command, as shells do: 130 for Ctrl-C."""
 
 COMMANDS = {
+    "new": "new",
+    "explain": "explain",
     "check": "check",
     "import": "exchange.import_ifc",
     "run": "run",
     "stages": "stages",
+    "plan": "plan",
     "study": "study",
     "search": "search",
     "optimise": "search",
     "report": "report",
     "export": "exchange.export",
+    "compare": "compare",
     "charge": "charge",
     "charts": "charts",
 }
@@ -51,6 +57,15 @@ class UsageError(DemolitionError):
 class Parser(argparse.ArgumentParser):
     """A parser whose errors are printed as all others are: one line, without the usage."""
 
+    def __init__(self, **settings: Any) -> None:
+        self.options: list[str] = []
+        super().__init__(**settings)
+
+    def add_argument(self, *names: str, **settings: Any) -> argparse.Action:
+        """Add an argument, and remember its name, which a wrong one may be like."""
+        self.options += [name for name in names if name.startswith("--")]
+        return super().add_argument(*names, **settings)
+
     def error(self, message: str) -> NoReturn:
         """Refuse a command line."""
         raise UsageError(f"{message}; see {self.prog} --help")
@@ -63,8 +78,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     the terminal was closed.
     """
     try:
-        words = sys.argv[1:] if argv is None else argv
-        arguments = _parser(words).parse_args(words)
+        arguments = _arguments(sys.argv[1:] if argv is None else argv)
         arguments.execute(arguments)
     except (
         UsageError,
@@ -102,19 +116,48 @@ def entry() -> NoReturn:
     sys.exit(status)
 
 
-def _parser(argv: Sequence[str]) -> Parser:
+def _arguments(words: Sequence[str]) -> argparse.Namespace:
+    """Return the arguments of a command line, or say what was meant by one that is wrong."""
+    if words and words[0] not in COMMANDS and not words[0].startswith("-"):
+        raise UsageError(f"{_unknown_command(words[0])}; see bda --help")
+    parser, parsers = _parser(words)
+    arguments, unknown = parser.parse_known_args(words)
+    if unknown:
+        known = [option for command in parsers for option in command.options]
+        raise UsageError(f"{_unknown_arguments(unknown, known)}; see bda {words[0]} --help")
+    return arguments
+
+
+def _unknown_command(word: str) -> str:
+    if word.endswith(".toml"):
+        return f"{word} stands where a command is expected: write bda run {word} or bda check {word}"
+    alike = get_close_matches(word, COMMANDS, n=1)
+    return f"{word!r} is no command: " + (f"did you mean {alike[0]}?" if alike else f"expected {', '.join(COMMANDS)}")
+
+
+def _unknown_arguments(unknown: Sequence[str], known: Sequence[str]) -> str:
+    alike = get_close_matches(unknown[0].partition("=")[0], known, n=1) if unknown[0].startswith("-") else []
+    return f"unrecognized arguments: {' '.join(unknown)}" + (f": did you mean {alike[0]}?" if alike else "")
+
+
+def _parser(argv: Sequence[str]) -> tuple[Parser, list[Parser]]:
     """Return the parser of the command that is called, or of all: it takes a second to load them."""
     parser = Parser(prog="bda", description="Plan the demolition of a bridge.", allow_abbrev=False)
+    parser.add_argument("--version", action="version", version=f"bda {VERSION}", help="print the version")
+    if argv[:1] == ["--version"]:
+        return parser, []
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
     called = argv[:1] if argv and argv[0] in COMMANDS else COMMANDS
     with interrupted_afterwards():  # while they load, some libraries take an interrupt for a missing part
         for module in dict.fromkeys(COMMANDS[name] for name in called):
             import_module(f".{module}", __package__).add_to(commands)
-    return parser
+    return parser, [command for command in commands.choices.values() if isinstance(command, Parser)]
 
 
 def _failed(error: DemolitionError | OSError, status: int) -> int:
-    _say(f"error: {' '.join(text_of(error).split())}")
+    """Print each fault of an error as one line."""
+    for fault in error.faults if isinstance(error, ScenarioError) else [text_of(error)]:
+        _say(f"error: {' '.join(fault.split())}")
     return status
 
 

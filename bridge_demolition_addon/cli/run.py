@@ -9,22 +9,26 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from ..errors import OutputError, SimulationError
+from ..errors import Faults, OutputError, SimulationError
 from ..model.reinforcement.concrete_members import plain_concrete_text
+from ..model.results.bar_extremes import bars_text, largest_use_text
 from ..model.results.creep import creep_text
 from ..model.results.fingerprint import SHORT
 from ..model.results.summary import first_hit_s
 from ..model.run_folder.files import RESULT_FILES
-from ..model.run_folder.folder import check_folder, remove_report
+from ..model.run_folder.folder import check_folder, numbered_folder, remove_report
 from ..model.scenario import Scenario
 from ..model.scenario.file import read_scenario
 from ..model.sequence.checked_model import checked_model
-from ..model.sequence.undisturbed import self_collapse_text
+from ..model.sequence.undisturbed import asleep_text, self_collapse_text
 from ..model.structure.model import Model
 from ..system.progress import Progress
 from ..system.signals import interrupted_afterwards
 from .arguments import naming
 from .progress import progress_on
+
+COMPARISON = "comparison"
+"""Name of the folder of several runs, counted up, where none is given."""
 
 COMPARISON_FOLDER = "report"
 """Where in the folder of a comparison its report is."""
@@ -36,11 +40,12 @@ def add_to(commands: argparse._SubParsersAction) -> None:
         "run",
         help="run a scenario and keep its results in a folder",
         description="Of one scenario, the results are kept in DIR. Several are a comparison: they are run in order, "
-        "and the results of each are kept in a folder in DIR that is called like its file.",
+        "and the results of each are kept in a folder in DIR that is called like its file. Without --output, DIR is a "
+        "new folder here, called like the scenario and counted up.",
         allow_abbrev=False,
     )
     parser.add_argument("scenarios", metavar="SCENARIO.toml", nargs="+", help="scenario file, see docs/scenario.md")
-    parser.add_argument("--output", metavar="DIR", type=Path, required=True, help="folder for the results, made if new")
+    parser.add_argument("--output", metavar="DIR", type=Path, help="folder for the results, made if new (here)")
     parser.add_argument("--overwrite", action="store_true", help="replace the results of an earlier run in that folder")
     parser.add_argument("--no-pictures", action="store_true", help="render no pictures")
     parser.add_argument(
@@ -59,7 +64,10 @@ def add_to(commands: argparse._SubParsersAction) -> None:
 
 def run(arguments: argparse.Namespace) -> None:
     """Run the scenarios, show how far they are, and print where the results are."""
-    scenarios = [read_scenario(path) for path in arguments.scenarios]
+    scenarios = _scenarios(arguments.scenarios)
+    if arguments.output is None:
+        title = scenarios[0].title if len(scenarios) == 1 else COMPARISON
+        arguments.output = numbered_folder(Path(), title)
     progress = progress_on(sys.stdout, quiet=arguments.quiet)
     try:
         with _blender_silenced() if arguments.quiet else nullcontext():
@@ -69,6 +77,16 @@ def run(arguments: argparse.Namespace) -> None:
                 _run_comparison(scenarios, arguments, progress)
     finally:
         progress.finish()
+
+
+def _scenarios(paths: Sequence[str]) -> list[Scenario]:
+    """Read scenarios, or raise the faults of all of them."""
+    scenarios, faults = [], Faults()
+    for path in paths:
+        with faults.noted():
+            scenarios.append(read_scenario(path))
+    faults.check()
+    return scenarios
 
 
 def _run_comparison(scenarios: Sequence[Scenario], arguments: argparse.Namespace, progress: Progress) -> None:
@@ -129,7 +147,7 @@ def _run_and_report(
     report = _report([output], None, progress) if arguments.report else []
     if not arguments.quiet:
         progress.finish()
-        _print_results(summary, output, report, plain)
+        _print_results(scenario, summary, output, report, plain)
 
 
 def run_with_everything(scenario: Scenario, output: Path, progress: Progress, *, quiet: bool) -> Mapping[str, Any]:
@@ -171,12 +189,13 @@ def _report(folders: Sequence[Path], output: Path | None, progress: Progress) ->
     return write_report(folders, output, progress=progress)
 
 
-def _print_results(summary: Mapping[str, Any], output: Path, report: Sequence[Path], plain: str) -> None:
+def _print_results(
+    scenario: Scenario, summary: Mapping[str, Any], output: Path, report: Sequence[Path], plain: str
+) -> None:
     print()
-    if plain:
-        print(f"{plain}.\n")
-    if fall := self_collapse_text(summary):
-        print(f"{fall}.\n")
+    for doubt in (plain, self_collapse_text(summary), asleep_text(scenario)):
+        if doubt:
+            print(f"{doubt}.\n")
     for name, value in _result_facts(summary):
         print(f"{name:<24}{value}")
     results = [output / name for name in RESULT_FILES]
@@ -193,6 +212,10 @@ def _print_paths(paths: Sequence[Path]) -> None:
 def _result_facts(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     connections, force = summary["connections"], summary["largest_force_sum"]
     yield "broken connections", f"{connections['broken']} of {connections['count']}"
+    if bars := bars_text(summary):
+        yield "reinforcement", bars
+    if use := largest_use_text(summary):
+        yield "largest use of bars", use
     if force:
         position = f"on {force['body']} at {force['time_s']:.3f} s"
         yield "largest sum of forces", f"{force['force_N'] / 1000.0:.1f} kN {position}"
@@ -207,6 +230,8 @@ def _result_facts(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     if energy := summary["energy"]:
         made = energy["made_by_solver"]
         share = f"{made['share_of_dissipated']:.1%} of the dissipated energy"
+        if by_bars_j := energy["dissipated_by_bars_J"]:
+            yield "work of bars", f"{by_bars_j / 1000.0:.1f} kJ of {energy['dissipated_J'] / 1000.0:.1f} kJ dissipated"
         yield "energy made by solver", f"{made['J'] / 1000.0:.1f} kJ, {share}"
         if doubtful := energy["doubtful_throws"]:
             yield "doubtful throws", f"{doubtful} shards, marked in debris_log.csv and summary.json"

@@ -12,7 +12,7 @@ from ..model.search.file import read_search
 from ..model.study.file import Ensemble
 from ..report.wording.optimise import optimise_sentences
 from ..report.wording.search import search_sentences
-from .ensemble import add_ensemble_options, execute_ensemble
+from .ensemble import add_ensemble_options, execute_ensemble, folder_beside
 
 
 def add_to(commands: argparse._SubParsersAction) -> None:
@@ -44,6 +44,14 @@ def _complete(
 ) -> None:
     help_text = f"file that says what to {name}, see docs/{name}.md"
     parser.add_argument("file", metavar=f"{name.upper()}.toml", type=Path, help=help_text)
-    parser.add_argument("--output", metavar="DIR", type=Path, required=True, help="its folder, made if new")
+    parser.add_argument(
+        "--output", metavar="DIR", type=Path, help=f"its folder, made if new (NAME_{name} for NAME.toml)"
+    )
     add_ensemble_options(parser)
-    parser.set_defaults(execute=lambda arguments: execute_ensemble(read(arguments.file), arguments, sentences))
+
+    def execute(arguments: argparse.Namespace) -> None:
+        ensemble = read(arguments.file)
+        arguments.output = arguments.output or folder_beside(arguments.file, name)
+        execute_ensemble(ensemble, arguments, sentences)
+
+    parser.set_defaults(execute=execute)

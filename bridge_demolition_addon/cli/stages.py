@@ -9,9 +9,11 @@ from functools import partial
 from pathlib import Path
 
 from ..errors import OutputError
+from ..model.run_folder.folder import numbered_folder
 from ..model.scenario.file import read_scenario
 from ..model.sequence.checked_model import checked_model
 from ..model.stages.bearing_rows import bearing_rows
+from ..model.stages.misfires import Misfire, misfire_sentences, misfires
 from ..model.stages.stages import Criticality, Stage, criticality, stages_of
 from ..model.stages.standing import StandingBridge, made_elastic
 from ..model.stages.tables import (
@@ -35,11 +37,13 @@ def add_to(commands: argparse._SubParsersAction) -> None:
         help="say how the bridge stands between the steps of its demolition, and which members hold it",
         description="Work out the bridge at rest before each step of a scenario and after the last, by the stiffness "
         "of its connections and without a simulation, and write stages.csv, reactions.csv, bearings.csv, "
-        "utilisation.csv and criticality.csv.",
+        "utilisation.csv, criticality.csv and misfires.csv.",
         allow_abbrev=False,
     )
     parser.add_argument("scenario", metavar="SCENARIO.toml", type=Path, help="scenario file, see docs/stages.md")
-    parser.add_argument("--output", metavar="DIR", type=Path, required=True, help="folder for the tables, made if new")
+    parser.add_argument(
+        "--output", metavar="DIR", type=Path, help="folder for the tables, made if new (here, called like the scenario)"
+    )
     parser.add_argument("--overwrite", action="store_true", help="replace tables that are there")
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
     parser.set_defaults(execute=execute)
@@ -48,7 +52,7 @@ def add_to(commands: argparse._SubParsersAction) -> None:
 def execute(arguments: argparse.Namespace) -> None:
     """Work out the stages, write their tables and print what they say."""
     scenario = read_scenario(arguments.scenario)
-    output: Path = arguments.output
+    output: Path = arguments.output or numbered_folder(Path(), f"{scenario.title} stages")
     paths = [output / name for name in FILES]
     if not arguments.overwrite and (there := [path for path in paths if path.exists()]):
         raise OutputError(f"{there[0]}: exists already; choose another folder, or add --overwrite")
@@ -59,12 +63,15 @@ def execute(arguments: argparse.Namespace) -> None:
             bridge = StandingBridge(model, scenario.joints)
             stages = stages_of(scenario, bridge, partial(progress.part, text="stages"))
             members = criticality(bridge, partial(progress.part, text="members taken away"))
+            failures = misfires(scenario, bridge, partial(progress.part, text="zones that fail"))
     finally:
         progress.finish()
     with writing(output):
-        rows = write_tables(output, stages, members, bridge)
+        rows = write_tables(output, stages, members, bridge, failures)
     if not arguments.quiet:
-        _print(stages, rows, all_reaction_rows(stages, model), list(bearing_rows(stages, model)), members, paths)
+        _print(
+            stages, rows, all_reaction_rows(stages, model), list(bearing_rows(stages, model)), members, failures, paths
+        )
 
 
 def _print(
@@ -73,6 +80,7 @@ def _print(
     reactions: Sequence[dict],
     bearings: Sequence[dict],
     members: Sequence[Criticality],
+    failures: Sequence[Misfire],
     paths: Sequence[Path],
 ) -> None:
     print()
@@ -84,7 +92,7 @@ def _print(
         for line in others:
             print(f"  {line}")
     print()
-    for line in criticality_sentences(members):
+    for line in (*criticality_sentences(members), *misfire_sentences(failures)):
         print(line)
     print()
     for path in paths:

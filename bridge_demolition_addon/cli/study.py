@@ -22,7 +22,7 @@ from ..studies.engine import cores
 from ..studies.estimate import FACTOR, seconds_by_runs, seconds_by_size
 from ..studies.session import EnsembleSession
 from ..system.programs import program_command
-from .ensemble import add_ensemble_options, execute_ensemble, whole_number
+from .ensemble import add_ensemble_options, execute_ensemble, folder_beside, whole_number
 from .progress import CommandProgress, progress_on
 from .run import run_with_everything
 
@@ -41,7 +41,9 @@ def add_to(commands: argparse._SubParsersAction) -> None:
     parser.add_argument(
         "study", metavar="STUDY.toml", help="study file, see docs/studies.md; with --again, the folder of a study"
     )
-    parser.add_argument("--output", metavar="DIR", type=Path, help="folder of the study, made if new")
+    parser.add_argument(
+        "--output", metavar="DIR", type=Path, help="folder of the study, made if new (NAME_study for NAME.toml)"
+    )
     add_ensemble_options(parser)
     parser.add_argument("--check", action="store_true", help="print some runs and how long it takes, and run nothing")
     parser.add_argument("--again", metavar="N", type=_number, help="make run N of a study again, and keep everything")
@@ -66,8 +68,7 @@ def execute(arguments: argparse.Namespace) -> None:
         for line in study_facts(study, arguments.output, arguments.jobs or cores()):
             print(line)
         return
-    if arguments.output is None:
-        raise OutputError("--output is missing: name the folder of the study")
+    arguments.output = arguments.output or folder_beside(arguments.study, study.kind)
     execute_ensemble(study, arguments, partial(study_sentences, study), _make_pictures)
 
 

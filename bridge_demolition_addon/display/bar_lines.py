@@ -8,6 +8,7 @@ import numpy as np
 
 from ..model.bridge.member import Member
 from ..model.materials.bar_layers import BarLayer
+from ..model.schema import given
 from ..model.structure.face_bars import plane_cuts
 
 _BAR_MM2 = 314.0
@@ -22,7 +23,7 @@ def bar_lines(layers: Sequence[BarLayer], members: Sequence[Member]) -> np.ndarr
     parts = [np.zeros((0, 3))]
     for member in members:
         for layer in layers:
-            if {member.name, member.kind} & set(layer.members):
+            if not layer.is_spread and layer.is_in(member.name, member.kind):
                 parts += _of_layer(layer, member)
     return np.concatenate(parts)
 
@@ -36,7 +37,7 @@ def _of_layer(layer: BarLayer, member: Member) -> Iterator[np.ndarray]:
     if not len(cuts):
         return
     low, high = float(cuts[..., beside].min()), float(cuts[..., beside].max())
-    number = int(np.clip(round(layer.area_mm2 / _BAR_MM2), _FEWEST_LINES, _MOST_LINES))
+    number = int(np.clip(round(given(layer.area_mm2) / _BAR_MM2), _FEWEST_LINES, _MOST_LINES))
     for position in low + (high - low) * (np.arange(number) + 0.5) / number:
         ends = _ends_at(cuts, along, beside, float(position))
         begin, end = max(min(ends), layer.ends_m[0]), min(max(ends), layer.ends_m[1])

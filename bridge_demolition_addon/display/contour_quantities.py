@@ -48,6 +48,10 @@ Values = Callable[[Frame, Frame], np.ndarray]
 """Returns the values (n,) of bodies in a frame, by that frame and the first one."""
 
 
+def _or_unknown(values: np.ndarray | None, frame: Frame) -> np.ndarray:
+    return np.full(len(frame.positions_m), np.nan) if values is None else values
+
+
 class ContourQuantity(Enum):
     """The quantities, in the order of the sidebar: Blender saves the number of the chosen one.
 
@@ -106,6 +110,15 @@ class ContourQuantity(Enum):
         FORCES,
         lambda frame, _: frame.loads.body_signed_2019_n,
         lambda frame, _: abs(frame.loads.body_signed_2019_n),
+    )
+    BAR_USE = (
+        "Use of bars",
+        "Largest part of their rupture strain that bars across cracks of the shard use, with elastic connections: at "
+        "100 % they rupture",
+        RATIOS,
+        lambda frame, _: _or_unknown(frame.loads.body_bar_use, frame),
+        None,
+        ("largest in the frame", "largest"),
     )
 
     def __init__(

@@ -28,6 +28,7 @@ _ENDINGS = {
     "kn": "kN",
     "mpa": "MPa",
     "kpa": "kPa",
+    "db": "dB",
     "pa": "Pa",
     "ns": "N·s",
     "nm": "N·m",

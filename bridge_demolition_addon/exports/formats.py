@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,3 +25,9 @@ MAT = Format("mat", "MATLAB", "all arrays in one file, for MATLAB and Octave", "
 
 FORMATS = {form.name: form for form in (PARAVIEW, XLSX, GLTF, USD, ALEMBIC, MAT)}
 """All formats by their names."""
+
+
+def new_export(folder: Path, form: Format) -> Path:
+    """Return a new file or folder for an export, in the folder of its run: ``export``, and counted up from 2."""
+    names = (f"export{number}{form.ending}" for number in ("", *(f"_{n}" for n in range(2, 10_000))))
+    return next(path for name in names if not (path := folder / name).exists())

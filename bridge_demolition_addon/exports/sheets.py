@@ -20,6 +20,7 @@ from ..model.results.arrays import Results
 from ..model.results.energy import energy_of
 from ..model.results.motion import throw
 from ..model.run_folder.files import BEARING_LOG, BREAKING_LOG, DEBRIS_LOG, EXPLOSION_LOG, FORCE_LOG, TABLE_FOLDER
+from ..system.disk import whole_file
 from ..system.progress import Progress
 
 MOST_ROWS = 1_048_575
@@ -69,6 +70,24 @@ def write_sheets(folder: Path, results: Results, path: Path, progress: Progress)
             for done, table in enumerate(tables, start=1):
                 _write_table(book, bold, table)
                 progress.part(done, len(tables), "tables written")
+
+
+def write_workbook(tables: Iterable[tuple[str, Sequence[str], Iterable[Sequence[Any]]]], path: Path) -> bool:
+    """Write tables, each by its name, headings and rows, as sheets; return False where XlsxWriter is not installed."""
+    if find_spec("xlsxwriter") is None:
+        return False
+    import xlsxwriter
+
+    sheets = [_Table(*table) for table in tables]
+    with whole_file(path) as part:
+        book = xlsxwriter.Workbook(str(part), {"strings_to_formulas": False, "strings_to_urls": False})
+        book.set_properties({"created": _NO_TIME})
+        bold = book.add_format({"bold": True})
+        _write_units(book.add_worksheet("units"), bold, sheets)
+        for sheet in sheets:
+            _write_table(book, bold, sheet)
+        book.close()
+    return True
 
 
 def _write_units(sheet: Any, bold: Any, tables: Sequence[_Table]) -> None:
@@ -137,6 +156,8 @@ def _frames_table(results: Results) -> _Table:
         "work_of_tools_J": work.tools_j,
         "lost_to_damping_J": work.damping_j,
         "dissipated_between_bodies_J": work.dissipated_j,
+        "dissipated_by_bars_J": work.yielding_j,
+        "dissipated_by_crack_friction_J": work.crack_friction_j,
     }
     return _of_columns("frames", columns)
 

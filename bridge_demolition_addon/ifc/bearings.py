@@ -2,24 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from ..engineering.geometry.mesh import TriangleMesh
-from ..engineering.geometry.solids import union
+from ..engineering.geometry.solids import to_manifold, union
 from ..engineering.geometry.vectors import transformed
 from ..model.scenario import ConnectionBetween
 from ..model.scenario.bearings import FIXED, PINNED, ROCKER, SLIDING, Bearing
 from .contacts import TOUCHING_M, NearbyMembers
 from .elements import Element
+from .gaps import STEEPEST, cut_by, lengthened
 from .library import library
 from .placement import Placement
 
 SEAT_M = 0.001
 """How far a bearing is let into what it lies on, so that the two become one solid in spite of rounding."""
+
+HIGHEST_PLINTH_M = 0.5
+"""Height up to which what a bearing stands on is taken for a plinth that the file lacks."""
 
 _ALL_TURNS = ("turn x", "turn y", "turn z")
 _FREE_OF_TYPE = {
@@ -35,6 +39,7 @@ _FREE_OF_TYPE = {
 """Motions that types of IfcBearing leave free, x along the road and y across it."""
 
 _FREE_OTHERWISE = ("turn y",)
+_UNKNOWN = "the file does not say what it leaves free, taken for turn y"
 
 _KIND_OF_MOVES = {
     frozenset(): PINNED,
@@ -51,27 +56,92 @@ _PROPERTIES = {"move": "DisplacementAccommodated", "turn": "RotationAccommodated
 class BearingElement:
     """A bearing between members, given by their numbers in the list of members.
 
-    It becomes part of the member below. `source` says where its free motions are from.
+    It becomes part of the member below; with nothing below, `below` is None, and a support has to be made for it. The
+    solid touches all of them. `source` says where its free motions are from, and `closed` which gaps were closed.
     """
 
-    below: int
+    below: int | None
     above: tuple[int, ...]
+    solid: TriangleMesh
     free: tuple[str, ...]
     source: str
+    closed: str = ""
+    is_assumed: bool = False
+    """Whether the file does not say what it leaves free."""
 
 
 def bearing_of(
-    element: Element, solid: TriangleMesh, contacts: NearbyMembers, names: Sequence[str], placement: Placement
+    element: Element,
+    solid: TriangleMesh,
+    contacts: NearbyMembers,
+    names: Sequence[str],
+    placement: Placement,
+    gap_m: float,
 ) -> BearingElement | str:
-    """Return what a bearing with a solid connects of the members with these names, or why it is left out."""
+    """Return what a bearing with a solid connects of the members with these names, or why it is left out.
+
+    Gaps up to `gap_m` above and below it are closed.
+    """
     down, up = contacts.reached(solid, -TOUCHING_M), contacts.reached(solid, TOUCHING_M)
     # One that it is sunk into, or that is sunk into it, lies on the side that it reaches further into.
     below = sorted((index for index in down if down[index] > up.get(index, 0.0)), key=lambda index: -down[index])
     above = sorted(index for index in up if up[index] > down.get(index, 0.0))
-    if not below or not above:
-        return f"nothing touches it from {'below' if not below else 'above'}{_gaps(solid, contacts, names)}"
+    closed, plinth = [], ""
+    if not below and gap_m > 0.0:
+        under = contacts.reached(lengthened(solid, -gap_m), 0.0)
+        below = sorted(under.keys() - set(above), key=lambda index: -under[index])[:1]
+        if below:
+            solid = lengthened(solid, -gap_m - SEAT_M)
+            closed.append(names[below[0]])
+        else:
+            under = contacts.reached(lengthened(solid, -HIGHEST_PLINTH_M), 0.0)
+            below = sorted(under.keys() - set(up), key=lambda index: -under[index])[:1]
+            if below:
+                top = _top_under(solid, contacts.solid(below[0]))
+                solid = lengthened(solid, top - float(solid.bounds[0, 2]) - SEAT_M)
+                plinth = f"a plinth down to {names[below[0]]} is added under it"
+    if not above and gap_m > 0.0:
+        over = contacts.reached(lengthened(solid, gap_m), 0.0)
+        above = sorted(over.keys() - set(below), key=lambda index: -over[index])[:1]
+        if above:
+            reach_m = gap_m + STEEPEST * float(np.ptp(solid.vertices[:, :2], axis=0).max())
+            solid = cut_by(lengthened(solid, reach_m), [contacts.solid(index) for index in above])
+            closed.append(names[above[0]])
+    if not above or (not below and gap_m <= 0.0):
+        return f"nothing touches it from {'above' if below else 'below'}{_gaps(solid, contacts, names)}"
     free, source = free_motions(element, placement)
-    return BearingElement(below[0], tuple(above), free, source)
+    text = f"made thicker, by up to {1e3 * gap_m:g} mm, to touch {' and '.join(closed)}" if closed else ""
+    text = "; ".join(filter(None, (text, plinth)))
+    assumed = source.endswith(_UNKNOWN)
+    return BearingElement(below[0] if below else None, tuple(above), solid, free, source, text, assumed)
+
+
+def with_one_fixed(
+    found: Sequence[tuple[BearingElement, str]], along_m: Mapping[str, float]
+) -> list[tuple[BearingElement, str]]:
+    """Return bearings of which those at one support alone are pinned, where the file says nothing of any of them.
+
+    A bridge that is pinned at all its supports would be an arch between them. `along_m` is where the members below them
+    are along the road; the first of them keeps its bearings, and all others let the bridge move along the road.
+    """
+    if not found or not all(bearing.is_assumed for bearing, _ in found):
+        return list(found)
+    first = min({below for _, below in found}, key=lambda name: along_m[name])
+    moving = ("move x", *_FREE_OTHERWISE)
+    source = (
+        f"the file does not say what it leaves free: pinned on {first}, and free to move along the road on all others"
+    )
+    return [
+        (replace(bearing, free=bearing.free if below == first else moving, source=source), below)
+        for bearing, below in found
+    ]
+
+
+def _top_under(solid: TriangleMesh, below: TriangleMesh) -> float:
+    """Return the height of the highest part of what lies below a solid, in its plan, m."""
+    column = lengthened(solid, -HIGHEST_PLINTH_M)
+    common = to_manifold(column) ^ to_manifold(below)
+    return float(min(common.bounding_box()[5], solid.bounds[0, 2]))
 
 
 def seated(solid: TriangleMesh) -> TriangleMesh:
@@ -102,13 +172,16 @@ class BearingTables:
         return {name for pair in pairs for name in pair}
 
 
-def bearing_tables(found: Sequence[BearingElement], names: Sequence[str]) -> BearingTables:
-    """Return the tables of bearings, one for each pair of members, and notes on bearings that differ."""
+def bearing_tables(found: Sequence[tuple[BearingElement, str]], names: Sequence[str]) -> BearingTables:
+    """Return the tables of bearings, one for each pair of members, and notes on bearings that differ.
+
+    Each bearing comes with the name of the member below it.
+    """
     rules: dict[tuple[str, str], tuple[str, ...]] = {}
     notes = []
-    for bearing in found:
+    for bearing, below in found:
         for above in bearing.above:
-            pair = (names[above], names[bearing.below])
+            pair = (names[above], below)
             if rules.setdefault(pair, bearing.free) != bearing.free:
                 notes.append(f"bearings between {pair[0]} and {pair[1]} differ: the first counts for all of them")
     tables = [_bearing(pair, free) or _connection(pair, free) for pair, free in rules.items()]
@@ -149,7 +222,7 @@ def free_motions(element: Element, placement: Placement) -> tuple[tuple[str, ...
     if element.facts.predefined in _FREE_OF_TYPE:
         of_type = _FREE_OF_TYPE[element.facts.predefined]
         return of_type, f"{lost}free as {element.facts.predefined} bearings are: {', '.join(of_type)}"
-    return _FREE_OTHERWISE, f"{lost}the file does not say what it leaves free, taken for {', '.join(_FREE_OTHERWISE)}"
+    return _FREE_OTHERWISE, f"{lost}{_UNKNOWN}"
 
 
 def _rotation_of(placement: Any) -> np.ndarray | None:

@@ -5,67 +5,50 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import chain, count, groupby
+from itertools import groupby
 from pathlib import Path
-from unicodedata import category
 
 from ..engineering.geometry.mesh import TriangleMesh
-from ..engineering.geometry.solids import from_manifold, to_manifold
 from ..errors import IfcError
-from ..model.bridge.member import Member
+from ..model.materials.bar_layers import BarLayer
 from ..model.scenario import (
     ConnectionBetween,
     ConnectionSettings,
     FractureSettings,
     Geometry,
     Scenario,
+    ShardSettings,
     Site,
     TimeSettings,
 )
-from ..model.scenario.connections import GROUND_NAME
-from ..model.schema import LINE_BREAKING_CATEGORIES, given
-from .bearings import BearingTables, bearing_of, bearing_tables, seated
+from .added_supports import CLEARANCE_M
+from .assembly import Assembly, plain_text
+from .bars import bar_layers
+from .bodies import Bodies, bodies_of
 from .contacts import NearbyMembers
-from .element_materials import Substance, substances
+from .element_materials import substances
 from .elements import Element, elements_of
-from .kinds import ElementFacts
 from .map_place import site_of
 from .materials import MaterialTable, material_table
-from .meshes import element_solids
+from .outcome import CONNECTION, Outcome
 from .placement import Placement, placement_of
-from .settings import KINDS, ImportSettings
+from .quantities import quantities_of, units_of
+from .settings import ImportSettings
+from .several_bridges import CARRYING, chosen_elements
+from .shapes import KeptShapes
 from .source import IfcSource, naming_contradictions, open_source
-from .supports import loose_members, supports_of
+from .supports import STANDING, loose_members, supports_of
 
 MESH_FOLDER = "members"
 
-_BELOW_GROUND_M = 1e-3
-"""How far a member may reach below the ground, as elsewhere."""
-
 _DURATION_S = 3.0
-_CARRYING = ("deck", "girder")
-_STANDING = ("pier", "abutment", "wall", "footing")
+_WARM_UP_S, _WARM_UP_DAMPING = 0.5, 0.99
+"""Time in which the bridge settles under its own weight, and by how much it is damped then."""
 
+_ELONGATION_M = 0.05
+"""How far cracks open before their reinforcement ruptures, which no file is known to say."""
 
-@dataclass(frozen=True, slots=True)
-class Outcome:
-    """The result for an element: ``member``, ``connection`` or ``left out``, and why, or another note on it.
-
-    Its member and substance are None where it is left out. The mesh is written in place of the member's solid. It keeps
-    the element's facts, not its entity, which is only valid while the file is open.
-    """
-
-    facts: ElementFacts
-    member: Member | None
-    substance: Substance | None
-    became: str
-    why: str
-    mesh: TriangleMesh | None = None
-
-    @property
-    def part(self) -> tuple[Member, Substance]:
-        """Member and substance of an element that is not left out."""
-        return given(self.member), given(self.substance)
+_STANDING = (*STANDING, "footing")
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,50 +68,62 @@ class ImportedBridge:
     notes: tuple[str, ...]
 
 
-def read_bridge(path: Path, settings: ImportSettings) -> ImportedBridge:
-    """Read a bridge from an IFC file."""
+def read_bridge(path: Path, settings: ImportSettings, kept: KeptShapes | None = None) -> ImportedBridge:
+    """Read a bridge from an IFC file, maybe with shapes of elements that were worked out before."""
     table = material_table(settings.materials)
     with naming_contradictions(path):
-        return _bridge(path, table, settings)
+        return _bridge(path, table, settings, kept or KeptShapes())
 
 
-def _bridge(path: Path, table: MaterialTable, settings: ImportSettings) -> ImportedBridge:
+def _bridge(path: Path, table: MaterialTable, settings: ImportSettings, kept: KeptShapes) -> ImportedBridge:
     source = open_source(path, settings)
-    elements = elements_of(source, settings)
-    _check_kinds(path, elements)
-    members = [element for element in elements if element.is_member and element.kind != "bearing"]
-    bearings = [element for element in elements if element.kind == "bearing"]
-    made_of = substances(source, members, table, settings)
-    repaired, origin = element_solids(source, [*members, *bearings])
-    notes = [
-        f"{element.facts.name}: {repair}"
-        for element, done in zip([*members, *bearings], repaired, strict=True)
-        for repair in done.repairs
-    ]
-    solids = [done.solid for done in repaired]
-    ground_m, ground_source = _ground(members, solids, float(origin[2]), settings)
-    carrying = [solid for member, solid in zip(members, solids, strict=False) if member.kind in _CARRYING]
-    near = placement_of(carrying, ground_m - float(origin[2]))
-    solids = [near.placed(solid) for solid in solids]
-    placement = replace(near, origin_m=near.origin_m + origin)
+    chosen = chosen_elements(source, elements_of(source, settings), settings)
+    elements = chosen.elements
+    _check_kinds(path, elements, settings)
+    wanted = [element for element in elements if element.is_member]
+    made_of = substances(source, wanted, table, settings)
+    units = units_of(source.model)
+    quantities = {element.entity.id(): quantities_of(element.psets, units) for element in elements}
+    volumes = {number: known.volume_m3 for number, known in quantities.items() if known.volume_m3}
+    bodies = bodies_of(source, wanted, kept, volumes, strict=settings.strict)
+    ground_m, ground_source = _ground(wanted, bodies, settings)
+    placement, solids = _placed(path, wanted, bodies, ground_m)
     site, site_source = site_of(source, placement)
-    outcomes = _members(elements, members, made_of, solids)
-    connected, tables = _connected(outcomes, bearings, solids[len(members) :], placement)
-    scenario, meshes, held = _scenario(source, settings, connected, tables, site)
+    result = Assembly(elements, made_of, quantities, bodies)
+    result.add_members(solids)
+    bearings = [element for element in wanted if element.kind == "bearing" and element.entity.id() in solids]
+    gap_m = 0.0 if settings.strict else settings.bearing_gap_m
+    if settings.strict:
+        result.add_bearings(bearings, solids, placement, gap_m, table)
+    else:
+        result.fit_together()
+        result.close_gaps(gap_m)
+        result.add_bearings(bearings, solids, placement, gap_m, table)
+        result.hold(gap_m, table)
+        result.drop_consumed()
+        result.make_writable()
+    bars: list[BarLayer] = []
+    if not settings.strict:
+        bars, said = bar_layers(source, elements, dict(result.members()), placement)
+        result.notes += said
+    scenario, meshes, held = _scenario(source, settings, result, site, chosen.title or _title(source))
     return ImportedBridge(
-        scenario=scenario,
+        scenario=replace(scenario, reinforcement=tuple(bars)) if bars else scenario,
         meshes=meshes,
-        outcomes=tuple(connected.values()),
+        outcomes=tuple(result.outcomes.values()),
         ground_m=ground_m,
         ground_source=ground_source,
         site_source=site_source,
-        notes=(*source.notes, *notes, *tables.notes, *held),
+        notes=(*source.notes, *chosen.notes, *result.notes, *held),
     )
 
 
-def _check_kinds(path: Path, elements: Sequence[Element]) -> None:
+def _check_kinds(path: Path, elements: Sequence[Element], settings: ImportSettings) -> None:
     present = sorted({element.member_kind for element in elements if element.is_member})
-    for kinds, use in ((_CARRYING, "carries the road"), (_STANDING, "stands on the ground")):
+    needed: list[tuple[tuple[str, ...], str]] = [(CARRYING, "carries the road")]
+    if settings.strict:
+        needed.append((_STANDING, "stands on the ground"))
+    for kinds, use in needed:
         if set(present).isdisjoint(kinds):
             raise IfcError(
                 f"{path}: has no element that {use}, of the kinds {', '.join(kinds)}, but {', '.join(present)}; say "
@@ -136,13 +131,19 @@ def _check_kinds(path: Path, elements: Sequence[Element]) -> None:
             )
 
 
-def _ground(
-    members: Sequence[Element], solids: Sequence[TriangleMesh], origin_m: float, settings: ImportSettings
-) -> tuple[float, str]:
-    bounds = [solid.bounds for _, solid in zip(members, solids, strict=False)]
+def _ground(elements: Sequence[Element], bodies: Bodies, settings: ImportSettings) -> tuple[float, str]:
+    members = [element for element in elements if element.kind != "bearing" and element.entity.id() in bodies.solids]
+    if not members:
+        raise IfcError("no member has a body that can be used: export the file again, with closed bodies")
+    origin_m = float(bodies.origin[2])
+    bounds = [bodies.solids[element.entity.id()].bounds for element in members]
     undersides = [float(low[2]) + origin_m for low, _ in bounds]
     lowest = min(undersides)
     if settings.ground_m is None:
+        if not any(member.kind in _STANDING for member in members):
+            return lowest - CLEARANCE_M, (
+                f"{CLEARANCE_M:g} m below the bridge, of which nothing stands on the ground; --ground says it better"
+            )
         return lowest, f"the underside of {members[undersides.index(lowest)].facts.name}, as --ground is not given"
     highest = max(float(high[2]) + origin_m for _, high in bounds)
     if not settings.ground_m < highest:
@@ -153,78 +154,37 @@ def _ground(
     return settings.ground_m, "as given by --ground"
 
 
-def _members(
-    elements: Sequence[Element],
-    members: Sequence[Element],
-    made_of: Sequence[Substance],
-    solids: Sequence[TriangleMesh],
-) -> dict[int, Outcome]:
-    """Return the outcomes of all elements but the bearings, by their numbers in the file."""
-    names = _names([member.facts.name for member in members])
-    outcomes = {element.entity.id(): _left_out(element, element.why_left_out) for element in elements}
-    for element, name, substance, solid in zip(members, names, made_of, solids, strict=False):
-        kept = _above_ground(solid)
-        number = element.entity.id()
-        if kept is None:
-            outcomes[number] = _left_out(element, "it lies below the ground")
-            continue
-        why = "; ".join(note for note in (substance.note, "" if kept is solid else "cut off at the ground") if note)
-        member = Member(name, element.member_kind, kept, substance.density_kg_m3)
-        outcomes[number] = Outcome(element.facts, member, substance, "member", why)
-    return outcomes
-
-
-def _left_out(element: Element, why: str) -> Outcome:
-    return Outcome(element.facts, None, None, "left out", why)
-
-
-def _above_ground(solid: TriangleMesh) -> TriangleMesh | None:
-    """Return the part of a solid above the ground; None where there is no such part."""
-    if solid.bounds[0, 2] >= -_BELOW_GROUND_M:
-        return solid
-    kept = to_manifold(solid).trim_by_plane((0.0, 0.0, 1.0), 0.0)
-    if kept.is_empty() or kept.bounding_box()[5] < _BELOW_GROUND_M:
-        return None
-    return from_manifold(kept)
-
-
-def _connected(
-    outcomes: dict[int, Outcome], bearings: Sequence[Element], solids: Sequence[TriangleMesh], placement: Placement
-) -> tuple[dict[int, Outcome], BearingTables]:
-    """Return outcomes with those of the bearings, and the tables of these."""
-    done, placed = dict(outcomes), []
-    parts = [outcome.part for outcome in outcomes.values() if outcome.member]
-    contacts, names = NearbyMembers([member.solid for member, _ in parts]), [member.name for member, _ in parts]
-    for element, solid in zip(bearings, solids, strict=True):
-        bearing = bearing_of(element, solid, contacts, names, placement)
-        number = element.entity.id()
-        if isinstance(bearing, str):
-            done[number] = _left_out(element, bearing)
-            continue
-        below, substance = parts[bearing.below]
-        placed.append(bearing)
-        above = " and ".join(names[index] for index in bearing.above)
-        why = f"between {above} and {below.name}, of which it is part; {bearing.source}"
-        part = Member(below.name, below.kind, solid, below.density_kg_m3)
-        done[number] = Outcome(element.facts, part, substance, "connection", why, seated(solid))
-    return done, bearing_tables(placed, names)
+def _placed(
+    path: Path, elements: Sequence[Element], bodies: Bodies, ground_m: float
+) -> tuple[Placement, dict[int, TriangleMesh]]:
+    """Return where the bridge stands, and the solids there, by the numbers of their elements."""
+    carrying = [
+        bodies.solids[element.entity.id()]
+        for element in elements
+        if element.kind in CARRYING and element.entity.id() in bodies.solids
+    ]
+    if not carrying:
+        reasons = "; ".join(dict.fromkeys(bodies.missing.values()))
+        raise IfcError(
+            f"{path}: nothing that carries the road has a body that can be used ({reasons}); export it again"
+        )
+    near = placement_of(carrying, ground_m - float(bodies.origin[2]))
+    solids = {number: near.placed(solid) for number, solid in bodies.solids.items()}
+    return replace(near, origin_m=near.origin_m + bodies.origin), solids
 
 
 def _scenario(
-    source: IfcSource,
-    settings: ImportSettings,
-    outcomes: dict[int, Outcome],
-    tables: BearingTables,
-    site: Site | None,
+    source: IfcSource, settings: ImportSettings, result: Assembly, site: Site | None, title: str
 ) -> tuple[Scenario, dict[str, TriangleMesh], list[str]]:
-    kept = [outcome for outcome in outcomes.values() if outcome.member]
-    of_members = [outcome for outcome in kept if outcome.became == "member"]
+    kept = [outcome for outcome in result.ordered() if outcome.member]
+    of_members = [outcome for outcome in kept if outcome.became != CONNECTION]
     if not of_members:
         raise IfcError(f"{source.path}: nothing of it lies above the ground; put the ground lower by --ground")
     members = [outcome.part[0] for outcome in of_members]
     contacts = NearbyMembers([member.solid for member in members])
-    supports, held = supports_of(members, contacts)
+    supports, held = supports_of(members, contacts, [support.name for support in result.added])
     # A member on a bearing touches the bearing, not the member below it.
+    tables = result.bearing_tables()
     connected = {support.member for support in supports} | tables.members
     loose = loose_members(members, contacts, connected)
     parts = [outcome.part[0] for outcome in kept]
@@ -237,20 +197,35 @@ def _scenario(
         for part, file in zip(parts, meshes, strict=True)
     )
     main, within = _strength_rules(of_members)
+    between = (*tables.connections, *within)
     scenario = Scenario(
-        title=_title(source),
+        title=title,
         time=TimeSettings(duration_s=_DURATION_S),
         geometry=geometry,
         fracture=FractureSettings(shards=max(settings.shards, len(members))),
         materials=tuple({own.name: own for outcome in kept if (own := outcome.part[1].row.own)}.values()),
-        connections=ConnectionSettings(
-            type="FIXED", method="face", material=main, between=(*tables.connections, *within)
-        ),
+        connections=_connections(main, between, strict=settings.strict),
+        shards=ShardSettings(start_deactivated=settings.strict),
         bearings=tables.bearings,
         supports=tuple(supports),
         site=site,
     )
-    return scenario, meshes, [*held, *loose]
+    return scenario, meshes, [*tables.notes, *held, *loose]
+
+
+def _connections(main: str, between: Sequence[ConnectionBetween], *, strict: bool) -> ConnectionSettings:
+    """Return connections by the strength of a material; elastic ones that crack, so that the bridge stands awake."""
+    rigid = ConnectionSettings(type="FIXED", method="face", material=main, between=tuple(between))
+    if strict:
+        return rigid
+    return replace(
+        rigid,
+        stiffness="elastic",
+        ductile_share=1.0,
+        ductile_elongation_m=_ELONGATION_M,
+        warm_up_s=_WARM_UP_S,
+        warm_up_damping=_WARM_UP_DAMPING,
+    )
 
 
 def _strength_rules(kept: Sequence[Outcome]) -> tuple[str, list[ConnectionBetween]]:
@@ -274,31 +249,20 @@ def _strength_rules(kept: Sequence[Outcome]) -> tuple[str, list[ConnectionBetwee
     return main, rules
 
 
+_NO_TITLES = ("undefined", "default", "unnamed", "project", "building", "unnamed bridge")
+"""What programs call what the user has given no name."""
+
+
 def _title(source: IfcSource) -> str:
     for name in ("IfcBridge", "IfcBuilding", "IfcProject"):
         try:
             entities = source.model.by_type(name)
         except RuntimeError:  # a class that the schema does not have
             continue
-        if entities and (title := _plain(entities[0].Name or "")):
+        title = plain_text(entities[0].Name or "") if entities else ""
+        if title and title.casefold() not in _NO_TITLES:
             return title
-    return _plain(source.path.stem) or "Bridge from IFC"
-
-
-def _names(texts: Sequence[str]) -> list[str]:
-    """Return different names, each on one line, and none of them that of a kind or of the ground."""
-    taken, names = {*KINDS, GROUND_NAME}, []
-    for text in texts:
-        plain = _plain(text) or "element"
-        choices = chain([plain], (f"{plain} {number}" for number in count(2)))
-        names.append(next(name for name in choices if name not in taken))
-        taken.add(names[-1])
-    return names
-
-
-def _plain(text: str) -> str:
-    """Return a text on one line."""
-    return " ".join("".join(" " if category(sign) in LINE_BREAKING_CATEGORIES else sign for sign in text).split())
+    return plain_text(source.path.stem) or "Bridge from IFC"
 
 
 def _file(number: int, name: str) -> str:

@@ -24,6 +24,10 @@ class NearbyMembers:
     def __init__(self, solids: Sequence[TriangleMesh]) -> None:
         self._solids = tuple(solids)
 
+    def solid(self, index: int) -> TriangleMesh:
+        """Return the solid of a member."""
+        return self._solids[index]
+
     def near(self, index: int) -> list[tuple[float, int]]:
         """Return gaps in m to all members within `NEAR_M` of a member, and which they are, the nearest first."""
         return [(gap, other) for gap, other in self.near_to(self._solids[index]) if other != index]
@@ -49,8 +53,8 @@ class NearbyMembers:
 
     @cached_property
     def _lowest(self) -> np.ndarray:
-        return np.array([solid.bounds[0] for solid in self._solids])
+        return np.array([solid.bounds[0] for solid in self._solids]).reshape(-1, 3)
 
     @cached_property
     def _highest(self) -> np.ndarray:
-        return np.array([solid.bounds[1] for solid in self._solids])
+        return np.array([solid.bounds[1] for solid in self._solids]).reshape(-1, 3)

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 from ..errors import IfcError
 from .elements import Element
 from .library import library
 from .materials import MaterialRow, MaterialTable
-from .settings import ImportSettings
+from .quantities import QuantityUnits, material_name, quantities_of, units_of
+from .settings import ImportSettings, matches
 from .source import IfcSource
 
 LEAST_KG_M3, MOST_KG_M3 = 50.0, 25_000.0
@@ -18,6 +20,17 @@ LEAST_KG_M3, MOST_KG_M3 = 50.0, 25_000.0
 
 _GRAMS = 1000.0
 _LISTED = 5
+
+_WEAKEST_N_MM2, _STRONGEST_N_MM2 = 5.0, 250.0
+"""Strengths in compression that concrete has, from old mass concrete to that of ultra-high strength."""
+
+_CONCRETES = ("concrete", "reinforced concrete column", "reinforced concrete slab", "reinforced concrete wall")
+
+_ROLLED = (
+    *("IfcIShapeProfileDef", "IfcLShapeProfileDef", "IfcUShapeProfileDef", "IfcTShapeProfileDef"),
+    *("IfcCShapeProfileDef", "IfcZShapeProfileDef", "IfcRectangleHollowProfileDef", "IfcCircleHollowProfileDef"),
+)
+"""Profiles that steel is rolled in."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,24 +44,32 @@ class Substance:
     density_kg_m3: float
     row: MaterialRow
     note: str = ""
+    is_by_file: bool = False
+    """Whether the file gives the material its density."""
 
 
 def substances(
     source: IfcSource, elements: Sequence[Element], table: MaterialTable, settings: ImportSettings
-) -> list[Substance]:
-    """Return the material of each element."""
+) -> dict[int, Substance]:
+    """Return the material of each element by its number in the file.
+
+    One that the table does not know is refused where this is strict. Elsewhere it is the material that the user says,
+    and otherwise steel for rolled profiles, soil for fill and concrete for all else.
+    """
     table_name = str(settings.materials) if settings.materials else "the table of materials"
     if settings.material is not None and table.row(settings.material) is None:
         raise IfcError(f'material is "{settings.material}", which {table_name} does not know')
     reader = _Reader(source, table, settings.material)
-    known = []
+    known: dict[int, Substance] = {}
     unknown: dict[str, list[str]] = {}
     for element in elements:
-        substance = reader.substance(element.entity)
-        if isinstance(substance, str):
+        substance = _said(element, table, table_name, settings) or reader.substance(element)
+        if isinstance(substance, str) and not settings.strict and element.kind != "bearing":
+            substance = _assumed(element, substance, table) or substance
+        if isinstance(substance, Substance):
+            known[element.entity.id()] = _weighed(substance, element, reader.units)
+        elif element.kind != "bearing":  # which becomes part of what it lies on
             unknown.setdefault(substance, []).append(element.facts.name)
-        else:
-            known.append(substance)
     if unknown:
         named = "; ".join(f"{name or 'no material'}: {_some(names)}" for name, names in unknown.items())
         raise IfcError(
@@ -59,12 +80,50 @@ def substances(
     return known
 
 
+def _said(element: Element, table: MaterialTable, table_name: str, settings: ImportSettings) -> Substance | None:
+    """Return the material that the user says an element has; None where the user says none."""
+    for pattern, name in settings.materials_of:
+        if matches(pattern, element.names):
+            row = table.row(name)
+            if row is None:
+                raise IfcError(f'material of "{pattern}" is "{name}", which {table_name} does not know')
+            return Substance(name, row.density_kg_m3, row, "its material is as the user says", is_by_file=True)
+    return None
+
+
+def _assumed(element: Element, name: str, table: MaterialTable) -> Substance | None:
+    """Return the material that an element of an unknown one is taken to have; None where the table lacks that too."""
+    usual = "soil" if element.kind == "fill" else "concrete"
+    assumed = "steel" if has_rolled_profile(element.entity) else usual
+    row = table.row(assumed)
+    if row is None:
+        return None
+    note = f"{name} is not known, taken for {assumed}" if name else f"the file gives no material: taken for {assumed}"
+    return Substance(name or assumed, row.density_kg_m3, row, note)
+
+
+def has_rolled_profile(entity: Any) -> bool:
+    """Return whether the body of an element is swept from a profile that steel is rolled in."""
+    shapes = entity.Representation.Representations if entity.Representation else ()
+    profiles = (getattr(item, "SweptArea", None) for shape in shapes for item in shape.Items or ())
+    return any(profile is not None and any(profile.is_a(name) for name in _ROLLED) for profile in profiles)
+
+
+def _weighed(substance: Substance, element: Element, units: QuantityUnits) -> Substance:
+    """Return a material with the density by the mass and volume that the file gives the element itself."""
+    density = quantities_of(element.psets, units).density_kg_m3
+    if density is None or not LEAST_KG_M3 <= density <= MOST_KG_M3 or substance.is_by_file:
+        return substance
+    note = f"its density is its mass over its volume in the file, {density:.0f} kg/m³"
+    return replace(substance, density_kg_m3=density, note="; ".join(filter(None, (substance.note, note))))
+
+
 def _some(names: Sequence[str]) -> str:
     more = f" and {len(names) - _LISTED} more" if len(names) > _LISTED else ""
     return ", ".join(names[:_LISTED]) + more
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class _Reader:
     """Reads the materials of elements."""
 
@@ -72,10 +131,20 @@ class _Reader:
     table: MaterialTable
     otherwise: str | None
 
-    def substance(self, entity: Any) -> Substance | str:
+    @cached_property
+    def units(self) -> QuantityUnits:
+        """Units of quantities in the file."""
+        return units_of(self.source.model)
+
+    def substance(self, element: Element) -> Substance | str:
         """Return the material of an element; its name where the table lacks it, empty for no material."""
-        material = library("util.element").get_material(entity, should_skip_usage=True)
+        material = library("util.element").get_material(element.entity, should_skip_usage=True)
         parts = _parts_of(material)
+        if not parts and (name := material_name(element.psets)):
+            row = self.table.row(name)
+            if row is None:
+                return name
+            return Substance(name, row.density_kg_m3, row, f"its properties give {name} as its material")
         if not parts:
             if self.otherwise and (row := self.table.row(self.otherwise)):
                 return Substance(self.otherwise, row.density_kg_m3, row, "the file gives no material")
@@ -94,19 +163,39 @@ class _Reader:
 
     def _one(self, material: Any) -> Substance | str:
         name = (material.Name or "").strip()
-        row = self.table.row(name)
+        category = (getattr(material, "Category", None) or "").strip()
+        row = self.table.row(name) or (self.table.row(category) if category else None)
         note = ""
         if row is None and self.otherwise:
             row, note = self.table.row(self.otherwise), f"{name or 'its material'} is taken for {self.otherwise}"
         if row is None:
             return name or "a material without a name"
+        if (strength := self._strength_of_file(material)) and row.strength in _CONCRETES:
+            row = row.with_compression(name, strength)
+            more = f"its strength in compression is that of the file, {strength:.1f} N/mm²"
+            note = f"{note}; {more}" if note else more
         density = self._density_of_file(material)
         if density is None:
             return Substance(name, row.density_kg_m3, row, note)
         if not LEAST_KG_M3 <= density <= MOST_KG_M3:
             unlikely = f"the file gives {density:.4g} kg/m³ for {name}, so the density is that of the table"
             return Substance(name, row.density_kg_m3, row, f"{note}; {unlikely}" if note else unlikely)
-        return Substance(name, density, row, note)
+        return Substance(name, density, row, note, is_by_file=True)
+
+    def _strength_of_file(self, material: Any) -> float | None:
+        """Return the compressive strength that the file gives a concrete, N/mm², if it is one that concrete has."""
+        psets = library("util.element").get_psets(material)
+        values = [pset.get("CompressiveStrength") for pset in psets.values()]
+        pressures = [float(value) * self._pressure_unit for value in values if isinstance(value, int | float)]
+        return next((value for value in pressures if _WEAKEST_N_MM2 <= value <= _STRONGEST_N_MM2), None)
+
+    @cached_property
+    def _pressure_unit(self) -> float:
+        """Return the N/mm² in the file's unit of pressure, Pa where it gives none."""
+        units = self.source.model.by_type("IfcProject")[0].UnitsInContext
+        if not any(getattr(unit, "UnitType", None) == "PRESSUREUNIT" for unit in (units.Units if units else ())):
+            return 1e-6
+        return float(library("util.unit").calculate_unit_scale(self.source.model, "PRESSUREUNIT")) * 1e-6
 
     def _density_of_file(self, material: Any) -> float | None:
         """Return the density that the file gives a material, kg/m³."""

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from ..errors import IfcError
-from .kinds import ElementFacts, LeftOut, kind_of
+from .kinds import ElementFacts, LeftOut, is_french, kind_of
 from .library import library
+from .quantities import PropertySets, words_of
 from .settings import ImportSettings, matches
 from .source import IfcSource
 
@@ -18,15 +19,22 @@ _NO_BODIES = (
 """Representations of an element that do not show its body."""
 
 _LISTED = 5
+_DEEPEST = 100
+"""Parts within parts of a bridge; what is deeper is in itself."""
 
 
 @dataclass(frozen=True, slots=True)
 class Element:
-    """An element of an IFC file, an `ifcopenshell.entity_instance`, with its kind or why it is left out."""
+    """An element of an IFC file, an `ifcopenshell.entity_instance`, with its kind or why it is left out.
+
+    `wholes` are the numbers in the file of all that it is in, the smallest first.
+    """
 
     entity: Any
     facts: ElementFacts
     kind: str | LeftOut
+    psets: PropertySets = field(default_factory=dict)
+    wholes: tuple[int, ...] = ()
 
     @property
     def is_member(self) -> bool:
@@ -58,7 +66,8 @@ class Element:
 def elements_of(source: IfcSource, settings: ImportSettings) -> tuple[Element, ...]:
     """Return all elements of a file in its order, without openings and virtual elements."""
     elements = tuple(_elements(source.model, settings))
-    for pattern in (*settings.without, *(pattern for pattern, _ in settings.kinds)):
+    named = (pattern for pattern, _ in (*settings.kinds, *settings.materials_of))
+    for pattern in (*settings.without, *named):
         if not any(matches(pattern, element.names) for element in elements):
             known = ", ".join(element.facts.name for element in elements[:_LISTED])
             raise IfcError(
@@ -84,17 +93,20 @@ def _without(element: Element, patterns: tuple[str, ...]) -> Element:
 
 
 def _elements(model: Any, settings: ImportSettings) -> Iterator[Element]:
-    for entity in sorted(model.by_type("IfcElement"), key=lambda entity: entity.id()):
-        if entity.is_a("IfcFeatureElement") or entity.is_a("IfcVirtualElement"):
-            continue
-        has_body = _has_body(entity)
-        if not has_body and entity.IsDecomposedBy:
+    read = [
+        _read(entity)
+        for entity in sorted(model.by_type("IfcElement"), key=lambda entity: entity.id())
+        if not (entity.is_a("IfcFeatureElement") or entity.is_a("IfcVirtualElement"))
+    ]
+    french = is_french([element.facts.words for element in read])
+    for element in read:
+        has_body = _has_body(element.entity)
+        if not has_body and element.entity.IsDecomposedBy:
             continue  # its parts are elements, too
-        facts = _facts_of(entity)
-        kind = kind_of(facts, settings.kinds)
+        kind = kind_of(element.facts, settings.kinds, is_french=french)
         if isinstance(kind, str) and not has_body:
             kind = LeftOut("it has no body")
-        yield Element(entity, facts, kind)
+        yield replace(element, kind=kind)
 
 
 def _has_body(entity: Any) -> bool:
@@ -102,19 +114,28 @@ def _has_body(entity: Any) -> bool:
     return any(shape.RepresentationIdentifier not in _NO_BODIES for shape in shapes)
 
 
-def _facts_of(entity: Any) -> ElementFacts:
+def _read(entity: Any) -> Element:
+    """Return an element whose kind is not known yet."""
     util = library("util.element")
     kind = util.get_type(entity)
     predefined = str(util.get_predefined_type(entity) or "").upper()
     words = (entity.Name, entity.ObjectType, getattr(kind, "Name", None), predefined)
-    return ElementFacts(
+    wholes = list(_wholes(entity))
+    psets = util.get_psets(entity)
+    facts = ElementFacts(
         name=(entity.Name or "").strip() or entity.is_a(),
         global_id=entity.GlobalId,
         classes=_classes(entity),
         predefined=predefined,
         words=" ".join(word for word in words if word),
-        parts=tuple(_parts(entity)),
+        properties=words_of(psets),
+        parts=tuple(
+            f"{getattr(whole, 'PredefinedType', None) or ''} {whole.Name or ''}"
+            for whole in wholes
+            if not whole.is_a("IfcSite")
+        ),
     )
+    return Element(entity, facts, LeftOut(""), psets, tuple(whole.id() for whole in wholes))
 
 
 def _classes(entity: Any) -> tuple[str, ...]:
@@ -127,10 +148,12 @@ def _classes(entity: Any) -> tuple[str, ...]:
     return tuple(names)
 
 
-def _parts(entity: Any) -> Iterator[str]:
-    """Yield type and name of all that an element is in, the smallest first, up to the bridge."""
+def _wholes(entity: Any) -> Iterator[Any]:
+    """Yield all that an element is in, the smallest first, up to the bridge and its site."""
     util = library("util.element")
     whole = util.get_parent(entity)
-    while whole is not None and not whole.is_a("IfcProject") and not whole.is_a("IfcSite"):
-        yield f"{getattr(whole, 'PredefinedType', None) or ''} {whole.Name or ''}"
+    for _ in range(_DEEPEST):
+        if whole is None or whole.is_a("IfcProject"):
+            return
+        yield whole
         whole = util.get_parent(whole)

@@ -5,9 +5,10 @@ from __future__ import annotations
 import csv
 import io
 import os
+import re
 import tempfile
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 from ..engineering.units import mass_text, volume_text
@@ -18,16 +19,26 @@ from ..model.bridge.preparation import prepared_members
 from ..model.scenario.file import read_scenario
 from ..model.toml_tables import tables_text
 from ..system.disk import write_whole_text, writing
-from .bridge import MESH_FOLDER, ImportedBridge, Outcome
+from .bridge import MESH_FOLDER, ImportedBridge
+from .outcome import ADDED, CONNECTION, LEFT_OUT, MEMBER, Outcome
 
 SCENARIO_FILE = "scenario.toml"
 ELEMENTS_FILE = "elements.csv"
 REPORT_FILE = "import.txt"
 
+_SMALL_M3 = 0.1
+_CUT_OFF = re.compile(r": ([0-9.e+-]+) m³ cut off,")
+
 _COLUMNS = (
     *("element", "class", "global_id", "became", "name", "kind", "material", "density_kg_m3"),
     *("volume_m3", "mass_kg", "why"),
 )
+
+
+def folder_beside(path: Path) -> Path:
+    """Return a folder beside the IFC file that is not there yet."""
+    folders = (path.with_name(f"{path.stem}_scenario{ending}") for ending in ("", *(f"_{n}" for n in range(2, 10_000))))
+    return next(folder for folder in folders if not folder.exists())
 
 
 def check_new(folder: Path) -> None:
@@ -80,12 +91,17 @@ def _report(bridge: ImportedBridge, cut_off: tuple[str, ...]) -> Iterator[str]:
         of_kind = [member for member in members if member.kind == kind]
         yield _row(f"{len({member.name for member in of_kind})} {kind}", of_kind)
     yield _row("all", members)
+    yield from _by_file(bridge.outcomes)
     yield ""
     yield "Held and connected"
     connections = bridge.scenario.connections
     yield f"  {'strength of':<24}{connections.material}"
+    added = [outcome.part[0].name for outcome in bridge.outcomes if outcome.became == ADDED]
     for support in bridge.scenario.supports:
-        yield f"  {'held':<24}{support.member}{'' if support.face == 'all' else ', its underside'}"
+        if support.member not in added:
+            yield f"  {'held':<24}{support.member}{'' if support.face == 'all' else ', its underside'}"
+    if added:
+        yield f"  {'held':<24}{len(added)} supports that the file lacks: {added[0]}{' and so on' if added[1:] else ''}"
     for bearing in bridge.scenario.bearings:
         yield f"  {'bearing':<24}{' on '.join(bearing.members)}: {bearing.described}"
     for rule in connections.between:
@@ -97,11 +113,41 @@ def _report(bridge: ImportedBridge, cut_off: tuple[str, ...]) -> Iterator[str]:
     yield f"  {'ground':<24}at {bridge.ground_m:.3f} m in the file: {bridge.ground_source}"
     yield f"  {'site':<24}{_where(bridge)}"
     yield from _left_out(bridge.outcomes)
-    notes = dict.fromkeys((*bridge.notes, *_reasons(bridge.outcomes), *cut_off))
+    notes = dict.fromkeys((*bridge.notes, *_reasons(bridge.outcomes), *_of_cutting(cut_off)))
     if notes:
         yield ""
         yield "To know"
         yield from (f"  {note}" for note in notes)
+
+
+def _of_cutting(notes: Sequence[str]) -> Iterator[str]:
+    """Yield notes on what is cut off where members overlap, small parts in one line."""
+    small = 0
+    for note in notes:
+        found = _CUT_OFF.search(note)
+        if found and float(found.group(1)) < _SMALL_M3:
+            small += 1
+        else:
+            yield note
+    if small:
+        yield f"{small} members lose less than {_SMALL_M3:g} m³ each where they overlap with members before them"
+
+
+def _by_file(outcomes: Sequence[Outcome]) -> Iterator[str]:
+    """Yield volume and mass of the members whose program says them, beside these."""
+    known = [outcome for outcome in outcomes if outcome.became == MEMBER and outcome.member]
+    for word, text, of_file, of_member in (
+        ("volume", volume_text, "file_volume_m3", "volume_m3"),
+        ("mass", mass_text, "file_mass_kg", "mass_kg"),
+    ):
+        said = [outcome for outcome in known if getattr(outcome, of_file)]
+        if said:
+            total = sum(getattr(outcome, of_file) for outcome in said)
+            ours = sum(getattr(outcome.part[0], of_member) for outcome in said)
+            yield (
+                f"  {word:<24}{text(total).strip()} by the file for {len(said)} elements, {text(ours).strip()} here, "
+                f"{100.0 * (ours / total - 1.0):+.2f} %"
+            )
 
 
 def _where(bridge: ImportedBridge) -> str:
@@ -130,9 +176,15 @@ def _reasons(outcomes: tuple[Outcome, ...]) -> Iterator[str]:
     """Yield the notes on members and bearings, elements with the same note together."""
     elements: dict[str, list[str]] = {}
     for outcome in outcomes:
-        why = outcome.why.rpartition("; ")[2] if outcome.became == "connection" else outcome.why
-        if outcome.became != "left out" and why:
-            elements.setdefault(why, []).append(outcome.facts.name)
+        notes = outcome.why.split("; ")
+        for why in notes[1:] if outcome.became == CONNECTION else notes:
+            if outcome.became != LEFT_OUT and why:
+                elements.setdefault(why, []).append(outcome.facts.name)
+    yield from _together(elements)
+
+
+def _together(elements: Mapping[str, Sequence[str]]) -> Iterator[str]:
+    """Yield notes, each behind the names of the elements that it is on."""
     for why, names in elements.items():
         more = f" and {len(names) - 3} more" if len(names) > 3 else ""
         yield f"{', '.join(names[:3])}{more}: {why}"

@@ -23,6 +23,8 @@ class ElementFacts:
         Its predefined type, such as ``PIERCAP``; empty without one.
     words
         Its name, object type, predefined type and the name of its type.
+    properties
+        What its property sets call its type, label or classification.
     parts
         Parts of the bridge that it is in, the smallest first, each as its predefined type and its name.
     """
@@ -32,6 +34,7 @@ class ElementFacts:
     classes: tuple[str, ...]
     predefined: str = ""
     words: str = ""
+    properties: str = ""
     parts: tuple[str, ...] = ()
 
     @property
@@ -76,7 +79,9 @@ _OF_TYPE: dict[str | LeftOut, tuple[str, ...]] = {
     "footing": ("BASESLAB",),
     "parapet": ("PARAPET",),
     "bracing": ("BRACE", "STRUT"),
-    LeftOut("it lies on the soil behind the abutment"): ("APPROACH_SLAB",),
+    "approach slab": ("APPROACH_SLAB",),
+    "arch": ("ARCH_SEGMENT",),
+    "wing wall": ("WINGWALL",),
     LeftOut("cables are not modelled"): ("STAY_CABLE", "SUSPENSION_CABLE", "SUSPENDER", "STRUCTURALCABLE"),
 }
 """Predefined types, whatever the class, by their kind."""
@@ -98,31 +103,77 @@ _ELSEWHERE = {"IfcBeam": "girder", "IfcSlab": "deck", "IfcWall": "wall", "IfcPla
 """Kinds of a class in all other parts."""
 
 _NAMED = {
-    "IfcBeam": ("pier cap", "diaphragm"),
-    "IfcSlab": ("footing",),
-    "IfcWall": ("abutment", "pier", "parapet"),
+    "IfcBeam": ("pier cap", "cross girder"),
+    "IfcSlab": ("footing", "approach slab"),
+    "IfcWall": ("abutment", "pier", "parapet", "wing wall"),
 }
 """Kinds that the name of an element decides before its part does; for all other classes any kind."""
 
-_WORDS = {
-    "left out": r"railing|guard ?rail|hand ?rail|tendon|rebar|reinforc|drain|lamp|\blight|\bsign\b|cable",
-    "bearing": r"bearing",
-    "pier cap": r"(pier|bent) ?cap|cap ?beam|cross ?head|hammer ?head|head ?stock",
-    "footing": r"footing|foundation|pile ?cap|base ?slab",
-    "abutment": r"abutment|wing ?wall|back ?wall",
-    "parapet": r"parapet",
-    "pier": r"\bpier|column|pylon|\bbent\b",
-    "bracing": r"bracing|\bbrace|cross ?frame",
-    "diaphragm": r"diaphragm",
-    "girder": r"girder|\bbeam|stringer",
-    "deck": r"\bdeck|\bslab|superstructure",
+_OWN_WORDS = {
+    "IfcBeam": r"beam|girder|stringer|balk|bjelke|träger|balken|ligger|drager|poutre|\bviga|\btrav[ei]",
+    "IfcSlab": r"slab|\bdeck|plate\b|platte|dalle|losa|soletta|plaat|platta",
+    "IfcWall": r"wall|wand|vegg|\bmur|muro|vägg",
 }
-"""Words in names; the first kind that matches counts."""
+"""Words that say of a class what it is anyway; a name without them, such as LANDKAR of a beam, says something else."""
+
+_WORDS = {
+    "left out": (
+        r"railing|guard ?rail|hand ?rail|tendon|rebar|reinforc|drain|lamp|\blight|\bsign\b|cable"
+        r"|rekkverk|geländer|leitplanke|spannglied|bewehrung|glissière|garde corps|armature|barandilla|armadura"
+        r"|parapetto|guardrail|leuning|wapening|räcke|armering"
+    ),
+    "approach slab": (
+        r"approach ?slab|overgangsplate|schleppplatte|dalle de transition|losa de transici[oó]n"
+        r"|soletta di transizione|stootpla|länkplatt"
+    ),
+    "wing wall": (
+        r"wing ?wall|\bvinge|flügel|mur en (aile|retour)|\baletas?\b|muro d.ala|muri d.ala|vleugel(wand|muur)|vingmur"
+    ),
+    "bearing": (
+        r"bearing|\blager|brückenlager|brulager|brolager|appareils? d.appui|\bapoyos?\b|\bappogg|oplegging|opleggen"
+    ),
+    "cross girder": (
+        r"cross ?(girder|beam)|floor ?beam|transverse (girder|beam)|diaphragm|querträger|tverrbjelke|tverrbærer"
+        r"|entretoise|\briostra|diafragma|traverso|dwarsdrager|tvärbalk"
+    ),
+    "pier cap": (
+        r"(pier|bent) ?cap|cap ?beam|cross ?head|hammer ?head|head ?stock|\brigel|pfeilerkopf|querriegel|chevêtre"
+        r"|cabezal|\bdintel|pulvino"
+    ),
+    "footing": (
+        r"footing|foundation|pile ?cap|base ?slab|fundament|\bsåle|semelle|fondation|zapata|cimentaci[oó]n|encepado"
+        r"|plinto|fondazion|zattera|fundering|\bpoer|bottenplatta|grundplatta"
+    ),
+    "abutment": r"abutment|back ?wall|landkar|widerlager|cul[eé]e|estribo|\bspall[ae]\b|landhoofd|landfäste",
+    "parapet": (
+        r"parapet|edge ?beam|kantdrager|kantbjelke|kantbalk|\bkappe|randelement|schampkant|corniche|imposta|cordolo"
+    ),
+    "arch": r"\barch|bogen|\bbue\b|bueelement|hvelv|gewölbe|voûte|\barco\b|\bbåge|\bboog",
+    "fill": (
+        r"\b(back ?)?fill|hinterfüllung|verfüllung|auffüllung|remblai|remplissage|relleno|riempimento|rinfianco"
+        r"|fylling|fyllmasse|fyllning|aanvulling|\bvulling"
+    ),
+    "pier": (
+        r"\bpier|column|pylon|\bbent\b|søyle|\bpilar|pfeiler|stütze|\bpilas?\b|columna|colonn[ae]|pijler|\bkolom"
+        r"|\bpelare|brostöd"
+    ),
+    "bracing": r"bracing|\bbrace|cross ?frame|verband|contreventement|arriostramiento|controvent|windverband|vindkryss",
+    "girder": (r"girder|\bbeam|stringer|bjelke|träger|poutre|\bvigas?\b|\btrav[ei]\b|\bligger|huvudbalk|\bbalk"),
+    "deck": (
+        r"\bdeck|\bslab|superstructure|brudekke|brodekke|bruplate|overbygning|überbau|fahrbahn|tablier|hourdis|tablero"
+        r"|\blosa|impalcato|soletta|brugdek|rijdek|brobane|farbana|överbyggnad"
+    ),
+}
+"""Words in names, in English, Norwegian, German, French, Spanish, Italian, Dutch and Swedish; the first kind counts."""
+
+_PILE = r"\bpiles?\b"
+_FRENCH = r"cul[eé]e|tablier|chevêtre|semelle|appui|poutre"
+"""Words of a file in which a *pile* is a pier; in English it lies in the ground."""
 
 _PARTS = {
-    "pier": r"\bpiers?\b|pier_segment|pylon|\bbents?\b",
-    "abutment": r"abutment",
-    "foundation": r"foundation|footing",
+    "pier": r"\bpiers?\b|pier_segment|pylon|\bbents?\b|pfeiler|\bpilar|\bpilas?\b|pijler",
+    "abutment": r"abutment|widerlager|landkar|cul[eé]e|estribo|\bspall[ae]\b|landhoofd|landfäste",
+    "foundation": r"foundation|footing|fundament|fondation|cimentaci|fondazion|fundering",
     "deck": r"\bdeck|surfacestructure",
     "superstructure": r"superstructure",
     "substructure": r"substructure",
@@ -132,7 +183,7 @@ _PARTS = {
 _OTHER = "neither its class nor its name says what it is: give its kind by --kind, as in --kind 'NAME=deck'"
 
 
-def kind_of(facts: ElementFacts, own: Sequence[tuple[str, str]] = ()) -> str | LeftOut:
+def kind_of(facts: ElementFacts, own: Sequence[tuple[str, str]] = (), *, is_french: bool = False) -> str | LeftOut:
     """Return the kind of an element, or why it is left out; names and kinds of the user's own come first."""
     for pattern, own_kind in own:
         if matches(pattern, facts.names):
@@ -140,27 +191,54 @@ def kind_of(facts: ElementFacts, own: Sequence[tuple[str, str]] = ()) -> str | L
     for why, classes in _OF_CLASS.items():
         if not set(classes).isdisjoint(facts.classes):
             return LeftOut(why)
+    if _named_kind(facts.words) == "cross girder":
+        return "girder"  # some programs give it the type of a pier cap, which it lies on
     for kind, types in _OF_TYPE.items():
         if facts.predefined in types:
             return kind
-    return _of_class(facts)
+    return _of_class(facts, is_french=is_french)
 
 
-def _of_class(facts: ElementFacts) -> str | LeftOut:
+def is_french(words: Sequence[str]) -> bool:
+    """Return whether the names of a file are French."""
+    return any(re.search(_FRENCH, _plain(text)) for text in words)
+
+
+def _of_class(facts: ElementFacts, *, is_french: bool) -> str | LeftOut:
     for name, kind in _ALWAYS.items():
         if name in facts.classes:
             return kind
     known = next((cls for cls in facts.classes if cls in _ELSEWHERE), "")
-    by_name = _named_kind(facts.words)
-    if by_name and by_name in _NAMED.get(known, _WORDS):
-        return LeftOut(_CARRIES_NOTHING) if by_name == "left out" else by_name.replace("diaphragm", "girder")
+    by_name = _by_name(facts, known, is_french=is_french)
+    if by_name:
+        return LeftOut(_CARRIES_NOTHING) if by_name == "left out" else by_name
     part = _part_of(facts.parts)
+    by_properties = "" if known else _named_kind(facts.properties)
+    if by_properties and by_properties != "left out":
+        return "girder" if by_properties == "cross girder" else by_properties
     return _BY_PART[known].get(part) or _ELSEWHERE.get(known) or LeftOut(_OTHER)
 
 
-def _named_kind(words: str) -> str | None:
-    plain = re.sub(r"[_\-.:]+", " ", words).lower()
-    return next((kind for kind, pattern in _WORDS.items() if re.search(pattern, plain)), None)
+def _by_name(facts: ElementFacts, known: str, *, is_french: bool) -> str:
+    """Return the kind that the name of an element decides; empty where it leaves that to class and part."""
+    by_name = _named_kind(facts.words)
+    if not by_name and is_french and re.search(_PILE, _plain(facts.words)):
+        by_name = "pier"
+    if not by_name or (known and by_name == "left out" and known in _NAMED):
+        return ""
+    says_more = known in _OWN_WORDS and not re.search(_OWN_WORDS[known], _plain(facts.words))
+    if by_name in _NAMED.get(known, _WORDS) or says_more:
+        return by_name.replace("cross girder", "girder")
+    return ""
+
+
+def _named_kind(words: str) -> str:
+    plain = _plain(words)
+    return next((kind for kind, pattern in _WORDS.items() if re.search(pattern, plain)), "")
+
+
+def _plain(words: str) -> str:
+    return re.sub(r"[_\-.:'\u2019]+", " ", words).lower()
 
 
 def _part_of(parts: tuple[str, ...]) -> str:

@@ -20,6 +20,13 @@ MOST_BYTES = 2000 * MEGABYTE
 
 SCHEMAS = ("IFC2X3", "IFC4", "IFC4X3")
 
+_READ_AS = re.compile(r"IFC4X(1|2|3_(RC|TC|ADD1)\w*)(_\w*)?")
+_STRATUM = re.compile(rb"IFC(?:SOLID|VOID|WATER)STRATUM\s*\((.*?)\)\s*;", flags=re.IGNORECASE | re.DOTALL)
+"""Strata as release candidates have them, of classes of their own and without a predefined type."""
+
+_NEWEST = "IFC4X3_ADD2"
+"""Schemas that came before IFC4X3, whose elements it has too, and what they are read as."""
+
 _BEGINNING, _END = b"ISO-10303-21;", b"END-ISO-10303-21;"
 _HEAD = 100_000
 """Bytes in which the header of a file ends."""
@@ -64,6 +71,7 @@ def open_source(path: Path, settings: ImportSettings) -> IfcSource:
     openshell = library()
     content = _content(path)
     mended, count = _AMERICAN.subn(rb"\1METRE\2", content)
+    mended, schema = _relabelled(mended)
     try:
         # By its text, as a file opened by its path is not closed before the interpreter ends.
         model = openshell.file.from_string(_text(mended))
@@ -72,6 +80,8 @@ def open_source(path: Path, settings: ImportSettings) -> IfcSource:
     if not model.by_type("IfcProject"):
         raise IfcError(f"{path}: has no IfcProject, so no units and no bridge; export the whole project")
     notes = ("METER is taken for METRE, as the standard spells it",) if count else ()
+    if schema:
+        notes = (*notes, f"the schema {schema} is read as {_NEWEST}, which came after it")
     own_m = _unit_of_file(model)
     unit_m = own_m if settings.unit is None else UNITS[settings.unit]
     if unit_m is None:
@@ -98,14 +108,25 @@ def _content(path: Path) -> bytes:
     if beginning.startswith(b"<"):
         raise IfcError(f"{path}: is XML; save it as a STEP file, .ifc")
     if not beginning.startswith(_BEGINNING):
-        raise IfcError(f"{path}: is no IFC file, which begins with {_BEGINNING.decode()}")
+        raise IfcError(f"{path}: is no IFC file: expected one that begins with {_BEGINNING.decode()}")
     if _END not in content[-_HEAD:]:
         raise IfcError(f"{path}: is cut short, as {_END.decode()} is missing at its end; copy or export it again")
     schema = _SCHEMA.search(beginning)
-    if not schema or schema.group(1).decode("latin-1").upper().split("_")[0] not in SCHEMAS:
+    name = schema.group(1).decode("latin-1").upper() if schema else ""
+    if not schema or (name.split("_")[0] not in SCHEMAS and not _READ_AS.fullmatch(name)):
         actual = f"of the schema {schema.group(1).decode('latin-1')}" if schema else "of no schema"
         raise IfcError(f"{path}: is {actual}: expected one of {', '.join(SCHEMAS)}; export it as one of them")
     return content
+
+
+def _relabelled(content: bytes) -> tuple[bytes, str]:
+    """Return a file with the schema that it is read as, and its own where that is another; empty where it is not."""
+    found = _SCHEMA.search(content[:_HEAD])
+    name = found.group(1).decode("latin-1").upper() if found else ""
+    if not found or not _READ_AS.fullmatch(name):
+        return content, ""
+    relabelled = content[: found.start(1)] + _NEWEST.encode() + content[found.end(1) :]
+    return _STRATUM.sub(rb"IFCGEOTECHNICALSTRATUM(\1,$);", relabelled), name
 
 
 def _text(content: bytes) -> str:

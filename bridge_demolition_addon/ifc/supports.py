@@ -11,17 +11,27 @@ from .contacts import TOUCHING_M, NearbyMembers
 _ON_GROUND_M = 1e-3
 """Height above the ground up to which a member stands on it: as far as one may reach below it."""
 
-_STANDING = ("pier", "abutment", "wall")
-"""Kinds of members that stand on something."""
+STANDING = ("pier", "abutment", "wall", "wing wall")
+"""Kinds of members that stand on something; where that is missing, their undersides are held."""
+
+HELD_KINDS = ("footing", "approach slab")
+"""Kinds of members that never move: what lies on the soil or in it."""
 
 
-def supports_of(members: Sequence[Member], contacts: NearbyMembers) -> tuple[list[Support], list[str]]:
-    """Return the supports of a bridge, and notes on members that are held though they are no footings."""
-    held = [Support(member="footing")] if any(member.kind == "footing" for member in members) else []
+def supports_of(
+    members: Sequence[Member], contacts: NearbyMembers, added: Sequence[str] = ()
+) -> tuple[list[Support], list[str]]:
+    """Return the supports of a bridge, and notes on members that are held though they are no footings.
+
+    `added` are the names of supports that the file lacks.
+    """
+    present = {member.kind for member in members}
+    held = [Support(member=kind) for kind in HELD_KINDS if kind in present]
+    held += [Support(member=name) for name in added]
     notes = []
     for index, member in enumerate(members):
         height_m = float(member.solid.bounds[0, 2])
-        if member.kind not in _STANDING or height_m <= _ON_GROUND_M:
+        if member.kind not in STANDING or height_m <= _ON_GROUND_M or member.name in added:
             continue
         if contacts.reached(member.solid, -_ON_GROUND_M).keys() - {index}:
             continue

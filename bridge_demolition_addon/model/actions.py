@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from typing import ClassVar, Protocol, Self
+from typing import Any, ClassVar, Protocol, Self
 
 from ..engineering.ground_motion.record import GroundRecord
 from ..engineering.timing.time_step import TimeStep
@@ -77,11 +77,20 @@ class Worksite(Protocol):
     def member_within(self, centre_m: Point, radius_m: float) -> str | None:
         """Return the name of a member that overlaps a sphere, None without one."""
 
+    def distance_to_bridge_m(self, point_m: Point) -> float:
+        """Return at least how far a point is from all members, m: from the boxes around them."""
+
     def affected_by(self, action: PlannedAction) -> Affected:
         """Return the shards that a change or a load acts on; refuse one that acts on nothing."""
 
     def number_of(self, action: PlannedAction) -> int:
         """Return the number of an action in its list, from 1 on."""
+
+    def facts_of_zone(self, zone: Any) -> Iterator[Fact]:
+        """Yield what drilled charges do to a blast zone of the bridge."""
+
+    def check_zone(self, zone: Any) -> None:
+        """Check that a blast zone and its holes lie in their member."""
 
 
 class PlannedAction(Table):

@@ -43,10 +43,10 @@ class Part(PlannedAction):
         if (lowest is None) != (highest is None):
             given, missing = ("lowest", "highest") if highest is None else ("highest", "lowest")
             raise self.unexpected(f"{missing}_corner_m", f"it with {self.table}.{given}_corner_m")
-        for axis, (low, high) in enumerate(zip(lowest or (), highest or (), strict=True)):
+        for axis, (low, high) in enumerate(zip(lowest or (), highest or (), strict=True), start=1):
             if not low < high:
                 raise ScenarioError(
-                    f"{self.table}.highest_corner_m[{axis}] is {high}: expected more than that of the lowest "
+                    f"{self.table}.highest_corner_m.{axis} is {high}: expected more than that of the lowest "
                     f"corner, {low} (m)"
                 )
 
@@ -119,7 +119,7 @@ class Load(Part):
     def check_plan(self, plan: Plan) -> None:
         if self.times_s[0] >= plan.time.duration_s:
             wanted = f"less than time.duration_s, {plan.time.duration_s} (s)"
-            raise ScenarioError(f"loads.times_s[0] is {self.times_s[0]}: expected {wanted}")
+            raise ScenarioError(f"loads.times_s.1 is {self.times_s[0]}: expected {wanted}")
 
     def check_model(self, site: Worksite) -> None:
         site.affected_by(self)
@@ -132,8 +132,8 @@ class Load(Part):
             raise ScenarioError(f"{self.table}.direction is {shown(self.direction)}, all 0: expected a direction")
         if len(self.forces_n) != len(self.times_s):
             raise self.unexpected("forces_n", f"as many as loads.times_s, {len(self.times_s)}")
-        for number, (before_s, time_s) in enumerate(pairwise(self.times_s), start=1):
+        for number, (before_s, time_s) in enumerate(pairwise(self.times_s), start=2):
             if not before_s < time_s:
                 raise ScenarioError(
-                    f"{self.table}.times_s[{number}] is {time_s}: expected more than the one before, {before_s} (s)"
+                    f"{self.table}.times_s.{number} is {time_s}: expected more than the one before, {before_s} (s)"
                 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -35,8 +36,29 @@ def read_mesh(path: Path) -> TriangleMesh:
         raise GeometryError(f"{path}: cannot be read as {path.suffix[1:].upper()}: {error}") from error
     if not isinstance(mesh, trimesh.Trimesh) or not len(mesh.faces):
         raise GeometryError(f"{path}: has no faces; export a closed surface.")
+    return TriangleMesh(_vertices(mesh, path), np.asarray(mesh.faces, dtype=np.int64))
+
+
+def read_points_of_mesh(path: Path) -> np.ndarray:
+    """Return the vertices (n, 3) in a file that ends in one of `MESH_FILES`, which may be a cloud without faces."""
+    check_file(path, MOST_BYTES)
+    import trimesh
+
+    try:
+        loaded = trimesh.load(path, process=False)
+        parts = loaded.dump() if isinstance(loaded, trimesh.Scene) else [loaded]
+        points = np.concatenate([_vertices(part, path) for part in parts])
+    except Exception as error:  # each reader has its own errors
+        raise GeometryError(f"{path}: cannot be read as {path.suffix[1:].upper()}: {error}") from error
+    points = points[np.isfinite(points).all(axis=1)]
+    if not len(points):
+        raise GeometryError(f"{path}: has no points.")
+    return points
+
+
+def _vertices(mesh: Any, path: Path) -> np.ndarray:
     vertices = np.asarray(mesh.vertices, dtype=float)
     if path.suffix.lower() == ".glb":
         # Of single precision in the file; trimesh has placed them by products whose last bits differ by processor.
         vertices = vertices.astype(np.float32).astype(float)
-    return TriangleMesh(vertices, np.asarray(mesh.faces, dtype=np.int64))
+    return vertices

@@ -16,7 +16,7 @@ from unicodedata import category
 
 import numpy as np
 
-from ..errors import ScenarioError
+from ..errors import Faults, ScenarioError
 
 _Value = TypeVar("_Value")
 _Table = TypeVar("_Table", bound="Table")
@@ -102,8 +102,12 @@ class Table:
     table: ClassVar[str]
 
     def __post_init__(self) -> None:
+        faults = Faults()
         for item in fields(self):
-            object.__setattr__(self, item.name, checked(item, key_name(type(self), item), getattr(self, item.name)))
+            with faults.noted():
+                value = checked(item, key_name(type(self), item), getattr(self, item.name))
+                object.__setattr__(self, item.name, value)
+        faults.check()
         self._check_together()
 
     def _check_together(self) -> None:
@@ -123,13 +127,14 @@ def given(value: _Value | None) -> _Value:
 def numbered_tables(
     table_class: type[Table], values: Iterable[_Value], make: Callable[[_Value], _Table]
 ) -> tuple[_Table, ...]:
-    """Make the tables of a list; an error gives the number of the table that it is about."""
-    tables = []
+    """Make the tables of a list; each fault gives the number of the table that it is about."""
+    tables, faults = [], Faults()
     for number, value in enumerate(values, start=1):
         try:
             tables.append(make(value))
         except ScenarioError as error:
-            raise ScenarioError(f"[[{table_class.table}]] number {number}: {error}") from error
+            faults.found += error.within(f"[[{table_class.table}]] number {number}").faults
+    faults.check()
     return tuple(tables)
 
 
@@ -197,13 +202,13 @@ def checked(item: Field[Any], name: str, value: Any) -> Any:
 
 
 def _checked(item: Field[Any], name: str, kind: Any, value: Any) -> Any:
-    """Check a value, or an element of a list, that is to be of a kind."""
+    """Check a value that is to be of a kind, or an element of a list, which is named by its number as in a study."""
     if get_origin(kind) is tuple:
         length = _list_length(kind)
         if not isinstance(value, list | tuple) or len(value) != (length or max(len(value), 1)):
             raise _unexpected(item, name, value)
         element = get_args(kind)[0]
-        return tuple(_checked(item, f"{name}[{index}]", element, inner) for index, inner in enumerate(value))
+        return tuple(_checked(item, f"{name}.{number}", element, inner) for number, inner in enumerate(value, start=1))
     if kind in (int, float):
         return _checked_number(item, name, kind, value)
     if kind is Scalar:
@@ -236,10 +241,12 @@ def _is_text(text: str, rule: Key) -> bool:
 def check_exactly_one(table: Table, *names: str) -> None:
     """Check that one of several keys is given."""
     present = [name for name in names if getattr(table, name) is not None]
-    if len(present) != 1:
-        state = "given together" if present else "all missing"
-        listed = " and ".join(f"{table.table}.{name}" for name in present or names)
-        raise ScenarioError(f"{listed} are {state}: expected exactly one of {', '.join(names)}")
+    if not present:
+        *first, last = names
+        raise ScenarioError(f"{table.table} has no {', '.join(first)} or {last}: give one of them")
+    if len(present) > 1:
+        listed = " and ".join(f"{table.table}.{name}" for name in present)
+        raise ScenarioError(f"{listed} are given together: give only one of them")
 
 
 def _unexpected(item: Field[Any], name: str, value: Any) -> ScenarioError:

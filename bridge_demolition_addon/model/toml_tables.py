@@ -5,19 +5,18 @@ The file of a class holds its own keys under its heading, and the tables in it b
 
 import json
 import re
-import tomllib
-from collections.abc import Iterable, Iterator
-from dataclasses import MISSING, fields
+from collections.abc import Iterator, Sequence
+from dataclasses import MISSING, Field, fields
 from difflib import get_close_matches
 from pathlib import Path
 from typing import Any, TypeVar
 
-from ..errors import ScenarioError, UnreadableError
+from ..errors import Faults, ScenarioError, UnreadableError
 from ..system.reading import MEGABYTE, file_text
 from .schema import (
     Table,
+    checked,
     expected,
-    given,
     holds_many,
     is_required,
     key_fields,
@@ -27,40 +26,92 @@ from .schema import (
     subtable_class,
     subtable_fields,
 )
+from .toml_slips import parsed
 
 LIKENESS = 0.68
 """Least likeness of an unknown name and a suggestion: radius_m means search_radius_m, but title does not mean time."""
+
+_KINDS = {
+    "study": "this is a study: use bda study",
+    "search": "this is a search: use bda search",
+    "optimise": "this is an optimisation: use bda optimise",
+    "scenario": "this is a scenario: use bda check or bda run",
+}
+"""What to do with each kind of file, by its heading. In a study, `scenario` is a key and no heading."""
+
+_OTHER_WORDS = {
+    "bearing": "bearings",
+    "blasting": "blast",
+    "cap": "pier_caps",
+    "charge": "charges",
+    "columns": "piers",
+    "crack_width": "gap_m",
+    "cuts": "saw_cuts",
+    "density": "density_kg_m3",
+    "earthquake": "ground_motion",
+    "excavators": "equipment",
+    "explosive": "charges",
+    "explosives": "charges",
+    "footings": "foundations",
+    "fragments": "fracture",
+    "hammer": "jackhammers",
+    "joints": "connections",
+    "location_m": "place_m",
+    "machines": "equipment",
+    "members": "geometry",
+    "mesh": "geometry",
+    "meshes": "geometry",
+    "pillars": "piers",
+    "position_m": "place_m",
+    "rebar": "reinforcement",
+    "receptors": "neighbours",
+    "slab": "deck",
+    "soil": "foundations",
+    "springs": "foundations",
+    "terrain": "ground",
+    "wrecking_ball": "ball",
+}
+"""Names of tables and keys by other words for the same."""
+
+_IFC = "ISO-10303-21;"
 
 BARE_KEY = re.compile(r"[A-Za-z0-9_-]{1,60}")
 
 _Root = TypeVar("_Root", bound=Table)
 
 
-def document_of_file(path: Path, description: str, most_bytes: int = MEGABYTE) -> dict[str, Any]:
-    """Return the content of a TOML file; errors do not name it."""
+def document_of_file(
+    path: Path, description: str, most_bytes: int = MEGABYTE, faults: Faults | None = None
+) -> dict[str, Any]:
+    """Return the content of a TOML file; errors do not name it. Where `faults` are given, slips are noted in them."""
     try:
         text = file_text(path, most_bytes)
     except UnreadableError as error:
         raise ScenarioError(f"{error}: expected {description} in TOML") from error
-    return toml_document(text)
+    if text.startswith(_IFC):
+        raise ScenarioError("this is an IFC file: use bda import")
+    return toml_document(text, faults)
 
 
-def toml_document(text: str) -> dict[str, Any]:
-    """Return the content of a text in TOML."""
-    try:
-        return tomllib.loads(text)
-    except (ValueError, RecursionError) as error:  # tomllib lets too long numbers and too deep lists through as these
-        raise ScenarioError(f"not a TOML file: {error}") from error
+def toml_document(text: str, faults: Faults | None = None) -> dict[str, Any]:
+    """Return the content of a text in TOML. Where `faults` are given, slips are noted in them, and otherwise raised."""
+    noted = Faults() if faults is None else faults
+    document = parsed(text, noted)
+    if faults is None:
+        noted.check()
+    return document
 
 
 def table_of_document(root: type[_Root], document: dict[str, Any]) -> _Root:
     """Return the table in a document, where its own keys stand under its heading beside the tables in it."""
-    _refuse_unknown(root, "", document, [root.table, *(item.name for item in subtable_fields(root))])
+    _check_kind(root, document)
     heading = document.get(root.table, {})
     if not isinstance(heading, dict):
         raise ScenarioError(f"{root.table} is {shown(heading)}: expected a table")
-    _refuse_unknown(root, root.table, heading, [item.name for item in key_fields(root)])
-    return root(**_key_values(root, heading), **_subtables(root, root, document))
+    faults = Faults()
+    tables = _meant(root, "", document, [root.table, *(item.name for item in subtable_fields(root))], faults)
+    keys = _meant(root, root.table, heading, [item.name for item in key_fields(root)], faults)
+    return _made(root, root, {name: tables[name] for name in tables if name != root.table} | keys, faults)
 
 
 def tables_text(root: Table, *, defaults: bool = True) -> str:
@@ -86,29 +137,41 @@ def toml_value(value: Any) -> str:
     return repr(value)
 
 
+def _check_kind(root: type[Table], document: dict[str, Any]) -> None:
+    """Refuse a file of another kind."""
+    if root.table in _KINDS and not isinstance(document.get(root.table), dict):
+        for name, sentence in _KINDS.items():
+            if isinstance(document.get(name), dict):
+                raise ScenarioError(sentence)
+
+
 def _table(root: type[Table], table_class: type[Table], values: Any) -> Table:
     if not isinstance(values, dict):
         raise ScenarioError(f"{table_class.table} is {shown(values)}: expected a table")
-    _refuse_unknown(root, table_class.table, values, [item.name for item in fields(table_class)])
-    return table_class(**_key_values(table_class, values), **_subtables(root, table_class, values))
+    faults = Faults()
+    known = [item.name for item in fields(table_class)]
+    return _made(root, table_class, _meant(root, table_class.table, values, known, faults), faults)
 
 
-def _key_values(table_class: type[Table], values: dict[str, Any]) -> dict[str, Any]:
-    for item in key_fields(table_class):
-        if is_required(item) and item.name not in values:
-            raise ScenarioError(f"{key_name(table_class, item)} is missing: expected {expected(item)}")
-    return {item.name: values[item.name] for item in key_fields(table_class) if item.name in values}
+def _made(root: type[Table], table_class: type[_Root], values: dict[str, Any], faults: Faults) -> _Root:
+    """Make a table, or raise the faults that were found before and all of its own."""
+    made = {}
+    for item in fields(table_class):
+        name = key_name(table_class, item)
+        if item.name in values:
+            with faults.noted():
+                made[item.name] = _value(root, item, name, values[item.name])
+        elif is_required(item):
+            faults.found.append(f"{name} is missing: expected {expected(item)}")
+    faults.check()
+    return table_class(**made)
 
 
-def _subtables(root: type[Table], table_class: type[Table], values: dict[str, Any]) -> dict[str, Any]:
-    for item in subtable_fields(table_class):
-        if is_required(item) and item.name not in values:
-            raise ScenarioError(f"{key_name(table_class, item)} is missing: expected a table")
-    return {
-        item.name: (_tables if holds_many(item) else _table)(root, given(subtable_class(item)), values[item.name])
-        for item in subtable_fields(table_class)
-        if item.name in values
-    }
+def _value(root: type[Table], item: Field[Any], name: str, value: Any) -> Any:
+    table_class = subtable_class(item)
+    if table_class is None:
+        return checked(item, name, value)
+    return (_tables if holds_many(item) else _table)(root, table_class, value)
 
 
 def _tables(root: type[Table], table_class: type[Table], values: Any) -> tuple[Table, ...]:
@@ -120,19 +183,31 @@ def _tables(root: type[Table], table_class: type[Table], values: Any) -> tuple[T
     return numbered_tables(table_class, values, lambda value: _table(root, table_class, value))
 
 
-def _refuse_unknown(root: type[Table], table: str, values: dict[str, Any], known: Iterable[str]) -> None:
-    known = list(known)
+def _meant(
+    root: type[Table], table: str, values: dict[str, Any], known: Sequence[str], faults: Faults
+) -> dict[str, Any]:
+    """Return the values of known names, and those of unknown ones under the names that are meant; note the unknown."""
+    meant = {name: value for name, value in values.items() if name in known}
     for name in values:
         if name not in known:
-            raise ScenarioError(f"{dotted(table, name)} is unknown: {_suggestion(root, table, name, known)}")
+            alike = _alike(name, known)
+            faults.found.append(f"{dotted(table, name)} is unknown: {_suggestion(root, table, name, known, alike)}")
+            if alike:
+                meant.setdefault(alike[0], values[name])
+    return meant
 
 
-def _suggestion(root: type[Table], table: str, name: str, known: list[str]) -> str:
-    """Return the meaning of an unknown name: one like it in its table, the same elsewhere, or any of its table."""
-    alike = [dotted(table, match) for match in get_close_matches(name, known, n=1, cutoff=LIKENESS)]
+def _alike(name: str, known: Sequence[str]) -> list[str]:
+    """Return the known name that an unknown one stands for, by its meaning or its letters; an empty list if none."""
+    same = _OTHER_WORDS.get(name.lower())
+    return [same] if same is not None and same in known else get_close_matches(name, known, n=1, cutoff=LIKENESS)
+
+
+def _suggestion(root: type[Table], table: str, name: str, known: Sequence[str], alike: Sequence[str]) -> str:
+    """Return what is meant by an unknown name: a name of its table, one elsewhere, or any of its table."""
     elsewhere = [full for full in _full_names(root) if full.rpartition(".")[2] == name]
     if alike or elsewhere:
-        return f"did you mean {(alike + elsewhere)[0]}?"
+        return f"did you mean {[*(dotted(table, match) for match in alike), *elsewhere][0]}?"
     return f"expected one of {', '.join(known)}"
 
 

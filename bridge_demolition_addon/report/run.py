@@ -14,15 +14,18 @@ from ..model.debris.throws import debris_of
 from ..model.run_folder.files import DXF_FILE, GEOJSON_FILE
 from ..model.scenario.file import scenario_text
 from ..model.sequence.checked_model import checked_model
+from ..model.stages.misfires import misfires
 from ..model.stages.stages import criticality, stages_of
 from ..model.stages.standing import StandingBridge, made_elastic
 from ..model.stages.tables import write_tables as write_stage_tables
 from ..system.progress import Progress
+from ..version import VERSION
 from .document.blocks import Document, Report
 from .run_folder import ReportedRun
 from .sections.blast import blast_section
+from .sections.charge_plan import charge_plan_section
 from .sections.collapse import collapse_section
-from .sections.cover import ONE_RUN, add_on_version, cover_section, scenario_section, trust_section
+from .sections.cover import ONE_RUN, cover_section, scenario_section, trust_section
 from .sections.debris import corner_table, debris_section, exclusion_section, terrain_section, zone_of
 from .sections.forces import force_section, logged_section
 from .sections.ground_motion import motion_section, touchdown_section
@@ -47,7 +50,7 @@ def run_report(
     plans = [] if zone is None else _write_plans(zone, run, target)
     with_stages = next((folder for folder in (target, run.folder) if has_stages(folder)), None)
     names = [path.name for path in plans]
-    document = run_document(run, add_on_version(), zone, names, trajectories=trajectories, stages=with_stages)
+    document = run_document(run, VERSION, zone, names, trajectories=trajectories, stages=with_stages)
     return Report(document, () if zone is None else (corner_table(zone),), tuple(plans))
 
 
@@ -77,6 +80,8 @@ def run_document(
         sections.append(collapse_section(run))
         if run.scenario and (blast := blast_section(run.scenario, debris.outline, debris.ground)):
             sections.append(blast)
+        if run.scenario and (plan := charge_plan_section(run.scenario)):
+            sections.append(plan)
         if run.scenario and (touchdown := touchdown_section(run.results, run.scenario.neighbours)):
             sections.append(touchdown)
         if motion := motion_section(run):
@@ -101,7 +106,8 @@ def _work_out_stages(run: ReportedRun, target: Path, progress: Progress) -> None
     bridge = StandingBridge(checked_model(made_elastic(run.scenario)), run.scenario.joints)
     worked_out = stages_of(run.scenario, bridge, lambda done, total: progress.part(done, total, "stages"))
     members = criticality(bridge, lambda done, total: progress.part(done, total, "members taken away"))
-    write_stage_tables(target, worked_out, members, bridge)
+    failures = misfires(run.scenario, bridge, lambda done, total: progress.part(done, total, "zones that fail"))
+    write_stage_tables(target, worked_out, members, bridge, failures)
 
 
 def _write_plans(zone: ExclusionZone, run: ReportedRun, target: Path) -> list[Path]:

@@ -4,20 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 from ..errors import OutputError, text_of
+from ..exports.sheets import write_workbook
+from ..model.debris.survey import SurveySettings, compared, read_survey
 from ..model.ensemble.folder import holds_ensemble
-from ..model.run_folder.files import REPORT_PAGE, REPORT_PDF, TABLE_FOLDER
+from ..model.run_folder.files import PLAN_WORKBOOK, REPORT_PAGE, REPORT_PDF, TABLE_FOLDER
 from ..model.run_folder.folder import holds_run
+from ..model.scenario import Scenario
 from ..model.study.files import OPTIMISE_FILE, REPORT_FOLDER, SEARCH_FILE, STUDY_FILE
+from ..model.terrain.placed import Placing
 from ..system.folder_lock import FolderLock
 from ..system.progress import Progress
+from ..version import VERSION
 from .comparison import comparison
-from .document.blocks import Report, write_tables
+from .document.blocks import Document, Report, write_tables
 from .document.drawings import drawings
 from .document.html import write_html
 from .document.pdf import write_pdf
@@ -27,8 +32,9 @@ from .ensemble.study import study_report
 from .ensemble.study_runs import read_study_runs
 from .run import run_report
 from .run_folder import read_run
-from .sections.cover import add_on_version
+from .sections.charge_plan import planned_section
 from .sections.stages import has_stages, stages_report
+from .survey import survey_report, survey_rows
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,6 +70,10 @@ KINDS = (
 """A folder is of the first kind that recognises it."""
 
 
+SurveyPlace = tuple[Sequence[float] | None, float | None, float | None]
+"""Origin of the scenario in a survey, direction of its x axis, and metres in its unit; None for those of the ground."""
+
+
 def kind_of(folder: Path) -> FolderKind:
     """Return the kind of a folder; that of a run where none recognises it, whose reader says what is missing."""
     return next((kind for kind in KINDS if kind.recognised(folder)), RUN)
@@ -95,6 +105,33 @@ def write_report(
         return _written(make(content, target, progress), target, progress)
 
 
+def write_survey(
+    folder: Path, survey: Path, place: SurveyPlace, settings: SurveySettings, output: Path, progress: Progress
+) -> tuple[list[tuple[str, str]], list[Path]]:
+    """Compare a run with a survey of its debris, write that as a report, and return what it says and all files.
+
+    Where and how the survey lies is that of the ground of the run's scenario, but for what `place` says.
+    """
+    progress.stage("reading the results")
+    run = read_run(folder)
+    if run.results is None or run.scenario is None:
+        raise OutputError(f"{folder}: {' '.join(run.shortcomings)}")
+    progress.stage(f"reading {survey.name}")
+    origin, bearing_deg, scale = place
+    ground = run.scenario.ground
+    if origin is not None:
+        ground = replace(ground, origin=tuple(origin))
+    if bearing_deg is not None:
+        ground = replace(ground, bearing_deg=bearing_deg)
+    if scale is not None:
+        ground = replace(ground, scale=scale)
+    points = read_survey(survey, Placing.of(replace(run.scenario, ground=ground)))
+    comparison = compared(run.results, points, settings)
+    with _written_to(output):
+        written = _written(survey_report(comparison, run.name, survey), output, progress)
+    return survey_rows(comparison), written
+
+
 def _write_comparison(folders: Sequence[Path], output: Path | None, *, stages: bool, progress: Progress) -> list[Path]:
     if output is None:
         raise OutputError("several runs are compared in a folder of their own: give one with --output")
@@ -106,7 +143,25 @@ def _write_comparison(folders: Sequence[Path], output: Path | None, *, stages: b
     progress.stage(f"reading the results of {len(folders)} runs")
     runs = [read_run(folder) for folder in folders]
     with _written_to(output):
-        return _written(Report(comparison(runs, add_on_version())), output, progress)
+        return _written(Report(comparison(runs, VERSION)), output, progress)
+
+
+def write_charge_plan(scenario: Scenario, target: Path, progress: Progress) -> list[Path]:
+    """Write the charge plan of a scenario with blast zones to a folder, and return all files written.
+
+    Without XlsxWriter there is no workbook.
+    """
+    progress.stage("working out the charge plan")
+    section = planned_section(scenario)
+    subtitle = f"Charge plan. Bridge Demolition Add-on {VERSION}"
+    document = Document(scenario.title, subtitle, (section,))
+    with _written_to(target):
+        written = _written(Report(document), target, progress)
+        book = target / PLAN_WORKBOOK
+        tables = [
+            (table.name, [column.key for column in table.columns], table.rows) for table in document.named_tables()
+        ]
+        return [*written, book] if write_workbook(tables, book) else written
 
 
 @contextmanager

@@ -17,8 +17,9 @@ from ..errors import SimulationError
 from ..model.actions import PlannedAction
 from ..model.blast.settings import Apply
 from ..model.bridge.extent import room_around, surface_height
-from ..model.scenario import Ball, Change, Jackhammer, Load, Scenario
+from ..model.scenario import Ball, Jackhammer, Scenario
 from ..model.sequence.checked_model import check_actions
+from ..model.structure.blast_zones import zone_firings
 from ..model.structure.model import Model, start_motions
 from .as_built import keep_built_bodies
 from .blast.charges import charge_objects, create_charges, keep_blast
@@ -53,11 +54,8 @@ TOOLS: dict[type[PlannedAction], Callable[[BuildSite, Any], object]] = {
 }
 """Makers of the actions that are bodies of their own, in the order of a scenario's actions."""
 
-KEPT: dict[type[PlannedAction], Callable[[bpy.types.Scene, Sequence[Any]], None]] = {
-    Change: keep_changes,
-    Load: keep_loads,
-}
-"""Actions on bodies that are there, and what keeps all of a kind with the scene until a recording applies them."""
+KEEPERS: tuple[Callable[[bpy.types.Scene, Sequence[Any]], None], ...] = (keep_changes, keep_loads)
+"""What keeps actions on bodies that are there with the scene, all of a kind, until a recording applies them."""
 
 
 def build_demolition(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> list[bpy.types.Object]:
@@ -95,8 +93,8 @@ def _build(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> list[bpy
             make(site, action)
     joints = scenario.joints
     keep_breaking(scene, _breaking(scenario, joints[0].strength, model.bars))
-    for kind, keep in KEPT.items():
-        keep(scene, [action for action in scenario.actions if isinstance(action, kind)])
+    keep_changes(scene, (*scenario.changes, *zone_firings(scenario, model.members)))
+    keep_loads(scene, scenario.loads)
     with off_scene(scene) as (bodies, connections):
         surface = scenario.surface_of(scenario.shards)
         shards = create_shards(bodies, scenario.shards, surface, model.shards, model.centres_m, model.masses_kg)

@@ -9,7 +9,7 @@ from .blast.force_fields import force_collection, force_objects
 from .bodies import bodies_of, is_marked
 from .connections.breaking_settings import Breaking, keep_breaking
 from .connections.constraints import constraints_of, ends_of, loose_connections
-from .demolition import KEPT
+from .demolition import KEEPERS
 from .rendering.dust import remove_dust
 from .rendering.markers import clear_markers
 from .rendering.materials import remove_unused_materials
@@ -41,7 +41,7 @@ def remove_demolition(scene: bpy.types.Scene) -> int:
     remove_unused_materials()
     stop_animation(scene)
     keep_breaking(scene, Breaking())
-    for keep in KEPT.values():
+    for keep in KEEPERS:
         keep(scene, ())
     forget_built_bodies(scene)
     fields = force_collection(scene)

@@ -255,7 +255,7 @@ class RunSetup:
     )
     changes: tuple[Change, ...] = decides(
         hashed=_NOT_IN_DIGEST,
-        compared={"removals, saw cuts and weakenings": lambda setup: {"planned": repr(setup.changes)}},
+        compared={"removals, saw cuts, weakenings and blast zones": lambda setup: {"planned": repr(setup.changes)}},
         written=_SAME_KEY,
     )
     loads: tuple[Load, ...] = decides(
@@ -343,14 +343,15 @@ class RunSetup:
         """Loads on the bodies that carry them."""
         if not self.loads:
             return ()
-        bodies = self.bodies
-        corners = transformed(bodies.rotations[:, None], bodies.boxes_m) + bodies.positions_m[:, None]
-        boxes_m = np.stack((corners.min(axis=1), corners.max(axis=1)), axis=1)
-        return placed_loads(self.loads, self._structure, self.inventory.masses_kg, boxes_m)
+        structure = self._structure
+        return placed_loads(self.loads, structure, self.inventory.masses_kg, structure.boxes_m)
 
     @property
     def _structure(self) -> Structure:
-        return recorded_structure(self.inventory, self.bodies.positions_m)
+        bodies = self.bodies
+        corners = transformed(bodies.rotations[:, None], bodies.boxes_m) + bodies.positions_m[:, None]
+        boxes_m = np.stack((corners.min(axis=1), corners.max(axis=1)), axis=1)
+        return recorded_structure(self.inventory, bodies.positions_m, boxes_m)
 
 
 def run_setup_of(scene: bpy.types.Scene, *, with_connections: bool = True) -> RunSetup:

@@ -27,6 +27,7 @@ from ..scene.rendering.staging import stage
 from ..scene.rendering.stills import prepare_pictures
 from ..scene.tools.ground_motion import ground_motion_of
 from ..scene.world import keep_played_frames
+from ..system.native_output import without_noise
 from ..system.progress import Progress
 from ..system.signals import Interrupted, interrupted_afterwards, signals_noted
 from .display.film import FilmRendering, FilmSettings
@@ -142,7 +143,8 @@ def _save_scene(scene: bpy.types.Scene, folder: Path) -> None:
     keep_played_frames(scene)
     path = folder.resolve() / BLEND_FILE
     try:  # Blender itself writes beside it and renames
-        bpy.ops.wm.save_as_mainfile(filepath=str(path), check_existing=False, compress=True)
+        with without_noise():
+            bpy.ops.wm.save_as_mainfile(filepath=str(path), check_existing=False, compress=True)
     except RuntimeError as error:
         raise SimulationError(f"{path}: Blender could not write it: {error}") from error
 

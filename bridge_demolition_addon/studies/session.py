@@ -21,6 +21,7 @@ from .engine import Engine
 from .proposals import OptunaProposals, check_optuna
 from .run_queue import RunQueue
 
+_LOOK_EVERY_S = 0.2
 _MOST_LOOKED_UP = 25
 """Cached runs that are looked up in one step at most, so that a step stays short."""
 
@@ -88,6 +89,15 @@ class EnsembleSession:
         result = self.result()
         paths = self.folder.write_result(result) + save_pictures(result, self.folder.path)
         return result, self.stop() + paths
+
+    def complete(self) -> EnsembleResult:
+        """Make all runs, wait for them, and return their result."""
+        try:
+            while not self.planner.is_finished:
+                self.step(_LOOK_EVERY_S)
+            return self.finish()[0]
+        finally:
+            self.stop()
 
     def _begin_runs(self) -> int:
         """Begin runs, and return for how many was looked up whether they are done."""

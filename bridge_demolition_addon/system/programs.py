@@ -9,13 +9,14 @@ from typing import IO
 _PACKAGE = Path(__file__).resolve().parents[1]
 
 
-def program_command(module: str, blender: str = "") -> list[str]:
+def program_command(module: str, blender: str = "", *, with_libraries: bool = False) -> list[str]:
     """Return the command that runs `main` of a module of this package, from any folder; arguments may follow.
 
     A program of Blender runs it, without a window; this Python where none is given. Blender without preferences knows
-    no extensions and none of their libraries, so it gets the paths of this process.
+    no extensions and none of their libraries, so it gets the paths of this process; so does this Python
+    `with_libraries`, as Blender's own Python does not know them either.
     """
-    libraries = f"sys.path += {sys.path!r}; " if blender else ""
+    libraries = f"sys.path += {sys.path!r}; " if blender or with_libraries else ""
     start = (
         f"import sys; sys.path.insert(0, {str(_PACKAGE.parent)!r}); {libraries}"
         f"from {_PACKAGE.name}.{module} import main; main()"

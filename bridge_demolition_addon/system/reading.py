@@ -38,8 +38,29 @@ def file_text(path: Path, most_bytes: int) -> str:
     """
     check_file(path, most_bytes)
     try:
-        return path.read_bytes().decode("utf-8-sig")
+        content = path.read_bytes()
+        return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        raise UnreadableError(f"not a text in UTF-8, at byte {error.start}") from error
+        raise UnreadableError(_not_utf8(content, error.start)) from error
     except OSError as error:
         raise UnreadableError(f"cannot be read: {error.strerror}") from error
+
+
+_UTF_16 = (b"\xff\xfe", b"\xfe\xff")
+_NO_TEXT = {
+    b"PK\x03\x04": "is a spreadsheet, a document or a ZIP file, not a text",
+    b"%PDF": "is a PDF, not a text",
+    b"BLENDER": "is a file of Blender, not a text",
+    b"\x28\xb5\x2f\xfd": "is a compressed file, such as one of Blender, not a text",
+    b"\x1f\x8b": "is a compressed file, not a text",
+}
+"""What files are, by their first bytes."""
+
+
+def _not_utf8(content: bytes, position: int) -> str:
+    if content.startswith(_UTF_16):
+        return "a text in UTF-16: save it again as UTF-8 (in Notepad, Save As, Encoding)"
+    for beginning, text in _NO_TEXT.items():
+        if content.startswith(beginning):
+            return text
+    return f"not a text in UTF-8, at byte {position}: save it again as UTF-8"

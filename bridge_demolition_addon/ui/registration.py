@@ -18,6 +18,7 @@ from .ensemble import session as ensemble_session
 from .ground import operator as ground_operator
 from .ground import ui as ground_ui
 from .ifc import operator as ifc_operator
+from .ifc import ui as ifc_ui
 from .preview import gizmos
 from .preview import operator as preview_operator
 from .recording import operator as recording_operator
@@ -39,7 +40,7 @@ _OPERATORS = (
     *(recording_operator, run, paths, blast_operator, contour_operator, ground_operator),
     *(results_operator, stages_operator, preview_operator, gizmos),
 )
-_PANELS = (blast_ui, recording_ui, contour_ui, ground_ui, results_ui, stages_ui, study, search, optimise)
+_PANELS = (ifc_ui, blast_ui, recording_ui, contour_ui, ground_ui, results_ui, stages_ui, study, search, optimise)
 """Below those of the scenario, in the order of the work."""
 
 

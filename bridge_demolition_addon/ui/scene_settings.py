@@ -8,6 +8,7 @@ from .blast.prop import ChargeProperties
 from .contours.prop import ContourProperties
 from .ensemble.prop import EnsembleProperties, read_earlier_files
 from .ground.prop import GroundProperties
+from .ifc.prop import BDA_PG_ifc_element, IfcProperties
 from .scenario import prop as scenario_properties
 from .scenario.earlier import read_earlier_bodies
 from .sidebar import path_property, tooltip
@@ -24,6 +25,7 @@ class BDA_PG_settings(
     GroundProperties,
     EnsembleProperties,
     StageProperties,
+    IfcProperties,
     bpy.types.PropertyGroup,
 ):
     """Settings that the panels show; those from the schema are added when they are made."""
@@ -74,6 +76,7 @@ def register() -> None:
     for name, table in {"scenario": Scenario, **scenario_properties.ENSEMBLES}.items():
         group = scenario_properties.registered_group(scenario_properties.group_name(table))
         BDA_PG_settings.__annotations__[name] = PointerProperty(type=group, description=tooltip(table.__doc__))
+    bpy.utils.register_class(BDA_PG_ifc_element)
     bpy.utils.register_class(BDA_PG_settings)
     bpy.types.Scene.bda = PointerProperty(type=BDA_PG_settings)
     for read in _READERS:
@@ -86,4 +89,5 @@ def unregister() -> None:
         bpy.app.handlers.load_post.remove(read)
     del bpy.types.Scene.bda
     bpy.utils.unregister_class(BDA_PG_settings)
+    bpy.utils.unregister_class(BDA_PG_ifc_element)
     scenario_properties.unregister()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draw how much the throws of one scenario differ from seed to seed, for the first page of the README.
+"""Draw how much the throws of one scenario differ from seed to seed, for the documents.
 
 A row of the CSV is one run: its `seed`, the `largest_throw_m` of any shard, and the `throw_95_percent_m` that 95 % of
 the shards stay within.

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draw what a study says, for the first page of the README: its plan, and how its runs reach how far.
+"""Draw what a study says, for the documents: its plan, and how its runs reach how far.
 
 Usage: study_picture.py DIR, the folder of the study in examples/studies. Its table of runs and what it says are kept in
-docs/data/studies, so that a test can hold the README against them.
+docs/data/studies, so that a test can hold the documents against them.
 """
 
 import shutil

@@ -79,7 +79,7 @@ def test_more_explosive_than_tnt_reaches_farther(capsys):
 @pytest.mark.parametrize(
     "arguments, words",
     [
-        ("", "one of the arguments --distance-m --mass-kg is required"),
+        ("", "one of the arguments --distance-m --mass-kg --zone-m is required"),
         ("--distance-m 10", "--distance-m is 10: expected one of --overpressure-kpa, --impulse-kpa-ms with it"),
         ("--mass-kg 10 --distance-m 10", "--distance-m: not allowed with argument --mass-kg"),
         ("--mass-kg 10 --overpressure-kpa 5", "--overpressure-kpa is 5: expected --distance-m with it, not --mass-kg"),

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """``bda check`` says what follows from a scenario, and needs no Blender for it."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -19,8 +20,10 @@ from bridge_demolition_addon.model.scenario import (
     Ball,
     BallCable,
     BarLayer,
+    Charge,
     ConnectionBetween,
     ConnectionSettings,
+    Equipment,
     FractureSettings,
     Geometry,
     Load,
@@ -94,6 +97,8 @@ def test_facts_of_the_i235_span(capsys):
         "breaking impulse": "408.6 N·s in a sub-step",  # 98 066.5 N / 240 Hz
         "without bars": "no reinforcing bars in deck, pier cap, pier: what cracks there falls apart, as concrete with "
         "bars does not; [bridge.reinforcement] or [[reinforcement]] gives them",
+        "asleep": "All shards sleep until something hits them, so a run does not show whether the bridge stands by "
+        "itself: run it with shards.start_deactivated = false and without what is done to it",
         # EN 1992-1-1 on concrete, Rabbat and Russell on steel, NAVFAC DM-7.02 on soil; 0.57 · 0.5 / 0.6 = 0.475.
         "shard on shard": "friction 0.6, restitution 0",
         "shard on ball": "friction 0.57, restitution 0",
@@ -233,7 +238,11 @@ def test_how_a_rigid_bridge_would_stand_is_said_when_asked_for(tmp_path, capsys)
     assert "the bridge may fall by itself" in said_of_elastic
     assert main(["check", "--stand", str(I235_FILE)]) == 2
     printed = capsys.readouterr()
-    assert 'connections.method is "vertex": expected "face"' in printed.err and printed.out == ""
+    assert (
+        'connections.method is "vertex": how the bridge stands can only be worked out with method = "face"'
+        in printed.err
+        and printed.out == ""
+    )
 
 
 def test_a_ball_swings_beside_a_member_of_ones_own(tmp_path):
@@ -266,13 +275,21 @@ def test_loads_are_told_with_what_bears_them():
 
 
 def test_moments_of_sections_with_bars_are_told():
-    connections = ConnectionSettings(method="face", material="reinforced concrete slab", ductile_elongation_m=0.05)
+    connections = ConnectionSettings(type="FIXED", method="face", material="reinforced concrete slab")
     layer = BarLayer(members=("deck",), depth_m=0.04, area_mm2=12_000.0)
     told = facts(replace(I235, connections=connections, reinforcement=(layer,), fracture=FractureSettings(shards=20)))
     # By hand, EN 1992-1-1: 6 MN, a = 6 / (8.5 × 35) m = 20.2 mm, 6 MN × (0.21 m - a / 2).
     assert told["reinforcement"].startswith("deck, along x: 1199 kN·m with its top pressed, ")
     assert told["reinforcement"].endswith(" kN·m with its bottom pressed")
     assert told["without bars"].startswith("no reinforcing bars in pier cap, pier: ")
+
+
+def test_links_are_told_by_their_force_in_each_area_across_them():
+    connections = ConnectionSettings(type="FIXED", method="face", material="reinforced concrete slab")
+    links = BarLayer(members=("deck",), along="z", spread_mm2_m2=1570.0)
+    told = facts(replace(I235, connections=connections, reinforcement=(links,), fracture=FractureSettings(shards=20)))
+    # 1570 mm²/m² × 500 N/mm² = 0.785 N/mm².
+    assert told["reinforcement"] == "deck, spread along z: 0.785 N/mm² of the area across them"
 
 
 def test_pictures_that_only_a_window_can_take_are_said():
@@ -382,3 +399,102 @@ def test_how_an_elastic_bridge_is_damped(tmp_path):
     fine = path.read_text(encoding="utf-8").replace("per_second = 24", "per_second = 24\nsubsteps_per_frame = 1000")
     path.write_text(fine, encoding="utf-8")
     assert facts(read_scenario(path))["damping"] == f"5.0% of critical, {by_steps / 100.0:.1%} of it by steps in time"
+
+
+def test_a_ball_over_a_slab_is_held_against_punching():
+    connections = ConnectionSettings(type="FIXED", method="face", material="reinforced concrete slab")
+    along = BarLayer(members=("deck",), depth_m=0.04, area_mm2=17_850.0)
+    across = BarLayer(members=("deck",), along="y", depth_m=0.06, area_mm2=14_000.0)
+    scenario = replace(
+        I235, connections=connections, reinforcement=(along, across), fracture=FractureSettings(shards=20)
+    )
+    told, ball, length_m = facts(scenario), scenario.ball, deck_length_m(scenario)
+    # By hand, EN 1992-1-1, 6.4: d = (0.21 + 0.19) / 2, k = 2, on 8.5 m of width 1 %, and along the deck what there is.
+    ratio = (17_850e-6 / 8.5 / 0.21 * 14_000e-6 / length_m / 0.19) ** 0.5
+    stress_pa = max(0.18e6 * 2.0 * (100.0 * ratio * 35.0) ** (1 / 3), 0.0525e6 * (8.0 * 35.0) ** 0.5)
+    low, high = (stress_pa * 0.2 * math.pi * (loaded + 0.8) / 1e3 for loaded in (0.0, ball.diameter_m))
+    assert told["punching"] == f"deck: {low:.4g} kN on a point, {high:.4g} kN on all of the ball"
+
+
+def deck_length_m(scenario):
+    """Length of the deck with its overhangs."""
+    bridge = scenario.bridge
+    return bridge.spans_m + 2.0 * bridge.deck.overhang_m
+
+
+def said_after(scenario, name):
+    """The lines of a fact and of those without a name that follow it."""
+    lines = list(scenario_facts(scenario))
+    first = next(number for number, line in enumerate(lines) if line.startswith(f"  {name} "))
+    rest = next((number for number, line in enumerate(lines) if number > first and line[2:3] != " "), len(lines))
+    return [" ".join(line[26:].split()) for line in lines[first:rest]]
+
+
+def test_charges_that_lie_in_a_member_or_far_away_are_said():
+    def charged(place_m):
+        return replace(I235, ball=None, charges=(Charge(place_m=place_m, mass_kg=8.0),))
+
+    # The deck is 0.25 m thick, and its top 5.55 m above the ground.
+    assert said_after(charged((6.5, 0.0, 5.4)), "Charge 1") == [
+        "8 kg of TNT at (6.5, 0, 5.4) m, 0.5 s",
+        "lies in deck: it counts as a bare charge in air; [[blast_zones]] have drill holes",
+    ]
+    # Bridge from -0.5 to 13.5 m along the road; 40 m/kg^(1/3) of 8 kg are 80 m.
+    assert said_after(charged((513.5, 0.0, 1.0)), "Charge 1")[1:] == [
+        "is 500 m from the bridge: beyond 80 m its blast hardly loads anything"
+    ]
+    assert len(said_after(charged((13.5 + 79.0, 0.0, 1.0)), "Charge 1")) == 1
+
+
+def test_a_bridge_to_which_nothing_is_done_is_said():
+    advice = "is done to the bridge: add [ball], [[charges]] or another action"
+    assert facts(replace(I235, ball=None))["nothing"] == advice
+    assert "nothing" not in facts(I235)
+
+
+def test_equipment_is_listed_with_what_is_odd_about_it():
+    def with_excavator(**values):
+        excavator = Equipment(**{"name": "excavator", "footprint_m": (4.0, 3.0), "place_m": (6.5, 0.0)} | values)
+        return replace(I235, equipment=(excavator,))
+
+    assert said_after(with_excavator(mass_kg=24000.0), "excavator") == ["24 t at (6.5, 0) m"]
+    assert said_after(with_excavator(mass_kg=24.0), "excavator") == [
+        "0.024 t at (6.5, 0) m",
+        "equipment.mass_kg is 24: give it in kg, not in t",
+    ]
+    # The deck ends at 13.5 m: of 4 m along the road from 11.5 to 15.5, the half is beyond it.
+    beside = with_excavator(mass_kg=24000.0, place_m=(13.5, 0.0))
+    assert said_after(beside, "excavator")[1:] == ["50% of what it stands on is beside the bridge: move it"]
+
+
+def test_a_bridge_in_pieces_is_said():
+    assert "pieces" not in facts(I235)
+    rule = ConnectionBetween(members=("deck", "pier cap"), none=True)
+    connections = ConnectionSettings(type="FIXED", method="face", material="concrete", between=(rule,))
+    apart = replace(I235, connections=connections)
+    # The deck, and two piers of a cap on two columns each.
+    assert facts(apart)["pieces"].startswith("3, which no connection holds together")
+
+
+def test_a_bridge_that_nothing_holds_is_not_said_to_stand(tmp_path):
+    """A block of 2 m × 1 m × 1 m in the air, of 4.8 t: none of its connections is overloaded, and all of it falls."""
+    (tmp_path / "block.stl").write_bytes(exported(box((2, 1, 1), (0, 0, 3)), ".stl"))
+    block = Geometry(name="block", file=str(tmp_path / "block.stl"), density_kg_m3=2400.0)
+    floating = replace(
+        I235,
+        bridge=None,
+        geometry=(block,),
+        ball=None,
+        fracture=replace(I235.fracture, shards=4),
+        connections=ConnectionSettings(type="FIXED", method="face", material="concrete"),
+    )
+    found = facts(floating, stand=True)
+    assert "overloaded" not in found
+    assert found["does not stand"].startswith(
+        "4 of 4 shards, 4.800 t, 100% of what can move, are held by no connection"
+    )
+    (tmp_path / "foot.stl").write_bytes(exported(box((1, 1, 1), (5, 0, 0.5)), ".stl"))
+    foot = Geometry(name="foot", file=str(tmp_path / "foot.stl"), density_kg_m3=2400.0)
+    found = facts(replace(floating, geometry=(block, foot)), stand=True)
+    assert found["overloaded"].endswith("by the bridge's own weight alone, where it is held")
+    assert ", 4.800 t, 67% of what can move" in found["not held"]

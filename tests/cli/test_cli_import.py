@@ -86,10 +86,13 @@ def test_all_that_can_be_told(path, tmp_path, capsys):
         "Footing*",
         "--kind",
         "IfcPile=pier",
+        "--material-of",
+        "Carriageway=steel",
     ]
     assert main(["import", str(path), "--output", str(folder), "--material", "concrete", *told]) == 0
     kinds = {mesh.name: (mesh.kind, mesh.density_kg_m3) for mesh in read_scenario(folder / "scenario.toml").geometry}
     assert kinds["Column"] == ("pier", 2500.0)
+    assert kinds["Carriageway"] == ("deck", 7850.0)
     assert not any(name.startswith("Footing") for name in kinds)
     assert "ground                  at 0.500 m in the file: as given by --ground" in capsys.readouterr().out
 
@@ -97,8 +100,7 @@ def test_all_that_can_be_told(path, tmp_path, capsys):
 @pytest.mark.parametrize(
     "arguments, message",
     [
-        ([], "needs a file and --output FOLDER"),
-        (["{path}"], "needs a file and --output FOLDER"),
+        ([], "bda import needs an IFC file, or --write-materials FILE; see bda import --help"),
         (["{path}", "--output", "{folder}", "--unit", "miles"], "invalid choice: 'miles'"),
         (["{path}", "--output", "{folder}", "--kind", "Pier=dock"], "expected NAME=KIND, with one of deck, girder"),
         (["{path}", "--output", "{folder}", "--shards", "0"], "expected a whole number from 1"),
@@ -122,8 +124,10 @@ def test_a_member_that_cannot_be_used_is_refused_and_nothing_is_written(tmp_path
     made = whole_bridge()
     made.box("IfcBeam", "Double", (21.0, 0.4, 0.8), (10.0, 1.0, 3.6), "DECK", material=made.material("Steel"))
     path = made.written(tmp_path / "bridge.ifc")
-    assert main(["import", str(path), "--output", str(tmp_path / "bridge")]) == 2
+    assert main(["import", str(path), "--output", str(tmp_path / "bridge"), "--strict"]) == 2
     said = capsys.readouterr().err
     assert "Double" in said
     assert "--without" in said
     assert list(tmp_path.iterdir()) == [path]
+    assert main(["import", str(path), "--output", str(tmp_path / "bridge")]) == 0
+    assert "Girder left takes all of its room; 52.752 t are missing" in capsys.readouterr().out  # 21 × 0.4 × 0.8 × 7.85

@@ -86,7 +86,7 @@ SAW_CUT_BESIDE_THE_BRIDGE = "[[saw_cuts]]\ntime_s = 0.1\npoint_m = [90.0, 0.0, 0
     [
         (
             scenario_text(SHORT_RUN).replace("target_m = [6.5, 0.0]", "target_m = [60.0, 0.0]"),
-            "ball.target_m[0] is 60.0",
+            "ball.target_m.1 is 60.0",
         ),
         (f"{TEXT}\n{SAW_CUT_BESIDE_THE_BRIDGE}", "saw_cuts"),
     ],

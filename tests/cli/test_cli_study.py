@@ -154,7 +154,6 @@ def test_a_folder_of_something_else_is_refused(study, tmp_path, capsys, name):
 @pytest.mark.parametrize(
     "arguments, words",
     [
-        ((), "--output is missing"),
         (("--output", "out", "--jobs", "0"), "argument --jobs: '0' is wrong: expected a whole number from 1 to 1000"),
         (("--output", "out", "--jobs", "two"), "'two' is wrong"),
         (("--output", "out", "--jobs", "2", "--dask", "tcp://127.0.0.1:1"), "leave it out with --dask"),

@@ -4,7 +4,7 @@
 import pytest
 
 from bridge_demolition_addon.errors import IfcError
-from bridge_demolition_addon.ifc.kinds import ElementFacts, LeftOut, kind_of
+from bridge_demolition_addon.ifc.kinds import ElementFacts, LeftOut, is_french, kind_of
 from bridge_demolition_addon.ifc.settings import ImportSettings
 
 
@@ -30,7 +30,7 @@ def facts(kind, words="", predefined="", part="", classes=()):
         (facts("IfcSlab", "Pile cap"), "footing"),
         (facts("IfcColumn", part="ABUTMENT "), "pier"),
         (facts("IfcWall", part="ABUTMENT "), "abutment"),
-        (facts("IfcWall", "Wing wall"), "abutment"),
+        (facts("IfcWall", "Wing wall"), "wing wall"),
         (facts("IfcWall", part="PIER_SEGMENT "), "pier"),
         (facts("IfcWall"), "wall"),
         (facts("IfcPlate", part="SUPERSTRUCTURE "), "girder"),
@@ -76,3 +76,66 @@ def test_the_user_says_what_an_element_is():
 def test_a_kind_that_there_is_not():
     with pytest.raises(IfcError, match='kind of "X" is "dock": expected one of deck, girder'):
         ImportSettings(kinds=(("X", "dock"),))
+
+
+@pytest.mark.parametrize(
+    "name, kind",
+    [
+        # Norwegian
+        *(("LANDKAR", "abutment"), ("SØYLE", "pier"), ("LAGER", "bearing"), ("FUNDAMENT", "footing")),
+        *(("VINGE", "wing wall"), ("BRUDEKKE", "deck"), ("OVERGANGSPLATE", "approach slab"), ("Kantdrager", "parapet")),
+        # German
+        *(("Widerlager Nord", "abutment"), ("Pfeiler 2", "pier"), ("Stütze", "pier"), ("Lager 3", "bearing")),
+        *(
+            ("Fundament", "footing"),
+            ("Flügelwand", "wing wall"),
+            ("Überbau", "deck"),
+            ("Schleppplatte", "approach slab"),
+        ),
+        *(("Kappe links", "parapet"), ("Hauptträger", "girder"), ("Querträger", "girder")),
+        # French
+        *(("Culée C0", "abutment"), ("Appareil d'appui", "bearing"), ("Semelle", "footing"), ("Chevêtre", "pier cap")),
+        *(("Mur en aile", "wing wall"), ("Tablier", "deck"), ("Dalle de transition", "approach slab")),
+        # Spanish
+        *(("Estribo 1", "abutment"), ("Pila 2", "pier"), ("Apoyo", "bearing"), ("Zapata", "footing")),
+        *(("Aleta", "wing wall"), ("Tablero", "deck"), ("Losa de transición", "approach slab")),
+        # Italian
+        *(("Spalla A", "abutment"), ("Appoggio", "bearing"), ("Plinto", "footing"), ("Impalcato", "deck")),
+        *(("Pulvino", "pier cap"), ("Trave", "girder")),
+        # Dutch
+        *(("Landhoofd", "abutment"), ("Pijler", "pier"), ("Oplegging", "bearing"), ("Fundering", "footing")),
+        *(("Vleugelwand", "wing wall"), ("Brugdek", "deck"), ("Stootplaat", "approach slab"), ("Ligger", "girder")),
+        # Swedish
+        *(("Landfäste", "abutment"), ("Pelare", "pier"), ("Bottenplatta", "footing"), ("Vingmur", "wing wall")),
+        *(("Brobaneplatta", "deck"), ("Länkplatta", "approach slab"), ("Kantbalk", "parapet")),
+        # English
+        *(
+            ("Arch segment", "arch"),
+            ("Backfill", "fill"),
+            ("Approach slab", "approach slab"),
+            ("Cross girder", "girder"),
+        ),
+    ],
+)
+def test_words_of_other_languages(name, kind):
+    assert kind_of(facts("IfcBuildingElementProxy", name)) == kind
+
+
+def test_a_french_pile_is_a_pier_and_an_english_one_is_not():
+    said = facts("IfcBuildingElementProxy", "Pile P2")
+    assert kind_of(said, is_french=is_french(["Pile P2", "Culée C0"])) == "pier"
+    assert isinstance(kind_of(said, is_french=is_french(["Pile P2", "Abutment"])), LeftOut)
+
+
+def test_a_beam_or_slab_whose_name_says_something_else():
+    assert kind_of(facts("IfcBeam", "LANDKAR")) == "abutment"
+    assert kind_of(facts("IfcSlab", "VINGE")) == "wing wall"
+    assert kind_of(facts("IfcBeam", "Girder over pier 2")) == "girder"
+    assert kind_of(facts("IfcBeam", "cross girder", predefined="PIERCAP")) == "girder"
+
+
+def test_properties_count_where_class_and_name_say_nothing():
+    said = ElementFacts(
+        name="CFX55_1", global_id="0", classes=("IfcElement",), words="CFX55_1", properties="OBPCrossframeX"
+    )
+    assert kind_of(said) == "bracing"

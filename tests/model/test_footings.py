@@ -140,7 +140,7 @@ def test_classes_have_the_pressures_of_bowles():
         ({}, "foundations.stiffness_mn_m3 is missing: expected a number, or a foundations.soil"),
         ({"stiffness_mn_m3": 10.0}, "foundations.friction is missing: expected a number, or a foundations.soil"),
         ({"soil": "mud"}, r'foundations.soil is "mud": expected one of "loose sand"'),
-        ({"soil": "dense sand", "footing_m": (0.0, 1.0)}, r"foundations.footing_m\[0\] is 0.0"),
+        ({"soil": "dense sand", "footing_m": (0.0, 1.0)}, r"foundations.footing_m.1 is 0.0"),
     ],
 )
 def test_wrong_keys_are_refused_in_words(given, said):

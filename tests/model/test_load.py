@@ -50,8 +50,8 @@ def test_it_is_written_without_loss():
         ({"members": None}, "loads.members is missing: expected it, the two corners of a box, or a point"),
         ({"direction": (0, 0, 0)}, "loads.direction is a list of length 3, all 0: expected a direction"),
         ({"forces_n": (1, 2)}, "loads.forces_n is a list of length 2: expected as many as loads.times_s, 3"),
-        ({"forces_n": (1, 2, -3)}, r"loads.forces_n\[2\] is -3: expected a list of one or more numbers of at least 0"),
-        ({"times_s": (1, 2, 2)}, r"loads.times_s\[2\] is 2.0: expected more than the one before, 2.0 \(s\)"),
+        ({"forces_n": (1, 2, -3)}, r"loads.forces_n.3 is -3: expected a list of one or more numbers of at least 0"),
+        ({"times_s": (1, 2, 2)}, r"loads.times_s.3 is 2.0: expected more than the one before, 2.0 \(s\)"),
         ({"lowest_corner_m": (0, 0, 0)}, "loads.highest_corner_m is missing: expected it with loads.lowest_corner_m"),
     ],
 )
@@ -62,5 +62,5 @@ def test_what_says_nothing_is_refused(given, text):
 
 def test_a_load_begins_within_the_run():
     late = Load(members=("deck",), times_s=(I235.time.duration_s,), forces_n=(1,))
-    with pytest.raises(ScenarioError, match=r"loads.times_s\[0\] is 5.0: expected less than time.duration_s, 5.0"):
+    with pytest.raises(ScenarioError, match=r"loads.times_s.1 is 5.0: expected less than time.duration_s, 5.0"):
         replace(I235, loads=(late,))

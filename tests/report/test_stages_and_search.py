@@ -101,7 +101,10 @@ def test_stages_of_the_runs_scenario_are_worked_out_when_asked_for(tmp_path, cap
     (folder / "scenario_as_run.toml").write_text(scenario_text(I235), encoding="utf-8")
     assert main(["report", str(folder), "--stages", "--quiet"]) == 2
     # Its connections share no faces, so that nobody knows how stiff they are.
-    assert 'connections.method is "vertex": expected "face"' in capfd.readouterr().err
+    assert (
+        'connections.method is "vertex": how the bridge stands can only be worked out with method = "face"'
+        in capfd.readouterr().err
+    )
     fixed = replace(
         I235,
         ball=None,

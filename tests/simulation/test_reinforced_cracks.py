@@ -74,6 +74,13 @@ def test_a_block_stretches_its_bars_as_the_bilinear_law_says(blender, tmp_path):
     assert hardened - let_go == pytest.approx(0.6 * most * at_yield_m, rel=0.02)
     forces = abs(results.frames.loads.connection_forces_n[:, 0, 2])
     np.testing.assert_allclose(forces[[228, -1]], [mass_kg * GRAVITY, 0.4 * mass_kg * GRAVITY], rtol=1e-3)
+    # Work of yielding by hand: the force grows evenly from where bars yield to the weight, over what stays of the
+    # opening. Elastic deformation came back, so it is about all that was lost between the bodies.
+    work = results.frames.work
+    stays_m = at_yield_m + 0.5 * (elongation_m - at_yield_m) - most * at_yield_m
+    by_hand_j = 0.5 * (yield_n + mass_kg * GRAVITY) * stays_m
+    assert np.nansum(work.yielding_j) == pytest.approx(by_hand_j, rel=0.01)
+    assert results.frames.loads.body_bar_use[-1].max() == pytest.approx(let_go / elongation_m, rel=0.01)
 
 
 def test_bars_that_are_weakened_stretch_further_and_those_that_are_sawn_through_let_go(blender, tmp_path):
@@ -151,6 +158,11 @@ def test_a_cantilever_turns_in_a_plastic_hinge_at_the_moment_of_plastic_theory(b
     fallen = weights[np.argmax(opening > 1.1 * at_yield_m)]
     assert fallen == pytest.approx(1.0, abs=0.03)
     assert opening[-1] > 3 * at_yield_m
+    # Work of the hinge by hand: M_p times the rotation in which bars yield, all of them at the edge that opens.
+    by_hand_j = cracked.plastic_nm * (opening[-1] - at_yield_m) / DEPTH_M
+    work = cracked.results.frames.work
+    assert np.nansum(work.dissipated_j) == pytest.approx(by_hand_j, rel=0.01)
+    assert np.nansum(work.yielding_j) == pytest.approx(by_hand_j, rel=0.01)
 
 
 def test_bars_that_harden_hold_a_hinge_until_they_rupture(blender, tmp_path):
@@ -164,3 +176,29 @@ def test_bars_that_harden_hold_a_hinge_until_they_rupture(blender, tmp_path):
     np.testing.assert_allclose(
         abs(cracked.results.frames.loads.connection_moments_nm[-1, 0, 1]), 1.4 * cracked.plastic_nm, rtol=0.02
     )
+
+
+def test_a_block_that_is_pushed_off_slides_beyond_friction_and_dowels(blender, tmp_path):
+    """A crack under a flat block, with bars across it: 0.7 of what presses (EN 1992-1-1, 6.2.5) and 0.9 √(f_c f_y) of
+    the bars' area (fib Model Code 2010, 7.3-51), for C35 and B500."""
+    blocks, mass_kg, elongation_m, side_m = Blocks(), 2000.0, 0.02, 2.0
+    steel = Steel(hardening=1.0)
+    base, block = blocks.block((0, 0, 10), 0.0, (side_m, side_m, 0.2)), blocks.block((0, 0, 10.2), mass_kg, (2, 2, 0.2))
+    block.rigid_body.linear_damping = 0.9  # so that it does not swing on its bars
+    connection = blocks.connect("FIXED", (0, 0, 10.1), base, block)
+    of_dowels = 0.9 * np.sqrt(35.0 * 500.0) / 500.0
+    yield_n = 0.5 * mass_kg * GRAVITY / of_dowels
+    reinforced(blocks, connection, (0.0, 0.0, 1.0), (side_m, side_m), yield_n, elongation_m, steel)
+    pushes = {1: 0.0, 3: SMALL, 300: 1.5}
+    for frame, share in pushes.items():
+        blocks.scene.gravity[0] = share * GRAVITY
+        blocks.scene.keyframe_insert("gravity", index=0, frame=frame)
+    for curve in curves_of(blocks.scene.animation_data):
+        for keyframe_point in curve.keyframe_points:
+            keyframe_point.interpolation = "LINEAR"
+    results = blocks.play(tmp_path, 300)
+    moved_m = results.frames.positions_m[:, 1, 0] - results.frames.positions_m[0, 1, 0]
+    elastic_m = elongation_m * steel.yield_strain / steel.rupture_strain / of_dowels
+    shares = np.interp(1 + np.arange(len(moved_m)), list(pushes), list(pushes.values()))
+    slides_at = shares[np.argmax(moved_m > 1.5 * elastic_m)]
+    assert slides_at == pytest.approx(0.7 + 0.5, rel=0.03)

@@ -92,7 +92,7 @@ def hanging_chain() -> Results:
 def _work(step: int) -> FrameWork:
     """The solver makes 200 J in the last frame, three quarters of it for *lower*."""
     made = np.array([0.0, 50.0, 150.0, 0.0]) * (step == 4)
-    return FrameWork(1000.0, 0.0, 0.0, 1.0, 500.0, made.sum(), 0.0, 0.0, made)
+    return FrameWork(1000.0, 0.0, 0.0, 1.0, 500.0, 40.0, 10.0, made.sum(), 0.0, 0.0, made)
 
 
 def with_contacts(results: Results) -> Results:

@@ -4,7 +4,7 @@ import argparse
 import sys
 from pathlib import Path
 
-from ...exports.formats import FORMATS
+from ...exports.formats import FORMATS, new_export
 from ..progress import progress_on
 
 
@@ -24,7 +24,10 @@ def add_to(commands: argparse._SubParsersAction) -> None:
         help="; ".join(f"{form.name}: {form.content}" for form in FORMATS.values()),
     )
     parser.add_argument(
-        "--output", required=True, metavar="PATH", type=Path, help="new file, or new folder where many are written"
+        "--output",
+        metavar="PATH",
+        type=Path,
+        help="new file, or new folder where many are written (export in the folder of the run, counted up)",
     )
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
     parser.set_defaults(execute=export)
@@ -34,10 +37,12 @@ def export(arguments: argparse.Namespace) -> None:
     """Write the files and say where they are."""
     from ...exports.write import export_run  # what a format needs is loaded only where it is written
 
+    form = FORMATS[arguments.to]
+    output = arguments.output or new_export(arguments.folder, form)
     progress = progress_on(sys.stdout, quiet=arguments.quiet)
     try:
-        export_run(arguments.folder, FORMATS[arguments.to], arguments.output, progress)
+        export_run(arguments.folder, form, output, progress)
     finally:
         progress.finish()
     if not arguments.quiet:
-        print(arguments.output)
+        print(output)

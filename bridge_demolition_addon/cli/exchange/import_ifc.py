@@ -1,15 +1,18 @@
 """``bda import``: make a scenario of a bridge in an IFC file."""
 
 import argparse
+import sys
 from pathlib import Path
 
 from ...errors import IfcError
-from ...ifc.bridge import read_bridge
-from ...ifc.folder import SCENARIO_FILE, check_new, write_bridge
+from ...ifc.folder import SCENARIO_FILE, check_new, folder_beside
+from ...ifc.import_process import import_bridge
 from ...ifc.materials import write_material_table
 from ...ifc.settings import KINDS, UNITS, ImportSettings
+from ..progress import progress_on
 
 _MOST_SHARDS = 1_000_000
+_USUAL = ImportSettings()
 
 
 def add_to(commands: argparse._SubParsersAction) -> None:
@@ -20,8 +23,12 @@ def add_to(commands: argparse._SubParsersAction) -> None:
         description="Writes a scenario, and a mesh for each element. See docs/ifc.md.",
         allow_abbrev=False,
     )
-    parser.add_argument("file", metavar="BRIDGE.ifc", type=Path, nargs="?", help="IFC file: IFC2X3, IFC4 or IFC4X3")
-    parser.add_argument("--output", metavar="FOLDER", type=Path, help="new folder for the scenario and its meshes")
+    parser.add_argument(
+        "file", metavar="BRIDGE.ifc", type=Path, nargs="?", help="IFC file: IFC2X3, IFC4, IFC4X1 to 4X3"
+    )
+    parser.add_argument(
+        "--output", metavar="FOLDER", type=Path, help="new folder for the scenario and its meshes (beside the file)"
+    )
     parser.add_argument(
         "--materials", metavar="FILE", type=Path, help="table of materials by name, as --write-materials writes it"
     )
@@ -49,6 +56,35 @@ def add_to(commands: argparse._SubParsersAction) -> None:
         default=[],
         help=f"what elements of a name, class or GlobalId are: {', '.join(KINDS)}; may be repeated",
     )
+    parser.add_argument(
+        "--material-of",
+        metavar="NAME=MATERIAL",
+        action="append",
+        type=_material_of,
+        default=[],
+        help="material of elements of a name, class or GlobalId, by its name in the table; may be repeated",
+    )
+    parser.add_argument(
+        "--only", metavar="NAME", help="bridge that is taken of a file with several, with * for anything (the largest)"
+    )
+    parser.add_argument(
+        "--bearing-gap",
+        metavar="METRES",
+        type=_gap,
+        default=_USUAL.bearing_gap_m,
+        help="gap up to which bearings and members are brought to what they lie on (0.015)",
+    )
+    parser.add_argument(
+        "--strict", action="store_true", help="refuse what is missing or damaged; assume, mend and leave out nothing"
+    )
+    parser.add_argument(
+        "--time-limit",
+        metavar="SECONDS",
+        type=_seconds,
+        default=_USUAL.time_limit_s,
+        help="how long the geometry of an element may take before it is left out (60)",
+    )
+    parser.add_argument("--quiet", action="store_true", help="show no progress")
     parser.set_defaults(execute=import_ifc)
 
 
@@ -59,9 +95,10 @@ def import_ifc(arguments: argparse.Namespace) -> None:
         print(arguments.write_materials)
     if arguments.file is None and arguments.write_materials:
         return
-    if arguments.file is None or arguments.output is None:
-        raise IfcError("bda import needs a file and --output FOLDER, or --write-materials FILE; see bda import --help")
-    check_new(arguments.output)
+    if arguments.file is None:
+        raise IfcError("bda import needs an IFC file, or --write-materials FILE; see bda import --help")
+    output = arguments.output or folder_beside(arguments.file)
+    check_new(output)
     settings = ImportSettings(
         materials=arguments.materials,
         material=arguments.material,
@@ -70,10 +107,20 @@ def import_ifc(arguments: argparse.Namespace) -> None:
         shards=arguments.shards,
         without=tuple(arguments.without),
         kinds=tuple(arguments.kind),
+        materials_of=tuple(arguments.material_of),
+        only=arguments.only,
+        bearing_gap_m=arguments.bearing_gap,
+        strict=arguments.strict,
+        time_limit_s=arguments.time_limit,
     )
-    for line in write_bridge(read_bridge(arguments.file, settings), arguments.output):
+    progress = progress_on(sys.stderr, quiet=arguments.quiet or not sys.stderr.isatty())
+    try:
+        imported = import_bridge(arguments.file, output, settings, progress)
+    finally:
+        progress.finish()
+    for line in imported.lines:
         print(line)
-    print(f"\n{arguments.output / SCENARIO_FILE}")
+    print(f"\n{output / SCENARIO_FILE}")
 
 
 def _height(text: str) -> float:
@@ -81,6 +128,20 @@ def _height(text: str) -> float:
     if not abs(height) <= 1e5:
         raise argparse.ArgumentTypeError(f"{text!r} is wrong: expected a height in m")
     return height
+
+
+def _gap(text: str) -> float:
+    gap = float(text)
+    if not 0.0 <= gap <= 0.5:
+        raise argparse.ArgumentTypeError(f"{text!r} is wrong: expected a gap from 0 to 0.5 m")
+    return gap
+
+
+def _seconds(text: str) -> float:
+    seconds = float(text)
+    if not 0.1 <= seconds <= 86_400.0:
+        raise argparse.ArgumentTypeError(f"{text!r} is wrong: expected a time from 0.1 to 86400 s")
+    return seconds
 
 
 def _count(text: str) -> int:
@@ -95,3 +156,10 @@ def _kind(text: str) -> tuple[str, str]:
     if not equals or kind not in KINDS:
         raise argparse.ArgumentTypeError(f"{text!r} is wrong: expected NAME=KIND, with one of {', '.join(KINDS)}")
     return name, kind
+
+
+def _material_of(text: str) -> tuple[str, str]:
+    name, equals, material = text.rpartition("=")
+    if not equals or not material:
+        raise argparse.ArgumentTypeError(f"{text!r} is wrong: expected NAME=MATERIAL")
+    return name, material

@@ -31,10 +31,15 @@ def crack_spacing_m(diameter_m: float, area_m2: float, width_m: float, below_edg
     """Return the mean spacing of cracks across a layer of bars.
 
     The bars, of an area together, lie below the edge of a section with this width and depth. The largest spacing is
-    that over which bond cracks the concrete about the bars once more: d (1 - ρ) / (4 ρ) (Marti et al. 1998).
+    that over which bond cracks the concrete about the bars again: d (1 - ρ) / (4 ρ) (Marti et al. 1998).
     """
     cracked_m2 = width_m * min(_EFFECTIVE_BY_DEPTH_OF_BARS * below_edge_m, 0.5 * depth_m)
-    ratio = min(area_m2 / cracked_m2, 0.5)
+    return spacing_of_ratio_m(diameter_m, area_m2 / cracked_m2)
+
+
+def spacing_of_ratio_m(diameter_m: float, ratio: float) -> float:
+    """Return the mean spacing of cracks across bars that are such a part of the area across them."""
+    ratio = min(ratio, 0.5)
     return _MEAN_SPACING * diameter_m * (1.0 - ratio) / (2.0 * _BOND_ELASTIC * ratio)
 
 

@@ -21,6 +21,7 @@ from typing import TypeVar
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
+from .crack_state import CornerState, CrackState
 from .equations import summed_on_bodies
 from .gaps import Gaps, SolvedTangents, motion_of_points
 from .joint_rows import (
@@ -64,6 +65,12 @@ _AGREES = 1e-4
 
 _LITTLE_M = 1e-5
 
+_LITTLE_SHARE = 1e-9
+"""Part of the bars of a crack up to which a corner has no bars: what is left is rounding."""
+
+_SAME_GRIP = 0.01
+"""Change of friction, by the largest in any crack, up to which it counts as the same."""
+
 _PARTED_M = 0.01
 """Opening from which on sides without bars have parted: where they meet again, they touch as any bodies."""
 
@@ -85,7 +92,8 @@ class Cracks:
         pressed_n_m: FloatArray,
     ):
         self._steel, self._yield_n, self._shares = steel, yield_n, shares
-        self._openings_m = np.where((yield_n > 0.0).any(axis=0), openings_m, _PARTED_M)
+        self.have_bars = (yield_n > 0.0).any(axis=0)  # (m,)
+        self._openings_m = np.where(self.have_bars, openings_m, _PARTED_M)
         self._pressed_n_m = pressed_n_m / _COUNT
         self.rows: IntArray = np.zeros(0, int)  # connections that cracks have replaced, oldest first
         self._first: IntArray = np.zeros(0, int)
@@ -149,28 +157,61 @@ class Cracks:
             self._keep(holds)
         return gone
 
+    def grip(self, positions_m: FloatArray, rotations: FloatArray) -> bool:
+        """Let sides resist sliding by how they would be pressed with bodies at these positions.
+
+        All else stays as it is. Return whether they then resist another force.
+        """
+        before = self._grips_n
+        self._grip(turned_back(rotations[..., self._first], self._gaps(positions_m, rotations)))
+        return bool((abs(self._grips_n - before) > _SAME_GRIP * self._grips_n.max(initial=0.0)).any())
+
     def _rub(self, gaps: FloatArray) -> None:
         """Take over how far sides have slid by now, and how much those that are pressed may resist next."""
         pressed = self._stiffness_pressed()
-        closing = np.minimum(dot_products(self._normals, gaps), 0.0)
         rubbing = _friction(self._grips_n, pressed)
         self._rests = bar_response(rubbing, _along(gaps, self._normals), self._rests, np.zeros_like(pressed)).slips_m
-        self._grips_n = -FRICTION * pressed * closing
+        self._grip(gaps)
 
-    def stored_j(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
-        """Return the energy (t,) that bars and pressed sides would give back."""
+    def _grip(self, gaps: FloatArray) -> None:
+        self._grips_n = -FRICTION * self._stiffness_pressed() * np.minimum(dot_products(self._normals, gaps), 0.0)
+
+    def state(self, positions_m: FloatArray, rotations: FloatArray) -> CrackState:
+        """Return the state of all cracks after a sub-step, before it is settled."""
+        gaps = turned_back(rotations[..., self._first], self._gaps(positions_m, rotations))
+        bars, pressed = self._bars(), self._stiffness_pressed()
+        rubbing = _friction(self._grips_n, pressed)
+        pulls = bar_response(bars, _as_bars(gaps, self._directions), self._slips, self._flows)
+        corners = CornerState(
+            gaps_m=gaps,
+            normals=self._normals,
+            bars=bars,
+            holds=self._holds.astype(float),
+            pulls=pulls,
+            forces_n=_as_bars(self._holds * pulls.forces_n, self._directions),
+            slips_m=self._slips,
+            rubbing=rubbing,
+            rubs=bar_response(rubbing, _along(gaps, self._normals), self._rests, np.zeros_like(pressed)),
+            rests_m=self._rests,
+            pressed_n_m=pressed,
+            elongations_m=np.tile(self._openings_m[self.rows], _COUNT),
+        )
+        return corners.of_cracks(self.rows)
+
+    def used(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
+        """Return the force (t,) of bars in the most used corner, by that at which they rupture; nan without bars.
+
+        Bars that are pressed do not count: those do not rupture.
+        """
         bars = self._bars()
         gaps = turned_back(rotations[..., self._first], self._gaps(positions_m, rotations))
         forces = bar_response(bars, _as_bars(gaps, self._directions), self._slips, self._flows).forces_n
-        holds = self._holds & (bars.stiffness_n_m > 0.0)
-        doubled = np.divide(
-            dot_products(forces, forces), bars.stiffness_n_m, out=np.zeros(len(self._flows)), where=holds
-        )
-        pressed, closing = self._stiffness_pressed(), np.minimum(dot_products(self._normals, gaps), 0.0)
-        rubbing = _friction(self._grips_n, pressed)
-        forces = bar_response(rubbing, _along(gaps, self._normals), self._rests, np.zeros_like(pressed)).forces_n
-        doubled += dot_products(forces, forces) / rubbing.stiffness_n_m
-        return 0.5 * _summed(doubled + pressed * closing * closing)
+        size, most = np.sqrt(dot_products(forces, forces)), self._steel.hardening * bars.yield_n
+        holds = self._holds & (most > _LITTLE_SHARE * np.tile(_summed(most), _COUNT))
+        pulled = np.where(dot_products(forces, self._directions) > 0.0, size, 0.0)
+        shares = np.divide(pulled, most, out=np.full_like(size, np.nan), where=holds)
+        used: FloatArray = np.fmax.reduce(shares.reshape(_COUNT, -1), axis=0)
+        return used
 
     def in_substep(
         self, chosen: IntArray, positions_m: FloatArray, rotations: FloatArray, substep_s: float

@@ -20,6 +20,7 @@ import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
 from .bearings import Bearings
+from .crack_state import CrackState
 from .cracks import CrackJoints, Cracks, CrackStep
 from .equations import RigidBodies, connected_parts, stiffness_blocks, stressed, summed_on_bodies, without
 from .frequencies import SLACK, first_frequency
@@ -270,16 +271,23 @@ class ElasticStructure:
             crack_joints=None if cracks is None else cracks.joints,
         )
 
-    def stored_j(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
-        """Return the energy (m,) in connections with bodies at positions (3, n) in rotations (3, 3, n)."""
+    def crack_state(self, positions_m: FloatArray, rotations: FloatArray) -> CrackState | None:
+        """Return the state of cracks that reinforcement holds, after a sub-step; None without any."""
+        return self._cracks.state(positions_m, rotations) if self._cracks is not None and len(self._cracks) else None
+
+    def stored_j(self, positions_m: FloatArray, rotations: FloatArray, cracks: CrackState | None = None) -> FloatArray:
+        """Return the energy (m,) in connections, and in cracks in this state.
+
+        Bodies are at positions (3, n) in rotations (3, 3, n).
+        """
         rows = np.flatnonzero(self._intact)
         deformations = self._deformed(rows, positions_m, rotations)[1] - self._offsets[:, rows]
         amounts = stressed(self._stiffness[..., rows], deformations)
         stored = np.zeros(len(self._frames))
         for amount, deformation in zip(amounts, deformations, strict=True):
             stored[rows] += 0.5 * amount * deformation
-        if self._cracks is not None and len(self._cracks):
-            stored[self._cracks.rows] = self._cracks.stored_j(positions_m, rotations)
+        if cracks is not None:
+            stored[cracks.rows] = cracks.stored_j
         for law in self._springs:
             stored[law.rows] = law.stored_j(positions_m, rotations) * self._intact[law.rows]
         return stored

@@ -102,10 +102,15 @@ class FrameLoads:
     connection_peaks_n: FloatArray  # (m,), largest magnitude of the force
     connection_peak_forces_n: FloatArray  # (m, 3), force in the sub-step of that peak
     connection_peak_moments_nm: FloatArray  # (m, 3)
+    # (n,), largest part of their rupture strain that bars across cracks of the body used; None where no bars are known
+    body_bar_use: FloatArray | None = None
 
     def unknown(self) -> FrameLoads:
         """Return unknown loads of the same shape: nan throughout."""
-        return FrameLoads(*(np.full_like(getattr(self, field.name), np.nan) for field in fields(self)))
+        known = {item.name: getattr(self, item.name) for item in fields(self)}
+        return FrameLoads(
+            **{name: np.full_like(values, np.nan) for name, values in known.items() if values is not None}
+        )
 
 
 class LoadAccumulator:

@@ -75,6 +75,8 @@ class FrameWork(Generic[_Energy]):
     tools_j: _Energy  # of bodies that move as animation says, such as a ball that is lifted
     damping_j: _Energy  # energy of translation taken away by Blender's damping
     dissipated_j: _Energy  # taken away between bodies: by impacts, friction, and connections that yield
+    yielding_j: _Energy  # part of it by bars that yield across cracks; nan where it is not known
+    crack_friction_j: _Energy  # part of it by sides of these cracks that slide on each other; nan as above
     made_by_connections_j: _Energy  # where stretched connections are pulled together
     made_by_contacts_j: _Energy  # where contacts are pushed apart
     made_by_lifting_j: _Energy  # where bodies move up without a velocity, as Bullet parts hulls that overlap
@@ -112,6 +114,7 @@ class WorkAccumulator:
 
     def _begin(self) -> None:
         self._gravity_j = self._loads_j = self._tools_j = self._damping_j = self._dissipated_j = 0.0
+        self._yielding_j = self._crack_friction_j = 0.0
         self._made_by = np.zeros(3)
         self._made_j = np.zeros(len(self._masses))
 
@@ -124,6 +127,8 @@ class WorkAccumulator:
             self._tools_j,
             self._damping_j,
             self._dissipated_j,
+            self._yielding_j,
+            self._crack_friction_j,
             by_connections_j,
             by_contacts_j,
             by_lifting_j,
@@ -131,6 +136,14 @@ class WorkAccumulator:
         )
         self._begin()
         return work
+
+    def add_in_cracks(self, yielding_j: float, rubbing_j: float) -> None:
+        """Add the work in a sub-step of bars across cracks that yielded, and of their sides that slid on each other.
+
+        What connections take from their bodies has it already.
+        """
+        self._yielding_j += yielding_j
+        self._crack_friction_j += rubbing_j
 
     def pass_over(self, after: Motion) -> None:
         """Leave out sub-steps at whose ends there is a motion."""

@@ -16,6 +16,13 @@ BAKER = "heat of detonation over that of TNT, 4520 kJ/kg; Baker et al., Explosio
 
 MS_PER_S = 1000.0
 
+_POINT_M = 1e-3
+"""Radius of the sphere that is looked for in members, to find whether a charge lies in one."""
+
+_FARTHEST_SCALED_M = 40.0
+"""Scaled distance (m/kg^⅓) up to which the curves of Kingery and Bulmash go: 1.8 kPa, below any threshold of damage to
+what is not glass."""
+
 LARGEST_CHARGE_KG = 1_000_000
 
 
@@ -106,6 +113,11 @@ class Charge(PlannedAction):
         detonation_s = site.plan.detonation_s(self.delay_s)
         when = f", {detonation_s:.4g} s" if math.isfinite(detonation_s) else ""
         yield given(self.name), f"{self.mass_kg:g} kg of {self.explosive}{worth} at ({position}) m{when}"
+        if inside := site.member_within(self.place_m, _POINT_M):
+            yield "", f"lies in {inside}: it counts as a bare charge in air; [[blast_zones]] have drill holes"
+        away_m, curves_m = site.distance_to_bridge_m(self.place_m), _FARTHEST_SCALED_M * self.tnt_kg ** (1.0 / 3.0)
+        if self.mass_kg > 0.0 and away_m > curves_m:
+            yield "", f"is {away_m:.0f} m from the bridge: beyond {curves_m:.0f} m its blast hardly loads anything"
 
     def check_plan(self, plan: Plan) -> None:
         """Check that it detonates within the run, if at all."""

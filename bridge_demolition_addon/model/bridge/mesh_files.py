@@ -16,7 +16,7 @@ from ...engineering.geometry.rotations import turn_in_plane
 from ...engineering.geometry.solids import union
 from ...engineering.geometry.vectors import transformed
 from ...errors import GeometryError, ScenarioError, UnreadableError
-from ..mesh_reading import MESH_FILES, from_y_up, read_mesh
+from ..mesh_reading import from_y_up, read_mesh
 from ..scenario import Geometry
 from ..schema import FARTHEST_M, SHORTEST_LENGTH_M, given
 from .member import Member
@@ -74,8 +74,6 @@ def exported(mesh: TriangleMesh, suffix: str) -> bytes:
 
 
 def _file_mesh(path: Path) -> TriangleMesh:
-    if path.suffix.lower() not in MESH_FILES:
-        raise ScenarioError(f'geometry.file is "{path}": expected a file that ends in one of {", ".join(MESH_FILES)}')
     try:
         return read_mesh(path)
     except UnreadableError as error:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from manifold3d import CrossSection
 
+from ...engineering.arrays import Rows
 from ...engineering.geometry.hulls import convex_hulls
 from ...engineering.geometry.plan_areas import distances_outside
 from ...engineering.geometry.vectors import dot, transformed
@@ -121,7 +122,19 @@ def height_map(results: Results, bodies: np.ndarray, cells: int = 200) -> Height
     size = float((high - low).max()) / cells
     counts = np.maximum(np.ceil((high - low) / size).astype(int), 2)
     xs, ys = (low[axis] + size * (np.arange(counts[axis]) + 0.5) for axis in (0, 1))
+    return HeightMap(xs, ys, heights_over(results, solid, xs, ys))
+
+
+def heights_over(results: Results, bodies: Rows, xs: np.ndarray, ys: np.ndarray) -> np.ndarray:
+    """Return the last heights (j, i) of the convex hulls of bodies above the ground, over positions; nan beside them.
+
+    A body whose hull is flat has no upper side, and is left out.
+    """
+    solid = [body for body in bodies if results.inventory.volumes_m3[body] > 0.0]
     heights = np.full((len(ys), len(xs)), np.nan)
+    if not solid:
+        return heights
+    all_corners = corners_at(results, -1, solid)
     own = results.inventory.vertices_by_body()
     hulls = convex_hulls([own[body] for body in solid])
     for number, (body, corners) in enumerate(zip(solid, all_corners, strict=True)):
@@ -135,7 +148,7 @@ def height_map(results: Results, bodies: np.ndarray, cells: int = 200) -> Height
     ground = results.ground()
     if not ground.is_flat:
         heights -= ground.heights_at(np.stack(np.meshgrid(xs, ys), -1))
-    return HeightMap(xs, ys, heights)
+    return heights
 
 
 _UPRIGHT = 1e-9

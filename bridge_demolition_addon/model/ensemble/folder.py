@@ -18,7 +18,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
-from ...errors import OutputError, ScenarioError, UnreadableError
+from ...errors import Faults, OutputError, ScenarioError, UnreadableError
 from ...system.array_files.archive import read_archive
 from ...system.disk import write_whole_text, writing
 from ...system.folder_lock import LOCK_FILE, FolderLock, check_unlocked
@@ -55,6 +55,7 @@ from ..study.runs_table import (
     write_runs,
     write_sheet,
 )
+from ..toml_tables import document_of_file
 
 EnsembleResult = Conclusions | Answer | Best
 """Statements of an ensemble: numbers, which ``report/wording`` puts into sentences."""
@@ -206,6 +207,16 @@ def check_folder(path: Path, ensemble: Ensemble, versions: Mapping[str, str]) ->
 def holds_ensemble(folder: Path, file_name: str = "") -> bool:
     """Return whether a folder is that of an ensemble, of any kind or of the one with this file of settings."""
     return _file_name_in(folder) in ((file_name,) if file_name else _READERS)
+
+
+def ensemble_of_file(path: Path) -> Ensemble:
+    """Read the file of a study, a search or an optimisation, whichever its heading says."""
+    try:
+        document = document_of_file(path, "a study", faults=Faults())
+    except ScenarioError:  # the reader below says so, with the file's name
+        document = {}
+    name = next((name for name in _READERS if Path(name).stem in document), STUDY_FILE)
+    return _READERS[name](path)
 
 
 def ensemble_in(folder: Path) -> Ensemble:

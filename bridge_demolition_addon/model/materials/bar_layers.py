@@ -6,13 +6,10 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ...engineering.elasticity.steel_bars import MODULUS_PA, YIELD_PA
+from ...engineering.geometry.sides import AXES, SIDES
 from ...engineering.mechanics.strength import NEWTON_PER_SQUARE_MILLIMETRE
-from ..schema import POSITION, Table, key
-
-SIDES = {"start": (0, -1), "end": (0, 1), "right": (1, -1), "left": (1, 1), "bottom": (2, -1), "top": (2, 1)}
-"""Axis across each side of a member, and whether the side is where that is lowest or highest."""
-
-AXES = ("x", "y", "z")
+from ...errors import ScenarioError
+from ..schema import POSITION, Table, given, key
 
 _SQUARE_METRE_PER_SQUARE_MILLIMETRE = 1e-6
 
@@ -20,6 +17,16 @@ _CRUSHING_STRAIN = 0.0035
 _BLOCK = 0.8
 """Strain at which concrete up to C50/60 is crushed, and depth of its stress block by that of the neutral axis:
 EN 1992-1-1:2004, table 3.1 and equation 3.19. Its stress is the strength, equation 3.21, without factors of safety."""
+
+_OF_LAYERS = (
+    ("side", "bottom"),
+    ("depth_m", None),
+    ("area_mm2", None),
+    ("from_m", None),
+    ("to_m", None),
+    ("anchored", True),
+)
+"""Keys that say nothing of bars that are spread over a member, with the values by default."""
 
 _HALVINGS = 60
 
@@ -40,12 +47,23 @@ class BarLayer(Table):
         default="bottom",
         choices=tuple(SIDES),
     )
-    depth_m: float = key("How deep below that side the axes of the bars are.", unit="m", above=0)
-    area_mm2: float = key(
+    depth_m: float | None = key(
+        "How deep below that side the axes of the bars are; with `area_mm2`.", default=None, unit="m", above=0
+    )
+    area_mm2: float | None = key(
         "Area of steel of all bars of the layer together, in one section of one member. They are spread evenly over "
         "the width that the member has at their depth.",
+        default=None,
         unit="mm²",
         above=0,
+    )
+    spread_mm2_m2: float | None = key(
+        "Area of steel in each square metre across the bars, instead of `side`, `depth_m` and `area_mm2`: of bars that "
+        "are spread over the whole member, such as links, A_sw / (s b).",
+        default=None,
+        unit="mm²/m²",
+        above=0,
+        at_most=500_000,
     )
     from_m: float | None = key(
         "Where the bars begin along their axis, in the coordinates of the bridge, and in a skewed member in the middle "
@@ -64,12 +82,31 @@ class BarLayer(Table):
     )
 
     diameter_mm: float = key(
-        "Diameter of one bar, which decides how far a crack opens until the bars rupture.",
+        "Diameter of one bar, which decides how far a crack opens until the bars rupture, and how long straight ones "
+        "are anchored.",
         default=20.0,
         unit="mm",
         above=0,
         at_most=100,
     )
+    anchored: bool = key(
+        "Whether bars resist their yield force up to the ends of their member, by hooks, bends, laps or in the next "
+        "member. Straight ones, `false`, have less by bond alone near these ends.",
+        default=True,
+    )
+
+    @property
+    def is_spread(self) -> bool:
+        return self.spread_mm2_m2 is not None
+
+    @property
+    def ratio(self) -> float:
+        """Area of spread bars by that across them."""
+        return _SQUARE_METRE_PER_SQUARE_MILLIMETRE * given(self.spread_mm2_m2)
+
+    def is_in(self, name: str, kind: str) -> bool:
+        """Return whether a member of a name and kind has the bars."""
+        return bool({name, kind} & set(self.members))
 
     @property
     def diameter_m(self) -> float:
@@ -77,7 +114,7 @@ class BarLayer(Table):
 
     @property
     def area_m2(self) -> float:
-        return _SQUARE_METRE_PER_SQUARE_MILLIMETRE * self.area_mm2
+        return _SQUARE_METRE_PER_SQUARE_MILLIMETRE * given(self.area_mm2)
 
     @property
     def yield_pa(self) -> float:
@@ -91,7 +128,7 @@ class BarLayer(Table):
 
     def level_m(self, lowest: float, highest: float) -> float:
         """Return where the bars are along the axis across their side, of a member from the lowest to the highest."""
-        return lowest + self.depth_m if SIDES[self.side][1] < 0 else highest - self.depth_m
+        return lowest + given(self.depth_m) if SIDES[self.side][1] < 0 else highest - given(self.depth_m)
 
     @property
     def ends_m(self) -> tuple[float, float]:
@@ -102,12 +139,23 @@ class BarLayer(Table):
         )
 
     def _check_together(self) -> None:
+        if self.is_spread:
+            self._check_spread()
+            return
+        for name in ("depth_m", "area_mm2"):
+            if getattr(self, name) is None:
+                raise ScenarioError(f"reinforcement.{name} is missing: expected it, or reinforcement.spread_mm2_m2")
         begin, end = self.ends_m
         if begin >= end:
             raise self.unexpected("to_m", f"more than reinforcement.from_m, {begin:g} (m)")
         if AXES[SIDES[self.side][0]] == self.along:
             wanted = f"a side that bars along {self.along} run beside, one of {', '.join(self._sides_beside())}"
             raise self.unexpected("side", wanted)
+
+    def _check_spread(self) -> None:
+        for name, usual in _OF_LAYERS:
+            if getattr(self, name) != usual:
+                raise self.unexpected(name, "none with reinforcement.spread_mm2_m2, which is all over a member")
 
     def _sides_beside(self) -> list[str]:
         return [name for name, (axis, _) in SIDES.items() if AXES[axis] != self.along]

@@ -18,6 +18,7 @@ from ..scenario.scenario import bars_by_rule
 from ..schema import given
 from .concrete_members import is_concrete, names_of_bridge
 from .design_basis import DesignBasis
+from .link_layers import link_layers
 from .ratios import ratio_bars
 from .schedule import Schedule, ScheduledBars, ScheduledLinks, row_text
 from .substructure import pier_bars, support_loads
@@ -34,7 +35,8 @@ _LARGEST_SKEW_DEG = 20.0
 
 def all_layers(scenario: Scenario, members: Sequence[Member]) -> tuple[BarLayer, ...]:
     """Return the layers of bars of a scenario's members: `[[reinforcement]]`, and those by the rule of its bridge."""
-    return (*scenario.reinforcement, *bar_schedule(scenario, members).layers)
+    schedule = bar_schedule(scenario, members)
+    return (*scenario.reinforcement, *schedule.layers, *link_layers(schedule, members))
 
 
 def bar_schedule(scenario: Scenario, members: Sequence[Member]) -> Schedule:

@@ -11,6 +11,7 @@ from ...engineering.reinforced_concrete.bar_choice import BarChoice
 from ...engineering.reinforced_concrete.materials import STEEL_DENSITY_KG_M3
 from ..bridge.member import Member
 from ..materials.bar_layers import BarLayer
+from ..schema import given
 
 _MM2 = 1e6
 """mm² in a m²."""
@@ -51,7 +52,7 @@ class ScheduledBars:
     @property
     def where(self) -> str:
         between = "" if self.layer.from_m is None else f", {self.layer.from_m:.1f} to {self.layer.to_m:.1f} m"
-        return f"{self.layer.side} at {_MM * self.layer.depth_m:.0f} mm, along {self.layer.along}{between}"
+        return f"{self.layer.side} at {_MM * given(self.layer.depth_m):.0f} mm, along {self.layer.along}{between}"
 
     @property
     def bars_text(self) -> str:
@@ -169,13 +170,13 @@ def named_text(row: ScheduledBars | ScheduledLinks) -> str:
 
 def row_area(row: ScheduledBars | ScheduledLinks) -> float:
     """Return the area of a layer, mm², or of links by length, mm²/m."""
-    return row.layer.area_mm2 if isinstance(row, ScheduledBars) else row.link_area_mm2_per_m
+    return given(row.layer.area_mm2) if isinstance(row, ScheduledBars) else row.link_area_mm2_per_m
 
 
 def row_text(row: ScheduledBars | ScheduledLinks) -> str:
     """Return a row of the schedule as text."""
     if isinstance(row, ScheduledBars):
-        area = f"{row.where}: {row.layer.area_mm2:.0f} mm²"
+        area = f"{row.where}: {row_area(row):.0f} mm²"
     else:
         area = f"links: {row.link_area_mm2_per_m:.0f} mm²/m"
     return f"{area}, {row.bars_text}, {row.ratio:.2%}, {row.utilisation:.0%} used, {row.reason}"

@@ -53,6 +53,8 @@ _STORED_NAMES = {
         "tools_j": "work_of_tools_j",
         "damping_j": "lost_to_damping_j",
         "dissipated_j": "dissipated_between_bodies_j",
+        "yielding_j": "dissipated_by_bars_j",
+        "crack_friction_j": "dissipated_by_crack_friction_j",
         "made_j": "made_by_solver_j",
     },
     BallHistory: {
@@ -71,6 +73,9 @@ _STORED_NAMES = {
     },
 }
 """What arrays are called in the files, where not as here. Files of earlier versions have these names."""
+
+_LATER_WORK = ("yielding_j", "crack_friction_j")
+"""Work that earlier versions did not record."""
 
 _UNREADABLE = (
     OutputError,
@@ -235,10 +240,12 @@ def _part(kind: type[_Part], arrays: Mapping[str, np.ndarray], **known: Any) -> 
 
 
 def _work(arrays: Mapping[str, np.ndarray]) -> FrameWork:
-    """Return the work, which earlier versions did not record."""
-    if _STORED_NAMES[FrameWork]["made_j"] in arrays:
-        return _part(FrameWork, arrays)
-    return FrameWork.unknown(len(arrays["frames"]), len(arrays["body_names"]))
+    """Return the work, of which earlier versions did not record all."""
+    unknown = FrameWork.unknown(*arrays["places_m"].shape[:2])
+    if _STORED_NAMES[FrameWork]["made_j"] not in arrays:
+        return unknown
+    missing = [name for name in _LATER_WORK if _stored_name(FrameWork, name) not in arrays]
+    return _part(FrameWork, arrays, **{name: getattr(unknown, name) for name in missing})
 
 
 def _stored_name(kind: type, name: str) -> str:

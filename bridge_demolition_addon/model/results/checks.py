@@ -38,12 +38,13 @@ _ARRAYS = {
     ("nan", "m22"): "second_moments_m4",
     ("i", "t3"): "triangles",
     ("nan", "kn3"): "blast_impulses_ns body_forces_n body_contact_impulses_ns",
-    ("nan", "kn"): "body_peaks_n body_sums_n body_peak_sums_n body_signed_2019_n von_mises_pa made_by_solver_j",
+    ("nan", "kn"): "body_peaks_n body_sums_n body_peak_sums_n body_signed_2019_n von_mises_pa made_by_solver_j "
+    "body_bar_use",
     ("nan", "kn33"): "stresses_pa",
     ("nan", "km3"): "connection_forces_n connection_moments_nm connection_peak_forces_n connection_peak_moments_nm",
     ("nan", "km"): "connection_peaks_n",
     ("nan", "k"): "work_of_gravity_j work_of_loads_j work_of_tools_j lost_to_damping_j dissipated_between_bodies_j "
-    "made_by_connections_j made_by_contacts_j made_by_lifting_j",
+    "dissipated_by_bars_j dissipated_by_crack_friction_j made_by_connections_j made_by_contacts_j made_by_lifting_j",
     ("i", "b"): "balls",
     ("f", "s"): "ball_times_s",
     ("nan", "sb3"): "ball_impulses_ns ball_velocities_m_s",

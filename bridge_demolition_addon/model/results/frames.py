@@ -125,7 +125,9 @@ class ContactHistory:
 
 
 def _stacked(parts: Sequence[Any]) -> Any:
-    """Put numbers, arrays, or dataclasses of them into arrays with one more axis in front."""
+    """Put numbers, arrays, or dataclasses of them into arrays with one more axis in front; None stays."""
+    if parts[0] is None:
+        return None
     if not is_dataclass(parts[0]):
         return np.array(parts)
     kind: type[Any] = type(parts[0])
@@ -133,6 +135,8 @@ def _stacked(parts: Sequence[Any]) -> Any:
 
 
 def _row(series: Any, row: int) -> Any:
+    if series is None:
+        return None
     if not is_dataclass(series):
         return series[row]
     kind: type[Any] = type(series)

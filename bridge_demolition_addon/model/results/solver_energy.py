@@ -105,6 +105,8 @@ def energy_summary(results: Results) -> dict[str, Any] | None:
         "tools_J": totals["tools_j"],
         "damping_J": totals["damping_j"],
         "dissipated_J": totals["dissipated_j"],
+        "dissipated_by_bars_J": _known_sum(work.yielding_j),
+        "dissipated_by_crack_friction_J": _known_sum(work.crack_friction_j),
         "made_by_solver": {
             "J": totals["made_j"],
             "share_of_dissipated": made_share(results),
@@ -125,6 +127,11 @@ def energy_summary(results: Results) -> dict[str, Any] | None:
             for row in range(min(FARTHEST, len(farthest.bodies)))
         ],
     }
+
+
+def _known_sum(of_frames_j: np.ndarray) -> float | None:
+    """Return the sum over all frames; None where it is not known of one after the first."""
+    return float(np.nansum(of_frames_j)) if np.isfinite(of_frames_j[1:]).all() else None
 
 
 def is_known(results: Results) -> bool:

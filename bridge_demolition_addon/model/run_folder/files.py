@@ -5,7 +5,7 @@ from ..results.arrays import BALLS_FILE, CONTACTS_FILE, FRAMES_FILE, INVENTORY_F
 SUMMARY_FILE = "summary.json"
 FORCE_LOG, DEBRIS_LOG = "force_log.csv", "debris_log.csv"
 BREAKING_LOG, EXPLOSION_LOG = "breaking_log.csv", "explosion_log.csv"
-BEARING_LOG = "bearing_log.csv"
+BEARING_LOG, BAR_LOG = "bearing_log.csv", "bar_log.csv"
 GROUND_MOTION_FILE = "ground_motion.csv"
 FORCE_CHART = "force_over_time.png"
 BLEND_FILE = "scene.blend"
@@ -22,6 +22,7 @@ FILM_FILE, SLOW_FILM_FILE = "contours.mp4", "contours_slow_motion.mp4"
 REPORT_PAGE, REPORT_PDF = "report.html", "report.pdf"
 DXF_FILE, GEOJSON_FILE = "exclusion_zone.dxf", "exclusion_zone.geojson"
 TABLE_FOLDER = "tables"
+PLAN_WORKBOOK = "charge_plan.xlsx"
 
 REPORT_FILES = (REPORT_PAGE, REPORT_PDF, DXF_FILE, GEOJSON_FILE)
 """What a report leaves, without its tables."""
@@ -33,6 +34,7 @@ RESULT_FILES = (
     BREAKING_LOG,
     EXPLOSION_LOG,
     BEARING_LOG,
+    BAR_LOG,
     GROUND_MOTION_FILE,
     RESULTS_FILE,
     FRAMES_FILE,
@@ -48,3 +50,6 @@ RESULT_FILES = (
     *REPORT_FILES,
 )
 """All that a run and its report can leave, in the order in which they are listed."""
+
+SURVEY_FOLDER = "survey"
+"""Of the report of a survey of the debris beside the run."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -27,8 +28,19 @@ from .files import (
 )
 from .summary import read_summary
 
+_LONGEST_NAME = 60
+"""Letters of a title that the name of a folder has."""
+
 _BLENDERS_LONGEST_PATH = 1023
 """Bytes; Blender cuts off the rest silently (FILE_MAX in its BLI_path_utils.h is one more)."""
+
+
+def numbered_folder(parent: Path, title: str) -> Path:
+    """Return a folder that is not there yet: named after a title, with the next number that no other has."""
+    name = re.sub(r"[^\w.-]+", "_", title)[:_LONGEST_NAME].strip("._") or "demolition"
+    numbered = re.compile(re.escape(name) + r"_(\d+)", re.IGNORECASE)
+    taken = (numbered.fullmatch(path.name) for path in (parent.iterdir() if parent.is_dir() else ()))
+    return parent / f"{name}_{max((int(match[1]) for match in taken if match), default=0) + 1}"
 
 
 def prepare_folder(folder: Path, *, overwrite: bool) -> FolderLock:
@@ -81,7 +93,9 @@ def check_folder(folder: Path, *, overwrite: bool) -> None:
         if folder.exists() and not folder.is_dir():
             raise OutputError(f"{folder}: expected a folder for the results, found a file")
         if folder.exists() and not overwrite and any(folder.iterdir()):
-            raise OutputError(f"{folder}: exists already, and is not empty; choose another folder or allow overwriting")
+            raise OutputError(
+                f"{folder}: exists already, and is not empty: choose another folder, or allow overwriting (--overwrite)"
+            )
         longest = max(len(os.fsencode(folder.resolve() / name)) for name in RESULT_FILES)
     if (excess := longest - _BLENDERS_LONGEST_PATH) > 0:
         raise OutputError(

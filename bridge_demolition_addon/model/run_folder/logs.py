@@ -11,6 +11,7 @@ from typing import Generic, TypeVar
 
 import numpy as np
 
+from ...engineering.elasticity.crack_state import FrameCracks
 from ...engineering.mechanics.bearing_loads import BearingLoads
 from ...engineering.mechanics.section_forces import SectionForces
 from ...engineering.mechanics.stress import principal_stresses
@@ -166,6 +167,16 @@ BEARING_TABLE: LogTable[FrameBearings] = LogTable(
         LogColumn("displacement", "m", lambda bearings: bearings.loads.displacements_m, _XYZ),
         LogColumn("slip", "m", lambda bearings: bearings.loads.slips_m),
         LogColumn("intact", "", lambda bearings: bearings.intact),
+    ),
+)
+BAR_TABLE: LogTable[FrameCracks] = LogTable(
+    ("connection", "first_member", "second_member"),
+    (
+        LogColumn("opening", "m", lambda cracks: cracks.openings_m),
+        LogColumn("force", "N", lambda cracks: cracks.forces_n),
+        LogColumn("yield_share", "", lambda cracks: cracks.yield_shares),
+        LogColumn("rupture_strain_share", "", lambda cracks: cracks.rupture_shares),
+        LogColumn("ruptured_share", "", lambda cracks: cracks.ruptured_shares),
     ),
 )
 

@@ -99,6 +99,11 @@ class RunSummary:
         return self.values.get("bearings", [])
 
     @property
+    def reinforcement(self) -> dict[str, Any] | None:
+        """What bars across cracks did; None without them, and of runs that were recorded before."""
+        return self.values.get("reinforcement")
+
+    @property
     def came_to_rest_s(self) -> float | None:
         """When everything came to rest; None where it did not."""
         return self.values.get("came_to_rest_s")
@@ -177,6 +182,8 @@ def _checked(summary: Any) -> dict[str, Any]:
             _check_table(f"creeping.fastest[{number}]", shard, _CREEPING_SHARD)
     for number, bearing in enumerate(summary.get("bearings", ())):
         _check_table(f"bearings[{number}]", bearing, _BEARING)
+    if summary.get("reinforcement") is not None:
+        _check_bars(summary["reinforcement"])
     for number, hit in enumerate(summary.get("hits_of_the_ball", ())):
         _check_table(f"hits_of_the_ball[{number}]", hit, _HIT, optional=_ESTIMATES)
     return summary
@@ -192,6 +199,14 @@ def _check_table(
             raise OutputError(f"{name}: has no {key}")
         if key in table and not holds(table[key]):
             raise OutputError(f"{key}: is {shown(table[key])}, which no run writes")
+
+
+def _check_bars(bars: Any) -> None:
+    _check_table("reinforcement", bars, _BARS)
+    for number, kind in enumerate(bars["by_kind"]):
+        _check_table(f"reinforcement.by_kind[{number}]", kind, _BARS_OF_KIND)
+    if bars["largest_use"] is not None:
+        _check_table("reinforcement.largest_use", bars["largest_use"], _LARGEST_USE)
 
 
 def _is_number(value: Any) -> bool:
@@ -257,6 +272,19 @@ _BEARING = {
     "gone_s": _is_number_or_none,
     "slid": lambda value: value is None or isinstance(value, bool),
 }
+_CRACK_COUNTS = {
+    name: _is_number
+    for name in ("cracked", "held_at_end", "yielded", "ruptured_in_part", "ruptured", "largest_use_share")
+}
+_BARS = _CRACK_COUNTS | {"with_bars": _is_number, "largest_use": _is_table_or_none, "by_kind": _is_list}
+_BARS_OF_KIND = _CRACK_COUNTS | {"kind": _is_text, "largest_use_s": _is_number_or_none}
+_LARGEST_USE = {
+    "share": _is_number,
+    "time_s": _is_number,
+    "connection": _is_text,
+    "first_member": _is_text,
+    "second_member": _is_text,
+}
 _LEVELLED = {"name": _is_text, "dug_m": _is_number, "filled_m": _is_number}
 _SUMMARY = {
     "terrain": _is_table_or_none,
@@ -272,6 +300,7 @@ _SUMMARY = {
     "key_frame": lambda value: isinstance(value, dict),
     "hits_of_the_ball": _is_list,
     "bearings": _is_list,
+    "reinforcement": _is_table_or_none,
 }
 
 _ESTIMATES = {"half_sine_peak_force_N": _is_number, "hertz_peak_force_N": _is_number}

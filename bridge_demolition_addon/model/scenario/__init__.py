@@ -5,6 +5,7 @@ The deck, with its girders, lies on the pier caps, or on the piers where there a
 tables.
 """
 
+from ..blast.blast_zones import BlastZone
 from ..blast.charges import Charge
 from ..blast.settings import BlastSettings
 from ..loads import Load
@@ -22,7 +23,7 @@ from .recording import PictureSettings, RecordingSettings
 from .reinforcement import BridgeReinforcement, RatiosOfMember
 from .scenario import Scenario
 from .site import Exclusion, Neighbour, Site, Zone
-from .structural_changes import Change, Removal, SawCut, Weakening
+from .structural_changes import Change, Removal, SawCut, Weakening, ZoneFiring
 from .time import TimeSettings
 
 __all__ = [
@@ -32,6 +33,7 @@ __all__ = [
     "BallHit",
     "BarLayer",
     "BlastSettings",
+    "BlastZone",
     "BoxGirder",
     "Bridge",
     "BridgeReinforcement",
@@ -70,4 +72,5 @@ __all__ = [
     "TimeSettings",
     "Weakening",
     "Zone",
+    "ZoneFiring",
 ]

@@ -77,7 +77,12 @@ class Ground(BodyInContact):
 
     file: str | None = key(
         "Path of the terrain: a mesh (STL, OBJ, PLY, GLB), an ESRI ASCII grid (ASC), points (XYZ, CSV, TXT), a LandXML "
-        "surface (XML) or a GeoTIFF (TIF). Without it the ground is flat.",
+        "surface (XML), a GeoTIFF (TIF), a point cloud (LAS, LAZ) or a model (IFC). Without it the ground is flat.",
+        default=None,
+    )
+    surface: str | None = key(
+        "Name of the surface in a LandXML file that has several, or of the element in an IFC file, with `*` for any "
+        "letters.",
         default=None,
     )
     origin: tuple[float, ...] | None = key(
@@ -93,7 +98,11 @@ class Ground(BodyInContact):
         at_least=-360,
         at_most=360,
     )
-    scale: float = key("Metres in one unit of the file: 0.3048 for feet.", default=1.0, above=0)
+    scale: float = key(
+        "Metres in one unit of the file: 0.3048 for feet. Left at 1, a file that says its unit itself is in that.",
+        default=1.0,
+        above=0,
+    )
     up: str | None = key(
         "Axis of a mesh file that points up; by default `y` for GLB, and `z` for all others.",
         default=None,

@@ -1,8 +1,8 @@
 """Which shards are connected, how, and what breaks a connection: for all of them, and between certain members."""
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import astuple, dataclass, fields, replace
-from typing import ClassVar, Self
+from dataclasses import Field, astuple, dataclass, fields, replace
+from typing import Any, ClassVar, Self
 
 from ...engineering.elasticity.section_stiffness import ELASTIC_MODULI, ElasticModuli
 from ...engineering.elasticity.steel_bars import MODULUS_PA, USUAL_STEEL, Steel
@@ -370,7 +370,10 @@ class ConnectionSettings(JointSettings):
             check_exactly_one(self, *STRENGTH_KEYS)
         for table in self._tables:
             if table.material is not None and self.method != "face":
-                raise table.unexpected("material", f'method "face" with it, found "{self.method}"')
+                wanted = f'method "face" with it, found "{self.method}"'
+                if table.material not in MATERIALS:
+                    wanted += f", and {expected(_field(table, 'material'))}"
+                raise table.unexpected("material", wanted)
             if isinstance(table, ConnectionSettings) or table.changes_joint:
                 table.check_type(table.type or self.type)
         if self.ductile_share > 0.0 and self.material is None:
@@ -441,13 +444,16 @@ class ConnectionSettings(JointSettings):
     def _check_materials(self, known: Collection[str]) -> None:
         for table in self._tables:
             if table.material is not None and table.material not in known:
-                item = next(item for item in fields(table) if item.name == "material")
-                raise table.unexpected("material", expected(item))
+                raise table.unexpected("material", expected(_field(table, "material")))
 
     def _check_method(self, name: str, wanted: str, methods: tuple[str, ...]) -> None:
         is_given, is_needed = getattr(self, name) is not None, self.method in methods
         if is_given != is_needed:
             raise self.unexpected(name, f'{wanted if is_needed else "none"} with method "{self.method}"')
+
+
+def _field(table: Table, name: str) -> Field[Any]:
+    return next(item for item in fields(table) if item.name == name)
 
 
 def _joint_between(

@@ -8,7 +8,7 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import Any
 
-from ...errors import ScenarioError
+from ...errors import Faults, ScenarioError
 from ...system.reading import MEGABYTE
 from ..schema import shown
 from ..toml_tables import document_of_file, table_of_document, tables_text, toml_document
@@ -48,13 +48,18 @@ def read_scenario(path: str | PathLike[str]) -> Scenario:
     Raises
     ------
     ScenarioError
-        The file cannot be read, is not TOML, or a key is unknown, missing or has a wrong value.
-        The text is one line: the path as given, the key and what was expected.
+        The file cannot be read, is not TOML, or keys are unknown, missing or have wrong values.
+        Each fault is one line: the path as given, the key and what was expected.
     """
     try:
-        return _scenario_of_document(_document_of_file(Path(path)))
+        faults = Faults()
+        document = _document_of_file(Path(path), faults=faults)
+        with faults.noted():
+            scenario = _scenario_of_document(document)
+        faults.check()
     except ScenarioError as error:
-        raise ScenarioError(f"{fspath(path)}: {error}") from error
+        raise error.within(fspath(path)) from error
+    return scenario
 
 
 def scenario_from_text(text: str) -> Scenario:
@@ -89,9 +94,12 @@ def _keys_in(document: dict[str, Any], tables: Iterable[str]) -> Iterator[str]:
             yield from (f"{name}.{quantity}" for quantity in QUANTITIES if quantity in table)
 
 
-def _document_of_file(path: Path, variants: tuple[Path, ...] = ()) -> dict[str, Any]:
-    """Return the document of a file with all that it is based on, which must not be its own variant."""
-    document = document_of_file(path, "a scenario", MOST_BYTES)
+def _document_of_file(path: Path, variants: tuple[Path, ...] = (), faults: Faults | None = None) -> dict[str, Any]:
+    """Return the document of a file with all that it is based on, which must not be its own variant.
+
+    Where `faults` are given, slips in the file are noted in them.
+    """
+    document = document_of_file(path, "a scenario", MOST_BYTES, faults)
     _make_paths_absolute(path.parent, document)
     name, without = take_based_on(document)
     if name is None:
@@ -105,7 +113,7 @@ def _document_of_file(path: Path, variants: tuple[Path, ...] = ()) -> dict[str, 
     try:
         inherited = _document_of_file(base, variants)
     except ScenarioError as error:
-        raise ScenarioError(f"based on {shown(name)}: {error}") from error
+        raise error.within(f"based on {shown(name)}") from error
     return varied(inherited, document, without)
 
 

@@ -1,9 +1,18 @@
 """Members that the user brings along as mesh files."""
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import ClassVar
 
+from ...errors import Faults, ScenarioError
+from ..mesh_reading import MESH_FILES
 from ..schema import DENSITY, Table, check_exactly_one, key
+
+_ADVICE = {
+    ".ifc": "; of a bridge in an IFC file, bda import makes them",
+    **dict.fromkeys((".dwg", ".dxf", ".step", ".stp", ".iges", ".rvt", ".skp", ".3dm"), "; export it as one of these"),
+}
+"""What to do with files of other programs, by how their names end."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -56,4 +65,18 @@ class Geometry(Table):
         return any(self.velocity_m_s) or any(self.spin_rad_s)
 
     def _check_together(self) -> None:
-        check_exactly_one(self, "density_kg_m3", "mass_kg")
+        faults = Faults()
+        with faults.noted():
+            self._check_format()
+        with faults.noted():
+            check_exactly_one(self, "density_kg_m3", "mass_kg")
+        faults.check()
+
+    def _check_format(self) -> None:
+        suffix = Path(self.file).suffix.lower()
+        if suffix not in MESH_FILES:
+            *first, last = MESH_FILES
+            advice = _ADVICE.get(suffix, "")
+            raise ScenarioError(
+                f'geometry.file is "{self.file}": expected a file that ends in {", ".join(first)} or {last}{advice}'
+            )

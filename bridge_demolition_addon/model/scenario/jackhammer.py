@@ -90,8 +90,8 @@ class Jackhammer(BodyInContact, PlannedAction):
         )
 
     def targets(self) -> Iterator[tuple[str, Place]]:
-        for number, position in enumerate(self.path_m):
-            yield f"{self.table}.path_m[{number}]", position
+        for number, position in enumerate(self.path_m, start=1):
+            yield f"{self.table}.path_m.{number}", position
 
     def starts_above(self) -> tuple[Place, ...]:
         return self.path_m[:1]

@@ -67,7 +67,7 @@ def _section(table_class: type[Table], *, required: bool, many: bool = False) ->
     yield f"## [[{table_class.table}]]" if many else f"## [{table_class.table}]"
     yield ""
     often = "As often as needed." if many else "May be left out."
-    yield f"{_meaning(table_class)} {'Required.' if required else often}"
+    yield f"{meaning(table_class)} {'Required.' if required else often}"
     yield ""
     if rows := list(map(_row, key_fields(table_class))):
         yield from ("| Key | Value | Default | Meaning |", "| --- | --- | --- | --- |", *rows, "")
@@ -76,16 +76,18 @@ def _section(table_class: type[Table], *, required: bool, many: bool = False) ->
 
 
 def _row(item: Field) -> str:
-    return f"| `{item.name}` | {expected(item)} | {_default(item)} | {key_of(item).description} |"
+    return f"| `{item.name}` | {expected(item)} | {default_text(item)} | {key_of(item).description} |"
 
 
-def _default(item: Field) -> str:
+def default_text(item: Field) -> str:
+    """Return the value of a key that is left out, as the reference gives it."""
     if is_required(item):
         return "required"
     return "none" if item.default is None else f"`{toml_value(item.default)}`"
 
 
-def _meaning(table_class: type[Table]) -> str:
+def meaning(table_class: type[Table]) -> str:
+    """Return what a table is, on one line."""
     return " ".join((table_class.__doc__ or "").split())
 
 

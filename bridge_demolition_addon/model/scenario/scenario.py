@@ -9,8 +9,9 @@ from ...engineering.elasticity.steel_bars import Steel
 from ...engineering.ground_motion.record import GroundRecord
 from ...engineering.mechanics.joint import Joint
 from ...engineering.timing.timeline import Timeline
-from ...errors import ScenarioError
+from ...errors import Faults, ScenarioError
 from ..actions import PlannedAction
+from ..blast.blast_zones import BlastZone, check_zones_apart, named_zones
 from ..blast.charges import Charge, named_charges
 from ..blast.settings import BlastSettings
 from ..foundations import Foundation
@@ -76,6 +77,7 @@ class Scenario(Table):
     ball: Ball | None = None
     blast: BlastSettings = field(default_factory=BlastSettings)
     charges: tuple[Charge, ...] = ()
+    blast_zones: tuple[BlastZone, ...] = ()
     jackhammers: tuple[Jackhammer, ...] = ()
     removals: tuple[Removal, ...] = ()
     saw_cuts: tuple[SawCut, ...] = ()
@@ -138,8 +140,12 @@ class Scenario(Table):
             return self.connections.steel_or(rule.grade)
         if self.connections.ductile_yield_n_mm2 is not None or not layers:
             return steel
-        yields = sum(layer.area_m2 * layer.yield_pa for layer in layers) / sum(layer.area_m2 for layer in layers)
-        return replace(steel, yield_pa=yields)
+        at_depths = [layer for layer in layers if not layer.is_spread]
+        if not at_depths:
+            return replace(steel, yield_pa=sum(layer.yield_pa for layer in layers) / len(layers))
+        areas_m2 = [layer.area_m2 for layer in at_depths]
+        yields_n = sum(area * layer.yield_pa for area, layer in zip(areas_m2, at_depths, strict=True))
+        return replace(steel, yield_pa=yields_n / sum(areas_m2))
 
     @property
     def warm_up_s(self) -> float:
@@ -187,6 +193,8 @@ class Scenario(Table):
     def _check_together(self) -> None:
         self._settle_contacts()
         object.__setattr__(self, "charges", named_charges(self.charges))
+        object.__setattr__(self, "blast_zones", named_zones(self.blast_zones))
+        check_zones_apart(self.blast_zones)
         self._check_slow_motion()
         object.__setattr__(self, "connections", self.connections.with_strength(self.fracture.shards))
         object.__setattr__(self, "connections", self.connections.with_stiffness(self.materials))
@@ -202,10 +210,13 @@ class Scenario(Table):
             check_exactly_one(self.bridge, "density_kg_m3", "mass_kg")
         if self.bridge is None and not self.geometry:
             raise ScenarioError("bridge is missing: expected a table, or a member of your own under [[geometry]]")
+        faults = Faults()
         for action in self.actions:
-            action.check_plan(self)
-            for name, position in action.targets():
-                self._check_on_deck(name, position)
+            with faults.noted():
+                action.check_plan(self)
+                for name, position in action.targets():
+                    self._check_on_deck(name, position)
+        faults.check()
         if self.shards.start_deactivated and (moving := [table.name for table in self.geometry if table.is_moving]):
             raise ScenarioError(
                 f"geometry {shown(moving[0])} begins with a velocity or an angular velocity: "
@@ -278,11 +289,11 @@ class Scenario(Table):
         overhang, half_width = bridge.deck.overhang_m, bridge.deck.width_m / 2.0
         skewed_by = across * bridge.shift_across
         deck = ((skewed_by - overhang, skewed_by + bridge.spans_m + overhang), (-half_width, half_width))
-        for place, (position, (lowest, highest)) in enumerate(zip((along, across), deck, strict=True)):
+        for number, (position, (lowest, highest)) in enumerate(zip((along, across), deck, strict=True), start=1):
             slack = ROUNDING * (highest - lowest)
             if not lowest - slack <= position <= highest + slack:
                 raise ScenarioError(
-                    f"{name}[{place}] is {position}: "
+                    f"{name}.{number} is {position}: "
                     f"expected a position on the deck, from {lowest:.6g} to {highest:.6g} (m)"
                 )
 

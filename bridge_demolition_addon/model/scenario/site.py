@@ -87,3 +87,13 @@ class Neighbour(Table):
 
     name: str = key("What it is called in the report.")
     place_m: tuple[float, float, float] = key("Where it is: x, y, z.", unit="m")
+    limit_mm_s: float | None = key(
+        "Limit of the ground's peak particle velocity there, for the charge plan.", default=None, unit="mm/s", above=0
+    )
+    limit_db: float | None = key(
+        "Limit of the peak air pressure there, for the charge plan: often 115 to 133 dB.",
+        default=None,
+        unit="dB",
+        above=0,
+        at_most=200,
+    )

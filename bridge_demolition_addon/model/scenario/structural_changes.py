@@ -1,9 +1,11 @@
-"""Changes to the structure at given times: removals, saw cuts and weakenings."""
+"""Changes to the structure at given times: removals, saw cuts, weakenings, and blast zones that fire."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
+from ...engineering.drilled_charges.specific_charge import Effect
+from ...engineering.geometry.sides import AXES
 from ...errors import ScenarioError
 from ..actions import Fact, Plan, Worksite
 from ..loads import Part
@@ -81,3 +83,28 @@ class Weakening(Change):
     kind: ClassVar[str] = "weakening"
 
     factor: float = key("Part of the strength, or of the breaking force, that is left.", above=0, at_most=1)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ZoneFiring(Change):
+    """What drilled charges do to a blast zone, the box of a member, when its last row fires. It follows from the zone
+    and the model, and is no table of a scenario; a scene keeps it.
+    """
+
+    table: ClassVar[str] = "zone_firings"
+    kind: ClassVar[str] = "blast zone"
+
+    name: str = key("Name of the zone.")
+    along: str = key("Axis that its member runs along.", choices=AXES)
+    effect: str = key("What its concrete does.", choices=tuple(effect.value for effect in Effect))
+    left: float = key("Part of the strength that its connections have left.", at_least=0, at_most=1)
+    speed_m_s: float = key(
+        "Mean speed of shards that are thrown; 0 where they fall as rubble at the foot.", unit="m/s", at_least=0
+    )
+    cage_tension_n: float = key("What its bars resist in tension.", unit="N", at_least=0)
+    cage_compression_n: float = key("What its bars resist in compression.", unit="N", at_least=0)
+
+    @property
+    def takes_away(self) -> bool:
+        """Return whether its shards no longer carry, not even where they touch others."""
+        return self.effect == Effect.THROWN

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -10,11 +10,13 @@ import numpy as np
 from manifold3d import Manifold
 
 from ...engineering.geometry.solids import to_manifold
-from ..actions import Affected, Place, PlannedAction, Point
+from ..actions import Affected, Fact, Place, PlannedAction, Point
+from ..blast.blast_zones import BlastZone
 from ..bridge.extent import surface_height
 from ..bridge.member import Member
 from ..loads import Load
 from ..scenario import Change, Scenario
+from ..structure.blast_zones import placed_zone
 from ..structure.model import Model, build_model
 from .events import Structure, model_structure, schedule
 from .loads import placed_on_model
@@ -49,6 +51,11 @@ class ModelWorksite:
         )
         return next(names, None)
 
+    def distance_to_bridge_m(self, point_m: Point) -> float:
+        boxes = np.array([member.solid.bounds for member in self.model.members])
+        gaps = np.maximum(0.0, np.maximum(boxes[:, 0] - point_m, point_m - boxes[:, 1]))
+        return float(np.sqrt((gaps * gaps).sum(axis=1)).min())
+
     def affected_by(self, action: PlannedAction) -> Affected:
         model = self.model
         if isinstance(action, Load):
@@ -60,6 +67,14 @@ class ModelWorksite:
             shards = shards[shards >= 0]  # without the ground
         names = sorted({model.members[row].name for row in model.member_of_shard[shards]})
         return Affected(len(shards), float(model.masses_kg[shards].sum()), tuple(names))
+
+    def facts_of_zone(self, zone: BlastZone) -> Iterator[Fact]:
+        return placed_zone(zone, self.model.members).facts(self.plan)
+
+    def check_zone(self, zone: BlastZone) -> None:
+        placed = placed_zone(zone, self.model.members)
+        if zone.goes_off:
+            schedule((placed.firing(self.plan),), self._structure)
 
     def number_of(self, action: PlannedAction) -> int:
         alike = [other for other in self.plan.actions if type(other) is type(action)]

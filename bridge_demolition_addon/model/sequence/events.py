@@ -15,8 +15,9 @@ from ...engineering.geometry.vectors import dot
 from ...errors import ScenarioError
 from ..loads import Part
 from ..results.inventory import Inventory
-from ..scenario import Change, Removal, SawCut, Weakening
+from ..scenario import Change, Removal, SawCut, Weakening, ZoneFiring
 from ..structure.model import Model
+from .departures import Departure, departure_of
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -30,6 +31,7 @@ class Structure:
     held: np.ndarray  # (n,), shards that never move, as supports hold them
     pairs: np.ndarray  # (m, 2), bodies of the connections
     points_m: np.ndarray  # (m, 3), positions of the connections
+    boxes_m: np.ndarray  # (n, 2, 3), lowest and highest corners of the bodies
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -37,10 +39,12 @@ class Event:
     """A change as rows of bodies that it removes, and of connections."""
 
     time_s: float
-    kind: str  # ``removal``, ``saw cut`` or ``weakening``
-    bodies: np.ndarray  # (b,), removed bodies
+    kind: str  # ``removal``, ``saw cut``, ``weakening`` or ``blast zone``
+    bodies: np.ndarray  # (b,), bodies that no longer carry: removed, or thrown out of their member
     connections: np.ndarray  # (c,), those that are cut or weakened
     factor: float  # on their strength; 0 for those that are cut
+    zone: ZoneFiring | None = None  # of a blast zone
+    departure: Departure | None = None  # how the bodies of a blast zone leave their member
 
 
 def model_structure(model: Model) -> Structure:
@@ -55,11 +59,15 @@ def model_structure(model: Model) -> Structure:
         held=held,
         pairs=np.where(model.connections.pairs < 0, count, model.connections.pairs),
         points_m=model.connections.points,
+        boxes_m=np.concatenate((np.array([shard.bounds for shard in model.shards]), np.zeros((1, 2, 3)))),
     )
 
 
-def recorded_structure(inventory: Inventory, centres_m: np.ndarray) -> Structure:
-    """Return the structure of bodies that are recorded, with their centres of mass (n, 3) before anything moves."""
+def recorded_structure(inventory: Inventory, centres_m: np.ndarray, boxes_m: np.ndarray) -> Structure:
+    """Return the structure of bodies that are recorded, before anything moves.
+
+    `centres_m` (n, 3) are their centres of mass, `boxes_m` (n, 2, 3) the corners of the boxes around them.
+    """
     shards = inventory.body_kinds == "shard"
     return Structure(
         centres_m=centres_m,
@@ -69,6 +77,7 @@ def recorded_structure(inventory: Inventory, centres_m: np.ndarray) -> Structure
         held=shards & ~inventory.moves,
         pairs=inventory.pairs,
         points_m=inventory.points_m,
+        boxes_m=boxes_m,
     )
 
 
@@ -78,7 +87,7 @@ def schedule(changes: Sequence[Change], structure: Structure) -> tuple[Event, ..
 
 
 def _event(change: Change, structure: Structure) -> Event:
-    bodies, factor = np.zeros(0, int), 0.0
+    bodies, factor, departure = np.zeros(0, int), 0.0, None
     match change:
         case Removal():
             inside = in_box(change, structure.centres_m)
@@ -89,15 +98,37 @@ def _event(change: Change, structure: Structure) -> Event:
         case Weakening():
             factor = change.factor
             connections = np.flatnonzero(_selected(change, structure))
-    if not len(bodies if isinstance(change, Removal) else connections):
+        case ZoneFiring():
+            bodies, connections = _of_zone(change, structure)
+            factor = change.left
+            if change.takes_away:
+                departure = departure_of(change, structure.centres_m[bodies], structure.boxes_m[bodies])
+    if not len(bodies if isinstance(change, Removal | ZoneFiring) else connections):
         raise ScenarioError(f"{change.table} at {change.time_s:g} s: {_why_nothing(change, structure)}")
+    if isinstance(change, ZoneFiring):
+        return Event(
+            change.time_s, change.kind, bodies if departure else bodies[:0], connections, factor, change, departure
+        )
     return Event(change.time_s, change.kind, bodies, connections, factor)
+
+
+def _of_zone(zone: ZoneFiring, structure: Structure) -> tuple[np.ndarray, np.ndarray]:
+    """Return the shards of a blast zone and the connections of them; refuse one that is partly held."""
+    inside = of_members(zone, structure) & in_box(zone, structure.centres_m)
+    if (inside & structure.held).any():
+        raise ScenarioError(
+            f"blast_zones {json.dumps(zone.name, ensure_ascii=False)}: [[supports]] hold "
+            f"{', '.join(zone.members or ())} there, which cannot be blasted away; move the zone, or take the member "
+            "out of [[supports]] and have connections.foundation hold its foot"
+        )
+    bodies = np.flatnonzero(inside & structure.is_shard)
+    return bodies, np.flatnonzero(np.isin(structure.pairs, bodies).any(axis=1))
 
 
 def _why_nothing(change: Change, structure: Structure) -> str:
     """Return why a change concerns nothing, and what to do."""
     chosen = of_members(change, structure) & in_box(change, structure.centres_m)
-    things = "shard" if isinstance(change, Removal) else "connection"
+    things = "shard" if isinstance(change, Removal | ZoneFiring) else "connection"
     if (chosen & structure.is_shard).any() or not (chosen & structure.held).any():
         return f"no {things} of the bridge is there; expected members, a box or a plane that meet some"
     names = ", ".join(sorted(set(structure.member_names[chosen & structure.held].tolist())))

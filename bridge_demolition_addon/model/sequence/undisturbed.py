@@ -26,8 +26,9 @@ def first_event_s(scenario: Scenario) -> float:
 def fell_by_itself(results: Results, scenario: Scenario) -> dict[str, Any] | None:
     """Return what broke and moved before anything was done to a bridge, ready for JSON; None where it stood.
 
-    It stood where no connection broke and no shard moved by more than `MOVED_M`. Shards that sleep until something hits
-    them stand in any case. ``until_s`` is None where nothing was ever done.
+    It stood where no connection broke and no shard moved by more than `MOVED_M`; with bars, which hold cracks, where no
+    shard moved so far. Shards that sleep until something hits them stand in any case. ``until_s`` is None where nothing
+    was ever done.
     """
     first_s = first_event_s(scenario)
     rows = np.flatnonzero(results.frames.time_s <= first_s)
@@ -38,7 +39,7 @@ def fell_by_itself(results: Results, scenario: Scenario) -> dict[str, Any] | Non
     shards = results.inventory.of_kind("shard")
     moves = travel(results.frames.positions_m[0, shards], results.frames.positions_m[last, shards])
     largest_move_m = float(moves.max(initial=0.0))
-    if not broken[-1] and largest_move_m <= MOVED_M:
+    if largest_move_m <= MOVED_M and (scenario.is_reinforced or not broken[-1]):
         return None
     breaks = np.flatnonzero(broken)
     return {
@@ -48,6 +49,16 @@ def fell_by_itself(results: Results, scenario: Scenario) -> dict[str, Any] | Non
         "connections": len(results.inventory.connection_names),
         "largest_move_m": largest_move_m,
     }
+
+
+def asleep_text(scenario: Scenario) -> str:
+    """Return that a run cannot show whether the bridge stands, where its shards sleep at first; empty otherwise."""
+    if not scenario.shards.start_deactivated:
+        return ""
+    return (
+        "All shards sleep until something hits them, so a run does not show whether the bridge stands by itself: "
+        "run it with shards.start_deactivated = false and without what is done to it"
+    )
 
 
 def self_collapse_text(summary: Mapping[str, Any]) -> str:

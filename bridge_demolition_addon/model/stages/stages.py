@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...errors import ScenarioError
+from ..actions import Fact
 from ..scenario import Equipment, Scenario
 from ..sequence.events import Event, model_structure, schedule
+from ..structure.blast_zones import zone_firings
 from ..structure.model import Model
 from .reactions import supports_of
 from .standing import Standing, StandingBridge
@@ -23,6 +25,10 @@ _AT_THE_TOP = 0.05
 
 _GRID = 8
 """Along each side of a footprint: its weight stands on a grid of so many by so many points."""
+
+
+_LEAST_MACHINE_KG = 500.0
+"""Lighter than the smallest excavators, of 800 kg: a mass below this was probably given in tonnes."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -51,7 +57,8 @@ class Criticality:
 def stages_of(scenario: Scenario, bridge: StandingBridge, progress: Callable[[int, int], None]) -> list[Stage]:
     """Return the stages of a scenario; after each, call `progress` with the numbers of those done and of all."""
     model = bridge.model
-    steps = _steps(scenario, schedule(scenario.changes, model_structure(model)))
+    changes = (*scenario.changes, *zone_firings(scenario, model.members))
+    steps = _steps(scenario, schedule(changes, model_structure(model)))
     intact, left = np.ones(len(model.connections), bool), np.ones(len(model.connections))
     removed, stages = np.zeros(len(model.shards), bool), []
     for number, (time_s, events) in enumerate(steps):
@@ -84,18 +91,31 @@ def criticality(bridge: StandingBridge, progress: Callable[[int, int], None]) ->
     model = bridge.model
     count, ones = len(model.connections), np.ones(len(model.connections))
     nothing = np.zeros((6, len(model.shards)))
-    held = bridge.rest(ones > 0.0, ones, nothing).held
+    held = bridge.held(ones > 0.0)
     effects = []
     for number, member in enumerate(model.members):
         own = model.member_of_shard == number
         gone = np.isin(model.connections.pairs, np.flatnonzero(own)).any(axis=1)
         intact = np.ones(count, bool) & ~gone
-        loose = held & ~own & ~bridge.rest(intact, ones, nothing).held
+        loose = held & ~own & ~bridge.held(intact)
         loose |= bridge.comes_down(intact, ones, nothing, 1.0) & ~own
         falls_kg = float(model.masses_kg[loose].sum())
         effects.append(Criticality(member.name, falls_kg, falls_kg / float(model.masses_kg[held].sum() or 1.0)))
         progress(number + 1, len(model.members))
     return effects
+
+
+def equipment_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
+    """Yield what `bda check` says of machines on the bridge: mass, position, and whether the bridge is under them."""
+    boxes, none = np.array([shard.bounds for shard in model.shards]), np.zeros(len(model.shards), bool)
+    for machine in scenario.equipment:
+        where = ", ".join(f"{coordinate:g}" for coordinate in machine.place_m)
+        yield machine.name, f"{machine.mass_kg / 1000.0:g} t at ({where}) m"
+        beside = sum(_highest_under(point, boxes, none) is None for point in _grid(machine))
+        if beside:
+            yield "", f"{beside / _GRID**2:.0%} of what it stands on is beside the bridge: move it"
+        if machine.mass_kg < _LEAST_MACHINE_KG:
+            yield "", f"equipment.mass_kg is {machine.mass_kg:g}: give it in kg, not in t"
 
 
 def equipment_loads(model: Model, equipment: Sequence[Equipment], removed: np.ndarray) -> np.ndarray:
@@ -157,6 +177,8 @@ def _steps(scenario: Scenario, events: Sequence[Event]) -> list[tuple[float, lis
 
 
 def _described(event: Event, model: Model) -> str:
+    if event.zone:
+        return f"{event.zone.name} of {', '.join(event.zone.members or ())}: {event.zone.effect}"
     if len(event.bodies):
         names = {model.members[member].name for member in model.member_of_shard[event.bodies]}
         return f"{event.kind} of {', '.join(sorted(names))}"

@@ -14,16 +14,18 @@ from ...engineering.units import STANDARD_GRAVITY_M_S2, mass_text, with_digits
 from ...system.disk import whole_file
 from ..structure.model import Model
 from .bearing_rows import BEARING_COLUMNS, BEARINGS_FILE, bearing_rows
+from .misfires import MISFIRE_COLUMNS, MISFIRES_FILE, Misfire, misfire_row
 from .reactions import SupportPoint, supports_of
 from .stages import Criticality, Stage, reactions_n
 from .standing import StandingBridge
 
-FILES = STAGES_FILE, REACTIONS_FILE, _, UTILISATION_FILE, CRITICALITY_FILE = (
+FILES = STAGES_FILE, REACTIONS_FILE, _, UTILISATION_FILE, CRITICALITY_FILE, _ = (
     "stages.csv",
     "reactions.csv",
     BEARINGS_FILE,
     "utilisation.csv",
     "criticality.csv",
+    MISFIRES_FILE,
 )
 
 STAGE_COLUMNS = (
@@ -45,6 +47,7 @@ STAGE_COLUMNS = (
     "at_y_m",
     "at_z_m",
     "overloaded",
+    "cracked",
     "collapse_factor",
     "sag_mm",
     "first_frequency_Hz",
@@ -81,10 +84,13 @@ UTILISATION_COLUMNS = (
 CRITICALITY_COLUMNS = ("member", "stands", "falls_kg", "share_of_the_bridge")
 
 SLOW_COLLAPSE = (
-    "a broken face carries nothing here; in a run its two sides press on each other, and what stands on such cracks "
-    "may take seconds to come down"
+    "without bars a broken face carries nothing here; in a run its two sides press on each other, and what stands on "
+    "such cracks may take seconds to come down"
 )
 """What is said where a stage does not stand."""
+
+_FULL = 1.0 + 1e-9
+"""Utilisation beyond which it is above 1 by more than rounding: bars that yield are used in full."""
 
 _KILO = 1000.0
 _GROUND = "ground"
@@ -94,7 +100,11 @@ UPLIFT_KN = 0.1
 
 
 def write_tables(
-    folder: Path, stages: Sequence[Stage], members: Sequence[Criticality], bridge: StandingBridge
+    folder: Path,
+    stages: Sequence[Stage],
+    members: Sequence[Criticality],
+    bridge: StandingBridge,
+    failures: Sequence[Misfire] = (),
 ) -> list[dict[str, Any]]:
     """Write all tables to a folder, made if new, and return the rows of stages."""
     folder.mkdir(parents=True, exist_ok=True)
@@ -105,6 +115,7 @@ def write_tables(
     used = (row for number, stage in enumerate(stages, start=1) for row in utilisation_rows(number, stage, bridge))
     write_table(folder / UTILISATION_FILE, UTILISATION_COLUMNS, used)
     write_table(folder / CRITICALITY_FILE, CRITICALITY_COLUMNS, map(criticality_row, members))
+    write_table(folder / MISFIRES_FILE, MISFIRE_COLUMNS, map(misfire_row, failures))
     return rows
 
 
@@ -127,7 +138,8 @@ def stage_row(number: int, stage: Stage, bridge: StandingBridge) -> dict[str, An
         "reaction_x_kN": reaction[0],
         "reaction_y_kN": reaction[1],
         "reaction_z_kN": reaction[2],
-        "overloaded": int((standing.used > 1.0).sum()),
+        "overloaded": int((standing.used > _FULL).sum()),
+        "cracked": int(standing.cracked.sum()),
         "collapse_factor": stage.collapse_factor,
         "sag_mm": standing.sag_m * _KILO,
         "first_frequency_Hz": standing.frequency_hz,
@@ -191,6 +203,8 @@ def stage_sentences(stage: Stage, row: Mapping[str, Any]) -> list[str]:
             f"used most: {row['largest_utilisation']:.0%} by {row['governed_by']}, in {row['between']} at "
             f"[{row['at_x_m']:.1f}, {row['at_y_m']:.1f}, {row['at_z_m']:.1f}] m"
         )
+    if row["cracked"]:
+        sentences.append(f"{row['cracked']} connections have cracked, and hold by their bars")
     sentences.append(factor_in_words(stage.collapse_factor))
     if stage.collapse_factor < 1.0:
         sentences.append(SLOW_COLLAPSE)

@@ -1,4 +1,4 @@
-"""Layers of bars in members, and what of them crosses the faces that shards share."""
+"""Bars in members, in layers or spread, and what of them crosses the faces that shards share."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from ...engineering.elasticity.anchorage import anchorage_length_m, anchored_shares
 from ...engineering.elasticity.bar_rupture import (
     crack_spacing_m,
     mean_strain_at_rupture,
@@ -17,6 +18,7 @@ from ...engineering.elasticity.bar_rupture import (
 )
 from ...engineering.elasticity.steel_bars import Steel
 from ...engineering.geometry.mesh import TriangleMesh
+from ...engineering.geometry.sides import AXES
 from ...engineering.geometry.vectors import dot, length, transformed, transformed_back, unit
 from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.reinforcement import FaceBars
@@ -25,7 +27,8 @@ from ...engineering.structure.connections import Connections
 from ...engineering.structure.face_sections import triangles_in_faces
 from ...errors import ScenarioError
 from ..bridge.member import Member
-from ..materials.bar_layers import AXES, BarLayer, ReinforcedSection
+from ..materials.bar_layers import BarLayer, ReinforcedSection
+from .spread_bars import spread_bars
 
 _LEVEL_M = 1e-9
 """Cuts whose ends are no farther apart along the bars than this are square to these."""
@@ -87,7 +90,7 @@ def layers_of_members(layers: Sequence[BarLayer], members: Sequence[Member]) -> 
                 known = sorted({member.name for member in members} | {member.kind for member in members})
                 raise layer.unexpected("members", f"names or kinds of members, such as {', '.join(known)}")
     for index, member in enumerate(members):
-        own = [layer for layer in layers if {member.name, member.kind} & set(layer.members)]
+        own = [layer for layer in layers if not layer.is_spread and layer.is_in(member.name, member.kind)]
         for axes in sorted({layer.axes for layer in own}):
             yield from _stretches(index, member, [layer for layer in own if layer.axes == axes], axes)
 
@@ -210,13 +213,29 @@ def face_bars(
             corners = member.without_skew(corners)
             along = unit(member.with_skew(np.eye(3)[group.axes[0]]))
             signs = np.where(dot(connections.normals[rows], along) < 0.0, -1.0, 1.0)
-            columns = zip(layer_forces, openings, group.levels_m, group.widths_m, strict=True)
-            for force, opening, level, width in columns:
+            columns = zip(group.layers, layer_forces, openings, group.levels_m, group.widths_m, strict=True)
+            for layer, force, opening, level, width in columns:
                 pulls, positions = _pulls(face, corners, group, level, force / width, len(rows))
+                if not layer.anchored:
+                    held = _anchored(layer, member, tensile_strength_pa(strength.compression_pa), pulls, positions)
+                    pulls, positions = held * pulls, held[:, None] * positions
                 pulled_n[rows] += pulls
                 forces[rows] += (signs * pulls)[:, None] * along
                 by_position[rows] += member.with_skew(positions)
                 by_opening[rows] += (opening if opening_m is None else opening_m) * pulls
+    for spread in spread_bars(layers, members):
+        own = is_within & (of_pair[:, 0] == spread.member)
+        for joint in np.unique(joint_of_connection[own]):
+            strength = joints[joint].strength
+            rows = np.flatnonzero(own & (joint_of_connection == joint))
+            if strength is None or not len(rows):
+                continue
+            pulls = spread.pulls_n(connections.only(rows), factor)
+            opening = spread.opening_m(strength.compression_pa, steel) if opening_m is None else opening_m
+            pulled_n[rows] += pulls
+            forces[rows, spread.along] += np.where(connections.normals[rows, spread.along] < 0.0, -pulls, pulls)
+            by_position[rows] += pulls[:, None] * connections.points[rows]
+            by_opening[rows] += opening * pulls
     has_bars = pulled_n > 0.0
     positions = np.divide(by_position, pulled_n[:, None], out=connections.points.copy(), where=has_bars[:, None])
     axes, yield_n = section_axes(connections.normals), length(forces)
@@ -229,12 +248,30 @@ def face_bars(
     )
 
 
+def _anchored(
+    layer: BarLayer, member: Member, tensile_pa: float, pulls: np.ndarray, positions: np.ndarray
+) -> np.ndarray:
+    """Return the parts (k,) of their forces (k,) that straight bars resist by bond, from there to the member's ends.
+
+    `positions` (k, 3) are those of the bars by their forces, without the skew of the member. Where a layer says itself
+    where it begins or ends, it has its whole strength.
+    """
+    axis = layer.axes[0]
+    along = np.divide(positions[:, axis], pulls, out=np.zeros(len(pulls)), where=pulls > 0.0)
+    of_member = member.without_skew(member.solid.vertices)[:, axis]
+    begin = of_member.min() if layer.from_m is None else -np.inf
+    end = of_member.max() if layer.to_m is None else np.inf
+    length_m = anchorage_length_m(layer.diameter_m, layer.yield_pa, tensile_pa)
+    return anchored_shares(np.minimum(along - begin, end - along), length_m)
+
+
 def within_reinforced(
     layers: Sequence[BarLayer], members: Sequence[Member], member_of_shard: np.ndarray, connections: Connections
 ) -> np.ndarray:
     """Return whether each connection (m,) is between two shards of one member that has bars."""
     of_pair = np.append(member_of_shard, -1)[connections.pairs]
-    reinforced = [group.member for group in layers_of_members(layers, members)]
+    names = [(member.name, member.kind) for member in members]
+    reinforced = [index for index, name in enumerate(names) if any(layer.is_in(*name) for layer in layers)]
     return _are_within(of_pair) & np.isin(of_pair[:, 0], reinforced)
 
 

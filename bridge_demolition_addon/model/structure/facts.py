@@ -2,33 +2,40 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
 
 from ...engineering.elasticity.accuracy import expected_corner_deviation, expected_deviation, spacing_m
+from ...engineering.elasticity.equations import connected_parts
 from ...engineering.elasticity.member_shapes import member_shapes
 from ...engineering.elasticity.section_stiffness import DAMPING_RATIO
 from ...engineering.geometry.overlap import SHARD_OVERLAP_TOLERANCE, Overlaps, hulls, overlaps
+from ...engineering.geometry.sides import AXES, SIDES
 from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE, SMEARED, Strength
+from ...engineering.units import mass_text
 from ..actions import Fact
 from ..bridge.member import Member
-from ..materials.bar_layers import AXES, SIDES
 from ..reinforcement.concrete_members import plain_concrete_text
 from ..reinforcement.design import all_layers
 from ..scenario import ConnectionBetween, ConnectionSettings, Scenario
 from ..scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
 from ..scenario.scenario import bearing_tables
 from ..schema import given
+from .cracking import CrackedBridge, cracked_by_weight
 from .equilibrium import deflection_m, force_utilisations, loads_of, model_at_rest, overloaded
 from .face_bars import layers_of_members
 from .model import Model
+from .punching import punching_of_decks
+from .spread_bars import spread_bars
 
 MOST_SHARDS_COMPARED = 2000
 """Comparing so many shards with their neighbours takes as long as cutting them."""
 
 MOST_PAIRS_NAMED = 5
+MOST_MEMBERS_NAMED = 3
 
 _NO_KIND = "member"
 """Kind of members from files of which the scenario says none: they are named one by one."""
@@ -82,10 +89,23 @@ def connection_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
             yield from _stress_facts(force, scenario, model)
             yield "", "one force for all: the finer the bridge is cut, the stronger it is. To break by the"
             yield "", f'strength of {MATERIAL_OF_LARGE_MODELS} give none, and method "face"'
+    yield from _piece_facts(model)
     yield from _bar_facts(scenario, model)
+    yield from _spread_facts(scenario, model)
+    yield from _punching_facts(scenario, model)
     yield from _rule_facts(scenario)
     yield from _clamping_facts(scenario, model)
     yield from _bearing_facts(scenario, model)
+
+
+def _piece_facts(model: Model) -> Iterator[Fact]:
+    """Yield in how many pieces the bridge is that no connection holds together, if in more than one."""
+    pairs = model.connections.pairs[(model.connections.pairs >= 0).all(axis=1)]
+    pairs = pairs[(pairs < len(model.shards)).all(axis=1)]
+    label = connected_parts(np.ones(len(model.shards), bool), pairs[:, 0], pairs[:, 1])
+    pieces = len(np.unique(label))
+    if pieces > 1:
+        yield "pieces", f"{pieces}, which no connection holds together: they lie on each other by contact alone"
 
 
 def _bar_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
@@ -113,16 +133,45 @@ def _between_text(between_m: tuple[float, float]) -> str:
     return "".join(f" {text}" for text in texts if text)
 
 
+def _spread_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
+    for spread in spread_bars(all_layers(scenario, model.members), model.members):
+        layer, name = spread.layer, model.members[spread.member].name
+        stress_n_mm2 = 1e-6 * scenario.connections.strength_factor * layer.ratio * layer.yield_pa
+        yield "reinforcement", f"{name}, spread along {layer.along}: {stress_n_mm2:.3g} N/mm² of the area across them"
+
+
+def _punching_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
+    ball, strength = scenario.ball, scenario.joints[0].strength
+    if ball is None or ball.cable or strength is None:
+        return
+    layers, strength_pa = all_layers(scenario, model.members), float(strength.compression_pa)
+    for deck in punching_of_decks(layers, model.members, strength_pa, ball.diameter_m):
+        forces = f"{deck.on_point_n / 1000.0:.4g} kN on a point, {deck.on_ball_n / 1000.0:.4g} kN on all of the ball"
+        yield "punching", f"{deck.member}: {forces}"
+        momentum_ns = ball.mass_kg * ball.impact_speed_m_s
+        stopped_ms = 1000.0 * math.pi * momentum_ns / 2.0 / deck.on_ball_n
+        yield "", f"without factors of safety; the ball punches if it stops in less than {stopped_ms:.3g} ms"
+
+
 def rest_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
     """Yield how an elastic bridge stands under its own weight."""
     rest = model_at_rest(model, scenario.joints)
     held = int(rest.held[: len(model.shards)].sum())
     loose = len(model.shards) - held - int(model.fixed.sum())
     broken = int(overloaded(model, rest, scenario.joints).sum())
-    yield "overloaded", f"{broken} of {len(model.connections)} connections, by the bridge's own weight alone"
+    cracked = cracked_by_weight(model, scenario.joints, rest) if broken else None
+    stands = cracked if cracked and not cracked.fallen.any() else None
+    if loose:
+        yield from _loose_facts(model, rest.held[: len(model.shards)], held)
+    if cracked:
+        yield from _crack_facts(cracked)
+    elif held or not loose:
+        of_held = ", where it is held" if loose else ""
+        weight = f"by the bridge's own weight alone{of_held}"
+        yield "overloaded", f"{broken} of {len(model.connections)} connections, {weight}"
     if not scenario.connections.is_elastic:
         yield "", "if they were elastic. Rigid ones share loads otherwise: a run says whether it stands"
-    elif broken:
+    elif broken and not cracked:
         yield "", "they break before anything is done to it, and the bridge may fall by itself"
     used = force_utilisations(model, rest, scenario.joints)
     if by_force := np.count_nonzero(~np.isnan(used)):
@@ -131,18 +180,47 @@ def rest_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
             f"{np.nanmax(used):.1%} used at most, {np.nanmean(used):.1%} in the mean of {by_force}",
         )
         yield "", "by the force or moment of each that is largest, in N or N·m, as Bullet breaks it"
-    if loose:
-        yield "not held", f"{loose} shards, by no connection to a support: they fall, or tremble on others. Bearings"
-        yield "", "would hold them: [[bearings]]"
     if model.bearings and held:
-        for bearing in model.bearings.forces(loads_of(model, rest)):
+        for bearing in model.bearings.forces(stands.loads if stands else loads_of(model, rest)):
             along, across, up = bearing.force_n / 1000.0
             lifted = "" if up else ": it has lifted off"
             yield bearing.name, f"{up:z.1f} kN up, {along:z.1f} kN along, {across:z.1f} kN across{lifted}"
     if held:
-        yield "deflection", f"{1000.0 * deflection_m(model, rest):.2f} mm"
-        yield "first frequency", f"{rest.frequency_hz:.3f} Hz"
+        deflected_m, with_cracks = (
+            (stands.deflection_m, ", with its cracks") if stands else (deflection_m(model, rest), "")
+        )
+        yield "deflection", f"{1000.0 * deflected_m:.2f} mm{with_cracks}"
+        yield "first frequency", f"{rest.frequency_hz:.3f} Hz{', without cracks' if stands else ''}"
         yield "damping", _damping_text(scenario, rest.frequency_hz)
+
+
+def _loose_facts(model: Model, is_held: np.ndarray, held: int) -> Iterator[Fact]:
+    """Yield what no connection to a support holds, and in which members that is most of all."""
+    loose = ~is_held & ~model.fixed
+    mass_kg = float(model.masses_kg[loose].sum())
+    share = mass_kg / float(model.masses_kg[~model.fixed].sum())
+    count = int(loose.sum())
+    how = f"{count} of {count + held} shards, {mass_text(mass_kg).strip()}, {share:.0%} of what can move"
+    yield "does not stand" if not held else "not held", f"{how}, are held by no connection to a support:"
+    by_member = np.bincount(model.member_of_shard[loose], model.masses_kg[loose], minlength=len(model.members))
+    heaviest = [row for row in np.argsort(-by_member, kind="stable")[:MOST_MEMBERS_NAMED].tolist() if by_member[row]]
+    names = ", ".join(model.members[row].name for row in heaviest)
+    more = " and more" if np.count_nonzero(by_member) > len(heaviest) else ""
+    yield "", f"they fall, or tremble on others. Most of it is in {names}{more}. Let members touch what"
+    yield "", "stands, or hold them: [[supports]], [[bearings]]"
+
+
+def _crack_facts(bridge: CrackedBridge) -> Iterator[Fact]:
+    """Yield how a bridge with bars cracks by its own weight, and whether it stands."""
+    cracks = np.count_nonzero(~bridge.intact)
+    yield "cracked", f"{cracks} of {len(bridge.intact)} connections, by the bridge's own weight alone"
+    if bridge.fallen.any():
+        yield "", f"bars do not hold it: {np.count_nonzero(bridge.fallen)} shards come down by themselves"
+        return
+    used = bridge.bars_used
+    if held := np.count_nonzero(np.isfinite(used)):
+        yield "", f"bars hold {held} of them, with {np.nanmax(used):.0%} of the force at which they rupture at most"
+    yield "", "it stands at rest. A run cracks it at once, with a jerk: see docs/stages.md"
 
 
 def _damping_text(scenario: Scenario, frequency_hz: float) -> str:

@@ -20,11 +20,12 @@ from ...engineering.fracture.options import (
 from ...engineering.fracture.seeds import random_points
 from ...engineering.fracture.shards import Fracture, fracture, joined_fractures, voronoi_cells
 from ...engineering.fracture.shared_faces import SharedFaces, joined_faces, touching_faces
+from ...engineering.fracture.slabs import slabs
 from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.solids import contains
 from ...errors import GeometryError
 from ..bridge.member import Member, members_named
-from ..scenario import FractureSettings, Scenario
+from ..scenario import BlastZone, FractureSettings, Scenario
 from ..scenario.fracture import MemberFracture
 from ..schema import SHORTEST_LENGTH_M, given
 from .point_files import paint_from_file, points_from_file
@@ -67,7 +68,11 @@ def fractured_members(scenario: Scenario, members: Sequence[Member]) -> Fracture
             stretch=rule.stretch if rule and rule.stretch else settings.stretch,
             recursion=_recursion(settings),
         )
-        parts.append(_fractured(member, int(counts[index]), own_points[index], int(seeds[index]), options))
+        zones = [zone for zone in scenario.blast_zones if zone.member == member.name]
+        cut = _cut_along_zones(member, zones, own_points[index]) if zones else member
+        # Each part takes one shard at least.
+        count = max(int(counts[index]), len(cut.parts)) if zones else int(counts[index])
+        parts.append(_fractured(cut, count, own_points[index], int(seeds[index]), options))
     shards = tuple(shard for part in parts for shard in part.shards)
     member_of_shard = np.repeat(np.arange(len(members)), [len(part) for part in parts])
     return FracturedMembers(
@@ -131,6 +136,20 @@ def _fractured(member: Member, count: int, points: np.ndarray, seed: int, option
         return fracture(member.solid, count, seed, options)
     except GeometryError as error:
         raise GeometryError(f"{member.name}: {error}") from error
+
+
+def _cut_along_zones(member: Member, zones: Sequence[BlastZone], points: np.ndarray) -> Member:
+    """Return a member whose parts end at the planes of its blast zones, so that no shard lies across one."""
+    if len(points):
+        raise GeometryError(
+            f"{member.name} has blast_zones, along which it is cut, and {len(points)} points of fracture.points or its "
+            "file: take these points out of it"
+        )
+    axis = zones[0].axes[0]
+    planes = [end_m for zone in zones for end_m in zone.ends_along_m]
+    return replace(
+        member, parts=tuple(slab for part in member.parts or (member.solid,) for slab in slabs(part, axis, planes))
+    )
 
 
 def _fractured_in_parts(member: Member, count: int, seed: int, options: FractureOptions) -> Fracture:

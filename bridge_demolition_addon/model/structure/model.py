@@ -27,6 +27,7 @@ from ..schema import given
 from ..terrain.built import BuiltGround, built_ground
 from .bearings import ModelBearings, bearing_connections, have_bearing, placed_bearings, raised_shards
 from .connection_rules import rules_of_pairs
+from .crack_bars import CrackBars, even_bars_n
 from .face_bars import face_bars, within_reinforced
 from .footings import on_footings, second_moments_of, soil_springs, with_soil
 from .members import FracturedMembers, fractured_members, shards_with_gaps
@@ -57,6 +58,8 @@ class Model:
     stiffness, soil, bars, bearings
         None where connections are rigid, where the ground does not settle, without layers of reinforcement, and without
         `[[bearings]]`.
+    crack_bars : CrackBars or None
+        All bars that hold where elastic connections crack, in layers and by `ductile_share`; None without any.
     """
 
     members: tuple[Member, ...]
@@ -74,6 +77,7 @@ class Model:
     soil: SoilSprings | None = None
     bars: FaceBars | None = None
     bearings: ModelBearings | None = None
+    crack_bars: CrackBars | None = None
 
     def thicknesses_m(self) -> np.ndarray:
         """Return the thickness (m,) of the thinner of the members that each connection is between."""
@@ -189,7 +193,25 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
         soil=soil,
         bars=bars,
         bearings=bearings,
+        crack_bars=_crack_bars(scenario, bars, connections, joint_of_connection, bearings) if stiffness else None,
     )
+
+
+def _crack_bars(
+    scenario: Scenario,
+    bars: FaceBars | None,
+    connections: Connections,
+    joint_of_connection: np.ndarray,
+    bearings: ModelBearings | None,
+) -> CrackBars | None:
+    settings = scenario.connections
+    if settings.ductile_share > 0.0:
+        even = even_bars_n(settings, scenario.joints, joint_of_connection, connections.areas)
+        if bearings:
+            even[bearings.springs.rows] = 0.0  # no bars run through a bearing
+        bars = bars or FaceBars.none(len(connections))
+        bars = bars.with_even(even, float(given(settings.ductile_elongation_m)))
+    return CrackBars(bars, scenario.steel) if bars else None
 
 
 def _middles(fractured: FracturedMembers) -> np.ndarray:

@@ -215,6 +215,20 @@ class Lognormal:
 
 
 @dataclass(frozen=True, slots=True)
+class Chance:
+    """True with a probability, otherwise false."""
+
+    probability: float
+
+    @property
+    def tried(self) -> tuple[bool, bool]:
+        return True, False
+
+    def quantile(self, probability: float) -> bool:
+        return probability < self.probability
+
+
+@dataclass(frozen=True, slots=True)
 class Choice:
     """Some values, equally likely."""
 

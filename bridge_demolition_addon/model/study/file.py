@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from os import PathLike, fspath
 from pathlib import Path
 from typing import Any, ClassVar, TypeVar
 
-from ...errors import ScenarioError
+from ...errors import Faults, ScenarioError
 from ..run_folder.files import SCENARIO_FILE
-from ..scenario import Scenario
+from ..scenario import BlastZone, Scenario
 from ..scenario.file import read_scenario, scenario_text
 from ..schema import shown
 from ..toml_tables import document_of_file, table_of_document, tables_text
 from .criteria import Criterion, check_criteria
-from .distributions import Distribution
+from .distributions import Chance, Distribution
 from .files import CONCLUSIONS_FILE, RUNS_FILE, STUDY_FILE
 from .keys import ScenarioKey, changed, keys_named
 from .settings import EnsembleSettings, StudySettings, Vary
@@ -90,9 +90,15 @@ def read_ensemble_file(
     """Read a file of settings, and the scenario that goes with it."""
     path = Path(path)
     try:
-        settings = table_of_document(settings_class, document_of_file(path, description))
+        faults = Faults()
+        document = document_of_file(path, description, faults=faults)
+        with faults.noted():
+            settings = table_of_document(settings_class, document)
+        faults.check()
         return ensemble_of(settings, read_scenario(path.parent / settings.scenario))
-    except (ScenarioError, ValueError) as error:  # a NUL in a path, for one
+    except ScenarioError as error:
+        raise error.within(fspath(path)) from error
+    except ValueError as error:  # a NUL in a path, for one
         raise ScenarioError(f"{fspath(path)}: {error}") from error
 
 
@@ -117,7 +123,16 @@ def variations_of(tables: Sequence[Vary], scenario: Scenario) -> tuple[Variation
         except ScenarioError as error:
             raise ScenarioError(f"[[{Vary.table}]] number {number}: {error}") from error
         variations |= {variation.key.name: variation for variation in added}
-    return tuple(variations.values())
+    misfires = {variation.key.name: variation for variation in _misfires(scenario)}
+    return tuple((misfires | variations).values())
+
+
+def _misfires(scenario: Scenario) -> Iterator[Variation]:
+    """Yield the keys of blast zones that may misfire; a zone that is said not to fire never does."""
+    for number, zone in enumerate(scenario.blast_zones, start=1):
+        if zone.fires and zone.probability_fires < 1.0:
+            (key,) = keys_named(scenario, f"{BlastZone.table}.{number}.fires")
+            yield Variation(key, Chance(zone.probability_fires), factor=False)
 
 
 def _variations(scenario: Scenario, vary: Vary, earlier: dict[str, Variation]) -> list[Variation]:
@@ -139,9 +154,16 @@ def _check_range(scenario: Scenario, variations: list[Variation]) -> None:
         try:
             changed(scenario, values)
         except ScenarioError as error:
-            key, value = next(iter(values.items()))
-            first = f"{key.name} = {shown(value)}"
             raise ScenarioError(
-                f"the value may come to {first}, which the scenario cannot have: {error}. Set lowest and highest, or "
-                "take another distribution"
+                f"{_impossible(*next(iter(values.items())), str(error))}; set lowest and highest, or take another "
+                "distribution"
             ) from error
+
+
+def _impossible(key: ScenarioKey, value: Any, reason: str) -> str:
+    """Return that a value may be sampled which the scenario cannot have, and name key and value once."""
+    sampled = f"a run may sample {key.name} = {f'{value:.6g}' if isinstance(value, float) else shown(value)}"
+    of_key = f"{key.name} is {shown(value)}: "
+    if reason.startswith(of_key):
+        return f"{sampled}: {reason.removeprefix(of_key)}"
+    return f"{sampled}, which the scenario cannot have: {reason}"

@@ -13,6 +13,7 @@ from ...engineering.blast.pulses import BlastModel
 from ...engineering.geometry.plan_areas import outlines
 from ...errors import OutputError
 from ..blast.receptors import loads_at
+from ..bridge.preparation import prepared_members
 from ..debris.footprint import bodies_that_moved, footprint, plan_hulls, reaches_on_the_way, swept_footprint
 from ..debris.throws import debris_of
 from ..debris.touchdown import landings, shaking_at
@@ -21,6 +22,7 @@ from ..results.arrays import Results
 from ..results.collapse import Span, collapse_progress, spans_of
 from ..results.motion import relative_to_ground, without_removed
 from ..scenario import Scenario
+from ..structure.charge_plan import AtNeighbour, neighbours_of_zones
 from .criteria import COLLAPSED, Criterion, neighbour_output, span_output, zone_output
 
 SUCCESS = "success"
@@ -143,13 +145,25 @@ def _surroundings(results: Results, scenario: Scenario, bodies: np.ndarray) -> d
         outputs[zone_output(zone.name, "bodies_entered")] = len(watched.entries)
     charges = [charge for charge in scenario.charges if charge.mass_kg > 0.0] if scenario.blast.explosion else []
     model, landed = BlastModel(scenario.blast.model), landings(results)
+    of_holes = _of_drilled_charges(scenario)
     for neighbour in scenario.neighbours:
         loads = loads_at(neighbour.place_m, charges, model, scenario.blast.pressure_factor) if charges else None
-        outputs[neighbour_output(neighbour.name, "pressure_kPa")] = loads.peak_pa / 1e3 if loads else 0.0
-        outputs[neighbour_output(neighbour.name, "vibration_mm_s")] = loads.peak_velocity_m_s * 1e3 if loads else 0.0
+        peak_pa, velocity_m_s = (loads.peak_pa, loads.peak_velocity_m_s) if loads else (0.0, 0.0)
+        if drilled := of_holes.get(neighbour.name):
+            peak_pa, velocity_m_s = max(peak_pa, drilled.pressure_pa), max(velocity_m_s, drilled.velocity_m_s)
+        outputs[neighbour_output(neighbour.name, "pressure_kPa")] = peak_pa / 1e3
+        outputs[neighbour_output(neighbour.name, "vibration_mm_s")] = velocity_m_s * 1e3
         shaking = shaking_at(neighbour.place_m, landed)
         outputs[neighbour_output(neighbour.name, "touchdown_mm_s")] = shaking.velocity_m_s * 1e3 if shaking else 0.0
     return outputs
+
+
+def _of_drilled_charges(scenario: Scenario) -> dict[str, AtNeighbour]:
+    """Return what blast zones do at each neighbour, by its name; nothing where none can fire."""
+    if not (scenario.blast_zones and scenario.neighbours and scenario.blast.explosion):
+        return {}
+    found = neighbours_of_zones(scenario, prepared_members(scenario).members)
+    return {at.neighbour.name: at for at in found}
 
 
 def _outlines(results: Results, hazards: np.ndarray, plan: CrossSection) -> Outlines:

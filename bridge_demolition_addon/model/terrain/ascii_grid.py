@@ -15,12 +15,15 @@ _MOST_BYTES = 500 * MEGABYTE
 _NO_DATA = -9999.0
 """What stands for no data where the header does not say (ESRI, *ArcGIS*, ASCII raster format)."""
 
+_NO_NUMBERS = ("nan", "inf", "infinity")
+"""Heights that are written with letters, as GDAL does where there are no data."""
+
 _EXPECTED = "expected ncols, nrows, xllcorner and yllcorner (or xllcenter and yllcenter), and cellsize"
 
 
 def read_ascii_grid(path: Path, no_data: float | None) -> Raster:
     """Read a grid; a `GeometryError` says what is wrong with it, without the name of the file."""
-    header, numbers = _header_and_rest(file_text(path, _MOST_BYTES))
+    header, numbers = _header_and_rest(_with_points(file_text(path, _MOST_BYTES)))
     columns, rows = (_count(header, name) for name in ("ncols", "nrows"))
     dx, dy = (_number(header, name, "cellsize") for name in ("dx", "dy"))
     if dx <= 0.0 or dy <= 0.0:
@@ -32,9 +35,14 @@ def read_ascii_grid(path: Path, no_data: float | None) -> Raster:
     if len(heights) != rows * columns:
         raise GeometryError(f"holds {len(heights)} heights: expected {rows} rows of {columns}")
     unknown = header.get("nodata_value", _NO_DATA) if no_data is None else no_data
-    heights = np.where(heights == unknown, np.nan, heights).reshape(rows, columns)[::-1]
+    heights = np.where((heights == unknown) | ~np.isfinite(heights), np.nan, heights).reshape(rows, columns)[::-1]
     first = [_first(header, axis, step) for axis, step in (("x", dx), ("y", dy))]
     return Raster(np.array(first), np.array([dx, dy]), heights)
+
+
+def _with_points(text: str) -> str:
+    """Return a grid with decimal points where it has decimal commas."""
+    return text.replace(",", ".") if "," in text and "." not in text else text
 
 
 def _header_and_rest(text: str) -> tuple[dict[str, float], str]:
@@ -44,10 +52,10 @@ def _header_and_rest(text: str) -> tuple[dict[str, float], str]:
         end = text.find("\n", position)
         end = len(text) if end < 0 else end
         words = text[position:end].split()
-        if words and not words[0][0].isalpha():
+        if words and (not words[0][0].isalpha() or words[0].lower() in _NO_NUMBERS):
             break
         if words:
-            if len(words) != 2 or words[0].lower() == "nan":
+            if len(words) != 2:
                 raise GeometryError(f"has no header of a grid: {_EXPECTED}")
             try:
                 header[words[0].lower()] = float(words[1])

@@ -130,7 +130,7 @@ def _cut(
     worst = int(errors.argmax()) if len(errors) else 0
     heights = surface.mesh.vertices[:, 2]
     facts = TerrainFacts(
-        name=terrain.name,
+        name="; ".join((terrain.name, *terrain.notes)),
         heights=len(points),
         triangles=len(surface.mesh.triangles),
         step_m=grid.step_m,

@@ -10,6 +10,7 @@ import numpy as np
 from ...engineering.terrain.raster import Raster
 from ...errors import GeometryError
 from ...system.reading import MEGABYTE, check_file
+from .file_heights import FileHeights
 
 _MOST_BYTES = 1000 * MEGABYTE
 
@@ -25,10 +26,10 @@ _FEET = {9002: 0.3048, 9003: 0.304800609601}
 """Units of length by their codes of EPSG: the international foot, and that of US surveys."""
 
 
-def read_geotiff(path: Path, no_data: float | None, scale: float) -> Raster:
+def read_geotiff(path: Path, no_data: float | None, scale: float) -> FileHeights:
     """Read the heights of a GeoTIFF; `scale` is what the user takes for metres in one unit of the file.
 
-    A `GeometryError` says what is wrong: no height model, in degrees, or in feet that the scale does not know of.
+    A `GeometryError` says what is wrong: no height model, in degrees, or in a unit that is not known.
     """
     check_file(path, _MOST_BYTES)
     import tifffile  # no other ground needs it
@@ -54,7 +55,9 @@ def read_geotiff(path: Path, no_data: float | None, scale: float) -> Raster:
         # Compared in the kind of number that the file has: -3.4028235e38 of single precision is another in double.
         heights[values.reshape(heights.shape) == _in_kind(unknown, values.dtype)] = np.nan
     rows = len(heights)
-    return Raster(np.array([first[0], first[1] - steps[1] * (rows - 1)]), steps, heights[::-1])
+    raster = Raster(np.array([first[0], first[1] - steps[1] * (rows - 1)]), steps, heights[::-1])
+    unit_m = _FEET.get(int(keys.get("ProjLinearUnitsGeoKey", _METRE)))
+    return FileHeights(raster, unit_m or 1.0, "feet" if unit_m else "")
 
 
 def _tags_in(page: Any) -> list[int]:
@@ -74,14 +77,15 @@ def _check_kind(page: Any) -> None:
 
 
 def _check_units(keys: dict[str, Any], scale: float) -> None:
-    if int(keys.get("GTModelTypeGeoKey", 0)) == _GEOGRAPHIC:
+    is_projected = "ProjectedCSTypeGeoKey" in keys
+    if int(keys.get("GTModelTypeGeoKey", 0)) == _GEOGRAPHIC or (
+        "GeographicTypeGeoKey" in keys and not is_projected and "ProjLinearUnitsGeoKey" not in keys
+    ):
         raise GeometryError("is in degrees: project it to a map in metres first, such as UTM")
     unit = int(keys.get("ProjLinearUnitsGeoKey", _METRE))
     vertical = int(keys.get("VerticalUnitsGeoKey", unit))
     if vertical != unit:
         raise GeometryError("has heights in another unit than distances: convert the one into the other first")
-    if unit in _FEET and scale == 1.0:
-        raise GeometryError(f"is in feet: set ground.scale to {_FEET[unit]:.12g}")
     if unit != _METRE and unit not in _FEET and scale == 1.0:
         raise GeometryError(f"is in a unit of length with the EPSG code {unit}: set ground.scale to it, or use metres")
 
@@ -90,6 +94,10 @@ def _placing(tags: dict[int, Any], keys: dict[str, Any]) -> tuple[np.ndarray, np
     """Return easting and northing of the north-western height, and the steps between heights."""
     if _TRANSFORMATION in tags:
         matrix = np.asarray(tags[_TRANSFORMATION], float).reshape(4, 4)
+        if not keys and not matrix[:2, 3].any():
+            raise GeometryError(
+                "does not say where it lies: give it its corners on a map, as gdal_edit.py -a_ullr does"
+            )
         if matrix[0, 1] or matrix[1, 0] or matrix[0, 0] <= 0.0 or matrix[1, 1] >= 0.0:
             raise GeometryError("is turned against north: resample it to rows from west to east first")
         corner, steps = matrix[:2, 3], np.array([matrix[0, 0], -matrix[1, 1]])
@@ -98,7 +106,7 @@ def _placing(tags: dict[int, Any], keys: dict[str, Any]) -> tuple[np.ndarray, np
         tie = np.asarray(tags[_TIE_POINT], float)[:6]
         corner = tie[3:5] - tie[:2] * steps * (1.0, -1.0)
     else:
-        raise GeometryError("is no GeoTIFF: it does not say where its pixels lie")
+        raise GeometryError("is no GeoTIFF: it does not say where it lies")
     if not (np.isfinite(steps).all() and (steps > 0.0).all() and np.isfinite(corner).all()):
         raise GeometryError("does not say how large its pixels are")
     if int(keys.get("GTRasterTypeGeoKey", 1)) != _PIXEL_IS_POINT:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fnmatch import fnmatchcase
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -11,15 +12,19 @@ from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.terrain.surface import Surface
 from ...errors import GeometryError
 from ...system.reading import MEGABYTE, check_file
+from .file_heights import FileHeights
 
 _MOST_BYTES = 300 * MEGABYTE
+
+_FEW_LOST, _LOST_SHARE = 3, 0.01
+"""Triangles without their points that a surface may have: so many, or such a part of all."""
 
 _FEET = {"foot": 0.3048, "USSurveyFoot": 0.304800609601}
 _METRES = {"millimeter": 0.001, "centimeter": 0.01, "kilometer": 1000.0}
 
 
-def read_landxml(path: Path, scale: float) -> Surface:
-    """Read the one surface of a file; `scale` is what the user takes for metres in one unit of it."""
+def read_landxml(path: Path, name: str | None = None) -> FileHeights:
+    """Read the one surface of a file, or that of a name, with ``*`` for any letters."""
     check_file(path, _MOST_BYTES)
     try:
         root = ElementTree.parse(path).getroot()
@@ -27,20 +32,29 @@ def read_landxml(path: Path, scale: float) -> Surface:
         raise GeometryError(f"cannot be read as LandXML: {error}") from error
     if _name(root) != "LandXML":
         raise GeometryError(f"is no LandXML: it begins with {_name(root)!r}")
-    _check_units(root, scale)
     surfaces = [
         (surface, definition)
         for surface in root.iter()
         if _name(surface) == "Surface" and (definition := _child(surface, "Definition")) is not None
     ]
+    names = ", ".join(repr(surface.get("name", "")) for surface, _ in surfaces)
+    if name is not None:
+        found = [one for one in surfaces if fnmatchcase(one[0].get("name", "").casefold(), name.casefold())]
+        if len(found) != 1:
+            raise GeometryError(
+                f"holds {len(found)} surfaces that ground.surface = {name!r} names, of {names or 'none'}"
+            )
+        surfaces = found
     if len(surfaces) != 1:
-        names = ", ".join(repr(surface.get("name", "")) for surface, _ in surfaces)
         problem = f"holds {len(surfaces)} surfaces, {names}" if surfaces else "holds no surface"
-        raise GeometryError(f"{problem}: expected one; export it alone")
-    return Surface(_triangles(surfaces[0][1]))
+        raise GeometryError(f"{problem}: expected one; say which by ground.surface")
+    mesh, notes = _triangles(surfaces[0][1])
+    unit, unit_m = _unit(root)
+    return FileHeights(Surface(mesh), unit_m, unit, notes)
 
 
-def _triangles(definition: ElementTree.Element) -> TriangleMesh:
+def _triangles(definition: ElementTree.Element) -> tuple[TriangleMesh, tuple[str, ...]]:
+    """Return the triangles of a surface, and notes on those that name points that are not there."""
     points, faces = _child(definition, "Pnts"), _child(definition, "Faces")
     if points is None or faces is None:
         raise GeometryError("its surface has no triangles: expected Pnts and Faces, as of a TIN")
@@ -48,24 +62,39 @@ def _triangles(definition: ElementTree.Element) -> TriangleMesh:
         positions = {point.get("id"): [float(value) for value in (point.text or "").split()] for point in points}
         rows = {name: row for row, name in enumerate(positions)}
         visible = [face for face in faces if face.get("i") != "1"]
-        corners = [[rows[name] for name in (face.text or "").split()] for face in visible]
+        named = [(face.text or "").split() for face in visible]
+        lost = [number for number, names in enumerate(named, start=1) if not rows.keys() >= set(names)]
+        if len(lost) > max(_FEW_LOST, _LOST_SHARE * len(named)):
+            face = " ".join(named[lost[0] - 1])
+            raise GeometryError(
+                f"its surface is damaged: {len(lost)} of {len(named)} triangles name points that are not there, first "
+                f"number {lost[0]}, <F>{face}</F>; export it again"
+            )
+        if named and len(lost) == len(named):
+            raise GeometryError("its surface has no triangles: all of them name points that are not there")
+        corners = [[rows[name] for name in names] for names in named if rows.keys() >= set(names)]
         vertices, triangles = np.array(list(positions.values()), float), np.array(corners, np.int64)
     except (KeyError, ValueError) as error:
         raise GeometryError(f"its surface is damaged: a point or triangle is none ({error})") from error
     if not len(triangles) or vertices.ndim != 2 or vertices.shape[1] != 3 or triangles.shape[1] != 3:
         raise GeometryError("its surface has no triangles: expected three numbers in each P and each F")
-    return TriangleMesh(vertices[:, [1, 0, 2]], triangles)
+    if not np.isfinite(vertices).all():
+        raise GeometryError("its surface is damaged: a point has no position; export it again")
+    notes: tuple[str, ...] = ()
+    if lost:
+        notes = (f"{len(lost)} of {len(named)} triangles name points that are not there: left out",)
+    return TriangleMesh(vertices[:, [1, 0, 2]], triangles), notes
 
 
-def _check_units(root: ElementTree.Element, scale: float) -> None:
+def _unit(root: ElementTree.Element) -> tuple[str, float]:
+    """Return the unit of lengths of a file that is not in metres, and the metres in it."""
     for units in root.iter():
         if _name(units) not in ("Metric", "Imperial"):
             continue
         unit = units.get("linearUnit", "")
         metres = (_METRES | _FEET).get(unit)
-        if metres is not None and scale == 1.0:
-            raise GeometryError(f"is in {unit}: set ground.scale to {metres:.12g}")
-        return
+        return (unit, metres) if metres is not None else ("", 1.0)
+    return "", 1.0
 
 
 def _child(element: ElementTree.Element, name: str) -> ElementTree.Element | None:

@@ -16,6 +16,7 @@ from ...engineering.terrain.raster import Raster
 from ...engineering.terrain.surface import Surface
 from ...errors import GeometryError
 from ..scenario import Ground, Scenario
+from .file_heights import FileHeights
 from .files import read_surface, read_terrain
 
 _LOWEST_M, _HIGHEST_M = -1_000.0, 9_000.0
@@ -37,13 +38,17 @@ class Placing:
     scale: float
 
     @classmethod
-    def of(cls, scenario: Scenario) -> Placing:
+    def of(cls, scenario: Scenario, unit_m: float = 1.0) -> Placing:
+        """Return the placing of a file in a scenario, with the metres in the unit that it says.
+
+        That counts where the user gives no scale.
+        """
         ground = scenario.ground
         bearing = ground.bearing_deg
         if bearing is None:
             bearing = scenario.site.bearing_deg if scenario.site else _EAST_DEG
         turn = np.eye(2) if bearing == _EAST_DEG else turn_in_plane(math.radians(bearing - _EAST_DEG))
-        return cls(np.array(ground.origin or (0.0, 0.0, 0.0)), turn, ground.scale)
+        return cls(np.array(ground.origin or (0.0, 0.0, 0.0)), turn, unit_m if ground.scale == 1.0 else ground.scale)
 
     def to_scenario(self, points: np.ndarray) -> np.ndarray:
         """Return positions (n, 3) of the file in the scenario, m."""
@@ -62,6 +67,7 @@ class Terrain:
     name: str
     source: Raster | Surface
     placing: Placing
+    notes: tuple[str, ...] = ()
 
     @property
     def spacing_m(self) -> float | None:
@@ -91,20 +97,22 @@ def terrain_of(scenario: Scenario) -> Terrain | None:
     ground = scenario.ground
     if ground.file is None:
         return None
-    source = _read_once(ground.file, ground, _state_of(ground.file))
-    terrain = Terrain(Path(ground.file).name, source, Placing.of(scenario))
+    read = _read_once(ground.file, ground, _state_of(ground.file))
+    in_unit = (f"in {read.unit}, as it says: {read.unit_m:.7g} m",) if read.unit and ground.scale == 1.0 else ()
+    notes = (*in_unit, *read.notes)
+    terrain = Terrain(Path(ground.file).name, read.source, Placing.of(scenario, read.unit_m), notes)
     _check_heights(terrain)
     return terrain
 
 
 def surface_mesh(scenario: Scenario, name: str) -> TriangleMesh:
     """Return the mesh of a surface's file in the scenario."""
-    mesh = read_surface(name, scenario.ground)
-    return TriangleMesh(Placing.of(scenario).to_scenario(mesh.vertices), mesh.triangles)
+    mesh, unit_m = read_surface(name, scenario.ground)
+    return TriangleMesh(Placing.of(scenario, unit_m).to_scenario(mesh.vertices), mesh.triangles)
 
 
 @lru_cache(maxsize=1)
-def _read_once(name: str, ground: Ground, _state: tuple[int, int]) -> Raster | Surface:
+def _read_once(name: str, ground: Ground, _state: tuple[int, int]) -> FileHeights:
     """Read a file once until it changes, as the piers, the ground and the view all ask for it."""
     return read_terrain(name, ground)
 

@@ -24,14 +24,22 @@ _CELLS_PER_POINT = 3
 """Cells of a grid for each point on it, fewer than that: what is left out of it has no data."""
 
 
+_FEWEST_COLUMNS = 3
+
+
 def read_points(path: Path, no_data: float | None) -> Raster | Surface:
     """Read points: as a grid where they lie on one, else with the triangles of Delaunay between them."""
-    points = _numbers(file_text(path, _MOST_BYTES))
+    points = point_rows(path)
     if no_data is not None:
         points = points[points[:, 2] != no_data]
     if len(points) < 3:
         raise GeometryError(f"holds {len(points)} points: expected at least 3")
     return on_grid(points) or triangulated(points)
+
+
+def point_rows(path: Path) -> np.ndarray:
+    """Return the points (n, 3) of a file of lines."""
+    return _numbers(file_text(path, _MOST_BYTES))
 
 
 def on_grid(points: np.ndarray) -> Raster | None:
@@ -65,6 +73,7 @@ def triangulated(points: np.ndarray) -> Surface:
 
 
 def _numbers(text: str) -> np.ndarray:
+    text = _with_points(text)
     for separator in ",;\t":
         text = text.replace(separator, " ")
     lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
@@ -83,6 +92,14 @@ def _numbers(text: str) -> np.ndarray:
     if not np.isfinite(points[:, :2]).all():
         raise GeometryError("a point has no position: expected numbers for x and y")
     return points[np.isfinite(points[:, 2])]
+
+
+def _with_points(text: str) -> str:
+    """Return lines with decimal points where they have decimal commas, beside other separators."""
+    lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
+    last = lines[-1].strip() if lines else ""
+    is_apart = ";" in last or "\t" in last or len(last.replace(", ", ",").split()) >= _FEWEST_COLUMNS
+    return text.replace(",", ".") if is_apart and "," in last and "." not in last else text
 
 
 def _are_numbers(line: str) -> bool:

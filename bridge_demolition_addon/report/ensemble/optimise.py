@@ -14,8 +14,8 @@ from ...model.optimise.file import Optimisation
 from ...model.optimise.rounds import CONFIRMATION
 from ...model.study.runs_table import RunsTable
 from ...system.progress import Progress
+from ...version import VERSION
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Report, Section
-from ..sections.cover import add_on_version
 from ..wording.numbers import percent
 from ..wording.optimise import optimise_sentences
 from .document import ensemble_document, statement_section, unfinished_sentence
@@ -55,7 +55,7 @@ def _candidates(optimisation: Optimisation, table: RunsTable) -> dict[str, Any]:
 
 def optimise_report(runs: TriedCandidates, _target: Path, _progress: Progress) -> Report:
     """Return the report of an optimisation."""
-    version, best, optimisation = add_on_version(), runs.best, runs.ensemble
+    version, best, optimisation = VERSION, runs.best, runs.ensemble
     sentences = optimise_sentences(best) if best else [unfinished_sentence(runs, optimisation.settings.runs)]
     statement = statement_section(runs, version, sentences, _asked(optimisation, runs), _warnings(best))
     pictures = [_winner_section(best)] if best else []

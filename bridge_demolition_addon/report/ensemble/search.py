@@ -10,8 +10,8 @@ from pathlib import Path
 from ...charts.ensemble_charts import search_curve
 from ...model.search.conclusions import Answer, answer_of
 from ...system.progress import Progress
+from ...version import VERSION
 from ..document.blocks import Column, DataTable, Paragraph, Picture, Report, Section
-from ..sections.cover import add_on_version
 from ..wording.numbers import percent
 from ..wording.search import search_sentences
 from .document import ensemble_document, statement_section, unfinished_sentence
@@ -38,7 +38,7 @@ def read_answer(folder: Path) -> SearchAnswer:
 
 def search_report(runs: SearchAnswer, _target: Path, _progress: Progress) -> Report:
     """Return the report of a search."""
-    version, answer = add_on_version(), runs.answer
+    version, answer = VERSION, runs.answer
     sentences = search_sentences(answer)
     if answer.ended_as is None:
         sentences = [unfinished_sentence(runs, answer.search.settings.trials), *sentences]

@@ -12,8 +12,8 @@ from ...engineering.statistics.order_limits import limits_by_runs
 from ...model.study.conclusions import SimultaneousLimits
 from ...model.study.files import PLAN_DXF, PLAN_GEOJSON
 from ...system.progress import Progress
+from ...version import VERSION
 from ..document.blocks import Block, Column, DataTable, Document, Paragraph, Picture, Report, Section
-from ..sections.cover import add_on_version
 from ..site_plan import write_areas
 from ..wording.numbers import ordinal, percent, rounded_up
 from ..wording.study import study_sentences
@@ -35,7 +35,7 @@ def study_report(runs: StudyRuns, target: Path, progress: Progress) -> Report:
     """Return the report of a study, and write its site plans."""
     progress.stage("evaluating the runs")
     plans = write_areas(layers(runs), runs.ensemble.scenario.site, target / PLAN_DXF, target / PLAN_GEOJSON)
-    document = study_document(runs, add_on_version(), [path.name for path in plans])
+    document = study_document(runs, VERSION, [path.name for path in plans])
     return Report(document, (correlation_table(runs),), tuple(plans))
 
 

@@ -7,6 +7,7 @@ from functools import partial
 import numpy as np
 
 from ...charts.histories import energy_history, progress_history, span_heights
+from ...engineering.mechanics.work import FrameWork
 from ...model.results.arrays import Results
 from ...model.results.collapse import REST_SPEED_M_S, ShardRest, Span, collapse_progress, rest_of, spans_of
 from ...model.results.energy import Energy, energy_of
@@ -71,6 +72,7 @@ def _solver_blocks(results: Results) -> list[Block]:
         ("by contacts pushed apart", f"{np.nansum(work.made_by_contacts_j) / 1e3:.1f} kJ"),
         ("by bodies moved out of each other", f"{np.nansum(work.made_by_lifting_j) / 1e3:.1f} kJ"),
         ("Dissipated between bodies", f"{np.nansum(work.dissipated_j) / 1e6:.3f} MJ"),
+        *_in_cracks(work),
         ("Work of gravity", f"{np.nansum(work.gravity_j) / 1e6:.3f} MJ"),
         ("Work of blast and other loads", f"{np.nansum(work.loads_j) / 1e6:.3f} MJ"),
         ("Work of tools", f"{np.nansum(work.tools_j) / 1e6:.3f} MJ"),
@@ -83,6 +85,13 @@ def _solver_blocks(results: Results) -> list[Block]:
         )
         blocks.insert(1, Paragraph(warning, is_notice=True))
     return blocks
+
+
+def _in_cracks(work: FrameWork) -> list[tuple[str, str]]:
+    """Return the parts of what was dissipated in cracks that bars cross; none where there were none."""
+    parts = (("by bars that yielded", work.yielding_j), ("by sides of their cracks", work.crack_friction_j))
+    sums = [(name, float(np.nansum(of_frames_j))) for name, of_frames_j in parts]
+    return [(name, f"{total_j / 1e6:.3f} MJ") for name, total_j in sums if total_j > 0.0]
 
 
 def _course(rest: ShardRest, progress: np.ndarray) -> list[tuple[str, str]]:

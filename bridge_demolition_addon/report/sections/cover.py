@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterator
-from importlib.metadata import PackageNotFoundError
-from importlib.metadata import version as version_of
-from pathlib import Path
 
 import numpy as np
 
@@ -20,12 +16,10 @@ from ...model.results.motion import without_removed
 from ...model.run_folder.summary import RunSummary
 from ...model.scenario import Scenario
 from ...model.scenario.contact_facts import contact_facts
+from ...model.sequence.undisturbed import asleep_text
 from ..document.blocks import Block, Listing, Paragraph, Photo, Section, facts
 from ..findings import IMPACT, findings
 from ..run_folder import ReportedRun
-
-_MANIFESTS = tuple(Path(__file__).parents[level] / "blender_manifest.toml" for level in (2, 3))
-"""Of an extension inside Blender, and of the project's own folder."""
 
 SOURCES = (
     ("Motion, contacts and connections", "Bullet, the rigid-body engine in Blender, stepped as this report says"),
@@ -65,15 +59,6 @@ ONE_RUN = (
     "One run is one possible course of events. Another seed, another number of shards or another strength shows how "
     "much of it is chance: run a study before relying on a distance."
 )
-
-
-def add_on_version() -> str:
-    """Return the version of this program."""
-    try:
-        return version_of("bridge-demolition-addon")
-    except PackageNotFoundError:  # an extension inside Blender, or a plain copy
-        found = [path for path in _MANIFESTS if path.is_file()]
-        return str(tomllib.loads(found[0].read_text(encoding="utf-8"))["version"]) if found else "unknown"
 
 
 def cover_section(run: ReportedRun, version: str, debris: Debris | None) -> Section:
@@ -174,6 +159,8 @@ def _doubts(run: ReportedRun) -> Iterator[str]:
     results = run.recorded
     if len(results.frames) < 2:
         yield "Only one frame was recorded: nothing has moved yet, and there are no forces."
+    if run.scenario and (asleep := asleep_text(run.scenario)):
+        yield f"{asleep}."
     rest = rest_of(results)
     if rest.moving_at_end:
         yield (

@@ -15,6 +15,7 @@ from ...model.results.force_history import breaking_by_kind, contact_forces, mos
 from ...model.run_folder.logs import LoggedForces
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section
 from ..run_folder import ReportedRun
+from .bars import bar_blocks
 from .bearings import bearing_blocks
 
 _BEYOND_THE_FORCE = (
@@ -44,6 +45,7 @@ def force_section(run: ReportedRun) -> Section:
             _loaded_bodies(results),
             _loaded_connections(results),
             *bearing_blocks(run),
+            *bar_blocks(run),
         ]
         if run.scenario and run.scenario.connections.breaking_force_newton is not None:
             blocks.append(Paragraph(_BEYOND_THE_FORCE))

@@ -84,5 +84,5 @@ def _row(row: ScheduledBars | ScheduledLinks) -> tuple[str | float | None, ...]:
     shown: tuple[str | float | None, ...] = "links", "", None, None, None, row_area(row)
     if isinstance(row, ScheduledBars):
         layer = row.layer
-        shown = layer.side, layer.along, layer.from_m, layer.to_m, 1e3 * layer.depth_m, row_area(row)
+        shown = layer.side, layer.along, layer.from_m, layer.to_m, 1e3 * given(layer.depth_m), row_area(row)
     return named_text(row), *shown, row.bars_text, *numbers, row.reason

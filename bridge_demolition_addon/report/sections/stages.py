@@ -13,6 +13,7 @@ from typing import Any
 from ...engineering.units import mass_text
 from ...errors import OutputError, UnreadableError
 from ...model.stages.bearing_rows import BEARING_COLUMNS, BEARINGS_FILE
+from ...model.stages.misfires import MISFIRE_COLUMNS, MISFIRES_FILE
 from ...model.stages.tables import (
     CRITICALITY_COLUMNS,
     CRITICALITY_FILE,
@@ -24,9 +25,9 @@ from ...model.stages.tables import (
 )
 from ...system.progress import Progress
 from ...system.reading import MEGABYTE, file_text
+from ...version import VERSION
 from ..document.blocks import Block, Column, DataTable, Document, Paragraph, Report, Section
 from ..run_folder import shown_name
-from .cover import add_on_version
 
 _MOST_BYTES = 10 * MEGABYTE
 _WORDS = (
@@ -68,6 +69,17 @@ _BEARINGS = (
     "Bearings: least and largest forces (kN) on what lies above them over the stages, z upwards. They go on into the "
     "supports, and are no part of their sum"
 )
+_MISFIRES = (
+    "The bridge at rest after all changes but one blast zone: masses of what connections to supports held at first. A "
+    "bridge that stands on charges that did not fire must not be approached."
+)
+_MISFIRE = (
+    Column("Fails", "fails", "", lambda row: row["fails"]),
+    Column("come down (t)", "falls_t", ".1f", significant=3, value=lambda row: float(row["falls_kg"]) / 1e3),
+    Column("of what was held", "falls_share", ".0%", lambda row: float(row["falls_share"])),
+    Column("stand (t)", "stands_t", ".1f", significant=3, value=lambda row: float(row["stands_kg"]) / 1e3),
+    Column("Members that stand", "members_that_stand", "", lambda row: row["members_that_stand"] or None),
+)
 _OF_BEARINGS = "Bearings: least and largest moments (kN·m) about the middle of their axes"
 
 
@@ -78,13 +90,14 @@ def has_stages(folder: Path) -> bool:
 
 def stages_report(folder: Path, _target: Path, _progress: Progress) -> Report:
     """Return the report of stages alone."""
-    subtitle = f"Report of the stages of a demolition. Bridge Demolition Add-on {add_on_version()}"
+    subtitle = f"Report of the stages of a demolition. Bridge Demolition Add-on {VERSION}"
     return Report(Document(shown_name(folder), subtitle, (stages_section(folder),)))
 
 
 def stages_section(folder: Path) -> Section:
     """Return what the tables of stages in a folder say."""
-    stages = _rows(folder / STAGES_FILE, STAGE_COLUMNS)
+    always = [name for name in STAGE_COLUMNS if name != "cracked"]  # which earlier versions did not write
+    stages = _rows(folder / STAGES_FILE, always)
     members = _rows(folder / CRITICALITY_FILE, CRITICALITY_COLUMNS)
     try:
         table = DataTable.of("stages", "Stages", _COLUMNS, stages)
@@ -106,7 +119,21 @@ def stages_section(folder: Path) -> Section:
             Column("of the bridge", "share_of_the_bridge", ".0%"),
         )
         blocks.append(DataTable("criticality", "Members that hold others", columns, critical))
+    blocks += _misfire_blocks(folder)
     return Section("Stages", tuple(blocks))
+
+
+def _misfire_blocks(folder: Path) -> list[Block]:
+    """Return what stands if a blast zone fails; nothing without zones, or where an earlier version wrote the tables."""
+    path = folder / MISFIRES_FILE
+    rows = _rows(path, MISFIRE_COLUMNS, may_be_empty=True) if path.is_file() else []
+    if not rows:
+        return []
+    try:
+        table = DataTable.of("misfires", "What stands if a blast zone fails", _MISFIRE, rows)
+    except ValueError as error:
+        raise _damaged(path, error) from error
+    return [Paragraph(_MISFIRES), table]
 
 
 def _reaction_blocks(folder: Path) -> list[Block]:

@@ -13,7 +13,9 @@ from .numbers import listed, ordinal, percent, percent_down, percent_up, rounded
 
 def input_names(ensemble: Ensemble) -> list[str]:
     """Return what varies, as a study names it: a key of all tables of a list only once."""
-    return [vary.key for vary in ensemble.settings.vary] + ["the seed of the fracture"]
+    zones = ensemble.scenario.blast_zones
+    misfires = ["which blast zones fire"] if any(zone.probability_fires < 1.0 for zone in zones) else []
+    return [*(vary.key for vary in ensemble.settings.vary), *misfires, "the seed of the fracture"]
 
 
 def study_sentences(study: Study, conclusions: Conclusions) -> Iterator[str]:

@@ -12,6 +12,7 @@ import bpy
 
 from ...errors import OutputError
 from ...model.scenario.recording import PictureSettings
+from ...system.native_output import without_noise
 from .stills import IMAGE_SETTINGS, put_back_afterwards, rendered_to, seen_from
 
 _RENDERER = "BLENDER_WORKBENCH"
@@ -71,7 +72,7 @@ def encode_film(pictures: Sequence[Path], film: Path, pictures_per_second: float
         scene.render.resolution_percentage = 100
         scene.view_settings.view_transform = "Standard"
         _lay_out(scene, pictures)
-        with rendered_to(film) as scene.render.filepath:
+        with rendered_to(film) as scene.render.filepath, without_noise():
             bpy.ops.render.render(animation=True, scene=scene.name)
     finally:
         bpy.data.scenes.remove(scene)

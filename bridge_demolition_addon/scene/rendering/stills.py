@@ -15,6 +15,7 @@ from mathutils import Vector
 from ...errors import OutputError
 from ...model.scenario.recording import CameraKind, PictureSettings
 from ...system.disk import whole_file
+from ...system.native_output import without_noise
 from ..bodies import bodies_of
 from .camera import aim_camera
 from .surroundings import points_in_view
@@ -56,7 +57,7 @@ def prepare_pictures(scene: bpy.types.Scene, width_px: int, height_px: int) -> N
 def render_picture(scene: bpy.types.Scene, frame: int, path: Path) -> None:
     """Render a frame that was simulated already; Blender plays it back from its cache."""
     scene.frame_set(frame)
-    with rendered_to(path) as scene.render.filepath:
+    with rendered_to(path) as scene.render.filepath, without_noise():
         bpy.ops.render.render(write_still=True, scene=scene.name)
 
 

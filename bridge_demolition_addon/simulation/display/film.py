@@ -20,6 +20,7 @@ from ...model.scenario.recording import PictureSettings
 from ...scene.rendering.film import RenderSettings, encode_film, set_up_for_pictures
 from ...scene.rendering.stills import rendered_to
 from ...system.disk import writing
+from ...system.native_output import without_noise
 from ..blender_events import contours_of, shown_results
 
 _PICTURE = "contours_{:06d}.png"
@@ -100,7 +101,7 @@ class FilmRendering:
             for frame in self._frames:
                 path = self._path(frame)
                 scene.frame_set(frame)
-                with rendered_to(path) as scene.render.filepath:
+                with rendered_to(path) as scene.render.filepath, without_noise():
                     bpy.ops.render.render(write_still=True, scene=scene.name)
                 if error := contours_of(scene).error:
                     raise error

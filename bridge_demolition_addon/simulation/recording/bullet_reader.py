@@ -9,6 +9,7 @@ import bpy
 import numpy as np
 
 from ...bullet.world import BulletWorld
+from ...engineering.elasticity.crack_state import CrackAccumulator, FrameCracks
 from ...engineering.mechanics.bearing_loads import BearingAccumulator, BearingLoads, BearingPads
 from ...engineering.mechanics.frame_loads import FrameLoads
 from ...engineering.mechanics.member_sections import MemberSections, kinds_of
@@ -49,6 +50,8 @@ class BulletReader:
     ----------
     resting_state : RestingState or None
         How the bridge deforms under its own weight; None where connections are rigid.
+    have_bars : (m,) bool or None
+        Connections across whose cracks bars are followed; None where they are not.
     rigid_because : LayoutError or None
         Why connections that should be elastic are rigid.
     """
@@ -74,6 +77,7 @@ class BulletReader:
         self._sums: FrameSums | None = None
         self._no_loads = None if loads else unknown_loads(setup.inventory)
         self._substeps = self._substep_recorder(elastic, blast, loads)
+        self.have_bars = elastic.have_bars if elastic and loads else None
         world.call_around_substeps(
             self._substeps.before_substep, self._substeps.after_substep if every_substep else None
         )
@@ -84,7 +88,7 @@ class BulletReader:
         """Return the recorder that Bullet calls, with all drivers in order."""
         setup, world, inventory = self._setup, self._world, self._inventory
         breaking, constraints = setup.breaking, world.constraints
-        self._events = events = Events(world, inventory.pairs, setup.events)
+        self._events = events = Events(world, inventory.pairs, inventory.masses_kg, setup.events)
         reinforcement = None
         if breaking.is_reinforced and elastic:
             elastic.reinforce(breaking, events.remaining_strength)
@@ -111,7 +115,9 @@ class BulletReader:
         )
         if loads:
             bearings = BearingAccumulator(pads) if (pads := self._bearing_pads()) else None
-            self._sums = FrameSums(meter, inventory, self._work(), bearings, every_substep=self._every_substep)
+            follows_bars = elastic is not None and elastic.have_bars is not None
+            cracks = CrackAccumulator(len(inventory.pairs)) if follows_bars else None
+            self._sums = FrameSums(meter, inventory, self._work(), bearings, cracks, every_substep=self._every_substep)
         return SubstepRecorder(constraints, drivers, meter, breaker, warm_up, self._sums)
 
     def before_frame(self, substeps: int) -> None:
@@ -201,6 +207,11 @@ class BulletReader:
         """Forces of bearings in the frame that was read last; None where they are not known."""
         return self._sums.of_bearings if self._sums else None
 
+    @property
+    def of_cracks(self) -> FrameCracks:
+        """What bars across cracks did in the frame that was read last; of no crack where it is not known."""
+        return self._sums.of_cracks if self._sums else FrameCracks.none()
+
     def take_ball_history(self) -> BallHistory:
         """Return the hits of the balls since the last call."""
         return self._sums.take_ball_history() if self._sums else BallHistory.unknown()
@@ -264,7 +275,7 @@ class BulletReader:
             angular_velocities_rad_s=bodies.angular_velocities(),
             asleep=bodies.asleep(),
             intact=self._world.constraints.intact(),
-            blast_impulses_ns=np.zeros_like(positions_m),
+            blast_impulses_ns=self._events.take_impulses_ns(),
             loads=loads,
             work=work,
         )

@@ -16,7 +16,8 @@ from ...bullet.constraint_rows import ConstraintRows, check_frames
 from ...bullet.world import BulletWorld
 from ...engineering.arithmetic import power
 from ...engineering.elasticity.bearings import Bearings, PadSprings
-from ...engineering.elasticity.cracks import Cracks, corner_positions, corner_shares
+from ...engineering.elasticity.crack_state import CrackState
+from ...engineering.elasticity.cracks import Cracks
 from ...engineering.elasticity.equations import RigidBodies, without
 from ...engineering.elasticity.equilibrium import Equilibrium, equilibrium
 from ...engineering.elasticity.joint_rows import (
@@ -32,10 +33,9 @@ from ...engineering.elasticity.joint_rows import (
 from ...engineering.elasticity.section_stiffness import SectionStiffness, in_frames
 from ...engineering.elasticity.structure import ElasticStep, ElasticStructure, StepInput
 from ...engineering.foundations.footings import Footings, SoilSprings
-from ...engineering.geometry.vectors import transformed, transformed_back
+from ...engineering.mechanics.crack_faces import CrackFaces, TornFaces
 from ...engineering.mechanics.reinforcement import FaceBars
 from ...engineering.mechanics.section_forces import section_axes
-from ...engineering.mechanics.strength import rectangular_sections
 from ...model.results.inventory import Inventory
 from ...model.schema import given
 from ...scene.connections.breaking_settings import Breaking
@@ -81,6 +81,14 @@ class SupportSprings:
     pads: PadSprings | None = None
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class ElasticEnergy:
+    """Energy (m,) in connections and in cracks that reinforcement holds, and the state of these; None without any."""
+
+    stored_j: np.ndarray
+    cracks: CrackState | None
+
+
 class ElasticConnections:
     """All connections of a world that was bound just now, before any time passes.
 
@@ -113,7 +121,7 @@ class ElasticConnections:
         (axes_a, points_a), (axes_b, points_b) = self._rows.frame_components()
         self._frames = JointFrames(pairs[:, 0], pairs[:, 1], axes_a, axes_b, points_a, points_b)
         motion = self._reader.read()
-        self._check_frames(motion)
+        _check_frames(self._frames, world, motion)
         positions = joint_positions(self._frames, motion.position_components_m, motion.rotation_components)
         sections = components_first(section_axes(inventory.normals))
         self._stiffness = in_frames(
@@ -152,9 +160,6 @@ class ElasticConnections:
 
         Events keep up to date which part of its strength each connection (m,) has left.
         """
-        sections = rectangular_sections(self._inventory.areas_m2, self._inventory.second_moments_m4)
-        self._face_sides_m = 6.0 * sections.bending_moduli_m3[:, ::-1].T / self._inventory.areas_m2
-        self._face_directions = components_first(sections.directions)
         bars = breaking.bars or FaceBars.none(len(self._frames))
         if breaking.ductility:
             ductility = breaking.ductility
@@ -162,10 +167,8 @@ class ElasticConnections:
             if self._bearings:
                 even[self._bearings.rows] = 0.0  # no bars run through a bearing
             bars = bars.with_even(even, float(ductility.elongation_m))
-        self._bar_directions = bars.directions
-        positions = components_first(transformed_back(sections.directions, bars.offsets_m))
-        yield_n = bars.yield_n * corner_shares(positions, self._face_sides_m)
-        self._cracks = Cracks(breaking.steel, bars.openings_m, yield_n, left, self._axial_n_m)
+        self._faces = CrackFaces(self._inventory.areas_m2, self._inventory.second_moments_m4, bars)
+        self._cracks = self._faces.cracks(breaking.steel, left, self._axial_n_m)
 
     def tear(self, rows: np.ndarray, points_m: np.ndarray, axes: np.ndarray) -> None:
         """Let the reinforcement hold of connections (r,) that broke at points (r, 3), with section axes (r, 3, 3)."""
@@ -175,22 +178,9 @@ class ElasticConnections:
         if self._cracks is None or not len(rows):
             return
         motion = self._reader.read()
-        across = matrix_products(components_first(axes)[:, 1:], self._face_directions[..., rows])
-        positions = corner_positions(components_first(points_m), across, self._face_sides_m[:, rows])
         signs = np.where(self._is_first[rows], 1.0, -1.0)
-        outwards = signs * components_first(axes[:, :, 0])
-        directions = signs * components_first(transformed(axes, self._bar_directions[rows]))
-        first, second = self._frames.first[rows], self._frames.second[rows]
-        self._cracks.add(
-            rows,
-            first,
-            second,
-            positions,
-            outwards,
-            directions,
-            motion.position_components_m,
-            motion.rotation_components,
-        )
+        torn = TornFaces(rows, self._frames.first[rows], self._frames.second[rows], points_m, axes, signs)
+        self._faces.tear(self._cracks, torn, motion.position_components_m, motion.rotation_components)
         self._world.constraints.crack_rows(rows)
 
     @property
@@ -221,7 +211,9 @@ class ElasticConnections:
         self._follow_frequencies(motion)
         left = np.where(motion.inverse_masses > 0.0, power(self._left_per_second, substep_s), 1.0)
         velocities = left * motion.velocity_components
-        velocities += substep_s * self._accelerations(motion, motion.load_components)
+        velocities += substep_s * _accelerations(
+            motion, self._reader.inverse_inertia_components(), motion.load_components
+        )
         gone = given(self._structure).settle(motion.position_components_m, motion.rotation_components)
         self._world.constraints.break_rows(gone)
         for lifting in self._lifting:
@@ -271,12 +263,17 @@ class ElasticConnections:
         rates = lines.rates(*(step.velocities[:, bodies] for bodies in ends))
         self._rows.expect(rows, -substep_s * rates)
 
-    def stored_j(self, intact: np.ndarray) -> np.ndarray:
-        """Return the energy that is now in connections (m,) that are intact, or in their reinforcement."""
-        motion = self._reader.read()
-        return given(self._structure).stored_j(motion.position_components_m, motion.rotation_components) * self.holding(
-            intact
-        )
+    def energy(self, intact: np.ndarray) -> ElasticEnergy:
+        """Return what is stored now in connections (m,) that are intact, or in their reinforcement, and its state."""
+        motion, structure = self._reader.read(), given(self._structure)
+        bodies = motion.position_components_m, motion.rotation_components
+        cracks = structure.crack_state(*bodies)
+        return ElasticEnergy(structure.stored_j(*bodies, cracks) * self.holding(intact), cracks)
+
+    @property
+    def have_bars(self) -> np.ndarray | None:
+        """Connections (m,) whose cracks bars cross; None without reinforcement."""
+        return self._cracks.have_bars if self._cracks is not None else None
 
     def loads_on(self, sides: np.ndarray) -> np.ndarray:
         """Return forces and torques (6, m) in the last sub-step on Bullet's body A or B of each connection (m,)."""
@@ -368,21 +365,6 @@ class ElasticConnections:
         # Sleeping bodies are held as they are, in the sub-step in which Bullet finds what wakes them.
         self._rows.expect(intact, positions.deformations()[:, intact])
 
-    def _accelerations(self, motion: BodyMotion, loads: np.ndarray) -> np.ndarray:
-        """Accelerations (6, n) by forces and torques (6, n)."""
-        inverse = self._reader.inverse_inertia_components()
-        angular = inverse[:, 0] * loads[3] + inverse[:, 1] * loads[4] + inverse[:, 2] * loads[5]
-        return np.concatenate((motion.inverse_masses * loads[:3], angular * (motion.inverse_masses > 0.0)))
-
-    def _check_frames(self, motion: BodyMotion) -> None:
-        positions = joint_positions(self._frames, motion.position_components_m, motion.rotation_components)
-        for axes, bodies, levers in (
-            (positions.first_axes, self._frames.first, positions.first_levers_m),
-            (positions.second_axes, self._frames.second, positions.second_levers_m),
-        ):
-            points = components_last(motion.position_components_m[:, bodies] + levers)
-            check_frames(components_last(axes), points, self._world.connection_objects)
-
 
 class _Lifting:
     """Makes Bullet's own constraints of footings or pads softer as less of them touches."""
@@ -405,6 +387,23 @@ class _Lifting:
         softer = np.divide(softness, share, out=np.full_like(softness, np.inf), where=share > 0.0)
         constraints.soften(rows[changed], softer)
         self._touching[changed] = share
+
+
+def _accelerations(motion: BodyMotion, inverse_inertias: np.ndarray, loads: np.ndarray) -> np.ndarray:
+    """Accelerations (6, n) by forces and torques (6, n)."""
+    angular = inverse_inertias[:, 0] * loads[3] + inverse_inertias[:, 1] * loads[4] + inverse_inertias[:, 2] * loads[5]
+    return np.concatenate((motion.inverse_masses * loads[:3], angular * (motion.inverse_masses > 0.0)))
+
+
+def _check_frames(frames: JointFrames, world: BulletWorld, motion: BodyMotion) -> None:
+    """Check that frames are where Blender shows their connections."""
+    positions = joint_positions(frames, motion.position_components_m, motion.rotation_components)
+    for axes, bodies, levers in (
+        (positions.first_axes, frames.first, positions.first_levers_m),
+        (positions.second_axes, frames.second, positions.second_levers_m),
+    ):
+        points = components_last(motion.position_components_m[:, bodies] + levers)
+        check_frames(components_last(axes), points, world.connection_objects)
 
 
 def _inertias(inverse: np.ndarray, rotations: np.ndarray, masses_kg: np.ndarray) -> np.ndarray:

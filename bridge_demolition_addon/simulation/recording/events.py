@@ -1,4 +1,4 @@
-"""Removals, saw cuts and weakenings, put into Bullet's world when their time has come."""
+"""Removals, saw cuts, weakenings and blast zones, put into Bullet's world when their time has come."""
 
 from __future__ import annotations
 
@@ -8,6 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...bullet.world import BulletWorld
+from ...model.scenario import ZoneFiring
+from ...model.sequence.departures import Departure
 from ...model.sequence.events import Event
 from .drivers import Driver
 
@@ -23,28 +25,48 @@ class AppliedEvent:
     kind: str
     bodies: np.ndarray
     connections: np.ndarray
+    zone: ZoneFiring | None = None
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Leaving:
+    """Bodies (b,) on their way out of their member, until a time."""
+
+    bodies: np.ndarray
+    departure: Departure
+    until_s: float
 
 
 class Events(Driver):
     """All events of a world in order of time, each before the first sub-step that begins at its time or later.
 
-    The connections are between pairs (m, 2) of bodies; `remaining_strength` (m,) is the part of its strength that each
-    has left.
+    The connections are between pairs (m, 2) of bodies with masses (n,); `remaining_strength` (m,) is the part of its
+    strength that each has left.
     """
 
-    def __init__(self, world: BulletWorld, pairs: np.ndarray, events: Sequence[Event]):
+    def __init__(self, world: BulletWorld, pairs: np.ndarray, masses_kg: np.ndarray, events: Sequence[Event]):
         self.remaining_strength = np.ones(len(pairs))
         self.applied: list[AppliedEvent] = []
-        self._world, self._pairs = world, pairs
+        self._world, self._pairs, self._masses_kg = world, pairs, masses_kg
+        self._impulses_ns = np.zeros((len(masses_kg), 3))
         self._coming = list(events)
+        self._leaving: list[_Leaving] = []
         self._begins_s = 0.0
+        if any(event.departure for event in events):
+            world.bodies.check_contact_flags()
 
     def before_substep(self, elapsed_s: float, substep_s: float) -> None:
         """Apply due events before a sub-step of a length in s; simulated time is known once a frame at least."""
         self._begins_s = max(self._begins_s, elapsed_s)
         while self._coming and self._coming[0].time_s <= self._begins_s + _ROUNDING * substep_s:
             self._apply(self._coming.pop(0))
+        self._leaving = [leaving for leaving in self._leaving if self._goes_on(leaving, substep_s)]
         self._begins_s += substep_s
+
+    def take_impulses_ns(self) -> np.ndarray:
+        """Return the impulses (n, 3) by which blast zones have moved bodies since the last call."""
+        impulses, self._impulses_ns = self._impulses_ns, np.zeros_like(self._impulses_ns)
+        return impulses
 
     def _apply(self, event: Event) -> None:
         connections = event.connections[self._world.constraints.intact()[event.connections]]
@@ -56,8 +78,26 @@ class Events(Driver):
             self._world.constraints.break_rows(connections)
         bodies = event.bodies[~self._world.bodies.removed[event.bodies]]
         self._world.bodies.wake(self._concerned(bodies, connections))
-        self._world.bodies.remove(bodies)
-        self.applied.append(AppliedEvent(self._begins_s, event.kind, bodies, connections))
+        if event.departure is None:
+            self._world.bodies.remove(bodies)
+        else:
+            self._world.bodies.let_touch(event.bodies, touch=False)
+            until_s = self._begins_s + event.departure.duration_s
+            self._leaving.append(_Leaving(event.bodies, event.departure, until_s))
+        self.applied.append(AppliedEvent(self._begins_s, event.kind, bodies, connections, event.zone))
+
+    def _goes_on(self, leaving: _Leaving, substep_s: float) -> bool:
+        """Move bodies that leave their member for one more sub-step, or let them go; return whether they go on."""
+        there = ~self._world.bodies.removed[leaving.bodies]
+        bodies, resting = leaving.bodies[there], np.zeros((int(there.sum()), 3))
+        goes_on = self._begins_s < leaving.until_s - _ROUNDING * substep_s
+        velocities = (leaving.departure.leaving_m_s if goes_on else leaving.departure.after_m_s)[there]
+        gained_m_s = velocities - self._world.bodies.velocities()[bodies]
+        self._impulses_ns[bodies] += self._masses_kg[bodies, None] * gained_m_s
+        self._world.bodies.set_velocities(bodies, velocities, resting)
+        if not goes_on:
+            self._world.bodies.let_touch(bodies, touch=True)
+        return goes_on
 
     def _concerned(self, bodies: np.ndarray, connections: np.ndarray) -> np.ndarray:
         """Bodies whose support may be gone: all, if bodies are removed on which others may lie unconnected."""

@@ -10,19 +10,22 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
 
 from ...bullet.contacts import Contacts
 from ...bullet.snapshots import BodyHistory
+from ...engineering.elasticity.crack_state import CrackAccumulator, FrameCracks
 from ...engineering.mechanics.bearing_loads import BearingAccumulator, BearingLoads
 from ...engineering.mechanics.frame_loads import FrameLoads, LoadAccumulator, SubstepLoads
 from ...engineering.mechanics.work import FrameWork, Motion, PairImpulses, WorkAccumulator
 from ...model.results.frames import BallHistory
 from ...model.results.inventory import Inventory
+from ...model.schema import given
 from .breaking import Breaks
+from .elastic_connections import ElasticEnergy
 from .meter import Meter, Reading
 
 BATCH_BYTES = 1_000_000
@@ -67,13 +70,13 @@ class BackgroundWork:
 class MeasuredSubstep:
     """A sub-step that is still to be evaluated: connections (b,) that broke in it, and others that broke before it.
 
-    `stored_j` (m,) is the energy in elastic connections at its end.
+    `elastic` is the energy in elastic connections at its end, with the state of their cracks.
     """
 
     reading: Reading
     broken: np.ndarray
     broken_before: Sequence[Breaks]
-    stored_j: np.ndarray | None
+    elastic: ElasticEnergy | None
 
 
 class FrameSums:
@@ -85,6 +88,7 @@ class FrameSums:
         inventory: Inventory,
         work: WorkAccumulator,
         bearings: BearingAccumulator | None,
+        cracks: CrackAccumulator | None,
         *,
         every_substep: bool,
     ):
@@ -92,6 +96,7 @@ class FrameSums:
         self._frame = LoadAccumulator(inventory.pairs, inventory.volumes_m3, meter.normals)
         self._bearings = bearings
         self._of_bearings: BearingLoads | None = None
+        self._cracks, self._of_cracks = cracks, FrameCracks.none()
         self._waiting: list[MeasuredSubstep] = []
         self._background = BackgroundWork()
         self._substeps, self._substeps_before = 0, 0
@@ -127,12 +132,23 @@ class FrameSums:
         if self._bearings:
             self._of_bearings = self._bearings.finish()
             self._bearings.begin()
+        if self._cracks:
+            self._of_cracks = self._cracks.finish()
+            use = self._of_cracks.use_of_bodies(self._inventory.pairs, len(self._inventory.masses_kg))
+            loads = replace(loads, body_bar_use=use)
+        if self._meter.has_rigid_bars:
+            work = replace(work, yielding_j=np.nan, crack_friction_j=np.nan)
         return loads, work, breaks
 
     @property
     def of_bearings(self) -> BearingLoads | None:
         """Forces of bearings in the frame that was finished last; None where no time passed, or without bearings."""
         return self._of_bearings
+
+    @property
+    def of_cracks(self) -> FrameCracks:
+        """What bars across cracks did in the frame that was finished last; of no crack where it is not known."""
+        return self._of_cracks
 
     def close(self) -> None:
         """Wait for the thread, and end it."""
@@ -159,11 +175,16 @@ class FrameSums:
         resultants_n = self._frame.add(loads)
         if self._bearings:
             self._bearings.add(loads)
+        cracks = [substep.elastic.cracks for substep in substeps if substep.elastic and substep.elastic.cracks]
+        for state in cracks if self._cracks else ():
+            given(self._cracks).add(state)
         motion = Motion(bodies.positions_m, bodies.velocities_m_s, bodies.angular_velocities_rad_s)
         if self._every_substep and work_counts:
             resultants_ns = loads.substeps_s[:, None, None] * resultants_n
             of_connections, of_contacts = _impulses(self._inventory.pairs, loads, _stored_j(substeps))
             self._work.add(motion, bodies.can_move, of_connections, of_contacts, resultants_ns, loads.substeps_s)
+            for state in cracks:
+                self._work.add_in_cracks(float(state.yielding_j.sum()), float(state.rubbing_j.sum()))
         elif self._every_substep:
             self._work.pass_over(motion)
         for number, substep in enumerate(substeps):
@@ -198,7 +219,7 @@ class FrameSums:
 
 def _stored_j(substeps: Sequence[MeasuredSubstep]) -> np.ndarray | None:
     """Energies (s, m) in elastic connections after sub-steps; None where they are rigid."""
-    stored = [substep.stored_j for substep in substeps if substep.stored_j is not None]
+    stored = [substep.elastic.stored_j for substep in substeps if substep.elastic is not None]
     return np.stack(stored) if stored else None
 
 

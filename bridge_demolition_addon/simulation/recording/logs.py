@@ -9,13 +9,15 @@ from pathlib import Path
 
 import numpy as np
 
+from ...engineering.elasticity.crack_state import FrameCracks
 from ...engineering.geometry.vectors import dot
 from ...errors import OutputError, SimulationError
 from ...model.blast.explosion import StepLoads
 from ...model.results.frames import Frame
 from ...model.results.inventory import Inventory
-from ...model.run_folder.files import BEARING_LOG, BREAKING_LOG, DEBRIS_LOG, EXPLOSION_LOG, FORCE_LOG
+from ...model.run_folder.files import BAR_LOG, BEARING_LOG, BREAKING_LOG, DEBRIS_LOG, EXPLOSION_LOG, FORCE_LOG
 from ...model.run_folder.logs import (
+    BAR_TABLE,
     BEARING_TABLE,
     BREAKING_TABLE,
     DEBRIS_TABLE,
@@ -64,6 +66,7 @@ class Logs:
         self._breaking = EntryLog(folder / BREAKING_LOG, BREAKING_TABLE)
         self._explosion = EntryLog(folder / EXPLOSION_LOG, EXPLOSION_TABLE) if charges else None
         self._bearing = EntryLog(folder / BEARING_LOG, BEARING_TABLE) if bearings else None
+        self._bars: EntryLog[FrameCracks] | None = None
         self._first_positions: np.ndarray | None = None
         self._made_j = np.zeros(len(bodies))
         self._largest_kinetic_j = np.zeros(len(bodies))
@@ -98,13 +101,21 @@ class Logs:
         """Log the forces of all bearings in a frame."""
         given(self._bearing).write(frame.number, frame.time_s, [(name,) for name in self._bearings], bearings)
 
+    def begin_bars(self) -> None:
+        """Begin the log of bars across cracks."""
+        self._bars = EntryLog(self._folder / BAR_LOG, BAR_TABLE)
+
+    def write_bars(self, frame: Frame, entries: Sequence[Sequence[str]], cracks: FrameCracks) -> None:
+        """Log bars across cracks in a frame, with the names of each crack and of its members."""
+        given(self._bars).write(frame.number, frame.time_s, entries, cracks)
+
     def close(self, last_frame: Frame | None) -> None:
         """Log all positions of the last frame, if there is one, and close the files.
 
         Raises an `OutputError` if the disk is full; the files are closed all the same.
         """
         with ExitStack() as files:
-            for log in (self._forces, self._debris, self._breaking, self._explosion, self._bearing):
+            for log in (self._forces, self._debris, self._breaking, self._explosion, self._bearing, self._bars):
                 if log:
                     files.callback(log.close)
             if last_frame:

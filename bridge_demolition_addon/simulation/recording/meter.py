@@ -16,7 +16,7 @@ from ...engineering.mechanics.forces import moments_at
 from ...engineering.mechanics.frame_loads import Moment, SubstepLoads
 from ...engineering.mechanics.section_forces import SectionForces, section_axes, section_forces
 from ...model.results.inventory import Inventory
-from .elastic_connections import ElasticConnections
+from .elastic_connections import ElasticConnections, ElasticEnergy
 from .reinforcement import Reinforcement
 
 
@@ -63,6 +63,11 @@ class Meter:
         self.lever_arms_m = length(self._local_points)
         self._local_axes = axes_in_bodies(section_axes(inventory.normals), bodies, rotations)
 
+    @property
+    def has_rigid_bars(self) -> bool:
+        """Whether bars hold cracks of rigid connections: their work is that of connections, and not known apart."""
+        return self._reinforcement is not None
+
     def read(self, substep_s: float, end_s: float) -> Reading:
         """Return Bullet's state after a sub-step; of elastic connections Bullet knows only what contacts change."""
         snapshot = self._snapshots.take()
@@ -79,9 +84,9 @@ class Meter:
         """Return Bullet's state before a sub-step, with the loads (6, m) that connections will have in it."""
         return Reading(replace(self._snapshots.take(), load_components=loads), substep_s, begin_s, None)
 
-    def stored_j(self, intact: np.ndarray) -> np.ndarray | None:
+    def elastic_energy(self, intact: np.ndarray) -> ElasticEnergy | None:
         """Return the energy that is now in elastic connections (m,) that are intact or reinforced."""
-        return self._elastic.stored_j(intact) if self._elastic else None
+        return self._elastic.energy(intact) if self._elastic else None
 
     def loads(self, readings: Sequence[Reading]) -> tuple[BodyHistory, SubstepLoads]:
         """Return the states of all bodies after sub-steps, and the loads in these."""

@@ -25,7 +25,11 @@ _NEED_MEMORY: tuple[tuple[Callable[[RunSetup], Any], str, str], ...] = (
     (lambda setup: setup.start_motion.any(), "velocities to begin with need", "take them out of the scenario"),
     (lambda setup: setup.loads, "loads need", "take them out of the scenario"),
     (lambda setup: setup.ground_motion, "a ground that moves needs", "take ground_motion out of the scenario"),
-    (lambda setup: setup.changes, "removals, saw cuts and weakenings need", "take them out of the scenario"),
+    (
+        lambda setup: setup.changes,
+        "removals, saw cuts, weakenings and blast zones need",
+        "take them out of the scenario",
+    ),
 )
 """Features of a run that need Blender's memory, and a remedy without it."""
 

@@ -15,6 +15,7 @@ from ...bullet.time_control import time_stands_still
 from ...bullet.world import BulletWorld, WorldState
 from ...errors import LayoutError, OutputError, SimulationError
 from ...model.results.frames import BallHistory, ContactHistory, Frame
+from ...model.scenario import ZoneFiring
 from ...model.schema import given
 from ...scene.as_built import changed_bodies, check_start
 from ...scene.bodies import bodies_of
@@ -25,6 +26,7 @@ from ...scene.connections.elasticity import is_elastic
 from ...scene.run_setup import RunSetup, run_setup_of
 from ...scene.time_scale import time_step_at
 from ...scene.tools.ball import begin_lifts, lifts_of
+from .bars import RecordedBars
 from .bearings import RecordedBearings
 from .blast import Blast, check_blast
 from .bullet_reader import BulletReader
@@ -113,6 +115,7 @@ class Recording(RecordedFrames):
         self._logs: Logs | None = None
         self._blast: Blast | None = None
         self._bearings: RecordedBearings | None = None
+        self._bars: RecordedBars | None = None
         self.substeps = 0
 
     def before_frame(self) -> None:
@@ -170,7 +173,7 @@ class Recording(RecordedFrames):
 
     @property
     def applied_events(self) -> list[dict[str, Any]]:
-        """Removals, saw cuts and weakenings so far, ready for JSON: shards removed, connections concerned."""
+        """Changes to the structure so far, ready for JSON: shards that no longer carry, connections concerned."""
         names = self.inventory.body_names if self.inventory else ()
         return [
             {
@@ -178,6 +181,7 @@ class Recording(RecordedFrames):
                 "kind": event.kind,
                 "shards": [str(names[body]) for body in event.bodies],
                 "connections": len(event.connections),
+                **(_of_zone(event.zone) if event.zone else {}),
             }
             for event in (self._reader.applied_events if self._reader else ())
         ]
@@ -191,6 +195,11 @@ class Recording(RecordedFrames):
     def bearings(self) -> list[dict[str, Any]]:
         """The largest and least that each bearing carried so far, ready for JSON."""
         return self._bearings.summary() if self._bearings else []
+
+    @property
+    def reinforcement(self) -> dict[str, Any] | None:
+        """What bars across cracks did so far, ready for JSON; None where they are not followed."""
+        return self._bars.summary() if self._bars else None
 
     @property
     def rigid_because(self) -> LayoutError | None:
@@ -267,6 +276,9 @@ class Recording(RecordedFrames):
         self._reader = BulletReader(
             self.scene, setup, self.world, self._blast, every_substep=self._every_substep, loads=self.has_loads
         )
+        if self._logs and self._reader.have_bars is not None:
+            self._bars = RecordedBars(setup.inventory, self._reader.have_bars)
+            self._logs.begin_bars()
         return self._reader
 
     def _begin(self, setup: RunSetup, world: BulletWorld | None) -> None:
@@ -274,6 +286,7 @@ class Recording(RecordedFrames):
         if self._blast:
             self._blast.rest()
         self.setup = setup
+        self._bars = None
         self._lifted = [body for body in setup.bodies.objects if lifts_of(body)]
         self._blast = Blast(self.scene, setup, world) if setup.goes_off else None
         load_sampling = "every sub-step" if self._every_substep else "last sub-step of each frame"
@@ -295,11 +308,13 @@ class Recording(RecordedFrames):
         blast_loads = None
         if self._blast is not None and frame_s > 0.0:
             blast_loads, impulses = self._blast.after_frame(frame.positions_m)
-            frame = replace(frame, blast_impulses_ns=impulses)
+            frame = replace(frame, blast_impulses_ns=frame.blast_impulses_ns + impulses)
         self._append(frame, balls, contacts)
         if self._logs:
             self._logs.write_frame(frame)
             self._write_bearings(self._logs, frame)
+            if self._bars and self._reader:
+                self._logs.write_bars(frame, *self._bars.note(frame, self._reader.of_cracks))
             if blast_loads is not None:
                 self._logs.write_blast(frame, blast_loads, frame_s)
 
@@ -319,3 +334,13 @@ def _begin_motion(setup: RunSetup, world: BulletWorld, held: bool) -> None:
         raise SimulationError("a ground that moves needs the timeline played from its start frame")
     velocities, angular_velocities = setup.start_motion[moving, :3], setup.start_motion[moving, 3:]
     world.bodies.set_velocities(moving, velocities, angular_velocities)
+
+
+def _of_zone(zone: ZoneFiring) -> dict[str, Any]:
+    """Return what a blast zone did and what its bars would resist, ready for JSON."""
+    return {
+        "zone": zone.name,
+        "effect": zone.effect,
+        "cage_tension_n": zone.cage_tension_n,
+        "cage_compression_n": zone.cage_compression_n,
+    }

@@ -111,8 +111,8 @@ class SubstepRecorder:
         intact = reading.snapshot.intact.copy()
         intact[self._breaker.break_overloaded(reading)] = False
         broken = self._breaker.follow(intact)
-        stored_j = self._meter.stored_j(intact)
-        sums.add(MeasuredSubstep(reading, broken, self._breaker.take_broken_before(), stored_j))
+        energy = self._meter.elastic_energy(intact)
+        sums.add(MeasuredSubstep(reading, broken, self._breaker.take_broken_before(), energy))
 
     def _follow(self, substep_s: float) -> None:
         """Break connections that are overloaded in a sub-step whose loads are not kept."""

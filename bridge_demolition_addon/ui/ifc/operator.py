@@ -7,14 +7,19 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, St
 from bpy_extras.io_utils import ImportHelper
 
 from ...errors import IfcError
-from ...ifc.bridge import ImportedBridge, read_bridge
-from ...ifc.folder import REPORT_FILE, SCENARIO_FILE, write_bridge
+from ...ifc.folder import REPORT_FILE, SCENARIO_FILE, folder_beside
+from ...ifc.import_process import Imported, import_bridge, list_elements
 from ...ifc.library import missing_reason
 from ...ifc.settings import UNITS, ImportSettings
 from ...model.scenario.file import read_scenario
-from ..operators import UndoableAction, absolute
+from ..modal_task import ModalTask, Work
+from ..operators import Action, UndoableAction, absolute
 from ..scenario.values import show_scenario
 from ..sidebar import path_property
+from ..stepped_thread import SteppedThread
+from .prop import LEFT_OUT
+
+_NO_LIBRARY = (lambda _context: missing_reason(),)
 
 _UNIT_OF_FILE = "FILE"
 _UNIT_NAMES = {"m": "Metres", "cm": "Centimetres", "mm": "Millimetres", "ft": "Feet", "in": "Inches"}
@@ -24,7 +29,7 @@ class BDA_OT_import_ifc(UndoableAction, ImportHelper, bpy.types.Operator):
     """Make a scenario of a bridge in an IFC file, with a mesh for each element, and show it in the panels"""
 
     bl_label = "Import IFC"
-    blocked_by = (lambda _context: missing_reason(),)
+    blocked_by = _NO_LIBRARY
     changes_objects = True
 
     filename_ext = ".ifc"
@@ -72,12 +77,8 @@ class BDA_OT_import_ifc(UndoableAction, ImportHelper, bpy.types.Operator):
         if not self.filepath:
             raise IfcError("no IFC file was given: choose one")
         path = absolute(self.filepath)
-        bridge, folder = read_bridge(path, self._settings()), _new_folder(path)
-        write_bridge(bridge, folder)
-        settings = context.scene.bda
-        show_scenario(settings, read_scenario(folder / SCENARIO_FILE))
-        settings.scenario_path = settings.loaded_path = str(folder / SCENARIO_FILE)
-        return _done(bridge, folder)
+        folder = folder_beside(path)
+        return _shown(context, import_bridge(path, folder, self._settings()), folder)
 
     def _settings(self) -> ImportSettings:
         return ImportSettings(
@@ -91,6 +92,103 @@ class BDA_OT_import_ifc(UndoableAction, ImportHelper, bpy.types.Operator):
         )
 
 
+class BDA_OT_look_into_ifc(Action, ImportHelper, bpy.types.Operator):
+    """List the elements of an IFC file, with their kinds and materials, to be corrected before anything is built"""
+
+    bl_label = "Look into IFC"
+    blocked_by = _NO_LIBRARY
+
+    filename_ext = ".ifc"
+    filter_glob: StringProperty(default="*.ifc", options={"HIDDEN"})
+    filepath: path_property("File", "IFC file of a bridge")
+
+    def act(self, context: bpy.types.Context) -> str:
+        if not self.filepath:
+            raise IfcError("no IFC file was given: choose one")
+        listed = list_elements(absolute(self.filepath), ImportSettings())
+        settings = context.scene.bda
+        settings.ifc_path, settings.ifc_element_index = self.filepath, 0
+        settings.ifc_elements.clear()
+        for element in listed:
+            row = settings.ifc_elements.add()
+            row.title, row.ifc_class, row.global_id = element.name, element.ifc_class, element.global_id
+            row.kind = row.kind_of_file = element.kind or LEFT_OUT
+            row.material = row.material_of_file = element.material
+            row.why = element.why or element.note
+        bridges = list(dict.fromkeys(element.bridge for element in listed if element.bridge and element.kind))
+        settings.ifc_only = ""
+        several = f"; it has the bridges {', '.join(bridges)}: choose one in Only" if len(bridges) > 1 else ""
+        members = sum(bool(element.kind) for element in listed)
+        return f"{len(listed)} elements, {members} of which become members or bearings{several}"
+
+
+class BDA_OT_ifc_alike(UndoableAction, bpy.types.Operator):
+    """Give all elements of the same name kind and material of the chosen one"""
+
+    bl_label = "Same for All of This Name"
+
+    def act(self, context: bpy.types.Context) -> str:
+        settings = context.scene.bda
+        if not 0 <= settings.ifc_element_index < len(settings.ifc_elements):
+            raise IfcError("no element is chosen: choose one in the list")
+        chosen = settings.ifc_elements[settings.ifc_element_index]
+        alike = [row for row in settings.ifc_elements if row.title == chosen.title]
+        for row in alike:
+            row.kind, row.material = chosen.kind, chosen.material
+        return f"{len(alike)} elements are {chosen.kind} now"
+
+
+class BDA_OT_import_ifc_elements(ModalTask, bpy.types.Operator):
+    """Make a scenario of the listed elements as they are corrected here, and show it in the panels"""
+
+    bl_label = "Import These Elements"
+    task, unit = "Importing", "elements"
+    changes_objects = True
+    blocked_by = (
+        *_NO_LIBRARY,
+        lambda context: None if context.scene.bda.ifc_elements else "Look into an IFC file first",
+    )
+
+    def work(self, context: bpy.types.Context) -> Work:
+        settings = context.scene.bda
+        path = absolute(settings.ifc_path)
+        self._folder = folder_beside(path)
+        chosen = corrected(settings)
+
+        def imported(progress: SteppedThread) -> None:
+            self._imported = import_bridge(path, self._folder, chosen, progress)
+
+        return imported
+
+    def finish(self, context: bpy.types.Context) -> set[str]:
+        super().finish(context)
+        self.report({"INFO"}, _shown(context, self._imported, self._folder))
+        return {"FINISHED"}
+
+
+def corrected(settings: bpy.types.PropertyGroup) -> ImportSettings:
+    """Return the settings of an import with the corrections of the table."""
+    changed = [row for row in settings.ifc_elements if row.kind != row.kind_of_file]
+    return ImportSettings(
+        without=tuple(row.global_id for row in changed if row.kind == LEFT_OUT),
+        kinds=tuple((row.global_id, row.kind) for row in changed if row.kind != LEFT_OUT),
+        materials_of=tuple(
+            (row.global_id, row.material.strip())
+            for row in settings.ifc_elements
+            if row.kind not in (LEFT_OUT, "bearing") and row.material.strip() and row.material != row.material_of_file
+        ),
+        only=settings.ifc_only.strip() or None,
+    )
+
+
+def _shown(context: bpy.types.Context, imported: Imported, folder: Path) -> str:
+    """Show the scenario of an import in the panels, and return a sentence on it."""
+    settings = context.scene.bda
+    show_scenario(settings, read_scenario(folder / SCENARIO_FILE))
+    settings.scenario_path = settings.loaded_path = str(folder / SCENARIO_FILE)
+    return _done(imported, folder)
+
+
 def _parts(text: str) -> tuple[str, ...]:
     return tuple(part.strip() for part in text.split(";") if part.strip())
 
@@ -102,15 +200,8 @@ def _kind(text: str) -> tuple[str, str]:
     return name.strip(), kind.strip()
 
 
-def _new_folder(path: Path) -> Path:
-    """Return a folder beside the IFC file that is not there yet."""
-    folders = (path.with_name(f"{path.stem}_scenario{ending}") for ending in ("", *(f"_{n}" for n in range(2, 10_000))))
-    return next(folder for folder in folders if not folder.exists())
-
-
-def _done(bridge: ImportedBridge, folder: Path) -> str:
-    became = [outcome.became for outcome in bridge.outcomes]
+def _done(imported: Imported, folder: Path) -> str:
     return (
-        f"Imported {bridge.scenario.title}: {became.count('member')} members, {became.count('connection')} bearings, "
-        f"{became.count('left out')} elements left out; {folder / REPORT_FILE} says why"
+        f"Imported {imported.title}: {imported.members} members, {imported.connections} bearings, "
+        f"{imported.left_out} elements left out; {folder / REPORT_FILE} says why"
     )

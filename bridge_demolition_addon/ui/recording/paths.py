@@ -11,14 +11,13 @@ from bpy.props import StringProperty
 
 from ...errors import OutputError
 from ...model.run_folder.files import DEBRIS_LOG, FORCE_LOG
+from ...model.run_folder.folder import numbered_folder
 from ..operators import FileWriter, UndoableAction, absolute, recording_runs
 
 _SUFFIX = ".csv"
 
 _OF_ALL_RUNS = "Bridge Demolition"
 """Folder in the user's documents, for files that were not saved yet."""
-
-_LONGEST_NAME = 60
 
 
 class _LogPathOperator(UndoableAction, FileWriter):
@@ -61,10 +60,7 @@ def new_folder(title: str) -> Path:
     """
     saved = bpy.data.filepath
     parent = Path(saved).parent if saved else documents_folder() / _OF_ALL_RUNS
-    name = re.sub(r"[^\w.-]+", "_", title)[:_LONGEST_NAME].strip("._") or "demolition"
-    numbered = re.compile(re.escape(name) + r"_(\d+)", re.IGNORECASE)
-    taken = (numbered.fullmatch(path.name) for path in (parent.iterdir() if parent.is_dir() else ()))
-    return parent / f"{name}_{max((int(match[1]) for match in taken if match), default=0) + 1}"
+    return numbered_folder(parent, title)
 
 
 def documents_folder() -> Path:

@@ -9,7 +9,7 @@ from bpy.props import EnumProperty, IntProperty, StringProperty
 
 from ...engineering.blast.pulses import BlastModel
 from ...errors import OutputError, SimulationError
-from ...exports.formats import FORMATS, Format
+from ...exports.formats import FORMATS, new_export
 from ...model.run_folder.files import FORCE_CHART, REPORT_PAGE, REPORT_PDF
 from ...model.run_folder.folder import keep_site
 from ...simulation.kept_run import folder_of_run, has_run, is_run_of
@@ -195,12 +195,6 @@ def folder_to_report(scene: bpy.types.Scene) -> Path:
     """Return the folder whose run a report is of: the chosen one, or else that of the scene's run."""
     chosen = scene.bda.output_directory
     return absolute(chosen) if chosen else folder_of_run(scene)
-
-
-def new_export(folder: Path, form: Format) -> Path:
-    """Return a new file or folder for an export, in the folder of its run: ``export``, and counted up from 2."""
-    names = (f"export{number}{form.ending}" for number in ("", *(f"_{n}" for n in range(2, 10_000))))
-    return next(path for name in names if not (path := folder / name).exists())
 
 
 def open_path(path: Path) -> None:

@@ -12,6 +12,7 @@ import bpy
 from ...engineering.units import kilograms
 from ...errors import DemolitionError, OutputError, UnreadableError
 from ...model.results.arrays import Results
+from ...model.results.bar_extremes import bars_text, largest_use_text
 from ...model.run_folder.files import SUMMARY_FILE
 from ...model.run_folder.summary import RunSummary, read_summary
 from ...model.sequence.undisturbed import self_collapse_text
@@ -141,6 +142,8 @@ def lines_of(summary: Mapping[str, Any]) -> list[str]:
     return [
         f"Total mass: {kilograms(summary['mass_kg']['shard'])}",
         f"Broken: {connections['broken']} of {connections['count']} connections",
+        *([f"Bars: {bars}"] if (bars := bars_text(summary)) else []),
+        *([f"Most: {use}"] if (use := largest_use_text(summary)) else []),
         f"{summary['frames']} frames, {summary['simulated_s']:.2f} s",
         *([f"Creeping at the end: {creeping['shards']} shards"] if creeping else []),
     ]

@@ -8,6 +8,7 @@ from ...display.contour_quantities import ContourQuantity
 from ...display.stage_contours import StageContours
 from ...model.sequence.checked_model import checked_model
 from ...model.stages.bearing_rows import bearing_rows
+from ...model.stages.misfires import misfire_sentences, misfires
 from ...model.stages.stages import criticality, stages_of
 from ...model.stages.standing import StandingBridge, made_elastic
 from ...model.stages.tables import (
@@ -54,11 +55,12 @@ class BDA_OT_check_stages(ModalTask, bpy.types.Operator):
             stages = stages_of(scenario, bridge, thread.part)
             thread.stage(_MEMBERS)
             members = criticality(bridge, thread.part)
+            failures = misfires(scenario, bridge, thread.part)
             if folder is None:
                 rows = [stage_row(number, stage, bridge) for number, stage in enumerate(stages, start=1)]
             else:
                 with writing(folder):
-                    rows = write_tables(folder, stages, members, bridge)
+                    rows = write_tables(folder, stages, members, bridge, failures)
             all_reactions = all_reaction_rows(stages, model)
             reactions = tuple(
                 tuple(reaction for reaction in all_reactions if reaction["stage"] == row["stage"]) for row in rows
@@ -76,7 +78,7 @@ class BDA_OT_check_stages(ModalTask, bpy.types.Operator):
                     reactions=reactions,
                     bearings=bearings,
                     sentences=sentences,
-                    members=tuple(criticality_sentences(members)),
+                    members=(*criticality_sentences(members), *misfire_sentences(failures)),
                     contours=StageContours.of_stages(model, stages),
                 )
             )

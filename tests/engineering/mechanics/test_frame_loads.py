@@ -72,7 +72,8 @@ def together(history):
 
 
 def by_name(loads):
-    return {item.name: getattr(loads, item.name) for item in fields(FrameLoads)}
+    known = {item.name: getattr(loads, item.name) for item in fields(FrameLoads)}
+    return {name: values for name, values in known.items() if name != "body_bar_use"}  # which is not of the sub-steps
 
 
 def gathered(frame, history, substeps=UNEQUAL_S):

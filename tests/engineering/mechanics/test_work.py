@@ -170,6 +170,7 @@ def test_sub_steps_added_at_once_are_those_added_one_by_one_to_the_last_bit():
     of_step = np.repeat(np.arange(steps), counts)
     resultants = random.normal(size=(steps, bodies, 3))
     masses, damping = random.uniform(1.0, 9.0, bodies), random.uniform(0.0, 0.1, (2, bodies))
+    in_cracks = random.uniform(size=(2, steps))
 
     def frame(batches):
         start = Motion(*np.zeros((3, 1, bodies, 3)))
@@ -184,6 +185,8 @@ def test_sub_steps_added_at_once_are_those_added_one_by_one_to_the_last_bit():
                 resultants[first:last],
                 substeps_s[first:last],
             )
+            for step in range(first, last):
+                work.add_in_cracks(in_cracks[0, step], in_cracks[1, step])
         return work.finish()
 
     one_by_one = frame([(step, step + 1) for step in range(steps)])

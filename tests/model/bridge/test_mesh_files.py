@@ -106,7 +106,12 @@ def test_a_broken_file_is_repaired_and_that_is_said(file_of):
     "content, name, error, text",
     [
         (None, "missing.stl", ScenarioError, "no such file"),
-        (b"", "part.dwg", ScenarioError, "expected a file that ends in one of .stl, .obj, .ply, .glb"),
+        (
+            b"",
+            "part.dwg",
+            ScenarioError,
+            "expected a file that ends in .stl, .obj, .ply or .glb; export it as one of these",
+        ),
         (b"solid nothing", "part.stl", GeometryError, "part.stl"),
         (b"glTF but not really", "part.glb", GeometryError, "cannot be read as GLB"),
         (b"ply\nformat binary_little_endian 1.0\nend_header\n", "part.ply", GeometryError, "part.ply"),

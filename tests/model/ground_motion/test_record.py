@@ -126,10 +126,10 @@ def test_a_file_that_is_not_there_and_one_of_zeros_are_refused(tmp_path):
 @pytest.mark.parametrize(
     ("given", "said"),
     [
-        ({"directions": ["along"]}, "all missing: expected exactly one of file, sweep, spectrum"),
+        ({"directions": ["along"]}, "ground_motion has no file, sweep or spectrum: give one of them"),
         ({"directions": ["along"], "file": "a.csv"}, "ground_motion.unit is missing: expected one of g, m/s2, cm/s2"),
         ({"directions": ["along", "along"], "file": "a.csv", "unit": "g"}, "names one twice"),
-        ({"directions": ["north"], "file": "a.csv", "unit": "g"}, r'directions\[0\] is "north"'),
+        ({"directions": ["north"], "file": "a.csv", "unit": "g"}, r'directions.1 is "north"'),
         ({"directions": [], "file": "a.csv", "unit": "g"}, "directions is a list of length 0"),
     ],
 )

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 from support.sample_results import changed, hanging_chain
 
+from bridge_demolition_addon.model.results.arrays import Results
 from bridge_demolition_addon.model.results.solver_energy import (
     energy_summary,
     flies_on_solver_energy,
@@ -76,6 +77,17 @@ def test_charges_throw_as_far_as_they_like():
 def test_half_of_the_kinetic_energy_marks_a_shard_that_was_thrown():
     throws, made, kinetic = np.array([5.0, 5.0, 0.05]), np.array([49.0, 50.0, 90.0]), np.full(3, 100.0)
     assert flies_on_solver_energy(throws, made, kinetic).tolist() == [False, True, False]
+
+
+def test_work_in_cracks_is_summed_over_frames_and_none_where_it_was_not_known():
+    """40 J of bars and 10 J of friction in each of five frames; a run from before has neither."""
+    energy = energy_summary(hanging_chain())
+    assert energy["dissipated_by_bars_J"] == 200.0 and energy["dissipated_by_crack_friction_J"] == 50.0
+    earlier = hanging_chain().arrays()
+    del earlier["dissipated_by_bars_j"], earlier["dissipated_by_crack_friction_j"]
+    energy = energy_summary(Results.of_arrays(earlier))
+    assert energy["dissipated_by_bars_J"] is energy["dissipated_by_crack_friction_J"] is None
+    assert energy["dissipated_J"] == 2500.0
 
 
 def test_energy_that_was_not_recorded_is_not_made_up():

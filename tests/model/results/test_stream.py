@@ -83,9 +83,9 @@ def test_what_is_left_of_a_run_that_was_killed_is_read(tmp_path, cut):
     stream_run(tmp_path, hanging_chain())
     path = tmp_path / FRAMES_FILE
     with path.open("rb+") as file:
-        file.truncate(path.stat().st_size - min(cut, 872 * 2 + 3))
+        file.truncate(path.stat().st_size - min(cut, 888 * 2 + 3))
     left = load_results(tmp_path)
-    frames = 5 - -(-min(cut, 872 * 2 + 3) // 872)
+    frames = 5 - -(-min(cut, 888 * 2 + 3) // 888)
     assert len(left.frames) == frames and left.load_sampling == "every sub-step"
     # Ten sub-steps in each frame but the first.
     assert len(left.balls.times_s) == 10 * (frames - 1) and left.balls.bodies.tolist() == [3]

@@ -37,7 +37,7 @@ def test_a_new_folder_is_made_with_its_parents(tmp_path, overwrite):
 
 def test_a_folder_that_is_there_is_not_touched(tmp_path):
     (tmp_path / "summary.json").write_text("kept")
-    with pytest.raises(OutputError, match=r"exists already, and is not empty; choose another folder or"):
+    with pytest.raises(OutputError, match=r"exists already, and is not empty: choose another folder, or"):
         prepare_folder(tmp_path, overwrite=False)
     assert (tmp_path / "summary.json").read_text() == "kept"
 

@@ -36,15 +36,15 @@ def test_without_them_nothing_changes():
     "corners, message",
     [
         ([[0, 0], [1, 0]], "has 2 positions: expected at least 3"),
-        ([[0, 0], [1, 0], [1]], r"corners_m\[2\] is a list of length 1: expected a list of one or more lists of 2"),
-        ([[0, 0], [1, 0], [1, "a"]], r'corners_m\[2\]\[1\] is "a"'),
-        ([[0, 0], [1, 0], 5], r"corners_m\[2\] is 5"),
+        ([[0, 0], [1, 0], [1]], r"corners_m.3 is a list of length 1: expected a list of one or more lists of 2"),
+        ([[0, 0], [1, 0], [1, "a"]], r'corners_m.3.2 is "a"'),
+        ([[0, 0], [1, 0], 5], r"corners_m.3 is 5"),
         ([], "is a list of length 0"),
         (7, "is 7"),
         ([[0, 0], [4, 4], [4, 0], [0, 4]], "sides cross or touch"),
         ([[0, 0], [1, 0], [2, 0]], "sides cross or touch"),
         ([[0, 0], [4, 0], [4, 4], [2, 0], [0, 4]], "sides cross or touch"),
-        ([[0, 0], [4, 0], [float("nan"), 4]], r"corners_m\[2\]\[0\] is nan"),
+        ([[0, 0], [4, 0], [float("nan"), 4]], r"corners_m.3.1 is nan"),
     ],
 )
 def test_corners_that_are_no_area_are_refused(corners, message):

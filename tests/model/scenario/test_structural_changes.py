@@ -22,6 +22,7 @@ STRUCTURE = Structure(
     held=np.zeros(6, bool),
     pairs=np.array([(0, 1), (2, 3), (1, 4), (3, 4), (0, 5), (2, 5)]),
     points_m=np.array([(0, 0, 2), (10, 0, 2), (0, 0, 4), (10, 0, 4), (0, 0, 0), (10, 0, 0)], float),
+    boxes_m=np.zeros((6, 2, 3)),
 )
 
 
@@ -124,14 +125,14 @@ def test_a_plane_beside_what_is_held_is_judged_by_where_that_lies():
     [
         (lambda: Removal(time_s=1), "removals.members is missing: expected it, or the two corners of a box"),
         (lambda: Removal(time_s=1, members=[]), "members is a list of length 0: expected a list of one or more texts"),
-        (lambda: Removal(time_s=1, members=["deck", 3]), r"removals.members\[1\] is 3: expected a list of one or more"),
+        (lambda: Removal(time_s=1, members=["deck", 3]), r"removals.members.2 is 3: expected a list of one or more"),
         (
             lambda: Removal(time_s=1, lowest_corner_m=(0, 0, 0)),
             "removals.highest_corner_m is missing: expected it with removals.lowest_corner_m",
         ),
         (
             lambda: Removal(time_s=1, lowest_corner_m=(0, 0, 0), highest_corner_m=(1, 0, 1)),
-            r"removals.highest_corner_m\[1\] is 0.0: expected more than that of the lowest corner, 0.0 \(m\)",
+            r"removals.highest_corner_m.2 is 0.0: expected more than that of the lowest corner, 0.0 \(m\)",
         ),
         (lambda: SawCut(time_s=1, point_m=(0, 0, 0), normal=(0, 0, 0)), "saw_cuts.normal is a list of length 3, all 0"),
         (lambda: Weakening(time_s=1, factor=0), "weakenings.factor is 0: expected a number above 0 and up to 1"),

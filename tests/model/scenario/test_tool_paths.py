@@ -64,12 +64,12 @@ def test_jackhammers_are_written_without_loss():
             {"path_m": []},
             r"jackhammers.path_m is a list of length 0: expected a list of one or more lists of 2 numbers",
         ),
-        ({"path_m": [[1, 2], [1]]}, r"jackhammers.path_m\[1\] is a list of length 1: expected a list of one or more"),
+        ({"path_m": [[1, 2], [1]]}, r"jackhammers.path_m.2 is a list of length 1: expected a list of one or more"),
         (
             {"path_m": [[1, 2], [1, "2"]]},
-            r"jackhammers.path_m\[1\]\[1\] is \"2\": expected a list of one or more lists",
+            r"jackhammers.path_m.2.2 is \"2\": expected a list of one or more lists",
         ),
-        ({"path_m": [[1, 2], [1, 9]]}, r"jackhammers.path_m\[1\]\[1\] is 9.0: expected a position on the deck"),
+        ({"path_m": [[1, 2], [1, 9]]}, r"jackhammers.path_m.2.2 is 9.0: expected a position on the deck"),
     ],
 )
 def test_wrong_jackhammers_are_refused(values, text):

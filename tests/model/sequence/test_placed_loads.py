@@ -18,6 +18,7 @@ STRUCTURE = Structure(
     held=np.array([True] + [False] * 4),
     pairs=np.zeros((0, 2), int),
     points_m=np.zeros((0, 3)),
+    boxes_m=np.zeros((5, 2, 3)),
 )
 BOXES_M = STRUCTURE.centres_m[:, None] + np.array([(-0.5, -0.5, -0.5), (0.5, 0.5, 0.5)])
 MASSES_KG = np.array([0.0, 100.0, 300.0, 50.0, 0.0])

@@ -120,3 +120,15 @@ def test_steel_needs_reinforcement():
     connections = ConnectionSettings(type="FIXED", method="face", material="concrete", ductile_hardening=1.1)
     with pytest.raises(ScenarioError, match=r"connections.ductile_hardening is 1.1: expected none where"):
         replace(I235, connections=connections)
+
+
+def test_bars_both_ways_resist_askew_as_yield_lines_do():
+    """Johansen: across a crack at an angle, bars of both ways resist F_x cos² + F_y sin² by its length."""
+    along, across = BOTTOM, replace(BOTTOM, along="y", area_mm2=40_000.0)
+    one, other, both = (model_with(*layers) for layers in ((along,), (across,), (along, across)))
+    normals = both.connections.normals
+    forces = [model.bars.yield_n[:, None] * model.bars.directions for model in (one, other, both)]
+    # In the axes of their sections the first component is that along the normal, which opens the crack.
+    np.testing.assert_allclose(forces[2], forces[0] + forces[1], atol=1e-6 * abs(forces[2]).max())
+    by_x = one.bars.yield_n * abs(normals[:, 0])
+    np.testing.assert_allclose(forces[0][:, 0], by_x, atol=1e-6 * by_x.max())

@@ -200,7 +200,7 @@ def test_ground_that_cannot_be_is_said(tmp_path, name):
 @pytest.mark.parametrize(
     "settings, message",
     [
-        ({"name": "a"}, "ground.surfaces.height_m and ground.surfaces.file are all missing"),
+        ({"name": "a"}, "ground.surfaces has no height_m or file: give one of them"),
         ({"name": "a", "height_m": 1.0}, "expected both, of a level surface"),
         ({"name": "a", "file": "a.obj", "corners_m": WATER["corners_m"]}, "expected both, of a level surface"),
         ({"name": "a", "height_m": 1.0, "corners_m": ((0, 0), (1, 1))}, "has 2 positions: expected at least 3"),

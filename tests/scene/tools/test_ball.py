@@ -145,7 +145,7 @@ def test_scenario_with_hits_in_a_row(tmp_path):
         ),
         ({"release_time_s": 2.5}, r"ball.hits.release_time_s is 2.5: expected at least 3.04167 \(s\), a frame after"),
         ({"release_time_s": 5.0}, r"ball.hits.release_time_s is 5.0: expected less than time.duration_s, 5.0"),
-        ({"target_m": (30, 0)}, r"ball.hits.target_m\[0\] is 30.0: expected a position on the deck"),
+        ({"target_m": (30, 0)}, r"ball.hits.target_m.1 is 30.0: expected a position on the deck"),
     ],
 )
 def test_wrong_hits_are_refused(values, text):

@@ -206,5 +206,5 @@ def test_changes_are_not_left_out_in_silence_where_memory_is_not_trusted(blender
     monkeypatch.setattr(layout, "MICROSOFT", layout.SYSTEM_V)
     bar = hanging_bar()
     keep_changes(bar.scene, [SawCut(time_s=0.3, point_m=(0, 0, 13), normal=(0, 0, 1))])
-    with pytest.raises(SimulationError, match="removals, saw cuts and weakenings need Blender's memory"):
+    with pytest.raises(SimulationError, match="removals, saw cuts, weakenings and blast zones need Blender's memory"):
         play(bar.scene, tmp_path, 4)

@@ -122,7 +122,7 @@ def test_a_folder_of_another_study_is_refused_and_kept(blender, panel, tmp_path)
     "change, message",
     [
         (lambda study: setattr(study.vary[0], "key", "ball.height"), "ball.height is unknown"),
-        (lambda study: setattr(study.vary[0], "lowest", -1.0), r"the value may come to ball\.drop_height_m = -1"),
+        (lambda study: setattr(study.vary[0], "lowest", -1.0), r"a run may sample ball\.drop_height_m = -1"),
     ],
 )
 def test_a_study_that_cannot_run_is_refused_with_a_sentence(blender, panel, tmp_path, change, message):

@@ -49,7 +49,7 @@ def test_importing_again_takes_another_folder(extension, settings, tmp_path):
         ({"filepath": "//bridge.ifc"}, "save it or give a full path"),
         ({"kinds": "deck"}, 'kinds has "deck": expected NAME=KIND'),
         ({"kinds": "IfcWall=dock"}, 'kind of "IfcWall" is "dock"'),
-        ({"material": ""}, "no material: Footing 1"),
+        ({"material": "marzipan"}, "the table of materials does not know"),
         ({"own_ground": True, "ground_m": 50.0}, "would cover the bridge"),
     ],
 )
@@ -77,3 +77,32 @@ def test_the_button_is_greyed_with_the_reason_where_nothing_reads_ifc(extension,
         extension.ops.bda.import_ifc(filepath="bridge.ifc")
     with pytest.raises(MissingLibraryError, match="Blender has it where its extension Bonsai is installed"):
         library()
+
+
+def test_elements_are_listed_corrected_and_imported(extension, settings, tmp_path):
+    """A column that is taken for an abutment of masonry, and girders that are left out."""
+    path = whole_bridge().written(tmp_path / "two_spans.ifc")
+    assert not extension.ops.bda.import_ifc_elements.poll()
+    assert extension.ops.bda.look_into_ifc(filepath=str(path)) == {"FINISHED"}
+    rows = {row.title: row for row in settings.ifc_elements}
+    assert len(settings.ifc_elements) == len(rows) == 21
+    assert (rows["Column"].kind, rows["Column"].material) == ("pier", "C30/37")
+    assert (rows["Railing"].kind, rows["Railing"].why) == ("left out", "it carries nothing")
+    rows["Column"].kind, rows["Column"].material = "abutment", "masonry"
+    rows["Girder left"].kind = "left out"
+    settings.ifc_element_index = list(settings.ifc_elements).index(rows["Girder left"])
+    rows["Girder right"].title = "Girder left"
+    assert extension.ops.bda.ifc_alike() == {"FINISHED"}
+    assert extension.ops.bda.import_ifc_elements() == {"FINISHED"}
+    scenario = read_scenario(tmp_path / "two_spans_scenario" / "scenario.toml")
+    column = next(table for table in scenario.geometry if table.name == "Column")
+    assert (column.kind, column.density_kg_m3) == ("abutment", 2750.0)
+    assert not any(table.kind == "girder" for table in scenario.geometry)
+    assert scenario_of(settings) == scenario
+
+
+def test_a_material_that_the_table_lacks_is_refused(extension, settings, tmp_path):
+    extension.ops.bda.look_into_ifc(filepath=str(whole_bridge().written(tmp_path / "two_spans.ifc")))
+    settings.ifc_elements[0].material = "marzipan"
+    with pytest.raises(RuntimeError, match='is "marzipan", which the table of materials does not know'):
+        extension.ops.bda.import_ifc_elements()

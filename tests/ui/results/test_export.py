@@ -7,10 +7,10 @@ import pytest
 import trimesh
 from support.checkout import SMALL
 
-from bridge_demolition_addon.exports.formats import GLTF, PARAVIEW
+from bridge_demolition_addon.exports.formats import GLTF, PARAVIEW, new_export
 from bridge_demolition_addon.model.results.arrays import load_results
 from bridge_demolition_addon.ui.recording import session
-from bridge_demolition_addon.ui.results.operator import BDA_OT_export_run, new_export
+from bridge_demolition_addon.ui.results.operator import BDA_OT_export_run
 
 
 @pytest.fixture

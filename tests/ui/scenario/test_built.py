@@ -163,7 +163,7 @@ def test_a_run_without_frames_has_changed_no_objects(extension, settings):
 def test_build_anew_leaves_everything_where_it_is_refused(built, settings):
     settings.scenario.ball.target_m = (1000.0, 0.0)
     before = sorted(obj.name for obj in built.data.objects)
-    with pytest.raises(RuntimeError, match=r"ball\.target_m\[0\]"):
+    with pytest.raises(RuntimeError, match=r"ball\.target_m.1"):
         built.ops.bda.build_anew()
     mine = built.data.objects.new("Mine", built.data.meshes.new("Mine"))
     built.context.scene.rigidbody_world.collection.objects.link(mine)

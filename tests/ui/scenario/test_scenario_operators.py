@@ -132,7 +132,7 @@ def test_building_keeps_the_charges_that_are_there(extension, settings):
 
 def test_building_what_contradicts_itself_changes_nothing(extension, settings):
     settings.scenario.ball.target_m = (100.0, 0.0)
-    with pytest.raises(RuntimeError, match=r"ball\.target_m\[0\] is 100\.0: expected a position on the deck"):
+    with pytest.raises(RuntimeError, match=r"ball\.target_m.1 is 100\.0: expected a position on the deck"):
         extension.ops.bda.build_scenario()
     assert names(extension) == []
     assert extension.context.scene.rigidbody_world is None

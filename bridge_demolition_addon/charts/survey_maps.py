@@ -1,0 +1,64 @@
+"""Maps of a survey of debris beside the forecast of a run."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap
+from matplotlib.figure import FigureBase
+from matplotlib.patches import Patch
+
+from ..model.debris.survey import SurveyComparison
+from .plan_maps import draw_area, fit, plan_axes
+
+_COLOURS = ("#4477aa", "#ee6677", "#228833")
+_LEAST_M = 0.1
+
+
+def difference_map(figure: FigureBase, comparison: SurveyComparison) -> None:
+    """Draw how much higher the survey has the debris than the forecast, in plan."""
+    axes = plan_axes(figure)
+    difference = comparison.difference_m
+    known = np.abs(difference[np.isfinite(difference)])
+    top = max(float(np.percentile(known, 98.0)) if len(known) else 0.0, _LEAST_M)
+    image = axes.imshow(
+        difference, extent=_extent(comparison), origin="lower", cmap="RdBu_r", vmin=-top, vmax=top, aspect="equal"
+    )
+    _draw_limits(axes, comparison)
+    fit(axes, figure)
+    figure.colorbar(image, ax=axes, label="survey less forecast (m)", shrink=0.8)
+
+
+def footprints_map(figure: FigureBase, comparison: SurveyComparison) -> None:
+    """Draw where debris lies by the forecast, by the survey, and by both."""
+    axes = plan_axes(figure)
+    foreseen, surveyed = comparison.foreseen, comparison.surveyed
+    cells = np.where(foreseen & surveyed, 2.0, np.where(surveyed, 1.0, np.where(foreseen, 0.0, np.nan)))
+    axes.imshow(
+        cells,
+        extent=_extent(comparison),
+        origin="lower",
+        cmap=ListedColormap(_COLOURS),
+        vmin=-0.5,
+        vmax=2.5,
+        aspect="equal",
+    )
+    _draw_limits(axes, comparison)
+    fit(axes, figure)
+    names = ("forecast alone", "survey alone", "both")
+    handles = [Patch(color=colour, label=name) for colour, name in zip(_COLOURS, names, strict=True)]
+    axes.legend(handles=handles, loc="upper right", fontsize=7)
+
+
+def _extent(comparison: SurveyComparison) -> tuple[float, float, float, float]:
+    xs, ys = comparison.xs_m, comparison.ys_m
+    half_x, half_y = (xs[1] - xs[0]) / 2.0, (ys[1] - ys[0]) / 2.0
+    return xs[0] - half_x, xs[-1] + half_x, ys[0] - half_y, ys[-1] + half_y
+
+
+def _draw_limits(axes: Axes, comparison: SurveyComparison) -> None:
+    draw_area(
+        axes, comparison.outline, fill=False, edgecolor="black", linewidth=1.4, linestyle="--", label="bridge before"
+    )
+    limit = comparison.outline.offset(comparison.limit_m)
+    draw_area(axes, limit, fill=False, edgecolor="tab:red", linewidth=1.2, label=f"limit, {comparison.limit_m:.1f} m")

@@ -1,0 +1,101 @@
+"""``bda new``: write a scenario to start from, by six questions or options."""
+
+import argparse
+import sys
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from ..errors import OutputError
+from ..model.scenario.file import scenario_from_text
+from ..model.scenario.starter import METHODS, Answers, starter_text
+from ..system.disk import write_whole_text, writing
+from .arguments import quantity
+
+
+def add_to(commands: argparse._SubParsersAction) -> None:
+    """Add the command to the command line."""
+    parser = commands.add_parser(
+        "new",
+        help="write a scenario to start from, by six questions",
+        description="Write a commented scenario. On a terminal, what no option says is asked for; elsewhere it is what "
+        "is in brackets. An empty answer takes that too.",
+        allow_abbrev=False,
+    )
+    parser.add_argument("file", metavar="FILE.toml", type=Path, help="file to write, which must not be there")
+    usual = Answers()
+    for name, (read, metavar, question) in _QUESTIONS.items():
+        shown = _shown(name, getattr(usual, name)).replace("%", "%%")
+        option, text = f"--{name.removesuffix('_m')}", f"{question} ({shown})"
+        parser.add_argument(option, dest=name, type=read, metavar=metavar, help=text)
+    parser.set_defaults(execute=new)
+
+
+def new(arguments: argparse.Namespace) -> None:
+    """Write the scenario, and print what to do with it."""
+    file: Path = arguments.file
+    if file.exists():
+        raise OutputError(f"{file}: exists already; choose another name")
+    given = {name: getattr(arguments, name) for name in _QUESTIONS if getattr(arguments, name) is not None}
+    answers = replace(Answers(), **given)
+    if sys.stdin.isatty():
+        for name in _QUESTIONS:
+            if name not in given:
+                answers = _asked(answers, name)
+    text = starter_text(answers)
+    scenario_from_text(text)  # refuses sizes that do not go together before anything is written
+    with writing(file):
+        write_whole_text(file, text)
+    print(f"{file}\n\nNow: bda check {file}\nThen: bda run {file} --report")
+
+
+def _asked(answers: Answers, name: str) -> Answers:
+    """Return the answers with one that the user types in; ask again where it is wrong."""
+    read, _, question = _QUESTIONS[name]
+    while True:
+        try:
+            typed = input(f"{question} [{_shown(name, getattr(answers, name))}]: ").strip()
+        except EOFError as error:  # Ctrl-D
+            raise KeyboardInterrupt from error
+        if not typed:
+            return answers
+        try:
+            return replace(answers, **{name: read(typed)})
+        except argparse.ArgumentTypeError as error:
+            print(error)
+
+
+def _shown(name: str, value: Any) -> str:
+    if value is None:
+        return "a 16th of the longest span"
+    return " ".join(f"{span:g}" for span in value) if name == "spans_m" else str(value)
+
+
+def _length(text: str) -> float:
+    return quantity(text.replace(",", "."))
+
+
+def _spans(text: str) -> tuple[float, ...]:
+    """Return lengths that blanks or semicolons separate, so that a decimal comma is one."""
+    spans = tuple(_length(part) for part in text.replace(";", " ").split())
+    if not spans:
+        raise argparse.ArgumentTypeError(f"{text!r} is wrong: expected lengths in m, such as '15 20 15'")
+    return spans
+
+
+def _method(text: str) -> str:
+    if text not in METHODS:
+        raise argparse.ArgumentTypeError(f"{text!r} is wrong: expected one of {', '.join(METHODS)}")
+    return text
+
+
+_QUESTIONS: dict[str, tuple[Callable[[str], Any], str, str]] = {
+    "title": (str, "TEXT", "What is the bridge called?"),
+    "spans_m": (_spans, "'M M …'", "How long are its spans, in m?"),
+    "width_m": (_length, "M", "How wide is its deck, in m?"),
+    "thickness_m": (_length, "M", "How thick is its slab, in m?"),
+    "height_m": (_length, "M", "How high are its piers, in m?"),
+    "by": (_method, "|".join(METHODS), "What brings it down?"),
+}
+"""Of each answer: how it is read, what stands for it in the help, and the question."""

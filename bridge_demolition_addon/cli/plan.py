@@ -1,0 +1,44 @@
+"""``bda plan``: write the charge plan of a scenario, as a page, a PDF, tables and a workbook."""
+
+import argparse
+import sys
+from pathlib import Path
+
+from ..errors import ScenarioError
+from ..model.scenario.file import read_scenario
+from .arguments import naming
+from .progress import progress_on
+
+
+def add_to(commands: argparse._SubParsersAction) -> None:
+    """Add the command to the command line."""
+    parser = commands.add_parser(
+        "plan",
+        help="write the charge plan of a scenario with blast zones, without running it",
+        description="Write drill holes, charges, firing sequence, totals, neighbours and fragments as a page, a PDF, "
+        "tables (CSV) and a workbook (XLSX), see docs/drilled_charges.md.",
+        allow_abbrev=False,
+    )
+    parser.add_argument("scenario", metavar="SCENARIO.toml", type=Path, help="scenario file with [[blast_zones]]")
+    parser.add_argument("--output", metavar="DIR", type=Path, required=True, help="folder for the plan, made if new")
+    parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
+    parser.set_defaults(execute=plan)
+
+
+def plan(arguments: argparse.Namespace) -> None:
+    """Write the charge plan and say where it is."""
+    # Loading matplotlib takes a second, which the other commands need not wait.
+    from ..report.write import write_charge_plan
+
+    scenario = read_scenario(arguments.scenario)
+    if not scenario.blast_zones:
+        raise ScenarioError(f"{arguments.scenario}: has no [[blast_zones]], which a charge plan is made from")
+    progress = progress_on(sys.stdout, quiet=arguments.quiet)
+    try:
+        with naming(arguments.scenario):
+            written = write_charge_plan(scenario, arguments.output, progress)
+    finally:
+        progress.finish()
+    if not arguments.quiet:
+        for path in written:
+            print(path)

@@ -1,0 +1,46 @@
+"""Bars that stay in a zone when its concrete is gone: they yield in tension, and yield or buckle in compression.
+
+A bar is fixed in the concrete at both ends of the bared height and cannot move sideways there, so that Euler's length
+is half of that: P = π² E I / (0.5 l)². Ends that move sideways with the whole member would buckle at a quarter of it.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from ..arrays import FloatArray
+from ..elasticity.steel_bars import MODULUS_PA, YIELD_PA
+
+_EFFECTIVE_LENGTH = 0.5
+
+
+def bar_area_m2(diameter_m: ArrayLike) -> FloatArray:
+    """Return the cross-section of a bar."""
+    area: FloatArray = np.pi / 4.0 * np.square(np.asarray(diameter_m, float))
+    return area
+
+
+def yield_force_n(diameter_m: ArrayLike, yield_pa: ArrayLike = YIELD_PA) -> FloatArray:
+    """Return the force at which a bar yields."""
+    force: FloatArray = bar_area_m2(diameter_m) * np.asarray(yield_pa, float)
+    return force
+
+
+def buckling_force_n(diameter_m: ArrayLike, bared_m: ArrayLike) -> FloatArray:
+    """Return the force at which an elastic bar buckles over a bared height (L. Euler, 1744), whatever its yield."""
+    diameter = np.asarray(diameter_m, float)
+    inertia_m4 = np.pi / 64.0 * np.square(np.square(diameter))
+    force: FloatArray = np.pi * np.pi * MODULUS_PA * inertia_m4 / np.square(_EFFECTIVE_LENGTH * np.asarray(bared_m))
+    return force
+
+
+def compression_n(diameter_m: ArrayLike, bared_m: ArrayLike, yield_pa: ArrayLike = YIELD_PA) -> FloatArray:
+    """Return what a bar resists in compression: the less of its forces at yield and at buckling."""
+    return np.minimum(yield_force_n(diameter_m, yield_pa), buckling_force_n(diameter_m, bared_m))
+
+
+def slender_from_m(diameter_m: ArrayLike, yield_pa: ArrayLike = YIELD_PA) -> FloatArray:
+    """Return the bared height from which on a bar buckles before it yields: (π/2) d √(E/f_y), 31.4 d at 500 N/mm²."""
+    height: FloatArray = np.pi / 2.0 * np.asarray(diameter_m, float) * np.sqrt(MODULUS_PA / np.asarray(yield_pa))
+    return height

@@ -1,0 +1,172 @@
+"""A structure at rest that has cracks, some held by bars: found by implicit steps in time that are very long.
+
+A sub-step of `structure` is implicit: forces are those at its end. In a long one from rest, inertia M / dt² counts next
+to nothing against stiffness, and what is left is the equilibrium of elastic connections, bars that yield, sides of
+cracks that press and rub, and springs: Newton's method, with a little mass beside the stiffness. Bodies stop after each
+step, so nothing swings. Where no equilibrium is near, bodies fall by metres in a step.
+
+All arrays have their components first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from copy import deepcopy
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..arrays import BoolArray, FloatArray, IntArray
+from ..geometry.rotations import rotated
+from .bearings import Bearings
+from .cracks import Cracks
+from .equations import RigidBodies, connected_parts
+from .equilibrium import Equilibrium
+from .joint_rows import JointFrames, components_first, components_last, cross_products, turned
+from .structure import ElasticStep, ElasticStructure, SpringLaw, StepInput
+
+_STEP_S = 1.0
+"""Length of a step: what hangs by a thousandth of the stiffness of a bridge with 5 Hz still finds its rest in it."""
+
+_AT_REST = 1e-4
+"""Force that is left on a body, by its largest load, at which it rests."""
+
+_MOST_STEPS = 60
+_MOST_ROUNDS = 200
+"""How often connections break one after another in one step, before the rest waits for the next."""
+
+_REGRIPS = 2
+"""How often sides of cracks rub by the pressing force that was found before, in one step."""
+
+_FALLS_M = 0.2
+"""Motion in one step of what falls: what else breaks waits for the next, without what has come loose by then."""
+
+_FARTHEST_M = 0.5
+"""Displacement from where it was built, beyond which a body has fallen."""
+
+Overloaded = Callable[[FloatArray, BoolArray], IntArray]
+"""Which connections (k,) break, of loads (6, m) on the first bodies about their points, and whether each is intact."""
+
+Tear = Callable[[Cracks, IntArray, FloatArray, FloatArray], None]
+"""Adds cracks in place of connections (k,), with bodies at positions (3, n) in rotations (3, 3, n)."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BuiltStructure:
+    """What an `ElasticStructure` is made of, as it was built."""
+
+    frames: JointFrames
+    stiffness: FloatArray  # (6, 6, m)
+    bodies: RigidBodies
+    soil: SpringLaw | None = None
+    bearings: Bearings | None = None
+
+
+class CrackedStructure:
+    """Bodies, elastic connections, and the cracks in place of some, under loads that change little by little.
+
+    `intact` (m,) are connections that are whole, with
+    which it is at `rest` at first: springs that do not touch anything would not know where it rests. `left` (m,) is
+    what `cracks` have as the shares of their bars.
+    """
+
+    def __init__(self, built: BuiltStructure, cracks: Cracks, left: FloatArray, intact: BoolArray, rest: Equilibrium):
+        self._built, self.cracks, self._left = built, cracks, left
+        self._frames, self._bodies = built.frames, built.bodies
+        self.positions_m, self.rotations = rest.positions_m, rest.rotations
+        self.intact, self.held = intact.copy(), rest.held.copy()
+        self.loads = np.zeros(
+            (6, len(built.frames))
+        )  # on the first bodies about their points, in the axes of the world
+
+    def copy(self) -> CrackedStructure:
+        """Return one in the same state, that goes on by itself."""
+        memo = {id(part): part for part in (self._frames, self._built.stiffness, self._bodies)}
+        return deepcopy(self, memo)
+
+    def load(self, accelerations: FloatArray, overloaded: Overloaded, tear: Tear) -> bool:
+        """Let it come to rest under loads by mass (6, n), connections breaking one after another.
+
+        Return whether it did. What falls, or goes on moving, is not held any more.
+        """
+        built = self._built
+        structure = ElasticStructure(
+            built.frames, built.stiffness, built.bodies, 0.0, self.cracks, built.soil, built.bearings
+        )
+        free = _STEP_S * accelerations
+        for _ in range(_MOST_STEPS):
+            ruptured = structure.settle(self.positions_m, self.rotations)
+            self._let_go()
+            start = StepInput(self.positions_m, self.rotations, np.where(self.held, free, 0.0), ~self.held)
+            broke, step = self._broken_in_step(structure, start, overloaded, tear)
+            self.loads = self._loads_of(step)
+            moving = self._moving(step)
+            self.positions_m, self.rotations = self._moved(moving)
+            structure.end_substep()
+            rests = abs(moving[:3]).max(axis=0) <= _AT_REST * abs(free[:3]).max()
+            if rests.all() and not broke and not len(ruptured):
+                return True
+        self._let_go()
+        self.held &= rests
+        return False
+
+    def _broken_in_step(
+        self, structure: ElasticStructure, start: StepInput, overloaded: Overloaded, tear: Tear
+    ) -> tuple[bool, ElasticStep]:
+        """Whether anything broke in a step, and the step without that."""
+        step = self._with_friction(structure, start)
+        for number in range(_MOST_ROUNDS):
+            if _STEP_S * abs(self._moving(step)[:3]).max() > _FALLS_M:
+                return True, step
+            rows = overloaded(self._loads_of(step), self.intact)
+            if not len(rows):
+                return number > 0, step
+            self.intact[rows] = False
+            tear(self.cracks, rows, self.positions_m, self.rotations)
+            step = self._with_friction(structure, start)
+        return True, step
+
+    def _with_friction(self, structure: ElasticStructure, start: StepInput) -> ElasticStep:
+        """Return a step in which sides of cracks rub by how they are pressed in it."""
+        step = structure.step(start, self.intact, _STEP_S)
+        for _ in range(_REGRIPS if len(self.cracks) else 0):
+            moving = self._moving(step)
+            if not self.cracks.grip(*self._moved(moving)):
+                break
+            step = structure.step(start, self.intact, _STEP_S)
+        return step
+
+    def _moving(self, step: ElasticStep) -> FloatArray:
+        """Velocities (6, n) of what is held, at the end of a step."""
+        moving: FloatArray = np.where(self.held & self._bodies.moves, step.velocities, 0.0)
+        return moving
+
+    def _loads_of(self, step: ElasticStep) -> FloatArray:
+        """Forces, and moments about their points, (6, m) of all connections and cracks on their first bodies."""
+        loads = np.zeros((6, len(self._frames)))
+        loads[:, step.acting] = step.of_first / _STEP_S
+        loads[:, step.cracks] = step.of_cracks_on_first / _STEP_S
+        first = self._frames.first
+        arms = turned(self.rotations[..., first], self._frames.first_points_m)
+        loads[3:] -= cross_products(arms, loads[:3])
+        return loads
+
+    def _moved(self, moving: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Positions and rotations after a step with velocities (6, n)."""
+        turned_on = rotated(components_last(self.rotations), components_last(_STEP_S * moving[3:]))
+        return self.positions_m + _STEP_S * moving[:3], components_first(turned_on)
+
+    def _let_go(self) -> None:
+        """Take what has fallen, and what hangs by nothing any more, for gone."""
+        moves, frames = self._bodies.moves, self._frames
+        fallen = abs(self.positions_m - self._bodies.positions_m).max(axis=0) > _FARTHEST_M
+        lost = moves & (fallen | ~self.held)
+        of_lost = lost[frames.first] | lost[frames.second]
+        self.intact &= ~of_lost
+        self._left[of_lost] = 0.0  # its bars are gone as well
+        holds = self.intact.copy()
+        holds[self.cracks.rows[~of_lost[self.cracks.rows]]] = True
+        first, second = frames.first[holds], frames.second[holds]
+        label = connected_parts(moves, first, second)
+        supported = np.unique(np.concatenate((label[first[~moves[second]]], label[second[~moves[first]]])))
+        self.held &= ~lost & (np.isin(label, supported[supported >= 0]) | ~moves)

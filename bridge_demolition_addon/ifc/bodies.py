@@ -1,0 +1,91 @@
+"""Bodies of elements as solids, in metres and in the axes of the IFC file."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ..engineering.geometry.mesh import TriangleMesh
+from ..engineering.geometry.repair import repaired_solid
+from ..errors import GeometryError, IfcError
+from .elements import Element
+from .shapes import FAILED, KeptShapes, shapes_of
+from .source import IfcSource
+from .substitutes import sound_solid
+
+_LISTED = 5
+
+
+@dataclass(frozen=True, slots=True)
+class Bodies:
+    """Solids of elements and notes on how they were mended, by their numbers in the file, and why others have none.
+
+    Coordinates of solids start at the point `origin` (3,), m, near them: a bridge may lie thousands of kilometres from
+    the origin of its file, where numbers have coarse steps.
+    """
+
+    solids: dict[int, TriangleMesh]
+    repairs: dict[int, tuple[str, ...]]
+    missing: dict[int, str]
+    origin: np.ndarray
+
+
+def bodies_of(
+    source: IfcSource, elements: Sequence[Element], kept: KeptShapes, volumes: Mapping[int, float], *, strict: bool
+) -> Bodies:
+    """Return the bodies of elements, maybe with volumes that the file gives them, m³, by their numbers in the file.
+
+    Where this is `strict`, those that fail are refused; otherwise a solid of about the same volume may stand for them.
+    """
+    shapes = shapes_of(source, elements, kept)
+    if strict:
+        _check_shapes(source, elements, kept)
+    if not shapes:
+        raise IfcError(f"{source.path}: no element has a shape that can be worked out; export it again")
+    origin = np.floor(np.mean([mesh.bounds.mean(axis=0) for mesh in shapes.values()], axis=0))
+    bodies = Bodies({}, {}, dict(kept.failed), origin)
+    for done, element in enumerate(elements):
+        number = element.entity.id()
+        if number not in shapes:
+            continue
+        kept.begins(done, len(elements), element)
+        mesh = replace(shapes[number], vertices=shapes[number].vertices - origin)
+        try:
+            if strict:
+                repaired = repaired_solid(mesh, element.facts.name)
+            else:
+                repaired = sound_solid(mesh, element.facts.name, volumes.get(number))
+        except GeometryError as error:
+            bodies.missing[number] = str(error).removeprefix(f"{element.facts.name}: ")
+            continue
+        bodies.solids[number], bodies.repairs[number] = repaired.solid, repaired.repairs
+    kept.begins(len(elements), len(elements), None)
+    if strict:
+        _check_solids(source, elements, bodies)
+    return bodies
+
+
+def _check_shapes(source: IfcSource, elements: Sequence[Element], kept: KeptShapes) -> None:
+    wrong = {
+        element.title: kept.failed[element.entity.id()] for element in elements if element.entity.id() in kept.failed
+    }
+    if not wrong:
+        return
+    for title, why in wrong.items():
+        if why != FAILED:
+            raise IfcError(f"{source.path}: {title}: {why}; leave it out by --without NAME")
+    titles = list(wrong)
+    more = f" and {len(titles) - _LISTED} more" if len(titles) > _LISTED else ""
+    raise IfcError(
+        f"{source.path}: the geometry of {', '.join(titles[:_LISTED])}{more} cannot be worked out; mend it in "
+        "the program that it was made with, or leave such elements out by --without NAME"
+    )
+
+
+def _check_solids(source: IfcSource, elements: Sequence[Element], bodies: Bodies) -> None:
+    wrong = [f"{element.title}: {why}" for element in elements if (why := bodies.missing.get(element.entity.id()))]
+    if wrong:
+        more = f" And so for {len(wrong) - _LISTED} more." if len(wrong) > _LISTED else ""
+        raise IfcError(f"{source.path}: {' '.join(wrong[:_LISTED])}{more} Or leave it out by --without NAME")

@@ -1,0 +1,37 @@
+"""What an element of an IFC file became."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from ..engineering.geometry.mesh import TriangleMesh
+from ..model.bridge.member import Member
+from ..model.schema import given
+from .element_materials import Substance
+from .kinds import ElementFacts
+
+MEMBER, CONNECTION, LEFT_OUT, ADDED = "member", "connection", "left out", "added"
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """The result for an element: ``member``, ``connection``, ``left out`` or ``added``, and why, or another note on it.
+
+    Its member and substance are None where it is left out. The mesh is written in place of the member's solid. What is
+    ``added`` is in no file: a support that the file lacks. It keeps the element's facts, not its entity, which is only
+    valid while the file is open. `file_volume_m3` and `file_mass_kg` are what the file says of it.
+    """
+
+    facts: ElementFacts
+    member: Member | None
+    substance: Substance | None
+    became: str
+    why: str
+    mesh: TriangleMesh | None = None
+    file_volume_m3: float | None = None
+    file_mass_kg: float | None = None
+
+    @property
+    def part(self) -> tuple[Member, Substance]:
+        """Member and substance of an element that is not left out."""
+        return given(self.member), given(self.substance)

@@ -1,0 +1,98 @@
+"""What the reference says of a key or a table of any file, for a terminal."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Iterator
+from dataclasses import Field, dataclass, fields
+from difflib import get_close_matches
+from typing import Any
+
+from ...errors import ScenarioError
+from ..optimise.settings import OptimiseSettings
+from ..scenario import Scenario
+from ..scenario.reference import default_text, meaning
+from ..schema import Table, expected, given, holds_many, key_fields, key_name, key_of, subtable_class
+from ..search.settings import SearchSettings
+from ..study.settings import StudySettings
+
+_FILES: dict[type[Table], str] = {  # most ask for keys of a scenario, so that is not said
+    Scenario: "",
+    StudySettings: "study",
+    SearchSettings: "search",
+    OptimiseSettings: "optimisation",
+}
+
+_WIDTH = 100
+_MOST_SHOWN = 20
+_LIKENESS = 0.7
+
+
+@dataclass(frozen=True, slots=True)
+class _Entry:
+    name: str  # dotted, such as ``ball.mass_kg``
+    file: str
+    table_class: type[Table]  # the table itself, or that of the key
+    key: Field[Any] | None = None  # None for a table
+    many: bool = False
+
+    def lines(self) -> Iterator[str]:
+        if self.key is not None:
+            yield f"{self.name}: {expected(self.key)}; {_default(self.key)}"
+            yield from _wrapped(key_of(self.key).description)
+            return
+        yield f"[[{self.name}]], as often as needed" if self.many else f"[{self.name}]"
+        yield from _wrapped(meaning(self.table_class))
+        for item in key_fields(self.table_class):
+            yield f"  {item.name}: {expected(item)}; {_default(item)}"
+
+
+def explanation(name: str) -> list[str]:
+    """Return what the reference says of a key or table, such as ``ball.mass_kg``, ``mass_kg`` or ``[[charges]]``.
+
+    Numbers of elements and tables, as in messages, are left out: ``ball.target_m.1``.
+    """
+    wanted = ".".join(part for part in name.strip("[] ").split(".") if not part.isdigit())
+    entries = [entry for root, file in _FILES.items() for entry in _entries(root, file, many=False)]
+    found = [entry for entry in entries if entry.name == wanted]
+    found = found or [entry for entry in entries if entry.name.rpartition(".")[2] == wanted]
+    if not found:
+        names = [entry.name for entry in entries]
+        raise ScenarioError(f"{name} is no key or table of a file: {_advice(wanted, names)}")
+    if len(found) > _MOST_SHOWN:
+        return [f"{wanted} is a key of many tables; name one of:", *(f"  {entry.name}" for entry in found)]
+    files: dict[tuple[str, ...], list[str]] = {}
+    for entry in found:
+        files.setdefault(tuple(entry.lines()), []).append(entry.file)
+    return [line for text, names in files.items() for line in (*_in_files(names), *text, "")][:-1]
+
+
+def _in_files(names: list[str]) -> list[str]:
+    return [f"In files of a {' or '.join(filter(None, names))}:"] if any(names) else []
+
+
+def _entries(table_class: type[Table], file: str, *, many: bool) -> Iterator[_Entry]:
+    yield _Entry(table_class.table, file, table_class, None, many)
+    for item in fields(table_class):
+        if inner := subtable_class(item):
+            yield from _entries(given(inner), file, many=holds_many(item))
+        else:
+            yield _Entry(key_name(table_class, item), file, table_class, item)
+
+
+def _default(item: Field[Any]) -> str:
+    text = default_text(item).strip("`")
+    return text if text == "required" else f"by default {text}"
+
+
+def _advice(wanted: str, names: list[str]) -> str:
+    last = {name.rpartition(".")[2]: name for name in reversed(names)}
+    alike = get_close_matches(wanted, names, n=3, cutoff=_LIKENESS)
+    alike += [last[word] for word in get_close_matches(wanted.rpartition(".")[2], last, n=3, cutoff=_LIKENESS)]
+    if alike:
+        return f"did you mean {' or '.join(dict.fromkeys(alike))}?"
+    return "docs/scenario.md lists all of a scenario"
+
+
+def _wrapped(text: str) -> list[str]:
+    return textwrap.wrap(text.replace("`", ""), _WIDTH, initial_indent="  ", subsequent_indent="  ")

@@ -1,0 +1,144 @@
+"""A scenario to start from: commented, by six answers, with a bridge that carries itself by its concrete."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from ...errors import ScenarioError
+
+_THICKNESS_OVER_SPAN = 1.0 / 16.0
+"""Of slabs without prestress: about 1/15 to 1/20."""
+
+_LEAST_THICKNESS_M = 0.5
+_SHARDS_OF_A_SPAN = 80
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Answers:
+    """What `bda new` asks: the bridge in five answers, and what is done to it."""
+
+    title: str = "My bridge"
+    spans_m: tuple[float, ...] = (15.0, 15.0)
+    width_m: float = 8.0
+    thickness_m: float | None = None  # None for one that suits the longest span
+    height_m: float = 5.0  # of the piers
+    by: str = "removal"
+
+    @property
+    def slab_m(self) -> float:
+        """Thickness of the slab, m, on whole centimetres."""
+        if self.thickness_m is not None:
+            return self.thickness_m
+        return max(_LEAST_THICKNESS_M, round(_THICKNESS_OVER_SPAN * max(self.spans_m), 2))
+
+
+def starter_text(answers: Answers) -> str:
+    """Return a scenario file, with comments that say what to change."""
+    if answers.by not in METHODS:
+        raise ScenarioError(f"--by is {json.dumps(answers.by)}: expected one of {', '.join(METHODS)}")
+    spans = ", ".join(map(_number, answers.spans_m))
+    return _TEXT.format(
+        title=json.dumps(answers.title, ensure_ascii=False),
+        spans=spans,
+        width=_number(answers.width_m),
+        thickness=_number(answers.slab_m),
+        height=_number(answers.height_m),
+        wall=_number(0.75 * answers.width_m),
+        shards=_SHARDS_OF_A_SPAN * len(answers.spans_m),
+        action=METHODS[answers.by](answers),
+    )
+
+
+def _number(value: float) -> str:
+    return repr(float(value))
+
+
+def _removal(answers: Answers) -> str:
+    return f"""\
+# What is done: an excavator takes away a pier. Names of members are those that bda check lists.
+[[removals]]
+time_s = 0.5
+members = ["pier {1 + len(answers.spans_m) // 2}"]
+"""
+
+
+def _ball(answers: Answers) -> str:
+    middle = sum(answers.spans_m[: len(answers.spans_m) // 2]) + answers.spans_m[len(answers.spans_m) // 2] / 2.0
+    return f"""\
+# What is done: a crane drops a steel ball.
+[ball]
+mass_kg = 8000
+diameter_m = 1.25                # a ball of steel of this mass
+target_m = [{_number(middle)}, 0.0]          # along the road from the first pier, across it from its middle
+drop_height_m = 10.0             # clear height above the deck
+release_time_s = 0.1
+"""
+
+
+def _charges(answers: Answers) -> str:
+    number = len(answers.spans_m) // 2
+    along = sum(answers.spans_m[:number]) - 0.8
+    return f"""\
+# What is done: a charge detonates beside a pier. It is bare and in air, so that it takes far more than charges in
+# drill holes, which [[blast_zones]] have: see docs/drilled_charges.md.
+[blast]
+start_s = 0.5
+apply = "direct"
+
+[[charges]]
+place_m = [{_number(along)}, 0.0, {_number(answers.height_m / 2.0)}]      # along the road, across it, above the ground
+mass_kg = 300                    # of TNT
+"""
+
+
+METHODS: dict[str, Callable[[Answers], str]] = {"removal": _removal, "ball": _ball, "charge": _charges}
+"""What can be done to the bridge, by the words of `bda new`."""
+
+_TEXT = """\
+# Written by bda new. Change what you know better: lengths are in m, masses in kg, as the name of each key says.
+# bda explain KEY says what a key means, such as bda explain bridge.deck.width_m; docs/scenario.md lists all keys.
+
+[scenario]
+title = {title}
+seed = 1                         # another seed cuts the bridge into other shards: another run
+
+[time]
+duration_s = 4.0                 # longer, until everything rests
+
+# The bridge: x runs along the road with 0 at the axis of the first pier, y across it, z up with 0 at the ground.
+[bridge]
+density_kg_m3 = 2500             # reinforced concrete
+span_lengths_m = [{spans}]
+
+[bridge.deck]
+width_m = {width}
+thickness_m = {thickness}
+overhang_m = 0.5                 # of the deck beyond the axes of the first and the last pier
+
+[bridge.piers]
+kind = "wall"                    # or "columns", with columns = 2
+column_length_m = 0.8            # along the road
+column_width_m = {wall}             # across the road
+height_m = {height}
+
+[bridge.bearings]                # what carries the deck on the piers; without this table it is one piece with them
+pinned_at = 1                    # the others let it slide along the road
+
+# How finely it is cut: more shards cost more time, and show more. 24 along a span give forces within some 7 %.
+[fracture]
+shards = {shards}
+
+# Strength and stiffness come from the material: bda check says how the bridge carries its own weight. A few slivers at
+# the edges of members may be overloaded.
+[connections]
+type = "FIXED"
+method = "face"
+material = "reinforced concrete slab"
+stiffness = "elastic"
+
+[shards]
+start_deactivated = false        # awake: if the bridge cannot carry itself, the run shows it
+
+{action}"""

@@ -1,0 +1,106 @@
+"""What stands if a blast zone fails: the bridge at rest after all other changes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ...engineering.units import mass_text
+from ..scenario import Scenario, ZoneFiring
+from ..sequence.events import Event, model_structure, schedule
+from ..structure.blast_zones import zone_firings
+from .standing import StandingBridge
+
+MISFIRES_FILE = "misfires.csv"
+MISFIRE_COLUMNS = ("fails", "stands_kg", "falls_kg", "falls_share", "members_that_stand")
+
+ALL_FIRE = "none: all zones fire"
+
+_STANDS = 0.99
+"""Part of a member's mass that has to be held for it to stand."""
+
+
+@dataclass(frozen=True, slots=True)
+class Misfire:
+    """The bridge after all changes but one zone. Masses are those of what a connection to a support held at first."""
+
+    fails: str  # name of the zone, or `ALL_FIRE`
+    stands_kg: float
+    falls_kg: float  # without what the zones themselves throw out
+    falls_share: float  # part of what was held
+    members: tuple[str, ...]  # those that stand
+
+
+def misfires(scenario: Scenario, bridge: StandingBridge, progress: Callable[[int, int], None]) -> list[Misfire]:
+    """Return what comes down if all zones fire, and without each that does; nothing where there are none.
+
+    Equipment does not stand on the bridge then. `progress` is called with the numbers of those done and of all.
+    """
+    model = bridge.model
+    firings = zone_firings(scenario, model.members)
+    if not firings:
+        return []
+    events = schedule((*scenario.changes, *firings), model_structure(model))
+    whole = np.ones(len(model.connections), bool)
+    held = bridge.rest(whole, whole.astype(float), np.zeros((6, len(model.shards)))).held
+    cases: list[ZoneFiring | None] = [None, *firings]
+    found = []
+    for number, fails in enumerate(cases, start=1):
+        # Rows of changes that are alike: a zone is known by its name, and others have none.
+        fired = [event for event in events if fails is None or event.zone is None or event.zone.name != fails.name]
+        found.append(_without(bridge, fired, held, fails.name if fails else ALL_FIRE))
+        progress(number, len(cases))
+    return found
+
+
+def _without(bridge: StandingBridge, events: Sequence[Event], held: np.ndarray, fails: str) -> Misfire:
+    model = bridge.model
+    intact, left = np.ones(len(model.connections), bool), np.ones(len(model.connections))
+    removed = np.zeros(len(model.shards), bool)
+    for event in events:
+        removed[event.bodies] = True
+        left[event.connections] *= event.factor
+        intact[event.connections] &= event.factor > 0.0
+    left = np.where(left > 0.0, left, 1.0)
+    nothing = np.zeros((6, len(model.shards)))
+    down = held & ~bridge.rest(intact, left, nothing).held
+    down |= bridge.comes_down(intact, left, nothing, 1.0)
+    stands = held & ~down & ~removed
+    falls = held & down & ~removed
+    masses = model.masses_kg
+    stands_kg, falls_kg = float(masses[stands].sum()), float(masses[falls].sum())
+    return Misfire(fails, stands_kg, falls_kg, falls_kg / float(masses[held].sum() or 1.0), _standing(bridge, stands))
+
+
+def _standing(bridge: StandingBridge, stands: np.ndarray) -> tuple[str, ...]:
+    """Return the names of members that stand; what supports hold is not among them."""
+    model = bridge.model
+    names = []
+    for number, member in enumerate(model.members):
+        own = (model.member_of_shard == number) & ~model.fixed
+        mass_kg = model.masses_kg[own].sum()
+        if mass_kg and model.masses_kg[own & stands].sum() >= _STANDS * mass_kg:
+            names.append(member.name)
+    return tuple(names)
+
+
+def misfire_row(misfire: Misfire) -> dict[str, Any]:
+    """Return the row of a zone that fails."""
+    values = misfire.fails, misfire.stands_kg, misfire.falls_kg, misfire.falls_share, ", ".join(misfire.members)
+    return dict(zip(MISFIRE_COLUMNS, values, strict=True))
+
+
+def misfire_sentences(found: Sequence[Misfire]) -> list[str]:
+    """Return what stands if a zone fails, as sentences without a full stop."""
+    sentences = []
+    for misfire in found:
+        case = "if all zones fire" if misfire.fails == ALL_FIRE else f"if {misfire.fails} fails"
+        falls = "nothing comes down"
+        if misfire.falls_kg:
+            falls = f"{mass_text(misfire.falls_kg, 1)} come down, {misfire.falls_share:.0%}"
+        left = f"; {', '.join(misfire.members)} stand" if misfire.members else "; no member stands"
+        sentences.append(f"{case}: {falls}{left}")
+    return sentences

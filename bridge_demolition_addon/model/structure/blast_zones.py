@@ -1,0 +1,266 @@
+"""Blast zones as they lie in their members: volume, burden, specific charge, and what follows from it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from ...engineering.drilled_charges.bare_bars import compression_n, slender_from_m, yield_force_n
+from ...engineering.drilled_charges.drill_holes import USUAL_DEPTH_SHARES
+from ...engineering.drilled_charges.flyrock import RISKY_BURIAL, scaled_depth_of_burial
+from ...engineering.drilled_charges.fragments import mean_speed_m_s
+from ...engineering.drilled_charges.specific_charge import (
+    FACTOR_OF_DOUBT,
+    Effect,
+    LeftOfConcrete,
+    Thresholds,
+    breaking_range_kg_m3,
+    effect_of,
+    left_of_concrete,
+    specific_charge_kg_m3,
+)
+from ...engineering.fracture.slabs import slab_between
+from ..actions import Fact
+from ..blast.blast_zones import M_PER_MM, THROWN_AWAY, BlastZone, element_of
+from ..bridge.member import Member, members_named
+from ..scenario import Scenario, ZoneFiring
+from ..schema import given
+
+MOVES_AFTER_S = 0.001
+"""The burden has begun to move after a millisecond."""
+
+RECORDED_G_T = (3.0, 18.0)
+POSSIBLE_G_T = (1.0, 90.0)
+"""Explosive by the mass of the structure: of most recorded jobs, and of all but the odd one."""
+
+_ROUNDING = 1e-6
+_KILO = 1000.0
+_MEGA = 1e6
+
+
+@dataclass(frozen=True)
+class PlacedZone:
+    """A blast zone in its member; the box (2, 3) is that around the zone's concrete."""
+
+    zone: BlastZone
+    member: Member
+    volume_m3: float
+    box_m: np.ndarray
+
+    @property
+    def thickness_m(self) -> float:
+        """Size of the member along the holes."""
+        return float(np.diff(self.box_m[:, self.zone.axes[1]])[0])
+
+    @property
+    def width_m(self) -> float:
+        """Size of the member across the holes."""
+        return float(np.diff(self.box_m[:, self.zone.axes[2]])[0])
+
+    @property
+    def row_spacing_m(self) -> float:
+        zone = self.zone
+        return self.width_m / zone.rows if zone.row_spacing_m is None else zone.row_spacing_m
+
+    @property
+    def burden_m(self) -> float:
+        """Distance of the charges to the nearest free face beside them or behind them."""
+        beside = (self.width_m - (self.zone.rows - 1) * self.row_spacing_m) / 2.0
+        behind = self.thickness_m - self.zone.depth_m + self.zone.charge_length_m / 2.0
+        return min(beside, behind)
+
+    @property
+    def density_kg_m3(self) -> float:
+        return given(self.member.density_kg_m3)
+
+    @cached_property
+    def thresholds(self) -> Thresholds:
+        """Specific charges that break its concrete and throw it out."""
+        zone = self.zone
+        broken = sum(self.table_kg_m3) / 2.0 if zone.break_kg_m3 is None else zone.break_kg_m3
+        if not broken < zone.throw_kg_m3:
+            raise zone.unexpected("throw_kg_m3", f"more than what breaks {zone.member}, {broken:.3g} (kg/m³)")
+        return Thresholds(broken, zone.throw_kg_m3)
+
+    @property
+    def table_kg_m3(self) -> tuple[float, float]:
+        """Least and largest specific charge of the table that break it."""
+        return breaking_range_kg_m3(element_of(self.zone, self.member.kind), self.burden_m)
+
+    @property
+    def specific_kg_m3(self) -> float:
+        """Explosive by volume."""
+        return self.zone.mass_kg / self.volume_m3
+
+    @property
+    def effective_kg_m3(self) -> float:
+        """The same as that of an explosive with a relative strength of 100, which the thresholds are for."""
+        return float(specific_charge_kg_m3(self.zone.mass_kg, self.volume_m3, self.zone.made_of.relative_strength))
+
+    @property
+    def effect(self) -> Effect:
+        """What its concrete does where it fires."""
+        return effect_of(self.effective_kg_m3, self.thresholds)
+
+    @property
+    def left(self) -> LeftOfConcrete:
+        return left_of_concrete(self.effective_kg_m3, self.thresholds)
+
+    @property
+    def cage_n(self) -> tuple[float, float]:
+        """What its bars resist in tension and in compression, where all concrete is gone."""
+        zone = self.zone
+        if not zone.bars:
+            return 0.0, 0.0
+        diameter_m = M_PER_MM * given(zone.bar_diameter_mm)
+        return (
+            zone.bars * float(yield_force_n(diameter_m)),
+            zone.bars * float(compression_n(diameter_m, zone.height_m)),
+        )
+
+    @property
+    def scaled_burial(self) -> float:
+        """Scaled depth of burial of its charges, m/kg^(1/3)."""
+        zone = self.zone
+        density = zone.made_of.density_kg_m3
+        return float(scaled_depth_of_burial(zone.charge_length_m, zone.stemming_m, zone.hole_diameter_m, density))
+
+    @property
+    def fragment_speed_m_s(self) -> float:
+        """Mean speed of what is thrown, after its cover."""
+        return self.zone.cover_factor * float(mean_speed_m_s(self.effective_kg_m3, self.density_kg_m3))
+
+    def firing(self, scenario: Scenario) -> ZoneFiring:
+        """Return it as a change to the structure."""
+        zone, (tension_n, compression_n_) = self.zone, self.cage_n
+        after_s = zone.fired_after_s(scenario.seed) + MOVES_AFTER_S
+        thrown = self.effect == Effect.THROWN and zone.debris == THROWN_AWAY
+        return ZoneFiring(
+            time_s=scenario.blast.start_s + after_s,
+            members=(self.member.name,),
+            lowest_corner_m=tuple(self.box_m[0].tolist()),
+            highest_corner_m=tuple(self.box_m[1].tolist()),
+            name=given(zone.name),
+            along=zone.along,
+            effect=self.effect.value,
+            left=self.left.tension,
+            speed_m_s=self.fragment_speed_m_s if thrown else 0.0,
+            cage_tension_n=tension_n,
+            cage_compression_n=compression_n_,
+        )
+
+    def warnings(self) -> Iterator[str]:
+        """Yield what a blaster would ask about, a sentence without a full stop each."""
+        zone, share = self.zone, self.zone.depth_m / self.thickness_m
+        if zone.stemming_m < self.burden_m - _ROUNDING:
+            yield f"stemming of {zone.stemming_m:.3g} m is less than the burden, {self.burden_m:.3g} m"
+        least, most = USUAL_DEPTH_SHARES
+        if not least - _ROUNDING <= share <= most + _ROUNDING:
+            yield f"holes are {share:.2f} of the thickness deep: {least:g} to {most:g} are usual"
+        lowest, highest = self.table_kg_m3[0] / FACTOR_OF_DOUBT, self.thresholds.throw_kg_m3 * FACTOR_OF_DOUBT
+        if zone.mass_kg and not lowest <= self.effective_kg_m3 <= highest:
+            yield f"{self.effective_kg_m3:.2f} kg/m³ are outside half to twice the table, {lowest:.2f} to {highest:.2f}"
+        if zone.bars:
+            slender_m = float(slender_from_m(M_PER_MM * given(zone.bar_diameter_mm)))
+            if zone.height_m < slender_m:
+                yield (
+                    f"bars of {zone.bar_diameter_mm:g} mm bared over {zone.height_m:.2f} m yield before they buckle: "
+                    f"from {slender_m:.2f} m on they buckle"
+                )
+        if zone.mass_kg and zone.cover_factor == 1.0 and self.scaled_burial < RISKY_BURIAL:
+            yield (
+                f"scaled depth of burial {self.scaled_burial:.2f} m/kg^(1/3) is below {RISKY_BURIAL:g}, and nothing "
+                "covers the holes: fragments fly far"
+            )
+
+    def facts(self, scenario: Scenario) -> Iterator[Fact]:
+        """Yield what a planner wants to know of it before a run."""
+        zone, (begin_m, end_m) = self.zone, self.zone.ends_along_m
+        holes = f"{zone.holes} holes of {zone.charge_g:g} g = {zone.mass_kg:.3g} kg of {zone.explosive}"
+        when = "misfires" if not zone.fires else f"{zone.begins_s(scenario):.3f} s"
+        yield given(zone.name), f"{self.member.name}, {zone.along} {begin_m:g} to {end_m:g} m, {holes}, {when}"
+        limits = f"breaks from {self.thresholds.break_kg_m3:.2f}, is thrown out from {self.thresholds.throw_kg_m3:.2f}"
+        yield "", f"{self.specific_kg_m3:.2f} kg/m³ in {self.volume_m3:.3f} m³ ({limits}): {self.effect}"
+        if zone.bars:
+            tension_n, pressed_n = self.cage_n
+            yield (
+                "",
+                f"{zone.bars} bars of {zone.bar_diameter_mm:g} mm resist {tension_n / _MEGA:.2f} MN in tension and "
+                f"{pressed_n / _MEGA:.2f} MN in compression; in a run they carry nothing",
+            )
+        for warning in self.warnings():
+            yield "look at", warning
+
+
+def placed_zone(zone: BlastZone, members: Sequence[Member]) -> PlacedZone:
+    """Return a zone in its member; refuse one that does not lie in it, with its holes."""
+    named = [member for member in members if member.name == zone.member]
+    if not named:
+        members_named(zone.member, members, "blast_zones.member")  # refuses what is neither
+        raise zone.unexpected("member", "the name of one member, not a kind")
+    (member,) = named
+    along = zone.axes[0]
+    (lowest, highest), (begin_m, end_m) = member.solid.bounds[:, along].tolist(), zone.ends_along_m
+    slack = _ROUNDING * (highest - lowest)
+    if begin_m < lowest - slack or end_m > highest + slack:
+        raise zone.unexpected(
+            "middle_m",
+            f"a zone of {zone.height_m:g} m within {member.name}, which is from {lowest:g} to {highest:g} (m) along "
+            f"{zone.along}; this one is from {begin_m:g} to {end_m:g} m",
+        )
+    slab = slab_between(member.solid, along, begin_m, end_m)
+    placed = PlacedZone(zone, member, slab.volume, slab.bounds)
+    _check_holes(placed)
+    return placed
+
+
+def _check_holes(placed: PlacedZone) -> None:
+    zone = placed.zone
+    if zone.depth_m >= placed.thickness_m - _ROUNDING:
+        raise zone.unexpected(
+            "depth_m", f"less than the thickness of {placed.member.name} there, {placed.thickness_m:.4g} (m)"
+        )
+    rows_m = (zone.rows - 1) * placed.row_spacing_m
+    if rows_m >= placed.width_m - _ROUNDING:
+        raise zone.unexpected(
+            "row_spacing_m",
+            f"{zone.rows} rows within {placed.member.name}, which is {placed.width_m:.4g} (m) wide there; they take "
+            f"{rows_m:.4g} m",
+        )
+    _ = placed.thresholds  # refuses those in the wrong order
+
+
+def placed_zones(scenario: Scenario, members: Sequence[Member]) -> tuple[PlacedZone, ...]:
+    """Return all blast zones of a scenario in its members."""
+    return tuple(placed_zone(zone, members) for zone in scenario.blast_zones)
+
+
+def zone_firings(scenario: Scenario, members: Sequence[Member]) -> tuple[ZoneFiring, ...]:
+    """Return what the zones do that fire, and that do anything to their concrete."""
+    if not scenario.blast.explosion:
+        return ()
+    fired = (placed for placed in placed_zones(scenario, members) if placed.zone.goes_off)
+    return tuple(placed.firing(scenario) for placed in fired if placed.effect != Effect.NOTHING)
+
+
+def grams_per_tonne(zones: Sequence[PlacedZone], members: Sequence[Member]) -> float:
+    """Return the explosive of zones by the mass of the structure, g/t."""
+    mass_t = sum(member.mass_kg for member in members) / _KILO
+    return _KILO * sum(placed.zone.mass_kg for placed in zones) / mass_t
+
+
+def zone_totals(zones: Sequence[PlacedZone], members: Sequence[Member]) -> Iterator[Fact]:
+    """Yield totals of all zones, beside what is recorded of other jobs."""
+    mass_kg = sum(placed.zone.mass_kg for placed in zones)
+    volume_m3 = sum(placed.volume_m3 for placed in zones)
+    holes, drilled_m = (sum(getattr(placed.zone, name) for placed in zones) for name in ("holes", "drilled_m"))
+    specific, rate = mass_kg / volume_m3, grams_per_tonne(zones, members)
+    yield "all zones", f"{mass_kg:.3g} kg in {holes} holes, {drilled_m:.1f} m drilled, {specific:.2f} kg/m³"
+    (least, most), (lowest, highest) = RECORDED_G_T, POSSIBLE_G_T
+    yield "", f"{rate:.1f} g a tonne of the bridge; recorded jobs have {least:g} to {most:g}"
+    if not lowest <= rate <= highest:
+        yield "look at", f"{rate:.1f} g/t are outside {lowest:g} to {highest:g}, which all recorded jobs are within"
+    yield "", "charges are fixed by test shots and a licensed blaster"

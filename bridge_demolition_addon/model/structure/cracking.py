@@ -1,0 +1,174 @@
+"""A model whose concrete cracks under its loads, and whose bars hold: at rest, by the law of a run."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from copy import copy
+
+import numpy as np
+
+from ...engineering.elasticity.bearings import Bearings
+from ...engineering.elasticity.cracked_equilibrium import BuiltStructure, CrackedStructure
+from ...engineering.elasticity.cracks import Cracks
+from ...engineering.elasticity.equations import RigidBodies
+from ...engineering.elasticity.equilibrium import Equilibrium
+from ...engineering.elasticity.joint_rows import JointFrames, components_first, turned_back
+from ...engineering.elasticity.section_stiffness import in_frames
+from ...engineering.foundations.footings import Footings
+from ...engineering.mechanics.crack_faces import CrackFaces, TornFaces
+from ...engineering.mechanics.joint import Joint
+from ...engineering.mechanics.section_cuts import ConnectionLoads
+from ...engineering.structure.connections import GROUND
+from ...engineering.units import STANDARD_GRAVITY_M_S2
+from ..schema import given
+from .equilibrium import held_motions, inertias_of
+from .model import Model
+from .utilisation import Utilisations
+
+FALLEN_SHARE = 0.005
+"""Least part of the held mass for a collapse: a splinter that comes loose is not one."""
+
+
+class CrackedBridge:
+    """A model with bars, under loads that grow: what has cracked or yielded stays so.
+
+    `intact` (m,) are its connections that are whole, with a part `left` (m,) of their strength each. At first it is at
+    `rest` without cracks.
+    """
+
+    def __init__(
+        self,
+        model: Model,
+        joints: Sequence[Joint],
+        utilisations: Utilisations,
+        intact: np.ndarray,
+        left: np.ndarray,
+        rest: Equilibrium,
+    ):
+        self._model, self._utilisations, self._left = model, utilisations, left
+        self._masses = np.append(np.where(model.fixed, 0.0, model.masses_kg), 0.0)
+        self._inertias = np.vstack((inertias_of(model), np.zeros(3)))
+        self._held_at_first = rest.held
+        bars, connections, stiffness = given(model.crack_bars), model.connections, given(model.stiffness)
+        self._faces = CrackFaces(connections.areas, model.second_moments_m4, bars.bars)
+        has_strength = np.array([joint.strength is not None for joint in joints])[model.joint_of_connection]
+        self._tears = has_strength & model.breakable
+        self._first, second = connections.pairs.T
+        self._second = np.where(second == GROUND, len(model.shards), second)
+        positions = np.vstack((model.centres_m, np.zeros(3)))
+        axes = np.repeat(np.eye(3)[:, :, None], len(connections), axis=2)
+        levers = [components_first(connections.points - positions[ends]) for ends in (self._first, self._second)]
+        tensors, unturned = np.zeros((3, 3, len(positions))), np.repeat(np.eye(3)[:, :, None], len(positions), axis=2)
+        tensors[[0, 1, 2], [0, 1, 2]] = self._inertias.T
+        bodies = RigidBodies(self._masses, tensors, components_first(positions), unturned)
+        ends, positions_built = (self._first, self._second), (bodies.positions_m, unturned)
+        soil = Footings(model.soil, *ends, bodies.moves, *positions_built) if model.soil else None
+        pads = None
+        if model.bearings:
+            springs = model.bearings.springs
+            pads = Bearings(springs, *ends, self._first[springs.rows], *positions_built)
+        of_bars = left.copy()
+        built = BuiltStructure(
+            JointFrames(self._first, self._second, axes, axes, *levers),
+            in_frames(stiffness, components_first(utilisations.axes), held_motions(model, joints)),
+            bodies,
+            soil,
+            pads,
+        )
+        cracks = self._faces.cracks(bars.steel, of_bars, stiffness.axial_n_m)
+        self._structure = CrackedStructure(built, cracks, of_bars, intact, rest)
+
+    def copy(self) -> CrackedBridge:
+        """Return one in the same state, that goes on by itself."""
+        other = copy(self)
+        other._structure = self._structure.copy()
+        return other
+
+    def carry(self, factor: float, loads: np.ndarray | None = None) -> None:
+        """Let it come to rest under its weight and loads (6, n) on the shards, times a load factor."""
+        accelerations = np.zeros((6, len(self._masses)))
+        accelerations[2] = -STANDARD_GRAVITY_M_S2 * (self._masses > 0.0)
+        if loads is not None:
+            inert = np.vstack((np.tile(self._masses, (3, 1)), self._inertias.T))
+            on_all = np.column_stack((loads, np.zeros(6)))
+            accelerations += np.divide(on_all, inert, out=np.zeros_like(on_all), where=inert > 0.0)
+        self._structure.load(factor * accelerations, self._overloaded, self._tear)
+
+    @property
+    def held(self) -> np.ndarray:
+        """Return which shards (n,) connections or bars hold."""
+        return self._structure.held[:-1]
+
+    @property
+    def fallen(self) -> np.ndarray:
+        """Return which shards (n,) have come down; none where these are but splinters."""
+        fallen: np.ndarray = self._held_at_first[:-1] & ~self.held
+        least = FALLEN_SHARE * self._masses[self._held_at_first].sum()
+        return fallen & bool(self._masses[:-1][fallen].sum() > least)
+
+    @property
+    def intact(self) -> np.ndarray:
+        """Return which connections (m,) are whole."""
+        return self._structure.intact
+
+    @property
+    def cracked(self) -> np.ndarray:
+        """Return which connections (m,) have cracked, and hold by bars or press."""
+        cracked = np.zeros(len(self.intact), bool)
+        cracked[self._structure.cracks.rows] = True
+        return cracked
+
+    @property
+    def bars_used(self) -> np.ndarray:
+        """Return the force of the bars of each connection (m,) by that at which they rupture; nan where none hold."""
+        used, structure = np.full(len(self.intact), np.nan), self._structure
+        used[structure.cracks.rows] = structure.cracks.used(structure.positions_m, structure.rotations)
+        return used
+
+    @property
+    def loads(self) -> ConnectionLoads:
+        """Return the loads of all connections and bars on their first shards."""
+        loads = self._structure.loads
+        return ConnectionLoads(loads[:3].T, loads[3:].T, self._model.connections.points)
+
+    @property
+    def deflection_m(self) -> float:
+        """Return the largest deflection of a shard that is held."""
+        fallen = self._model.centres_m[:, 2] - self._structure.positions_m[2, :-1]
+        return float(fallen[self.held].max(initial=0.0))
+
+    @property
+    def holding(self) -> np.ndarray:
+        """Return which connections (m,) hold, whole or cracked."""
+        return self.intact | self.cracked
+
+    def _overloaded(self, loads: np.ndarray, intact: np.ndarray) -> np.ndarray:
+        """Connections (k,) that break of loads (6, m), each the worst around; in the axes of the shards they are on."""
+        turns = self._structure.rotations[..., self._first]
+        forces, moments = (turned_back(turns, vectors).T for vectors in (loads[:3], loads[3:]))
+        on_shards = ConnectionLoads(forces, moments, self._model.connections.points)
+        parts = self._utilisations.parts(self.holding)
+        alone, together = self._utilisations.of(on_shards, intact, self._left, parts, every_section=False)
+        return self._utilisations.worst(alone, together, intact)
+
+    def _tear(self, cracks: Cracks, rows: np.ndarray, positions_m: np.ndarray, rotations: np.ndarray) -> None:
+        rows = rows[self._tears[rows]]
+        if not len(rows):
+            return
+        turns = np.moveaxis(rotations[..., self._first[rows]], 2, 0)
+        first = self._first[rows]
+        arms = self._model.connections.points[rows] - self._model.centres_m[first]
+        points = positions_m[:, first].T + np.einsum("rij,rj->ri", turns, arms)
+        axes = turns @ self._utilisations.axes[rows]
+        torn = TornFaces(rows, first, self._second[rows], points, axes, np.ones(len(rows)))
+        self._faces.tear(cracks, torn, positions_m, rotations)
+
+
+def cracked_by_weight(model: Model, joints: Sequence[Joint], rest: Equilibrium) -> CrackedBridge | None:
+    """Return a model that cracks under its own weight, which it has at `rest` without cracks; None without bars."""
+    if model.crack_bars is None:
+        return None
+    whole = np.ones(len(model.connections))
+    cracked = CrackedBridge(model, joints, Utilisations(model, joints), whole > 0.0, whole, rest)
+    cracked.carry(1.0)
+    return cracked

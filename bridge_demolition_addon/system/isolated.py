@@ -1,0 +1,71 @@
+"""Work on files of other programs in a process of its own, so that nothing in them ends this one."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from typing import Any
+
+from ..errors import DemolitionError, UnreadableError, text_of
+from .programs import program_command
+
+_MARK = "bda-isolated "
+
+
+def isolated(module: str, request: Mapping[str, Any], limit_s: float) -> dict[str, Any]:
+    """Have `main` of a module of this package, which calls `answer`, answer a request.
+
+    Raise `UnreadableError`, without the name of a file, where it refuses, crashes or takes longer than its limit.
+    """
+    command = program_command(module, with_libraries=True)
+    with tempfile.TemporaryFile() as noise:
+        try:
+            done = subprocess.run(
+                command,
+                input=json.dumps(request).encode(),
+                stdout=subprocess.PIPE,
+                stderr=noise,
+                timeout=limit_s,
+                start_new_session=sys.platform != "win32",
+            )
+        except subprocess.TimeoutExpired as error:
+            raise UnreadableError(f"took its reader longer than {limit_s:g} s; export a smaller part of it") from error
+    lines = done.stdout.decode("utf-8", "replace").splitlines()
+    found = [line.removeprefix(_MARK) for line in lines if line.startswith(_MARK)]
+    if not found:
+        raise UnreadableError(f"crashed its reader ({status_text(done.returncode)}): it is damaged; export it again")
+    said: dict[str, Any] = json.loads(found[-1])
+    if "refused" in said:
+        raise UnreadableError(said["refused"])
+    return said
+
+
+def answer(work: Callable[[dict[str, Any]], Mapping[str, Any]]) -> None:
+    """Answer the request on standard input by some work; what libraries print goes nowhere."""
+    sys.stdout.flush()
+    answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, 1)
+    os.close(nowhere)
+    try:
+        said = work(json.loads(sys.stdin.readline()))
+    except (DemolitionError, OSError) as error:
+        said = {"refused": text_of(error)}
+    except Exception as error:  # readers of other formats have many of their own for what is damaged
+        said = {"refused": f"cannot be read ({type(error).__name__}: {error})"}
+    answers.write(f"\n{_MARK}{json.dumps(said)}\n")
+    answers.flush()
+
+
+def status_text(status: int | None) -> str:
+    """Return how a process ended: its signal, or its status."""
+    if status is not None and status < 0 and sys.platform != "win32":
+        with suppress(ValueError):
+            return signal.Signals(-status).name
+    return f"status {status}"

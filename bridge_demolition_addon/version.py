@@ -1,0 +1,3 @@
+"""Version of this program, for packages, reports and the command line."""
+
+VERSION = "0.1.0"

@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measure what a ball leaves of a reinforced deck, by shards, seed, sub-step and rupture of its bars.
+
+The deck is that of examples/two_spans_13m_ball.toml, 3.7 m x 0.6 m over spans of 13 m, with bars as such a deck has:
+bottom 25 000 mm², top 5000 mm², across 26 000 mm² in each span, and 2500 mm² at two sides of each column. What is
+measured is how far the middle of the first span has gone down at the end: the median of the shards within 1.3 m of it.
+
+By rigid-plastic theory a ball of 10 t leaves 0.10 m: M_p = A f_y (d - a / 2) = 6.3 MN·m, a hinge at mid-span resists a
+fall with 4 M_p / L less half the weight of the deck and that of the ball, 1.49 MN, over a third of the deck's mass
+that a plastic impact takes along.
+
+Usage: reinforced_deck.py [MOST_SEEDS] writes docs/data/reinforced_deck.csv, and goes on where it stopped;
+reinforced_deck.py --one BALL_KG SHARDS SEED FINER RUPTURE_M BARS prints one row.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+import resource
+import subprocess
+import sys
+import tempfile
+from itertools import product
+from pathlib import Path
+
+import numpy as np
+
+from bridge_demolition_addon import read_scenario, run
+from bridge_demolition_addon.model.results.arrays import Results
+
+ROOT = Path(__file__).resolve().parents[2]
+TABLE = ROOT / "docs" / "data" / "reinforced_deck.csv"
+KEYS = ("ball_kg", "shards", "seed", "finer", "rupture_m", "bars")
+"""What a row is of: `finer` times as many sub-steps, bars that rupture at an opening, 0 for the one that follows."""
+
+MEASURES = ("sag_m", "largest_throw_m", "broken", "made_by_connections_kj", "made_by_contacts_kj", "dissipated_kj")
+COLUMNS = (*KEYS, *MEASURES, "processor_s")
+MIDDLE_M, NEAR_M = 6.5, 1.3
+BARS = """
+[[reinforcement]]
+members = ["deck"]
+side = "bottom"
+depth_m = 0.05
+area_mm2 = 25000.0
+[[reinforcement]]
+members = ["deck"]
+side = "top"
+depth_m = 0.05
+area_mm2 = 5000.0
+[[reinforcement]]
+members = ["deck"]
+along = "y"
+side = "bottom"
+depth_m = 0.07
+area_mm2 = 26000.0
+[[reinforcement]]
+members = ["pier"]
+along = "z"
+side = "start"
+depth_m = 0.06
+area_mm2 = 2500.0
+[[reinforcement]]
+members = ["pier"]
+along = "z"
+side = "end"
+depth_m = 0.06
+area_mm2 = 2500.0
+"""
+
+
+def cases(most_seeds: int) -> list[tuple[float, ...]]:
+    """All rows that the page has, seed by seed: so that what is done says something of all of them."""
+    variants = [
+        (10000, 100, 1, 0.0, 1),
+        (10000, 200, 1, 0.0, 1),
+        (10000, 400, 1, 0.0, 1),
+        (10000, 200, 0.5, 0.0, 1),
+        (10000, 200, 2, 0.0, 1),
+        (10000, 200, 1, 0.02, 1),
+        (10000, 200, 1, 0.05, 1),
+        (1500, 200, 1, 0.0, 1),
+        (30000, 200, 1, 0.0, 1),
+        (10000, 200, 1, 0.0, 0),
+    ]
+    return [
+        (ball, shards, seed, finer, rupture, bars)
+        for seed, (ball, shards, finer, rupture, bars) in product(range(1, 1 + most_seeds), variants)
+    ]
+
+
+def main(arguments: list[str]) -> int:
+    """Measure one row, or all that are not there yet."""
+    if arguments[:1] == ["--one"]:
+        print(json.dumps(measured(*(float(text) for text in arguments[1:]))), flush=True)
+        os._exit(0)  # Blender's own end may hang.
+    done = rows() if TABLE.exists() else []
+    known = {tuple(float(row[key]) for key in KEYS) for row in done}
+    for case in cases(int(arguments[0]) if arguments else 12):
+        if tuple(map(float, case)) in known:
+            continue
+        command = [sys.executable, __file__, "--one", *map(str, case)]
+        answer = subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()[-1]
+        done.append(dict(zip(KEYS, case, strict=True)) | json.loads(answer))
+        with TABLE.open("w", newline="", encoding="utf-8") as file:
+            table = csv.DictWriter(file, COLUMNS)
+            table.writeheader()
+            table.writerows(done)
+    return 0
+
+
+def rows() -> list[dict[str, str]]:
+    """Rows that were measured."""
+    with TABLE.open(newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def measured(
+    ball_kg: float, shards: float, seed: float, finer: float, rupture_m: float, bars: float
+) -> dict[str, float]:
+    """Return what is measured in a run."""
+    rupture = f"ductile_elongation_m = {rupture_m}" if rupture_m and bars else ""
+    text = f"""
+[scenario]
+based_on = "{(ROOT / "examples" / "two_spans_13m_ball.toml").as_posix()}"
+title = "Ball on a reinforced deck"
+seed = {int(seed)}
+[time]
+duration_s = 3.0
+substeps_per_frame = {round(10 * finer)}
+farthest_per_substep_m = {0.01 / finer}
+[fracture]
+shards = {int(shards)}
+[ball]
+mass_kg = {ball_kg}
+diameter_m = 1.34
+[connections]
+{rupture}
+{BARS if bars else ""}"""
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        (folder / "deck.toml").write_text(text, encoding="utf-8")
+        results = run(read_scenario(folder / "deck.toml"), folder / "run")
+        return measures(results) | {"processor_s": round(resource.getrusage(resource.RUSAGE_SELF).ru_utime, 1)}
+
+
+def measures(results: Results) -> dict[str, float]:
+    """Return sag, throw, breaks and energies of a run."""
+    frames, inventory = results.frames, results.inventory
+    first, last = frames.positions_m[0], frames.positions_m[-1]
+    near = (inventory.body_members == "span 1 deck") & (abs(first[:, 0] - MIDDLE_M) < NEAR_M)
+    are_shards = inventory.body_kinds == "shard"
+    throws = np.linalg.norm((last - first)[are_shards, :2], axis=1)
+    work = frames.work
+    values = (
+        float(np.median((first - last)[near, 2])),
+        float(throws.max()),
+        float(frames.intact[0].sum() - frames.intact[-1].sum()),
+        *(
+            float(np.nansum(energy)) / 1000.0
+            for energy in (work.made_by_connections_j, work.made_by_contacts_j, work.dissipated_j)
+        ),
+    )
+    return dict(zip(MEASURES, (round(value, 4) for value in values), strict=True))
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,330 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What an import assumes and mends where a file is incomplete or damaged: volumes by hand, and all that stands held."""
+
+import numpy as np
+import pytest
+from support.ifc_bridges import VOLUMES_M3, IfcBridge, whole_bridge
+
+from bridge_demolition_addon.engineering.geometry.mesh import TriangleMesh, joined_meshes
+from bridge_demolition_addon.engineering.geometry.solids import box, cylinder, to_manifold
+from bridge_demolition_addon.errors import GeometryError, IfcError
+from bridge_demolition_addon.ifc.alignments import curve_of
+from bridge_demolition_addon.ifc.bridge import read_bridge
+from bridge_demolition_addon.ifc.gaps import lengthened
+from bridge_demolition_addon.ifc.settings import ImportSettings
+from bridge_demolition_addon.ifc.substitutes import box_around, slab_between_heights, sound_solid
+
+
+def read(made, tmp_path, **settings):
+    return read_bridge(made.written(tmp_path / "bridge.ifc"), ImportSettings(**settings))
+
+
+def outcome(bridge, name):
+    (found,) = (outcome for outcome in bridge.outcomes if outcome.facts.name == name)
+    return found
+
+
+def open_box(missing):
+    """A box of 2 m × 1 m × 1 m without some of its 12 triangles."""
+    whole = box((2.0, 1.0, 1.0))
+    return TriangleMesh(whole.vertices, np.delete(whole.triangles, missing, axis=0))
+
+
+# Meshes ---------------------------------------------------------------------------------------------------------------
+
+
+def test_a_body_inside_out_beside_a_sound_one_is_turned():
+    """Two boxes apart, 2 m³ and 1 m³, of which the smaller looks inwards."""
+    mesh = joined_meshes([box((2, 1, 1)), box((1, 1, 1), (5, 0, 0)).flipped()])
+    made = sound_solid(mesh, "x", None)
+    assert made.solid.volume == pytest.approx(3.0)
+    hollow = joined_meshes([box((4, 4, 4)), box((1, 1, 1)).flipped()])  # a cavity stays one
+    assert sound_solid(hollow, "x", None).solid.volume == pytest.approx(63.0)
+
+
+def test_a_hole_that_is_not_plane_is_closed_where_it_is_small():
+    """A cylinder of 24 sides on which a vertex of its rim is missing, with the triangles around it."""
+    whole = cylinder(1.0, 4.0, 24)
+    gone = np.flatnonzero((whole.triangles == 5).any(axis=1))
+    mesh = TriangleMesh(whole.vertices, np.delete(whole.triangles, gone, axis=0))
+    with pytest.raises(GeometryError, match="not closed"):
+        sound_solid(mesh, "x", 100.0)  # nothing in its place has that volume
+    made = sound_solid(mesh, "x", whole.volume)
+    assert made.solid.volume == pytest.approx(whole.volume, rel=0.05)
+    assert any("of what the file gives" in note for note in made.repairs)
+
+
+def test_a_hull_or_box_stands_only_for_what_has_its_volume():
+    """A box of 2 m³ in which four triangles of its sides are missing: the file says 2 m³, or half of that."""
+    mesh = open_box([4, 5, 8])
+    made = sound_solid(mesh, "x", 2.0)
+    assert made.solid.volume == pytest.approx(2.0, rel=0.05)
+    with pytest.raises(GeometryError):
+        sound_solid(open_box([0, 3, 5, 8]), "x", 1.0)
+
+
+def test_a_box_around_a_turned_box_is_that_box():
+    turned = box((3.0, 1.0, 0.5))
+    angle = np.radians(33.0)
+    turn = np.array(((np.cos(angle), -np.sin(angle), 0), (np.sin(angle), np.cos(angle), 0), (0, 0, 1)))
+    made = box_around(TriangleMesh(turned.vertices @ turn.T + (100.0, 50.0, 7.0), turned.triangles))
+    assert made.volume == pytest.approx(1.5)
+
+
+def test_a_slab_between_heights_keeps_thickness_and_slope():
+    """A plate of 20 m × 6 m × 0.3 m that rises by 1 in 10 along its length: its volume is that of the level one."""
+    plate = box((20.0, 6.0, 0.3))
+    sheared = TriangleMesh(plate.vertices + plate.vertices[:, :1] * (0.0, 0.0, 0.1), plate.triangles)
+    made = slab_between_heights(sheared)
+    assert made.volume == pytest.approx(36.0, rel=0.01)
+    assert made.bounds == pytest.approx(sheared.bounds, abs=0.03)
+
+
+def test_what_is_made_longer_keeps_its_section():
+    """A cross of 1 m² and 2 m high, longer by 0.1 m at its bottom: 0.1 m³ more, and none beside it."""
+    cross = joined_meshes([box((1.0, 0.6, 2.0)), box((0.4, 1.6, 2.0))])
+    solid = sound_solid(cross, "x", None).solid  # 0.6 + 0.64 - 0.24 m² in plan
+    longer = lengthened(solid, -0.1)
+    assert longer.volume == pytest.approx(1.0 * 2.1, rel=1e-6)
+    assert longer.bounds[:, 2] == pytest.approx((-1.1, 1.0))
+
+
+# Members --------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("gap_m, closed", [(0.007, True), (0.014, True), (0.03, False)])
+def test_a_gap_over_a_bearing_is_closed(gap_m, closed, tmp_path):
+    made = whole_bridge()
+    for name in ("Bearing 2 left", "Bearing 2 right"):
+        (bearing,) = (element for element in made.file.by_type("IfcBearing") if element.Name == name)
+        bearing.Representation.Representations[0].Items[0].Depth = 0.1 - gap_m
+    bridge = read(made, tmp_path)
+    found = outcome(bridge, "Bearing 2 left")
+    assert (found.became == "connection") == closed
+    if closed:
+        assert found.member.volume_m3 == pytest.approx(0.4 * 0.4 * 0.1, rel=1e-6)
+        assert "to touch Girder left" in found.why
+    with_gap = read(made, tmp_path, strict=True)
+    assert outcome(with_gap, "Bearing 2 left").became == "left out"
+
+
+def test_a_column_that_ends_above_its_footing_stands_on_it(tmp_path):
+    """9 mm of air under a column of 1 m × 1 m: it grows by 0.009 m³."""
+    made = whole_bridge()
+    (column,) = made.file.by_type("IfcColumn")
+    solid = column.Representation.Representations[0].Items[0]
+    solid.Position.Location.Coordinates, solid.Depth = (10.0, 0.0, 0.509), 2.391
+    bridge = read(made, tmp_path)
+    assert outcome(bridge, "Column").member.volume_m3 == pytest.approx(VOLUMES_M3["pier"], rel=1e-6)
+    assert any("Column is made longer" in note for note in bridge.notes)
+    assert {support.member for support in bridge.scenario.supports} == {"footing"}
+
+
+def test_a_column_within_a_wall_is_cut_out_of_the_wall(tmp_path):
+    made = whole_bridge()
+    made.box("IfcColumn", "Stiff", (0.5, 0.5, 2.5), (0.0, 0.0, 0.5), "ABUTMENT", material=made.material("Steel"))
+    bridge = read(made, tmp_path)
+    names = [table.name for table in bridge.scenario.geometry]
+    assert names.index("Stiff") < names.index("Abutment 1")
+    assert any("Stiff lies within Abutment 1: it is cut out of that" in note for note in bridge.notes)
+
+
+def test_a_superstructure_without_piers_gets_supports_under_its_ends(tmp_path):
+    """Two girders and a deck: the girders touch the deck, so that one group is held, by two supports a girder."""
+    bridge = read(IfcBridge().superstructure(), tmp_path)
+    added = [outcome.member for outcome in bridge.outcomes if outcome.became == "added"]
+    assert len(added) == 4
+    assert bridge.ground_m == pytest.approx(3.6 - 5.0)  # 5 m under the girders
+    for member in added:
+        low, high = member.solid.bounds
+        assert (low[2], high[2]) == pytest.approx((0.0, 5.0), abs=1e-6)
+        assert min(abs(low[0] - 0.05), abs(high[0] - 20.95)) == pytest.approx(0.0, abs=1e-6)
+    kinds = sorted(bearing.kind for bearing in bridge.scenario.bearings)
+    assert kinds == ["pinned", "pinned", "rocker", "rocker"]
+    assert {support.member for support in bridge.scenario.supports} == {member.name for member in added}
+
+
+def test_a_bearing_on_nothing_gets_a_support_or_a_plinth(tmp_path):
+    made = IfcBridge().substructure().bearings().superstructure()
+    for name in ("Abutment 1", "Footing 1"):
+        (element,) = (e for e in made.file.by_type("IfcElement") if e.Name == name)
+        made.file.remove(element)
+    (crosshead,) = (e for e in made.file.by_type("IfcBeam") if e.Name == "Crosshead")
+    crosshead.Representation.Representations[0].Items[0].Depth = 0.4  # 0.2 m under the bearings
+    bridge = read(made, tmp_path)
+    added = [outcome.member for outcome in bridge.outcomes if outcome.became == "added"]
+    assert [member.name for member in added] == ["Support under Bearing 1 right", "Support under Bearing 1 left"]
+    plinth = outcome(bridge, "Bearing 2 left").member
+    assert plinth.volume_m3 == pytest.approx(0.4 * 0.4 * (0.1 + 0.2 + 0.001), rel=1e-3)
+
+
+def test_a_member_that_others_cut_through_becomes_two(tmp_path):
+    """A brace of 3 m across both girders, which take 2 × 0.4 m of it: 1.6 m between them, and 0.3 m at either side."""
+    made = whole_bridge()
+    made.box("IfcMember", "Brace", (0.2, 3.0, 0.2), (5.0, 0.0, 4.0), "SUPERSTRUCTURE", material=made.material("Steel"))
+    bridge = read(made, tmp_path, kinds=(("Brace", "bracing"),))
+    parts = {o.member.name: o.member.volume_m3 for o in bridge.outcomes if o.facts.name == "Brace" and o.member}
+    assert parts == pytest.approx(
+        {"Brace": 1.6 * 0.04, "Brace part 2": 0.3 * 0.04, "Brace part 3": 0.3 * 0.04}, rel=1e-6
+    )
+
+
+def test_what_touches_nothing_is_left_out_with_its_mass(tmp_path):
+    made = whole_bridge()
+    made.box("IfcBeam", "Stray", (1, 1, 1), (10.0, 0.0, 8.0), "DECK", material=made.material("Steel"))
+    stray = outcome(read(made, tmp_path, kinds=(("Stray", "bracing"),)), "Stray")
+    assert stray.became == "left out"
+    assert stray.why.endswith("would fall at once; 7.850 t are missing")
+
+
+# Files ----------------------------------------------------------------------------------------------------------------
+
+
+def test_of_several_bridges_the_largest_or_that_of_a_name_is_taken(tmp_path):
+    made = whole_bridge()
+    other = made.root("IfcBridge", "Footbridge")
+    made.aggregate(made.site, other)
+    made.parts, made.bridge = {}, other
+    made.box("IfcSlab", "Plate", (8.0, 2.0, 0.3), (40.0, 0.0, 3.0), "DECK", material=made.material("Concrete"))
+    taken = read(made, tmp_path)
+    assert taken.scenario.title == "Two spans"
+    assert outcome(taken, "Plate").became == "left out"
+    assert any("the file holds 2 bridges" in note for note in taken.notes)
+    asked = read(made, tmp_path, only="foot*")
+    assert asked.scenario.title == "Footbridge"
+    assert {o.facts.name for o in asked.outcomes if o.became == "member"} == {"Plate"}
+    with pytest.raises(IfcError, match=r'has no bridge "Tower": it has Two spans \(16 members\), Footbridge'):
+        read(made, tmp_path, only="Tower")
+    with pytest.raises(IfcError, match=r"holds 2 bridges, .*: say which one by --only NAME"):
+        read(made, tmp_path, strict=True)
+
+
+@pytest.mark.parametrize("schema", ["IFC4X2", "IFC4X1", "IFC4X3_RC4"])
+def test_schemas_before_4x3_are_read_as_it(schema, tmp_path):
+    path = whole_bridge().written(tmp_path / "bridge.ifc")
+    text = path.read_text()
+    label = text.split("FILE_SCHEMA(('")[1].split("'")[0]
+    path.write_text(text.replace(f"'{label}'", f"'{schema}'"))
+    bridge = read_bridge(path, ImportSettings())
+    assert f"the schema {schema} is read as IFC4X3_ADD2, which came after it" in bridge.notes
+    assert sum(o.member.volume_m3 for o in bridge.outcomes if o.member) == pytest.approx(sum(VOLUMES_M3.values()))
+
+
+# Alignments -----------------------------------------------------------------------------------------------------------
+
+
+class Given:
+    """An entity as far as an alignment looks at it."""
+
+    def __init__(self, kind, **attributes):
+        self._kind = kind
+        for name, value in attributes.items():
+            setattr(self, name, value)
+
+    def is_a(self, kind=None):
+        return self._kind if kind is None else kind == self._kind
+
+
+def at(x, y, heading=0.0):
+    direction = Given("IfcDirection", DirectionRatios=(np.cos(heading), np.sin(heading)))
+    return Given("IfcAxis2Placement2D", Location=Given("IfcCartesianPoint", Coordinates=(x, y)), RefDirection=direction)
+
+
+def segment(parent, placement, length, start=0.0):
+    return Given("IfcCurveSegment", ParentCurve=parent, Placement=placement, SegmentLength=length, SegmentStart=start)
+
+
+@pytest.mark.parametrize("way", [1.0, -1.0])
+def test_an_arc_runs_on_its_circle_and_a_parabola_rises_as_it_should(way):
+    """A quarter of a circle of 100 m, to the left or the right, from the origin along x; z = 0.02 s - 0.0001 s²."""
+    quarter = np.pi / 2.0 * 100.0
+    arc = segment(Given("IfcCircle", Radius=100.0), at(0.0, 0.0), way * quarter)
+    plan = Given("IfcCompositeCurve", Segments=(arc,))
+    parabola = Given("IfcPolynomialCurve", CoefficientsX=(0.0, 1.0), CoefficientsY=(0.0, 0.02, -0.0001))
+    gradient = segment(parabola, at(0.0, 5.0, np.arctan(0.02)), quarter)
+    curve = curve_of(Given("IfcGradientCurve", BaseCurve=plan, Segments=(gradient,)), 1.0)
+    for angle in (0.0, 0.4, 1.2, np.pi / 2.0):
+        along = 100.0 * angle
+        frame = curve.at(along)
+        expected = (100.0 * np.sin(angle), way * 100.0 * (1.0 - np.cos(angle)), 5.0 + 0.02 * along - 1e-4 * along**2)
+        assert frame.point == pytest.approx(expected, abs=1e-4)
+        assert frame.along[:2] @ frame.left[:2] == pytest.approx(0.0, abs=1e-12)
+        assert frame.along[2] / np.hypot(*frame.along[:2]) == pytest.approx(0.02 - 2e-4 * along, abs=1e-9)
+
+
+def test_a_parabola_may_keep_its_own_slope_in_a_level_placement():
+    """As PGSuper writes it: 17.391888 m + 0.05 s - 0.000243876 s², which meets the next part at 41.148 m."""
+    line, parabola = Given("IfcLine"), Given("IfcPolynomialCurve", CoefficientsY=(0.0, 0.05, -0.000243875765529308))
+    plan = Given("IfcCompositeCurve", Segments=(segment(line, at(0.0, 0.0), 200.0),))
+    parts = segment(parabola, at(0.0, 17.391888), 41.148), segment(line, at(41.148, 19.03636782, 0.0299), 100.0)
+    curve = curve_of(Given("IfcGradientCurve", BaseCurve=plan, Segments=parts), 1.0)
+    assert curve.at(20.0).point[2] == pytest.approx(17.391888 + 1.0 - 0.000243875765529308 * 400.0)
+    assert curve.at(41.1479999).point[2] == pytest.approx(19.03636782, abs=1e-5)
+
+
+def test_a_clothoid_is_that_of_fresnel():
+    """With A = 100 m, at its 80th metre: scipy's integrals of Fresnel, scaled by A √π."""
+    from scipy.special import fresnel
+
+    spiral = segment(Given("IfcClothoid", ClothoidConstant=100.0), at(0.0, 0.0), 80.0)
+    curve = curve_of(Given("IfcCompositeCurve", Segments=(spiral,)), 1.0)
+    scale = 100.0 * np.sqrt(np.pi)
+    sine, cosine = fresnel(80.0 / scale)
+    assert curve.at(80.0).point[:2] == pytest.approx((scale * cosine, scale * sine), abs=1e-4)
+
+
+def test_a_beam_swept_through_sections_has_the_volume_of_its_frustum(tmp_path):
+    """From 1 m × 1 m to 1 m × 2 m over 10 m: 15 m³ between plane sides."""
+    made = whole_bridge()
+    make = made.file.create_entity
+    line = make("IfcPolyline", [made.point(0.0, 0.0, 6.0), made.point(10.0, 0.0, 6.0)])
+    profiles, places = [], []
+    for along, height in ((0.0, 1.0), (10.0, 2.0)):
+        corners = [(-0.5, 0.0), (0.5, 0.0), (0.5, height), (-0.5, height), (-0.5, 0.0)]
+        outline = make("IfcPolyline", [make("IfcCartesianPoint", corner) for corner in corners])
+        profiles.append(make("IfcArbitraryClosedProfileDef", "AREA", None, outline))
+        on = make("IfcPointByDistanceExpression", make("IfcLengthMeasure", along), None, None, None, line)
+        places.append(make("IfcAxis2PlacementLinear", on))
+    solid = make("IfcSectionedSolidHorizontal", line, profiles, places)
+    made.element("IfcBeam", "Swept", solid, "DECK", material=made.material("Concrete"), shape_type="AdvancedSweptSolid")
+    bridge = read(made, tmp_path, kinds=(("Swept", "pier"),))
+    swept = outcome(bridge, "Swept").member.solid
+    assert swept.volume == pytest.approx(15.0)
+    assert to_manifold(swept).status().name == "NoError"
+    assert swept.bounds[:, 2] == pytest.approx((6.0, 8.0))
+
+
+# Reinforcement --------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("turn_deg", [0.0, 30.0])
+def test_reinforcing_bars_are_layers_of_their_members(turn_deg, tmp_path):
+    """Ten bars of 20 mm along the deck, 50 mm below its top, eight of them in two lengths of 10.5 m; 6 of 16 mm across.
+
+    π / 4 × 20² × 10 = 3141.6 mm² in each section along; across, 6 × π / 4 × 16² × 3.8 m / 4 m = 1146.1 mm².
+    """
+    made = whole_bridge(turn_deg=turn_deg)
+    make = made.file.create_entity
+
+    def bar(start, end, diameter):
+        line = make("IfcPolyline", [made.point(*start), made.point(*end)])
+        disk = make("IfcSweptDiskSolid", line, diameter / 2.0)
+        bar = made.element("IfcReinforcingBar", "B", disk, "DECK", shape_type="AdvancedSweptSolid")
+        bar.NominalDiameter = diameter
+
+    for number in range(10):
+        y = -1.8 + 0.4 * number
+        parts = ((-0.5, 10.0), (10.0, 20.5)) if number < 8 else ((-0.5, 20.5),)
+        for first, last in parts:
+            bar((first, y, 4.55), (last, y, 4.55), 0.02)
+    for number in range(6):
+        bar((1.0 + 3.0 * number, -1.9, 4.43), (1.0 + 3.0 * number, 1.9, 4.43), 0.016)
+    bar((0.0, 0.0, 4.45), (1.0, 1.0, 4.45), 0.02)
+    bridge = read(made, tmp_path)
+    along, across = bridge.scenario.reinforcement
+    assert (along.members, along.along, along.side) == (("Carriageway",), "x", "top")
+    assert (along.depth_m, along.area_mm2) == pytest.approx((0.05, 3141.6), rel=1e-3)
+    assert (across.along, across.side) == ("y", "bottom")
+    assert (across.depth_m, across.area_mm2) == pytest.approx((0.03, 1146.1), rel=1e-3)
+    assert any("24 reinforcing bars are 2 layers" in note for note in bridge.notes)
+    assert any("bent, inclined or in no member" in note for note in bridge.notes)

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The charge plan: totals, firing sequence and neighbours against sums by hand."""
+
+from dataclasses import replace
+
+import pytest
+from support.drilled_columns import ZONE, column_members, column_scenario
+
+from bridge_demolition_addon.model.scenario import Neighbour
+from bridge_demolition_addon.model.structure.charge_plan import charge_plan
+
+UPPER = replace(ZONE, name="upper", middle_m=3.2, delay_ms=300.0, row_delay_ms=25.0, detonator="shock tube")
+HOUSE = Neighbour(name="house", place_m=(30.35, 0.0, 1.5))
+
+
+def plan(folder, *zones, **values):
+    return charge_plan(replace(column_scenario(folder, *zones), **values), column_members())
+
+
+def test_totals_of_two_zones(tmp_path):
+    totals = plan(tmp_path, ZONE, UPPER).totals
+    assert (totals.mass_kg, totals.holes, totals.drilled_m) == pytest.approx((1.47, 20, 9.0))
+    assert totals.volume_m3 == pytest.approx(1.47) and totals.specific_kg_m3 == pytest.approx(1.0)
+    # The column has 4.704 t, the block 500 kN / g = 50.99 t.
+    assert totals.grams_per_tonne == pytest.approx(1470.0 / (4.704 + 50.986), rel=1e-4)
+    assert totals.together_kg == pytest.approx(0.735)  # both rows of the lower zone at once
+    assert totals.lasts_s == pytest.approx(0.325)
+
+
+def test_the_firing_sequence_is_in_order_of_time(tmp_path):
+    rows = plan(tmp_path, UPPER, ZONE).rows
+    assert [(row.placed.zone.name, row.row, round(1e3 * row.time_s)) for row in rows] == [
+        ("zone", 1, 0),
+        ("zone", 2, 0),
+        ("upper", 1, 300),
+        ("upper", 2, 325),
+    ]
+    # 300 + 12 and 325 - 13 ms meet: shock tube may bring both rows of the upper zone together.
+    assert [row.together_kg for row in rows] == pytest.approx([0.735, 0.735, 0.735, 0.3675])
+    exact = plan(tmp_path, replace(UPPER, detonator="exact")).rows
+    assert [row.together_kg for row in exact] == pytest.approx([0.3675, 0.3675])
+    assert [row.detonators for row in rows] == [5, 5, 5, 5]
+
+
+def test_what_does_not_fire_is_drilled_but_not_in_the_sequence(tmp_path):
+    found = plan(tmp_path, ZONE, replace(UPPER, fires=False))
+    assert {row.placed.zone.name for row in found.rows} == {"zone"}
+    assert found.totals.holes == 20
+
+
+def test_neighbours_by_the_largest_mass_within_8_ms(tmp_path):
+    """30 m from the face of the column: 0.735 kg, 1140 (30 / √0.735)^-1.6 and 20 kPa (30 / 0.735^(1/3))^-1.45."""
+    (house,) = plan(tmp_path, ZONE, neighbours=(HOUSE,)).neighbours
+    assert house.distance_m == pytest.approx(30.0)
+    assert 1e3 * house.velocity_m_s == pytest.approx(1140.0 * (30.0 / 0.735**0.5) ** -1.6)
+    assert house.pressure_pa == pytest.approx(20e3 * (30.0 / 0.735 ** (1 / 3)) ** -1.45)
+    assert house.level_db == pytest.approx(135.9, abs=0.05)  # 20 lg(124.3 Pa / 20 µPa)
+    assert not house.is_above_limit
+
+
+@pytest.mark.parametrize(
+    ("limits", "is_above"),
+    [
+        ({"limit_mm_s": 5.0}, False),  # 3.87 mm/s
+        ({"limit_mm_s": 3.0}, True),
+        ({"limit_db": 140.0}, False),
+        ({"limit_db": 120.0}, True),
+        ({"limit_mm_s": 5.0, "limit_db": 120.0}, True),
+    ],
+)
+def test_limits_of_neighbours(tmp_path, limits, is_above):
+    (house,) = plan(tmp_path, ZONE, neighbours=(replace(HOUSE, **limits),)).neighbours
+    assert house.is_above_limit == is_above
+
+
+def test_delays_spare_the_neighbour(tmp_path):
+    at_once = plan(tmp_path, ZONE, replace(UPPER, delay_ms=0.0, row_delay_ms=0.0), neighbours=(HOUSE,)).neighbours[0]
+    apart = plan(tmp_path, ZONE, replace(UPPER, detonator="exact"), neighbours=(HOUSE,)).neighbours[0]
+    # Twice the mass: by 2^0.8 in the ground, by 2^(1.45 / 3) in the air; the nearest part is the same 30 m away.
+    assert at_once.velocity_m_s / apart.velocity_m_s == pytest.approx(2.0**0.8)
+    assert at_once.pressure_pa / apart.pressure_pa == pytest.approx(2.0 ** (1.45 / 3.0))
+
+
+def test_a_plan_without_explosive_has_no_effects(tmp_path):
+    found = plan(tmp_path, replace(ZONE, charge_g=0.0), neighbours=(HOUSE,))
+    assert found.rows == () and found.flyrock == (None,)
+    assert found.neighbours[0].velocity_m_s == 0.0 and not found.neighbours[0].is_above_limit

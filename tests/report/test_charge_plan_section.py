@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The charge plan as a chapter of the report of a run."""
+
+from dataclasses import replace
+
+from support.checkout import EXAMPLES
+from support.run_folders import TOLD
+
+from bridge_demolition_addon.model.scenario import Geometry
+from bridge_demolition_addon.model.scenario.file import read_scenario
+from bridge_demolition_addon.report.document.blocks import DataTable, Paragraph
+from bridge_demolition_addon.report.sections.charge_plan import charge_plan_section
+
+DRILLED = read_scenario(EXAMPLES / "drilled" / "two_spans.toml")
+
+
+def notices(section):
+    return [block.text for block in section.blocks if isinstance(block, Paragraph) and block.is_notice]
+
+
+def tables(section):
+    return {block.name: block for block in section.blocks if isinstance(block, DataTable)}
+
+
+def test_a_scenario_without_zones_has_no_such_chapter():
+    assert charge_plan_section(TOLD) is None
+
+
+def test_what_a_blaster_would_ask_stands_once_for_all_zones():
+    weak = [replace(zone, stemming_m=0.16, cover_factor=1.0) for zone in DRILLED.blast_zones]
+    found = notices(charge_plan_section(replace(DRILLED, blast_zones=weak)))
+    (stemming,) = [text for text in found if "stemming" in text]
+    assert (
+        stemming == "Look at P2.1, P2.2, P1.1, P1.2, P3.1, P3.2: stemming of 0.16 m is less than the burden, 0.175 m."
+    )
+    assert any("scaled depth of burial" in text for text in found)
+
+
+def test_misfires_and_an_odd_amount_are_named():
+    first, *others = DRILLED.blast_zones
+    zones = [replace(first, fires=False), *(replace(zone, charge_g=0.0) for zone in others)]
+    section = charge_plan_section(replace(DRILLED, blast_zones=zones))
+    assert "Planned not to fire: P2.1." in notices(section)
+    assert tables(section)["firing_sequence"].rows == []
+    assert tables(section)["charge_table"].shown_rows()[0][8] == "misfires"
+    light = charge_plan_section(replace(DRILLED, blast_zones=[replace(first, charge_g=10.0)]))
+    # 10 holes of 10 g on 196 t: 0.51 g/t
+    assert "0.5 g/t are outside 1 to 90, which recorded jobs are within." in notices(light)
+
+
+def test_a_file_that_is_gone_is_named_in_place_of_the_plan(tmp_path):
+    gone = Geometry(file=str(tmp_path / "gone.stl"), name="gone", kind="pier", density_kg_m3=2400)
+    section = charge_plan_section(replace(DRILLED, geometry=(gone,)))
+    (notice,) = notices(section)
+    assert notice.startswith("The charge plan is not known: ") and "gone.stl" in notice

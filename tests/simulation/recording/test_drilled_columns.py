@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A column under 500 kN with drill holes: it stands with little explosive, and falls freely with enough."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from support.blocks import Blocks
+from support.drilled_columns import ZONE, column_model, column_scenario
+
+from bridge_demolition_addon.bullet import layout
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.errors import SimulationError
+from bridge_demolition_addon.model.results.solver_energy import throws_of
+from bridge_demolition_addon.model.scenario import ZoneFiring
+from bridge_demolition_addon.scene.bodies import mark_member
+from bridge_demolition_addon.scene.demolition import build_demolition
+from bridge_demolition_addon.scene.removal import remove_demolition
+from bridge_demolition_addon.scene.structural_changes import changes_of, keep_changes
+
+WEIGHT_N = 100.0 * STANDARD_GRAVITY_M_S2
+FIRED_S = 0.301
+"""A millisecond after the detonation."""
+
+
+def run(folder, zone, shards=40):
+    """Times and heights of the block on the column (k,), and the summary of a run."""
+    from bridge_demolition_addon.simulation.motion_run import motion_run
+
+    scenario = column_scenario(folder, zone, shards=shards)
+    with motion_run(scenario, column_model(scenario), folder) as (results, summary):
+        block = results.inventory.body_members == "block"
+        masses = results.inventory.masses_kg[block]
+        heights = (results.frames.positions_m[:, block, 2] * masses).sum(axis=1) / masses.sum()
+        return results.frames.time_s.copy(), heights, summary, results
+
+
+def test_it_stands_with_a_tenth_of_a_kilogram_a_cubic_metre(tmp_path):
+    times, heights, summary, _ = run(tmp_path, replace(ZONE, charge_g=7.35))
+    assert times[-1] == pytest.approx(1.0, abs=1e-3)
+    assert abs(heights - heights[0]).max() < 1e-3
+    assert summary["events"] == []
+    assert summary["connections"]["broken"] == 0
+
+
+@pytest.mark.parametrize("shards", [6, 40, 120])
+@pytest.mark.parametrize("debris", ["rubble", "thrown"])
+def test_it_falls_freely_with_a_kilogram_a_cubic_metre(tmp_path, debris, shards):
+    """0.3 m in 0.25 s by g t² / 2, within 10 %, whatever the number of shards: nothing in the zone carries."""
+    times, heights, summary, _ = run(tmp_path, replace(ZONE, debris=debris), shards)
+    assert abs(heights[times < 0.3] - heights[0]).max() < 1e-3
+    falls_s = times - FIRED_S
+    during = (falls_s > 0.1) & (falls_s < 0.3)
+    expected = STANDARD_GRAVITY_M_S2 * falls_s[during] ** 2 / 2.0
+    np.testing.assert_allclose(heights[0] - heights[during], expected, rtol=0.1)
+    fallen = np.interp(FIRED_S + 0.25, times, heights[0] - heights)
+    assert fallen == pytest.approx(0.3065, rel=0.1)
+    (event,) = summary["events"]
+    assert (event["kind"], event["zone"], event["effect"]) == ("blast zone", "zone", "thrown out")
+
+
+def test_what_is_thrown_flies_and_rubble_stays_at_the_foot(tmp_path):
+    reached = {}
+    for debris in ("rubble", "thrown"):
+        folder = tmp_path / debris
+        folder.mkdir()
+        *_, summary, results = run(folder, replace(ZONE, debris=debris))
+        names = summary["events"][0]["shards"]
+        rows = np.isin(results.inventory.body_names, names)
+        reached[debris] = np.hypot(*results.frames.positions_m[-1, rows, :2].T)
+    # From 2.25 m at 1 m/s rubble flies 0.7 m once it is 0.35 m out of the section at most; 14 m/s are 7 at least.
+    assert reached["rubble"].max() < 3.0
+    assert reached["thrown"].min() > 3.0
+    assert not throws_of(results).beyond_fall.any()  # the explosive threw them
+
+
+def test_rubble_in_the_cage_stays_stacked(tmp_path):
+    """Concrete that is broken but not thrown out goes on carrying by contact: no connection of it is left."""
+    _, heights, summary, _ = run(tmp_path, replace(ZONE, charge_g=40.0))
+    assert heights[0] - heights[-1] < 0.3
+    (event,) = summary["events"]
+    assert event["effect"] == "rubble in the cage" and event["shards"] == [] and event["connections"] > 0
+
+
+def test_loosened_concrete_carries_what_is_left(tmp_path):
+    """Half of its strength in compression is far above 500 kN on 0.49 m²: 1 N/mm²."""
+    _, heights, summary, _ = run(tmp_path, replace(ZONE, charge_g=25.0))
+    assert abs(heights - heights[0]).max() < 2e-3
+    (event,) = summary["events"]
+    assert event["effect"] == "loosened" and event["shards"] == []
+
+
+def test_a_misfire_does_nothing(tmp_path):
+    _, heights, summary, _ = run(tmp_path, replace(ZONE, fires=False))
+    assert summary["events"] == []
+    assert abs(heights - heights[0]).max() < 1e-3
+
+
+def firing(**values):
+    """A zone of the height of a block, between two others."""
+    return ZoneFiring(
+        **{
+            "time_s": 0.3,
+            "members": ("pier",),
+            "lowest_corner_m": (-0.5, -0.5, 1.0),
+            "highest_corner_m": (0.5, 0.5, 2.0),
+            "name": "zone",
+            "along": "z",
+            "effect": "thrown out",
+            "left": 0.0,
+            "speed_m_s": 0.0,
+            "cage_tension_n": 0.0,
+            "cage_compression_n": 0.0,
+        }
+        | values
+    )
+
+
+def tower(*, asleep=False):
+    blocks = Blocks(solver_iterations=100)
+    blocks.block((0, 0, -0.5), size_m=(40, 40, 1))
+    stack = [blocks.block((0, 0, 0.5 + level), 100.0) for level in range(3)]
+    for block in stack:
+        mark_member(block, "pier", "pier")
+        block.rigid_body.use_deactivation = block.rigid_body.use_start_deactivated = asleep
+    return blocks, stack
+
+
+@pytest.mark.parametrize("asleep", [False, True])
+def test_a_block_that_is_thrown_carries_nothing_on_its_way_out(blender, tmp_path, asleep):
+    """Loose blocks: the upper one falls through the middle one while that leaves, and none is flung."""
+    blocks, _ = tower(asleep=asleep)
+    keep_changes(blocks.scene, [firing()])
+    results = blocks.play(tmp_path, 30)
+    times, heights = results.frames.time_s, results.frames.positions_m[:, 1:, 2]
+    substep = results.frames.substep_s[-1]
+    # Frames after the one in which it happens; 1 m at 5 m/s.
+    leaving = (times > 0.3 + 1.0 / 24.0) & (times < 0.3 + 1.0 / 5.0 - 0.02)
+    assert leaving.any()
+    np.testing.assert_allclose(heights[leaving, 1], 1.5, atol=0.01)
+    falls_s = times[leaving] - 0.3 + substep
+    np.testing.assert_allclose(heights[leaving, 2], 2.5 - STANDARD_GRAVITY_M_S2 * falls_s**2 / 2.0, atol=0.03)
+    assert not results.frames.loads.body_peak_sums_n[leaving, 2].any()
+    # At the end the upper one stands on the lowest, and the middle one lies beside them.
+    assert heights[-1, 2] == pytest.approx(1.5, abs=0.02)
+    assert heights[-1, 1] == pytest.approx(0.5, abs=0.05)
+    assert np.hypot(*results.frames.positions_m[-1, 2, :2]) > 1.0
+    speeds = np.linalg.norm(results.frames.velocities_m_s, axis=2)
+    assert speeds.max() < 1.05 * np.hypot(5.0, np.sqrt(2.0 * STANDARD_GRAVITY_M_S2 * 1.0))
+    # The zone gave it 1 m/s sideways in all, and held it up against its weight for 0.2 s.
+    impulse = results.frames.blast_impulses_ns.sum(axis=0)
+    assert np.hypot(*impulse[2, :2]) == pytest.approx(100.0 * 1.0, rel=0.01)
+    assert impulse[2, 2] == pytest.approx(WEIGHT_N * 0.2, rel=0.05)  # by a sub-step of 1/240 s
+    assert not impulse[[0, 1, 3]].any()
+
+
+def test_zones_are_kept_with_the_scene(blender):
+    blocks, _ = tower()
+    changes = [firing(), firing(name="other", effect="loosened", left=0.4, cage_compression_n=1.5e6)]
+    keep_changes(blocks.scene, changes)
+    assert changes_of(blocks.scene) == tuple(changes)
+
+
+def test_zones_need_the_memory_of_blender(blender, tmp_path, monkeypatch):
+    right = layout.platform_layout()
+    monkeypatch.setattr(layout, "SYSTEM_V", replace(right, body=replace(right.body, friction=right.body.friction + 8)))
+    monkeypatch.setattr(layout, "MICROSOFT", layout.SYSTEM_V)
+    blocks, _ = tower()
+    keep_changes(blocks.scene, [firing()])
+    with pytest.raises(SimulationError, match="removals, saw cuts, weakenings and blast zones need Blender's memory"):
+        blocks.play(tmp_path, 4)
+
+
+def test_a_scene_that_is_built_keeps_its_zones_and_forgets_them_with_its_bodies(blender, tmp_path):
+    scenario = column_scenario(tmp_path, replace(ZONE, bars=8, bar_diameter_mm=25.0))
+    scene = blender.context.scene
+    build_demolition(scene, scenario, column_model(scenario))
+    (kept,) = changes_of(scene)
+    assert (kept.name, kept.members, kept.time_s) == ("zone", ("column",), pytest.approx(FIRED_S))
+    assert kept.cage_compression_n == pytest.approx(538.3e3, rel=1e-3)  # 8 × 186.9 kN × (0.9 / 1.5)²
+    remove_demolition(scene)
+    assert changes_of(scene) == ()

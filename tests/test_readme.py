@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The README is short, and its commands run as they stand there; with a small bridge and a few runs, to be quick."""
+
+import re
+import shlex
+import tomllib
+from importlib.machinery import SourceFileLoader
+from importlib.util import module_from_spec, spec_from_loader
+from pathlib import Path
+
+import pytest
+from support.checkout import ROOT
+
+from bridge_demolition_addon.cli.main import COMMANDS, main
+
+TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
+MOST_LINES = 120
+
+SMALLER = (
+    ("duration_s = 4.0", "duration_s = 0.7"),
+    ("shards = 160", "shards = 40"),
+)
+"""Changes to the scenario that `bda new` writes: the pier goes at 0.5 s."""
+
+FEWER = (("runs = 93", "runs = 2\nquantile = 0.5\nconfidence = 0.5\nrank = 1"),)
+
+
+def blocks(language):
+    """Fenced blocks of a language, in order."""
+    return re.findall(rf"^```{language}\n(.*?)^```", TEXT, flags=re.S | re.M)
+
+
+def commands(name):
+    """Commands in blocks that begin with a name, in order, as words."""
+    lines = [line for block in blocks("sh") for line in block.splitlines()]
+    return [shlex.split(line, comments=True) for line in lines if line.split()[0] == name]
+
+
+def replaced(path, changes):
+    text = path.read_text(encoding="utf-8")
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new)
+    path.write_text(text, encoding="utf-8")
+
+
+def test_it_is_short():
+    assert len(TEXT.splitlines()) <= MOST_LINES
+
+
+def test_its_commands_run_one_after_the_other(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    (study,) = blocks("toml")
+    Path("my_study.toml").write_text(study, encoding="utf-8")
+    replaced(Path("my_study.toml"), FEWER)
+    ran = []
+    for _, command, *arguments in commands("bda"):
+        assert main([command, *arguments]) == 0, capsys.readouterr().err
+        ran.append(command)
+        if command == "new":
+            replaced(Path("my_bridge.toml"), SMALLER)
+    assert ran == ["new", "check", "run", "study"]
+    for made in re.findall(r"`(my_\w+/[\w.]+)`", TEXT):
+        assert Path(made).is_file(), made
+    assert Path("my_study", "report", "report.html").is_file()
+
+
+def test_every_command_that_it_names_is_there():
+    named = set(re.findall(r"`bda (\w+)", TEXT))
+    assert named and named <= set(COMMANDS)
+
+
+def test_what_is_to_be_installed_can_be():
+    extras = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["optional-dependencies"]
+    named = re.findall(r'pip install "\.\[(\w+)\]"', TEXT)
+    assert named and set(named) <= set(extras)
+    for words in commands("python"):
+        assert words[1:3] == ["-m", "pip"] or (ROOT / words[1]).is_file()
+
+
+def test_zips_are_called_as_they_are_built():
+    loader = SourceFileLoader("build_extension", str(ROOT / "scripts" / "build_extension"))
+    module = module_from_spec(spec_from_loader(loader.name, loader))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setitem(__import__("sys").modules, loader.name, module)
+        loader.exec_module(module)
+    named = set(re.findall(r"`(blender-[\w.-]+)`", TEXT))
+    assert named == {series.name for series in module.SERIES.values() if series.name.startswith("blender")}
+
+
+@pytest.mark.parametrize("words", ["no reinforcing bars", "stands only because it sleeps until it is hit"])
+def test_it_says_what_the_first_numbers_rest_on(words):
+    limits = TEXT[TEXT.index("6.8 m") : TEXT.index("## Install")]
+    assert words in " ".join(limits.split())
