@@ -162,7 +162,7 @@ def page() -> str:
         )
     lines += [
         "",
-        "Each bridge was run once, [one of many](../README.md#one-run-is-one-possible-outcome).",
+        "Each bridge was run once, [one of many](accuracy.md#one-run-is-one-possible-outcome).",
         "Where a file has no reinforcement, that which the import assumes holds the cracks; a bridge of which",
         "much is lost, such as the abutments of an OpenBrIM file, stands on supports that were added.",
         "",
