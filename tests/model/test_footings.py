@@ -201,7 +201,10 @@ def test_a_model_has_footings_of_the_size_that_is_given():
         (('member = "pier"', 'member = "footing"'), 'foundations.member is "footing": expected the name or kind'),
         (('member = "pier"', 'member = "deck"'), "nothing of deck.* stands on the ground and can move"),
         (('soil = "dense', 'footing_m = [0.5, 3.0]\nsoil = "dense'), "footing_m is 0.5 × 3 m .* at least 1 × 1 m"),
-        (('stiffness = "elastic"', ""), 'connections.stiffness is "rigid": expected "elastic" with foundations'),
+        (
+            ('stiffness = "elastic"', 'stiffness = "rigid"'),
+            'connections.stiffness is "rigid": expected "elastic" with foundations',
+        ),
         (('stiffness = "elastic"', 'stiffness = "elastic"\nfoundation = false'), "connections.foundation is false"),
         (
             ("[[foundations]]", '[[supports]]\nmember = "pier"\nface = "bottom"\n[[foundations]]'),

@@ -5,6 +5,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
+from ...engineering.arithmetic import cube_root
 from ...engineering.blast.wave import Burst
 from ...errors import BlastError, ScenarioError
 from ..actions import Fact, Plan, PlannedAction, Worksite
@@ -115,7 +116,7 @@ class Charge(PlannedAction):
         yield given(self.name), f"{self.mass_kg:g} kg of {self.explosive}{worth} at ({position}) m{when}"
         if inside := site.member_within(self.place_m, _POINT_M):
             yield "", f"lies in {inside}: it counts as a bare charge in air; [[blast_zones]] have drill holes"
-        away_m, curves_m = site.distance_to_bridge_m(self.place_m), _FARTHEST_SCALED_M * self.tnt_kg ** (1.0 / 3.0)
+        away_m, curves_m = site.distance_to_bridge_m(self.place_m), _FARTHEST_SCALED_M * float(cube_root(self.tnt_kg))
         if self.mass_kg > 0.0 and away_m > curves_m:
             yield "", f"is {away_m:.0f} m from the bridge: beyond {curves_m:.0f} m its blast hardly loads anything"
 

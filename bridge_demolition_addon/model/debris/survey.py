@@ -126,7 +126,7 @@ class SurveyComparison:
         values = self.difference_m[np.isfinite(self.difference_m)]
         if not len(values):
             return float("nan"), float("nan"), float("nan")
-        squares = float(np.sqrt((values**2).mean()))
+        squares = float(np.sqrt((values * values).mean()))
         return float(values.mean()), squares, float(np.percentile(np.abs(values), _COMMON))
 
 

@@ -214,8 +214,10 @@ class Scenario(Table):
         for action in self.actions:
             with faults.noted():
                 action.check_plan(self)
+                if self.geometry:
+                    continue  # what lies there is only known once the members are read
                 for name, position in action.targets():
-                    self._check_on_deck(name, position)
+                    _check_on_deck(given(self.bridge), name, position)
         faults.check()
         if self.shards.start_deactivated and (moving := [table.name for table in self.geometry if table.is_moving]):
             raise ScenarioError(
@@ -281,21 +283,18 @@ class Scenario(Table):
                 f"blast.slow_frame_ms is {blast.slow_frame_ms:g}: expected at most {MOST_FRAMES} frames together"
             )
 
-    def _check_on_deck(self, name: str, point: tuple[float, float]) -> None:
-        if self.geometry:
-            return  # what lies there is only known once the members are read
-        along, across = point
-        bridge = given(self.bridge)
-        overhang, half_width = bridge.deck.overhang_m, bridge.deck.width_m / 2.0
-        skewed_by = across * bridge.shift_across
-        deck = ((skewed_by - overhang, skewed_by + bridge.spans_m + overhang), (-half_width, half_width))
-        for number, (position, (lowest, highest)) in enumerate(zip((along, across), deck, strict=True), start=1):
-            slack = ROUNDING * (highest - lowest)
-            if not lowest - slack <= position <= highest + slack:
-                raise ScenarioError(
-                    f"{name}.{number} is {position}: "
-                    f"expected a position on the deck, from {lowest:.6g} to {highest:.6g} (m)"
-                )
+
+def _check_on_deck(bridge: Bridge, name: str, point: tuple[float, float]) -> None:
+    along, across = point
+    overhang, half_width = bridge.deck.overhang_m, bridge.deck.width_m / 2.0
+    skewed_by = across * bridge.shift_across
+    deck = ((skewed_by - overhang, skewed_by + bridge.spans_m + overhang), (-half_width, half_width))
+    for number, (position, (lowest, highest)) in enumerate(zip((along, across), deck, strict=True), start=1):
+        slack = ROUNDING * (highest - lowest)
+        if not lowest - slack <= position <= highest + slack:
+            raise ScenarioError(
+                f"{name}.{number} is {position}: expected a position on the deck, from {lowest:.6g} to {highest:.6g} (m)"
+            )
 
 
 def _action_fields(scenario_class: type[Table]) -> tuple[str, ...]:

@@ -15,6 +15,7 @@ from ...engineering.elasticity.equilibrium import Equilibrium
 from ...engineering.elasticity.joint_rows import JointFrames, components_first, turned_back
 from ...engineering.elasticity.section_stiffness import in_frames
 from ...engineering.foundations.footings import Footings
+from ...engineering.geometry.vectors import product, transformed
 from ...engineering.mechanics.crack_faces import CrackFaces, TornFaces
 from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.section_cuts import ConnectionLoads
@@ -158,8 +159,8 @@ class CrackedBridge:
         turns = np.moveaxis(rotations[..., self._first[rows]], 2, 0)
         first = self._first[rows]
         arms = self._model.connections.points[rows] - self._model.centres_m[first]
-        points = positions_m[:, first].T + np.einsum("rij,rj->ri", turns, arms)
-        axes = turns @ self._utilisations.axes[rows]
+        points = positions_m[:, first].T + transformed(turns, arms)
+        axes = product(turns, self._utilisations.axes[rows])
         torn = TornFaces(rows, first, self._second[rows], points, axes, np.ones(len(rows)))
         self._faces.tear(cracks, torn, positions_m, rotations)
 

@@ -55,8 +55,8 @@ def test_it_needs_what_layers_by_hand_need():
     ):
         replace(plan, bridge=replace(plan.bridge, reinforcement=LM1))
     whole = scenario(bridge())
-    with pytest.raises(ScenarioError, match=r"ductile_elongation_m is missing: .* with \[bridge.reinforcement\]"):
-        replace(whole, connections=replace(whole.connections, ductile_elongation_m=None))
+    with pytest.raises(ScenarioError, match=r'stiffness is "rigid": expected "elastic" with \[bridge.reinforcement\]'):
+        replace(whole, connections=replace(whole.connections, stiffness="rigid"))
     none = BridgeReinforcement(designed_for="none")
     assert replace(plan, bridge=replace(plan.bridge, reinforcement=none)).bridge.reinforcement == none
 
