@@ -293,7 +293,8 @@ def _check_on_deck(bridge: Bridge, name: str, point: tuple[float, float]) -> Non
         slack = ROUNDING * (highest - lowest)
         if not lowest - slack <= position <= highest + slack:
             raise ScenarioError(
-                f"{name}.{number} is {position}: expected a position on the deck, from {lowest:.6g} to {highest:.6g} (m)"
+                f"{name}.{number} is {position}: "
+                f"expected a position on the deck, from {lowest:.6g} to {highest:.6g} (m)"
             )
 
 
