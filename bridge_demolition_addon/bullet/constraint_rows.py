@@ -47,14 +47,13 @@ class ConstraintRows:
         self._limits = self._doubles(layout.spring.lower)
         self.held = self._limits == self._doubles(layout.spring.upper)
         self._resists = self.held.copy()
-        self._built: dict[tuple[int, int], np.ndarray] = {}  # frames that were moved, as Blender made them
+        self._starts = layout.spring.frame_a, layout.spring.frame_b
+        self._built = [gather_doubles(addresses + np.uint64(start), 15) for start in self._starts]  # by Blender
+        self._moved = np.zeros(len(addresses), bool)
 
     def frame_components(self) -> tuple[tuple[np.ndarray, np.ndarray], ...]:
         """Return axes (3, 3, k) and positions (3, k) of the frames in Bullet's body A, and of those in its body B."""
-        spring = self._layout.spring
-        frames = [
-            gather_doubles(self._addresses + np.uint64(start), 15).T for start in (spring.frame_a, spring.frame_b)
-        ]
+        frames = [values.T for values in self._built]
         return tuple((values[:12].reshape(3, 4, -1)[:, :3].copy(), values[12:].copy()) for values in frames)
 
     def move_frames(self, rows: np.ndarray, axes: Sequence[np.ndarray], points_m: Sequence[np.ndarray]) -> None:
@@ -62,16 +61,12 @@ class ConstraintRows:
 
         Axes (3, 3, r), as columns, and positions (3, r) are those in each of the two bodies.
         """
-        spring = self._layout.spring
-        for number, start in enumerate((spring.frame_a, spring.frame_b)):
-            addresses = self._addresses[rows] + np.uint64(start)
-            before = gather_doubles(addresses, 15)
-            for row, values in zip(rows.tolist(), before, strict=True):
-                self._built.setdefault((number, row), values)
-            frames = before.copy()
-            frames[:, :12].reshape(-1, 3, 4)[..., :3] = np.moveaxis(axes[number], -1, 0)
-            frames[:, 12:] = points_m[number].T
-            _write_frames(addresses, frames)
+        self._moved[rows] = True
+        for start, built, of_body, points in zip(self._starts, self._built, axes, points_m, strict=True):
+            frames = built[rows]
+            frames[:, :12].reshape(-1, 3, 4)[..., :3] = np.moveaxis(of_body, -1, 0)
+            frames[:, 12:] = points.T
+            _write_frames(self._addresses[rows] + np.uint64(start), frames)
 
     def soften(self, rows: np.ndarray, softness: np.ndarray) -> None:
         """Have all of an error of existing constraints (r,) corrected in a sub-step, with a softness (6, r).
@@ -84,10 +79,9 @@ class ConstraintRows:
 
     def restore(self, rows: np.ndarray) -> None:
         """Leave constraints (r,) as Blender made them."""
-        starts = self._layout.spring.frame_a, self._layout.spring.frame_b
-        for (number, row), frame in self._built.items():
-            if row in rows:
-                _write_frames(self._addresses[[row]] + np.uint64(starts[number]), frame[None])
+        moved = rows[self._moved[rows]]
+        for start, built in zip(self._starts, self._built, strict=True):
+            _write_frames(self._addresses[moved] + np.uint64(start), built[moved])
         self._resists[:, rows] = self.held[:, rows]
         self._hold_at(rows, self._limits[:, rows])
         self._write(rows, SPRING_CORRECTION, 0.0, 0)
