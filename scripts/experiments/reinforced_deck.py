@@ -97,7 +97,7 @@ based_on = "{(ROOT / "examples" / "two_spans_13m_ball.toml").as_posix()}"
 title = "Ball on a reinforced deck"
 seed = {int(seed)}
 [time]
-duration_s = 3.0
+duration_s = 2.6
 substeps_per_frame = {round(10 * finer)}
 farthest_per_substep_m = {0.01 / finer}
 [fracture]
@@ -105,6 +105,7 @@ shards = {int(shards)}
 [ball]
 mass_kg = {ball_kg}
 diameter_m = 1.34
+release_time_s = 0.1
 [connections]
 {rupture}
 {"" if bars else NO_BARS}"""
