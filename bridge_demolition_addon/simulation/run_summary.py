@@ -21,6 +21,7 @@ from ..model.results.summary import settling, summarise
 from ..model.scenario import Scenario
 from ..model.schema import given
 from ..model.sequence.rest import Rest, last_event_s
+from ..model.reinforcement.concrete_members import plain_concrete
 from ..model.sequence.undisturbed import fell_by_itself
 from ..model.structure.settlement import settlements
 from ..scene.bodies import terrain_facts
@@ -162,6 +163,7 @@ def _of_scenario(
         "settled": settling(results, scenario.connections.warm_up_s),
         "came_to_rest_s": rest.came_to_rest_s,
         "fell_by_itself": fell_by_itself(results, scenario),
+        "plain_concrete": plain_concrete(scenario),
         "touchdown": _touchdown(scenario, results),
         "foundations": settlements(results, scenario.foundations),
     }

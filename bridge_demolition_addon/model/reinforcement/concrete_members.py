@@ -67,9 +67,8 @@ def plain_concrete_text(scenario: Scenario) -> str:
     """Return a sentence, without a full stop, on members of concrete without bars; empty where there are none, or where
     the scenario says that the bridge has no bars."""
     rule = scenario.bridge.reinforcement if scenario.bridge else None
-    if scenario.connections.ductile_share > 0.0 or (rule and not rule.has_bars):
-        return ""
-    if not (plain := _plain(scenario, named_members(scenario))):
+    is_meant = rule is not None and not rule.has_bars
+    if is_meant or not (plain := plain_concrete(scenario)):
         return ""
     return (
         f"no reinforcing bars in {', '.join(plain)}: what cracks there falls apart, as concrete with bars does not; "
@@ -77,9 +76,14 @@ def plain_concrete_text(scenario: Scenario) -> str:
     )
 
 
-def _plain(scenario: Scenario, members: Sequence[Named]) -> list[str]:
-    """Return kinds of members none of which has bars, and names of those whose kind has some."""
-    with_bars = names_with_bars(scenario)
+def plain_concrete(scenario: Scenario) -> list[str]:
+    """Return kinds of members of concrete none of which has bars, and names of those whose kind has some.
+
+    Bars that are spread evenly over all faces are bars, too.
+    """
+    if scenario.connections.ductile_share > 0.0:
+        return []
+    members, with_bars = named_members(scenario), names_with_bars(scenario)
     plain = [
         member for member in members if not {member.name, member.kind} & with_bars and is_concrete(scenario, member)
     ]

@@ -291,6 +291,7 @@ _SUMMARY = {
     "made_by_hand": _are_texts,
     "changed_bodies": _are_texts,
     "fell_by_itself": _is_table_or_none,
+    "plain_concrete": _are_texts,
     "creeping": _is_table_or_none,
     "title": _is_text,
     "completed": lambda value: isinstance(value, bool),

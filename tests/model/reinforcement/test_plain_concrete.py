@@ -6,7 +6,7 @@ from dataclasses import replace
 from support.bridges_by_rule import LM1, bridge, scenario
 from support.scenarios import I235
 
-from bridge_demolition_addon.model.reinforcement.concrete_members import plain_concrete_text
+from bridge_demolition_addon.model.reinforcement.concrete_members import plain_concrete, plain_concrete_text
 from bridge_demolition_addon.model.scenario import BarLayer, BridgeReinforcement, ConnectionBetween, Geometry
 from bridge_demolition_addon.model.scenario import RatiosOfMember as Ratios
 
@@ -38,6 +38,12 @@ def test_one_of_a_kind_is_named_by_itself():
 
 def test_no_bars_on_purpose_are_not_a_warning():
     assert named(scenario(bridge(BridgeReinforcement(designed_for="none")))) == []
+
+
+def test_the_list_for_the_summary_has_those_without_bars_on_purpose_too():
+    assert plain_concrete(scenario(bridge(BridgeReinforcement(designed_for="none")))) == ["deck", "pier cap", "pier"]
+    assert plain_concrete(scenario(bridge(LM1))) == []
+    assert plain_concrete(scenario(bridge(None), reinforcement=(BY_HAND,))) == ["pier cap", "pier"]
 
 
 def test_bars_that_are_spread_evenly_are_bars():
