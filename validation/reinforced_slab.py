@@ -77,7 +77,7 @@ members = ["slab"]
 times_s = {times}
 forces_n = {forces}
 {RIGID_BODIES.format(shards=0.64, ground=0.64)}"""
-    return sunk_m(simulated(folder, f"{shards}_shards_{seed}", scenario, SLAB.solids), SLAB)
+    return sunk_m(simulated(folder, f"{shards}_shards_{seed}", scenario, SLAB.solids))
 
 
 CASE = Case(

@@ -8,10 +8,13 @@ import numpy as np
 from solids import block
 
 from bridge_demolition_addon.engineering.geometry.mesh import TriangleMesh
+from bridge_demolition_addon.engineering.geometry.vectors import transformed, transformed_back
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2 as G
 from bridge_demolition_addon.model.results.arrays import Results
 
-DENSITY_KG_M3, BOTTOM_M, WALL_M = 2400.0, 3.0, 0.1
+DENSITY_KG_M3, BOTTOM_M, WALL_M, CONCRETE_PA = 2400.0, 3.0, 0.1, 30e9
+NEAREST = 4
+"""So many shards, those nearest to its middle, say where the middle of a slab is."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,7 +101,7 @@ tension_n_mm2 = 2.9
 shear_n_mm2 = 1000.0
 torsion_n_mm2 = 1000.0
 bending_n_mm2 = 2.9
-elastic_modulus_n_mm2 = 30000.0
+elastic_modulus_n_mm2 = {1e-6 * CONCRETE_PA}
 
 [[reinforcement]]
 members = ["slab"]
@@ -126,10 +129,12 @@ kind = "rocker"
 """
 
 
-def sunk_m(results: Results, slab: Slab) -> tuple[np.ndarray, np.ndarray]:
-    """Times, and how far the middle of a slab has gone down, m: shards in the middle tenth, by their mean."""
+def sunk_m(results: Results) -> tuple[np.ndarray, np.ndarray]:
+    """Times, and how far the middle of a slab has gone down, m: as the shards next to it carry it with them."""
     inventory, frames = results.inventory, results.frames
-    own = (inventory.body_kinds == "shard") & (inventory.body_members == "slab")
-    own &= abs(frames.positions_m[0, :, 0]) < slab.span_m / 10.0
-    heights = frames.positions_m[:, own, 2].mean(axis=1)
+    own = np.flatnonzero((inventory.body_kinds == "shard") & (inventory.body_members == "slab"))
+    own = own[np.argsort(abs(frames.positions_m[0, own, 0]))[:NEAREST]]
+    to_middle = -frames.positions_m[0, own] * (1.0, 0.0, 0.0)
+    levers = transformed(frames.rotations[:, own], transformed_back(frames.rotations[0, own], to_middle))
+    heights = (frames.positions_m[:, own, 2] + levers[..., 2]).mean(axis=1)
     return frames.time_s, heights[0] - heights

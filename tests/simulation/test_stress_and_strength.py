@@ -7,9 +7,8 @@ import numpy as np
 import pytest
 from support.blocks import Blocks
 from support.shard_scenes import DENSITY_KG_M3, ShardScene
-from support.torn_block import check_fall, torn_block
 
-from bridge_demolition_addon.engineering.mechanics.strength import MATERIALS, Ductility, Strength
+from bridge_demolition_addon.engineering.mechanics.strength import MATERIALS, Strength
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.scene.connections.breaking_settings import Breaking, keep_breaking
 from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
@@ -126,25 +125,3 @@ def test_deck_comes_down_near_the_load_of_beam_theory_however_finely_it_is_cut(b
     # Cracks follow the faces of shards, not the plane of the largest moment, and where the held part ends is chance.
     # Over 18 draws each it is 0.56 to 1.28 of that in 40 shards, the median 0.87, and 0.72 to 1.34 in 90, 1.04.
     assert 0.45 < load / expected < 1.5
-
-
-@pytest.mark.parametrize("substeps", (10, 40))
-def test_tie_gives_way_under_its_yield_force_and_lets_go(blender, tmp_path, substeps):
-    blocks = Blocks(substeps_per_frame=substeps)
-    torn_block(blocks, 0.4, 0.3)
-    check_fall(blocks.play(tmp_path, 24), 0.4, 0.3)
-
-
-def test_tie_that_is_strong_enough_holds_on(blender, tmp_path):
-    """The section breaks by bending, and its tie then carries the block that swings below it."""
-    blocks, area, mass = Blocks(), 0.04, 100.0
-    ceiling, block = blocks.block((0, 0, 10)), blocks.block((0, 0, 9), mass)
-    connection = blocks.connect("FIXED", (0.3, 0, 9.5), ceiling, block)
-    connection["bda_area_m2"], connection["bda_normal"] = area, (0.0, 0.0, -1.0)
-    tension = 4.0 * mass * GRAVITY / area
-    keep_breaking(blocks.scene, Breaking(Strength(1e12, tension, 1e12, 1e12, 1.0), 0.0, Ductility(1.0, 0.5)))
-    results = blocks.play(tmp_path, 24 * 12)
-    assert not results.frames.intact[-1][0]
-    assert results.frames.positions_m[-1, 1, 2] > 8.5
-    # Over whole seconds of swinging the mean force on the block is its weight.
-    assert results.frames.loads.body_forces_n[-240:, 1, 2].mean() == pytest.approx(mass * GRAVITY, rel=0.02)

@@ -46,6 +46,8 @@ from .site import Exclusion, Neighbour, Site, Zone
 from .structural_changes import Change, Removal, SawCut, Weakening
 from .time import MOST_FRAMES, TimeSettings
 
+_RIGID_WITH_BARS = "bars between rigid bodies would make energy"
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Scenario(Table):
@@ -268,11 +270,14 @@ class Scenario(Table):
                 raise connections.unexpected("ductile_elongation_m", wanted)
             if connections.ductile_share == 0.0:
                 connections.check_no_steel()
+            elif not connections.is_elastic:
+                wanted = f'"elastic" with a connections.ductile_share above 0: {_RIGID_WITH_BARS}'
+                raise connections.unexpected("stiffness", wanted)
             return
         if connections.material is None:
             raise ScenarioError(f"connections.material is missing: expected it with {table}")
         if not connections.is_elastic:
-            wanted = f'"elastic" with {table}: bars between rigid bodies would make energy'
+            wanted = f'"elastic" with {table}: {_RIGID_WITH_BARS}'
             raise connections.unexpected("stiffness", wanted)
 
     def _check_slow_motion(self) -> None:

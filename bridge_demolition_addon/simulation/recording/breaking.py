@@ -15,7 +15,6 @@ from ...model.schema import given
 from .drivers import Driver, WarmUp
 from .elastic_connections import ElasticConnections
 from .meter import Meter, Reading
-from .reinforcement import Reinforcement
 
 _MOST_ROUNDS = 20
 """How often connections break one after another in one sub-step, before the rest waits for the next."""
@@ -47,14 +46,14 @@ class Resistance:
         Part of its strength that each has left, kept up to date by the events.
     elastic : ElasticConnections or None
         The connections, where they are elastic.
-    reinforcement : ElasticConnections, Reinforcement or None
-        Holds where connections broke.
+    reinforcement : ElasticConnections or None
+        The same, where bars hold on as connections break.
     """
 
     overloads: Overloads | None
     remaining_strength: np.ndarray
     elastic: ElasticConnections | None = None
-    reinforcement: ElasticConnections | Reinforcement | None = None
+    reinforcement: ElasticConnections | None = None
 
 
 class Breaker:

@@ -15,7 +15,7 @@ from ...engineering.mechanics.frame_loads import FrameLoads
 from ...engineering.mechanics.member_sections import MemberSections, kinds_of
 from ...engineering.mechanics.overloads import Overloads
 from ...engineering.mechanics.work import FrameWork, Motion, WorkAccumulator
-from ...errors import LayoutError
+from ...errors import LayoutError, SimulationError
 from ...model.results.frames import BallHistory, ContactHistory, Frame
 from ...model.schema import given
 from ...scene.connections.bearings import named_bearings_of
@@ -31,7 +31,6 @@ from .ground_drive import GroundDrive
 from .loads import Loads
 from .meter import Meter
 from .motion_reader import unknown_loads
-from .reinforcement import Reinforcement
 from .substeps import SubstepRecorder, in_order
 from .torques import Torques
 
@@ -89,14 +88,16 @@ class BulletReader:
         setup, world, inventory = self._setup, self._world, self._inventory
         breaking, constraints = setup.breaking, world.constraints
         self._events = events = Events(world, inventory.pairs, inventory.masses_kg, setup.events)
-        reinforcement = None
-        if breaking.is_reinforced and elastic:
-            elastic.reinforce(breaking, events.remaining_strength)
-        elif breaking.ductility:
-            reinforcement = Reinforcement(world.bodies, inventory, breaking, events.remaining_strength)
+        if setup.elasticity is None and breaking.ductility and np.any(breaking.ductility.strength_share):
+            raise SimulationError(
+                "the connections of this scene are rigid and have bars by ductile_share: expected elastic ones, as "
+                "bars between rigid bodies would make energy; build the scene again from its scenario"
+            )
+        holding = elastic if breaking.is_reinforced else None
+        if holding:
+            holding.reinforce(breaking, events.remaining_strength)
         warm_up = WarmUp(world, self._free_shards(), breaking, release=elastic is None)
-        meter = Meter(world, inventory, elastic, reinforcement)
-        holding = elastic if breaking.is_reinforced and elastic else reinforcement
+        meter = Meter(world, inventory, elastic)
         resistance = Resistance(self._overloads(elastic), events.remaining_strength, elastic, holding)
         breaker = Breaker(constraints, meter, resistance, warm_up)
         drivers = in_order(
@@ -106,7 +107,6 @@ class BulletReader:
                 self._ground_drive(),
                 events,
                 ThresholdScale(constraints, setup.time.step.substep_s),
-                reinforcement,
                 blast,
                 Loads(world.bodies, setup.placed_loads),
                 ElasticPrediction(elastic, breaker) if elastic else None,

@@ -136,8 +136,6 @@ class FrameSums:
             self._of_cracks = self._cracks.finish()
             use = self._of_cracks.use_of_bodies(self._inventory.pairs, len(self._inventory.masses_kg))
             loads = replace(loads, body_bar_use=use)
-        if self._meter.has_rigid_bars:
-            work = replace(work, yielding_j=np.nan, crack_friction_j=np.nan)
         return loads, work, breaks
 
     @property

@@ -17,20 +17,15 @@ from ...engineering.mechanics.frame_loads import Moment, SubstepLoads
 from ...engineering.mechanics.section_forces import SectionForces, section_axes, section_forces
 from ...model.results.inventory import Inventory
 from .elastic_connections import ElasticConnections, ElasticEnergy
-from .reinforcement import Reinforcement
 
 
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """Bullet's state after a sub-step, with the loads of elastic connections, and simulated time at its end.
-
-    `reinforcement_n` (m, 3) are the forces of reinforcement across cracks of rigid connections, if there is any.
-    """
+    """Bullet's state after a sub-step, with the loads of elastic connections, and simulated time at its end."""
 
     snapshot: Snapshot
     substep_s: float
     end_s: float
-    reinforcement_n: np.ndarray | None
 
 
 class Meter:
@@ -39,14 +34,8 @@ class Meter:
     `lever_arms_m` (m,) reach from the centres of the bodies on which loads are read to the connections.
     """
 
-    def __init__(
-        self,
-        world: BulletWorld,
-        inventory: Inventory,
-        elastic: ElasticConnections | None,
-        reinforcement: Reinforcement | None,
-    ):
-        self._elastic, self._reinforcement = elastic, reinforcement
+    def __init__(self, world: BulletWorld, inventory: Inventory, elastic: ElasticConnections | None):
+        self._elastic = elastic
         pairs = inventory.pairs
         # On a fixed body Bullet leaves out a part of a hinge's torque: loads are read on the other.
         side = np.where(inventory.moves[pairs[:, 0]], 0, 1)
@@ -63,18 +52,12 @@ class Meter:
         self.lever_arms_m = length(self._local_points)
         self._local_axes = axes_in_bodies(section_axes(inventory.normals), bodies, rotations)
 
-    @property
-    def has_rigid_bars(self) -> bool:
-        """Whether bars hold cracks of rigid connections: their work is that of connections, and not known apart."""
-        return self._reinforcement is not None
-
     def read(self, substep_s: float, end_s: float) -> Reading:
         """Return Bullet's state after a sub-step; of elastic connections Bullet knows only what contacts change."""
         snapshot = self._snapshots.take()
         if self._elastic:
             snapshot = replace(snapshot, load_components=snapshot.load_components + self._elastic.loads_on(self._sides))
-        forces = self._reinforcement.forces_n.copy() if self._reinforcement else None
-        return Reading(snapshot, substep_s, end_s, forces)
+        return Reading(snapshot, substep_s, end_s)
 
     def predicted_loads(self, both_sides: np.ndarray) -> np.ndarray:
         """Return loads (6, m) on the bodies where they are read, from those (2, 6, m) on Bullet's bodies A and B."""
@@ -82,7 +65,7 @@ class Meter:
 
     def predicted(self, loads: np.ndarray, substep_s: float, begin_s: float) -> Reading:
         """Return Bullet's state before a sub-step, with the loads (6, m) that connections will have in it."""
-        return Reading(replace(self._snapshots.take(), load_components=loads), substep_s, begin_s, None)
+        return Reading(replace(self._snapshots.take(), load_components=loads), substep_s, begin_s)
 
     def elastic_energy(self, intact: np.ndarray) -> ElasticEnergy | None:
         """Return the energy that is now in elastic connections (m,) that are intact or reinforced."""
@@ -92,11 +75,7 @@ class Meter:
         """Return the states of all bodies after sub-steps, and the loads in these."""
         snapshots = [reading.snapshot for reading in readings]
         bodies = BodyHistory.of(snapshots)
-        loads = self._substep_loads(snapshots, bodies, np.array([reading.substep_s for reading in readings]))
-        for substep, reading in enumerate(readings):
-            if reading.reinforcement_n is not None:
-                loads.connection_forces_n[substep] += reading.reinforcement_n
-        return bodies, loads
+        return bodies, self._substep_loads(snapshots, bodies, np.array([reading.substep_s for reading in readings]))
 
     def moment(self, reading: Reading) -> Moment:
         """Return the loads in one sub-step."""
@@ -122,7 +101,7 @@ class Meter:
     def _substep_loads(
         self, snapshots: Sequence[Snapshot], bodies: BodyHistory, substeps_s: np.ndarray
     ) -> SubstepLoads:
-        """Loads of sub-steps (s,) after which snapshots were taken, without reinforcement."""
+        """Loads of sub-steps (s,) after which snapshots were taken."""
         loads = np.stack([snapshot.load_components for snapshot in snapshots], axis=1)
         force, torque = (np.moveaxis(vectors, 0, -1) for vectors in (loads[:3], loads[3:]))
         centres = taken(bodies.positions_m, self._bodies)

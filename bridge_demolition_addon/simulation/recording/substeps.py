@@ -17,7 +17,6 @@ from .frame_sums import FrameSums, MeasuredSubstep
 from .ground_drive import GroundDrive
 from .loads import Loads
 from .meter import Meter
-from .reinforcement import Reinforcement
 from .torques import Torques
 
 ORDER = (
@@ -26,7 +25,6 @@ ORDER = (
     GroundDrive,
     Events,
     ThresholdScale,
-    Reinforcement,
     Blast,
     Loads,
     ElasticPrediction,

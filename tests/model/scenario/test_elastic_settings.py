@@ -91,6 +91,12 @@ def test_no_material_has_such_moduli(numbers):
         ElasticModuli(*numbers)
 
 
+def test_bars_between_rigid_bodies_are_refused():
+    settings = ConnectionSettings(type="FIXED", method="face", material="concrete", stiffness="rigid", **TIED)
+    with pytest.raises(ScenarioError, match=r'connections.stiffness is .*expected "elastic" with a connections'):
+        replace(I235, connections=settings)
+
+
 def test_connections_are_elastic_where_nothing_is_said_and_their_material_says_how():
     by_face = ConnectionSettings(type="FIXED", method="face", material="concrete")
     assert replace(I235, connections=by_face).connections.is_elastic

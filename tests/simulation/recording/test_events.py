@@ -9,7 +9,7 @@ from support.blocks import Blocks
 from support.shard_scenes import DENSITY_KG_M3, ShardScene
 
 from bridge_demolition_addon.bullet import layout
-from bridge_demolition_addon.engineering.mechanics.strength import Ductility, Strength
+from bridge_demolition_addon.engineering.mechanics.strength import Strength
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.errors import ScenarioError, SimulationError
 from bridge_demolition_addon.model.results.motion import OUT_OF_REACH_M
@@ -143,20 +143,6 @@ def test_weakened_section_bears_what_is_left_of_its_strength(blender, tmp_path, 
     _, results = play(bar.scene, tmp_path, 24)
     assert results.frames.intact[results.frames.time_s < 0.29].all()
     assert bool(results.frames.intact[-1, 0]) is holds
-
-
-def test_saw_cuts_the_reinforcement_that_a_broken_section_hangs_by(blender, tmp_path):
-    strength = Strength(compression_pa=1e9, tension_pa=1e3, shear_pa=1e9, bending_pa=1e9, torsion_pa=1e9)
-    bar = ShardScene((1, 1, 6), (0, 0, 13), 2, {}, breaking=Breaking(strength, ductility=Ductility(1.0, 1e6)))
-    lower = int(bar.fracture.centres[:, 2].argmin())
-    bar.hold(np.arange(2) != lower)
-    bar.shards[lower].rigid_body.mass = 300.0  # three times what the joint bears intact; its tie bears 1 kN of it
-    keep_changes(bar.scene, [SawCut(time_s=0.5, point_m=bar.fracture.centres.mean(axis=0).tolist(), normal=(0, 0, 1))])
-    _, results = play(bar.scene, tmp_path, 24)
-    pulls = results.frames.loads.connection_peaks_n[:, 0]
-    assert not results.frames.intact[results.frames.time_s > 0.2].any()
-    assert pulls[(results.frames.time_s > 0.2) & (results.frames.time_s < 0.49)].min() > 500.0
-    assert not pulls[results.frames.time_s > 0.55].any()
 
 
 def test_several_changes_happen_in_order_of_time(blender, tmp_path):
