@@ -36,8 +36,11 @@ CASES = (
     "sudden_loss",
     "reinforced_slab",
     "drop_on_shards",
+    "bent_beam",
+    "catenary",
     # published formulas
     "drop_weight",
+    "sheared_beam",
     "airblast_far_away",
     # measurements
     "tossed_cubes",

@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A reinforced beam without links, which fails in shear long before it would bend: when, against EN 1992-1-1, 6.2.2."""
+
+from pathlib import Path
+
+import numpy as np
+from case import PUBLISHED, Case, Comparison, Found
+from loaded_beams import LoadedBeam, comes_down_at_n, loaded
+from matplotlib.figure import Figure
+
+BEAM = LoadedBeam(3.0, 0.2, 0.4, 0.36, 1440.0, 38.0, 4.0, 0.0, 40)
+SEEDS = (1, 2, 3)
+MOST_N, GROWS_S = 1.5 * BEAM.shears_at_n, 1.0
+
+
+def run(folder: Path) -> Found:
+    """Load a beam of each seed."""
+    courses = {seed: course(folder, seed) for seed in SEEDS}
+    loads = {f"seed {seed}": comes_down_at_n(found, 0.06, 0.002) for seed, found in courses.items()}
+    loads["median"] = float(np.median(list(loads.values())))
+    comparisons = [
+        Comparison(f"load as it comes down, {name}", "kN", 1e-3 * BEAM.shears_at_n, 1e-3 * load, 0.3)
+        for name, load in loads.items()
+    ]
+    comparisons.append(
+        Comparison("the same over that in bending, median", "", (0.0, 0.9), loads["median"] / BEAM.bends_at_n)
+    )
+
+    def draw(figure: Figure) -> None:
+        axes = figure.subplots()
+        for (seed, (load, sunk)), style in zip(courses.items(), ("-", "--", ":"), strict=True):
+            axes.plot(1e3 * sunk, 1e-3 * load, color="black", linestyle=style, label=f"seed {seed}")
+        for load, name in ((BEAM.shears_at_n, "shear"), (BEAM.bends_at_n, "bending")):
+            axes.axhline(1e-3 * load, color="0.6", linewidth=0.8)
+            axes.text(19.8, 1e-3 * load, f"{name} by EN 1992-1-1", ha="right", va="bottom", fontsize=8)
+        axes.set(xlabel="deflection (mm)", ylabel="load in the middle (kN)", xlim=(0.0, 20.0))
+        axes.legend()
+
+    return Found(comparisons, draw)
+
+
+def course(folder: Path, seed: int) -> np.ndarray:
+    """Loads and deflections."""
+    return loaded(folder, f"seed_{seed}", BEAM, seed, MOST_N, GROWS_S)
+
+
+CASE = Case(
+    name="sheared_beam",
+    title="Reinforced beam without links",
+    group=PUBLISHED,
+    asked=f"A beam of {BEAM.span_m:g} m ({BEAM.width_m:g} m × {BEAM.height_m:g} m) with {BEAM.area_mm2:g} mm² near its "
+    f"bottom and no links lies on two bearings, cut into {BEAM.shards} irregular shards. A load in its middle grows. It "
+    "is strong in bending. At which load does it come down?",
+    left_out="TODO",
+    source="V_Rd,c = 0.18 k (100 ρ f_c)^⅓ b d at d from a support, EN 1992-1-1:2004, 6.2.2, with the mean strength "
+    f"of {BEAM.compression_n_mm2:g} N/mm² and no factors of safety: a formula fitted to tests.",
+    reason="TODO",
+    run=run,
+)
