@@ -93,6 +93,43 @@ def test_a_slab_in_40_irregular_shards_comes_down_about_when_plastic_theory_says
     assert reinforced_slab.load_at(*reinforced_slab.course(tmp_path, 40, 1)) == pytest.approx(1.0, abs=0.25)
 
 
+def test_a_weight_on_a_strip_in_irregular_shards_goes_about_as_far_as_in_opensees(blender, tmp_path):
+    """25 %, as seeds scatter; without damping, OpenSees has 87 mm."""
+    import drop_on_shards as case
+
+    expected = case.by_opensees_mm("800 kg", "as in the run", "stays")
+    stays = 1e3 * case.stays_m(*case.course(tmp_path, case.DROPS["800 kg"], 2))
+    assert stays == pytest.approx(expected, rel=0.25)
+
+
+def test_opensees_was_asked_about_the_drops_of_the_case():
+    import drop_on_shards as case
+
+    for name in case.DROPS:
+        undamped, damped = (case.by_opensees_mm(name, damping, "stays") for damping in ("none", "as in the run"))
+        assert 0.0 < damped < undamped < case.by_opensees_mm(name, "none", "largest")
+
+
+def test_formulas_of_loaded_beams_are_those_of_a_hand_calculation():
+    """V_Rd,c of 0.2 × 0.36 m with 2 % in C38: 0.18 · 1.745 · (2 · 38)^⅓ = 1.331 N/mm², 95.8 kN, less 1.88 · 1.14 kN.
+
+    M of 0.3 × 0.35 m with 900 mm²: 450 kN · (0.35 - 0.0395 / 2) = 148.6 kN·m, less 5.65 kN·m of its own weight.
+    """
+    import bent_beam
+    import sheared_beam
+
+    assert sheared_beam.BEAM.shears_at_n == pytest.approx(2.0 * (95.8e3 - 1.88e3 * 1.14), rel=2e-3)
+    assert bent_beam.BEAM.bends_at_n == pytest.approx(148.6e3 - 5.65e3, rel=2e-3)
+
+
+def test_a_reinforced_beam_comes_down_about_when_its_section_yields(blender, tmp_path):
+    import bent_beam
+    from loaded_beams import comes_down_at_n
+
+    load = comes_down_at_n(bent_beam.course(tmp_path, 1), 0.06, 0.002)
+    assert load == pytest.approx(bent_beam.BEAM.bends_at_n, rel=0.15)
+
+
 @pytest.mark.parametrize(("share", "topples"), [(0.9, False), (1.1, True)])
 def test_a_pier_topples_by_the_impulse_of_a_charge(blender, tmp_path, share, topples):
     import toppling_charge

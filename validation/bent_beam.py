@@ -2,6 +2,7 @@
 """A reinforced beam with links under a load that grows: when it comes down, and how far it bends, by EN 1992-1-1."""
 
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 from case import EXACT, Case, Comparison, Found
@@ -10,6 +11,7 @@ from matplotlib.figure import Figure
 
 BEAM = LoadedBeam(4.0, 0.3, 0.4, 0.35, 900.0, 38.0, 1000.0, 4000.0, 40)
 SEEDS = (1, 2, 3)
+Numbers = TypeVar("Numbers", float, np.ndarray)
 MOST_N, GROWS_S = 1.3 * BEAM.bends_at_n, 1.0
 BENDS_UNTIL = 0.95
 """Part of the load of plastic theory at which deflections are compared: bars yield at about the same."""
@@ -43,7 +45,7 @@ def run(folder: Path) -> Found:
     return Found(comparisons, draw)
 
 
-def expected_m(load_n):
+def expected_m(load_n: Numbers) -> Numbers:
     """Deflection of a beam that is cracked along all of its length, F L³ / (48 E I)."""
     return load_n * BEAM.span_m**3 / (48.0 * BEAM.cracked_stiffness_nm2)
 

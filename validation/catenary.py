@@ -31,7 +31,9 @@ def run(folder: Path) -> Found:
     loads, sunk = course(folder)
     found = {deflection: float(loads[np.flatnonzero(sunk <= deflection)[-1]]) for deflection in DEFLECTIONS_M}
     comparisons = [
-        Comparison(f"load at a deflection of {deflection:g} m, {what}", "kN", 1e-3 * theory(deflection), 1e-3 * load, 0.1)
+        Comparison(
+            f"load at a deflection of {deflection:g} m, {what}", "kN", 1e-3 * theory(deflection), 1e-3 * load, 0.1
+        )
         for what, theory in (("bars that turn, as a rope", load_n), ("bars that do not turn", load_of_straight_bars_n))
         for deflection, load in found.items()
     ]
@@ -66,9 +68,7 @@ def course(folder: Path) -> tuple[np.ndarray, np.ndarray]:
     """Loads with the weight of the strip, N, and deflections of the middle, m, as the load grows."""
     end, half, top = SPAN_M / 2.0 + HELD_M, WIDTH_M / 2.0, BOTTOM_M + HEIGHT_M
     middles = np.arange(-end + BLOCK_M / 2.0, end, BLOCK_M)
-    points = "".join(
-        f"\n[[fracture.points]]\nplace_m = [{x:.3f}, 0.0, {BOTTOM_M + HEIGHT_M / 2.0}]\n" for x in middles
-    )
+    points = "".join(f"\n[[fracture.points]]\nplace_m = [{x:.3f}, 0.0, {BOTTOM_M + HEIGHT_M / 2.0}]\n" for x in middles)
     layers = "".join(
         f'\n[[reinforcement]]\nmembers = ["strip"]\nside = "{side}"\ndepth_m = {COVER_M}\narea_mm2 = {LAYER_MM2}\n'
         f"yield_n_mm2 = {YIELD_N_MM2}\n"
@@ -137,17 +137,20 @@ CASE = Case(
     name="catenary",
     title="Strip that hangs on its bars",
     group=EXACT,
-    asked=f"A strip of {SPAN_M:g} m, {HEIGHT_M:g} m thick and {WIDTH_M:g} m wide, is what two spans are after the loss of "
-    f"the support between them. Both ends are held, also along. It has {LAYER_MM2:g} mm² near its top and bottom, and "
-    "cracks everywhere. An even load grows. First it stands as an arch, snaps through, and then hangs on its bars. "
-    "Under which load has it which deflection then?",
-    left_out="Hardening of bars, their rupture, and what is crushed. Blocks are stiff, with cracks 0.5 m apart.",
-    source="A rope, w L² / 8 = H δ, with H = A f_y / √(1 + (4 δ / L)²): all bars yield at the ends, where the rope is "
-    "inclined. And the same if bars stay level at the ends, and carry V = w L / 2 as dowels, H² + (V / 0.24)² = (A f_y)².",
-    reason="10 %: a frame is 2 %, and the strip snaps through under 50 kN before, which leaves it swinging. As a rope it "
-    "is missed, by a quarter to a third. In reality a bar bends in a crack and turns to where it is pulled; in the model "
-    "it keeps the direction of its member on one side, and across itself it is a dowel with 0.24 of its force. That is "
-    "what the second comparison has, and what [connections.md](connections.md#reinforcement) says. What hangs on bars falls earlier than it "
-    "would: on the safe side for what must stay, on the unsafe side for what must fall.",
+    asked=f"A strip of {SPAN_M:g} m, {HEIGHT_M:g} m thick and {WIDTH_M:g} m wide, is what two spans are once the "
+    f"support between them is lost. Both ends are held, also along. It has {LAYER_MM2:g} mm² near its top and "
+    "as much near its bottom, and cracks everywhere. An even load grows: first it stands as an arch, snaps "
+    "through, and then hangs on its bars. Under which load has it which deflection then?",
+    left_out="Hardening of bars, their rupture, and concrete that is crushed. Blocks are stiff, with cracks 0.5 m "
+    "apart.",
+    source="A rope, w L² / 8 = H δ with H = A f_y / √(1 + (4 δ / L)²): bars yield at the ends, where the rope is "
+    "inclined most. And the same where bars stay level at the ends, and carry V = w L / 2 as dowels: H² + (V "
+    "/ 0.24)² = (A f_y)².",
+    reason="10 %: a frame is 2 %, and the strip snaps through before, which leaves it swinging. As a rope it is "
+    "missed, by a quarter to more than a third. A real bar bends in a crack, and turns to where it is pulled. "
+    "In the model it keeps the direction of its member, and across itself is a dowel with 0.24 of its force. "
+    "The second comparison has that, and [connections.md](connections.md#reinforcement) says it. What hangs "
+    "on bars falls earlier than it would: on the safe side for what must stay, on the unsafe side for what "
+    "must fall.",
     run=run,
 )

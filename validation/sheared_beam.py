@@ -48,12 +48,18 @@ CASE = Case(
     name="sheared_beam",
     title="Reinforced beam without links",
     group=PUBLISHED,
-    asked=f"A beam of {BEAM.span_m:g} m ({BEAM.width_m:g} m × {BEAM.height_m:g} m) with {BEAM.area_mm2:g} mm² near its "
-    f"bottom and no links lies on two bearings, cut into {BEAM.shards} irregular shards. A load in its middle grows. It "
-    "is strong in bending. At which load does it come down?",
-    left_out="TODO",
+    asked=f"A beam of {BEAM.span_m:g} m ({BEAM.width_m:g} m × {BEAM.height_m:g} m) with {BEAM.area_mm2:g} mm² near "
+    f"its bottom and no links lies on two bearings, cut into {BEAM.shards} irregular shards. A load in its "
+    "middle grows. It is strong in bending. At which load does it come down?",
+    left_out="The size effect, aggregate interlock but by friction, and bond. What resists is the tensile strength of "
+    "concrete in inclined faces, as long as they are whole; then dowels, 0.24 of the yield force of bars, and "
+    "friction, 0.7 of what presses.",
     source="V_Rd,c = 0.18 k (100 ρ f_c)^⅓ b d at d from a support, EN 1992-1-1:2004, 6.2.2, with the mean strength "
     f"of {BEAM.compression_n_mm2:g} N/mm² and no factors of safety: a formula fitted to tests.",
-    reason="TODO",
+    reason="30 %, as tests scatter about the formula. Seeds scatter by as much: the beam comes down when inclined "
+    "faces from load to support have cracked, where shards have them, within the range of the formula, and "
+    "far below its load in bending. But nothing in the model is fitted to it: the formula grows with the cube "
+    "root of strength and steel and falls with depth, the model goes by tensile strength and where faces lie. "
+    "Take it for the kind of failure, not for its load.",
     run=run,
 )

@@ -21,6 +21,7 @@ from typing import TypeVar
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
+from .crack_law import FRICTION, CrackLaw, rubbing_bars, sliding, stretches_of_bars
 from .crack_state import CornerState, CrackState
 from .equations import summed_on_bodies
 from .gaps import Gaps, SolvedTangents, motion_of_points
@@ -34,25 +35,12 @@ from .joint_rows import (
     turned,
     turned_back,
 )
-from .steel_bars import BarResponse, Bars, Steel, bar_response
+from .steel_bars import Bars, Steel, bar_response
 
 Numbers = TypeVar("Numbers", FloatArray, IntArray, BoolArray)
 
 CORNERS = np.array([(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)])
 """Places as shares of half of the sides of the rectangle."""
-
-DOWEL_SHARE = 0.9 * np.sqrt(35.0 / 500.0)
-"""Force across themselves that bars resist as dowels, by that along them: 0.9 √(f_c / f_y) for rough cracks, of C35/45
-and B500 (fib Model Code 2010, equation 7.3-51 and table 7.3-2). Both together are on an ellipse, as normal and shear
-stress by von Mises' criterion.
-"""
-
-FRICTION = 0.7
-"""Friction of the rough sides of a crack: EN 1992-1-1:2004, 6.2.5 (2), and fib Model Code 2010, table 7.3-2."""
-
-_SHEARED = 0.4
-"""Stiffness against sliding of sides that do not slip, by that against pressing: shear over normal stiffness of
-concrete, G / E."""
 
 _COUNT = len(CORNERS)
 
@@ -146,7 +134,7 @@ class Cracks:
         gaps = self._gaps(positions_m, rotations)
         openings_m = np.tile(self._openings_m[self.rows], _COUNT)
         self._holds = self._holds & (dot_products(gaps, gaps) <= openings_m * openings_m)
-        local = _as_bars(turned_back(rotations[..., self._first], gaps), self._directions)
+        local = stretches_of_bars(turned_back(rotations[..., self._first], gaps), self._directions)
         response = bar_response(self._bars(), local, self._slips, self._flows)
         self._slips = np.where(self._holds, response.slips_m, self._slips)
         self._flows = np.where(self._holds, response.flows_m, self._flows)
@@ -169,8 +157,8 @@ class Cracks:
     def _rub(self, gaps: FloatArray) -> None:
         """Take over how far sides have slid by now, and how much those that are pressed may resist next."""
         pressed = self._stiffness_pressed()
-        rubbing = _friction(self._grips_n, pressed)
-        self._rests = bar_response(rubbing, _along(gaps, self._normals), self._rests, np.zeros_like(pressed)).slips_m
+        rubbing = rubbing_bars(self._grips_n, pressed)
+        self._rests = bar_response(rubbing, sliding(gaps, self._normals), self._rests, np.zeros_like(pressed)).slips_m
         self._grip(gaps)
 
     def _grip(self, gaps: FloatArray) -> None:
@@ -180,18 +168,18 @@ class Cracks:
         """Return the state of all cracks after a sub-step, before it is settled."""
         gaps = turned_back(rotations[..., self._first], self._gaps(positions_m, rotations))
         bars, pressed = self._bars(), self._stiffness_pressed()
-        rubbing = _friction(self._grips_n, pressed)
-        pulls = bar_response(bars, _as_bars(gaps, self._directions), self._slips, self._flows)
+        rubbing = rubbing_bars(self._grips_n, pressed)
+        pulls = bar_response(bars, stretches_of_bars(gaps, self._directions), self._slips, self._flows)
         corners = CornerState(
             gaps_m=gaps,
             normals=self._normals,
             bars=bars,
             holds=self._holds.astype(float),
             pulls=pulls,
-            forces_n=_as_bars(self._holds * pulls.forces_n, self._directions),
+            forces_n=stretches_of_bars(self._holds * pulls.forces_n, self._directions),
             slips_m=self._slips,
             rubbing=rubbing,
-            rubs=bar_response(rubbing, _along(gaps, self._normals), self._rests, np.zeros_like(pressed)),
+            rubs=bar_response(rubbing, sliding(gaps, self._normals), self._rests, np.zeros_like(pressed)),
             rests_m=self._rests,
             pressed_n_m=pressed,
             elongations_m=np.tile(self._openings_m[self.rows], _COUNT),
@@ -205,7 +193,7 @@ class Cracks:
         """
         bars = self._bars()
         gaps = turned_back(rotations[..., self._first], self._gaps(positions_m, rotations))
-        forces = bar_response(bars, _as_bars(gaps, self._directions), self._slips, self._flows).forces_n
+        forces = bar_response(bars, stretches_of_bars(gaps, self._directions), self._slips, self._flows).forces_n
         size, most = np.sqrt(dot_products(forces, forces)), self._steel.hardening * bars.yield_n
         holds = self._holds & (most > _LITTLE_SHARE * np.tile(_summed(most), _COUNT))
         pulled = np.where(dot_products(forces, self._directions) > 0.0, size, 0.0)
@@ -293,48 +281,6 @@ class CrackJoints:
         """Return the rows of joints with these axes, which are not deformed yet."""
         none = np.zeros_like(self.first_arms_m)
         return JointPositions(self.axes, self.axes, self.first_arms_m, self.second_arms_m, none).rows()
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class CrackLaw:
-    """Resistance of b bars, and of the sides of their cracks, in the axes of the world."""
-
-    bars: Bars
-    slips_m: FloatArray  # (3, b), deformation that stays
-    flows_m: FloatArray  # (b,), length of the path of the slip
-    normals: FloatArray  # (3, b), of the cracks
-    directions: FloatArray  # (3, b), of the bars
-    pressed_n_m: FloatArray  # (b,), stiffness where the sides press on each other
-    rests_m: FloatArray  # (3, b), sliding at which they do not resist it
-    grips_n: FloatArray  # (b,), by which they resist at most, of how they were pressed before
-
-    def forces(self, gaps_m: FloatArray) -> FloatArray:
-        """Return the forces (3, b) across gaps (3, b)."""
-        bars, rubs = self._responses(gaps_m)
-        closing = np.minimum(dot_products(self.normals, gaps_m), 0.0)
-        pulls: FloatArray = _as_bars(bars.forces_n, self.directions)
-        return pulls + rubs.forces_n + self.pressed_n_m * closing * self.normals
-
-    def tangents(self, gaps_m: FloatArray) -> FloatArray:
-        """Return how the forces across gaps (3, b) change with these, (3, 3, b)."""
-        bars, rubs = self._responses(gaps_m)
-        normals, directions, pulls = self.normals, self.directions, _as_bars(bars.directions, self.directions)
-        pressed = np.where(dot_products(normals, gaps_m) < 0.0, self.pressed_n_m, 0.0)
-        even = DOWEL_SHARE * DOWEL_SHARE
-        tangents: FloatArray = (pressed - rubs.across_n_m) * (normals[:, None] * normals)
-        tangents += (1.0 - even) * bars.across_n_m * (directions[:, None] * directions)
-        tangents += (bars.along_n_m - bars.across_n_m) * (pulls[:, None] * pulls)
-        tangents += (rubs.along_n_m - rubs.across_n_m) * (rubs.directions[:, None] * rubs.directions)
-        tangents[[0, 1, 2], [0, 1, 2]] += even * bars.across_n_m + rubs.across_n_m
-        return tangents
-
-    def _responses(self, gaps_m: FloatArray) -> tuple[BarResponse, BarResponse]:
-        """What bars do across gaps (3, b), and sides that rub on each other."""
-        rubbing, never = _friction(self.grips_n, self.pressed_n_m), np.zeros_like(self.grips_n)
-        return (
-            bar_response(self.bars, _as_bars(gaps_m, self.directions), self.slips_m, self.flows_m),
-            bar_response(rubbing, _along(gaps_m, self.normals), self.rests_m, never),
-        )
 
 
 class CrackStep:
@@ -454,23 +400,6 @@ def corner_shares(positions_m: FloatArray, sides_m: FloatArray) -> FloatArray:
     beside = np.clip(2.0 * positions_m / sides_m, -1.0, 1.0)
     shares: FloatArray = 0.25 * (1.0 + CORNERS[:, :1] * beside[0]) * (1.0 + CORNERS[:, 1:] * beside[1])
     return shares
-
-
-def _as_bars(gaps_m: FloatArray, directions: FloatArray) -> FloatArray:
-    """Stretches of bars (3, b) with directions (3, b) by gaps (3, b): less across the bars, as dowels."""
-    along = dot_products(gaps_m, directions)
-    stretches: FloatArray = DOWEL_SHARE * gaps_m + (1.0 - DOWEL_SHARE) * along * directions
-    return stretches
-
-
-def _along(gaps_m: FloatArray, normals: FloatArray) -> FloatArray:
-    """Parts (3, b) of gaps along cracks with normals (3, b)."""
-    return gaps_m - dot_products(gaps_m, normals) * normals
-
-
-def _friction(grips_n: FloatArray, pressed_n_m: FloatArray) -> Bars:
-    """Friction of b pressed places, as of bars that yield at it and do not harden."""
-    return Bars(grips_n, _SHEARED * pressed_n_m, np.zeros_like(grips_n))
 
 
 def _zero_of(slope: Callable[[float], float]) -> float:

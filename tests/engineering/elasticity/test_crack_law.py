@@ -4,7 +4,7 @@
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.engineering.elasticity.cracks import FRICTION, CrackLaw
+from bridge_demolition_addon.engineering.elasticity.crack_law import FRICTION, CrackLaw
 from bridge_demolition_addon.engineering.elasticity.steel_bars import Bars, Steel
 
 YIELD_N, PRESSED_N_M, OPENING_M = 1e5, 1e9, 0.05

@@ -4,8 +4,9 @@
 import numpy as np
 import pytest
 
+from bridge_demolition_addon.engineering.elasticity.crack_law import FRICTION
 from bridge_demolition_addon.engineering.elasticity.cracked_equilibrium import BuiltStructure, CrackedStructure
-from bridge_demolition_addon.engineering.elasticity.cracks import FRICTION, Cracks, corner_positions
+from bridge_demolition_addon.engineering.elasticity.cracks import Cracks, corner_positions
 from bridge_demolition_addon.engineering.elasticity.equations import RigidBodies
 from bridge_demolition_addon.engineering.elasticity.equilibrium import equilibrium
 from bridge_demolition_addon.engineering.elasticity.joint_rows import JointFrames

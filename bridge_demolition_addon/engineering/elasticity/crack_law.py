@@ -1,0 +1,89 @@
+"""Law of cracks that bars hold together: what bars, pressed sides and sides that rub resist across a gap.
+
+Bars pull along themselves, and less across themselves, as dowels. The sides press on each other where the gap is
+closed, and rub on each other as far as they are pressed.
+
+All arrays have their components first.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..arrays import FloatArray
+from .joint_rows import dot_products
+from .steel_bars import BarResponse, Bars, bar_response
+
+DOWEL_SHARE = 0.9 * np.sqrt(35.0 / 500.0)
+"""Force across themselves that bars resist as dowels, by that along them: 0.9 √(f_c / f_y) for rough cracks, of C35/45
+and B500 (fib Model Code 2010, equation 7.3-51 and table 7.3-2). Both together are on an ellipse, as normal and shear
+stress by von Mises' criterion.
+"""
+
+FRICTION = 0.7
+"""Friction of the rough sides of a crack: EN 1992-1-1:2004, 6.2.5 (2), and fib Model Code 2010, table 7.3-2."""
+
+_SHEARED = 0.4
+"""Stiffness against sliding of sides that do not slip, by that against pressing: shear over normal stiffness of
+concrete, G / E."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CrackLaw:
+    """Resistance of b bars, and of the sides of their cracks, in the axes of the world."""
+
+    bars: Bars
+    slips_m: FloatArray  # (3, b), deformation that stays
+    flows_m: FloatArray  # (b,), length of the path of the slip
+    normals: FloatArray  # (3, b), of the cracks
+    directions: FloatArray  # (3, b), of the bars
+    pressed_n_m: FloatArray  # (b,), stiffness where the sides press on each other
+    rests_m: FloatArray  # (3, b), sliding at which they do not resist it
+    grips_n: FloatArray  # (b,), by which they resist at most, of how they were pressed before
+
+    def forces(self, gaps_m: FloatArray) -> FloatArray:
+        """Return the forces (3, b) across gaps (3, b)."""
+        bars, rubs = self._responses(gaps_m)
+        closing = np.minimum(dot_products(self.normals, gaps_m), 0.0)
+        pulls: FloatArray = stretches_of_bars(bars.forces_n, self.directions)
+        return pulls + rubs.forces_n + self.pressed_n_m * closing * self.normals
+
+    def tangents(self, gaps_m: FloatArray) -> FloatArray:
+        """Return how the forces across gaps (3, b) change with these, (3, 3, b)."""
+        bars, rubs = self._responses(gaps_m)
+        normals, directions, pulls = self.normals, self.directions, stretches_of_bars(bars.directions, self.directions)
+        pressed = np.where(dot_products(normals, gaps_m) < 0.0, self.pressed_n_m, 0.0)
+        even = DOWEL_SHARE * DOWEL_SHARE
+        tangents: FloatArray = (pressed - rubs.across_n_m) * (normals[:, None] * normals)
+        tangents += (1.0 - even) * bars.across_n_m * (directions[:, None] * directions)
+        tangents += (bars.along_n_m - bars.across_n_m) * (pulls[:, None] * pulls)
+        tangents += (rubs.along_n_m - rubs.across_n_m) * (rubs.directions[:, None] * rubs.directions)
+        tangents[[0, 1, 2], [0, 1, 2]] += even * bars.across_n_m + rubs.across_n_m
+        return tangents
+
+    def _responses(self, gaps_m: FloatArray) -> tuple[BarResponse, BarResponse]:
+        """What bars do across gaps (3, b), and sides that rub on each other."""
+        rubbing, never = rubbing_bars(self.grips_n, self.pressed_n_m), np.zeros_like(self.grips_n)
+        return (
+            bar_response(self.bars, stretches_of_bars(gaps_m, self.directions), self.slips_m, self.flows_m),
+            bar_response(rubbing, sliding(gaps_m, self.normals), self.rests_m, never),
+        )
+
+
+def stretches_of_bars(gaps_m: FloatArray, directions: FloatArray) -> FloatArray:
+    """Stretches of bars (3, b) with directions (3, b) by gaps (3, b): less across the bars, as dowels."""
+    along = dot_products(gaps_m, directions)
+    stretches: FloatArray = DOWEL_SHARE * gaps_m + (1.0 - DOWEL_SHARE) * along * directions
+    return stretches
+
+
+def sliding(gaps_m: FloatArray, normals: FloatArray) -> FloatArray:
+    """Parts (3, b) of gaps along cracks with normals (3, b)."""
+    return gaps_m - dot_products(gaps_m, normals) * normals
+
+
+def rubbing_bars(grips_n: FloatArray, pressed_n_m: FloatArray) -> Bars:
+    """Friction of b pressed places, as of bars that yield at it and do not harden."""
+    return Bars(grips_n, _SHEARED * pressed_n_m, np.zeros_like(grips_n))
