@@ -67,9 +67,9 @@ def run(folder: Path) -> Found:
             for seed in drop.seeds:
                 times, sunk = courses[name, seed]
                 axes.plot(times, 1e3 * sunk, color="black", linewidth=0.8, label="runs" if seed == 1 else None)
-            for damping, style in (("as in the run", "-"), ("none", "--")):
+            for damping, what, style in (("as in the run", "damped as the run", "-"), ("none", "undamped", "--")):
                 stays = by_opensees_mm(name, damping, "stays")
-                axes.plot(SWINGS_S, [stays, stays], color="0.5", linestyle=style, label=f"OpenSees, damping {damping}")
+                axes.plot(SWINGS_S, [stays, stays], color="0.5", linestyle=style, label=f"OpenSees, {what}")
             axes.axhline(rigid_mm(drop), color="0.5", linestyle=":", label="rigid-plastic theory")
             axes.set(title=f"{name}, {drop.speed_m_s:g} m/s", xlabel="time since the weight hits (s)", xlim=(0.0, None))
         figure.axes[0].set(ylabel="way down of the middle (mm)")
