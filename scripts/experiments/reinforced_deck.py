@@ -97,7 +97,7 @@ based_on = "{(ROOT / "examples" / "two_spans_13m_ball.toml").as_posix()}"
 title = "Ball on a reinforced deck"
 seed = {int(seed)}
 [time]
-duration_s = 2.6
+duration_s = 2.2
 substeps_per_frame = {round(10 * finer)}
 farthest_per_substep_m = {0.01 / finer}
 [fracture]
