@@ -6,10 +6,9 @@ import sys
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, nullcontext
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
-from ..errors import Faults, OutputError, SimulationError
+from ..errors import Faults, OutputError
 from ..model.reinforcement.concrete_members import plain_concrete_text
 from ..model.results.bar_extremes import bars_text, largest_use_text
 from ..model.results.creep import creep_text
@@ -23,8 +22,8 @@ from ..model.sequence.checked_model import checked_model
 from ..model.sequence.undisturbed import asleep_text, self_collapse_text
 from ..model.structure.model import Model
 from ..system.progress import Progress
-from ..system.signals import interrupted_afterwards
 from .arguments import naming
+from .blender import simulation_module
 from .progress import progress_on
 
 COMPARISON = "comparison"
@@ -135,7 +134,7 @@ def _run_and_report(
 ) -> None:
     plain = plain_concrete_text(scenario)
     with naming(path):
-        summary = _simulation().run_scenario(
+        summary = simulation_module("run").run_scenario(
             scenario,
             output,
             model=model,
@@ -153,19 +152,7 @@ def _run_and_report(
 def run_with_everything(scenario: Scenario, output: Path, progress: Progress, *, quiet: bool) -> Mapping[str, Any]:
     """Run a scenario in place of what is in a folder, keep all but films, and return its summary."""
     with _blender_silenced() if quiet else nullcontext():
-        return _simulation().run_scenario(scenario, output, overwrite=True, pictures=True, progress=progress)
-
-
-def _simulation() -> ModuleType:
-    """Return the module that runs scenarios, loaded only now: they can be checked where Blender is not installed."""
-    try:
-        with interrupted_afterwards():
-            from ..simulation import run
-    except ModuleNotFoundError as error:
-        if error.name != "bpy":
-            raise
-        raise SimulationError("Blender is not there: install the bpy package or run inside Blender") from error
-    return run
+        return simulation_module("run").run_scenario(scenario, output, overwrite=True, pictures=True, progress=progress)
 
 
 @contextmanager

@@ -155,7 +155,7 @@ def _of_scenario(
     for state in zip(
         results.frames.time_s, results.frames.positions_m, results.frames.rotations, results.frames.asleep, strict=True
     ):
-        rest.observe(*state)
+        rest.observe(*state, results.inventory.masses_kg)
     return {
         "seed": scenario.seed,
         "charges": _charges(scenario, recording),
