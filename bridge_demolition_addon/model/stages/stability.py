@@ -108,13 +108,13 @@ class Stability:
     def sentence(self) -> str:
         """Return the verdict in one sentence, without a full stop."""
         if self.verdict == UNKNOWN:
-            return f"whether the bridge stands cannot be known by statics: {self.reason}; {AWAKE_ADVICE}"
+            return f"Whether the bridge stands cannot be known by statics: {self.reason}; {AWAKE_ADVICE}"
         under = "under its own weight, by statics"
         as_elastic = ", as if its connections were elastic" if self.is_rigid else ""
         if self.verdict == COMES_DOWN:
             factor = "" if self.load_factor is None else f"collapse load factor {_factor_text(self.load_factor)}, "
-            return f"the bridge comes down {under}{as_elastic}: {factor}{self.reason}"
-        return f"the bridge stands {under}{as_elastic}: {', '.join(self._resistances())}"
+            return f"The bridge comes down {under}{as_elastic}: {factor}{self.reason}"
+        return f"The bridge stands {under}{as_elastic}: {', '.join(self._resistances())}"
 
     def _resistances(self) -> Iterator[str]:
         if self.load_factor is not None:
@@ -129,7 +129,7 @@ class Stability:
         """Return that a run does not show it, without a full stop; empty where it does."""
         if not self.is_asleep:
             return ""
-        return "in the run all shards sleep until something hits them, so that it does not show whether the bridge stands"
+        return "In the run all shards sleep until something hits them, so that it does not show whether the bridge stands"
 
     def facts(self) -> Iterator[Fact]:
         """Yield the verdict and what it follows from, as `bda check` prints it."""
@@ -154,6 +154,14 @@ class Stability:
             yield "narrow", f"a run lets cracks open with a jerk: with a load factor below {NARROW:g} it may come down"
         elif self.verdict == STANDS and self.load_factor is None:
             yield "", "its collapse load factor takes longer to work out: bda check --stand"
+
+
+def stability_texts(summary: Mapping[str, Any]) -> tuple[str, ...]:
+    """Return what a run's summary says under ``stability``, as sentences without full stops; none for nothing."""
+    if not summary.get("stability"):
+        return ()
+    stability = Stability.of_stored(summary["stability"])
+    return tuple(filter(None, (stability.sentence, stability.asleep_sentence)))
 
 
 def stability_of(

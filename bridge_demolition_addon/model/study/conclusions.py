@@ -96,6 +96,7 @@ class Conclusions:
     criteria: tuple[Proportion, ...]  # in the order of the study
     success: Proportion | None  # all criteria at once; None without criteria
     at_once: SimultaneousLimits | None  # None where there are too few runs
+    still_moving: int = 0  # runs at whose end shards still moved: their distances are not final
 
     def as_json(self) -> dict[str, Any]:
         """Return them as ``study.json`` has them."""
@@ -105,6 +106,7 @@ class Conclusions:
             "criteria": [as_json(criterion) for criterion in self.criteria],
             "success": self.success and as_json(self.success),
             "at_once": self.at_once and as_json(self.at_once),
+            "still_moving": self.still_moving,
         }
 
 
@@ -128,6 +130,7 @@ def conclusions(study: Study, table: RunsTable) -> Conclusions:
         at_once=simultaneous_limits(
             {name: table.largest(name) for name in SIMULTANEOUS}, settings.quantile, confidence
         ),
+        still_moving=table.still_moving,
     )
 
 

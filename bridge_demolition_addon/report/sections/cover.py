@@ -10,13 +10,14 @@ from ...engineering.units import mass_text
 from ...model.debris.throws import Debris
 from ...model.reinforcement.concrete_members import plain_concrete_text
 from ...model.results.arrays import Results
-from ...model.results.collapse import rest_of
 from ...model.results.creep import creep_summary, creep_text
 from ...model.results.motion import without_removed
+from ...model.results.moving import moving_summary, moving_text
 from ...model.run_folder.summary import RunSummary
 from ...model.scenario import Scenario
 from ...model.scenario.contact_facts import contact_facts
 from ...model.sequence.undisturbed import asleep_text
+from ...model.stages.stability import stability_texts
 from ..document.blocks import Block, Listing, Paragraph, Photo, Section, facts
 from ..findings import IMPACT, findings
 from ..run_folder import ReportedRun
@@ -159,14 +160,12 @@ def _doubts(run: ReportedRun) -> Iterator[str]:
     results = run.recorded
     if len(results.frames) < 2:
         yield "Only one frame was recorded: nothing has moved yet, and there are no forces."
-    if run.scenario and (asleep := asleep_text(run.scenario)):
+    stability = stability_texts(run.summary.values) if run.summary else ()
+    yield from (f"{text}." for text in stability)
+    if not stability and run.scenario and (asleep := asleep_text(run.scenario)):  # of a run of an earlier version
         yield f"{asleep}."
-    rest = rest_of(results)
-    if rest.moving_at_end:
-        yield (
-            f"{rest.moving_at_end} of {len(results.inventory.of_kind('shard'))} shards still move at the end of the "
-            "run: throws, footprint, pile and zones are not final. Simulate for longer to see it all come to rest."
-        )
+    if moving := moving_text({"moving_at_end": moving_summary(results)}):
+        yield f"{moving}. Footprint, pile and zones are not final either."
     if text := creep_text({"creeping": creep_summary(without_removed(results)[0])}):
         yield f"{text}."
     if np.isnan(results.frames.loads.body_sums_n[1:]).any():
