@@ -13,7 +13,7 @@ from ..model.scenario import BlastZone, Charge, Scenario
 from ..model.scenario.contact_facts import contact_facts
 from ..model.scenario.file import read_scenario
 from ..model.results.moving import moving_text
-from ..model.scenario.scenario import bars_by_rule, bearing_tables
+from ..model.scenario.scenario import bars_by_rule
 from ..model.sequence.checked_model import ModelWorksite, checked_model
 from ..model.sequence.undisturbed import AWAKE_S, self_collapse_text
 from ..model.stages.stability import stability_of
@@ -66,8 +66,7 @@ def scenario_facts(scenario: Scenario, *, stand: bool = False) -> Iterator[str]:
     yield scenario.title
     prepared = prepared_members(scenario)
     model = checked_model(scenario, prepared.members)
-    is_quick = model.crack_bars is None and not bearing_tables(scenario)  # elsewhere the load factor takes far longer
-    stability = stability_of(scenario, model, with_factor=stand or is_quick)
+    stability = stability_of(scenario, model, with_factor=stand or None)
     yield from _section("Does it stand?", (*stability.facts(), *size_facts(scenario, prepared.members)))
     if scenario.bridge:
         yield from _section("Bridge", bridge_facts(scenario.bridge, is_flat=scenario.has_flat_ground))
