@@ -9,10 +9,10 @@ from ..model.bridge.member import member_facts
 from ..model.bridge.preparation import prepared_members
 from ..model.reinforcement.design import bar_schedule
 from ..model.reinforcement.facts import schedule_facts
+from ..model.results.moving import moving_text
 from ..model.scenario import BlastZone, Charge, Scenario
 from ..model.scenario.contact_facts import contact_facts
 from ..model.scenario.file import read_scenario
-from ..model.results.moving import moving_text
 from ..model.scenario.scenario import bars_by_rule
 from ..model.sequence.checked_model import ModelWorksite, checked_model
 from ..model.sequence.undisturbed import AWAKE_S, self_collapse_text
@@ -107,7 +107,10 @@ def _cost_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
     """Yield about how long a run takes, and how much memory."""
     seconds, memory_mb = seconds_by_size(scenario, model), megabytes_by_size(model)
     at_most = " or less, as it ends at rest" if scenario.time.stop_at_rest else ""
-    yield "a run takes", f"about {duration_text(seconds)}{at_most}: on one core, without pictures, to a factor of {FACTOR:g}"
+    yield (
+        "a run takes",
+        f"about {duration_text(seconds)}{at_most}: on one core, without pictures, to a factor of {FACTOR:g}",
+    )
     yield "", f"about {memory_mb:.0f} MB of memory, and {disk_megabytes(scenario, model):.0f} MB on the disk"
 
 

@@ -213,7 +213,10 @@ def _result_facts(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     if creeping := creep_text(summary):
         yield "creeping", creeping
     if moving := summary["moving_at_end"]:
-        yield "still moving", f"{moving['shards']} of {moving['of_shards']} shards, at up to {moving['fastest_m_s']:.1f} m/s"
+        yield (
+            "still moving",
+            f"{moving['shards']} of {moving['of_shards']} shards, at up to {moving['fastest_m_s']:.1f} m/s",
+        )
     if throw := summary["largest_throw"]:
         so_far = ", not final: shards still moved" if moving else ""
         yield "largest throw", f"{throw['throw_m']:.2f} m, {throw['body']}{so_far}"

@@ -30,8 +30,8 @@ from the I-235 span and the examples with 50 and 100 iterations, on one core. Th
 _PER_RUN_S = 0.5
 
 _PROCESS_MB, _PER_PART_MB = 430.0, 0.03
-"""Memory of a process with Blender, and of a shard or connection in it: the I-235 span in 100 shards took 445 MB, and in
-1600 shards with 36 856 connections 1559 MB."""
+"""Memory of a process with Blender, and of a shard or connection in it: the I-235 span in 100 shards took 445 MB, and
+in 1600 shards with 36 856 connections 1559 MB."""
 
 _FOLDER_MB, _PER_PART_AND_FRAME_MB = 5.0, 6e-5
 """Files of a run: of the same two, 59 and 62 bytes for each part in each frame."""

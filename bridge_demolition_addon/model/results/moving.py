@@ -51,7 +51,7 @@ def moving_summary(results: Results) -> dict[str, Any] | None:
 
 
 def moving_text(summary: Mapping[str, Any]) -> str:
-    """Return what a run's summary says under ``moving_at_end``, as a sentence without a full stop; empty for nothing."""
+    """Return what a summary says under ``moving_at_end``, as a sentence without a full stop; empty for nothing."""
     moving = summary.get("moving_at_end")
     if not moving:
         return ""

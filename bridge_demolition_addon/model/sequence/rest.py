@@ -9,7 +9,6 @@ import numpy as np
 from ...engineering.geometry.vectors import distance
 from ..scenario import Scenario
 
-
 FASTEST = 10.0
 """A single body may be so many times as fast as the limit for all: at the usual 0.5 m/s what slides with a friction of
 0.5 comes to rest within v² / 2μg = 25 mm, and what falls is faster within 0.05 s."""

@@ -32,11 +32,15 @@ def first_event_s(scenario: Scenario) -> float:
 def left_alone(scenario: Scenario, seconds: float = AWAKE_S) -> Scenario:
     """Return a scenario in which nothing is done to the bridge, awake, for so long after its warm-up."""
     names = set(action_fields(Scenario))
-    nothing = {item.name: () if isinstance(getattr(scenario, item.name), tuple) else None for item in fields(scenario)}
+    nothing: dict[str, Any] = {
+        item.name: () if isinstance(getattr(scenario, item.name), tuple) else None
+        for item in fields(scenario)
+        if item.name in names
+    }
     at_rest = (0.0, 0.0, 0.0)
     return replace(
         scenario,
-        **{name: value for name, value in nothing.items() if name in names},
+        **nothing,
         geometry=tuple(replace(table, velocity_m_s=at_rest, spin_rad_s=at_rest) for table in scenario.geometry),
         shards=replace(scenario.shards, start_deactivated=False),
         time=replace(scenario.time, duration_s=scenario.warm_up_s + seconds, stop_at_rest=False),

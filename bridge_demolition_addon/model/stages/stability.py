@@ -18,7 +18,7 @@ from ..scenario.bearings import SLIDING, Bearing
 from ..structure.cracking import FALLEN_SHARE
 from ..structure.model import Model, build_model
 from ..structure.support_paths import SupportPaths, support_paths
-from .standing import Standing, StandingBridge, made_elastic
+from .standing import StandingBridge, made_elastic
 
 STANDS, COMES_DOWN, UNKNOWN = VERDICTS = ("stands", "comes down", "unknown")
 
@@ -32,8 +32,8 @@ MOST_SHARDS_WITH_FACTOR = 400
 """Shards up to which a load factor takes seconds, where neither bars nor bearings make it slow."""
 
 MOST_SHARDS_FOLLOWED = 600
-"""Shards up to which breaks are followed one after another where no load factor is asked for: of 500 in 1 s, of 1000 in 5 s, of
-2000 in 18 s of processor time."""
+"""Shards up to which breaks are followed one after another where no load factor is asked for: of 500 in 1 s, of 1000 in
+5 s, of 2000 in 18 s of processor time."""
 
 _MOST_NAMED = 3
 
@@ -109,7 +109,7 @@ class Stability:
     @classmethod
     def of_stored(cls, values: Mapping[str, Any]) -> Stability:
         """Return what `stored` gave, maybe after JSON."""
-        tables = {"overloaded": OverloadedMember, "unsupported": MemberShare, "loose": MemberShare}
+        tables: dict[str, Any] = {"overloaded": OverloadedMember, "unsupported": MemberShare, "loose": MemberShare}
         known: dict[str, Any] = {name: tuple(of(**row) for row in values[name]) for name, of in tables.items()}
         return cls(**{**values, **known, "loose_on": tuple(values["loose_on"])})
 
@@ -138,7 +138,9 @@ class Stability:
         """Return that a run does not show it, without a full stop; empty where it does."""
         if not self.is_asleep:
             return ""
-        return "In the run all shards sleep until something hits them, so that it does not show whether the bridge stands"
+        return (
+            "In the run all shards sleep until something hits them, so that it does not show whether the bridge stands"
+        )
 
     def facts(self) -> Iterator[Fact]:
         """Yield the verdict and what it follows from, as `bda check` prints it."""
@@ -242,7 +244,9 @@ def _by_statics(
     known["overloaded_connections"] = int((used > 1.0).sum())
     if known["overloaded"] and len(model.shards) > MOST_SHARDS_FOLLOWED and not with_factor:
         parts = ", ".join(part.member for part in known["overloaded"][:_MOST_NAMED])
-        reason = f"connections of {parts} are overloaded, and what breaks then takes long to work out (bda check --stand)"
+        reason = (
+            f"connections of {parts} are overloaded, and what breaks then takes long to work out (bda check --stand)"
+        )
         return Stability(verdict=UNKNOWN, reason=reason, **known)
     fallen = bridge.comes_down(ones > 0.0, ones, nothing, 1.0)
     if with_factor:

@@ -258,9 +258,7 @@ def _largest_throws(results: Results, debris: Debris) -> DataTable:
         Column("doubtful", "doubtful", "", lambda _, row: "yes" if doubts[bodies[row]] else "no"),
     )
     farthest = np.argsort(-debris.throws_m, kind="stable")[:NAMED]
-    title = (
-        f"Largest throws{_not_final(results)}. By the solver: energy that it made, over the shard's largest kinetic energy"
-    )
+    title = f"Largest throws{_not_final(results)}. By the solver: energy that it made, over the shard's largest kinetic energy"
     return DataTable.of("largest_throws", title, columns, range(1, len(farthest) + 1), farthest)
 
 

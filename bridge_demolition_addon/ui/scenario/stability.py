@@ -21,10 +21,14 @@ def _has_changed(context: bpy.types.Context) -> str | None:
 
 
 class BDA_OT_does_it_stand(Action, bpy.types.Operator):
-    """Work out by statics whether the bridge that was built stands under its own weight, with its collapse load factor"""
+    """Work out by statics whether the bridge as it was built stands under its own weight, and its load factor"""
 
     bl_label = "Does It Stand?"
-    blocked_by = (unset("built_scenario", "Nothing is built here yet: build the scenario"), recording_runs, _has_changed)
+    blocked_by = (
+        unset("built_scenario", "Nothing is built here yet: build the scenario"),
+        recording_runs,
+        _has_changed,
+    )
 
     def act(self, context: bpy.types.Context) -> str:
         scenario = scenario_of(context.scene.bda)

@@ -98,7 +98,7 @@ def test_a_deck_that_lies_loose_is_held_by_contact_on_two_piers_and_not_known_on
 def test_without_faces_it_cannot_be_known_but_for_what_nothing_holds():
     found = stability_of(I235)
     assert (found.verdict, found.is_asleep, found.load_factor) == (UNKNOWN, True, None)
-    assert found.sentence.startswith('Whether the bridge stands cannot be known by statics: connections.method is "vertex"')
+    assert 'cannot be known by statics: connections.method is "vertex"' in found.sentence
     assert found.sentence.endswith("bda check --awake")
     hardly = replace(I235.connections, search_radius_m=1e-6)
     apart = stability_of(replace(I235, connections=hardly))
