@@ -16,7 +16,6 @@ from ...model.results.moving import moving_summary, moving_text
 from ...model.run_folder.summary import RunSummary
 from ...model.scenario import Scenario
 from ...model.scenario.contact_facts import contact_facts
-from ...model.scenario.scenario import bars_by_rule
 from ...model.sequence.undisturbed import asleep_text
 from ...model.stages.stability import stability_texts
 from ..document.blocks import Block, Listing, Paragraph, Photo, Section, facts
@@ -35,10 +34,10 @@ SOURCES = (
 )
 
 _RIGID = "Bodies are rigid: nothing bends, and stiffness comes from the solver, its steps and iterations."
-_ELASTIC = "Shards are rigid, and connections deform by the modulus of their material. A member deforms as finely as it is cut."
+_ELASTIC = "Shards are rigid; connections deform by their material, and members as finely as they are cut."
 _SPLINTERS = (
-    "No piece is smaller than a shard. Splinters and what flies off at an impact are not modelled; they fly farther than "
-    "any throw given here, and only the buffer of the exclusion zone accounts for them."
+    "No piece is smaller than a shard. Splinters and what flies off at an impact are not modelled; they fly farther "
+    "than any throw given here, and only the buffer of the exclusion zone accounts for them."
 )
 _PEAKS = "Peak forces of impacts depend on the time step, their impulses do not."
 _ONE_FORCE = "One breaking force for all connections makes the result depend on how finely the bridge is cut."
@@ -51,10 +50,10 @@ _NOT_CALIBRATED = "Nothing here has been calibrated against a measured demolitio
 
 
 def limits_of(scenario: Scenario | None) -> list[str]:
-    """Return what the model of a scenario leaves out; of one that is not known, of rigid bodies that break by a force."""
+    """Return what the model of a scenario leaves out; where it is not known, of rigid bodies that break by a force."""
     connections = scenario.connections if scenario else None
     is_elastic = connections is not None and connections.is_elastic
-    has_bars = scenario is not None and (scenario.is_reinforced or bool(bars_by_rule(scenario)))
+    has_bars = scenario is not None and scenario.is_reinforced
     blasts = scenario is None or bool((scenario.charges or scenario.blast_zones) and scenario.blast.explosion)
     limits = [_ELASTIC if is_elastic else _RIGID, _SPLINTERS, _PEAKS]
     limits.append(_BY_CUT if connections is not None and connections.material else _ONE_FORCE)

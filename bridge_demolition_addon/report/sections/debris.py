@@ -140,8 +140,8 @@ def _debris_blocks(
     return [
         Picture(
             partial(debris_map, results=results, debris=debris, zones=zones, trajectories=trajectories),
-            f"Debris at the end in plan{_not_final(results)}. Arrows and numbers: the largest throws, from where a shard "
-            "was to where it lies.",
+            f"Debris at the end in plan{_not_final(results)}. Arrows and numbers: the largest throws, from where a "
+            "shard was to where it lies.",
             map_height_mm(bounds),
         ),
         facts("Debris at the end", rows, "debris"),
@@ -258,7 +258,8 @@ def _largest_throws(results: Results, debris: Debris) -> DataTable:
         Column("doubtful", "doubtful", "", lambda _, row: "yes" if doubts[bodies[row]] else "no"),
     )
     farthest = np.argsort(-debris.throws_m, kind="stable")[:NAMED]
-    title = f"Largest throws{_not_final(results)}. By the solver: energy that it made, over the shard's largest kinetic energy"
+    by_solver = "By the solver: energy that it made, over the shard's largest kinetic energy"
+    title = f"Largest throws{_not_final(results)}. {by_solver}"
     return DataTable.of("largest_throws", title, columns, range(1, len(farthest) + 1), farthest)
 
 

@@ -1,4 +1,4 @@
-"""What tests and the validation check, against what, and how closely it agrees: reports and pages quote it from here."""
+"""What tests check, against what, and how closely it agrees: reports and pages quote it from here."""
 
 from __future__ import annotations
 
