@@ -9,19 +9,24 @@ from ..model.bridge.member import member_facts
 from ..model.bridge.preparation import prepared_members
 from ..model.reinforcement.design import bar_schedule
 from ..model.reinforcement.facts import schedule_facts
+from ..model.results.moving import moving_text
 from ..model.scenario import BlastZone, Charge, Scenario
 from ..model.scenario.contact_facts import contact_facts
 from ..model.scenario.file import read_scenario
 from ..model.scenario.scenario import bars_by_rule
 from ..model.sequence.checked_model import ModelWorksite, checked_model
-from ..model.sequence.undisturbed import asleep_text
+from ..model.sequence.undisturbed import AWAKE_S, self_collapse_text
+from ..model.stages.stability import stability_of
 from ..model.stages.stages import equipment_facts
 from ..model.stages.standing import made_elastic
 from ..model.structure.blast_zones import placed_zones, zone_totals
 from ..model.structure.facts import accuracy_facts, connection_facts, foundation_facts, overlap_facts, rest_facts
 from ..model.structure.model import Model
+from ..model.structure.usual_sizes import size_facts
 from ..model.terrain.built import terrain_facts
+from ..studies.estimate import FACTOR, disk_megabytes, duration_text, megabytes_by_size, seconds_by_size
 from .arguments import naming
+from .blender import simulation_module
 
 
 def add_to(commands: argparse._SubParsersAction) -> None:
@@ -33,6 +38,11 @@ def add_to(commands: argparse._SubParsersAction) -> None:
         action="store_true",
         help="say how the bridge stands under its own weight, as with elastic connections, also where they are rigid",
     )
+    parser.add_argument(
+        "--awake",
+        action="store_true",
+        help=f"run the bridge awake for {AWAKE_S:g} s without anything that is done to it, and say whether it stood",
+    )
     parser.set_defaults(execute=check)
 
 
@@ -42,6 +52,9 @@ def check(arguments: argparse.Namespace) -> None:
     with naming(arguments.scenario):
         for line in scenario_facts(scenario, stand=arguments.stand):
             print(line)
+        if arguments.awake:
+            for line in _section("Awake", _awake_facts(scenario)):
+                print(line)
 
 
 def scenario_facts(scenario: Scenario, *, stand: bool = False) -> Iterator[str]:
@@ -52,6 +65,9 @@ def scenario_facts(scenario: Scenario, *, stand: bool = False) -> Iterator[str]:
     as_elastic = made_elastic(scenario) if stand else scenario  # refused before anything is said
     yield scenario.title
     prepared = prepared_members(scenario)
+    model = checked_model(scenario, prepared.members)
+    stability = stability_of(scenario, model, with_factor=stand or None)
+    yield from _section("Does it stand?", (*stability.facts(), *size_facts(scenario, prepared.members)))
     if scenario.bridge:
         yield from _section("Bridge", bridge_facts(scenario.bridge, is_flat=scenario.has_flat_ground))
     yield from _section("Members", member_facts(prepared.members))
@@ -60,13 +76,10 @@ def scenario_facts(scenario: Scenario, *, stand: bool = False) -> Iterator[str]:
     if bars_by_rule(scenario):
         schedule = bar_schedule(scenario, prepared.members)
         yield from _section("Reinforcement", schedule_facts(scenario, prepared.members, schedule))
-    yield from _section("Time", scenario.time.facts(scenario.timeline))
-    model = checked_model(scenario, prepared.members)
+    yield from _section("Time", (*scenario.time.facts(scenario.timeline), *_cost_facts(scenario, model)))
     if not model.ground.is_plain:
         yield from _section("Ground", terrain_facts(model.ground))
     yield from _section("Shards and connections", connection_facts(scenario, model))
-    if asleep := asleep_text(scenario):
-        yield from _section("At first", [("asleep", asleep)])
     yield from _section("Contacts", contact_facts(scenario))
     if stand and model.stiffness is None:
         elastic = checked_model(as_elastic, prepared.members)
@@ -88,6 +101,29 @@ def scenario_facts(scenario: Scenario, *, stand: bool = False) -> Iterator[str]:
         )
     if reason := scenario.pictures.why_not_without_window:
         yield from _section("Pictures", [("none can be taken", reason)])
+
+
+def _cost_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
+    """Yield about how long a run takes, and how much memory."""
+    seconds, memory_mb = seconds_by_size(scenario, model), megabytes_by_size(model)
+    at_most = " or less, as it ends at rest" if scenario.time.stop_at_rest else ""
+    yield (
+        "a run takes",
+        f"about {duration_text(seconds)}{at_most}: on one core, without pictures, to a factor of {FACTOR:g}",
+    )
+    yield "", f"about {memory_mb:.0f} MB of memory, and {disk_megabytes(scenario, model):.0f} MB on the disk"
+
+
+def _awake_facts(scenario: Scenario) -> Iterator[Fact]:
+    """Run a bridge alone and awake, and yield whether it stood."""
+    summary = simulation_module("motion_run").left_alone_run(scenario)
+    fall, moving = self_collapse_text(summary), moving_text(summary)
+    if fall or moving:
+        yield "comes down", fall or moving
+        if fall and moving:
+            yield "", moving
+    else:
+        yield "stands", f"nothing was done to it for {AWAKE_S:g} s, and it stood: this seed, this cut, these sub-steps"
 
 
 def _action_facts(scenario: Scenario, model: Model) -> dict[str, list[Fact]]:

@@ -6,25 +6,26 @@ import sys
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, nullcontext
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
-from ..errors import Faults, OutputError, SimulationError
+from ..errors import Faults, OutputError
 from ..model.reinforcement.concrete_members import plain_concrete_text
 from ..model.results.bar_extremes import bars_text, largest_use_text
 from ..model.results.creep import creep_text
 from ..model.results.fingerprint import SHORT
+from ..model.results.moving import moving_text
 from ..model.results.summary import first_hit_s
 from ..model.run_folder.files import RESULT_FILES
 from ..model.run_folder.folder import check_folder, numbered_folder, remove_report
 from ..model.scenario import Scenario
 from ..model.scenario.file import read_scenario
 from ..model.sequence.checked_model import checked_model
-from ..model.sequence.undisturbed import asleep_text, self_collapse_text
+from ..model.sequence.undisturbed import self_collapse_text
+from ..model.stages.stability import stability_texts
 from ..model.structure.model import Model
 from ..system.progress import Progress
-from ..system.signals import interrupted_afterwards
 from .arguments import naming
+from .blender import simulation_module
 from .progress import progress_on
 
 COMPARISON = "comparison"
@@ -135,7 +136,7 @@ def _run_and_report(
 ) -> None:
     plain = plain_concrete_text(scenario)
     with naming(path):
-        summary = _simulation().run_scenario(
+        summary = simulation_module("run").run_scenario(
             scenario,
             output,
             model=model,
@@ -147,25 +148,13 @@ def _run_and_report(
     report = _report([output], None, progress) if arguments.report else []
     if not arguments.quiet:
         progress.finish()
-        _print_results(scenario, summary, output, report, plain)
+        _print_results(summary, output, report, plain)
 
 
 def run_with_everything(scenario: Scenario, output: Path, progress: Progress, *, quiet: bool) -> Mapping[str, Any]:
     """Run a scenario in place of what is in a folder, keep all but films, and return its summary."""
     with _blender_silenced() if quiet else nullcontext():
-        return _simulation().run_scenario(scenario, output, overwrite=True, pictures=True, progress=progress)
-
-
-def _simulation() -> ModuleType:
-    """Return the module that runs scenarios, loaded only now: they can be checked where Blender is not installed."""
-    try:
-        with interrupted_afterwards():
-            from ..simulation import run
-    except ModuleNotFoundError as error:
-        if error.name != "bpy":
-            raise
-        raise SimulationError("Blender is not there: install the bpy package or run inside Blender") from error
-    return run
+        return simulation_module("run").run_scenario(scenario, output, overwrite=True, pictures=True, progress=progress)
 
 
 @contextmanager
@@ -189,11 +178,9 @@ def _report(folders: Sequence[Path], output: Path | None, progress: Progress) ->
     return write_report(folders, output, progress=progress)
 
 
-def _print_results(
-    scenario: Scenario, summary: Mapping[str, Any], output: Path, report: Sequence[Path], plain: str
-) -> None:
+def _print_results(summary: Mapping[str, Any], output: Path, report: Sequence[Path], plain: str) -> None:
     print()
-    for doubt in (plain, self_collapse_text(summary), asleep_text(scenario)):
+    for doubt in (plain, *stability_texts(summary), self_collapse_text(summary), moving_text(summary)):
         if doubt:
             print(f"{doubt}.\n")
     for name, value in _result_facts(summary):
@@ -225,8 +212,14 @@ def _result_facts(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
         yield "everything rests from", f"{summary['came_to_rest_s']:.3f} s"
     if creeping := creep_text(summary):
         yield "creeping", creeping
+    if moving := summary["moving_at_end"]:
+        yield (
+            "still moving",
+            f"{moving['shards']} of {moving['of_shards']} shards, at up to {moving['fastest_m_s']:.1f} m/s",
+        )
     if throw := summary["largest_throw"]:
-        yield "largest throw", f"{throw['throw_m']:.2f} m, {throw['body']}"
+        so_far = ", not final: shards still moved" if moving else ""
+        yield "largest throw", f"{throw['throw_m']:.2f} m, {throw['body']}{so_far}"
     if energy := summary["energy"]:
         made = energy["made_by_solver"]
         share = f"{made['share_of_dissipated']:.1%} of the dissipated energy"

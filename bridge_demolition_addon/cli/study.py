@@ -19,7 +19,7 @@ from ..model.study.sampled_runs import sampled_run
 from ..model.study.verification import holds, proportion_leaving
 from ..report.wording.study import study_sentences, verified_sentence
 from ..studies.engine import cores
-from ..studies.estimate import FACTOR, seconds_by_runs, seconds_by_size
+from ..studies.estimate import FACTOR, duration_text, seconds_by_runs, seconds_by_size
 from ..studies.session import EnsembleSession
 from ..system.programs import program_command
 from .ensemble import add_ensemble_options, execute_ensemble, folder_beside, whole_number
@@ -95,16 +95,9 @@ def _estimate(study: Study, output: Path | None, jobs: int) -> str:
     if seconds is None:
         seconds = seconds_by_size(study.scenario, checked_model(study.scenario))
         why = f"to a factor of {FACTOR:g}, by the size of the model"
-    whole = _duration(seconds * study.settings.runs / min(jobs, study.settings.runs))
+    whole = duration_text(seconds * study.settings.runs / min(jobs, study.settings.runs))
     at_a_time = "one run at a time" if jobs == 1 else f"{jobs} runs at a time on as many cores"
-    return f"{_duration(seconds)} for a run and {whole} for all, with {at_a_time}: {why}"
-
-
-def _duration(seconds: float) -> str:
-    for unit, length in (("days", 86400.0), ("hours", 3600.0), ("minutes", 60.0)):
-        if seconds >= 2.0 * length:
-            return f"{seconds / length:.2g} {unit}" if seconds < 10.0 * length else f"{seconds / length:.0f} {unit}"
-    return f"{seconds:.2g} s" if seconds < 10.0 else f"{seconds:.0f} s"
+    return f"{duration_text(seconds)} for a run and {whole} for all, with {at_a_time}: {why}"
 
 
 def _shown(value: object) -> str:

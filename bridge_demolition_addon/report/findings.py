@@ -10,6 +10,7 @@ from ..engineering.units import mass_text
 from ..model.debris.throws import Debris, percentiles_by_mass
 from ..model.results.collapse import collapse_progress, rest_of
 from ..model.results.force_history import most_loaded
+from ..model.results.moving import still_moving_note
 from .run_folder import ReportedRun
 
 IMPACT = "Impact of the ball"
@@ -51,10 +52,11 @@ def _throws(run: ReportedRun, debris: Debris) -> list[Finding]:
     farthest = debris.throws_m.argmax()
     largest, body = float(debris.throws_m[farthest]), run.recorded.inventory.body_names[debris.bodies[farthest]]
     (most_of_it,) = percentiles_by_mass(debris.throws_m, debris.masses_kg, (95,)).tolist()
+    reach_m, note = float(debris.reaches_m.max()), still_moving_note(run.recorded)
+    texts = (f"{most_of_it:.2f} m", f"{largest:.2f} m, {body}", f"{reach_m:.2f} m")
     return [
-        _finding(labels[0], "m", most_of_it, ".2f"),
-        Finding(labels[1], "m", largest, f"{largest:.2f} m, {body}"),
-        _finding(labels[2], "m", float(debris.reaches_m.max()), ".2f"),
+        Finding(label, "m", value, f"{text} ({note})" if note else text)
+        for label, value, text in zip(labels, (most_of_it, largest, reach_m), texts, strict=True)
     ]
 
 

@@ -11,6 +11,7 @@ from ..engineering.terrain.contour_lines import contour_lines
 from ..errors import OutputError
 from ..model.debris.exclusion import ExclusionZone
 from ..model.debris.throws import debris_of
+from ..model.results.moving import still_moving_note
 from ..model.run_folder.files import DXF_FILE, GEOJSON_FILE
 from ..model.scenario.file import scenario_text
 from ..model.sequence.checked_model import checked_model
@@ -118,7 +119,8 @@ def _write_plans(zone: ExclusionZone, run: ReportedRun, target: Path) -> list[Pa
         "bridge": zone.plan,
     }
     contours = _contours_around(run, zone)
-    return write_areas(areas, run.planned.site, target / DXF_FILE, target / GEOJSON_FILE, contours)
+    note = still_moving_note(run.recorded)
+    return write_areas(areas, run.planned.site, target / DXF_FILE, target / GEOJSON_FILE, contours, note)
 
 
 def _contours_around(run: ReportedRun, zone: ExclusionZone) -> np.ndarray | None:

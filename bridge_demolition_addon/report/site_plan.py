@@ -20,7 +20,10 @@ from ..system.disk import write_whole_text
 _CLOSED = 1
 _MOST_LETTERS = 31
 
-CONTOUR_LAYER = "CONTOURS"
+CONTOUR_LAYER, NOTE_LAYER = "CONTOURS", "NOTE"
+
+_NOTE_HEIGHT = 0.02
+"""Height of the letters of a note, of the width of all areas."""
 
 
 def write_areas(
@@ -29,19 +32,26 @@ def write_areas(
     dxf: Path,
     geojson: Path,
     contours_m: np.ndarray | None = None,
+    note: str = "",
 ) -> list[Path]:
-    """Write areas for a site plan, and return the files; in degrees only where the site is known."""
-    write_dxf(dxf, areas, contours_m)
+    """Write areas for a site plan, and return the files; in degrees only where the site is known.
+
+    A note stands beside the areas in both.
+    """
+    write_dxf(dxf, areas, contours_m, note)
     if site is None:
         return [dxf]
-    write_geojson(geojson, areas, site)
+    write_geojson(geojson, areas, site, note)
     return [dxf, geojson]
 
 
-def write_dxf(path: Path, layers: Mapping[str, CrossSection], contours_m: np.ndarray | None = None) -> None:
+def write_dxf(
+    path: Path, layers: Mapping[str, CrossSection], contours_m: np.ndarray | None = None, note: str = ""
+) -> None:
     """Write areas as closed polylines, one layer each, in metres and in the scenario's own axes.
 
-    Contour lines of the ground (s, 2, 3) have a layer of their own, each at its height. The format is that of AutoCAD
+    Contour lines of the ground (s, 2, 3) have a layer of their own, each at its height, and so has a note, below all
+    areas. The format is that of AutoCAD
     release 12, which everything reads.
     """
     lines = ["0", "SECTION", "2", "HEADER", "9", "$ACADVER", "1", "AC1009", "0", "ENDSEC"]
@@ -57,6 +67,11 @@ def write_dxf(path: Path, layers: Mapping[str, CrossSection], contours_m: np.nda
         for number, position in enumerate(ends):
             for axis, value in enumerate(position, start=1):
                 lines += [f"{axis}{number}", f"{value:.4f}"]
+    if note:
+        low_x, low_y, high_x, _ = np.array([area.bounds() for area in layers.values()]).reshape(-1, 4).T
+        x, y, height = low_x.min(), low_y.min(), _NOTE_HEIGHT * (high_x.max() - low_x.min())
+        lines += ["0", "TEXT", "8", NOTE_LAYER, "10", f"{x:.4f}", "20", f"{y - 2.0 * height:.4f}", "30", "0"]
+        lines += ["40", f"{height:.4f}", "1", note]
     lines += ["0", "ENDSEC", "0", "EOF"]
     write_whole_text(path, "\n".join(lines) + "\n", encoding="ascii", newline="\r\n")
 
@@ -70,12 +85,12 @@ def _layer_names(names: Iterable[str]) -> list[str]:
     return layers
 
 
-def write_geojson(path: Path, layers: Mapping[str, CrossSection], site: Site) -> None:
+def write_geojson(path: Path, layers: Mapping[str, CrossSection], site: Site, note: str = "") -> None:
     """Write areas as GeoJSON (RFC 7946), one feature each, in degrees of longitude and latitude, WGS 84."""
     features = [
         {
             "type": "Feature",
-            "properties": {"name": name, "area_m2": round(area.area(), 2)},
+            "properties": {"name": name, "area_m2": round(area.area(), 2), **({"note": note} if note else {})},
             "geometry": {"type": "MultiPolygon", "coordinates": _polygons(area, site)},
         }
         for name, area in layers.items()

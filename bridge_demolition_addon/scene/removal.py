@@ -14,6 +14,7 @@ from .rendering.dust import remove_dust
 from .rendering.markers import clear_markers
 from .rendering.materials import remove_unused_materials
 from .rendering.surroundings import clear_surroundings
+from .stability import keep_stability
 from .time_scale import stop_animation
 from .world import START_FRAME, remove_world
 
@@ -44,6 +45,7 @@ def remove_demolition(scene: bpy.types.Scene) -> int:
     for keep in KEEPERS:
         keep(scene, ())
     forget_built_bodies(scene)
+    keep_stability(scene, None)
     fields = force_collection(scene)
     if fields and not fields.all_objects:
         bpy.data.collections.remove(fields)

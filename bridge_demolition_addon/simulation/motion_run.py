@@ -5,13 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import bpy
 
 from ..model.results.arrays import Results
 from ..model.scenario import Scenario
-from ..model.structure.model import Model
+from ..model.sequence.undisturbed import left_alone
+from ..model.structure.model import Model, build_model
 from ..scene.demolition import build_demolition
 from ..system.signals import interrupted_afterwards
 from .playback import play_alone
@@ -39,3 +41,10 @@ def motion_run(scenario: Scenario, model: Model, folder: Path) -> Iterator[tuple
         yield results, run_summary(recording, results, context, completed=True)
     finally:
         recording.forget()
+
+
+def left_alone_run(scenario: Scenario) -> dict[str, Any]:
+    """Return the summary of a run in which nothing is done to the bridge, which is awake; no file of it is kept."""
+    alone = left_alone(scenario)
+    with TemporaryDirectory(prefix="bda-awake-") as folder, motion_run(alone, build_model(alone), Path(folder)) as run:
+        return run[1]

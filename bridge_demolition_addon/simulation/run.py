@@ -21,10 +21,12 @@ from ..model.scenario import Scenario
 from ..model.scenario.contact_facts import own_values_sentence
 from ..model.scenario.recording import PictureSettings
 from ..model.sequence.checked_model import checked_model
+from ..model.stages.stability import stability_of
 from ..model.structure.model import Model
 from ..scene.demolition import build_demolition
 from ..scene.rendering.staging import stage
 from ..scene.rendering.stills import prepare_pictures
+from ..scene.stability import keep_stability
 from ..scene.tools.ground_motion import ground_motion_of
 from ..scene.world import keep_played_frames
 from ..system.native_output import without_noise
@@ -73,11 +75,16 @@ def run_scenario(
     if of_bodies := own_values_sentence(scenario):
         progress.stage(f"friction and restitution are given {of_bodies}")
     model = model or checked_model(scenario)
+    stability = stability_of(scenario, model, with_factor=False)
+    progress.stage(stability.sentence)
+    if stability.is_asleep:
+        progress.stage(stability.asleep_sentence)
     with ExitStack() as locks:
         lock = locks.enter_context(prepare_folder(output, overwrite=overwrite))
         keep_scenario(lock.folder, scenario)
         scene = _empty_scene(scenario.title)
         shards = build_demolition(scene, scenario, model)
+        keep_stability(scene, stability.stored())
         _prepare_view(scene, scenario, model, shards)
         times = {"building": lap_s()}
         progress.stage(f"simulating {len(model.shards)} shards and {len(model.connections)} connections")

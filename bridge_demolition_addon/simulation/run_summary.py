@@ -25,6 +25,7 @@ from ..model.sequence.rest import Rest, last_event_s
 from ..model.sequence.undisturbed import fell_by_itself
 from ..model.structure.settlement import settlements
 from ..scene.bodies import terrain_facts
+from ..scene.stability import kept_stability
 from ..scene.tools.ground_motion import GroundMotionOfScene, ground_motion_of
 from ..scene.world import scene_time_step
 from .recording.recorder import Recording
@@ -46,6 +47,8 @@ class RunContext:
         Parts of the scene that no scenario can describe, as text.
     terrain : dict or None
         Facts on the file of the ground and its mesh; None where the ground is flat.
+    stability : dict or None
+        Whether the bridge stands under its own weight, as stored; None where this was not worked out.
     """
 
     title: str
@@ -55,6 +58,7 @@ class RunContext:
     made_by_hand: Sequence[str] = ()
     ground_motion: GroundMotionOfScene | None = None
     terrain: Mapping[str, Any] | None = None
+    stability: Mapping[str, Any] | None = None
 
     @classmethod
     def of(
@@ -62,7 +66,16 @@ class RunContext:
     ) -> RunContext:
         """Return the context of a scene as it is now."""
         gravity, substep_s = np.array(scene.gravity, float), scene_time_step(scene).substep_s
-        return cls(title, gravity, substep_s, scenario, made_by_hand, ground_motion_of(scene), terrain_facts(scene))
+        return cls(
+            title,
+            gravity,
+            substep_s,
+            scenario,
+            made_by_hand,
+            ground_motion_of(scene),
+            terrain_facts(scene),
+            kept_stability(scene),
+        )
 
 
 def run_summary(recording: Recording, results: Results, context: RunContext, *, completed: bool) -> dict[str, Any]:
@@ -84,6 +97,7 @@ def run_summary(recording: Recording, results: Results, context: RunContext, *, 
         "ground_motion": _ground_motion(context.ground_motion),
         "terrain": context.terrain,
         **_on_ground(results),
+        "stability": context.stability,
         "made_by_hand": list(context.made_by_hand),
         "changed_bodies": recording.changed_bodies,
     }
@@ -156,7 +170,7 @@ def _of_scenario(
     for state in zip(
         results.frames.time_s, results.frames.positions_m, results.frames.rotations, results.frames.asleep, strict=True
     ):
-        rest.observe(*state)
+        rest.observe(*state, results.inventory.masses_kg)
     return {
         "seed": scenario.seed,
         "charges": _charges(scenario, recording),

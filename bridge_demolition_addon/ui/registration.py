@@ -29,6 +29,7 @@ from .results import shown_run
 from .results import ui as results_ui
 from .scenario import hints, number_rows, preset_menu, table_list, user_meshes
 from .scenario import operator as scenario_operator
+from .scenario import stability as scenario_stability
 from .scenario import ui as scenario_ui
 from .stages import operator as stages_operator
 from .stages import shown as shown_stages
@@ -36,7 +37,7 @@ from .stages import ui as stages_ui
 
 _OPERATORS = (
     *(scenario_operator, ifc_operator, preset_menu, number_rows, messages, hints, workspace),
-    *(user_meshes, table_list),
+    *(user_meshes, table_list, scenario_stability),
     *(recording_operator, run, paths, blast_operator, contour_operator, ground_operator),
     *(results_operator, stages_operator, preview_operator, gizmos),
 )

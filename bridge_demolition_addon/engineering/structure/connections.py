@@ -19,6 +19,10 @@ GROUND = -1
 _LEVEL_TOLERANCE_M = 1e-6
 """Distance from the ground up to which a face stands on it: rounding of coordinates of some hundred metres."""
 
+_NEARLY_ON_GROUND_M = 1e-3
+"""Distance from flat ground up to which the level underside of a shard stands on it: meshes from files are not exact,
+and may reach as far below it."""
+
 _ROUNDING = 1e-9
 """Addition to a radius in the search for vertices, in m and as a part of the radius."""
 
@@ -144,7 +148,8 @@ def _standing_face(
     """Area and centre of the part of a shard that lies flat on the ground."""
     corners = shard.corners
     if heights_at is None:
-        level = 0.0
+        lowest = float(corners[:, :, 2].min())
+        level = lowest if _LEVEL_TOLERANCE_M < abs(lowest) <= _NEARLY_ON_GROUND_M else 0.0
     else:
         level = corners[:, :, 2].min()
         corners = corners[(corners[:, :, 2] <= level + _LEVEL_TOLERANCE_M).all(axis=1)]

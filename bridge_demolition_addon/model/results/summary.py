@@ -14,6 +14,7 @@ from .arrays import Results
 from .creep import creep_summary
 from .key_frame import RESTING_WEIGHTS, impact_step, key_step
 from .motion import relative_to_ground, throw, without_removed
+from .moving import moving_summary
 from .solver_energy import energy_summary
 
 
@@ -42,6 +43,7 @@ def summarise(results: Results, gravity_m_s2: np.ndarray, contact_time_s: float 
         "largest_throw": _largest_throw(relative_to_ground(left)),
         "energy": energy_summary(left),
         "creeping": creep_summary(left),
+        "moving_at_end": moving_summary(left),
         "blast": _blast(results),
     }
 

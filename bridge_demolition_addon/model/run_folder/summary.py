@@ -172,6 +172,10 @@ def _checked(summary: Any) -> dict[str, Any]:
             _check_table(name, summary[name], {"time_s": _is_number, "reason": _is_text}, optional=("reason",))
     if summary.get("fell_by_itself") is not None:
         _check_table("fell_by_itself", summary["fell_by_itself"], _FALL)
+    if summary.get("moving_at_end") is not None:
+        _check_table("moving_at_end", summary["moving_at_end"], _MOVING)
+    if summary.get("stability") is not None:
+        _check_stability(summary["stability"])
     if summary.get("terrain") is not None:
         _check_table("terrain", summary["terrain"], _TERRAIN)
         for number, surface in enumerate(summary["terrain"]["levelled"]):
@@ -199,6 +203,13 @@ def _check_table(
             raise OutputError(f"{name}: has no {key}")
         if key in table and not holds(table[key]):
             raise OutputError(f"{key}: is {shown(table[key])}, which no run writes")
+
+
+def _check_stability(stability: Any) -> None:
+    _check_table("stability", stability, _STABILITY)
+    for name, keys in (("overloaded", _OVERLOADED), ("unsupported", _MEMBER_SHARE), ("loose", _MEMBER_SHARE)):
+        for number, row in enumerate(stability[name]):
+            _check_table(f"stability.{name}[{number}]", row, keys)
 
 
 def _check_bars(bars: Any) -> None:
@@ -241,6 +252,33 @@ _FALL = {
     "broken": _is_number,
     "connections": _is_number,
     "largest_move_m": _is_number,
+}
+_MOVING = {
+    "shards": _is_number,
+    "of_shards": _is_number,
+    "mass_kg": _is_number,
+    "fastest_m_s": _is_number,
+    "body": _is_text,
+    "member": _is_text,
+}
+_MEMBER_SHARE = {"member": _is_text, "shards": _is_number, "mass_kg": _is_number}
+_OVERLOADED = {"member": _is_text, "connections": _is_number, "utilisation": _is_number}
+_STABILITY = {
+    "verdict": _is_text,
+    "reason": _is_text,
+    "load_factor": _is_number_or_none,
+    "utilisation": _is_number_or_none,
+    "used_most": _is_text,
+    "deflection_m": _is_number_or_none,
+    "cracked": _is_number,
+    "overloaded_connections": _is_number,
+    "connections": _is_number,
+    "overloaded": _is_list,
+    "unsupported": _is_list,
+    "loose": _is_list,
+    "loose_on": _are_texts,
+    "is_rigid": lambda value: isinstance(value, bool),
+    "is_asleep": lambda value: isinstance(value, bool),
 }
 _CREEPING = {"shards": _is_number, "mass_kg": _is_number, "fastest": lambda value: _is_list(value) and bool(value)}
 _CREEPING_SHARD = {"body": _is_text, "member": _is_text, "speed_m_s": _is_number, "moved_m": _is_number}
@@ -293,6 +331,8 @@ _SUMMARY = {
     "fell_by_itself": _is_table_or_none,
     "plain_concrete": _are_texts,
     "creeping": _is_table_or_none,
+    "moving_at_end": _is_table_or_none,
+    "stability": _is_table_or_none,
     "title": _is_text,
     "completed": lambda value: isinstance(value, bool),
     "blender": _is_text,

@@ -174,12 +174,12 @@ class Scenario(Table):
     @property
     def actions(self) -> tuple[PlannedAction, ...]:
         """Return all that is done to the bridge, in the order of the fields."""
-        held = (getattr(self, name) for name in _action_fields(type(self)))
+        held = (getattr(self, name) for name in action_fields(type(self)))
         return tuple(chain.from_iterable(value if isinstance(value, tuple) else (value,) for value in held if value))
 
     def actions_scaled_in_time(self, factor: float) -> dict[str, Any]:
         """Return the fields of all actions, for frames that last longer by a factor, as `replace` takes them."""
-        held = {name: getattr(self, name) for name in _action_fields(type(self))}
+        held = {name: getattr(self, name) for name in action_fields(type(self))}
         return {
             name: tuple(action.scaled_in_time(factor) for action in value)
             if isinstance(value, tuple)
@@ -303,7 +303,8 @@ def _check_on_deck(bridge: Bridge, name: str, point: tuple[float, float]) -> Non
             )
 
 
-def _action_fields(scenario_class: type[Table]) -> tuple[str, ...]:
+def action_fields(scenario_class: type[Table]) -> tuple[str, ...]:
+    """Return the names of the fields of a scenario that hold planned actions."""
     return tuple(
         item.name
         for item in subtable_fields(scenario_class)

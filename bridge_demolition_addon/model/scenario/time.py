@@ -22,7 +22,13 @@ class TimeSettings(Table):
 
     table: ClassVar[str] = "time"
 
-    duration_s: float = key("Simulated time.", unit="s", above=0)
+    duration_s: float = key(
+        "Simulated time, or where the run ends at rest the longest that it lasts. What falls from a bridge lies still "
+        "some seconds later.",
+        default=20.0,
+        unit="s",
+        above=0,
+    )
     frames_per_second: int = key("Blender's frame rate.", default=24, unit="1/s", at_least=1, at_most=32767)
     frames_per_second_base: float = key(
         "Divisor of the frame rate: 30 with a base of 1.001 is 29.97 frames per second.",
@@ -56,12 +62,18 @@ class TimeSettings(Table):
 
     stop_at_rest: bool = key(
         "Whether the run ends before `duration_s` once everything rests and nothing planned is still to happen.",
-        default=False,
+        default=True,
     )
     rest_speed_m_s: float = key(
-        "Speed below which a body rests; one that sleeps rests anyway.", default=0.05, unit="m/s", above=0
+        "Everything rests while its kinetic energy per mass is below that of bodies which all move at this speed, and "
+        "none moves at 10 times the speed; what sleeps rests anyway. 0.05 is the energy of a fall by 0.13 mm.",
+        default=0.05,
+        unit="m/s",
+        above=0,
     )
-    rest_spin_rad_s: float = key("Angular velocity below which a body rests.", default=0.1, unit="rad/s", above=0)
+    rest_spin_rad_s: float = key(
+        "Angular velocity that counts as much as `rest_speed_m_s`.", default=0.1, unit="rad/s", above=0
+    )
     rest_hold_s: float = key("How long everything has to rest.", default=1.0, unit="s", above=0)
 
     def with_bars(self) -> Self:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import fields, replace
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,11 @@ import numpy as np
 from ..results.arrays import Results
 from ..results.motion import MOVED_M, travel
 from ..scenario import Scenario
+from ..scenario.scenario import action_fields
+
+AWAKE_S = 5.0
+"""How long a bridge is left alone to see whether it stands: what slides off its cracks has come down in 5 s, and not in
+3 s (docs/stages.md)."""
 
 
 def first_event_s(scenario: Scenario) -> float:
@@ -21,6 +27,24 @@ def first_event_s(scenario: Scenario) -> float:
     if any(table.is_moving for table in scenario.geometry):
         return 0.0
     return min((action.begins_s(scenario) for action in scenario.actions), default=math.inf)
+
+
+def left_alone(scenario: Scenario, seconds: float = AWAKE_S) -> Scenario:
+    """Return a scenario in which nothing is done to the bridge, awake, for so long after its warm-up."""
+    names = set(action_fields(Scenario))
+    nothing: dict[str, Any] = {
+        item.name: () if isinstance(getattr(scenario, item.name), tuple) else None
+        for item in fields(scenario)
+        if item.name in names
+    }
+    at_rest = (0.0, 0.0, 0.0)
+    return replace(
+        scenario,
+        **nothing,
+        geometry=tuple(replace(table, velocity_m_s=at_rest, spin_rad_s=at_rest) for table in scenario.geometry),
+        shards=replace(scenario.shards, start_deactivated=False),
+        time=replace(scenario.time, duration_s=scenario.warm_up_s + seconds, stop_at_rest=False),
+    )
 
 
 def fell_by_itself(results: Results, scenario: Scenario) -> dict[str, Any] | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -26,7 +26,7 @@ from ..scenario.scenario import bearing_tables
 from ..schema import given
 from .cracking import CrackedBridge, cracked_by_weight
 from .equilibrium import deflection_m, force_utilisations, loads_of, model_at_rest, overloaded
-from .face_bars import layers_of_members
+from .face_bars import LayersOfMember, layers_of_members
 from .model import Model
 from .punching import punching_of_decks
 from .spread_bars import spread_bars
@@ -109,21 +109,40 @@ def _piece_facts(model: Model) -> Iterator[Fact]:
 
 
 def _bar_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
+    alike: dict[tuple[str, str], list[str]] = {}
     for group in layers_of_members(all_layers(scenario, model.members), model.members):
-        compression_pa = float(given(scenario.joints[0].strength).compression_pa)
-        section = group.section(compression_pa, scenario.connections.strength_factor)
-        along, across, _ = group.axes
-        sides = sorted((highest, side) for side, (axis, highest) in SIDES.items() if axis == across)
-        moments = zip([side for _, side in reversed(sides)], section.moments_nm(), strict=True)
-        resisted = ", ".join(f"{moment / 1000.0:.4g} kN·m with its {side} pressed" for side, moment in moments)
-        where = _between_text(group.between_m)
-        yield "reinforcement", f"{model.members[group.member].name}, along {AXES[along]}{where}: {resisted}"
-        own_m = scenario.connections.ductile_elongation_m
-        openings = group.openings_m(compression_pa, scenario.steel) if own_m is None else [own_m]
-        ranged = " to ".join(f"{1000.0 * opening:.3g}" for opening in sorted({min(openings), max(openings)}))
-        yield "", f"These bars rupture once a crack has opened by {ranged} mm."
+        alike.setdefault(_bar_texts(scenario, group), []).append(model.members[group.member].name)
+    for (resisted, ruptured), names in alike.items():
+        yield "reinforcement", f"{_together(names)}, {resisted}"
+        yield "", ruptured
     if text := plain_concrete_text(scenario):
         yield "without bars", text
+
+
+def _bar_texts(scenario: Scenario, group: LayersOfMember) -> tuple[str, str]:
+    """Return which moments the bars of a member resist, and when they rupture."""
+    compression_pa = float(given(scenario.joints[0].strength).compression_pa)
+    section = group.section(compression_pa, scenario.connections.strength_factor)
+    along, across, _ = group.axes
+    sides = sorted((highest, side) for side, (axis, highest) in SIDES.items() if axis == across)
+    moments = zip([side for _, side in reversed(sides)], section.moments_nm(), strict=True)
+    resisted = ", ".join(f"{moment / 1000.0:.4g} kN·m with its {side} pressed" for side, moment in moments)
+    own_m = scenario.connections.ductile_elongation_m
+    openings = group.openings_m(compression_pa, scenario.steel) if own_m is None else [own_m]
+    ranged = " to ".join(dict.fromkeys(f"{1000.0 * opening:.3g}" for opening in (min(openings), max(openings))))
+    return (
+        f"along {AXES[along]}{_between_text(group.between_m)}: {resisted}",
+        f"These bars rupture once a crack has opened by {ranged} mm.",
+    )
+
+
+def _together(names: Sequence[str]) -> str:
+    """Return members that are alike as one text, as ``6 × pier column`` without what counts them."""
+    if len(names) == 1:
+        return names[0]
+    without_numbers = {" ".join(word for word in name.split() if not word.isdecimal()) for name in names}
+    listed = ", ".join(names) if len(without_numbers) > 1 else without_numbers.pop()
+    return f"{len(names)} × {listed}"
 
 
 def _between_text(between_m: tuple[float, float]) -> str:
@@ -134,10 +153,14 @@ def _between_text(between_m: tuple[float, float]) -> str:
 
 
 def _spread_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
+    alike: dict[str, list[str]] = {}
     for spread in spread_bars(all_layers(scenario, model.members), model.members):
-        layer, name = spread.layer, model.members[spread.member].name
+        layer = spread.layer
         stress_n_mm2 = 1e-6 * scenario.connections.strength_factor * layer.ratio * layer.yield_pa
-        yield "reinforcement", f"{name}, spread along {layer.along}: {stress_n_mm2:.3g} N/mm² of the area across them"
+        text = f"spread along {layer.along}: {stress_n_mm2:.3g} N/mm² of the area across them"
+        alike.setdefault(text, []).append(model.members[spread.member].name)
+    for text, names in alike.items():
+        yield "reinforcement", f"{_together(names)}, {text}"
 
 
 def _punching_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
@@ -145,12 +168,16 @@ def _punching_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
     if ball is None or ball.cable or strength is None:
         return
     layers, strength_pa = all_layers(scenario, model.members), float(strength.compression_pa)
+    alike: dict[tuple[str, str], list[str]] = {}
     for deck in punching_of_decks(layers, model.members, strength_pa, ball.diameter_m):
         forces = f"{deck.on_point_n / 1000.0:.4g} kN on a point, {deck.on_ball_n / 1000.0:.4g} kN on all of the ball"
-        yield "punching", f"{deck.member}: {forces}"
         momentum_ns = ball.mass_kg * ball.impact_speed_m_s
         stopped_ms = 1000.0 * math.pi * momentum_ns / 2.0 / deck.on_ball_n
-        yield "", f"without factors of safety; the ball punches if it stops in less than {stopped_ms:.3g} ms"
+        stopped = f"without factors of safety; the ball punches if it stops in less than {stopped_ms:.3g} ms"
+        alike.setdefault((forces, stopped), []).append(deck.member)
+    for (forces, stopped), names in alike.items():
+        yield "punching", f"{_together(names)}: {forces}"
+        yield "", stopped
 
 
 def rest_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:

@@ -107,6 +107,7 @@ class Conclusions:
     success: Proportion | None  # all criteria at once; None without criteria
     at_once: SimultaneousLimits | None  # None where there are too few runs
     doubtful: DoubtfulThrows | None  # None where no run knows of any, as in studies of earlier versions
+    still_moving: int = 0  # runs at whose end shards still moved: their distances are not final
 
     def as_json(self) -> dict[str, Any]:
         """Return them as ``study.json`` has them."""
@@ -117,6 +118,7 @@ class Conclusions:
             "success": self.success and as_json(self.success),
             "at_once": self.at_once and as_json(self.at_once),
             "doubtful_throws": self.doubtful and as_json(self.doubtful),
+            "still_moving": self.still_moving,
         }
 
 
@@ -141,6 +143,7 @@ def conclusions(study: Study, table: RunsTable) -> Conclusions:
             {name: table.largest(name) for name in SIMULTANEOUS}, settings.quantile, confidence
         ),
         doubtful=_doubtful_throws(study, table),
+        still_moving=table.still_moving,
     )
 
 

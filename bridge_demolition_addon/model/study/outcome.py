@@ -25,7 +25,7 @@ from ..results.solver_energy import is_known, throws_of
 from ..scenario import Scenario
 from ..structure.charge_plan import AtNeighbour, neighbours_of_zones
 from .criteria import COLLAPSED, Criterion, neighbour_output, span_output, zone_output
-from .runs_table import TRUSTED_REACH
+from .runs_table import MOVING, RESTED, TRUSTED_REACH
 
 SUCCESS = "success"
 """Output that says whether all criteria are met; only where there are some."""
@@ -136,7 +136,8 @@ def _course(results: Results, summary: Mapping[str, Any], scenario: Scenario) ->
     outputs = {
         COLLAPSED: float(collapse_progress(results)[-1]),
         "broken": summary["connections"]["broken"],
-        "came_to_rest_s": summary.get("came_to_rest_s"),
+        RESTED: summary.get("came_to_rest_s"),
+        MOVING: moving["shards"] if (moving := summary.get("moving_at_end")) else 0,
         "largest_force_N": force and force["force_N"],
         "made_by_solver_share": energy and energy["made_by_solver"]["share_of_dissipated"],
     }

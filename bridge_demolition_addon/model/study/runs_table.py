@@ -36,6 +36,9 @@ REACH = "reach_m"
 
 TRUSTED_REACH = "reach_without_doubtful_m"
 """Output with the debris distance of all but those whose throws nothing explains."""
+MOVING, RESTED = "moving_at_end", "came_to_rest_s"
+"""Outputs that say how many shards still moved when a run ended, so that its distances are not final, and since when
+everything rested; tables of earlier versions have but the second."""
 
 _MOST_BYTES = 1000 * MEGABYTE
 _TRUTHS = {"true": True, "false": False}
@@ -86,6 +89,15 @@ class RunsTable:
     def done(self) -> np.ndarray:
         """Which runs (n,) finished."""
         return np.array([row.status == DONE for row in self.rows], bool)
+
+    @cached_property
+    def still_moving(self) -> int:
+        """Number of runs that finished while shards still moved; not all in tables of runs that did not say it."""
+        known = [row.outputs for row in self.rows if row.status == DONE]
+        return sum(
+            bool(outputs[MOVING]) if MOVING in outputs else RESTED in outputs and outputs[RESTED] is None
+            for outputs in known
+        )
 
     @cached_property
     def median_row(self) -> int | None:

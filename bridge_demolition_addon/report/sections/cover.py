@@ -10,16 +10,18 @@ from ...engineering.units import mass_text
 from ...model.debris.throws import Debris
 from ...model.reinforcement.concrete_members import plain_concrete_text
 from ...model.results.arrays import Results
-from ...model.results.collapse import rest_of
 from ...model.results.creep import creep_summary, creep_text
 from ...model.results.motion import without_removed
+from ...model.results.moving import moving_summary, moving_text
 from ...model.run_folder.summary import RunSummary
 from ...model.scenario import Scenario
 from ...model.scenario.contact_facts import contact_facts
 from ...model.sequence.undisturbed import asleep_text
+from ...model.stages.stability import stability_texts
 from ..document.blocks import Block, Listing, Paragraph, Photo, Section, facts
 from ..findings import IMPACT, findings
 from ..run_folder import ReportedRun
+from ..wording.checks import CHECKS
 
 SOURCES = (
     ("Motion, contacts and connections", "Bullet, the rigid-body engine in Blender, stepped as this report says"),
@@ -31,28 +33,35 @@ SOURCES = (
     ("Ground vibration", "Nicholls, Johnson and Duvall, USBM Bulletin 656 (1971), with handbook constants"),
 )
 
-TRUST = (
-    ("Energy and throw of a body in free flight", "formulas of ballistics: 0.5 %"),
-    ("Forces of connections at rest", "statics: 1e-6 (hanging block, chain, cantilever)"),
-    ("Forces on the bodies of a falling pile", "change of momentum: 1e-6 of the largest impulse"),
-    (
-        "Load at which a deck comes down, by strength of material",
-        "beam theory: 20 %; in 40 and 90 shards: 15 %",
-    ),
-    ("Blast: peak, duration, impulse, arrival", "published tables and formulas: their last digit"),
-)
-
-LIMITS = (
-    "Bodies are rigid: nothing bends, and stiffness comes from the solver, its steps and iterations.",
+_RIGID = "Bodies are rigid: nothing bends, and stiffness comes from the solver, its steps and iterations."
+_ELASTIC = "Shards are rigid; connections deform by their material, and members as finely as they are cut."
+_SPLINTERS = (
     "No piece is smaller than a shard. Splinters and what flies off at an impact are not modelled; they fly farther "
-    "than any throw given here, and only the buffer of the exclusion zone accounts for them.",
-    "Peak forces of impacts depend on the time step, their impulses do not.",
-    "Where and how a bridge breaks depends on its connections. One breaking force for all of them makes the result "
-    "depend on how finely the bridge is cut.",
-    "Soil and friction of bearings count only where the scenario has foundations and sliding bearings, with elastic "
-    "connections. Pressures of blast behind or inside members are not modelled.",
-    "Nothing here has been calibrated against a measured demolition.",
+    "than any throw given here, and only the buffer of the exclusion zone accounts for them."
 )
+_PEAKS = "Peak forces of impacts depend on the time step, their impulses do not."
+_ONE_FORCE = "One breaking force for all connections makes the result depend on how finely the bridge is cut."
+_BY_CUT = "Where and how a bridge breaks depends on its connections, and so on how it is cut."
+_NO_BARS = "No bars hold what cracks: cracked concrete falls apart, as concrete with reinforcement does not."
+_NO_SOIL = "The ground does not settle: soil counts only where the scenario has [[foundations]]."
+_NO_FRICTION = "Friction of bearings counts only where connections are elastic and a bearing slides."
+_BEHIND = "Pressures of blast behind or inside members are not modelled."
+_NOT_CALIBRATED = "Nothing here has been calibrated against a measured demolition."
+
+
+def limits_of(scenario: Scenario | None) -> list[str]:
+    """Return what the model of a scenario leaves out; where it is not known, of rigid bodies that break by a force."""
+    connections = scenario.connections if scenario else None
+    is_elastic = connections is not None and connections.is_elastic
+    has_bars = scenario is not None and scenario.is_reinforced
+    blasts = scenario is None or bool((scenario.charges or scenario.blast_zones) and scenario.blast.explosion)
+    limits = [_ELASTIC if is_elastic else _RIGID, _SPLINTERS, _PEAKS]
+    limits.append(_BY_CUT if connections is not None and connections.material else _ONE_FORCE)
+    limits += [] if has_bars else [_NO_BARS]
+    limits += [] if scenario and scenario.foundations else [_NO_SOIL]
+    limits += [] if is_elastic else [_NO_FRICTION]
+    limits += [_BEHIND] if blasts else []
+    return [*limits, _NOT_CALIBRATED]
 
 
 ONE_RUN = (
@@ -81,11 +90,12 @@ def trust_section(scenario: Scenario | None, *more: str) -> Section:
         modelled += ", a wrecking ball"
     if scenario and scenario.charges and scenario.blast.explosion:
         modelled += ", the air blast of charges on the outsides of the shards"
+    checks = [(f"{check.what[0].upper()}{check.what[1:]}", f"{check.against}: {check.within}") for check in CHECKS]
     blocks: list[Block] = [
         Paragraph(f"What is modelled: {modelled}."),
         facts("Where the numbers come from", SOURCES),
-        facts("What has been checked, against what and how closely it agrees", TRUST),
-        *(Paragraph(text) for text in (*LIMITS, *more)),
+        facts("What has been checked, against what and how closely it agrees", checks),
+        *(Paragraph(text) for text in (*limits_of(scenario), *more)),
     ]
     return Section("What is modelled, and how far to trust it", tuple(blocks))
 
@@ -159,14 +169,12 @@ def _doubts(run: ReportedRun) -> Iterator[str]:
     results = run.recorded
     if len(results.frames) < 2:
         yield "Only one frame was recorded: nothing has moved yet, and there are no forces."
-    if run.scenario and (asleep := asleep_text(run.scenario)):
+    stability = stability_texts(run.summary.values) if run.summary else ()
+    yield from (f"{text}." for text in stability)
+    if not stability and run.scenario and (asleep := asleep_text(run.scenario)):  # of a run of an earlier version
         yield f"{asleep}."
-    rest = rest_of(results)
-    if rest.moving_at_end:
-        yield (
-            f"{rest.moving_at_end} of {len(results.inventory.of_kind('shard'))} shards still move at the end of the "
-            "run: throws, footprint, pile and zones are not final. Simulate for longer to see it all come to rest."
-        )
+    if moving := moving_text({"moving_at_end": moving_summary(results)}):
+        yield f"{moving}. Footprint, pile and zones are not final either."
     if text := creep_text({"creeping": creep_summary(without_removed(results)[0])}):
         yield f"{text}."
     if np.isnan(results.frames.loads.body_sums_n[1:]).any():

@@ -10,13 +10,15 @@ import numpy as np
 from ...charts.histories import throw_distribution
 from ...charts.plan_maps import debris_map, exclusion_map, map_height_mm, pile_map
 from ...engineering.geometry.plan_areas import outlines
+from ...engineering.geometry.vectors import length
 from ...engineering.units import mass_text, volume_text
 from ...model.debris.exclusion import ExclusionZone, exclusion_zone
 from ...model.debris.on_ground import bodies_under_ground, debris_on_surfaces
 from ...model.debris.throws import PERCENTS, Debris, HeightMap, height_map, percentiles_by_mass
 from ...model.debris.zones import watch_zone
 from ...model.results.arrays import Results
-from ...model.results.motion import MOVED_M, without_removed
+from ...model.results.motion import MOVED_M, relative_to_ground, without_removed
+from ...model.results.moving import moving_summary, moving_text, still_moving_note
 from ...model.results.solver_energy import throws_of
 from ...model.scenario import Zone
 from ...model.schema import given
@@ -39,6 +41,8 @@ def debris_section(run: ReportedRun, debris: Debris, *, trajectories: bool) -> S
         "ends outside the bridge's first outline in plan."
     )
     blocks: list[Block] = [Paragraph(words)]
+    if moving := moving_text({"moving_at_end": moving_summary(results)}):
+        blocks.append(Paragraph(f"{moving}.", is_notice=True))
     if len(debris.bodies):
         heights = height_map(results, debris.bodies)
         blocks += _debris_blocks(results, debris, heights, zones, trajectories)
@@ -72,13 +76,14 @@ def exclusion_section(zone: ExclusionZone | None, run: ReportedRun, files: Seque
         (_ZONE, f"{zone.whole.area():.1f} m²"),
         ("Along the road", f"from x = {low_x:.2f} m to {high_x:.2f} m, {high_x - low_x:.2f} m"),
         ("Across the road", f"from y = {low_y:.2f} m to {high_y:.2f} m, {high_y - low_y:.2f} m"),
-        ("Farthest from the bridge's plan", f"{zone.largest_distance_m:.2f} m"),
+        ("Farthest from the bridge's plan", f"{zone.largest_distance_m:.2f} m{_not_final(run.recorded)}"),
     ]
     blocks: list[Block] = [
         Paragraph(words),
         Picture(
             partial(exclusion_map, zone=zone, zones=run.planned.zones, ground=run.recorded.ground()),
-            "Exclusion zone of one run in plan, with its distance from the bridge to each side.",
+            "Exclusion zone of one run in plan, with its distance from the bridge to each side"
+            f"{_not_final(run.recorded)}.",
             map_height_mm(zone.whole.bounds()),
         ),
         facts(_ZONE, rows, "exclusion_zone_of_one_run"),
@@ -134,15 +139,15 @@ def _debris_blocks(
             "Volume of the pile",
             f"{volume_text(heights.volume_m3, 1)} under its surface, {volume_text(solid, 1)} of it solid",
         ),
-        ("Farthest beyond the bridge's outline", f"{debris.reaches_m.max():.2f} m"),
+        ("Farthest beyond the bridge's outline", f"{debris.reaches_m.max():.2f} m{_not_final(results)}"),
     ]
     bridge = np.array(debris.outline.bounds()).reshape(2, 2)
     bounds = (*np.minimum(low, bridge[0]), *np.maximum(high, bridge[1]))
     return [
         Picture(
             partial(debris_map, results=results, debris=debris, zones=zones, trajectories=trajectories),
-            "Debris at the end in plan. Arrows and numbers: the largest throws, from where a shard was to where it "
-            "lies.",
+            f"Debris at the end in plan{_not_final(results)}. Arrows and numbers: the largest throws, from where a "
+            "shard was to where it lies.",
             map_height_mm(bounds),
         ),
         facts("Debris at the end", rows, "debris"),
@@ -151,10 +156,10 @@ def _debris_blocks(
             "Height of the debris.",
             85.0,
         ),
-        _throw_table(debris),
+        _throw_table(debris, _not_final(results)),
         Picture(
             partial(throw_distribution, throws_m=debris.throws_m, masses_kg=debris.masses_kg),
-            "How much of the debris was thrown farther than a distance.",
+            f"How much of the debris was thrown farther than a distance{_not_final(results)}.",
             75.0,
         ),
         _largest_throws(results, debris),
@@ -219,7 +224,7 @@ def _doubts(results: Results) -> list[Block]:
     return [Paragraph(words, is_notice=True)]
 
 
-def _throw_table(debris: Debris) -> DataTable:
+def _throw_table(debris: Debris, note: str) -> DataTable:
     by_number = np.ones(len(debris.throws_m))
     columns = (
         Column("of the debris (%)", "percent", "d", lambda percent, *_: percent),
@@ -229,7 +234,7 @@ def _throw_table(debris: Debris) -> DataTable:
     )
     return DataTable.of(
         "throw_percentiles",
-        "Throw and debris distance: share of the debris that stayed within",
+        f"Throw and debris distance: share of the debris that stayed within{note}",
         columns,
         PERCENTS,
         percentiles_by_mass(debris.throws_m, debris.masses_kg),
@@ -243,6 +248,7 @@ def _largest_throws(results: Results, debris: Debris) -> DataTable:
     doubts = dict(zip(throws.bodies.tolist(), throws.doubtful.tolist(), strict=True))
     shares = dict(zip(throws.bodies.tolist(), throws.made_shares.tolist(), strict=True))
     inventory, bodies, last_m = results.inventory, debris.bodies, results.frames.positions_m[-1]
+    speeds = length(np.asarray(relative_to_ground(results).frames.velocities_m_s[-1], float))
     columns = (
         Column("No.", "number", "d", lambda number, _: number),
         Column("shard", "shard", "", lambda _, row: str(inventory.body_names[bodies[row]])),
@@ -253,12 +259,20 @@ def _largest_throws(results: Results, debris: Debris) -> DataTable:
         Column("to x (m)", "x_m", ".2f", lambda _, row: float(last_m[bodies[row], 0])),
         Column("y (m)", "y_m", ".2f", lambda _, row: float(last_m[bodies[row], 1])),
         Column("z (m)", "z_m", ".2f", lambda _, row: float(last_m[bodies[row], 2])),
+        Column("speed at the end (m/s)", "end_speed_m_s", ".2f", lambda _, row: float(speeds[bodies[row]])),
         Column("by the solver (%)", "made_by_solver_percent", ".0f", lambda _, row: 100.0 * shares[bodies[row]]),
         Column("doubtful", "doubtful", "", lambda _, row: "yes" if doubts[bodies[row]] else "no"),
     )
     farthest = np.argsort(-debris.throws_m, kind="stable")[:NAMED]
-    title = "Largest throws. By the solver: energy that it made, over the shard's largest kinetic energy"
+    by_solver = "By the solver: energy that it made, over the shard's largest kinetic energy"
+    title = f"Largest throws{_not_final(results)}. {by_solver}"
     return DataTable.of("largest_throws", title, columns, range(1, len(farthest) + 1), farthest)
+
+
+def _not_final(results: Results) -> str:
+    """Return the words that go with distances where shards still moved, after a comma; empty where all rested."""
+    note = still_moving_note(results)
+    return f", {note}" if note else ""
 
 
 def _zone_blocks(run: ReportedRun, zones: Sequence[Zone]) -> list[Block]:

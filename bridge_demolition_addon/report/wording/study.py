@@ -23,6 +23,8 @@ def study_sentences(study: Study, conclusions: Conclusions) -> Iterator[str]:
     exclusion = study.scenario.exclusion
     buffer_m = exclusion.buffer_m if exclusion else None
     yield limit_sentence(conclusions.reach, input_names(study), study.settings.least_mass_kg, buffer_m)
+    if conclusions.still_moving:
+        yield moving_sentence(conclusions.still_moving, conclusions.reach.runs)
     if conclusions.reach.is_known:
         yield repeat_sentence(conclusions.reach)
     if conclusions.doubtful and conclusions.doubtful.throws:
@@ -31,6 +33,14 @@ def study_sentences(study: Study, conclusions: Conclusions) -> Iterator[str]:
         yield success_sentence(criterion)
     if conclusions.success and len(conclusions.criteria) > 1:
         yield success_sentence(conclusions.success)
+
+
+def moving_sentence(moving: int, runs: int) -> str:
+    """Return that distances of some runs are not final."""
+    return (
+        f"In {moving} of {runs} runs shards still moved at the end: their distances are not final, and a limit from "
+        "them may be too small. Give the scenario a longer time.duration_s."
+    )
 
 
 def too_few_sentence(limit: DebrisLimit) -> str:

@@ -43,10 +43,10 @@ class RecordedFrames:
         """Connections broken by now."""
         return int((~self.last.intact).sum()) if self.last else 0
 
-    def motion(self) -> tuple[float, np.ndarray, np.ndarray, np.ndarray]:
-        """Return time in s, positions (n, 3), rotations (n, 3, 3) and sleep (n,) of the last frame, as it is kept."""
+    def motion(self) -> tuple[float, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+        """Return time in s, positions (n, 3), rotations (n, 3, 3), sleep (n,) and masses (n,) in the last frame."""
         last = self.frames[-1]
-        return last.time_s, last.positions_m, last.rotations, last.asleep
+        return last.time_s, last.positions_m, last.rotations, last.asleep, given(self.inventory).masses_kg
 
     def results(self) -> Results:
         """Return everything recorded, mapped from the disk: only what is used is read."""

@@ -9,6 +9,7 @@ import bpy
 
 from ...errors import DemolitionError, OutputError, SimulationError
 from ...model.results.creep import creep_text
+from ...model.results.moving import moving_text
 from ...model.run_folder.folder import check_folder, keep_scenario, lock_in_place, prepare_folder, withdraw_folder
 from ...model.run_folder.summary import RunSummary
 from ...model.scenario import RecordingSettings, Scenario
@@ -158,6 +159,7 @@ def end_with_results(operator: bpy.types.Operator, recording: Recording, *, stop
     warnings = [
         f"The recording ended early: {recording.error}" if recording.error else stopped,
         self_collapse_text(session.last_recording().summary.values),
+        moving_text(session.last_recording().summary.values),
         creep_text(session.last_recording().summary.values),
         _changed_bodies_text(recording),
     ]

@@ -13,9 +13,11 @@ from ...engineering.units import kilograms
 from ...errors import DemolitionError, OutputError, UnreadableError
 from ...model.results.arrays import Results
 from ...model.results.bar_extremes import bars_text, largest_use_text
+from ...model.results.moving import moving_text
 from ...model.run_folder.files import SUMMARY_FILE
 from ...model.run_folder.summary import RunSummary, read_summary
 from ...model.sequence.undisturbed import self_collapse_text
+from ...model.stages.stability import stability_texts
 from ...simulation.kept_run import digest_of_run, folder_of_run, has_run, results_of_run
 from ..recording.session import last_recording
 
@@ -41,8 +43,8 @@ class ShownRun:
 
     Attributes
     ----------
-    fall
-        That the bridge fell before anything was done to it; empty where it did not.
+    doubts
+        Whether the bridge stands, that it fell before anything was done to it, and what still moved, as far as known.
     lines
         Totals, in short lines.
     explained_peak
@@ -56,7 +58,7 @@ class ShownRun:
     folder: Path
     title: str
     summary: RunSummary
-    fall: str
+    doubts: tuple[str, ...]
     lines: tuple[str, ...]
     peak_force: LargestValue | None
     largest_throw: LargestValue | None
@@ -73,10 +75,19 @@ class ShownRun:
                 folder=folder,
                 title=str(summary.values["title"]),
                 summary=summary,
-                fall=self_collapse_text(summary.values),
+                doubts=tuple(
+                    filter(
+                        None,
+                        (
+                            *stability_texts(summary.values),
+                            self_collapse_text(summary.values),
+                            moving_text(summary.values),
+                        ),
+                    )
+                ),
                 lines=tuple(lines_of(summary.values)),
                 peak_force=force and LargestValue(f"{force.value / _N_PER_KN:,.0f} kN", force.body, force.frame),
-                largest_throw=throw and LargestValue(f"{throw.value:.2f} m", throw.body, last_frame),
+                largest_throw=throw and LargestValue(_throw_text(throw.value, summary.values), throw.body, last_frame),
                 explained_peak=explained_peak(summary.values),
                 bearings=bearing_rows(summary.bearings),
                 results=results,
@@ -120,6 +131,10 @@ def bearing_rows(bearings: Sequence[Mapping[str, Any]]) -> tuple[tuple[str, ...]
         (bearing["name"], *(_kilonewtons(bearing[key]) for key in keys), _happened(bearing)) for bearing in bearings
     ]
     return (("Bearings, kN", "at rest", "least", "most", "sideways", ""), *rows) if rows else ()
+
+
+def _throw_text(throw_m: float, summary: Mapping[str, Any]) -> str:
+    return f"{throw_m:.2f} m, not final" if summary.get("moving_at_end") else f"{throw_m:.2f} m"
 
 
 def _kilonewtons(force_n: float | None) -> str:

@@ -23,8 +23,8 @@ class BDA_PT_results(SidebarPanel, bpy.types.Panel):
             draw_sentence(layout, context, "Nothing was recorded yet: click Run above.", icon="INFO")
             return
         draw_sentence(layout, context, run.title, icon="NONE")
-        if run.fall:
-            draw_sentence(layout, context, run.fall)
+        for doubt in run.doubts:
+            draw_sentence(layout, context, doubt)
         column = layout.column(align=True)
         for line in run.lines:
             column.label(text=line)

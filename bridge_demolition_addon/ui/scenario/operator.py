@@ -7,11 +7,13 @@ from ...display.camera_targets import points_to_see
 from ...model.scenario import Scenario
 from ...model.scenario.file import read_scenario, scenario_text
 from ...model.sequence.checked_model import checked_model
+from ...model.stages.stability import stability_of
 from ...scene.as_built import keep_as_built
 from ...scene.bodies import lacks_ground
 from ...scene.demolition import build_demolition, check_replaceable
 from ...scene.removal import remove_demolition, remove_loose_connections
 from ...scene.rendering.staging import stage
+from ...scene.stability import keep_stability
 from ...simulation.blender_events import shown_results
 from ...simulation.kept_run import forget_run
 from ..operators import (
@@ -32,6 +34,9 @@ from .prop import PRESETS, default_scenario
 from .values import scenario_of, show_scenario
 
 _SUFFIX = ".toml"
+
+_MOST_SHARDS_JUDGED = 1000
+"""Whether a bridge stands is worked out as it is built, if that takes a few seconds: up to so many shards."""
 
 
 class BDA_OT_load_scenario(UndoableAction, bpy.types.Operator):
@@ -216,6 +221,8 @@ def build_and_show(scene: bpy.types.Scene, scenario: Scenario, *, is_shown: bool
     settings.total_mass = ""
     keep_built(settings, scenario)
     keep_as_built(scene)
+    if len(model.shards) <= _MOST_SHARDS_JUDGED:
+        keep_stability(scene, stability_of(scenario, model, with_factor=False).stored())
     return f"{len(model.shards)} shards, {len(model.connections)} connections"
 
 

@@ -20,6 +20,7 @@ from .built import ChangedValue, Kept, built_values, change_of, change_of_use, c
 from .hints import breaking_note, contact_note, draw_first_help, next_step
 from .number_rows import draw_rows, numbers_in_row
 from .prop import INDEX, USE, label_of, shown_keys, shown_tables, vector_length
+from .stability import draw_stability
 from .table_list import draw_list
 
 _MAIN = {"bridge": "Bridge", "fracture": "Fracture", "connections": "Connections", "shards": "Shards"}
@@ -103,6 +104,7 @@ class BDA_PT_scenario(SidebarPanel, bpy.types.Panel):
         column.operator("bda.build_scenario", icon="MOD_BUILD")
         draw_run(column, settings, has_changed=bool(changes(settings)))
         draw_messages(layout, context)
+        draw_stability(layout, context)
         layout.prop(settings, "scenario_path", text="", placeholder="Scenario file")
         row = layout.row(align=True)
         row.operator("bda.load_scenario", text="Load")

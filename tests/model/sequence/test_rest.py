@@ -15,7 +15,7 @@ from bridge_demolition_addon.model.sequence.rest import Rest, last_event_s
 STEP_S = 0.1
 
 
-def watched(places, spins=0.0, asleep=None, not_before_s=0.0, hold_s=0.5):
+def watched(places, spins=0.0, asleep=None, not_before_s=0.0, hold_s=0.5, masses_kg=None):
     """Rest of bodies along x whose places are (k, n), and which turn about z at a constant rate."""
     rest = Rest(0.05, 0.1, hold_s, not_before_s)
     reached_s = None
@@ -24,7 +24,8 @@ def watched(places, spins=0.0, asleep=None, not_before_s=0.0, hold_s=0.5):
         turn = np.array([[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0], [0, 0, 1]])
         position = np.column_stack((row, np.zeros((len(row), 2))))
         sleep = np.zeros(len(row), bool) if asleep is None else asleep
-        rest.observe(step * STEP_S, position, np.broadcast_to(turn, (len(row), 3, 3)), sleep)
+        masses = np.ones(len(row)) if masses_kg is None else np.array(masses_kg)
+        rest.observe(step * STEP_S, position, np.broadcast_to(turn, (len(row), 3, 3)), sleep, masses)
         if rest.is_reached and reached_s is None:
             reached_s = step * STEP_S
     return rest.came_to_rest_s, reached_s
@@ -41,10 +42,25 @@ def test_rest_counts_from_when_the_last_body_stopped_and_is_reached_after_the_ho
 
 
 def test_what_is_slow_rests_and_what_is_not_does_not():
-    assert watched(stopping(20, speed=0.049))[0] == 0.0
-    assert watched(stopping(20, speed=0.051)) == (None, None)
+    assert watched(stopping(20, speed=0.049)[:, :1])[0] == 0.0
+    assert watched(stopping(20, speed=0.051)[:, :1]) == (None, None)
     assert watched(stopping(0), spins=0.099)[0] == 0.0
     assert watched(stopping(0), spins=0.101) == (None, None)
+
+
+def test_rest_is_by_the_energy_of_all_by_their_mass():
+    """One of 100 t creeps among others: at v it has the energy of all at 0.05 m/s where m v² = M 0.05²."""
+    for heavy_kg in (3.0, 24.0, 99.0):
+        limit_m_s = 0.05 * np.sqrt((1.0 + heavy_kg) / 1.0)
+        masses_kg = (1.0, heavy_kg)
+        assert watched(stopping(20, speed=0.99 * limit_m_s), masses_kg=masses_kg)[0] == 0.0
+        assert watched(stopping(20, speed=1.01 * limit_m_s), masses_kg=masses_kg) == (None, None)
+
+
+def test_a_body_that_flies_keeps_a_run_alive_however_light_it_is():
+    assert watched(stopping(20, speed=0.49), masses_kg=(1.0, 1e6))[0] == 0.0
+    assert watched(stopping(20, speed=0.51), masses_kg=(1.0, 1e6)) == (None, None)
+    assert watched(stopping(20, speed=5.0), masses_kg=(0.0, 1.0))[0] == 0.0  # the ground, which something moves
 
 
 def test_what_sleeps_rests():

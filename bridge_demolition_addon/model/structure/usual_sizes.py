@@ -1,0 +1,59 @@
+"""Sizes of a bridge that look like a wrong unit: millimetres for metres, tonnes for kilograms."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from ..actions import Fact
+from ..bridge.member import Member
+from ..scenario import Scenario
+
+USUAL_DENSITY_KG_M3 = (300.0, 9000.0)
+"""From light timber to steel."""
+
+USUAL_LENGTH_M = (0.05, 2000.0)
+"""Of the longest side of a member: no part of a bridge that is a member is smaller, and no deck in one piece longer."""
+
+USUAL_THICKNESS_M = (0.003, 30.0)
+"""From the plates of a steel girder to a solid pier of a large bridge."""
+
+USUAL_SPAN_OVER_DECK = (3.0, 60.0)
+"""Span over the thickness of a deck: slabs have about 15 to 25, prestressed box girders up to 45."""
+
+_MOST_NAMED = 5
+
+
+def size_facts(scenario: Scenario, members: Sequence[Member]) -> Iterator[Fact]:
+    """Yield what is so large or small that it was probably given in another unit."""
+    found = [*_member_sizes(members), *_deck_sizes(scenario)]
+    yield from (("unusual", text) for text in found[:_MOST_NAMED])
+    if found:
+        yield "", "was it given in another unit? Lengths are in m, masses in kg, densities in kg/m³"
+
+
+def _member_sizes(members: Sequence[Member]) -> Iterator[str]:
+    for member in members:
+        extents = np.ptp(member.solid.vertices, axis=0)
+        longest_m, density = float(extents.max()), member.mass_kg / member.volume_m3
+        if not _usual(longest_m, USUAL_LENGTH_M):
+            yield f"{member.name} is {longest_m:.4g} m long"
+        elif not _usual(member.thickness_m, USUAL_THICKNESS_M):
+            yield f"{member.name} is {member.thickness_m:.4g} m thick"
+        if not _usual(density, USUAL_DENSITY_KG_M3):
+            yield f"{member.name} has {density:.4g} kg/m³"
+
+
+def _deck_sizes(scenario: Scenario) -> Iterator[str]:
+    bridge = scenario.bridge
+    if bridge is None or bridge.girders or bridge.box_girder:  # their deck is but the slab on top
+        return
+    thickness_m = bridge.deck.thickness_m
+    ratio = max(bridge.span_lengths_m) / thickness_m
+    if not _usual(ratio, USUAL_SPAN_OVER_DECK):
+        yield f"the deck is {thickness_m:g} m thick for spans of up to {max(bridge.span_lengths_m):g} m"
+
+
+def _usual(value: float, limits: tuple[float, float]) -> bool:
+    return limits[0] <= value <= limits[1]
