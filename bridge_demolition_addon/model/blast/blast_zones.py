@@ -141,7 +141,11 @@ class BlastZone(PlannedAction):
         above=0,
     )
     bars: int = key(
-        "Bars along the member that stay when the concrete is gone.", default=0, at_least=0, at_most=100_000
+        "Bars along the member that stay when the concrete is gone, evenly at its sides; without it those that "
+        "`[[reinforcement]]` or `[bridge.reinforcement]` gives the member.",
+        default=0,
+        at_least=0,
+        at_most=100_000,
     )
     bar_diameter_mm: float | None = key("Diameter of these bars.", default=None, unit="mm", above=0, at_most=100)
 

@@ -15,6 +15,8 @@ from ..blast.blast_zones import BlastZone
 from ..bridge.extent import surface_height
 from ..bridge.member import Member
 from ..loads import Load
+from ..materials.bar_layers import BarLayer
+from ..reinforcement.design import all_layers
 from ..scenario import Change, Scenario
 from ..structure.blast_zones import placed_zone
 from ..structure.model import Model, build_model
@@ -31,6 +33,10 @@ class ModelWorksite:
 
     plan: Scenario
     model: Model
+
+    @cached_property
+    def _layers(self) -> tuple[BarLayer, ...]:
+        return all_layers(self.plan, self.model.members)
 
     @cached_property
     def _structure(self) -> Structure:
@@ -69,10 +75,10 @@ class ModelWorksite:
         return Affected(len(shards), float(model.masses_kg[shards].sum()), tuple(names))
 
     def facts_of_zone(self, zone: BlastZone) -> Iterator[Fact]:
-        return placed_zone(zone, self.model.members).facts(self.plan)
+        return placed_zone(zone, self.model.members, self._layers).facts(self.plan)
 
     def check_zone(self, zone: BlastZone) -> None:
-        placed = placed_zone(zone, self.model.members)
+        placed = placed_zone(zone, self.model.members, self._layers)
         if zone.goes_off:
             schedule((placed.firing(self.plan),), self._structure)
 

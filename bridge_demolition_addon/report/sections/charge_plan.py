@@ -123,7 +123,7 @@ def plan_blocks(plan: ChargePlan) -> Iterator[Block]:
     yield from _warnings(plan)
     yield DataTable.of("drill_holes", "Drill holes", _DRILLED, plan.zones)
     yield DataTable.of("charge_table", "Charges and their effect", _LOADED, plan.zones)
-    if any(placed.zone.bars for placed in plan.zones):
+    if any(placed.bars for placed in plan.zones):
         yield Paragraph(_BARS, True)
     yield Paragraph(_SEQUENCE)
     yield DataTable.of("firing_sequence", "Firing sequence", _FIRED, plan.rows)
