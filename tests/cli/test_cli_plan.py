@@ -67,7 +67,7 @@ def test_the_workbook_has_the_same_tables(folder):
 
 def test_a_scenario_without_zones_is_refused(tmp_path, capsys):
     assert main(["plan", str(I235_FILE), "--output", str(tmp_path / "plan")]) == 2
-    assert "has no [[blast_zones]], which a charge plan is made from" in capsys.readouterr().err
+    assert "has no [[blast_zones]] and no [[cuts]], which a charge plan is made from" in capsys.readouterr().err
     assert not (tmp_path / "plan").exists()
 
 

@@ -195,8 +195,7 @@ def _check_ends(scenario: Scenario, dimension: Dimension) -> None:
 
 
 def total_charge_kg(scenario: Scenario) -> float:
-    """Return the mass of all charges of a scenario, in the open and in drill holes; 0 where it blasts nothing."""
+    """Return the mass of all charges of a scenario, in the open, in drill holes and at cuts; 0 where it blasts nothing."""
     if not scenario.blast.explosion:
         return 0.0
-    in_holes = sum(zone.mass_kg for zone in scenario.blast_zones)
-    return float(sum(charge.mass_kg for charge in scenario.charges) + in_holes)
+    return float(sum(loaded.mass_kg for loaded in (*scenario.charges, *scenario.blast_zones, *scenario.cuts)))

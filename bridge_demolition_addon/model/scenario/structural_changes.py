@@ -73,6 +73,16 @@ class SawCut(Change):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Severing(SawCut):
+    """A member that explosive severs along a plane. It follows from a table of `[[cuts]]`, and is no table of a
+    scenario; a scene keeps it.
+    """
+
+    table: ClassVar[str] = "severings"
+    kind: ClassVar[str] = "severed member"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Weakening(Change):
     """A loss of strength in one moment, such as by cut reinforcement: of all connections of the members' shards, of
     those in the box, or of all. What slept among them wakes up, so that they carry their load at once. Several at the

@@ -30,7 +30,7 @@ from ..blast.blast_zones import THROWN_AWAY, BlastZone, element_of
 from ..bridge.member import Member, members_named
 from ..materials.bar_layers import BarLayer
 from ..reinforcement.design import all_layers
-from ..scenario import Scenario, ZoneFiring
+from ..scenario import MemberCut, Scenario, ZoneFiring
 from ..schema import given
 from .zone_bars import ZoneBars, zone_bars
 
@@ -201,11 +201,7 @@ class PlacedZone:
 def placed_zone(zone: BlastZone, members: Sequence[Member], layers: Sequence[BarLayer] = ()) -> PlacedZone:
     """Return a zone in its member, which may have layers of bars; refuse one that does not lie in it, with its holes.
     """
-    named = [member for member in members if member.name == zone.member]
-    if not named:
-        members_named(zone.member, members, "blast_zones.member")  # refuses what is neither
-        raise zone.unexpected("member", "the name of one member, not a kind")
-    (member,) = named
+    member = one_member(zone, members)
     along = zone.axes[0]
     (lowest, highest), (begin_m, end_m) = member.solid.bounds[:, along].tolist(), zone.ends_along_m
     slack = _ROUNDING * (highest - lowest)
@@ -219,6 +215,15 @@ def placed_zone(zone: BlastZone, members: Sequence[Member], layers: Sequence[Bar
     placed = PlacedZone(zone, member, slab.volume, slab.bounds, zone_bars(zone, member, slab.bounds, layers))
     _check_holes(placed)
     return placed
+
+
+def one_member(action: BlastZone | MemberCut, members: Sequence[Member]) -> Member:
+    """Return the member of a zone or a cut; refuse the name of a kind, and one that no member has."""
+    named = [member for member in members if member.name == action.member]
+    if not named:
+        members_named(action.member, members, f"{action.table}.member")  # refuses what is neither
+        raise action.unexpected("member", "the name of one member, not a kind")
+    return named[0]
 
 
 def _check_holes(placed: PlacedZone) -> None:
@@ -263,10 +268,10 @@ def zone_firings(scenario: Scenario, members: Sequence[Member]) -> tuple[ZoneFir
     return tuple(placed.firing(scenario) for placed in fired if placed.effect != Effect.NOTHING)
 
 
-def grams_per_tonne(zones: Sequence[PlacedZone], members: Sequence[Member]) -> float:
-    """Return the explosive of zones by the mass of the structure, g/t."""
+def grams_per_tonne(explosive_kg: float, members: Sequence[Member]) -> float:
+    """Return explosive by the mass of the structure, g/t."""
     mass_t = sum(member.mass_kg for member in members) / _KILO
-    return _KILO * sum(placed.zone.mass_kg for placed in zones) / mass_t
+    return _KILO * explosive_kg / mass_t
 
 
 def zone_totals(zones: Sequence[PlacedZone], members: Sequence[Member]) -> Iterator[Fact]:
@@ -274,7 +279,7 @@ def zone_totals(zones: Sequence[PlacedZone], members: Sequence[Member]) -> Itera
     mass_kg = sum(placed.zone.mass_kg for placed in zones)
     volume_m3 = sum(placed.volume_m3 for placed in zones)
     holes, drilled_m = (sum(getattr(placed.zone, name) for placed in zones) for name in ("holes", "drilled_m"))
-    specific, rate = mass_kg / volume_m3, grams_per_tonne(zones, members)
+    specific, rate = mass_kg / volume_m3, grams_per_tonne(mass_kg, members)
     yield "all zones", f"{mass_kg:.3g} kg in {holes} holes, {drilled_m:.1f} m drilled, {specific:.2f} kg/m³"
     (least, most), (lowest, highest) = RECORDED_G_T, POSSIBLE_G_T
     yield "", f"{rate:.1f} g a tonne of the bridge; recorded jobs have {least:g} to {most:g}"

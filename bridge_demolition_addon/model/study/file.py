@@ -128,11 +128,12 @@ def variations_of(tables: Sequence[Vary], scenario: Scenario) -> tuple[Variation
 
 
 def _misfires(scenario: Scenario) -> Iterator[Variation]:
-    """Yield the keys of blast zones that may misfire; a zone that is said not to fire never does."""
-    for number, zone in enumerate(scenario.blast_zones, start=1):
-        if zone.fires and zone.probability_fires < 1.0:
-            (key,) = keys_named(scenario, f"{BlastZone.table}.{number}.fires")
-            yield Variation(key, Chance(zone.probability_fires), factor=False)
+    """Yield the keys of blast zones and cuts that may misfire; what is said not to fire never does."""
+    for planned in (scenario.blast_zones, scenario.cuts):
+        for number, action in enumerate(planned, start=1):
+            if action.fires and action.probability_fires < 1.0:
+                (key,) = keys_named(scenario, f"{action.table}.{number}.fires")
+                yield Variation(key, Chance(action.probability_fires), factor=False)
 
 
 def _variations(scenario: Scenario, vary: Vary, earlier: dict[str, Variation]) -> list[Variation]:

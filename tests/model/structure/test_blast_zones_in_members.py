@@ -35,7 +35,7 @@ def test_the_worked_example():
     assert zone.effect == Effect.THROWN
     # 22.5 g/t of a structure of 196 t with six such columns.
     structure = [Member("all", "bridge", MEMBERS[0].solid, 196e3 / 1.96)]
-    assert grams_per_tonne([zone] * 6, structure) == pytest.approx(22.5, abs=0.05)
+    assert grams_per_tonne(6 * zone.zone.mass_kg, structure) == pytest.approx(22.5, abs=0.05)
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ from bridge_demolition_addon.bullet import layout
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.errors import SimulationError
 from bridge_demolition_addon.model.results.solver_energy import throws_of
-from bridge_demolition_addon.model.scenario import ZoneFiring
+from bridge_demolition_addon.model.scenario import MemberCut, ZoneFiring
 from bridge_demolition_addon.scene.bodies import mark_member
 from bridge_demolition_addon.scene.demolition import build_demolition
 from bridge_demolition_addon.scene.removal import remove_demolition
@@ -258,3 +258,17 @@ def test_a_scene_that_is_built_keeps_its_zones_and_forgets_them_with_its_bodies(
     assert kept.cage_compression_n == pytest.approx(538.3e3, rel=1e-3)  # 8 × 186.9 kN × (0.9 / 1.5)²
     remove_demolition(scene)
     assert changes_of(scene) == ()
+
+
+def test_a_severed_column_loses_its_bars_and_stands_on_its_cut_face(tmp_path):
+    """Cut across a level plane, it goes on carrying by contact; all of its connections there are gone."""
+    from bridge_demolition_addon.simulation.motion_run import motion_run
+
+    scenario = column_scenario(tmp_path)
+    scenario = replace(scenario, cuts=(MemberCut(member="column", position_m=3.0, mass_kg=2.0),))
+    with motion_run(scenario, column_model(scenario), tmp_path) as (results, summary):
+        block = results.inventory.body_members == "block"
+        heights = results.frames.positions_m[:, block, 2].mean(axis=1)
+    (event,) = summary["events"]
+    assert event["kind"] == "severed member" and event["connections"] > 0 and event["shards"] == []
+    assert heights[0] - heights[-1] < 0.05
