@@ -7,6 +7,7 @@ from support.checkout import EXAMPLES, ROOT
 from bridge_demolition_addon.model.ensemble.reference import reference_pages
 from bridge_demolition_addon.model.optimise.file import read_optimisation
 from bridge_demolition_addon.model.optimise.settings import (
+    ChosenOption,
     ChosenOrder,
     ChosenPlace,
     ChosenQuantity,
@@ -22,7 +23,7 @@ from bridge_demolition_addon.model.study.settings import StudySettings, Vary
 TABLES = {
     "study_file.md": (StudySettings, Vary),
     "search_file.md": (SearchSettings,),
-    "optimise_file.md": (OptimiseSettings, ChosenQuantity, ChosenPlace, ChosenOrder),
+    "optimise_file.md": (OptimiseSettings, ChosenQuantity, ChosenPlace, ChosenOrder, ChosenOption),
 }
 
 
