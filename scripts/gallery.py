@@ -41,7 +41,7 @@ Every demolition of the 2019 report is here, and some examples go beyond it.
 
 {table}
 
-`bda run examples/i235_three_spans_*.toml --output DIR --report` runs several examples one after the other and compares
+`bda run examples/report_2019/i235_three_spans_*.toml --output DIR --report` runs several examples one after the other and compares
 them: here four positions where the ball falls. A variant needs only the values that differ from another scenario; see
 `based_on` in [scenario files](scenario.md). There are also examples of [studies](../examples/studies),
 [searches](../examples/searches), [optimisations](../examples/optimisations), [stages](../examples/stages) and

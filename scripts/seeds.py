@@ -21,7 +21,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 sys.path.insert(1, str(Path(__file__).resolve().parent.parent / "tests"))
 
-from support.checkout import EXAMPLES
+from support.checkout import DEMOLITIONS
 
 
 def main() -> int:
@@ -40,7 +40,7 @@ def main() -> int:
 
 def arguments() -> argparse.Namespace:
     """What the command line says."""
-    examples = sorted(path.stem for path in EXAMPLES.glob("*.toml"))
+    examples = list(DEMOLITIONS)
     parser = argparse.ArgumentParser(prog="seeds", description=__doc__.splitlines()[0])
     parser.add_argument("names", nargs="+", choices=examples, metavar="NAME", help="examples: " + ", ".join(examples))
     parser.add_argument("--seeds", type=int, default=24, metavar="COUNT", help="how many seeds (24)")

@@ -4,7 +4,7 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
-from support.checkout import EXAMPLES
+from support.checkout import DEMOLITIONS
 
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.model.results.arrays import Results, load_results
@@ -87,7 +87,7 @@ FALL_S = 0.7
 
 def example(name, duration_s=None):
     """The scenario of an example, cut short where a duration is given."""
-    scenario = read_scenario(EXAMPLES / f"{name}.toml")
+    scenario = read_scenario(DEMOLITIONS[name])
     if not duration_s:
         return scenario
     hammers = [

@@ -40,7 +40,9 @@ class FractureOptions:
     # How far points are moved at random, as a part of a shard's mean size (volume / shards)^(1/3): sampled points stay
     # as random as they are, chosen ones lose their order.
     noise: float = 0.0
-    stretch: tuple[float, float, float] = (1.0, 1.0, 1.0)  # relative lengths of shards along x, y and z
+    # Relative lengths of shards along x, y and z; by default alike, or through plates.
+    stretch: tuple[float, float, float] | None = None
+    through_plates: bool = False  # where no stretch is given, no shard ends within the thickness of a plate
     recursion: Recursion | None = None
 
 

@@ -21,6 +21,7 @@ from ..geometry.proximity import ranges
 from ..geometry.seams import sewn
 from ..geometry.solids import bodies, contains, from_manifold, to_manifold
 from .options import PLAIN, FractureOptions, Recursion
+from .plates import through_thickness
 from .seeds import moved_points, random_points
 from .shared_faces import NO_FACES, SharedFaces, joined_faces, overlaps, shared_faces, touching_faces
 from .voronoi import convex_cells
@@ -36,6 +37,8 @@ SMALLEST_PIECE = 1e-14
 
 RIM_TOLERANCE = 1e-9
 """Part of the solid's longest extent within which corners of two pieces are the same corner, cut twice."""
+
+_EVEN = (1.0, 1.0, 1.0)
 
 _BOX_MARGIN = 1e-3
 """The box around the cells is larger than the solid by this part of its longest extent: its sides must cut nothing."""
@@ -140,11 +143,16 @@ def joined_fractures(parts: Sequence[Fracture]) -> Fracture:
 def _fracture_around(
     solid: TriangleMesh, points: FloatArray, generator: np.random.Generator, options: FractureOptions
 ) -> Fracture:
-    stretch = None if options.stretch == PLAIN.stretch else np.array(options.stretch, dtype=float)
+    stretch = _stretch(solid, options)
     if options.noise > 0.0:
         points = moved_points(solid, points, options.noise * float(cube_root(solid.volume / len(points))), generator)
     result = _fractured(solid, points, stretch)
     return _with_recursion(result, generator, options, options.recursion, stretch) if options.recursion else result
+
+
+def _stretch(solid: TriangleMesh, options: FractureOptions) -> FloatArray | None:
+    given = options.stretch or (through_thickness(solid) if options.through_plates else None)
+    return None if given is None or given == _EVEN else np.array(given, dtype=float)
 
 
 def _with_recursion(

@@ -79,7 +79,7 @@ def plain_concrete_text(scenario: Scenario) -> str:
 
 def _plain(scenario: Scenario, members: Sequence[Named]) -> list[str]:
     """Return kinds of members none of which has bars, and names of those whose kind has some."""
-    with_bars = _with_bars(scenario)
+    with_bars = names_with_bars(scenario)
     plain = [
         member for member in members if not {member.name, member.kind} & with_bars and is_concrete(scenario, member)
     ]
@@ -91,7 +91,7 @@ def _kind_or_name(member: Named, plain: Sequence[Named], members: Iterable[Named
     return member.kind if all(any(other is one for one in plain) for other in alike) else member.name
 
 
-def _with_bars(scenario: Scenario) -> set[str]:
+def names_with_bars(scenario: Scenario) -> set[str]:
     """Return names and kinds of members with bars."""
     named = {name for layer in scenario.reinforcement for name in layer.members}
     if rule := bars_by_rule(scenario):

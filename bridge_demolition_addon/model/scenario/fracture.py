@@ -6,7 +6,6 @@ from typing import ClassVar
 from ...errors import ScenarioError
 from ..schema import SHARE, Table, check_exactly_one, key
 
-_EVEN = (1.0, 1.0, 1.0)
 _LEAST_STRETCH, _MOST_STRETCH = 0.01, 100.0
 """Beyond them cells become so thin that nothing of a member is left between two cuts."""
 
@@ -85,7 +84,13 @@ class FractureSettings(Table):
         default=0.0,
         **SHARE,
     )
-    stretch: tuple[float, float, float] = key(_STRETCH, default=_EVEN, at_least=_LEAST_STRETCH, at_most=_MOST_STRETCH)
+    stretch: tuple[float, float, float] | None = key(
+        f"{_STRETCH} By default as long in all directions, but plates with bars, such as slabs, are cut through their "
+        "whole thickness, as they crack.",
+        default=None,
+        at_least=_LEAST_STRETCH,
+        at_most=_MOST_STRETCH,
+    )
     margin_m: float = key(
         "Gap between the shards of a member. Masses stay those without it.", default=0.0, unit="m", **SHARE
     )

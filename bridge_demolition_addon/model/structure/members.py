@@ -26,6 +26,7 @@ from ...engineering.geometry.sides import AXES
 from ...engineering.geometry.solids import contains
 from ...errors import GeometryError
 from ..bridge.member import Member, members_named
+from ..reinforcement.concrete_members import names_with_bars
 from ..scenario import BlastZone, FractureSettings, MemberCut, Scenario
 from ..scenario.fracture import MemberFracture
 from ..schema import SHORTEST_LENGTH_M, given
@@ -58,6 +59,7 @@ def fractured_members(scenario: Scenario, members: Sequence[Member]) -> Fracture
     density = _density(settings)
     own_points = _points_by_member(settings, members)
     rules = _rules(settings, members)
+    with_bars = names_with_bars(scenario)
     counts = _counts(scenario, members, rules, own_points, density)
     seeds = np.random.SeedSequence(scenario.seed).generate_state(len(members))
     parts = []
@@ -67,6 +69,7 @@ def fractured_members(scenario: Scenario, members: Sequence[Member]) -> Fracture
             density=density,
             noise=settings.noise,
             stretch=rule.stretch if rule and rule.stretch else settings.stretch,
+            through_plates=bool({member.name, member.kind} & with_bars),
             recursion=_recursion(settings),
         )
         zones = [zone for zone in scenario.blast_zones if zone.member == member.name]

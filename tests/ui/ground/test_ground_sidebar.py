@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from matplotlib.image import imread, imsave
-from support.checkout import EXAMPLES
+from support.checkout import REPORT_2019
 
 from bridge_demolition_addon.engineering.geometry.plan_areas import outlines
 from bridge_demolition_addon.model.debris.exclusion import exclusion_zone
@@ -15,7 +15,7 @@ from bridge_demolition_addon.model.scenario import Exclusion, Neighbour, Zone
 from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_text
 
 ROAD = Zone(name="Main Street", kind="road", corners_m=((20.0, -5.0), (30.0, -5.0), (30.0, 5.0), (20.0, 5.0)))
-SCENARIO = read_scenario(EXAMPLES / "two_spans_13m_explosives.toml")
+SCENARIO = read_scenario(REPORT_2019 / "two_spans_13m_explosives.toml")
 SHORT = replace(
     SCENARIO,
     fracture=replace(SCENARIO.fracture, shards=40),

@@ -2,13 +2,13 @@
 """Load, save, new, presets and build, as they are called from Python."""
 
 import pytest
-from support.checkout import EXAMPLES, SMALL
+from support.checkout import REPORT_2019, SMALL
 
 from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_text
 from bridge_demolition_addon.ui.scenario.prop import PRESETS, default_scenario
 from bridge_demolition_addon.ui.scenario.values import scenario_of
 
-EXAMPLE = EXAMPLES / "single_span_explosives.toml"
+EXAMPLE = REPORT_2019 / "single_span_explosives.toml"
 
 
 def names(bpy):

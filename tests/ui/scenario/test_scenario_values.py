@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.checkout import EXAMPLES, SMALL
+from support.checkout import DEMOLITIONS, SMALL
 from support.random_scenarios import varied
 
 from bridge_demolition_addon.engineering.single_precision import shortest
@@ -17,7 +17,7 @@ from bridge_demolition_addon.ui.scenario.hints import breaking_note
 from bridge_demolition_addon.ui.scenario.prop import PRESETS, default_scenario
 from bridge_demolition_addon.ui.scenario.values import scenario_of, show_scenario
 
-FILES = sorted([*EXAMPLES.glob("*.toml"), *PRESETS.glob("*.toml"), SMALL])
+FILES = sorted([*DEMOLITIONS.values(), *PRESETS.glob("*.toml"), SMALL])
 
 
 def test_a_new_scene_shows_the_default(settings):
