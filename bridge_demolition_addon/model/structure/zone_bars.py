@@ -38,11 +38,15 @@ class ZoneBars:
     of_member: bool = False  # whether they follow from the bars of the member
 
     @property
-    def text(self) -> str:
-        """Return how many of which size."""
+    def sizes(self) -> str:
+        """How many of which size."""
         count = f"{self.count:.0f}" if abs(self.count - round(self.count)) < _WHOLE else f"{self.count:.1f}"
-        whose = " of the member" if self.of_member else ""
-        return f"{count} bars{whose} of {1.0 / M_PER_MM * self.diameter_m:.3g} mm"
+        return f"{count} bars of {self.diameter_m / M_PER_MM:.3g} mm"
+
+    @property
+    def text(self) -> str:
+        """The same, and whether they are those of the member."""
+        return f"{self.sizes}, as the member has," if self.of_member else self.sizes
 
     def resisted_n(self, bared_m: float) -> tuple[float, float]:
         """Return what they resist in tension and in compression, bared over a height."""
@@ -62,7 +66,7 @@ def zone_bars(zone: BlastZone, member: Member, box_m: np.ndarray, layers: Sequen
         raise zone.unexpected(
             "bars",
             f"it to be left out, or what [[reinforcement]] or [bridge.reinforcement] gives {member.name} there: "
-            f"{of_member.text}",
+            f"{of_member.sizes}",
         )
     return of_member or own
 

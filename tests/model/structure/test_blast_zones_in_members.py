@@ -180,7 +180,7 @@ def test_bars_of_the_zone_agree_with_those_of_its_member_or_are_refused():
     assert placed_zone(replace(ZONE, bars=12, bar_diameter_mm=20.0), MEMBERS, layers()).bars.count == pytest.approx(
         12.0, rel=1e-3
     )
-    with pytest.raises(ScenarioError, match=r"bars is 8: .* gives column there: 12 bars of the member of 20 mm"):
+    with pytest.raises(ScenarioError, match=r"bars is 8: .* gives column there: 12 bars of 20 mm"):
         placed_zone(replace(ZONE, bars=8, bar_diameter_mm=25.0), MEMBERS, layers())
 
 
