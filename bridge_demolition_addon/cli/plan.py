@@ -32,7 +32,9 @@ def plan(arguments: argparse.Namespace) -> None:
 
     scenario = read_scenario(arguments.scenario)
     if not (scenario.blast_zones or scenario.cuts):
-        raise ScenarioError(f"{arguments.scenario}: has no [[blast_zones]] and no [[cuts]], which a charge plan is made from")
+        raise ScenarioError(
+            f"{arguments.scenario}: has no [[blast_zones]] and no [[cuts]], which a charge plan is made from"
+        )
     progress = progress_on(sys.stdout, quiet=arguments.quiet)
     try:
         with naming(arguments.scenario):

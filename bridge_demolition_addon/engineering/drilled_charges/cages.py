@@ -107,9 +107,7 @@ class Cages:
         self._from_row = from_row
         none, numbers = np.zeros(0), np.zeros(0, int)
         points = np.zeros((3, 0))
-        self._groups = _Groups(
-            numbers, numbers, points, points, none, none, none, none, none, none, np.zeros(0, bool)
-        )
+        self._groups = _Groups(numbers, numbers, points, points, none, none, none, none, none, none, np.zeros(0, bool))
         self._solved_for = np.zeros((3, 3, 0))
 
     def __len__(self) -> int:
@@ -134,7 +132,8 @@ class Cages:
         added = _Groups(
             bars.first,
             bars.second,
-            *anchors,
+            anchors[0],
+            anchors[1],
             np.sqrt(dot_products(line, line)),
             bars.counts,
             bars.diameters_m,

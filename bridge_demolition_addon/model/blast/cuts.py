@@ -94,7 +94,8 @@ def named_cuts(cuts: Sequence[MemberCut], zones: Sequence[BlastZone]) -> tuple[M
         if cut.name in taken:
             raise ScenarioError(f"cuts.name is {shown(cut.name)} twice: expected a name of its own for each")
         taken.append(cut.name)
-        for other in (*zones, *named):
+        others: list[BlastZone | MemberCut] = [*zones, *named]
+        for other in others:
             if other.member != cut.member:
                 continue
             if other.along != cut.along:

@@ -225,7 +225,8 @@ def _text(value: Any) -> str:
 
 
 def total_charge_kg(scenario: Scenario) -> float:
-    """Return the mass of all charges of a scenario, in the open, in drill holes and at cuts; 0 where it blasts nothing."""
+    """Return the mass of all charges of a scenario, wherever they are; 0 where it blasts nothing."""
     if not scenario.blast.explosion:
         return 0.0
-    return float(sum(loaded.mass_kg for loaded in (*scenario.charges, *scenario.blast_zones, *scenario.cuts)))
+    masses = [sum(charge.mass_kg for charge in scenario.charges), sum(zone.mass_kg for zone in scenario.blast_zones)]
+    return float(sum(masses) + sum(cut.mass_kg for cut in scenario.cuts))

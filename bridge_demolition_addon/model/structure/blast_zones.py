@@ -169,8 +169,8 @@ class PlacedZone:
             slender_m = float(slender_from_m(bars.diameter_m, bars.yield_pa))
             if zone.height_m < slender_m:
                 yield (
-                    f"bars of {_MM_PER_M * bars.diameter_m:.3g} mm bared over {zone.height_m:.2f} m yield before they buckle: "
-                    f"from {slender_m:.2f} m on they buckle"
+                    f"bars of {_MM_PER_M * bars.diameter_m:.3g} mm bared over {zone.height_m:.2f} m yield before they "
+                    f"buckle: from {slender_m:.2f} m on they buckle"
                 )
         if zone.mass_kg and zone.cover_factor == 1.0 and self.scaled_burial < RISKY_BURIAL:
             yield (
@@ -188,7 +188,7 @@ class PlacedZone:
         yield "", f"{self.specific_kg_m3:.2f} kg/m³ in {self.volume_m3:.3f} m³ ({limits}): {self.effect}"
         if self.bars:
             tension_n, pressed_n = self.cage_n
-            in_run = "" if scenario.connections.is_elastic else "; between rigid connections they carry nothing in a run"
+            in_run = "" if scenario.connections.is_elastic else "; rigid connections leave them out of a run"
             yield (
                 "",
                 f"{self.bars.text} resist {tension_n / _MEGA:.2f} MN in tension and {pressed_n / _MEGA:.2f} MN in "
@@ -199,8 +199,7 @@ class PlacedZone:
 
 
 def placed_zone(zone: BlastZone, members: Sequence[Member], layers: Sequence[BarLayer] = ()) -> PlacedZone:
-    """Return a zone in its member, which may have layers of bars; refuse one that does not lie in it, with its holes.
-    """
+    """Return a zone in its member, which may have layers of bars; refuse one that does not lie in it with its holes."""
     member = one_member(zone, members)
     along = zone.axes[0]
     (lowest, highest), (begin_m, end_m) = member.solid.bounds[:, along].tolist(), zone.ends_along_m

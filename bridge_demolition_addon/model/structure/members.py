@@ -148,11 +148,12 @@ def _cut_for_blasting(
 ) -> Member:
     """Return a member whose parts end at the planes of its blast zones and cuts, so that no shard lies across one."""
     if len(points):
+        planned = BlastZone.table if zones else MemberCut.table
         raise GeometryError(
-            f"{member.name} has {(*zones, *cuts)[0].table}, along which it is cut, and {len(points)} points of fracture.points or its "
+            f"{member.name} has {planned}, along which it is cut, and {len(points)} points of fracture.points or its "
             "file: take these points out of it"
         )
-    axis = AXES.index((*zones, *cuts)[0].along)
+    axis = AXES.index(zones[0].along if zones else cuts[0].along)
     planes = [*(end_m for zone in zones for end_m in zone.ends_along_m), *(cut.position_m for cut in cuts)]
     return replace(
         member, parts=tuple(slab for part in member.parts or (member.solid,) for slab in slabs(part, axis, planes))

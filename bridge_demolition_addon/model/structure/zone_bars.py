@@ -83,9 +83,7 @@ def _of_zone(zone: BlastZone, box_m: np.ndarray) -> ZoneBars | None:
     return ZoneBars(float(zone.bars), diameter_m, YIELD_PA, (float(along_first), float(along_second)))
 
 
-def _of_member(
-    zone: BlastZone, member: Member, box_m: np.ndarray, layers: Sequence[BarLayer]
-) -> ZoneBars | None:
+def _of_member(zone: BlastZone, member: Member, box_m: np.ndarray, layers: Sequence[BarLayer]) -> ZoneBars | None:
     """Bars of all layers that run along the whole zone."""
     own = list(_layers_along(zone, member, layers))
     if not own:
@@ -98,7 +96,11 @@ def _of_member(
     by_layer = np.array([_squares_m2(layer, member, box_m)[axes] for layer in own])
     distances = np.sqrt((areas[:, None] * by_layer).sum(axis=0) / areas.sum())
     return ZoneBars(
-        float(areas.sum() / bar_area_m2(diameter_m)), diameter_m, yield_pa, (float(distances[0]), float(distances[1])), True
+        float(areas.sum() / bar_area_m2(diameter_m)),
+        diameter_m,
+        yield_pa,
+        (float(distances[0]), float(distances[1])),
+        True,
     )
 
 

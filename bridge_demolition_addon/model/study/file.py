@@ -10,7 +10,7 @@ from typing import Any, ClassVar, TypeVar
 
 from ...errors import Faults, ScenarioError
 from ..run_folder.files import SCENARIO_FILE
-from ..scenario import BlastZone, Scenario
+from ..scenario import BlastZone, MemberCut, Scenario
 from ..scenario.file import read_scenario, scenario_text
 from ..schema import shown
 from ..toml_tables import document_of_file, table_of_document, tables_text
@@ -129,7 +129,8 @@ def variations_of(tables: Sequence[Vary], scenario: Scenario) -> tuple[Variation
 
 def _misfires(scenario: Scenario) -> Iterator[Variation]:
     """Yield the keys of blast zones and cuts that may misfire; what is said not to fire never does."""
-    for planned in (scenario.blast_zones, scenario.cuts):
+    lists: tuple[Sequence[BlastZone | MemberCut], ...] = (scenario.blast_zones, scenario.cuts)
+    for planned in lists:
         for number, action in enumerate(planned, start=1):
             if action.fires and action.probability_fires < 1.0:
                 (key,) = keys_named(scenario, f"{action.table}.{number}.fires")

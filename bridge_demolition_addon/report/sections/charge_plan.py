@@ -197,8 +197,9 @@ def _neighbours(at: Sequence[AtNeighbour]) -> Iterator[Block]:
     ground = FREE_FACE_AVERAGE
     yield Paragraph(
         f"Vibration by v = {1e3 * ground.velocity_m_s:g} mm/s (R/√Q)^-{ground.exponent:g} ({ground.name}), air "
-        f"pressure by P = {STEMMED_KPA:g} kPa (R/Q^⅓)^-1.45 of stemmed holes, {BARE_KPA:g} kPa of what is bare (AS 2187.2), Q the mass within 8 ms and R "
-        "the distance to its nearest part. The fall of the bridge often shakes the ground more."
+        f"pressure by P = {STEMMED_KPA:g} kPa (R/Q^⅓)^-1.45 of stemmed holes, {BARE_KPA:g} kPa of what is bare "
+        "(AS 2187.2), Q the mass within 8 ms and R the distance to its nearest part. The fall of the bridge often "
+        "shakes the ground more."
     )
     for one in at:
         if one.is_above_limit:

@@ -186,7 +186,9 @@ class ElasticConnections:
         for bodies, places in zip((first, second), np.moveaxis(bars.points_m[holds], 1, 0), strict=True):
             from_centre = places.T - built.position_components_m[:, bodies]
             anchors = turned_back(built.rotation_components[..., bodies], from_centre)
-            points.append(motion.position_components_m[:, bodies] + turned(motion.rotation_components[..., bodies], anchors))
+            points.append(
+                motion.position_components_m[:, bodies] + turned(motion.rotation_components[..., bodies], anchors)
+            )
         count = len(first)
         alike = (np.full(count, value) for value in (bars.count, bars.diameter_m, bars.yield_pa))
         numbers = self._cages.add(
@@ -345,7 +347,13 @@ class ElasticConnections:
                 self._masses, self._inertias, self._built.position_components_m, self._built.rotation_components
             )
             self._structure = ElasticStructure(
-                self._frames, self._stiffness, bodies, self._damping_s, self._cracks, self._footings, self._bearings,
+                self._frames,
+                self._stiffness,
+                bodies,
+                self._damping_s,
+                self._cracks,
+                self._footings,
+                self._bearings,
                 self._cages,
             )
         self._structure.damp(self._damping_s)

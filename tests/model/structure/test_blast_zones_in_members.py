@@ -152,9 +152,7 @@ def test_only_what_fires_and_does_anything_changes_the_structure(tmp_path):
 def layers(diameter_mm=20.0, area_mm2=942.5):
     """3 bars of 20 mm at each of the four sides of the column, 60 mm deep."""
     return [
-        BarLayer(
-            members=("column",), along="z", side=side, depth_m=0.06, area_mm2=area_mm2, diameter_mm=diameter_mm
-        )
+        BarLayer(members=("column",), along="z", side=side, depth_m=0.06, area_mm2=area_mm2, diameter_mm=diameter_mm)
         for side in ("start", "end", "left", "right")
     ]
 
@@ -170,7 +168,8 @@ def test_the_bars_of_a_zone_are_those_of_its_member():
 
 def test_bars_of_several_diameters_keep_both_forces():
     """6 of 25 mm and 6 of 16 mm: the sums of their areas and of their second moments."""
-    two = [replace(layer, diameter_mm=d, area_mm2=3 * np.pi * d * d / 4.0) for layer, d in zip(layers(), (25, 16, 25, 16))]
+    sizes = zip(layers(), (25.0, 16.0, 25.0, 16.0), strict=True)
+    two = [replace(layer, diameter_mm=d, area_mm2=3 * np.pi * d * d / 4.0) for layer, d in sizes]
     zone = placed_zone(ZONE, MEMBERS, two)
     assert zone.cage_n[0] == pytest.approx(6 * (245.4e3 + 100.5e3), rel=1e-3)
     assert zone.cage_n[1] == pytest.approx(6 * (186.9e3 * (0.9 / 1.5) ** 2 + 101.6e3 * (0.5 / 1.5) ** 2), rel=1e-3)
