@@ -6,7 +6,7 @@ import csv
 import numpy as np
 import pytest
 from pictures import seeds_chart
-from support.checkout import DEMOLITIONS, ROOT
+from support.checkout import DEMOLITIONS, ROOT, SEEDED
 from support.example_claims import beyond_claims
 
 MEASURED = sorted(seeds_chart.DATA.parent.glob("*.csv"))
@@ -47,7 +47,7 @@ def test_the_page_gives_the_ranges_that_were_measured(runs):
 
 @pytest.mark.parametrize("path", MEASURED, ids=lambda path: path.stem)
 def test_the_example_gives_the_ranges_that_were_measured(path):
-    runs, text = seeds_chart.read_throws(path), words(DEMOLITIONS[path.stem])
+    runs, text = seeds_chart.read_throws(path), words(SEEDED[path.stem])
     broken, made = runs["broken_connections"], 100.0 * runs["made_share"]
     claims = (
         f"Over {len(runs)} seeds 95 % of the shards stay within {spread(runs['throw_95_percent_m'])}",

@@ -11,6 +11,12 @@ REPORT_2019 = EXAMPLES / "report_2019"
 DEMOLITIONS = {path.stem: path for folder in (EXAMPLES, REPORT_2019) for path in sorted(folder.glob("*.toml"))}
 """Files of all demolitions by their names, as in the gallery: bridges as they are, then those of 2019."""
 
+DRILLED = {f"drilled_{path.stem}": path for path in sorted((EXAMPLES / "drilled").glob("*.toml"))}
+"""Files of demolitions by drilled charges, by their names."""
+
+SEEDED = DEMOLITIONS | DRILLED
+"""Files of all demolitions that `scripts/seeds` runs."""
+
 I235_FILE = REPORT_2019 / "i235_one_span.toml"
 TESTS = ROOT / "tests"
 SMALL = TESTS / "gui" / "small.toml"

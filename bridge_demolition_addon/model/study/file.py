@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from os import PathLike, fspath
@@ -22,6 +23,11 @@ from .settings import EnsembleSettings, StudySettings, Vary
 
 SEED = f"{Scenario.table}.seed"
 """Key that is sampled for each run, and has no table."""
+
+RENAMED = {"least_reach.toml": "least_charge.toml"}
+"""Examples that another one has replaced, beside it: their old paths lead there."""
+
+_CONSOLE = logging.getLogger(__name__)
 
 _Settings = TypeVar("_Settings", bound=EnsembleSettings)
 _Ensemble = TypeVar("_Ensemble", bound="Ensemble")
@@ -88,7 +94,7 @@ def read_ensemble_file(
     description: str,
 ) -> _Ensemble:
     """Read a file of settings, and the scenario that goes with it."""
-    path = Path(path)
+    path = _where_it_is(Path(path))
     try:
         faults = Faults()
         document = document_of_file(path, description, faults=faults)
@@ -100,6 +106,15 @@ def read_ensemble_file(
         raise error.within(fspath(path)) from error
     except ValueError as error:  # a NUL in a path, for one
         raise ScenarioError(f"{fspath(path)}: {error}") from error
+
+
+def _where_it_is(path: Path) -> Path:
+    """Return a path, or where there is nothing the example beside it that has replaced it, and say so."""
+    renamed = path.with_name(RENAMED.get(path.name, path.name))
+    if path.exists() or not renamed.is_file():
+        return path
+    _CONSOLE.warning("%s is now %s", path, renamed)
+    return renamed
 
 
 def read_study(path: str | PathLike[str]) -> Study:

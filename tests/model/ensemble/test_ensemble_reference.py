@@ -65,3 +65,10 @@ def test_examples_of_optimisations_can_be_made():
         for share in (0.0, 1.0):
             run = optimisation.run_of(1, [share] * optimisation.space.size)
             assert run.scenario.title == optimisation.scenario.title
+
+
+def test_the_old_path_of_an_optimisation_leads_to_the_one_that_replaced_it(caplog):
+    folder = EXAMPLES / "optimisations"
+    old = read_optimisation(folder / "least_reach.toml")
+    assert old.scenario.title == read_optimisation(folder / "least_charge.toml").scenario.title
+    assert "least_charge.toml" in caplog.text
