@@ -109,8 +109,6 @@ class ChosenOption(Table):
     )
 
     def _check_together(self) -> None:
-        if not self.keys:
-            raise self.unexpected("keys", "one key or more")
         if len(set(self.values)) < 2:
             raise self.unexpected("values", "two that differ, or more")
 
