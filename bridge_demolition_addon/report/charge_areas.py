@@ -27,7 +27,7 @@ def charge_areas(scenario: Scenario) -> dict[str, CrossSection]:
 
 
 def areas_of_fragments(scenario: Scenario | None) -> dict[str, CrossSection]:
-    """Return the areas of fragments of a run's scenario; nothing without blast zones, or without files of its members."""
+    """Return areas of fragments of a run's scenario; nothing without blast zones, or without files of its members."""
     if scenario is None or not scenario.blast_zones:
         return {}
     try:

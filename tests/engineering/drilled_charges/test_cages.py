@@ -11,6 +11,9 @@ from bridge_demolition_addon.engineering.drilled_charges.bare_bars import (
     yield_force_n,
 )
 from bridge_demolition_addon.engineering.drilled_charges.cages import BareBars, Cages
+from bridge_demolition_addon.engineering.elasticity.equations import RigidBodies
+from bridge_demolition_addon.engineering.elasticity.joint_rows import JointFrames
+from bridge_demolition_addon.engineering.elasticity.structure import ElasticStructure, StepInput
 
 LEVEL = np.repeat(np.eye(3)[:, :, None], 2, axis=2)
 DIAMETER_M = 0.025
@@ -112,3 +115,43 @@ def test_the_forces_of_a_substep_are_those_at_its_end():
                 break
         pressed = step.loads(velocities)[1][2, 0] / substep_s
         assert pressed == pytest.approx(min(stiffness * speed_m_s * substep_s, 1495.3e3), rel=1e-3)
+
+
+def turn(rates, step_s):
+    """Rotation by angular velocities in a step (O. Rodrigues)."""
+    angle = np.linalg.norm(rates) * step_s
+    x, y, z = rates / np.linalg.norm(rates)
+    across = np.array([(0.0, -z, y), (z, 0.0, -x), (-y, x, 0.0)])
+    return np.eye(3) + np.sin(angle) * across + (1.0 - np.cos(angle)) * across @ across
+
+
+@pytest.mark.parametrize(("seed", "speed_m_s", "rate_rad_s"), [(0, 3.0, 2.0), (1, 8.0, 25.0), (2, 8.0, 25.0)])
+def test_bars_between_two_flying_bodies_make_no_energy(seed, speed_m_s, rate_rad_s):
+    """Whatever they do to the bars, the momentum of both stays, and no more kinetic energy comes than there was."""
+    masses, substep_s = np.array([2000.0, 1200.0]), 0.002
+    inertias = np.eye(3)[:, :, None] * masses / 6.0
+    positions, rotations = np.array([(0.0, 0.0), (0.0, 0.0), (0.0, 2.5)]), LEVEL.copy()
+    none, cages = np.zeros(0, int), Cages(0)
+    frames = JointFrames(none, none, *np.zeros((2, 3, 3, 0)), *np.zeros((2, 3, 0)))
+    bodies = RigidBodies(masses, inertias, positions, rotations)
+    structure = ElasticStructure(frames, np.zeros((6, 6, 0)), bodies, np.zeros(0), bare_bars=cages)
+    corners = np.array([(-0.25, -0.25, 0.25, 0.25), (-0.25, 0.25, -0.25, 0.25)])
+    ends = [np.vstack([corners, np.full((1, 4), height)]) for height in (0.5, 2.0)]
+    lower, alike = np.zeros(4, int), np.ones(4)
+    cages.add(BareBars(lower, lower + 1, *ends, 2.0 * alike, 0.025 * alike, 500e6 * alike), positions, rotations)
+    structure.find_parts()
+    random = np.random.default_rng(seed).normal(size=(6, 2))
+    velocities = random * np.repeat((speed_m_s, rate_rad_s), 3)[:, None]
+    momentum, energies = (masses * velocities[:3]).sum(axis=1), []
+    for _ in range(500):
+        energies.append(0.5 * (masses * (velocities[:3] ** 2 + velocities[3:] ** 2 / 6.0)).sum())
+        structure.settle(positions, rotations)
+        start = StepInput(positions, rotations, velocities, np.zeros(2, bool))
+        velocities = structure.step(start, np.zeros(0, bool), substep_s).velocities
+        structure.end_substep()
+        positions = positions + substep_s * velocities[:3]
+        turned = [turn(velocities[3:, body], substep_s) @ rotations[..., body] for body in range(2)]
+        rotations = np.stack(turned, axis=2)
+    assert max(energies) <= 1.01 * energies[0]
+    assert energies[-1] < 0.97 * energies[0]
+    np.testing.assert_allclose((masses * velocities[:3]).sum(axis=1), momentum, atol=1e-6 * abs(momentum).max())
