@@ -11,6 +11,7 @@ REPORT_2019 = EXAMPLES / "report_2019"
 DEMOLITIONS = {path.stem: path for folder in (EXAMPLES, REPORT_2019) for path in sorted(folder.glob("*.toml"))}
 """Files of all demolitions by their names, as in the gallery: bridges as they are, then those of 2019."""
 
+PRESETS = ROOT / "bridge_demolition_addon" / "ui" / "scenario" / "presets"
 I235_FILE = REPORT_2019 / "i235_one_span.toml"
 TESTS = ROOT / "tests"
 SMALL = TESTS / "gui" / "small.toml"
