@@ -24,7 +24,9 @@ def is_as_it_is(path):
     return "scenario" in heading and not elsewhere
 
 
-FILES = {path.stem: path for folder in (EXAMPLES, PRESETS) for path in sorted(folder.rglob("*.toml")) if is_as_it_is(path)}
+FILES = {
+    path.stem: path for folder in (EXAMPLES, PRESETS) for path in sorted(folder.rglob("*.toml")) if is_as_it_is(path)
+}
 
 POSITIONS = {
     "three_span_box_girder": {"LM1 on span 2", "LM1 on span 1 and 2"},
