@@ -66,14 +66,6 @@ def test_every_claim_of_a_test_holds_in_at_least_twenty_draws(name):
     assert {row["seed"]: beyond for row in rows if (beyond := beyond_claims(name, row))} == {}
 
 
-def test_the_example_says_how_often_the_span_beside_the_ball_fell_as_well():
-    runs = seeds_chart.read_throws(seeds_chart.DATA.with_stem("two_spans_13m_ball"))
-    fell = (runs["span_2_share_fallen_2_m"] > 0.5).sum()
-    assert f"In {fell} of {len(runs)} seeds the debris broke the middle pier" in words(
-        EXAMPLES / "two_spans_13m_ball.toml"
-    )
-
-
 def test_the_example_says_how_often_the_span_that_starts_awake_falls():
     runs = seeds_chart.read_throws(seeds_chart.DATA.with_stem("single_span_awake"))
     falls = (runs["span_1_median_fall_m"] > 4.0).sum()

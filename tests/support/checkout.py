@@ -17,6 +17,7 @@ DRILLED = {f"drilled_{path.stem}": path for path in sorted((EXAMPLES / "drilled"
 SEEDED = DEMOLITIONS | DRILLED
 """Files of all demolitions that `scripts/seeds` runs."""
 
+PRESETS = ROOT / "bridge_demolition_addon" / "ui" / "scenario" / "presets"
 I235_FILE = REPORT_2019 / "i235_one_span.toml"
 TESTS = ROOT / "tests"
 SMALL = TESTS / "gui" / "small.toml"

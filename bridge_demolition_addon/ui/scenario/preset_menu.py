@@ -16,6 +16,9 @@ _EXAMPLES = (_PACKAGE / "examples", _PACKAGE.parent / "examples")
 _REPORT_2019 = "report_2019"
 """Folder of the examples with the settings of the 2019 report."""
 
+_EARLIER_NAMES = {"one_span_wrecking_ball": "span_of_2019_ball", "one_span_explosives": "span_of_2019_explosives"}
+"""Presets that were renamed, by the names that scripts may still have."""
+
 _SUFFIX, _PICTURE_SUFFIX = ".toml", ".jpg"
 _COLUMNS = 5
 _PICTURE_SCALE = 5.0
@@ -46,6 +49,12 @@ def preset_files() -> dict[str, Path]:
     examples = next((folder for folder in _EXAMPLES if folder.is_dir()), None)
     folders = (PRESETS, examples, examples / _REPORT_2019) if examples else (PRESETS,)
     return {path.stem: path for folder in folders for path in sorted(folder.glob("*" + _SUFFIX))}
+
+
+def preset_file(name: str) -> Path:
+    """Return the file of a preset, also by the name that it had before."""
+    name = _EARLIER_NAMES.get(name, name)
+    return preset_files().get(name, PRESETS / (name + _SUFFIX))
 
 
 def picture_of_preset(name: str) -> Path:

@@ -120,7 +120,7 @@ def test_building_loads_a_file_that_was_not_loaded_yet(extension, settings):
 
 
 def test_building_keeps_the_charges_that_are_there(extension, settings):
-    extension.ops.bda.load_preset(preset="one_span_explosives")
+    extension.ops.bda.load_preset(preset="span_of_2019_explosives")
     settings.scenario.fracture.shards = 30
     charge = extension.context.scene.objects["West pier"]
     charge.location.x = 0.25
