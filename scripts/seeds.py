@@ -17,11 +17,13 @@ from collections.abc import Iterable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 sys.path.insert(1, str(Path(__file__).resolve().parent.parent / "tests"))
 
 from support.checkout import SEEDED
+from support.example_runs import MEASURED_S, VERSIONS, example
 
 
 def main() -> int:
@@ -31,10 +33,13 @@ def main() -> int:
         print_measured(options.names[0], options.measure, options.duration, options.shards)
     seeds = range(options.first, options.first + options.seeds)
     for name in options.names:
-        rows = list(measured(name, seeds, options.duration, options.at_once, options.shards))
+        duration_s = options.duration or MEASURED_S.get(name)
+        rows = list(measured(name, seeds, duration_s, options.at_once, options.shards))
         print(table(name, rows), flush=True)
         if options.csv:
             keep(options.csv / f"{name}.csv", rows)
+            own = run_alone(name, example(name).seed, duration_s, options.shards)
+            note_version(options.csv / VERSIONS.name, name, own["motion"])
     return 0
 
 
@@ -45,7 +50,7 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("names", nargs="+", choices=examples, metavar="NAME", help="examples: " + ", ".join(examples))
     parser.add_argument("--seeds", type=int, default=24, metavar="COUNT", help="how many seeds (24)")
     parser.add_argument("--first", type=int, default=1, metavar="SEED", help="the first of them (1)")
-    parser.add_argument("--duration", type=float, metavar="S", help="simulate so many seconds (the example's own)")
+    parser.add_argument("--duration", type=float, metavar="S", help="simulate so many seconds (as its test does)")
     parser.add_argument("--shards", type=int, metavar="N", help="cut the bridge into so many (the example's own)")
     parser.add_argument("--at-once", type=int, default=2, metavar="N", help="runs side by side, each on a core (2)")
     parser.add_argument("--csv", type=Path, metavar="DIR", help="also keep a row for each run in DIR/NAME.csv")
@@ -57,15 +62,10 @@ def measured(
     name: str, seeds: Sequence[int], duration_s: float | None, at_once: int, shards: int | None
 ) -> Iterator[dict[str, float | None]]:
     """What was measured in the run of each seed, by what it is called and with the seed."""
-    command = [sys.executable, __file__, name, *(["--duration", str(duration_s)] if duration_s else [])]
-    command += ["--shards", str(shards)] if shards else []
 
     def run(seed: int) -> dict[str, float | None]:
-        alone = [*command, "--measure", str(seed)]
-        done = subprocess.run(alone, env=os.environ | {"OPENBLAS_NUM_THREADS": "1"}, capture_output=True, text=True)
-        if done.returncode:
-            sys.exit(f"seeds: {name} with seed {seed} ended with status {done.returncode}:\n{done.stderr}")
-        return {"seed": seed, **json.loads(done.stdout.splitlines()[-1])}
+        found = run_alone(name, seed, duration_s, shards)
+        return {"seed": seed} | {quantity: value for quantity, value in found.items() if quantity != "motion"}
 
     with ThreadPoolExecutor(at_once) as threads:
         for row in threads.map(run, seeds):
@@ -73,14 +73,25 @@ def measured(
             yield row
 
 
+def run_alone(name: str, seed: int, duration_s: float | None, shards: int | None) -> dict[str, Any]:
+    """What was measured in the run of a seed, which has a process of its own, and the digest of its motion."""
+    command = [sys.executable, __file__, name, *(["--duration", str(duration_s)] if duration_s else [])]
+    command += ["--shards", str(shards)] if shards else []
+    alone = [*command, "--measure", str(seed)]
+    done = subprocess.run(alone, env=os.environ | {"OPENBLAS_NUM_THREADS": "1"}, capture_output=True, text=True)
+    if done.returncode:
+        sys.exit(f"seeds: {name} with seed {seed} ended with status {done.returncode}:\n{done.stderr}")
+    return json.loads(done.stdout.splitlines()[-1])
+
+
 def print_measured(name: str, seed: int, duration_s: float | None, shards: int | None) -> None:
     """Run an example with a seed in this process, print what was measured, and end the process."""
     from support.example_measures import measures_of
-    from support.example_runs import example, run_example
+    from support.example_runs import example, motion_of, run_example
 
     with tempfile.TemporaryDirectory() as folder:
         run = run_example(replace(example(name, duration_s, shards), seed=seed), Path(folder))
-        print(json.dumps(measures_of(name, run)), flush=True)
+        print(json.dumps(measures_of(name, run) | {"motion": motion_of(run)}), flush=True)
     os._exit(0)  # Blender's own end may hang.
 
 
@@ -100,6 +111,13 @@ def table(name: str, rows: Sequence[dict[str, float | None]]) -> str:
 def columns(rows: Iterable[dict[str, float | None]]) -> list[str]:
     """Names of all quantities of any run, in their order."""
     return list(dict.fromkeys(quantity for row in rows for quantity in row))
+
+
+def note_version(path: Path, name: str, motion: str) -> None:
+    """Keep how the example moves with its own seed, by which its test finds that ranges are of an earlier version."""
+    versions = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
+    text = json.dumps(versions | {name: motion}, indent=1, sort_keys=True) + "\n"
+    path.write_text(text, encoding="utf-8", newline="\n")
 
 
 def keep(path: Path, rows: Sequence[dict[str, float | None]]) -> None:

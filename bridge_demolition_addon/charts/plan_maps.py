@@ -152,11 +152,11 @@ def exclusion_map(
 ) -> None:
     """Draw the areas that make up the exclusion zone."""
     axes = plan_axes(figure)
-    draw_area(axes, zone.whole, facecolor="0.93", edgecolor="black", linewidth=2.0, label="exclusion zone")
+    draw_area(axes, zone.whole, facecolor="0.93", edgecolor="black", linewidth=2.0, label="exclusion zone of one run")
     draw_zones(axes, zones)
     draw_area(axes, zone.drop, facecolor="0.82", edgecolor="black", linewidth=0.8, linestyle=":", label="designed drop")
     style = {"facecolor": "none", "edgecolor": "0.3", "hatch": "....", "linewidth": 0.8}
-    draw_area(axes, zone.debris, **style, label="predicted debris")
+    draw_area(axes, zone.debris, **style, label="debris of one run")
     draw_area(axes, zone.plan, facecolor="0.6", edgecolor="black", linewidth=1.2, linestyle="--", label="bridge")
     fit(axes, figure)
     name_zones(axes, zones)

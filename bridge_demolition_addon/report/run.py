@@ -113,8 +113,8 @@ def _work_out_stages(run: ReportedRun, target: Path, progress: Progress) -> None
 
 def _write_plans(zone: ExclusionZone, run: ReportedRun, target: Path) -> list[Path]:
     areas = areas_of_fragments(run.scenario) | {
-        "exclusion zone": zone.whole,
-        "predicted debris": zone.debris,
+        "exclusion zone of one run": zone.whole,
+        "debris of one run": zone.debris,
         "designed drop": zone.drop,
         "bridge": zone.plan,
     }

@@ -35,7 +35,7 @@ def test_a_report_says_how_far_it_is_and_where_it_lies(made):
     lines = done.stdout.splitlines()
     assert any(line.endswith(" pictures drawn") for line in lines)
     assert any(line.endswith(" pages written") for line in lines)
-    for name in ("report.html", "report.pdf", "exclusion_zone.dxf"):
+    for name in ("report.html", "report.pdf", "exclusion_zone_of_one_run.dxf"):
         assert str(folder / name) in lines
         assert (folder / name).stat().st_size > 0
 
@@ -77,7 +77,7 @@ def test_a_run_ends_with_a_report_when_asked(tmp_path):
     for name in (
         "report.html",
         "report.pdf",
-        "exclusion_zone.dxf",
+        "exclusion_zone_of_one_run.dxf",
         "tables/debris.csv",
         "scenario_as_run.toml",
     ):

@@ -185,7 +185,11 @@ def test_a_load_is_told_as_large_as_it_was_when_the_bridge_gave_way(tmp_path):
 
 def test_site_plans_lie_beside_it(whole):
     _, _, written = whole
-    assert {path.name for path in written} >= {"exclusion_zone.dxf", "exclusion_zone.geojson", "exclusion_corners.csv"}
+    assert {path.name for path in written} >= {
+        "exclusion_zone_of_one_run.dxf",
+        "exclusion_zone_of_one_run.geojson",
+        "exclusion_corners_of_one_run.csv",
+    }
     assert all(path.is_file() for path in written)
 
 

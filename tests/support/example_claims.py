@@ -5,8 +5,10 @@ Each limit lies beyond what all runs in `docs/data/seeds` gave. What holds by me
 in the tests of the examples instead.
 """
 
+import json
+
 from support.example_measures import measures_of
-from support.example_runs import ExampleRun
+from support.example_runs import VERSIONS, ExampleRun, motion_of
 
 MOST = float("inf")
 
@@ -163,3 +165,5 @@ def beyond_claims(name: str, measured: dict[str, float | None]) -> list[str]:
 def assert_claims(name: str, run: ExampleRun) -> None:
     """Fail where a run of an example is beyond what is claimed of every draw."""
     assert beyond_claims(name, measures_of(name, run)) == []
+    of_ranges = json.loads(VERSIONS.read_text(encoding="utf-8")).get(name)
+    assert of_ranges == motion_of(run), f"ranges of {name} are of an earlier version: scripts/remake {name}"

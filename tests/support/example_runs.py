@@ -4,10 +4,11 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
-from support.checkout import SEEDED
+from support.checkout import ROOT, SEEDED
 
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.model.results.arrays import Results, load_results
+from bridge_demolition_addon.model.results.fingerprint import SHORT, motion_digest
 from bridge_demolition_addon.model.scenario import Scenario
 from bridge_demolition_addon.model.scenario.file import read_scenario
 
@@ -81,6 +82,25 @@ class ExampleRun:
         return self.shards[np.linalg.norm(positions - np.array(charge.place_m), axis=1) < distance_m]
 
 
+MEASURED_S = {
+    "i235_one_span": 3.0,
+    "i235_two_spans": 3.0,
+    "i235_three_spans_between_decks": 3.0,
+    "i235_three_spans_mid_span": 3.0,
+    "i235_three_spans_near_end": 3.0,
+    "i235_three_spans_neighbouring_deck": 3.0,
+    "jackhammer_dismantling": 3.2,
+    "single_span_explosives": 1.5,
+    "three_span_box_girder": 2.3,
+    "two_spans_13m_explosives": 3.0,
+    "two_spans_20m_at_once": 1.5,
+    "two_spans_20m_delays": 1.5,
+}
+"""How much of an example its ranges over seeds are of, and its test runs; the others run whole."""
+
+VERSIONS = ROOT / "docs" / "data" / "seeds" / "versions.json"
+"""How each example moved with its own seed as its ranges were measured."""
+
 FALL_S = 0.7
 """How long what a jackhammer has loosened has to fall, where an example is cut short."""
 
@@ -97,6 +117,11 @@ def example(name, duration_s=None, shards=None):
         for jackhammer in scenario.jackhammers
     ]
     return replace(scenario, jackhammers=hammers, time=replace(scenario.time, duration_s=duration_s))
+
+
+def motion_of(run):
+    """The beginning of the digest of how everything moved and what broke."""
+    return motion_digest(run.results)[:SHORT]
 
 
 def run_example(scenario, folder):

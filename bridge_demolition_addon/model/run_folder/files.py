@@ -20,7 +20,7 @@ PICTURES = BEFORE, IMPACT, AFTER = "before", "impact", "after"
 FILM_FILE, SLOW_FILM_FILE = "contours.mp4", "contours_slow_motion.mp4"
 
 REPORT_PAGE, REPORT_PDF = "report.html", "report.pdf"
-DXF_FILE, GEOJSON_FILE = "exclusion_zone.dxf", "exclusion_zone.geojson"
+DXF_FILE, GEOJSON_FILE = "exclusion_zone_of_one_run.dxf", "exclusion_zone_of_one_run.geojson"
 TABLE_FOLDER = "tables"
 PLAN_WORKBOOK = "charge_plan.xlsx"
 CHARGES_DXF, CHARGES_GEOJSON = "charge_plan.dxf", "charge_plan.geojson"

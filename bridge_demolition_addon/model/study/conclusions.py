@@ -19,7 +19,7 @@ from ...engineering.statistics.order_limits import achieved_confidence, coverage
 from ...engineering.statistics.repetition import repeated_limit
 from ...errors import OutputError
 from .file import Study
-from .runs_table import REACH, RunsTable
+from .runs_table import REACH, TRUSTED_REACH, RunsTable
 
 SIMULTANEOUS = (REACH, "largest_throw_m")
 """Outputs whose limits hold together: as many as the fewest runs of a study by default allow."""
@@ -66,6 +66,16 @@ class DebrisLimit:
 
 
 @dataclass(frozen=True, slots=True)
+class DoubtfulThrows:
+    """Throws that nothing explains but the solver, in the runs of a study."""
+
+    throws: int
+    runs: int  # with such throws
+    judged: int  # runs of which it is known
+    limit_m: float  # of the debris distance without them; infinite as the limit with them
+
+
+@dataclass(frozen=True, slots=True)
 class Proportion:
     """How often runs do something that was fixed beforehand: `what` ends ``runs that …``."""
 
@@ -96,6 +106,7 @@ class Conclusions:
     criteria: tuple[Proportion, ...]  # in the order of the study
     success: Proportion | None  # all criteria at once; None without criteria
     at_once: SimultaneousLimits | None  # None where there are too few runs
+    doubtful: DoubtfulThrows | None  # None where no run knows of any, as in studies of earlier versions
 
     def as_json(self) -> dict[str, Any]:
         """Return them as ``study.json`` has them."""
@@ -105,6 +116,7 @@ class Conclusions:
             "criteria": [as_json(criterion) for criterion in self.criteria],
             "success": self.success and as_json(self.success),
             "at_once": self.at_once and as_json(self.at_once),
+            "doubtful_throws": self.doubtful and as_json(self.doubtful),
         }
 
 
@@ -128,7 +140,19 @@ def conclusions(study: Study, table: RunsTable) -> Conclusions:
         at_once=simultaneous_limits(
             {name: table.largest(name) for name in SIMULTANEOUS}, settings.quantile, confidence
         ),
+        doubtful=_doubtful_throws(study, table),
     )
+
+
+def _doubtful_throws(study: Study, table: RunsTable) -> DoubtfulThrows | None:
+    settings = study.settings
+    counts = [int(row.outputs["doubtful_throws"]) for row in table.rows if row.outputs.get(TRUSTED_REACH) is not None]
+    if not counts:
+        return None
+    known = table.done & np.isfinite(table.largest(TRUSTED_REACH))
+    distances_m = np.where(known, table.largest(TRUSTED_REACH), table.largest(REACH))
+    limit = debris_limit(distances_m, settings.quantile, settings.confidence, settings.rank)
+    return DoubtfulThrows(sum(counts), sum(count > 0 for count in counts), len(counts), limit.limit_m)
 
 
 def debris_limit(distances_m: np.ndarray, quantile: float, confidence: float, rank: int) -> DebrisLimit:

@@ -21,9 +21,11 @@ from ..debris.zones import watch_zone
 from ..results.arrays import Results
 from ..results.collapse import Span, collapse_progress, spans_of
 from ..results.motion import relative_to_ground, without_removed
+from ..results.solver_energy import is_known, throws_of
 from ..scenario import Scenario
 from ..structure.charge_plan import AtNeighbour, neighbours_of_zones
 from .criteria import COLLAPSED, Criterion, neighbour_output, span_output, zone_output
+from .runs_table import TRUSTED_REACH
 
 SUCCESS = "success"
 """Output that says whether all criteria are met; only where there are some."""
@@ -84,6 +86,7 @@ def evaluate(
     hazards = bodies_that_moved(left, np.concatenate([heavy, balls]))
     outputs = {
         **_throws(left, hazards, plan),
+        **_without_doubtful(left, hazards, plan),
         **_course(left, summary, scenario),
         **_surroundings(left, scenario, np.concatenate([shards, balls])),
     }
@@ -111,6 +114,23 @@ def _throws(results: Results, hazards: np.ndarray, plan: CrossSection) -> dict[s
     }
 
 
+def _without_doubtful(results: Results, hazards: np.ndarray, plan: CrossSection) -> dict[str, Any]:
+    """Return how many throws nothing explains, and the debris distance without them; None where that cannot be known.
+
+    Without recorded work a throw is doubtful by the height of fall alone, which says nothing where charges went off.
+    """
+    has_energy = is_known(results)
+    if not has_energy and results.frames.blast_impulses_ns.any():
+        return {"doubtful_throws": None, TRUSTED_REACH: None}
+    throws = throws_of(results)
+    doubtful = throws.doubtful if has_energy else throws.beyond_fall
+    trusted = hazards[~np.isin(hazards, throws.bodies[doubtful])]
+    return {
+        "doubtful_throws": int(doubtful.sum()),
+        TRUSTED_REACH: float(reaches_on_the_way(results, trusted, plan).max(initial=0.0)),
+    }
+
+
 def _course(results: Results, summary: Mapping[str, Any], scenario: Scenario) -> dict[str, Any]:
     force, energy = summary["largest_resultant"], summary["energy"]
     outputs = {
@@ -119,7 +139,6 @@ def _course(results: Results, summary: Mapping[str, Any], scenario: Scenario) ->
         "came_to_rest_s": summary.get("came_to_rest_s"),
         "largest_force_N": force and force["force_N"],
         "made_by_solver_share": energy and energy["made_by_solver"]["share_of_dissipated"],
-        "doubtful_throws": energy and energy["doubtful_throws"],
     }
     lengths = scenario.bridge.span_lengths_m if scenario.bridge else ()
     for span in spans_of(results, lengths):

@@ -34,6 +34,9 @@ STATUSES = (DONE, REFUSED, FAILED, CRASHED, TIMED_OUT, OUT_OF_MEMORY, KILLED)
 REACH = "reach_m"
 """Output with the debris distance."""
 
+TRUSTED_REACH = "reach_without_doubtful_m"
+"""Output with the debris distance of all but those whose throws nothing explains."""
+
 _MOST_BYTES = 1000 * MEGABYTE
 _TRUTHS = {"true": True, "false": False}
 _NO_TIME = datetime(2000, 1, 1)

@@ -1,4 +1,4 @@
-"""Debris in a report: map, footprint, throws, pile, zones, and the exclusion zone."""
+"""Debris in a report: map, footprint, throws, pile, zones, and the exclusion zone of one run."""
 
 from __future__ import annotations
 
@@ -24,6 +24,8 @@ from ...model.structure.zone_fragments import NO_SAFETY_DISTANCE
 from ...model.terrain.built import facts_from, terrain_summary
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section, facts
 from ..run_folder import ReportedRun
+
+_ZONE = "Exclusion zone of one run"
 
 NAMED = 10
 """Largest throws in the table."""
@@ -54,20 +56,21 @@ def exclusion_section(zone: ExclusionZone | None, run: ReportedRun, files: Seque
             "The scenario gives no exclusion zone. Add the table [exclusion] with a buffer to scenario_as_run.toml in "
             "the folder of the run, or tick it in Blender's sidebar, and make the report again to have the zone here."
         )
-        return Section("Exclusion zone", (Paragraph(words, is_notice=True),))
+        return Section(_ZONE, (Paragraph(words, is_notice=True),))
     settings = given(run.planned.exclusion)
     low_x, low_y, high_x, high_y = zone.bounds_m
     words = (
         "Plan area of the bridge, designed drop area, predicted debris area, and a buffer around all of them, as "
         "BS 6187 asks for. Predicted debris is the area that shards and balls covered at any time of this one run. "
-        f"The buffer of {settings.buffer_m:g} m is the scenario's, not the simulation's."
+        f"The buffer of {settings.buffer_m:g} m is the scenario's, not the simulation's. One run is no plan: another "
+        "one throws farther. To fence off a site, take the limit of a study, with the buffer around it."
     )
     rows = [
         ("Buffer", f"{settings.buffer_m:g} m"),
         ("Designed drop", f"{settings.designed_drop_m:g} m around the bridge's plan"),
         ("Plan area of the bridge", f"{zone.plan.area():.1f} m²"),
         ("Predicted debris area", f"{zone.debris.area():.1f} m²"),
-        ("Exclusion zone", f"{zone.whole.area():.1f} m²"),
+        (_ZONE, f"{zone.whole.area():.1f} m²"),
         ("Along the road", f"from x = {low_x:.2f} m to {high_x:.2f} m, {high_x - low_x:.2f} m"),
         ("Across the road", f"from y = {low_y:.2f} m to {high_y:.2f} m, {high_y - low_y:.2f} m"),
         ("Farthest from the bridge's plan", f"{zone.largest_distance_m:.2f} m"),
@@ -76,11 +79,13 @@ def exclusion_section(zone: ExclusionZone | None, run: ReportedRun, files: Seque
         Paragraph(words),
         Picture(
             partial(exclusion_map, zone=zone, zones=run.planned.zones, ground=run.recorded.ground()),
-            "Exclusion zone in plan, with its distance from the bridge to each side.",
+            "Exclusion zone of one run in plan, with its distance from the bridge to each side.",
             map_height_mm(zone.whole.bounds()),
         ),
-        facts("Exclusion zone", rows, "exclusion_zone"),
-        Paragraph(f"For the site plan: {', '.join(files)}; the corners of the zone are in exclusion_corners.csv."),
+        facts(_ZONE, rows, "exclusion_zone_of_one_run"),
+        Paragraph(
+            f"For the site plan: {', '.join(files)}; the corners of the zone are in exclusion_corners_of_one_run.csv."
+        ),
     ]
     if run.planned.charges:
         warning = "This zone leaves out the pressure of the charges: see the rings of damage for that."
@@ -91,7 +96,7 @@ def exclusion_section(zone: ExclusionZone | None, run: ReportedRun, files: Seque
             f"{NO_SAFETY_DISTANCE}."
         )
         blocks.insert(1, Paragraph(warning, is_notice=True))
-    return Section("Exclusion zone", tuple(blocks))
+    return Section(_ZONE, tuple(blocks))
 
 
 def zone_of(run: ReportedRun) -> ExclusionZone | None:
@@ -111,7 +116,7 @@ def corner_table(zone: ExclusionZone) -> DataTable:
         for number, ring in enumerate(outlines(zone.whole), start=1)
         for x, y in ring
     ]
-    return DataTable("exclusion_corners", "Corners of the exclusion zone", columns, rows)
+    return DataTable("exclusion_corners_of_one_run", "Corners of the exclusion zone of one run", columns, rows)
 
 
 def _debris_blocks(

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 
 from ...engineering.statistics.order_limits import least_runs
-from ...model.study.conclusions import Conclusions, DebrisLimit, Proportion
+from ...model.study.conclusions import Conclusions, DebrisLimit, DoubtfulThrows, Proportion
 from ...model.study.file import Ensemble, Study
 from .numbers import listed, ordinal, percent, percent_down, percent_up, rounded_down, rounded_up
 
@@ -25,6 +25,8 @@ def study_sentences(study: Study, conclusions: Conclusions) -> Iterator[str]:
     yield limit_sentence(conclusions.reach, input_names(study), study.settings.least_mass_kg, buffer_m)
     if conclusions.reach.is_known:
         yield repeat_sentence(conclusions.reach)
+    if conclusions.doubtful and conclusions.doubtful.throws:
+        yield doubtful_sentence(conclusions.doubtful)
     for criterion in conclusions.criteria:
         yield success_sentence(criterion)
     if conclusions.success and len(conclusions.criteria) > 1:
@@ -81,6 +83,17 @@ def repeat_sentence(limit: DebrisLimit) -> str:
     return (
         f"If the study were made again with other runs, {within}in {percent_up(limit.repeat_exceedance)} of such "
         "studies it would lie beyond every distance seen here."
+    )
+
+
+def doubtful_sentence(doubtful: DoubtfulThrows) -> str:
+    """Return how many throws are doubtful, and the limit without them."""
+    one, runs = doubtful.throws == 1, "run" if doubtful.judged == 1 else "runs"
+    limit = f" Without {'it' if one else 'them'} the limit is {rounded_up(doubtful.limit_m, '0.1')} m."
+    return (
+        f"{doubtful.throws} {'throw' if one else 'throws'} in {doubtful.runs} of {doubtful.judged} {runs} "
+        f"{'is' if one else 'are'} doubtful: neither the height of fall nor a ball explains {'it' if one else 'them'}, "
+        f"so the solver has made the energy.{limit if math.isfinite(doubtful.limit_m) else ''}"
     )
 
 

@@ -118,7 +118,7 @@ def test_the_course_of_a_run():
     assert outputs["spans.1.drop_m"] == pytest.approx(0.25)
     assert outputs["spans.1.lost_share"] == pytest.approx(0.25 / 4.75)
     assert outputs["spans.1.most_lost_share"] == pytest.approx(0.5 / 4.75)
-    assert outputs["largest_force_N"] is outputs["made_by_solver_share"] is outputs["doubtful_throws"] is None
+    assert outputs["largest_force_N"] is outputs["made_by_solver_share"] is None
 
 
 def test_a_span_that_lies_on_the_ground_has_no_height_to_lose():
@@ -137,10 +137,19 @@ def test_spans_are_told_apart():
 
 
 def test_forces_are_those_of_the_summary():
-    energy = {"made_by_solver": {"share_of_dissipated": 0.03}, "doubtful_throws": 1}
+    energy = {"made_by_solver": {"share_of_dissipated": 0.03}}
     known = SUMMARY | {"largest_resultant": {"force_N": 5e6}, "energy": energy}
     outputs = outputs_of(thrown((0, 0, 6), (0, 0, 6)), summary=known)
-    assert (outputs["largest_force_N"], outputs["made_by_solver_share"], outputs["doubtful_throws"]) == (5e6, 0.03, 1)
+    assert (outputs["largest_force_N"], outputs["made_by_solver_share"]) == (5e6, 0.03)
+
+
+def test_a_throw_beyond_twice_the_height_of_fall_is_doubtful_and_the_distance_is_told_without_it():
+    """From 6 m a shard gets 12 m far at most: here one goes 9 m, and one 20 m."""
+    near, far = ((0, 0, 6), (9, 0, 0.5)), ((0, 0, 6), (20, 0, 0.5))
+    results = moving_boxes([0, 1], [DECK, DECK], [[near[0], far[0]], [near[1], far[1]]])
+    outputs = outputs_of(results)
+    assert (outputs["doubtful_throws"], outputs["reach_m"]) == (1, pytest.approx(20.0))
+    assert outputs["reach_without_doubtful_m"] == pytest.approx(9.0)
 
 
 def test_zones_that_are_crossed_on_the_way_are_entered():

@@ -8,9 +8,16 @@ import numpy as np
 import pytest
 from scipy.stats import binomtest
 
-from bridge_demolition_addon.model.study.conclusions import as_json, debris_limit, proportion, simultaneous_limits
+from bridge_demolition_addon.model.study.conclusions import (
+    DoubtfulThrows,
+    as_json,
+    debris_limit,
+    proportion,
+    simultaneous_limits,
+)
 from bridge_demolition_addon.report.wording.numbers import listed, ordinal, rounded_down, rounded_up
 from bridge_demolition_addon.report.wording.study import (
+    doubtful_sentence,
     harm_sentence,
     limit_sentence,
     repeat_sentence,
@@ -36,6 +43,13 @@ def test_the_limit_is_said_as_a_report_has_to():
     )
     assert (limit.limit_m, limit.exceedances, limit.unfinished) == (22.76, 1, 0)
     assert (round(limit.achieved_confidence, 4), round(limit.coverage, 4)) == (0.9500, 0.9500)
+
+
+def test_the_limit_is_told_without_doubtful_throws():
+    assert doubtful_sentence(DoubtfulThrows(throws=5, runs=2, judged=93, limit_m=18.51)) == (
+        "5 throws in 2 of 93 runs are doubtful: neither the height of fall nor a ball explains them, so the solver has "
+        "made the energy. Without them the limit is 18.6 m."
+    )
 
 
 def test_without_a_mass_or_a_buffer_none_is_named():

@@ -30,7 +30,7 @@ def exclude(settings, buffer_m):
 
 def reach(folder):
     """How far the exclusion zone reaches along the road, m."""
-    with (folder / "tables" / "exclusion_corners.csv").open(encoding="utf-8", newline="") as file:
+    with (folder / "tables" / "exclusion_corners_of_one_run.csv").open(encoding="utf-8", newline="") as file:
         along = [float(row["x_m"]) for row in csv.DictReader(file)]
     return max(along) - min(along)
 

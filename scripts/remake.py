@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Make figures, tables and pictures of the documents again by the program as it is.
+
+Without names all that is of another version is made, the quickest first: overnight, if much has changed. What is made
+is noted at once in docs/data/remade.json, so that a call that was stopped goes on with what is left. A version is the
+last commit that changed what decides runs, or a script that makes the product. After a change that should decide no
+run, `--check` runs the first seed of ranges again, and notes the version where all of its digits are the same.
+"""
+
+import argparse
+import csv
+import json
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+EXAMPLES, RANGES = ROOT / "examples", ROOT / "docs" / "data" / "seeds"
+NOTES = ROOT / "docs" / "data" / "remade.json"
+DECIDES_RUNS = tuple(
+    f"bridge_demolition_addon/{folder}" for folder in ("bullet", "engineering", "model", "scene", "simulation")
+)
+SEEDS = 20
+UNKNOWN_S = 1800.0
+"""What a product is taken to need that was never made here."""
+
+
+@dataclass(frozen=True)
+class Product:
+    """What one command makes: files, by paths from the project's folder, and what else than runs decides them."""
+
+    name: str
+    command: tuple[str, ...]
+    outputs: tuple[str, ...]
+    sources: tuple[str, ...]
+
+    def version(self) -> str:
+        """The last commit that changed what decides it."""
+        return git("log", "-1", "--format=%h", "--", *DECIDES_RUNS, *self.sources)
+
+    def make(self) -> float:
+        """Run its command and return the seconds that this took."""
+        began = time.monotonic()
+        subprocess.run([sys.executable, *self.command], cwd=ROOT, check=True)
+        if missing := [path for path in self.outputs if not (ROOT / path).exists()]:
+            sys.exit(f"remake: {self.name} did not write {', '.join(missing)}")
+        return round(time.monotonic() - began, 1)
+
+
+def main() -> int:
+    """Make what is asked for, or say what would be made; the exit status."""
+    known = {product.name: product for product in products()}
+    options = arguments(known)
+    chosen = [known[name] for name in options.names] or stale(known.values())
+    left_s = sum(needed_s(product) for product in chosen)
+    print(f"{len(chosen)} of {len(known)} to make, {left_s / 3600.0:.1f} h by what each took before")
+    for product in sorted(chosen, key=needed_s):
+        print(f"  {product.name:44} {needed_s(product) / 60.0:6.1f} min  {' '.join(product.command)}", flush=True)
+        if options.check:
+            check(product)
+        elif not options.list:
+            note(product, product.make())
+    return 0
+
+
+def arguments(known: Iterable[str]) -> argparse.Namespace:
+    """What the command line says."""
+    parser = argparse.ArgumentParser(prog="remake", description=__doc__.splitlines()[0])
+    parser.add_argument("names", nargs="*", choices=[*known, []], metavar="NAME", help="products; see --list")
+    parser.add_argument("--list", action="store_true", help="print what would be made and how long that takes")
+    parser.add_argument("--check", action="store_true", help="note the version of ranges whose first seed is the same")
+    return parser.parse_args()
+
+
+def products() -> Iterator[Product]:
+    """Yield all that is made from runs."""
+    for path in sorted(RANGES.glob("*.csv")):
+        command = ("scripts/seeds.py", path.stem, "--seeds", str(SEEDS), "--csv", "docs/data/seeds")
+        example = next(EXAMPLES.rglob(f"{path.stem}.toml")).relative_to(ROOT).as_posix()
+        yield Product(path.stem, command, (path.relative_to(ROOT).as_posix(),), (example, "scripts/seeds.py"))
+    for path in sorted((ROOT / "docs" / "data" / "validation").glob("*.json")):
+        command = ("scripts/validate.py", "--keep", path.stem)
+        output = path.relative_to(ROOT).as_posix()
+        yield Product(f"validation/{path.stem}", command, (output,), (f"validation/{path.stem}.py",))
+    for name, words in (("growth", ("measure",)), ("elastic_beam", ("measure",)), ("reinforced_deck", ("12",))):
+        script = f"scripts/experiments/{name}.py"
+        yield Product(f"experiments/{name}", (script, *words), (f"docs/data/{name}.csv",), (script,))
+    yield Product("gallery", ("scripts/gallery.py",), ("docs/gallery.md",), ("examples", "scripts/gallery.py"))
+
+
+def check(product: Product) -> None:
+    """Run the first seed of ranges and that of the example, and note the version where the first is as it was."""
+    kept = RANGES / f"{product.name}.csv"
+    if not kept.exists():
+        return
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        command = [sys.executable, "scripts/seeds.py", product.name, "--seeds", "1", "--csv", name]
+        subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        first, again = (row(path) for path in (kept, folder / kept.name))
+        if differ := [quantity for quantity in first if first[quantity] != again.get(quantity)]:
+            print(f"    seed 1 is another run: {', '.join(differ)}", flush=True)
+            return
+        versions = RANGES / "versions.json"
+        known = json.loads(versions.read_text(encoding="utf-8")) if versions.exists() else {}
+        known |= json.loads((folder / versions.name).read_text(encoding="utf-8"))
+        versions.write_text(json.dumps(known, indent=1, sort_keys=True) + "\n", encoding="utf-8", newline="\n")
+    note(product, float(notes().get(product.name, {}).get("seconds", UNKNOWN_S)))
+    print("    seed 1 is the same run", flush=True)
+
+
+def row(path: Path) -> dict[str, str]:
+    """The first row of a table."""
+    with path.open(newline="", encoding="utf-8") as file:
+        return next(csv.DictReader(file))
+
+
+def stale(known: Iterable[Product]) -> list[Product]:
+    """The products that were made by another version, or never."""
+    made = notes()
+    return [product for product in known if made.get(product.name, {}).get("version") != product.version()]
+
+
+def needed_s(product: Product) -> float:
+    """How long a product took the last time."""
+    return float(notes().get(product.name, {}).get("seconds", UNKNOWN_S))
+
+
+def note(product: Product, seconds: float) -> None:
+    """Keep which version made a product, and how long that took."""
+    made = notes() | {product.name: {"version": product.version(), "seconds": seconds}}
+    NOTES.write_text(json.dumps(made, indent=1, sort_keys=True) + "\n", encoding="utf-8", newline="\n")
+
+
+def notes() -> dict[str, dict[str, str | float]]:
+    """Version and seconds of all that was made, by name."""
+    return json.loads(NOTES.read_text(encoding="utf-8")) if NOTES.exists() else {}
+
+
+def git(*words: str) -> str:
+    """What git answers."""
+    return subprocess.run(["git", *words], cwd=ROOT, capture_output=True, text=True, check=True).stdout.strip()
+
+
+if __name__ == "__main__":
+    sys.exit(main())
