@@ -12,7 +12,7 @@ from pathlib import Path
 from bridge_demolition_addon.__main__ import main
 
 ROOT = Path(__file__).resolve().parents[1]
-EXAMPLE = ROOT / "examples" / "i235_one_span.toml"
+EXAMPLE = ROOT / "examples" / "report_2019" / "i235_one_span.toml"
 OUTPUT = ROOT / "runs" / "i235_one_span"
 
 if __name__ == "__main__":

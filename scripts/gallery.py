@@ -16,6 +16,7 @@ from PIL import Image
 
 ROOT = Path(__file__).resolve().parent.parent
 EXAMPLES, RUNS = ROOT / "examples", ROOT / "runs" / "gallery"
+REPORT_2019 = EXAMPLES / "report_2019"
 PAGE, PICTURES = ROOT / "docs" / "gallery.md", ROOT / "docs" / "pictures" / "gallery"
 TIMES = PICTURES / "times.json"
 """Seconds that each run took, kept so that a page can be written without all of them."""
@@ -37,15 +38,28 @@ and the end of one run. [One run is one possible outcome](accuracy.md#one-run-is
 seed single pieces end elsewhere. Times are those of a machine with two cores and nothing else to do, pictures included.
 All examples together took {minutes} minutes.
 
-Every demolition of the 2019 report is here, and some examples go beyond it.
+First come bridges as they are: with bars, bearings and elastic connections. Plan a demolition with these. Then come
+[the demolitions of the 2019 report](#the-2019-report).
 
 {table}
 
-`bda run examples/i235_three_spans_*.toml --output DIR --report` runs several examples one after the other and compares
-them: here four positions where the ball falls. A variant needs only the values that differ from another scenario; see
-`based_on` in [scenario files](scenario.md). There are also examples of [studies](../examples/studies),
-[searches](../examples/searches), [optimisations](../examples/optimisations), [stages](../examples/stages) and
+A variant needs only the values that differ from another scenario; see `based_on` in [scenario files](scenario.md).
+There are also examples of [studies](../examples/studies), [searches](../examples/searches),
+[optimisations](../examples/optimisations), [stages](../examples/stages), [drilled charges](../examples/drilled) and
 [ground motion](../examples/ground_motion).
+"""
+
+HEADER_2019 = """\
+## The 2019 report
+
+Every demolition of the [2019 report](from_2019.md), with its settings or its bare charges. In most of them one breaking
+force holds everything, and some bridges stand only because they sleep until they are hit: what these show of the model
+of 2019 says little of a bridge of today.
+
+{table}
+
+`bda run examples/report_2019/i235_three_spans_*.toml --output DIR --report` runs several examples one after the other
+and compares them: here four positions where the ball falls.
 """
 
 STUDY = """\
@@ -66,10 +80,11 @@ Study: [i235_one_span.toml](../examples/studies/i235_one_span.toml).
 
 def main(names: list[str]) -> int:
     """Run examples, write the page and return the exit status."""
-    wanted = [EXAMPLES / f"{name}.toml" for name in names] or examples()
-    if missing := [path.stem for path in wanted if not path.exists()]:
+    found = {path.stem: path for path in (*examples(), *examples(REPORT_2019))}
+    if missing := [name for name in names if name not in found]:
         print(f"gallery: there is no example {', '.join(missing)}", file=sys.stderr)
         return 2
+    wanted = [found[name] for name in names or found]
     PICTURES.mkdir(parents=True, exist_ok=True)
     for path in wanted:
         seconds = run(path)
@@ -79,9 +94,14 @@ def main(names: list[str]) -> int:
     return 0
 
 
-def examples() -> list[Path]:
-    """Return all examples, by name."""
-    return sorted(EXAMPLES.glob("*.toml"))
+def examples(folder: Path = EXAMPLES) -> list[Path]:
+    """Return the examples in a folder, by name: those of bridges as they are, or of the 2019 report."""
+    return sorted(folder.glob("*.toml"))
+
+
+def link(path: Path) -> str:
+    """Return the link from the page to an example."""
+    return f"../{path.relative_to(ROOT).as_posix()}"
 
 
 def run(path: Path) -> float:
@@ -111,16 +131,18 @@ def side_by_side(folder: Path, target: Path) -> None:
 def page() -> str:
     """Return the page, made of the comments of the examples."""
     taken = times()
-    header = HEADER.format(minutes=max(1, round(sum(taken.values()) / 60.0)), table=table())
-    return "\n".join([header, *(section(path, taken.get(path.stem)) for path in examples()), STUDY])
+    header = HEADER.format(minutes=max(1, round(sum(taken.values()) / 60.0)), table=table(EXAMPLES))
+    now, of_2019 = (
+        [section(path, taken.get(path.stem)) for path in examples(folder)] for folder in (EXAMPLES, REPORT_2019)
+    )
+    return "\n".join([header, *now, HEADER_2019.format(table=table(REPORT_2019)), *of_2019, STUDY])
 
 
-def table() -> str:
-    """Return a table of all examples and their times."""
+def table(folder: Path) -> str:
+    """Return a table of the examples in a folder and their times."""
     taken = times()
     rows = [
-        f"| [{path.stem}](../examples/{path.name}) | {title(path)} | {rounded(taken[path.stem])} |"
-        for path in examples()
+        f"| [{path.stem}]({link(path)}) | {title(path)} | {rounded(taken[path.stem])} |" for path in examples(folder)
     ]
     return "\n".join(["| example | what it shows | s |", "| --- | --- | --- |", *rows])
 
@@ -134,7 +156,7 @@ def section(path: Path, seconds: float | None) -> str:
     """Return the section of an example: its title, its pictures, its words and how long it takes."""
     words = [paragraph for paragraph in paragraphs(path) if not paragraph.startswith(LEFT_OUT)]
     took = [] if seconds is None else [f"Takes {rounded(seconds)} s."]
-    file = f"[{path.name}](../examples/{path.name})"
+    file = f"[{path.name}]({link(path)})"
     picture = f"![{title(path)}: at the start, at the decisive moment, at the end](pictures/gallery/{path.stem}.jpg)"
     return "\n\n".join([f"## {title(path)}", picture, *words, " ".join([f"Scenario: {file}.", *took])]) + "\n"
 

@@ -22,7 +22,7 @@ from typing import Any
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 sys.path.insert(1, str(Path(__file__).resolve().parent.parent / "tests"))
 
-from support.checkout import EXAMPLES
+from support.checkout import SEEDED
 from support.example_runs import MEASURED_S, VERSIONS, example
 
 
@@ -30,27 +30,28 @@ def main() -> int:
     """Run what is asked for and print a table for each example; the exit status."""
     options = arguments()
     if options.measure is not None:
-        print_measured(options.names[0], options.measure, options.duration)
+        print_measured(options.names[0], options.measure, options.duration, options.shards)
     seeds = range(options.first, options.first + options.seeds)
     for name in options.names:
         duration_s = options.duration or MEASURED_S.get(name)
-        rows = list(measured(name, seeds, duration_s, options.at_once))
+        rows = list(measured(name, seeds, duration_s, options.at_once, options.shards))
         print(table(name, rows), flush=True)
         if options.csv:
             keep(options.csv / f"{name}.csv", rows)
-            own = run_alone(name, example(name).seed, duration_s)
+            own = run_alone(name, example(name).seed, duration_s, options.shards)
             note_version(options.csv / VERSIONS.name, name, own["motion"])
     return 0
 
 
 def arguments() -> argparse.Namespace:
     """What the command line says."""
-    examples = sorted(path.stem for path in EXAMPLES.glob("*.toml"))
+    examples = list(SEEDED)
     parser = argparse.ArgumentParser(prog="seeds", description=__doc__.splitlines()[0])
     parser.add_argument("names", nargs="+", choices=examples, metavar="NAME", help="examples: " + ", ".join(examples))
     parser.add_argument("--seeds", type=int, default=24, metavar="COUNT", help="how many seeds (24)")
     parser.add_argument("--first", type=int, default=1, metavar="SEED", help="the first of them (1)")
     parser.add_argument("--duration", type=float, metavar="S", help="simulate so many seconds (as its test does)")
+    parser.add_argument("--shards", type=int, metavar="N", help="cut the bridge into so many (the example's own)")
     parser.add_argument("--at-once", type=int, default=2, metavar="N", help="runs side by side, each on a core (2)")
     parser.add_argument("--csv", type=Path, metavar="DIR", help="also keep a row for each run in DIR/NAME.csv")
     parser.add_argument("--measure", type=int, metavar="SEED", help="run this seed alone and print JSON")
@@ -58,12 +59,12 @@ def arguments() -> argparse.Namespace:
 
 
 def measured(
-    name: str, seeds: Sequence[int], duration_s: float | None, at_once: int
+    name: str, seeds: Sequence[int], duration_s: float | None, at_once: int, shards: int | None
 ) -> Iterator[dict[str, float | None]]:
     """What was measured in the run of each seed, by what it is called and with the seed."""
 
     def run(seed: int) -> dict[str, float | None]:
-        found = run_alone(name, seed, duration_s)
+        found = run_alone(name, seed, duration_s, shards)
         return {"seed": seed} | {quantity: value for quantity, value in found.items() if quantity != "motion"}
 
     with ThreadPoolExecutor(at_once) as threads:
@@ -72,9 +73,10 @@ def measured(
             yield row
 
 
-def run_alone(name: str, seed: int, duration_s: float | None) -> dict[str, Any]:
+def run_alone(name: str, seed: int, duration_s: float | None, shards: int | None) -> dict[str, Any]:
     """What was measured in the run of a seed, which has a process of its own, and the digest of its motion."""
     command = [sys.executable, __file__, name, *(["--duration", str(duration_s)] if duration_s else [])]
+    command += ["--shards", str(shards)] if shards else []
     alone = [*command, "--measure", str(seed)]
     done = subprocess.run(alone, env=os.environ | {"OPENBLAS_NUM_THREADS": "1"}, capture_output=True, text=True)
     if done.returncode:
@@ -82,13 +84,13 @@ def run_alone(name: str, seed: int, duration_s: float | None) -> dict[str, Any]:
     return json.loads(done.stdout.splitlines()[-1])
 
 
-def print_measured(name: str, seed: int, duration_s: float | None) -> None:
+def print_measured(name: str, seed: int, duration_s: float | None, shards: int | None) -> None:
     """Run an example with a seed in this process, print what was measured, and end the process."""
     from support.example_measures import measures_of
     from support.example_runs import example, motion_of, run_example
 
     with tempfile.TemporaryDirectory() as folder:
-        run = run_example(replace(example(name, duration_s), seed=seed), Path(folder))
+        run = run_example(replace(example(name, duration_s, shards), seed=seed), Path(folder))
         print(json.dumps(measures_of(name, run) | {"motion": motion_of(run)}), flush=True)
     os._exit(0)  # Blender's own end may hang.
 

@@ -27,7 +27,7 @@ from bridge_demolition_addon.model.results.arrays import (
 from bridge_demolition_addon.model.run_folder.files import SUMMARY_FILE
 
 ROOT = Path(__file__).resolve().parents[1]
-EXAMPLE = ROOT / "examples" / "i235_one_span.toml"
+EXAMPLE = ROOT / "examples" / "report_2019" / "i235_one_span.toml"
 SIMULATED_S = 1.8
 """The ball hits at 1.5 s."""
 

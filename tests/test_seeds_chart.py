@@ -6,7 +6,7 @@ import csv
 import numpy as np
 import pytest
 from pictures import seeds_chart
-from support.checkout import EXAMPLES, ROOT
+from support.checkout import DEMOLITIONS, ROOT, SEEDED
 from support.example_claims import beyond_claims
 
 MEASURED = sorted(seeds_chart.DATA.parent.glob("*.csv"))
@@ -47,7 +47,7 @@ def test_the_page_gives_the_ranges_that_were_measured(runs):
 
 @pytest.mark.parametrize("path", MEASURED, ids=lambda path: path.stem)
 def test_the_example_gives_the_ranges_that_were_measured(path):
-    runs, text = seeds_chart.read_throws(path), words(EXAMPLES / f"{path.stem}.toml")
+    runs, text = seeds_chart.read_throws(path), words(SEEDED[path.stem])
     broken, made = runs["broken_connections"], 100.0 * runs["made_share"]
     claims = (
         f"Over {len(runs)} seeds 95 % of the shards stay within {spread(runs['throw_95_percent_m'])}",
@@ -66,26 +66,18 @@ def test_every_claim_of_a_test_holds_in_at_least_twenty_draws(name):
     assert {row["seed"]: beyond for row in rows if (beyond := beyond_claims(name, row))} == {}
 
 
-def test_the_example_says_how_often_the_span_beside_the_ball_fell_as_well():
-    runs = seeds_chart.read_throws(seeds_chart.DATA.with_stem("two_spans_13m_ball"))
-    fell = (runs["span_2_share_fallen_2_m"] > 0.5).sum()
-    assert f"In {fell} of {len(runs)} seeds the debris broke the middle pier" in words(
-        EXAMPLES / "two_spans_13m_ball.toml"
-    )
-
-
 def test_the_example_says_how_often_the_span_that_starts_awake_falls():
     runs = seeds_chart.read_throws(seeds_chart.DATA.with_stem("single_span_awake"))
     falls = (runs["span_1_median_fall_m"] > 4.0).sum()
     assert falls > 0.5 * len(runs)
-    assert f"With {falls} of {len(runs)} seeds the piers fail" in words(EXAMPLES / "single_span_awake.toml")
+    assert f"With {falls} of {len(runs)} seeds the piers fail" in words(DEMOLITIONS["single_span_awake"])
     assert f"Awake, it falls by itself in {falls} of {len(runs)} runs" in words(ROOT / "README.md")
 
 
 def test_the_example_says_how_often_a_span_between_charges_of_a_ton_is_falling():
     runs = seeds_chart.read_throws(seeds_chart.DATA.with_stem("two_spans_20m_delays"))
     falling = (np.maximum(runs["span_1_median_fall_m"], runs["span_2_median_fall_m"]) > 0.1).sum()
-    assert f"With {falling} of {len(runs)} seeds a span is falling" in words(EXAMPLES / "two_spans_20m_delays.toml")
+    assert f"With {falling} of {len(runs)} seeds a span is falling" in words(DEMOLITIONS["two_spans_20m_delays"])
 
 
 def test_the_chart_shows_both_throws_of_every_run(runs):

@@ -13,7 +13,7 @@ from bridge_demolition_addon.model.results.arrays import Results
 from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_text
 from bridge_demolition_addon.model.structure.model import build_model
 
-EXAMPLES = Path(__file__).resolve().parent.parent / "examples"
+EXAMPLES = Path(__file__).resolve().parent.parent / "examples" / "report_2019"
 SEEDS = range(1, 21)
 DURATION_S, FALLEN_M = 3.0, 2.0
 DECKS = {"i235_one_span": ("the only deck",), "i235_two_spans": ("deck that is hit", "deck beside it")}

@@ -31,8 +31,10 @@ def plan(arguments: argparse.Namespace) -> None:
     from ..report.write import write_charge_plan
 
     scenario = read_scenario(arguments.scenario)
-    if not scenario.blast_zones:
-        raise ScenarioError(f"{arguments.scenario}: has no [[blast_zones]], which a charge plan is made from")
+    if not (scenario.blast_zones or scenario.cuts):
+        raise ScenarioError(
+            f"{arguments.scenario}: has no [[blast_zones]] and no [[cuts]], which a charge plan is made from"
+        )
     progress = progress_on(sys.stdout, quiet=arguments.quiet)
     try:
         with naming(arguments.scenario):

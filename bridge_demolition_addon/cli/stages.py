@@ -13,6 +13,7 @@ from ..model.run_folder.folder import numbered_folder
 from ..model.scenario.file import read_scenario
 from ..model.sequence.checked_model import checked_model
 from ..model.stages.bearing_rows import bearing_rows
+from ..model.stages.design_loads import DesignLoad, design_load_sentences, design_loads
 from ..model.stages.misfires import Misfire, misfire_sentences, misfires
 from ..model.stages.stages import Criticality, Stage, criticality, stages_of
 from ..model.stages.standing import StandingBridge, made_elastic
@@ -64,14 +65,14 @@ def execute(arguments: argparse.Namespace) -> None:
             stages = stages_of(scenario, bridge, partial(progress.part, text="stages"))
             members = criticality(bridge, partial(progress.part, text="members taken away"))
             failures = misfires(scenario, bridge, partial(progress.part, text="zones that fail"))
+            designed = design_loads(scenario, bridge, partial(progress.part, text="loads of the design"))
     finally:
         progress.finish()
     with writing(output):
         rows = write_tables(output, stages, members, bridge, failures)
     if not arguments.quiet:
-        _print(
-            stages, rows, all_reaction_rows(stages, model), list(bearing_rows(stages, model)), members, failures, paths
-        )
+        reactions, bearings = all_reaction_rows(stages, model), list(bearing_rows(stages, model))
+        _print(stages, rows, reactions, bearings, members, failures, designed, paths)
 
 
 def _print(
@@ -81,6 +82,7 @@ def _print(
     bearings: Sequence[dict],
     members: Sequence[Criticality],
     failures: Sequence[Misfire],
+    designed: Sequence[DesignLoad],
     paths: Sequence[Path],
 ) -> None:
     print()
@@ -92,7 +94,7 @@ def _print(
         for line in others:
             print(f"  {line}")
     print()
-    for line in (*criticality_sentences(members), *misfire_sentences(failures)):
+    for line in (*criticality_sentences(members), *misfire_sentences(failures), *design_load_sentences(designed)):
         print(line)
     print()
     for path in paths:

@@ -92,6 +92,9 @@ class Worksite(Protocol):
     def check_zone(self, zone: Any) -> None:
         """Check that a blast zone and its holes lie in their member."""
 
+    def check_cut(self, cut: Any) -> None:
+        """Check that a member can be severed where a cut is."""
+
 
 class PlannedAction(Table):
     """Base of the tables of what is done to a bridge."""

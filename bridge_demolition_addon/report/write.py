@@ -13,7 +13,7 @@ from ..errors import OutputError, text_of
 from ..exports.sheets import write_workbook
 from ..model.debris.survey import SurveySettings, compared, read_survey
 from ..model.ensemble.folder import holds_ensemble
-from ..model.run_folder.files import PLAN_WORKBOOK, REPORT_PAGE, REPORT_PDF, TABLE_FOLDER
+from ..model.run_folder.files import CHARGES_DXF, CHARGES_GEOJSON, PLAN_WORKBOOK, REPORT_PAGE, REPORT_PDF, TABLE_FOLDER
 from ..model.run_folder.folder import holds_run
 from ..model.scenario import Scenario
 from ..model.study.files import OPTIMISE_FILE, REPORT_FOLDER, SEARCH_FILE, STUDY_FILE
@@ -21,6 +21,7 @@ from ..model.terrain.placed import Placing
 from ..system.folder_lock import FolderLock
 from ..system.progress import Progress
 from ..version import VERSION
+from .charge_areas import charge_areas
 from .comparison import comparison
 from .document.blocks import Document, Report, write_tables
 from .document.drawings import drawings
@@ -34,6 +35,7 @@ from .run import run_report
 from .run_folder import read_run
 from .sections.charge_plan import planned_section
 from .sections.stages import has_stages, stages_report
+from .site_plan import write_areas
 from .survey import survey_report, survey_rows
 
 
@@ -152,11 +154,12 @@ def write_charge_plan(scenario: Scenario, target: Path, progress: Progress) -> l
     Without XlsxWriter there is no workbook.
     """
     progress.stage("working out the charge plan")
-    section = planned_section(scenario)
+    section, areas = planned_section(scenario), charge_areas(scenario)
     subtitle = f"Charge plan. Bridge Demolition Add-on {VERSION}"
     document = Document(scenario.title, subtitle, (section,))
     with _written_to(target):
-        written = _written(Report(document), target, progress)
+        drawn = write_areas(areas, scenario.site, target / CHARGES_DXF, target / CHARGES_GEOJSON)
+        written = [*_written(Report(document), target, progress), *drawn]
         book = target / PLAN_WORKBOOK
         tables = [
             (table.name, [column.key for column in table.columns], table.rows) for table in document.named_tables()

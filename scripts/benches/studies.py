@@ -22,7 +22,7 @@ from bridge_demolition_addon.studies.session import EnsembleSession
 
 ROOT = Path(__file__).resolve().parents[2]
 
-SCENARIO, DRAWS, NOTHING = ROOT / "examples" / "i235_one_span.toml", 16, 1000
+SCENARIO, DRAWS, NOTHING = ROOT / "examples" / "report_2019" / "i235_one_span.toml", 16, 1000
 SMALLEST = ROOT / "tests" / "gui" / "small.toml", 1, 20
 """Scenario, how many draws of it, and how many that do nothing."""
 BARE = Path(__file__).with_name("bare_study.py")

@@ -278,7 +278,7 @@ class Bridge:
 
 def example_text() -> str:
     """The example, with places for seed and shards."""
-    text = (ROOT / "examples" / "single_span_explosives.toml").read_text(encoding="utf-8")
+    text = (ROOT / "examples" / "report_2019" / "single_span_explosives.toml").read_text(encoding="utf-8")
     text = text.replace("{", "{{").replace("}", "}}")
     text = re.sub(r"(?m)^seed = \d+", "seed = {seed}", text)
     return re.sub(r"(?m)^shards = \d+", "shards = {shards}", text)

@@ -20,7 +20,7 @@ from bridge_demolition_addon.model.scenario.connections import MATERIAL_OF_LARGE
 from bridge_demolition_addon.model.scenario.file import read_scenario
 
 ROOT = Path(__file__).resolve().parents[2]
-EXAMPLE = ROOT / "examples" / "i235_one_span.toml"
+EXAMPLE = ROOT / "examples" / "report_2019" / "i235_one_span.toml"
 DATA = ROOT / "docs" / "data" / "growth.csv"
 PICTURE = ROOT / "docs" / "pictures" / "growth.png"
 SHARDS = (1000, 2000, 5000, 10_000)

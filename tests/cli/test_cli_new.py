@@ -31,24 +31,24 @@ def facts(path):
 
 
 @pytest.mark.parametrize("by", METHODS)
-def test_every_method_passes_the_check_and_leaves_no_connection_overloaded(tmp_path, capsys, by):
+def test_every_method_passes_the_check_and_stands(tmp_path, capsys, by):
     path = tmp_path / "bridge.toml"
     assert main(["new", str(path), "--by", by]) == 0
     assert capsys.readouterr().out == f"{path}\n\nNow: bda check {path}\nThen: bda run {path} --report\n"
     assert main(["check", str(path)]) == 0
-    assert re.search(r"overloaded +0 of \d+ connections", capsys.readouterr().out)
+    assert re.search(r"cracked +\d+ of \d+ connections.*it stands at rest", capsys.readouterr().out, re.DOTALL)
 
 
 def test_the_middle_pier_carries_what_three_moments_give(tmp_path):
     """Continuous over three supports with overhangs a: R = 1.25 w L - 1.5 w a² / L, by the theorem of three moments.
 
-    The slab in 24 shards along its length carries within 7 % (docs/elastic.md); here it is 1 %.
+    The slab in 24 shards along its length carries within 7 % (docs/elastic.md); here it is 1.1 %, with its cracks.
     """
     path = tmp_path / "bridge.toml"
     assert main(["new", str(path), "--spans", "15 15", "--width", "8", "--thickness", "0.9"]) == 0
     weight_n_m, span_m, overhang_m = 2500.0 * 8.0 * 0.9 * G_M_S2, 15.0, 0.5
     expected = 1.25 * weight_n_m * span_m - 1.5 * weight_n_m * overhang_m**2 / span_m
-    assert float(facts(path)["deck on pier 2"].split()[0]) * 1e3 == pytest.approx(expected, rel=0.01)
+    assert float(facts(path)["deck on pier 2"].split()[0]) * 1e3 == pytest.approx(expected, rel=0.02)
 
 
 def test_it_runs_and_stands_until_a_pier_is_taken_away(tmp_path):

@@ -2,7 +2,9 @@
 """``bda plan``: the charge plan of a scenario as page, PDF, tables and workbook."""
 
 import csv
+import json
 
+import numpy as np
 import openpyxl
 import pytest
 from support.checkout import EXAMPLES, I235_FILE
@@ -18,7 +20,7 @@ def folder(tmp_path_factory):
     scenario = target / "drilled.toml"
     scenario.write_text(
         f'[scenario]\nbased_on = "{DRILLED}"\n\n[[neighbours]]\nname = "House"\nplace_m = [13.0, 40.0, 1.5]\n'
-        "limit_mm_s = 0.5\nlimit_db = 140.0\n",
+        "limit_mm_s = 0.5\nlimit_db = 140.0\n\n[site]\nlatitude_deg = 51.0\nlongitude_deg = 7.0\n",
         encoding="utf-8",
     )
     assert main(["plan", str(scenario), "--output", str(target / "plan"), "--quiet"]) == 0
@@ -67,7 +69,7 @@ def test_the_workbook_has_the_same_tables(folder):
 
 def test_a_scenario_without_zones_is_refused(tmp_path, capsys):
     assert main(["plan", str(I235_FILE), "--output", str(tmp_path / "plan")]) == 2
-    assert "has no [[blast_zones]], which a charge plan is made from" in capsys.readouterr().err
+    assert "has no [[blast_zones]] and no [[cuts]], which a charge plan is made from" in capsys.readouterr().err
     assert not (tmp_path / "plan").exists()
 
 
@@ -77,6 +79,23 @@ def test_a_check_says_what_zones_do(capsys):
     section = text.split("\nBlast zones\n")[1]
     assert "pier 2 column 1, z 0.75 to 2.25 m, 10 holes of 73.5 g = 0.735 kg of emulsion, 0.500 s" in section
     assert "1.00 kg/m³ in 0.735 m³ (breaks from 0.47, is thrown out from 1.00): thrown out" in section
-    # 8 bars of 25 mm: 8 × 245.4 kN, and 8 × 186.9 kN × (0.9 / 1.5)² in compression
-    assert "8 bars of 25 mm resist 1.96 MN in tension and 0.54 MN in compression" in section
+    # 14 bars of 20 mm by the rule: 14 × 157.1 kN, and 14 × 27.6 kN in compression, π² E I / 0.75²
+    assert "14 bars of 20 mm, as the member has, resist 2.20 MN in tension and 0.39 MN in compression" in section
     assert "22.5 g a tonne of the bridge; recorded jobs have 3 to 18" in section
+
+
+def test_the_site_plan_has_the_areas_of_fragments_as_no_safety_distance(folder):
+    """Circles around six zones with the largest distance of each part of the mass, and the plan of the bridge."""
+    features = json.loads((folder / "charge_plan.geojson").read_text(encoding="utf-8"))["features"]
+    areas = {feature["properties"]["name"]: feature["properties"]["area_m2"] for feature in features}
+    fragments = [name for name in areas if name.startswith("fragments")]
+    assert fragments == [f"fragments {part}: factor 2, no safety distance" for part in ("99.9 %", "99 %", "50 %")]
+    assert areas[fragments[0]] > areas[fragments[1]] > areas[fragments[2]] > areas["bridge"]
+    rows = table(folder, "fragments")
+    farthest = max(float(row["most_within_m"]) for row in rows)
+    assert areas[fragments[1]] > 0.99 * np.pi * farthest**2
+    # Decks of 27 m × 3.7 m but for the joint of 0.04 m, which the cap below covers.
+    assert areas["bridge"] == pytest.approx(27.0 * 3.7, rel=0.01)
+    assert areas["blast zone P2.1"] == pytest.approx(0.49)
+    layers = (folder / "charge_plan.dxf").read_text(encoding="ascii")
+    assert "FRAGMENTS_50_FACTOR_2_NO_SAFETY" in layers and "BLAST_ZONE_P2_1" in layers

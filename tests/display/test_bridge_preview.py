@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.checkout import EXAMPLES
+from support.checkout import DEMOLITIONS
 
 from bridge_demolition_addon.display.bridge_preview import ball_lines, bridge_edges, outline, sharp_edges
 from bridge_demolition_addon.engineering.geometry.mesh import TriangleMesh
@@ -15,8 +15,8 @@ from bridge_demolition_addon.model.bridge.preparation import prepared_members
 from bridge_demolition_addon.model.scenario.ball import BallCable
 from bridge_demolition_addon.model.scenario.file import read_scenario
 
-BALL = read_scenario(EXAMPLES / "two_spans_13m_ball.toml")
-SCENARIOS = [path for path in sorted(EXAMPLES.glob("*.toml"))]
+BALL = read_scenario(DEMOLITIONS["two_spans_13m_ball"])
+SCENARIOS = list(DEMOLITIONS.values())
 
 
 def lengths(lines):

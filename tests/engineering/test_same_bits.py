@@ -6,7 +6,7 @@ import re
 
 import numpy as np
 import pytest
-from support.checkout import EXAMPLES, ROOT
+from support.checkout import EXAMPLES, REPORT_2019, ROOT
 from support.processes import run_program
 
 PACKAGE = ROOT / "bridge_demolition_addon"
@@ -101,7 +101,7 @@ def processor_features():
 @pytest.mark.parametrize(
     "program, argument",
     [
-        ("bits_of_a_model", EXAMPLES / "i235_one_span.toml"),
+        ("bits_of_a_model", REPORT_2019 / "i235_one_span.toml"),
         ("bits_of_a_model", EXAMPLES / "three_span_box_girder.toml"),
         ("bits_of_a_blast", 200),
         ("bits_of_a_run", ROOT / "tests" / "simulation" / "everything.toml"),

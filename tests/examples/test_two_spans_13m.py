@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Two spans of 13 m and 196 t: the ball takes one span down and leaves the other, charges take down both."""
+"""Two spans of 13 m and 196 t: with bars the ball leaves a dent in one deck; without, charges take down both."""
 
 import pytest
 from support.example_claims import assert_claims
@@ -30,14 +30,14 @@ def test_the_ball_hits_as_hard_as_its_fall_makes_it(ball):
     hit = ball.summary["hits_of_the_ball"][0]
     # v = √(2 g h) with 5 m: 9.90 m/s. Deck and ball are a millimetre off, sub-steps 4 ms: 0.04 m/s.
     assert hit["approach_m_s"] == pytest.approx(9.90, abs=0.1)
-    assert ball.summary["impact"]["time_s"] == pytest.approx(0.5 + 1.01, abs=1 / 24)
+    assert ball.summary["impact"]["time_s"] == pytest.approx(0.1 + 1.01, abs=1 / 24)
 
 
-def test_the_ball_takes_one_span_down_and_leaves_the_other(ball):
+def test_the_ball_leaves_a_dent_and_both_spans_stand(ball):
     assert_claims("two_spans_13m_ball", ball)
 
 
-def test_charges_go_off_under_the_same_bridge(explosives):
+def test_charges_go_off_under_a_bridge_of_the_same_mass(explosives):
     assert explosives.scenario.ball is None
     assert explosives.results.inventory.masses_kg[explosives.shards].sum() == pytest.approx(MASS_KG, rel=1e-6)
 

@@ -35,7 +35,7 @@ from bridge_demolition_addon.ui.scenario.prop import PRESETS
 from .sequences import REFUSED, Player, WrongError
 
 SCENARIOS = (SMALL, TESTS / "simulation" / "everything.toml")
-SITE_PLAN = PRESETS / "one_span_explosives.jpg"
+SITE_PLAN = PRESETS / "span_of_2019_explosives.jpg"
 """Any picture."""
 
 SHARDS, DURATION_S = 9, 0.6
@@ -210,7 +210,7 @@ class BlenderPlayer(Player):
         arguments = {
             "load_preset": lambda: {
                 "preset": random.choice(
-                    ("one_span_explosives", "two_spans_wrecking_ball", "jackhammer_dismantling", "none")
+                    ("span_of_2019_explosives", "reinforced_span_ball", "jackhammer_dismantling", "none")
                 )
             },
             "save_scenario": lambda: {"filepath": self._path(random)},

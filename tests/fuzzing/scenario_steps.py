@@ -8,7 +8,7 @@ from pathlib import Path
 from random import Random
 
 import numpy as np
-from support.checkout import EXAMPLES, SMALL, TESTS
+from support.checkout import DEMOLITIONS, SMALL, TESTS
 from support.random_scenarios import varied
 
 from bridge_demolition_addon.cli.main import main
@@ -18,7 +18,7 @@ from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_
 
 from .sequences import Player, WrongError
 
-SOURCES = (SMALL, TESTS / "simulation" / "everything.toml", *sorted(EXAMPLES.glob("*.toml")))
+SOURCES = (SMALL, TESTS / "simulation" / "everything.toml", *DEMOLITIONS.values())
 NUMBERS = ("0", "-1", "1", "1e-300", "1e9", "-1e300", "inf", "nan", "9" * 400, "1_0", "true", "2026-01-01")
 TEXTS = ('""', '"x"', '"\\u0000"', '"50% of $1 {x}"', '"/dev/zero"', '"."')
 LISTS = ("[]", "[0, 0, 0]", "[[[]]]", "{}", "{ a = 1 }")

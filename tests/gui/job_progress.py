@@ -7,7 +7,7 @@ from habits import build
 from person import Person, Steps
 from traces import CHECKOUT, module, recording_runs
 
-SCENARIO = CHECKOUT / "examples" / "two_spans_13m_explosives.toml"
+SCENARIO = CHECKOUT / "examples" / "report_2019" / "two_spans_13m_explosives.toml"
 FACTOR, SHARE = 1.5, 0.8
 """How right it is, and in how many looks: others on the machine may take or leave half of it at any time."""
 LEAST_LEFT_S = 2.0

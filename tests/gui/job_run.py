@@ -11,7 +11,7 @@ from person import Person, Steps
 from pulse import Pulse, judge
 from traces import CHECKOUT, EXTENSION, handlers, recording_runs, rows, something_goes_on
 
-SCENARIO = CHECKOUT / "examples" / "i235_one_span.toml"
+SCENARIO = CHECKOUT / "examples" / "report_2019" / "i235_one_span.toml"
 SHARDS = 200
 
 

@@ -6,7 +6,7 @@ from pathlib import Path
 from person import Person, Steps
 from traces import PRESETS, recording_runs, scenario_in, scenario_shown
 
-PRESET = "one_span_wrecking_ball"
+PRESET = "reinforced_spans_pier_removed"
 FRAMES = 12
 ABOVE_PX = 30
 """From Build Scenario to Presets."""

@@ -21,8 +21,8 @@ from panels import Panels
 from person import Person, Steps, region_of
 from traces import PRESETS, charges, colours, module, opened, recording_runs, rows, scenario_in, scenario_shown
 
-PRESET = PRESETS / "one_span_explosives.toml"
-PRESET_KEY = "O"
+PRESET = PRESETS / "span_of_2019_explosives.toml"
+PRESET_KEY = "E"
 """The letter that is underlined in its name."""
 ABOVE_PX = 30
 """From Build Scenario to Presets."""

@@ -6,7 +6,7 @@ from dataclasses import replace
 from support.checkout import EXAMPLES
 from support.run_folders import TOLD
 
-from bridge_demolition_addon.model.scenario import Geometry
+from bridge_demolition_addon.model.scenario import Geometry, MemberCut
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.report.document.blocks import DataTable, Paragraph
 from bridge_demolition_addon.report.sections.charge_plan import charge_plan_section
@@ -53,3 +53,27 @@ def test_a_file_that_is_gone_is_named_in_place_of_the_plan(tmp_path):
     section = charge_plan_section(replace(DRILLED, geometry=(gone,)))
     (notice,) = notices(section)
     assert notice.startswith("The charge plan is not known: ") and "gone.stl" in notice
+
+
+def test_the_plan_of_a_viaduct_with_504_holes_is_whole():
+    """Three walls of 5.0 × 0.8 m with two zones of 2.0 m each: 6 × 12 × 7 holes of 66 g in 6 × 8.0 m³."""
+    section = charge_plan_section(read_scenario(EXAMPLES / "drilled" / "viaduct_pier.toml"))
+    found = tables(section)
+    holes, fired = found["drill_holes"].rows, found["firing_sequence"].rows
+    assert len(holes) == len(found["charge_table"].rows) == len(found["fragments"].rows) == 6
+    assert len(fired) == 72  # rows
+    assert fired[0][2] == "P2 foot" and fired[-1][2] == "P3 middle"
+    totals = dict(found["charge_totals"].rows)
+    assert totals["Holes, each with a detonator"] == "504"
+    assert totals["Explosive"] == "33.3 kg" and totals["Specific charge"] == "0.69 kg/m³"
+    assert totals["Drilled"] == "267.1 m"
+
+
+def test_severed_members_have_a_table():
+    cut = MemberCut(member="pier 1 cap", along="y", position_m=0.5, mass_kg=3.0, delay_ms=50.0)
+    section = charge_plan_section(replace(DRILLED, blast_zones=(), cuts=(cut,)))
+    found = tables(section)
+    assert found["severed_members"].shown_rows()[0][:3] == ["Cut 1", "pier 1 cap", "y"]
+    assert [row[2] for row in found["firing_sequence"].rows] == ["Cut 1"]
+    assert "drill_holes" not in found
+    assert any("licensed blaster to say" in block.text for block in section.blocks if isinstance(block, Paragraph))

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.checkout import EXAMPLES
+from support.checkout import REPORT_2019
 from support.scenarios import I235
 
 from bridge_demolition_addon.model.scenario import FractureSettings, Support
@@ -54,7 +54,7 @@ def contents(blender):
 @pytest.mark.parametrize("example", ["i235_one_span", "i235_steps", "single_span_explosives"])
 @pytest.mark.parametrize("played", [0, 12])
 def test_nothing_is_left_but_the_charges(blender, example, played):
-    scenario = read_scenario(EXAMPLES / f"{example}.toml")
+    scenario = read_scenario(REPORT_2019 / f"{example}.toml")
     scenario = replace(scenario, fracture=replace(scenario.fracture, shards=30))
     scenario = replace(scenario, blast=replace(scenario.blast, apply="fields"))
     scene = blender.context.scene
@@ -72,7 +72,7 @@ def test_nothing_is_left_but_the_charges(blender, example, played):
 
 
 def test_slow_motion_ends_with_the_demolition(blender):
-    scenario = read_scenario(EXAMPLES / "single_span_explosives.toml")
+    scenario = read_scenario(REPORT_2019 / "single_span_explosives.toml")
     blast = replace(scenario.blast, slow_frame_ms=2.0)
     scenario = replace(scenario, fracture=replace(scenario.fracture, shards=30), blast=blast)
     scene = blender.context.scene
@@ -98,7 +98,7 @@ def test_a_scene_without_bodies_has_nothing_to_remove(blender):
 def test_the_world_goes_with_the_collection_that_it_has_by_then(blender):
     """Any collection can be chosen in Blender's own panel, also that of the force fields, which goes when empty."""
     scene = blender.context.scene
-    scenario = replace(read_scenario(EXAMPLES / "single_span_explosives.toml"), fracture=SPAN.fracture)
+    scenario = replace(read_scenario(REPORT_2019 / "single_span_explosives.toml"), fracture=SPAN.fracture)
     scenario = replace(scenario, blast=replace(scenario.blast, apply="fields"))
     build_demolition(scene, scenario, build_model(scenario))
     blender.data.batch_remove(list(force_collection(scene).all_objects))

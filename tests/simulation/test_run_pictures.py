@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from matplotlib.image import imread
-from support.checkout import EXAMPLES
+from support.checkout import REPORT_2019
 
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.errors import OutputError, ScenarioError
@@ -14,7 +14,7 @@ from bridge_demolition_addon.model.run_folder.files import PICTURES
 from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_text
 from bridge_demolition_addon.model.scenario.recording import PictureSettings
 
-BLAST = read_scenario(EXAMPLES / "two_spans_13m_explosives.toml")
+BLAST = read_scenario(REPORT_2019 / "two_spans_13m_explosives.toml")
 SHORT = replace(
     BLAST,
     fracture=replace(BLAST.fracture, shards=20),

@@ -94,35 +94,38 @@ CLAIMS: dict[str, dict[str, tuple[float, float]]] = {
         "inner_deck_fallen_share_at_1_5_s": (0.4, 1.0),  # 0.66 to 0.77
         "largest_throw_m": (0.0, 8.0),  # 1.7 to 4.1
     },
-    "three_span_box_girder": {  # 2.3 s, over 20 seeds; the ball hits at 1.93 s, and what it breaks breaks at once
-        "moved_before_m": (0.0, 0.005),  # 0.000: Bullet's own sag, with 100 iterations
-        # Faces between the abutments and the girder, whose moments one force compares with newtons.
-        "broken_before_share": (0.0, 0.01),  # 0.000 to 0.005
+    "three_span_box_girder": {  # 3 seeds; `scripts/seeds` with 12 or more says better how far these may go
+        # It cracks nowhere by its own weight.
+        "moved_before_m": (0.0, 0.01),  # BOX moved_before_m
+        "broken_before_share": (0.0, 0.05),  # BOX broken_before_share
         # At rest on a whole deck the middle of the ball would be at 8.27 m.
-        "ball_ends_m": (0.0, 8.2),  # 6.94 to 7.87
-        "broken_connections": (40, MOST),  # 108 to 318
-        "deck_shards_moved": (1, MOST),  # 5 to 44
-        # The middle span is from 12 m to 28 m, and the ball falls at 20 m.
-        "moved_median_along_m": (15.0, 25.0),  # 16.8 to 21.6
-        "most_loaded_from_target_m": (0.0, 4.0),  # 0.2 to 2.0
-        "piers_moved_m": (0.0, 0.15),  # 0.00 to 0.07
+        "ball_ends_m": (7.6, 8.27),  # BOX ball_ends_m
+        "deflection_under_ball_m": (0.02, 0.6),  # BOX deflection_under_ball_m
+        "broken_connections": (50, MOST),  # BOX broken_connections
+        "most_loaded_from_target_m": (0.0, 4.0),  # BOX most_loaded_from_target_m
+        "span_2_share_fallen_2_m": (0.0, 0.0),
+        "first_span_moved_m": (0.0, 0.1),  # BOX first_span_moved_m
+        "piers_moved_m": (0.0, 0.05),  # BOX piers_moved_m
         "abutments_moved_m": (0.0, 0.0),
+        "made_share": (0.0, 0.02),  # BOX made_share
     },
-    "two_spans_13m_ball": {
-        # Decks that lie loose settle on their caps; and slivers of faces.
-        "moved_before_m": (0.0, 0.05),  # 0.01 over 20 seeds
-        "broken_before_share": (0.0, 0.04),  # 0.00 to 0.01
+    "two_spans_13m_ball": {  # 3 seeds; `scripts/seeds` with 12 or more says better how far these may go
+        # The decks crack by their own weight, and rest on their bars.
+        "moved_before_m": (0.0, 0.03),  # BALL moved_before_m
+        "broken_before_share": (0.0, 0.5),  # BALL broken_before_share
         # The ball has a radius of 0.67 m, and the middle of a shard under it is up to 0.7 m away.
-        "most_loaded_from_target_m": (0.0, 0.67 + 0.7),  # 0.1 to 0.8
-        "ten_most_loaded_from_target_m": (0.0, 13.0 / 4.0),  # 0.9 to 1.5
-        # Far below the deck, of which the underside was at 5.5 m.
-        "ball_ends_m": (0.0, 2.5),  # 0.7 to 1.3
-        "span_1_median_fall_m": (3.0, MOST),  # 5.4 to 5.5
-        "span_1_share_fallen_2_m": (0.8, 1.0),  # 1
-        # The debris may break the middle pier, and the neighbour follows.
-        "neighbour_moved_at_3_s_m": (0.0, 3.0),  # 0.01 to 0.09 in 19 of 20, and 0.54
-        "far_pier_moved_at_3_s_m": (0.0, 0.25),  # 0.00 to 0.03 in 18 of 20, and 0.09 and 0.10
-        "throw_95_percent_m": (0.0, 10.0),  # 2.6 to 6.5
+        "most_loaded_from_target_m": (0.0, 0.67 + 0.7),  # BALL most_loaded_from_target_m
+        "ten_most_loaded_from_target_m": (0.0, 13.0 / 4.0),  # BALL ten_most_loaded_from_target_m
+        # It lies in a dent: at rest on a whole deck its middle would be at 6.77 m.
+        "ball_ends_m": (6.5, 6.77),  # BALL ball_ends_m
+        # By rigid-plastic theory 0.10 m beside what its own weight makes: scripts/experiments/reinforced_deck.py.
+        "deflection_under_ball_m": (0.03, 0.15),  # BALL deflection_under_ball_m
+        "span_1_median_fall_m": (0.0, 0.1),  # BALL span_1_median_fall_m
+        "span_1_share_fallen_2_m": (0.0, 0.0),
+        "neighbour_moved_m": (0.0, 0.05),  # BALL neighbour_moved_m
+        "far_pier_moved_at_3_s_m": (0.0, 0.02),  # BALL far_pier_moved_at_3_s_m
+        "largest_throw_m": (0.0, 0.2),  # BALL largest_throw_m
+        "made_share": (0.0, 0.02),  # BALL made_share
     },
     "two_spans_13m_explosives": {
         "moved_before_m": (0.0, 0.03),  # 0.01 over 20 seeds

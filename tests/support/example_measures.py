@@ -20,6 +20,9 @@ from bridge_demolition_addon.model.results.summary import first_hit_s
 
 Measure = Callable[[ExampleRun], dict[str, float | None]]
 
+DENT_M = 1.3
+"""Distance on plan from the target of the ball, within which shards have the deflection under it."""
+
 HAMMERED_WIDTH_M = 0.2
 """Of the shards along the path of the jackhammer."""
 
@@ -100,6 +103,23 @@ def hit_of_the_ball(run: ExampleRun) -> dict[str, float | None]:
         "ball_ends_m": heights_m[-1],
         "ball_lowest_m": heights_m.min(),
     }
+
+
+def dent_of_the_ball(run: ExampleRun) -> dict[str, float | None]:
+    """How far the deck has come down under the ball in the end: the middle of its shards near the target."""
+    deck = run.of_members("deck")
+    apart_m = np.linalg.norm(run.results.frames.positions_m[0, deck, :2] - run.scenario.ball.target_m, axis=1)
+    fallen_m = run.fallen_m(deck)
+    return {
+        "deflection_under_ball_m": np.median(fallen_m[apart_m < DENT_M]),
+        "largest_fall_of_deck_m": fallen_m.max(),
+    }
+
+
+def bars(run: ExampleRun) -> dict[str, float | None]:
+    """How many connections with bars cracked, and in how many they ruptured."""
+    found = run.summary["reinforcement"]
+    return {f"bars_{name}": found[name] for name in ("cracked", "yielded", "ruptured_in_part", "ruptured")}
 
 
 def second_span(run: ExampleRun) -> dict[str, float | None]:
@@ -284,8 +304,8 @@ OF_EXAMPLES: dict[str, tuple[Measure, ...]] = {
     "jackhammer_dismantling": (slot_of_the_jackhammer,),
     "single_span_awake": (fall_by_its_own_weight,),
     "single_span_explosives": (outward_in_the_next_frame, collapse_in_one_and_a_half_seconds),
-    "three_span_box_girder": (hit_of_the_ball, hole_in_the_girder),
-    "two_spans_13m_ball": (hit_of_the_ball, second_span),
+    "three_span_box_girder": (hit_of_the_ball, dent_of_the_ball, bars, hole_in_the_girder),
+    "two_spans_13m_ball": (hit_of_the_ball, dent_of_the_ball, bars, second_span),
     "two_spans_13m_explosives": (outward_in_slow_motion,),
     "two_spans_20m_delays": (collapse_in_one_and_a_half_seconds,),
 }

@@ -4,7 +4,7 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
-from support.checkout import EXAMPLES, ROOT
+from support.checkout import ROOT, SEEDED
 
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.model.results.arrays import Results, load_results
@@ -30,7 +30,7 @@ class ExampleRun:
         """When the ball hits, the first charge goes off or the jackhammer starts; None where nothing is done."""
         if self.scenario.jackhammers:
             return self.scenario.jackhammers[0].start_time_s
-        if self.scenario.charges:
+        if self.scenario.charges or self.scenario.blast_zones:
             return self.scenario.blast.start_s
         return self.summary["impact"]["time_s"] if self.summary["impact"] else None
 
@@ -105,9 +105,11 @@ FALL_S = 0.7
 """How long what a jackhammer has loosened has to fall, where an example is cut short."""
 
 
-def example(name, duration_s=None):
-    """The scenario of an example, cut short where a duration is given."""
-    scenario = read_scenario(EXAMPLES / f"{name}.toml")
+def example(name, duration_s=None, shards=None):
+    """The scenario of an example, cut short where a duration is given, and in so many shards."""
+    scenario = read_scenario(SEEDED[name])
+    if shards:
+        scenario = replace(scenario, fracture=replace(scenario.fracture, shards=shards))
     if not duration_s:
         return scenario
     hammers = [

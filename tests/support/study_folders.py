@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 from manifold3d import CrossSection
-from support.checkout import EXAMPLES
+from support.checkout import REPORT_2019
 
 from bridge_demolition_addon.engineering.geometry.plan_areas import outlines, united
 from bridge_demolition_addon.model.ensemble.folder import EnsembleFolder
@@ -21,7 +21,7 @@ from bridge_demolition_addon.model.study.settings import StudySettings, Vary
 from bridge_demolition_addon.report.ensemble.study_runs import StudyRuns
 from bridge_demolition_addon.system.array_files.archive import write_archive
 
-_EXPLOSIVES = read_scenario(EXAMPLES / "two_spans_13m_explosives.toml")
+_EXPLOSIVES = read_scenario(REPORT_2019 / "two_spans_13m_explosives.toml")
 
 TOLD_SCENARIO = replace(
     _EXPLOSIVES,

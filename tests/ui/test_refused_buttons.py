@@ -4,13 +4,13 @@
 from dataclasses import replace
 
 import pytest
-from support.checkout import EXAMPLES
+from support.checkout import REPORT_2019
 
 from bridge_demolition_addon.errors import SimulationError
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
 
-EXPLOSIVES = EXAMPLES / "single_span_explosives.toml"
+EXPLOSIVES = REPORT_2019 / "single_span_explosives.toml"
 MODES = ("EDIT", "SCULPT", "WEIGHT_PAINT")
 
 IN_A_LINKED_SCENE = {

@@ -25,8 +25,13 @@ from .equilibrium import Equilibrium
 from .joint_rows import JointFrames, components_first, components_last, cross_products, turned
 from .structure import ElasticStep, ElasticStructure, SpringLaw, StepInput
 
-_STEP_S = 1.0
-"""Length of a step: what hangs by a thousandth of the stiffness of a bridge with 5 Hz still finds its rest in it."""
+_STEPS_S = (1.0, 0.25, 0.06)
+"""Lengths of a step: in the first, what hangs by a thousandth of the stiffness of a bridge with 5 Hz still finds its
+rest. In the last, what falls goes 35 mm."""
+
+_LONGEST_M = 0.05
+"""Motion from which on a shorter step is taken: bars that yield are as soft as they harden, and a long step with that
+stiffness goes far beyond where the next cracks and bars would hold it."""
 
 _AT_REST = 1e-4
 """Force that is left on a body, by its largest load, at which it rests."""
@@ -72,7 +77,7 @@ class CrackedStructure:
 
     def __init__(self, built: BuiltStructure, cracks: Cracks, left: FloatArray, intact: BoolArray, rest: Equilibrium):
         self._built, self.cracks, self._left = built, cracks, left
-        self._frames, self._bodies = built.frames, built.bodies
+        self._frames, self._bodies, self._step_s = built.frames, built.bodies, _STEPS_S[0]
         self.positions_m, self.rotations = rest.positions_m, rest.rotations
         self.intact, self.held = intact.copy(), rest.held.copy()
         self.loads = np.zeros(
@@ -93,17 +98,15 @@ class CrackedStructure:
         structure = ElasticStructure(
             built.frames, built.stiffness, built.bodies, 0.0, self.cracks, built.soil, built.bearings
         )
-        free = _STEP_S * accelerations
         for _ in range(_MOST_STEPS):
             ruptured = structure.settle(self.positions_m, self.rotations)
             self._let_go()
-            start = StepInput(self.positions_m, self.rotations, np.where(self.held, free, 0.0), ~self.held)
-            broke, step = self._broken_in_step(structure, start, overloaded, tear)
+            broke, step = self._broken_in_step(structure, accelerations, overloaded, tear)
             self.loads = self._loads_of(step)
             moving = self._moving(step)
             self.positions_m, self.rotations = self._moved(moving)
             structure.end_substep()
-            rests = abs(moving[:3]).max(axis=0) <= _AT_REST * abs(free[:3]).max()
+            rests = abs(moving[:3]).max(axis=0) <= _AT_REST * self._step_s * abs(accelerations[:3]).max()
             if rests.all() and not broke and not len(ruptured):
                 return True
         self._let_go()
@@ -111,29 +114,41 @@ class CrackedStructure:
         return False
 
     def _broken_in_step(
-        self, structure: ElasticStructure, start: StepInput, overloaded: Overloaded, tear: Tear
+        self, structure: ElasticStructure, accelerations: FloatArray, overloaded: Overloaded, tear: Tear
     ) -> tuple[bool, ElasticStep]:
         """Whether anything broke in a step, and the step without that."""
-        step = self._with_friction(structure, start)
+        step = self._short_step(structure, accelerations)
         for number in range(_MOST_ROUNDS):
-            if _STEP_S * abs(self._moving(step)[:3]).max() > _FALLS_M:
+            if self._farthest_m(step) > _FALLS_M:
                 return True, step
             rows = overloaded(self._loads_of(step), self.intact)
             if not len(rows):
                 return number > 0, step
             self.intact[rows] = False
             tear(self.cracks, rows, self.positions_m, self.rotations)
-            step = self._with_friction(structure, start)
+            step = self._short_step(structure, accelerations)
         return True, step
+
+    def _short_step(self, structure: ElasticStructure, accelerations: FloatArray) -> ElasticStep:
+        """Return a step in which nothing goes farther than `_LONGEST_M`, or the shortest one."""
+        for self._step_s in _STEPS_S:
+            free = np.where(self.held, self._step_s * accelerations, 0.0)
+            step = self._with_friction(structure, StepInput(self.positions_m, self.rotations, free, ~self.held))
+            if self._farthest_m(step) <= _LONGEST_M:
+                break
+        return step
+
+    def _farthest_m(self, step: ElasticStep) -> float:
+        return self._step_s * float(abs(self._moving(step)[:3]).max())
 
     def _with_friction(self, structure: ElasticStructure, start: StepInput) -> ElasticStep:
         """Return a step in which sides of cracks rub by how they are pressed in it."""
-        step = structure.step(start, self.intact, _STEP_S)
+        step = structure.step(start, self.intact, self._step_s)
         for _ in range(_REGRIPS if len(self.cracks) else 0):
             moving = self._moving(step)
             if not self.cracks.grip(*self._moved(moving)):
                 break
-            step = structure.step(start, self.intact, _STEP_S)
+            step = structure.step(start, self.intact, self._step_s)
         return step
 
     def _moving(self, step: ElasticStep) -> FloatArray:
@@ -144,8 +159,8 @@ class CrackedStructure:
     def _loads_of(self, step: ElasticStep) -> FloatArray:
         """Forces, and moments about their points, (6, m) of all connections and cracks on their first bodies."""
         loads = np.zeros((6, len(self._frames)))
-        loads[:, step.acting] = step.of_first / _STEP_S
-        loads[:, step.cracks] = step.of_cracks_on_first / _STEP_S
+        loads[:, step.acting] = step.of_first / self._step_s
+        loads[:, step.cracks] = step.of_cracks_on_first / self._step_s
         first = self._frames.first
         arms = turned(self.rotations[..., first], self._frames.first_points_m)
         loads[3:] -= cross_products(arms, loads[:3])
@@ -153,8 +168,8 @@ class CrackedStructure:
 
     def _moved(self, moving: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Positions and rotations after a step with velocities (6, n)."""
-        turned_on = rotated(components_last(self.rotations), components_last(_STEP_S * moving[3:]))
-        return self.positions_m + _STEP_S * moving[:3], components_first(turned_on)
+        turned_on = rotated(components_last(self.rotations), components_last(self._step_s * moving[3:]))
+        return self.positions_m + self._step_s * moving[:3], components_first(turned_on)
 
     def _let_go(self) -> None:
         """Take what has fallen, and what hangs by nothing any more, for gone."""

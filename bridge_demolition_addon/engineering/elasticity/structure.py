@@ -88,7 +88,9 @@ class NonlinearTerms(Protocol):
 class SpringLaw(Protocol):
     """Springs of footings or bearings in place of some connections, whose own stiffness does not count."""
 
-    rows: IntArray
+    @property
+    def rows(self) -> IntArray:
+        """Their numbers (c,) among connections."""
 
     def settle(self, positions_m: FloatArray, rotations: FloatArray) -> None:
         """Take over, before a sub-step, what has yielded for good, at positions (3, n) and rotations (3, 3, n)."""
@@ -100,6 +102,17 @@ class SpringLaw(Protocol):
 
     def stored_j(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
         """Return the energy (f,) that they would give back."""
+
+
+class BareBarLaw(SpringLaw, Protocol):
+    """Bars that stand bare between bodies, beside all connections: their rows are numbered from these on."""
+
+    @property
+    def ends(self) -> tuple[IntArray, IntArray]:
+        """First and second bodies (g,)."""
+
+    def let_go(self, bodies: IntArray) -> None:
+        """Let go of all bars that end in some bodies (b,)."""
 
 
 class _Part:
@@ -157,7 +170,9 @@ class ElasticStructure:
         cracks: Cracks | None = None,
         soil: SpringLaw | None = None,
         bearings: Bearings | None = None,
+        bare_bars: BareBarLaw | None = None,
     ):
+        self._bare_bars = bare_bars
         self._frames, self._bodies = frames, bodies
         self._damping_s = np.broadcast_to(np.asarray(damping_s, float), len(frames))
         self._springs = [springs for springs in (soil, bearings) if springs is not None]
@@ -182,7 +197,7 @@ class ElasticStructure:
 
     def damp(self, damping_s: FloatArray) -> None:
         """Take over damping over stiffness, β (m,), from the next sub-step on."""
-        changed = damping_s != self._damping_s
+        changed = np.flatnonzero(damping_s != self._damping_s)
         self._damping_s = damping_s
         self._stale[self.part_of_connection[changed]] = True
         self._stale[-1] = False
@@ -198,6 +213,8 @@ class ElasticStructure:
             if not part.has_lost:
                 continue
             part.has_lost = False
+            if (part.connections >= len(self._frames)).any():
+                continue  # bars that stand bare yield or fold, and have no frequency
             ends = self._frames.first[part.connections], self._frames.second[part.connections]
             is_cracked = not self._intact[part.connections].all()
             if is_cracked or self._moves[np.concatenate(ends)].all():
@@ -220,14 +237,15 @@ class ElasticStructure:
             self._stale[:-1] = True
         awake = self._awake_parts(start)
         are_awake = awake[self.part_of_connection]
-        acts = self._intact & are_awake
+        acts = self._intact & are_awake[: len(self._frames)]
         acting = np.flatnonzero(acts)
         frames = self._frames.only(acting)
         positions, deformations = self._deformed(acting, start.positions_m, start.rotations)
         cracks = self._acting_terms(self._cracks, are_awake, start)
         assert cracks is None or isinstance(cracks, CrackStep)
         springs = [terms for law in self._springs if (terms := self._acting_terms(law, acts, start)) is not None]
-        nonlinear = springs if cracks is None else [cracks, *springs]
+        cages = self._acting_terms(self._bare_bars, are_awake, start)
+        nonlinear = [terms for terms in (cracks, *springs, cages) if terms is not None]
         self._refresh(start, awake, acting, positions, nonlinear)
         rows, stiffness = self._rows.only(acting), self._stiffness[..., acting]
         first, second = (start.velocities.take(ends, axis=1) for ends in (frames.first, frames.second))
@@ -257,6 +275,8 @@ class ElasticStructure:
             of_acting = np.searchsorted(acting, terms.rows)
             of_first[:, of_acting] += of_springs[0]
             of_second[:, of_acting] += of_springs[1]
+        if cages is not None:
+            of_bodies = of_bodies + cages.of_bodies(cages.loads(start.velocities + changes), self._count)
         return ElasticStep(
             acting=acting,
             deformations=deformations,
@@ -296,6 +316,8 @@ class ElasticStructure:
         """Take over, before a sub-step, how far springs and bars have yielded; return what ruptured (d,), let go."""
         for law in self._springs:
             law.settle(positions_m, rotations)
+        if self._bare_bars is not None:
+            self._bare_bars.settle(positions_m, rotations)
         if self._cracks is None or not len(self._cracks):
             return np.zeros(0, int)
         gone = self._cracks.settle(positions_m, rotations)
@@ -304,6 +326,10 @@ class ElasticStructure:
             self._stale[-1] = False
             self._has_broken = True
         return gone
+
+    def find_parts(self) -> None:
+        """Find the parts again, for bars that stand bare from now on."""
+        self._partition()
 
     def end_substep(self) -> None:
         """Find the parts again, if a connection broke since this was done last."""
@@ -330,12 +356,17 @@ class ElasticStructure:
             holds[self._cracks.rows] = True
         kept = np.flatnonzero(holds)
         first, second = self._frames.first[kept], self._frames.second[kept]
+        count = len(self._frames)
+        if self._bare_bars is not None:
+            count += len(self._bare_bars.rows)
+            kept = np.concatenate((kept, self._bare_bars.rows))
+            first, second = (np.concatenate(pair) for pair in zip((first, second), self._bare_bars.ends, strict=True))
         label = connected_parts(self._moves, first, second)
         part_of_connection = np.where(self._moves[first], label[first], label[second])
         numbers = np.unique(part_of_connection)
         parts, numbers_before = self._parts, self._part_of_body
         self._part_of_body = np.full(self._count, -1)
-        self.part_of_connection = np.full(len(self._frames), -1)  # (m,); -1 stays for connections that had broken
+        self.part_of_connection = np.full(count, -1)  # (m + g,); -1 stays for connections that had broken
         self._parts = []
         within = np.full(self._count, -1)
         of_bodies, of_connections = _grouped(label, numbers), _grouped(part_of_connection, numbers)
@@ -348,7 +379,7 @@ class ElasticStructure:
             if before >= 0 and parts[before].is_of(bodies, connections):
                 self._parts.append(parts[before])  # with its equations laid out
             else:
-                ends = within[self._frames.first[connections]], within[self._frames.second[connections]]
+                ends = within[first[rows]], within[second[rows]]
                 self._parts.append(_Part(bodies, connections, *ends))
                 self._parts[-1].has_lost = True
             within[bodies] = -1
@@ -361,7 +392,7 @@ class ElasticStructure:
         broken = self._intact & ~intact
         if broken.any():
             self._intact = intact.copy()
-            self._stale[self.part_of_connection[broken]] = True
+            self._stale[self.part_of_connection[np.flatnonzero(broken)]] = True
             self._stale[-1] = False
             self._has_broken = True
 
@@ -420,7 +451,7 @@ class ElasticStructure:
             of_stale = np.flatnonzero(stale[self.part_of_connection[terms.rows]])
             blocks = [np.concatenate(pair, axis=2) for pair in zip(blocks, terms.blocks(of_stale), strict=True)]
             connections = np.concatenate((connections, terms.rows[of_stale]))
-        place_of = np.full(len(self._frames), len(connections))
+        place_of = np.full(len(self.part_of_connection), len(connections))
         place_of[connections] = np.arange(len(connections))
         blocks = [np.concatenate((block, np.zeros((6, 6, 1))), axis=2) for block in blocks]  # what broke since has none
         for number in np.flatnonzero(stale).tolist():

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
@@ -30,7 +32,8 @@ class Overloads:
 
     In all methods `rows` (r,) are intact connections and `axes` (r, 3, 3) those of their sections, `loads` those of
     all; `left` (m,) is what is left of the strength of each, `intact` (m,) what still holds, `parts` (m,) what elastic
-    connections hold together.
+    connections hold together. `pressed` (m,) is by how much more of it is left in compression, and the caller keeps it
+    up to date; None where it is as much everywhere.
     """
 
     def __init__(
@@ -39,7 +42,9 @@ class Overloads:
         moves: BoolArray,
         strength: Strength,
         member_sections: MemberSections | None,
+        pressed: FloatArray | None = None,
     ):
+        self._pressed = pressed
         self._pairs, self._moves, self._strength = faces.pairs, moves, strength
         self._member_sections = member_sections
         self._sections = rectangular_sections(faces.areas_m2, faces.second_moments_m4)
@@ -97,7 +102,7 @@ class Overloads:
 
     def of_forces(self, rows: IntArray, forces: SectionForces) -> FloatArray:
         """Utilisations (r,), of whole strengths, of some connections by forces in their axes."""
-        return utilisation(forces, sections_at(self._sections, rows), strength_at(self._strength, rows))
+        return utilisation(forces, sections_at(self._sections, rows), self._strength_at(rows))
 
     def together(
         self,
@@ -115,10 +120,17 @@ class Overloads:
         used = self._in_members(self._member_sections, rows, loads, axes, intact, parts) / left[rows]
         return np.maximum(used, alone / _MOST_REDISTRIBUTED)
 
+    def _strength_at(self, rows: IntArray) -> Strength:
+        """Strength (r,) of some connections, without what is lost of it in all directions."""
+        strength = strength_at(self._strength, rows)
+        if self._pressed is None:
+            return strength
+        return replace(strength, compression_pa=self._pressed[rows] * strength.compression_pa)
+
     def _in_cuts(self, rows: IntArray, loads: ConnectionLoads, axes: FloatArray, intact: BoolArray) -> FloatArray:
         """Mean utilisations (r,), of whole strengths, of the cuts through the two shards of some connections."""
         cut_loads, areas, second_moments = self._cuts.sections(rows, intact, loads, axes)
-        of_both_cuts = strength_at(self._strength, np.concatenate((rows, rows)))
+        of_both_cuts = self._strength_at(np.concatenate((rows, rows)))
         used = utilisation(cut_loads, rectangular_sections(areas, second_moments), of_both_cuts)
         return used.reshape(2, -1).mean(axis=0)
 
@@ -138,7 +150,7 @@ class Overloads:
             holding = np.where(intact, parts, -1)
             of_sections, areas, second_moments = members.sections(rows[whole], holding, loads, axes[whole])
             sections = rectangular_sections(areas, second_moments)
-            used[whole] = utilisation(of_sections, sections, strength_at(self._strength, rows[whole]))
+            used[whole] = utilisation(of_sections, sections, self._strength_at(rows[whole]))
         if not whole.all():
             used[~whole] = self._in_cuts(rows[~whole], loads, axes[~whole], intact)
         return used

@@ -141,7 +141,11 @@ class BlastZone(PlannedAction):
         above=0,
     )
     bars: int = key(
-        "Bars along the member that stay when the concrete is gone.", default=0, at_least=0, at_most=100_000
+        "Bars along the member that stay when the concrete is gone, evenly at its sides; without it those that "
+        "`[[reinforcement]]` or `[bridge.reinforcement]` gives the member.",
+        default=0,
+        at_least=0,
+        at_most=100_000,
     )
     bar_diameter_mm: float | None = key("Diameter of these bars.", default=None, unit="mm", above=0, at_most=100)
 
@@ -205,7 +209,7 @@ class BlastZone(PlannedAction):
     def fired_after_s(self, seed: int) -> float:
         """Return when its last row fires in a run with a seed, after the start of the blasting, s."""
         times = [
-            max(time_s + deviation_s * _normal(seed, f"{self.name} {row}"), 0.0)
+            scattered_time_s(time_s, deviation_s, seed, f"{self.name} {row}")
             for row, (time_s, deviation_s) in enumerate(zip(self.row_times_s(), self.deviations_s(), strict=True))
         ]
         return max(times)
@@ -304,6 +308,11 @@ def charges_fired(zones: Sequence[BlastZone]) -> list[tuple[float, float, float]
         if zone.goes_off
         for time_s, deviation_s in zip(zone.row_times_s(), zone.deviations_s(), strict=True)
     ]
+
+
+def scattered_time_s(time_s: float, deviation_s: float, seed: int, name: str) -> float:
+    """Return when a detonator of a name fires in a run with a seed, by its planned time and standard deviation."""
+    return max(time_s + deviation_s * _normal(seed, name), 0.0)
 
 
 def _normal(seed: int, name: str) -> float:

@@ -19,7 +19,7 @@ _PAGES: dict[str, tuple[type[EnsembleSettings], str, str, str, str]] = {
         "Optimisation",
         "An optimisation",
         "[optimisation](optimise.md)",
-        "optimisations/least_reach.toml",
+        "optimisations/least_charge.toml",
     ),
 }
 """Of each page: settings, name of the file and with an article, the page that explains it, an example."""

@@ -55,7 +55,7 @@ def optimisation_of(settings: OptimiseSettings, scenario: Scenario) -> Optimisat
 
 
 def _check_objective(settings: OptimiseSettings, scenario: Scenario) -> None:
-    can_go_off = (scenario.charges or scenario.blast_zones) and scenario.blast.explosion
+    can_go_off = (scenario.charges or scenario.blast_zones or scenario.cuts) and scenario.blast.explosion
     if settings.objective in ("charge", "vibration") and not can_go_off:
         raise settings.unexpected("objective", "another one, as the scenario has no charges that go off")
     if settings.neighbour not in (None, *(neighbour.name for neighbour in scenario.neighbours)):

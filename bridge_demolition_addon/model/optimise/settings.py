@@ -96,6 +96,24 @@ class ChosenOrder(Table):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class ChosenOption(Table):
+    """One of several values for some keys alike: which explosive, or what a pier is loaded with, nothing being 0."""
+
+    table: ClassVar[str] = "choices"
+
+    keys: tuple[str, ...] = schema.key(
+        """Whose value is chosen, the same for all: `['blast_zones."P2.1".charge_g', 'blast_zones."P2.2".charge_g']`."""
+    )
+    values: tuple[schema.Scalar, ...] = schema.key(
+        "What they are chosen from: `[0, 73.5]`, `[true, false]`, names of a list."
+    )
+
+    def _check_together(self) -> None:
+        if len(set(self.values)) < 2:
+            raise self.unexpected("values", "two that differ, or more")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class OptimiseSettings(EnsembleSettings):
     """What is to be as small as can be, what has to hold, and the numbers of runs."""
 
@@ -144,6 +162,7 @@ class OptimiseSettings(EnsembleSettings):
     quantities: tuple[ChosenQuantity, ...] = ()
     places: tuple[ChosenPlace, ...] = ()
     orders: tuple[ChosenOrder, ...] = ()
+    choices: tuple[ChosenOption, ...] = ()
 
     @property
     def output(self) -> str:
@@ -163,8 +182,9 @@ class OptimiseSettings(EnsembleSettings):
         return self.candidates * self.runs_each + self.finalists * self.finalist_runs + self.confirmation_runs
 
     def _check_together(self) -> None:
-        if not (self.quantities or self.places or self.orders):
-            raise self.unexpected("quantities", "at least one table [[quantities]], [[places]] or [[orders]]")
+        if not (self.quantities or self.places or self.orders or self.choices):
+            tables = "[[quantities]], [[places]], [[orders]] or [[choices]]"
+            raise self.unexpected("quantities", f"at least one table {tables}")
         if not self.criteria:
             raise self.unexpected(
                 "criteria",

@@ -10,11 +10,11 @@ from typing import Any, Protocol, TypeVar
 from ...engineering.arrays import FloatArray
 from ...errors import ScenarioError
 from ..scenario import Scenario
-from ..schema import Table
+from ..schema import Table, shown
 from ..search.file import values_of
 from ..study.file import SEED
 from ..study.keys import ScenarioKey, changed, keys_named
-from .settings import ChosenOrder, ChosenPlace, ChosenQuantity, OptimiseSettings
+from .settings import ChosenOption, ChosenOrder, ChosenPlace, ChosenQuantity, OptimiseSettings
 
 Shares = Sequence[float] | FloatArray
 """Numbers from 0 to 1, one for each of what may change."""
@@ -72,6 +72,22 @@ class Dealt:
 
 
 @dataclass(frozen=True, slots=True)
+class Chosen:
+    """One of several values, the same for all keys."""
+
+    keys: tuple[ScenarioKey, ...]
+    options: tuple[Any, ...]
+    size: int = 1
+
+    def values(self, shares: Shares) -> dict[ScenarioKey, Any]:
+        number = min(int(shares[0] * len(self.options)), len(self.options) - 1)
+        return dict.fromkeys(self.keys, self.options[number])
+
+    def shown(self, shares: Shares) -> dict[str, Any]:
+        return {key.name: value for key, value in self.values(shares).items()}
+
+
+@dataclass(frozen=True, slots=True)
 class Space:
     """All that may change."""
 
@@ -119,6 +135,7 @@ def space_of(settings: OptimiseSettings, scenario: Scenario, sampled: Sequence[s
     add(settings.quantities, _along)
     add(settings.places, _in_box)
     add(settings.orders, _dealt)
+    add(settings.choices, _chosen)
     return Space(tuple(dimensions))
 
 
@@ -168,6 +185,15 @@ def _dealt(order: ChosenOrder, scenario: Scenario) -> list[Dimension]:
     return [Dealt(tuple(keys))]
 
 
+def _chosen(choice: ChosenOption, scenario: Scenario) -> list[Dimension]:
+    keys = tuple(key for name in choice.keys for key in keys_named(scenario, name))
+    has_floats = all(isinstance(key.value, float) for key in keys)
+    options = [float(value) if has_floats and type(value) is int else value for value in choice.values]
+    for option in options[1:-1]:  # the first and the last are ends, which are tried with the others
+        changed(scenario, dict.fromkeys(keys, option))
+    return [Chosen(keys, tuple(options))]
+
+
 def _check_new(keys: Sequence[ScenarioKey], named: set[str], sampled: Sequence[str]) -> None:
     for key in keys:
         if key.name == SEED:
@@ -190,13 +216,17 @@ def _check_ends(scenario: Scenario, dimension: Dimension) -> None:
         except ScenarioError as error:
             first, value = next(iter(values.items()))
             raise ScenarioError(
-                f"{first.name} may come to {value:g}, which the scenario cannot have: {error}"
+                f"{first.name} may come to {_text(value)}, which the scenario cannot have: {error}"
             ) from error
 
 
+def _text(value: Any) -> str:
+    return f"{value:g}" if isinstance(value, float) else shown(value)
+
+
 def total_charge_kg(scenario: Scenario) -> float:
-    """Return the mass of all charges of a scenario, in the open and in drill holes; 0 where it blasts nothing."""
+    """Return the mass of all charges of a scenario, wherever they are; 0 where it blasts nothing."""
     if not scenario.blast.explosion:
         return 0.0
-    in_holes = sum(zone.mass_kg for zone in scenario.blast_zones)
-    return float(sum(charge.mass_kg for charge in scenario.charges) + in_holes)
+    masses = [sum(charge.mass_kg for charge in scenario.charges), sum(zone.mass_kg for zone in scenario.blast_zones)]
+    return float(sum(masses) + sum(cut.mass_kg for cut in scenario.cuts))

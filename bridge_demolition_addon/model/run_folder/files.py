@@ -23,6 +23,7 @@ REPORT_PAGE, REPORT_PDF = "report.html", "report.pdf"
 DXF_FILE, GEOJSON_FILE = "exclusion_zone_of_one_run.dxf", "exclusion_zone_of_one_run.geojson"
 TABLE_FOLDER = "tables"
 PLAN_WORKBOOK = "charge_plan.xlsx"
+CHARGES_DXF, CHARGES_GEOJSON = "charge_plan.dxf", "charge_plan.geojson"
 
 REPORT_FILES = (REPORT_PAGE, REPORT_PDF, DXF_FILE, GEOJSON_FILE)
 """What a report leaves, without its tables."""

@@ -7,6 +7,7 @@ tables.
 
 from ..blast.blast_zones import BlastZone
 from ..blast.charges import Charge
+from ..blast.cuts import MemberCut
 from ..blast.settings import BlastSettings
 from ..loads import Load
 from ..materials.bar_layers import BarLayer
@@ -23,7 +24,7 @@ from .recording import PictureSettings, RecordingSettings
 from .reinforcement import BridgeReinforcement, RatiosOfMember
 from .scenario import Scenario
 from .site import Exclusion, Neighbour, Site, Zone
-from .structural_changes import Change, Removal, SawCut, Weakening, ZoneFiring
+from .structural_changes import Change, Removal, SawCut, Severing, Weakening, ZoneFiring
 from .time import TimeSettings
 
 __all__ = [
@@ -55,6 +56,7 @@ __all__ = [
     "Jackhammer",
     "Load",
     "Material",
+    "MemberCut",
     "MemberFracture",
     "Neighbour",
     "PictureSettings",
@@ -65,6 +67,7 @@ __all__ = [
     "Removal",
     "SawCut",
     "Scenario",
+    "Severing",
     "ShardSettings",
     "Site",
     "Support",

@@ -3,8 +3,10 @@
 A file may be a variant, which only says how it differs from the file that it is based on.
 """
 
+import logging
 from collections.abc import Iterable, Iterator
 from os import PathLike, fspath
+from os.path import isfile, lexists
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +27,8 @@ PATHS = (
 )
 """Table and key of every path of another file."""
 
+_CONSOLE = logging.getLogger(__name__)
+
 PAIR_TABLES = tuple(f"{ContactSettings.table}.{name}" for name in (SHARDS, GROUND, BALL, TOOLS, SURFACES))
 BODY_TABLES = ("shards", "ground", "ground.surfaces", "ball", "jackhammers")
 """Tables that give friction and restitution: of pairs of surfaces, and of single bodies."""
@@ -37,6 +41,9 @@ MOST_BASES = 20
 
 MOST_BYTES = 10 * MEGABYTE
 """Size up to which a scenario is read; those with thousands of positions have less than 1 MB."""
+
+MOVED_TO = "report_2019"
+"""Folder into which the examples of the 2019 report moved: their old paths lead there."""
 
 WITHOUT = "without"
 """Key of the table of a scenario: tables and keys of that file that this one does without."""
@@ -53,7 +60,7 @@ def read_scenario(path: str | PathLike[str]) -> Scenario:
     """
     try:
         faults = Faults()
-        document = _document_of_file(Path(path), faults=faults)
+        document = _document_of_file(_where_it_is(Path(path)), faults=faults)
         with faults.noted():
             scenario = _scenario_of_document(document)
         faults.check()
@@ -94,6 +101,15 @@ def _keys_in(document: dict[str, Any], tables: Iterable[str]) -> Iterator[str]:
             yield from (f"{name}.{quantity}" for quantity in QUANTITIES if quantity in table)
 
 
+def _where_it_is(path: Path) -> Path:
+    """Return a path, or where there is nothing the file of that name in `MOVED_TO` beside it, and say so."""
+    moved = path.parent / MOVED_TO / path.name
+    if lexists(path) or not isfile(moved):
+        return path
+    _CONSOLE.warning("%s is now %s", path, moved)
+    return moved
+
+
 def _document_of_file(path: Path, variants: tuple[Path, ...] = (), faults: Faults | None = None) -> dict[str, Any]:
     """Return the document of a file with all that it is based on, which must not be its own variant.
 
@@ -104,7 +120,7 @@ def _document_of_file(path: Path, variants: tuple[Path, ...] = (), faults: Fault
     name, without = take_based_on(document)
     if name is None:
         return document
-    base = Path(_absolute(path.parent, name))
+    base = _where_it_is(Path(_absolute(path.parent, name)))
     variants = (*variants, path.resolve())
     if base in variants:
         raise ScenarioError(f"is based on {shown(name)}, which is based on it in turn")

@@ -13,6 +13,7 @@ from ...errors import Faults, ScenarioError
 from ..actions import PlannedAction
 from ..blast.blast_zones import BlastZone, check_zones_apart, named_zones
 from ..blast.charges import Charge, named_charges
+from ..blast.cuts import MemberCut, named_cuts
 from ..blast.settings import BlastSettings
 from ..foundations import Foundation
 from ..ground_motion.settings import GroundMotion
@@ -43,7 +44,7 @@ from .jackhammer import Jackhammer
 from .recording import PictureSettings, RecordingSettings
 from .reinforcement import BridgeReinforcement
 from .site import Exclusion, Neighbour, Site, Zone
-from .structural_changes import Change, Removal, SawCut, Weakening
+from .structural_changes import Change, Removal, SawCut, Severing, Weakening
 from .time import MOST_FRAMES, TimeSettings
 
 _RIGID_WITH_BARS = "bars between rigid bodies would make energy"
@@ -80,6 +81,7 @@ class Scenario(Table):
     blast: BlastSettings = field(default_factory=BlastSettings)
     charges: tuple[Charge, ...] = ()
     blast_zones: tuple[BlastZone, ...] = ()
+    cuts: tuple[MemberCut, ...] = ()
     jackhammers: tuple[Jackhammer, ...] = ()
     removals: tuple[Removal, ...] = ()
     saw_cuts: tuple[SawCut, ...] = ()
@@ -190,13 +192,25 @@ class Scenario(Table):
 
     @property
     def changes(self) -> tuple[Change, ...]:
-        return (*self.removals, *self.saw_cuts, *self.weakenings)
+        """Changes to the structure, but for those of blast zones, which depend on its model."""
+        return (*self.removals, *self.saw_cuts, *self.weakenings, *map(self.severing, self._cuts_that_fire))
+
+    @property
+    def _cuts_that_fire(self) -> tuple[MemberCut, ...]:
+        return tuple(cut for cut in self.cuts if cut.fires) if self.blast.explosion else ()
+
+    def severing(self, cut: MemberCut) -> Severing:
+        """Return a member that explosive severs as a change to the structure."""
+        point_m, normal = cut.plane
+        time_s = self.blast.start_s + cut.fired_after_s(self.seed)
+        return Severing(time_s=time_s, members=(cut.member,), point_m=point_m, normal=normal)
 
     def _check_together(self) -> None:
         self._settle_contacts()
         object.__setattr__(self, "charges", named_charges(self.charges))
         object.__setattr__(self, "blast_zones", named_zones(self.blast_zones))
         check_zones_apart(self.blast_zones)
+        object.__setattr__(self, "cuts", named_cuts(self.cuts, self.blast_zones))
         self._check_slow_motion()
         object.__setattr__(self, "connections", self.connections.with_strength(self.fracture.shards))
         object.__setattr__(self, "connections", self.connections.with_stiffness(self.materials))

@@ -1,4 +1,4 @@
-"""A scenario to start from: commented, by six answers, with a bridge that carries itself by its concrete."""
+"""A scenario to start from: commented, by six answers, with a bridge that has bars and bearings, and stands."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ members = ["pier {1 + len(answers.spans_m) // 2}"]
 def _ball(answers: Answers) -> str:
     middle = sum(answers.spans_m[: len(answers.spans_m) // 2]) + answers.spans_m[len(answers.spans_m) // 2] / 2.0
     return f"""\
-# What is done: a crane drops a steel ball.
+# What is done: a crane drops a steel ball. A slab with bars may carry that: see docs/search.md for the lightest that does not.
 [ball]
 mass_kg = 8000
 diameter_m = 1.25                # a ball of steel of this mass
@@ -126,12 +126,16 @@ height_m = {height}
 [bridge.bearings]                # what carries the deck on the piers; without this table it is one piece with them
 pinned_at = 1                    # the others let it slide along the road
 
+# Bars as such a bridge would be designed with; bda check prints them. With drawings, give layers of [[reinforcement]].
+[bridge.reinforcement]
+designed_for = "LM1"             # own weight and load model 1 of EN 1991-2; or "HL-93", "own weight"
+
 # How finely it is cut: more shards cost more time, and show more. 24 along a span give forces within some 7 %.
 [fracture]
 shards = {shards}
 
-# Strength and stiffness come from the material: bda check says how the bridge carries its own weight. A few slivers at
-# the edges of members may be overloaded.
+# Strength and stiffness come from the material: bda check says how the bridge carries its own weight, and bda stages
+# what it carries of the traffic that its bars are designed for.
 [connections]
 type = "FIXED"
 method = "face"

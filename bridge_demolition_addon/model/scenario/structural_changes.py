@@ -73,6 +73,16 @@ class SawCut(Change):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class Severing(SawCut):
+    """A member that explosive severs along a plane. It follows from a table of `[[cuts]]`, and is no table of a
+    scenario; a scene keeps it.
+    """
+
+    table: ClassVar[str] = "severings"
+    kind: ClassVar[str] = "severed member"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Weakening(Change):
     """A loss of strength in one moment, such as by cut reinforcement: of all connections of the members' shards, of
     those in the box, or of all. What slept among them wakes up, so that they carry their load at once. Several at the
@@ -98,11 +108,30 @@ class ZoneFiring(Change):
     along: str = key("Axis that its member runs along.", choices=AXES)
     effect: str = key("What its concrete does.", choices=tuple(effect.value for effect in Effect))
     left: float = key("Part of the strength that its connections have left.", at_least=0, at_most=1)
+    left_compression: float | None = key(
+        "The same in compression; by default as much.", default=None, at_least=0, at_most=1
+    )
     speed_m_s: float = key(
         "Mean speed of shards that are thrown; 0 where they fall as rubble at the foot.", unit="m/s", at_least=0
     )
     cage_tension_n: float = key("What its bars resist in tension.", unit="N", at_least=0)
     cage_compression_n: float = key("What its bars resist in compression.", unit="N", at_least=0)
+    bars: float = key("Bars that stand bare once its concrete is gone.", default=0.0, at_least=0)
+    bar_diameter_mm: float = key("Their diameter.", default=20.0, unit="mm", above=0, at_most=100)
+    bar_yield_n_mm2: float = key("Their yield strength.", default=500.0, unit="N/mm²", above=0, at_most=5000)
+    bar_distances_m: tuple[float, float] = key(
+        "Distances of the bars from the middle of the section along its two axes, root mean squares.",
+        default=(0.0, 0.0),
+        unit="m",
+        at_least=0,
+    )
+
+    @property
+    def left_by_compression(self) -> float:
+        """Return by how much more strength its connections have left in compression."""
+        if self.left_compression is None or not self.left:
+            return 1.0
+        return max(self.left_compression / self.left, 1.0)
 
     @property
     def takes_away(self) -> bool:

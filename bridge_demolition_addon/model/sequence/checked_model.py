@@ -9,14 +9,17 @@ from functools import cached_property
 import numpy as np
 from manifold3d import Manifold
 
+from ...engineering.geometry.sides import AXES
 from ...engineering.geometry.solids import to_manifold
 from ..actions import Affected, Fact, Place, PlannedAction, Point
 from ..blast.blast_zones import BlastZone
 from ..bridge.extent import surface_height
 from ..bridge.member import Member
 from ..loads import Load
-from ..scenario import Change, Scenario
-from ..structure.blast_zones import placed_zone
+from ..materials.bar_layers import BarLayer
+from ..reinforcement.design import all_layers
+from ..scenario import Change, MemberCut, Scenario
+from ..structure.blast_zones import one_member, placed_zone
 from ..structure.model import Model, build_model
 from .events import Structure, model_structure, schedule
 from .loads import placed_on_model
@@ -31,6 +34,10 @@ class ModelWorksite:
 
     plan: Scenario
     model: Model
+
+    @cached_property
+    def _layers(self) -> tuple[BarLayer, ...]:
+        return all_layers(self.plan, self.model.members)
 
     @cached_property
     def _structure(self) -> Structure:
@@ -69,12 +76,21 @@ class ModelWorksite:
         return Affected(len(shards), float(model.masses_kg[shards].sum()), tuple(names))
 
     def facts_of_zone(self, zone: BlastZone) -> Iterator[Fact]:
-        return placed_zone(zone, self.model.members).facts(self.plan)
+        return placed_zone(zone, self.model.members, self._layers).facts(self.plan)
 
     def check_zone(self, zone: BlastZone) -> None:
-        placed = placed_zone(zone, self.model.members)
+        placed = placed_zone(zone, self.model.members, self._layers)
         if zone.goes_off:
             schedule((placed.firing(self.plan),), self._structure)
+
+    def check_cut(self, cut: MemberCut) -> None:
+        member = one_member(cut, self.model.members)
+        lowest, highest = member.solid.bounds[:, AXES.index(cut.along)].tolist()
+        if not lowest < cut.position_m < highest:
+            raise cut.unexpected(
+                "position_m", f"a position in {member.name}, from {lowest:g} to {highest:g} (m) along {cut.along}"
+            )
+        schedule((self.plan.severing(cut),), self._structure)
 
     def number_of(self, action: PlannedAction) -> int:
         alike = [other for other in self.plan.actions if type(other) is type(action)]

@@ -17,6 +17,7 @@ from ..loads import Part
 from ..results.inventory import Inventory
 from ..scenario import Change, Removal, SawCut, Weakening, ZoneFiring
 from ..structure.model import Model
+from .bare_bars import StandingBars, standing_bars
 from .departures import Departure, departure_of
 
 
@@ -45,6 +46,8 @@ class Event:
     factor: float  # on their strength; 0 for those that are cut
     zone: ZoneFiring | None = None  # of a blast zone
     departure: Departure | None = None  # how the bodies of a blast zone leave their member
+    bars: StandingBars | None = None  # those that stay in it
+    pressed: float = 1.0  # factor on the strength in compression, beside the factor on all strengths
 
 
 def model_structure(model: Model) -> Structure:
@@ -106,8 +109,18 @@ def _event(change: Change, structure: Structure) -> Event:
     if not len(bodies if isinstance(change, Removal | ZoneFiring) else connections):
         raise ScenarioError(f"{change.table} at {change.time_s:g} s: {_why_nothing(change, structure)}")
     if isinstance(change, ZoneFiring):
+        is_in_zone = np.zeros(len(structure.centres_m), bool)
+        is_in_zone[bodies] = True
         return Event(
-            change.time_s, change.kind, bodies if departure else bodies[:0], connections, factor, change, departure
+            change.time_s,
+            change.kind,
+            bodies if departure else bodies[:0],
+            connections,
+            factor,
+            change,
+            departure,
+            standing_bars(change, is_in_zone, structure.pairs, structure.points_m),
+            change.left_by_compression,
         )
     return Event(change.time_s, change.kind, bodies, connections, factor)
 

@@ -124,22 +124,38 @@ def equipment_loads(model: Model, equipment: Sequence[Equipment], removed: np.nd
     Each part of a footprint stands on the highest shard under it. A force at the edge of a shard rotates it as well.
     """
     loads = np.zeros((6, len(model.shards)))
-    boxes = np.array([shard.bounds for shard in model.shards])
     for machine in equipment:
         weight_n = STANDARD_GRAVITY_M_S2 * machine.mass_kg / _GRID**2
-        for point in _grid(machine):
-            shard = _highest_under(point, boxes, removed)
-            if shard is None:
-                where = ", ".join(f"{number:.2f}" for number in point)
-                raise ScenarioError(
-                    f"equipment {machine.name!r}: nothing of the bridge is under [{where}] m; move it, or take it "
-                    "away before what it stands on"
-                )
-            arm_x, arm_y = point - model.centres_m[shard, :2]
-            loads[2, shard] -= weight_n
-            loads[3, shard] -= arm_y * weight_n
-            loads[4, shard] += arm_x * weight_n
+        of_machine, beside = standing_loads(model, _grid(machine), weight_n, removed)
+        if len(beside):
+            where = ", ".join(f"{number:.2f}" for number in beside[0])
+            raise ScenarioError(
+                f"equipment {machine.name!r}: nothing of the bridge is under [{where}] m; move it, or take it "
+                "away before what it stands on"
+            )
+        loads += of_machine
     return loads
+
+
+def standing_loads(
+    model: Model, points: np.ndarray, weight_n: float, removed: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return forces and moments (6, n) on the highest shards under points (k, 2), and the points without any (b, 2).
+
+    The same weight stands at each point.
+    """
+    loads, beside = np.zeros((6, len(model.shards))), []
+    boxes = np.array([shard.bounds for shard in model.shards])
+    for point in points:
+        shard = _highest_under(point, boxes, removed)
+        if shard is None:
+            beside.append(point)
+            continue
+        arm_x, arm_y = point - model.centres_m[shard, :2]
+        loads[2, shard] -= weight_n
+        loads[3, shard] -= arm_y * weight_n
+        loads[4, shard] += arm_x * weight_n
+    return loads, np.array(beside).reshape(-1, 2)
 
 
 def _grid(equipment: Equipment) -> np.ndarray:

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
-from ...engineering.drilled_charges.bare_bars import compression_n, slender_from_m, yield_force_n
+from ...engineering.drilled_charges.bare_bars import slender_from_m
 from ...engineering.drilled_charges.drill_holes import USUAL_DEPTH_SHARES
 from ...engineering.drilled_charges.flyrock import RISKY_BURIAL, scaled_depth_of_burial
 from ...engineering.drilled_charges.fragments import mean_speed_m_s
@@ -23,11 +24,15 @@ from ...engineering.drilled_charges.specific_charge import (
     specific_charge_kg_m3,
 )
 from ...engineering.fracture.slabs import slab_between
+from ...engineering.mechanics.strength import NEWTON_PER_SQUARE_MILLIMETRE
 from ..actions import Fact
-from ..blast.blast_zones import M_PER_MM, THROWN_AWAY, BlastZone, element_of
+from ..blast.blast_zones import THROWN_AWAY, BlastZone, element_of
 from ..bridge.member import Member, members_named
-from ..scenario import Scenario, ZoneFiring
+from ..materials.bar_layers import BarLayer
+from ..reinforcement.design import all_layers
+from ..scenario import MemberCut, Scenario, ZoneFiring
 from ..schema import given
+from .zone_bars import ZoneBars, zone_bars
 
 MOVES_AFTER_S = 0.001
 """The burden has begun to move after a millisecond."""
@@ -38,6 +43,7 @@ POSSIBLE_G_T = (1.0, 90.0)
 
 _ROUNDING = 1e-6
 _KILO = 1000.0
+_MM_PER_M = 1000.0
 _MEGA = 1e6
 
 
@@ -49,6 +55,7 @@ class PlacedZone:
     member: Member
     volume_m3: float
     box_m: np.ndarray
+    bars: ZoneBars | None = None
 
     @property
     def thickness_m(self) -> float:
@@ -112,14 +119,7 @@ class PlacedZone:
     @property
     def cage_n(self) -> tuple[float, float]:
         """What its bars resist in tension and in compression, where all concrete is gone."""
-        zone = self.zone
-        if not zone.bars:
-            return 0.0, 0.0
-        diameter_m = M_PER_MM * given(zone.bar_diameter_mm)
-        return (
-            zone.bars * float(yield_force_n(diameter_m)),
-            zone.bars * float(compression_n(diameter_m, zone.height_m)),
-        )
+        return self.bars.resisted_n(self.zone.height_m) if self.bars else (0.0, 0.0)
 
     @property
     def scaled_burial(self) -> float:
@@ -135,7 +135,7 @@ class PlacedZone:
 
     def firing(self, scenario: Scenario) -> ZoneFiring:
         """Return it as a change to the structure."""
-        zone, (tension_n, compression_n_) = self.zone, self.cage_n
+        zone, (tension_n, compression_n) = self.zone, self.cage_n
         after_s = zone.fired_after_s(scenario.seed) + MOVES_AFTER_S
         thrown = self.effect == Effect.THROWN and zone.debris == THROWN_AWAY
         return ZoneFiring(
@@ -147,9 +147,11 @@ class PlacedZone:
             along=zone.along,
             effect=self.effect.value,
             left=self.left.tension,
+            left_compression=self.left.compression,
             speed_m_s=self.fragment_speed_m_s if thrown else 0.0,
             cage_tension_n=tension_n,
-            cage_compression_n=compression_n_,
+            cage_compression_n=compression_n,
+            **(_standing_bars(self.bars) if self.bars else {}),
         )
 
     def warnings(self) -> Iterator[str]:
@@ -163,12 +165,12 @@ class PlacedZone:
         lowest, highest = self.table_kg_m3[0] / FACTOR_OF_DOUBT, self.thresholds.throw_kg_m3 * FACTOR_OF_DOUBT
         if zone.mass_kg and not lowest <= self.effective_kg_m3 <= highest:
             yield f"{self.effective_kg_m3:.2f} kg/m³ are outside half to twice the table, {lowest:.2f} to {highest:.2f}"
-        if zone.bars:
-            slender_m = float(slender_from_m(M_PER_MM * given(zone.bar_diameter_mm)))
+        if bars := self.bars:
+            slender_m = float(slender_from_m(bars.diameter_m, bars.yield_pa))
             if zone.height_m < slender_m:
                 yield (
-                    f"bars of {zone.bar_diameter_mm:g} mm bared over {zone.height_m:.2f} m yield before they buckle: "
-                    f"from {slender_m:.2f} m on they buckle"
+                    f"bars of {_MM_PER_M * bars.diameter_m:.3g} mm bared over {zone.height_m:.2f} m yield before they "
+                    f"buckle: from {slender_m:.2f} m on they buckle"
                 )
         if zone.mass_kg and zone.cover_factor == 1.0 and self.scaled_burial < RISKY_BURIAL:
             yield (
@@ -184,24 +186,21 @@ class PlacedZone:
         yield given(zone.name), f"{self.member.name}, {zone.along} {begin_m:g} to {end_m:g} m, {holes}, {when}"
         limits = f"breaks from {self.thresholds.break_kg_m3:.2f}, is thrown out from {self.thresholds.throw_kg_m3:.2f}"
         yield "", f"{self.specific_kg_m3:.2f} kg/m³ in {self.volume_m3:.3f} m³ ({limits}): {self.effect}"
-        if zone.bars:
+        if self.bars:
             tension_n, pressed_n = self.cage_n
+            in_run = "" if scenario.connections.is_elastic else "; rigid connections leave them out of a run"
             yield (
                 "",
-                f"{zone.bars} bars of {zone.bar_diameter_mm:g} mm resist {tension_n / _MEGA:.2f} MN in tension and "
-                f"{pressed_n / _MEGA:.2f} MN in compression; in a run they carry nothing",
+                f"{self.bars.text} resist {tension_n / _MEGA:.2f} MN in tension and {pressed_n / _MEGA:.2f} MN in "
+                f"compression{in_run}",
             )
         for warning in self.warnings():
             yield "look at", warning
 
 
-def placed_zone(zone: BlastZone, members: Sequence[Member]) -> PlacedZone:
-    """Return a zone in its member; refuse one that does not lie in it, with its holes."""
-    named = [member for member in members if member.name == zone.member]
-    if not named:
-        members_named(zone.member, members, "blast_zones.member")  # refuses what is neither
-        raise zone.unexpected("member", "the name of one member, not a kind")
-    (member,) = named
+def placed_zone(zone: BlastZone, members: Sequence[Member], layers: Sequence[BarLayer] = ()) -> PlacedZone:
+    """Return a zone in its member, which may have layers of bars; refuse one that does not lie in it with its holes."""
+    member = one_member(zone, members)
     along = zone.axes[0]
     (lowest, highest), (begin_m, end_m) = member.solid.bounds[:, along].tolist(), zone.ends_along_m
     slack = _ROUNDING * (highest - lowest)
@@ -212,9 +211,18 @@ def placed_zone(zone: BlastZone, members: Sequence[Member]) -> PlacedZone:
             f"{zone.along}; this one is from {begin_m:g} to {end_m:g} m",
         )
     slab = slab_between(member.solid, along, begin_m, end_m)
-    placed = PlacedZone(zone, member, slab.volume, slab.bounds)
+    placed = PlacedZone(zone, member, slab.volume, slab.bounds, zone_bars(zone, member, slab.bounds, layers))
     _check_holes(placed)
     return placed
+
+
+def one_member(action: BlastZone | MemberCut, members: Sequence[Member]) -> Member:
+    """Return the member of a zone or a cut; refuse the name of a kind, and one that no member has."""
+    named = [member for member in members if member.name == action.member]
+    if not named:
+        members_named(action.member, members, f"{action.table}.member")  # refuses what is neither
+        raise action.unexpected("member", "the name of one member, not a kind")
+    return named[0]
 
 
 def _check_holes(placed: PlacedZone) -> None:
@@ -235,7 +243,20 @@ def _check_holes(placed: PlacedZone) -> None:
 
 def placed_zones(scenario: Scenario, members: Sequence[Member]) -> tuple[PlacedZone, ...]:
     """Return all blast zones of a scenario in its members."""
-    return tuple(placed_zone(zone, members) for zone in scenario.blast_zones)
+    if not scenario.blast_zones:
+        return ()
+    layers = all_layers(scenario, members)
+    return tuple(placed_zone(zone, members, layers) for zone in scenario.blast_zones)
+
+
+def _standing_bars(bars: ZoneBars) -> dict[str, Any]:
+    """Return the keys of the bars of a zone that fires."""
+    return {
+        "bars": bars.count,
+        "bar_diameter_mm": _MM_PER_M * bars.diameter_m,
+        "bar_yield_n_mm2": bars.yield_pa / NEWTON_PER_SQUARE_MILLIMETRE,
+        "bar_distances_m": bars.distances_m,
+    }
 
 
 def zone_firings(scenario: Scenario, members: Sequence[Member]) -> tuple[ZoneFiring, ...]:
@@ -246,10 +267,10 @@ def zone_firings(scenario: Scenario, members: Sequence[Member]) -> tuple[ZoneFir
     return tuple(placed.firing(scenario) for placed in fired if placed.effect != Effect.NOTHING)
 
 
-def grams_per_tonne(zones: Sequence[PlacedZone], members: Sequence[Member]) -> float:
-    """Return the explosive of zones by the mass of the structure, g/t."""
+def grams_per_tonne(explosive_kg: float, members: Sequence[Member]) -> float:
+    """Return explosive by the mass of the structure, g/t."""
     mass_t = sum(member.mass_kg for member in members) / _KILO
-    return _KILO * sum(placed.zone.mass_kg for placed in zones) / mass_t
+    return _KILO * explosive_kg / mass_t
 
 
 def zone_totals(zones: Sequence[PlacedZone], members: Sequence[Member]) -> Iterator[Fact]:
@@ -257,7 +278,7 @@ def zone_totals(zones: Sequence[PlacedZone], members: Sequence[Member]) -> Itera
     mass_kg = sum(placed.zone.mass_kg for placed in zones)
     volume_m3 = sum(placed.volume_m3 for placed in zones)
     holes, drilled_m = (sum(getattr(placed.zone, name) for placed in zones) for name in ("holes", "drilled_m"))
-    specific, rate = mass_kg / volume_m3, grams_per_tonne(zones, members)
+    specific, rate = mass_kg / volume_m3, grams_per_tonne(mass_kg, members)
     yield "all zones", f"{mass_kg:.3g} kg in {holes} holes, {drilled_m:.1f} m drilled, {specific:.2f} kg/m³"
     (least, most), (lowest, highest) = RECORDED_G_T, POSSIBLE_G_T
     yield "", f"{rate:.1f} g a tonne of the bridge; recorded jobs have {least:g} to {most:g}"

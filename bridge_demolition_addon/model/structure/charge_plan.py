@@ -2,26 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ...engineering.blast.vibration import peak_particle_velocity
 from ...engineering.drilled_charges.neighbours import (
+    BARE_KPA,
+    STEMMED_KPA,
     air_pressure_pa,
     decibels,
     fires_together,
     largest_mass_together_kg,
 )
+from ...engineering.geometry.sides import AXES
 from ...engineering.geometry.vectors import distance
 from ..bridge.extent import room_around
 from ..bridge.member import Member
-from ..scenario import Neighbour, Scenario
+from ..scenario import MemberCut, Neighbour, Scenario
 from ..schema import given
 from ..terrain.built import built_ground
-from .blast_zones import PlacedZone, grams_per_tonne, placed_zones
+from .blast_zones import PlacedZone, grams_per_tonne, one_member, placed_zones
 from .zone_fragments import FlyrockOfZone, flyrock_of
+
+_DEVIATIONS = 2.0
+"""Standard deviations by which a row may fire earlier or later."""
+
+_LEAST_KG = 1e-9
 
 _NEAREST_M = 1e-3
 """At a charge itself the ground's velocity would be infinite."""
@@ -29,9 +37,10 @@ _NEAREST_M = 1e-3
 
 @dataclass(frozen=True, slots=True)
 class FiredRow:
-    """A row of holes that fires."""
+    """A row of holes that fires, or the explosive that severs a member, which is bare."""
 
-    placed: PlacedZone
+    of: PlacedZone | MemberCut
+    box_m: np.ndarray  # (2, 3), around it
     row: int  # from 1
     time_s: float  # after the start of the blasting, as planned
     spread_s: float  # how much earlier or later it may fire
@@ -40,15 +49,29 @@ class FiredRow:
 
     @property
     def detonators(self) -> int:
-        """One in each hole."""
-        return self.placed.zone.holes_a_row
+        """One in each hole, and one that severs a member."""
+        return self.of.zone.holes_a_row if isinstance(self.of, PlacedZone) else 1
+
+    @property
+    def name(self) -> str:
+        """What the zone or the cut is called."""
+        return zone_name(self.of) if isinstance(self.of, PlacedZone) else given(self.of.name)
+
+    @property
+    def detonator(self) -> str:
+        return self.of.zone.detonator if isinstance(self.of, PlacedZone) else self.of.detonator
+
+    @property
+    def is_bare(self) -> bool:
+        return isinstance(self.of, MemberCut)
 
 
 @dataclass(frozen=True, slots=True)
 class Totals:
-    """Totals of all zones, also of those that are planned not to fire."""
+    """Totals of all zones and cuts, also of those that are planned not to fire; volume and holes are those of zones."""
 
     mass_kg: float
+    mass_in_holes_kg: float
     holes: int
     drilled_m: float
     volume_m3: float
@@ -58,7 +81,7 @@ class Totals:
 
     @property
     def specific_kg_m3(self) -> float:
-        return self.mass_kg / self.volume_m3
+        return self.mass_in_holes_kg / self.volume_m3 if self.volume_m3 else 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,6 +111,7 @@ class ChargePlan:
     """A whole charge plan; rows in order of time."""
 
     zones: tuple[PlacedZone, ...]
+    cuts: tuple[MemberCut, ...]
     rows: tuple[FiredRow, ...]
     totals: Totals
     neighbours: tuple[AtNeighbour, ...]
@@ -95,77 +119,102 @@ class ChargePlan:
 
 
 def charge_plan(scenario: Scenario, members: Sequence[Member]) -> ChargePlan:
-    """Return the plan of a scenario with blast zones, in its members."""
+    """Return the plan of a scenario with blast zones or cuts, in its members."""
     zones = placed_zones(scenario, members)
-    rows = _rows(zones)
+    rows = _rows(scenario, zones, members)
     heights_at = None
     if not scenario.has_flat_ground:
         solids = [(member.name, member.solid) for member in members]
         heights_at = built_ground(scenario, solids, room_around(scenario, members)).heights_at
     return ChargePlan(
         zones,
+        scenario.cuts,
         rows,
-        _totals(zones, rows, members),
+        _totals(scenario, zones, rows, members),
         _at_neighbours(scenario, rows),
         tuple(flyrock_of(placed, heights_at, scenario.seed) if placed.zone.mass_kg else None for placed in zones),
     )
 
 
 def neighbours_of_zones(scenario: Scenario, members: Sequence[Member]) -> tuple[AtNeighbour, ...]:
-    """Return what the zones of a scenario that fire do at its neighbours."""
-    return _at_neighbours(scenario, _rows(placed_zones(scenario, members)))
+    """Return what the zones and cuts of a scenario that fire do at its neighbours."""
+    return _at_neighbours(scenario, _rows(scenario, placed_zones(scenario, members), members))
 
 
 def _at_neighbours(scenario: Scenario, rows: Sequence[FiredRow]) -> tuple[AtNeighbour, ...]:
     return tuple(_at_neighbour(neighbour, rows) for neighbour in scenario.neighbours)
 
 
-def _rows(zones: Sequence[PlacedZone]) -> tuple[FiredRow, ...]:
-    planned = [
-        (time_s, 2.0 * deviation_s, placed, row)
-        for placed in zones
-        if placed.zone.goes_off
-        for row, (time_s, deviation_s) in enumerate(
-            zip(placed.zone.row_times_s(), placed.zone.deviations_s(), strict=True), start=1
-        )
-    ]
-    planned.sort(key=lambda item: item[0])
-    masses = np.array([placed.zone.holes_a_row * placed.zone.charge_kg for _, _, placed, _ in planned])
-    times_s, spreads_s = (np.array([item[column] for item in planned], float) for column in (0, 1))
+def _rows(scenario: Scenario, zones: Sequence[PlacedZone], members: Sequence[Member]) -> tuple[FiredRow, ...]:
+    planned = [*_rows_of_zones(zones), *_rows_of_cuts(scenario.cuts, members)]
+    planned.sort(key=lambda row: row.time_s)
+    masses = np.array([row.mass_kg for row in planned])
+    times_s, spreads_s = (np.array([getattr(row, name) for row in planned]) for name in ("time_s", "spread_s"))
     together = fires_together(times_s, spreads_s)
     return tuple(
-        FiredRow(placed, row, time_s, spread_s, float(masses[number]), float(masses[together[number]].sum()))
-        for number, (time_s, spread_s, placed, row) in enumerate(planned)
+        replace(row, together_kg=float(masses[group].sum())) for row, group in zip(planned, together, strict=True)
     )
 
 
-def _totals(zones: Sequence[PlacedZone], rows: Sequence[FiredRow], members: Sequence[Member]) -> Totals:
+def _rows_of_zones(zones: Sequence[PlacedZone]) -> Iterator[FiredRow]:
+    for placed in zones:
+        if not placed.zone.goes_off:
+            continue
+        mass_kg = placed.zone.holes_a_row * placed.zone.charge_kg
+        times = zip(placed.zone.row_times_s(), placed.zone.deviations_s(), strict=True)
+        for number, (time_s, deviation_s) in enumerate(times, start=1):
+            yield FiredRow(placed, placed.box_m, number, time_s, _DEVIATIONS * deviation_s, mass_kg, mass_kg)
+
+
+def _rows_of_cuts(cuts: Sequence[MemberCut], members: Sequence[Member]) -> Iterator[FiredRow]:
+    for cut in cuts:
+        if not (cut.fires and cut.mass_kg):
+            continue
+        box_m = one_member(cut, members).solid.bounds.copy()
+        box_m[:, AXES.index(cut.along)] = cut.position_m
+        yield FiredRow(cut, box_m, 1, cut.time_s, _DEVIATIONS * cut.deviation_s, cut.mass_kg, cut.mass_kg)
+
+
+def _totals(
+    scenario: Scenario, zones: Sequence[PlacedZone], rows: Sequence[FiredRow], members: Sequence[Member]
+) -> Totals:
     times, masses, spreads = ([getattr(row, name) for row in rows] for name in ("time_s", "mass_kg", "spread_s"))
+    in_holes_kg = sum(placed.zone.mass_kg for placed in zones)
+    mass_kg = in_holes_kg + sum(cut.mass_kg for cut in scenario.cuts)
     return Totals(
-        mass_kg=sum(placed.zone.mass_kg for placed in zones),
+        mass_kg=mass_kg,
+        mass_in_holes_kg=in_holes_kg,
         holes=sum(placed.zone.holes for placed in zones),
         drilled_m=sum(placed.zone.drilled_m for placed in zones),
         volume_m3=sum(placed.volume_m3 for placed in zones),
-        grams_per_tonne=grams_per_tonne(zones, members),
+        grams_per_tonne=grams_per_tonne(mass_kg, members),
         together_kg=largest_mass_together_kg(times, masses, spreads),
         lasts_s=max(times, default=0.0) - min(times, default=0.0),
     )
 
 
 def _at_neighbour(neighbour: Neighbour, rows: Sequence[FiredRow]) -> AtNeighbour:
-    """Return the largest effects of all that can fire together, as if it all were where its nearest part is."""
+    """Return the largest effects of all that can fire together, as if it all were where its nearest part is.
+
+    Pressures of what is stemmed and of what is bare add up.
+    """
     if not rows:
         return AtNeighbour(neighbour, np.inf, 0.0, 0.0)
     place = np.array(neighbour.place_m)
-    distances = np.array([_distance(place, row.placed.box_m) for row in rows])
+    distances = np.array([_distance(place, row.box_m) for row in rows])
     together = fires_together(np.array([row.time_s for row in rows]), np.array([row.spread_s for row in rows]))
     nearest = np.maximum([distances[group].min() for group in together], _NEAREST_M)
-    masses = np.array([row.together_kg for row in rows])
+    masses, bare = np.array([row.mass_kg for row in rows]), np.array([row.is_bare for row in rows])
+    of_groups = [np.array([masses[group & kind].sum() for group in together]) for kind in (~bare, bare)]
+    pressures = sum(
+        np.where(of_group > 0.0, air_pressure_pa(nearest, np.maximum(of_group, _LEAST_KG), site_kpa), 0.0)
+        for of_group, site_kpa in zip(of_groups, (STEMMED_KPA, BARE_KPA), strict=True)
+    )
     return AtNeighbour(
         neighbour,
         float(distances.min()),
-        float(peak_particle_velocity(nearest, masses).max()),
-        float(air_pressure_pa(nearest, masses).max()),
+        float(peak_particle_velocity(nearest, sum(of_groups)).max()),
+        float(np.max(pressures)),
     )
 
 

@@ -22,11 +22,12 @@ from ...engineering.fracture.shards import Fracture, fracture, joined_fractures,
 from ...engineering.fracture.shared_faces import SharedFaces, joined_faces, touching_faces
 from ...engineering.fracture.slabs import slabs
 from ...engineering.geometry.mesh import TriangleMesh
+from ...engineering.geometry.sides import AXES
 from ...engineering.geometry.solids import contains
 from ...errors import GeometryError
 from ..bridge.member import Member, members_named
 from ..reinforcement.concrete_members import names_with_bars
-from ..scenario import BlastZone, FractureSettings, Scenario
+from ..scenario import BlastZone, FractureSettings, MemberCut, Scenario
 from ..scenario.fracture import MemberFracture
 from ..schema import SHORTEST_LENGTH_M, given
 from .point_files import paint_from_file, points_from_file
@@ -72,9 +73,10 @@ def fractured_members(scenario: Scenario, members: Sequence[Member]) -> Fracture
             recursion=_recursion(settings),
         )
         zones = [zone for zone in scenario.blast_zones if zone.member == member.name]
-        cut = _cut_along_zones(member, zones, own_points[index]) if zones else member
+        cuts = [cut for cut in scenario.cuts if cut.member == member.name]
+        cut = _cut_for_blasting(member, zones, cuts, own_points[index]) if zones or cuts else member
         # Each part takes one shard at least.
-        count = max(int(counts[index]), len(cut.parts)) if zones else int(counts[index])
+        count = max(int(counts[index]), len(cut.parts)) if zones or cuts else int(counts[index])
         parts.append(_fractured(cut, count, own_points[index], int(seeds[index]), options))
     shards = tuple(shard for part in parts for shard in part.shards)
     member_of_shard = np.repeat(np.arange(len(members)), [len(part) for part in parts])
@@ -141,15 +143,18 @@ def _fractured(member: Member, count: int, points: np.ndarray, seed: int, option
         raise GeometryError(f"{member.name}: {error}") from error
 
 
-def _cut_along_zones(member: Member, zones: Sequence[BlastZone], points: np.ndarray) -> Member:
-    """Return a member whose parts end at the planes of its blast zones, so that no shard lies across one."""
+def _cut_for_blasting(
+    member: Member, zones: Sequence[BlastZone], cuts: Sequence[MemberCut], points: np.ndarray
+) -> Member:
+    """Return a member whose parts end at the planes of its blast zones and cuts, so that no shard lies across one."""
     if len(points):
+        planned = BlastZone.table if zones else MemberCut.table
         raise GeometryError(
-            f"{member.name} has blast_zones, along which it is cut, and {len(points)} points of fracture.points or its "
+            f"{member.name} has {planned}, along which it is cut, and {len(points)} points of fracture.points or its "
             "file: take these points out of it"
         )
-    axis = zones[0].axes[0]
-    planes = [end_m for zone in zones for end_m in zone.ends_along_m]
+    axis = AXES.index(zones[0].along if zones else cuts[0].along)
+    planes = [*(end_m for zone in zones for end_m in zone.ends_along_m), *(cut.position_m for cut in cuts)]
     return replace(
         member, parts=tuple(slab for part in member.parts or (member.solid,) for slab in slabs(part, axis, planes))
     )

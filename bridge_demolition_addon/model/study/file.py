@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from os import PathLike, fspath
@@ -10,7 +11,7 @@ from typing import Any, ClassVar, TypeVar
 
 from ...errors import Faults, ScenarioError
 from ..run_folder.files import SCENARIO_FILE
-from ..scenario import BlastZone, Scenario
+from ..scenario import BlastZone, MemberCut, Scenario
 from ..scenario.file import read_scenario, scenario_text
 from ..schema import shown
 from ..toml_tables import document_of_file, table_of_document, tables_text
@@ -22,6 +23,11 @@ from .settings import EnsembleSettings, StudySettings, Vary
 
 SEED = f"{Scenario.table}.seed"
 """Key that is sampled for each run, and has no table."""
+
+RENAMED = {"least_reach.toml": "least_charge.toml"}
+"""Examples that another one has replaced, beside it: their old paths lead there."""
+
+_CONSOLE = logging.getLogger(__name__)
 
 _Settings = TypeVar("_Settings", bound=EnsembleSettings)
 _Ensemble = TypeVar("_Ensemble", bound="Ensemble")
@@ -88,7 +94,7 @@ def read_ensemble_file(
     description: str,
 ) -> _Ensemble:
     """Read a file of settings, and the scenario that goes with it."""
-    path = Path(path)
+    path = _where_it_is(Path(path))
     try:
         faults = Faults()
         document = document_of_file(path, description, faults=faults)
@@ -100,6 +106,15 @@ def read_ensemble_file(
         raise error.within(fspath(path)) from error
     except ValueError as error:  # a NUL in a path, for one
         raise ScenarioError(f"{fspath(path)}: {error}") from error
+
+
+def _where_it_is(path: Path) -> Path:
+    """Return a path, or where there is nothing the example beside it that has replaced it, and say so."""
+    renamed = path.with_name(RENAMED.get(path.name, path.name))
+    if path.exists() or not renamed.is_file():
+        return path
+    _CONSOLE.warning("%s is now %s", path, renamed)
+    return renamed
 
 
 def read_study(path: str | PathLike[str]) -> Study:
@@ -128,11 +143,13 @@ def variations_of(tables: Sequence[Vary], scenario: Scenario) -> tuple[Variation
 
 
 def _misfires(scenario: Scenario) -> Iterator[Variation]:
-    """Yield the keys of blast zones that may misfire; a zone that is said not to fire never does."""
-    for number, zone in enumerate(scenario.blast_zones, start=1):
-        if zone.fires and zone.probability_fires < 1.0:
-            (key,) = keys_named(scenario, f"{BlastZone.table}.{number}.fires")
-            yield Variation(key, Chance(zone.probability_fires), factor=False)
+    """Yield the keys of blast zones and cuts that may misfire; what is said not to fire never does."""
+    lists: tuple[Sequence[BlastZone | MemberCut], ...] = (scenario.blast_zones, scenario.cuts)
+    for planned in lists:
+        for number, action in enumerate(planned, start=1):
+            if action.fires and action.probability_fires < 1.0:
+                (key,) = keys_named(scenario, f"{action.table}.{number}.fires")
+                yield Variation(key, Chance(action.probability_fires), factor=False)
 
 
 def _variations(scenario: Scenario, vary: Vary, earlier: dict[str, Variation]) -> list[Variation]:

@@ -180,7 +180,7 @@ def _surroundings(results: Results, scenario: Scenario, bodies: np.ndarray) -> d
 
 def _of_drilled_charges(scenario: Scenario) -> dict[str, AtNeighbour]:
     """Return what blast zones do at each neighbour, by its name; nothing where none can fire."""
-    if not (scenario.blast_zones and scenario.neighbours and scenario.blast.explosion):
+    if not ((scenario.blast_zones or scenario.cuts) and scenario.neighbours and scenario.blast.explosion):
         return {}
     found = neighbours_of_zones(scenario, prepared_members(scenario).members)
     return {at.neighbour.name: at for at in found}

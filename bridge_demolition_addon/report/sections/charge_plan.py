@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from ...engineering.blast.vibration import FREE_FACE_AVERAGE
-from ...engineering.drilled_charges.neighbours import STEMMED_KPA
+from ...engineering.drilled_charges.neighbours import BARE_KPA, STEMMED_KPA
 from ...errors import GeometryError, ScenarioError
 from ...model.bridge.preparation import prepared_members
 from ...model.scenario import Scenario
+from ...model.schema import given
 from ...model.structure.blast_zones import POSSIBLE_G_T, RECORDED_G_T, PlacedZone
-from ...model.structure.charge_plan import AtNeighbour, ChargePlan, charge_plan, zone_name
+from ...model.structure.charge_plan import AtNeighbour, ChargePlan, Totals, charge_plan, zone_name
 from ...model.structure.zone_fragments import NO_SAFETY_DISTANCE, FlyrockOfZone
 from ..document.blocks import Block, Column, DataTable, Paragraph, Section, facts
 
@@ -22,7 +23,12 @@ _BY_WHOM = (
     "Thresholds of the specific charge are known within a factor of 2."
 )
 _BARS = (
-    "Bars that stay carry nothing in a run: where they resist more than the column carries, it may stand all the same."
+    "Bars that stay resist this much once their concrete is gone. What comes upon them at once, by the fall of what "
+    "stood on it, presses them with up to twice its weight."
+)
+_SEVERED = (
+    "Whether its explosive severs a member is for a licensed blaster to say: it counts for the ground, as bare for the "
+    "air, and for the totals alone."
 )
 _SEQUENCE = (
     "Times are those that are planned, from the first possible detonation on. The mass within 8 ms is that of all rows "
@@ -67,13 +73,20 @@ _LOADED = (
     Column("bars in tension (MN)", "bars_tension_MN", ".2f", lambda placed: placed.cage_n[0] / _MEGA),
     Column("in compression (MN)", "bars_compression_MN", ".2f", lambda placed: placed.cage_n[1] / _MEGA),
 )
+_CUTS = (
+    Column("cut", "cut", "", lambda cut: cut.name),
+    Column("member", "member", "", lambda cut: cut.member),
+    Column("along", "along", "", lambda cut: cut.along),
+    Column("at (m)", "position_m", ".2f", lambda cut: cut.position_m),
+    Column("mass (kg)", "mass_kg", ".2f", significant=3, value=lambda cut: cut.mass_kg),
+)
 _FIRED = (
     Column("time (ms)", "time_ms", ".0f", lambda row: _MS_PER_S * row.time_s),
     Column("earlier or later (ms)", "spread_ms", ".1f", lambda row: _MS_PER_S * row.spread_s),
-    Column("zone", "zone", "", lambda row: zone_name(row.placed)),
+    Column("zone", "zone", "", lambda row: row.name),
     Column("row", "row", "d", lambda row: row.row),
     Column("detonators", "detonators", "d", lambda row: row.detonators),
-    Column("kind", "detonator", "", lambda row: row.placed.zone.detonator),
+    Column("kind", "detonator", "", lambda row: row.detonator),
     Column("mass (kg)", "mass_kg", ".2f", significant=3, value=lambda row: row.mass_kg),
     Column("within 8 ms (kg)", "mass_within_8_ms_kg", ".2f", significant=3, value=lambda row: row.together_kg),
 )
@@ -99,11 +112,11 @@ _FLOWN = (
 
 
 def charge_plan_section(scenario: Scenario) -> Section | None:
-    """Return the charge plan of a scenario; None without blast zones.
+    """Return the charge plan of a scenario; None without blast zones and cuts.
 
     Where a file of its members is not there any more, the section says so.
     """
-    if not scenario.blast_zones:
+    if not (scenario.blast_zones or scenario.cuts):
         return None
     try:
         return planned_section(scenario)
@@ -112,7 +125,7 @@ def charge_plan_section(scenario: Scenario) -> Section | None:
 
 
 def planned_section(scenario: Scenario) -> Section:
-    """Return the charge plan of a scenario with blast zones, all of whose files are there."""
+    """Return the charge plan of a scenario with blast zones or cuts, all of whose files are there."""
     plan = charge_plan(scenario, prepared_members(scenario).members)
     return Section(_TITLE, tuple(plan_blocks(plan)))
 
@@ -121,10 +134,14 @@ def plan_blocks(plan: ChargePlan) -> Iterator[Block]:
     """Yield the tables of a charge plan, with what they mean."""
     yield Paragraph(_BY_WHOM)
     yield from _warnings(plan)
-    yield DataTable.of("drill_holes", "Drill holes", _DRILLED, plan.zones)
-    yield DataTable.of("charge_table", "Charges and their effect", _LOADED, plan.zones)
-    if any(placed.zone.bars for placed in plan.zones):
-        yield Paragraph(_BARS, True)
+    if plan.zones:
+        yield DataTable.of("drill_holes", "Drill holes", _DRILLED, plan.zones)
+        yield DataTable.of("charge_table", "Charges and their effect", _LOADED, plan.zones)
+    if any(placed.bars for placed in plan.zones):
+        yield Paragraph(_BARS)
+    if plan.cuts:
+        yield Paragraph(_SEVERED)
+        yield DataTable.of("severed_members", "Severed members", _CUTS, plan.cuts)
     yield Paragraph(_SEQUENCE)
     yield DataTable.of("firing_sequence", "Firing sequence", _FIRED, plan.rows)
     yield facts("Totals", _totals(plan), "charge_totals")
@@ -143,7 +160,8 @@ def _warnings(plan: ChargePlan) -> Iterator[Block]:
             by_text.setdefault(text, []).append(zone_name(placed))
     for text, names in by_text.items():
         yield Paragraph(f"Look at {', '.join(names)}: {text}.", True)
-    if failed := [zone_name(placed) for placed in plan.zones if not placed.zone.fires]:
+    failed = [zone_name(placed) for placed in plan.zones if not placed.zone.fires]
+    if failed := [*failed, *(given(cut.name) for cut in plan.cuts if not cut.fires)]:
         yield Paragraph(f"Planned not to fire: {', '.join(failed)}.", True)
     rate, (least, most) = plan.totals.grams_per_tonne, POSSIBLE_G_T
     if not least <= rate <= most:
@@ -154,13 +172,19 @@ def _totals(plan: ChargePlan) -> list[tuple[str, str]]:
     totals, (least, most) = plan.totals, RECORDED_G_T
     return [
         ("Explosive", f"{totals.mass_kg:.3g} kg"),
+        *(_of_holes(totals) if totals.holes else ()),
+        ("By mass of the bridge", f"{totals.grams_per_tonne:.1f} g/t; recorded jobs have {least:g} to {most:g}"),
+        ("Largest mass within 8 ms", f"{totals.together_kg:.3g} kg"),
+        ("From the first row to the last", f"{_MS_PER_S * totals.lasts_s:.0f} ms"),
+    ]
+
+
+def _of_holes(totals: Totals) -> list[tuple[str, str]]:
+    return [
         ("Holes, each with a detonator", f"{totals.holes}"),
         ("Drilled", f"{totals.drilled_m:.1f} m"),
         ("Concrete of all zones", f"{totals.volume_m3:.3f} m³"),
         ("Specific charge", f"{totals.specific_kg_m3:.2f} kg/m³"),
-        ("By mass of the bridge", f"{totals.grams_per_tonne:.1f} g/t; recorded jobs have {least:g} to {most:g}"),
-        ("Largest mass within 8 ms", f"{totals.together_kg:.3g} kg"),
-        ("From the first row to the last", f"{_MS_PER_S * totals.lasts_s:.0f} ms"),
     ]
 
 
@@ -173,8 +197,9 @@ def _neighbours(at: Sequence[AtNeighbour]) -> Iterator[Block]:
     ground = FREE_FACE_AVERAGE
     yield Paragraph(
         f"Vibration by v = {1e3 * ground.velocity_m_s:g} mm/s (R/√Q)^-{ground.exponent:g} ({ground.name}), air "
-        f"pressure by P = {STEMMED_KPA:g} kPa (R/Q^⅓)^-1.45 of stemmed holes (AS 2187.2), Q the mass within 8 ms and R "
-        "the distance to its nearest part. The fall of the bridge often shakes the ground more."
+        f"pressure by P = {STEMMED_KPA:g} kPa (R/Q^⅓)^-1.45 of stemmed holes, {BARE_KPA:g} kPa of what is bare "
+        "(AS 2187.2), Q the mass within 8 ms and R the distance to its nearest part. The fall of the bridge often "
+        "shakes the ground more."
     )
     for one in at:
         if one.is_above_limit:

@@ -22,6 +22,7 @@ from ...model.results.moving import moving_summary, moving_text, still_moving_no
 from ...model.results.solver_energy import throws_of
 from ...model.scenario import Zone
 from ...model.schema import given
+from ...model.structure.zone_fragments import NO_SAFETY_DISTANCE
 from ...model.terrain.built import facts_from, terrain_summary
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section, facts
 from ..run_folder import ReportedRun
@@ -93,6 +94,12 @@ def exclusion_section(zone: ExclusionZone | None, run: ReportedRun, files: Seque
     ]
     if run.planned.charges:
         warning = "This zone leaves out the pressure of the charges: see the rings of damage for that."
+        blocks.insert(1, Paragraph(warning, is_notice=True))
+    if run.planned.blast_zones:
+        warning = (
+            "This zone leaves out fragments that are smaller than shards: the site plan has areas of theirs, which are "
+            f"{NO_SAFETY_DISTANCE}."
+        )
         blocks.insert(1, Paragraph(warning, is_notice=True))
     return Section(_ZONE, tuple(blocks))
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Any
 
 import bpy
 import numpy as np
@@ -70,6 +71,7 @@ class BulletReader:
         self.rigid_because: LayoutError | None = None
         self._built_positions_m, self._built_rotations = world.bodies.positions()
         elastic = self._elastic_connections(setup) if setup.elasticity and len(setup.connections) else None
+        self._elastic = elastic
         self.resting_state = elastic.resting_state if elastic else None
         self._named_bearings = named_bearings_of(setup.connections.objects)
         self._last_loads = None if every_substep else LastSubstepLoads(world.constraints)
@@ -87,7 +89,7 @@ class BulletReader:
         """Return the recorder that Bullet calls, with all drivers in order."""
         setup, world, inventory = self._setup, self._world, self._inventory
         breaking, constraints = setup.breaking, world.constraints
-        self._events = events = Events(world, inventory.pairs, inventory.masses_kg, setup.events)
+        self._events = events = Events(world, inventory.pairs, inventory.masses_kg, setup.events, elastic)
         if setup.elasticity is None and breaking.ductility and np.any(breaking.ductility.strength_share):
             raise SimulationError(
                 "the connections of this scene are rigid and have bars by ductile_share: expected elastic ones, as "
@@ -98,7 +100,7 @@ class BulletReader:
             holding.reinforce(breaking, events.remaining_strength)
         warm_up = WarmUp(world, self._free_shards(), breaking, release=elastic is None)
         meter = Meter(world, inventory, elastic)
-        resistance = Resistance(self._overloads(elastic), events.remaining_strength, elastic, holding)
+        resistance = Resistance(self._overloads(elastic, events.pressed), events.remaining_strength, elastic, holding)
         breaker = Breaker(constraints, meter, resistance, warm_up)
         drivers = in_order(
             (
@@ -154,8 +156,11 @@ class BulletReader:
         rows = rows_on_moving_ground(setup.bodies.objects)
         return GroundDrive(self._world.bodies, rows, self._free_shards(), setup.ground_motion)
 
-    def _overloads(self, elastic: ElasticConnections | None) -> Overloads | None:
-        """Return the criterion of strength; elastic connections are judged by whole sections of built members."""
+    def _overloads(self, elastic: ElasticConnections | None, pressed: np.ndarray | None) -> Overloads | None:
+        """Return the criterion of strength; elastic connections are judged by whole sections of built members.
+
+        Events keep up to date by how much more strength each connection (m,) has left in compression.
+        """
         strength, inventory, sections = self._setup.breaking.strength, self._inventory, None
         if not strength:
             return None
@@ -163,7 +168,7 @@ class BulletReader:
             kinds = kinds_of(inventory.body_members[inventory.pairs])
             thicknesses_m = given(self._setup.elasticity).thicknesses_m
             sections = MemberSections(inventory.faces, self._built_positions_m, inventory.moves, kinds, thicknesses_m)
-        return Overloads(inventory.faces, inventory.moves, strength, sections)
+        return Overloads(inventory.faces, inventory.moves, strength, sections, pressed)
 
     def _bearing_pads(self) -> BearingPads | None:
         """Return the connections at pads of bearings; None without any."""
@@ -201,6 +206,13 @@ class BulletReader:
     def applied_events(self) -> Sequence[AppliedEvent]:
         """Removals, saw cuts and weakenings so far."""
         return self._events.applied
+
+    def bare_bars(self, event: AppliedEvent) -> dict[str, Any]:
+        """Return what the bars of a blast zone have done so far, ready for JSON; nothing where none stand bare."""
+        if self._elastic is None or not len(event.bars):
+            return {}
+        pressed_n, folded_m = self._elastic.bare_bars(event.bars)
+        return {"cage_pressed_n": float(pressed_n.sum()), "cage_folded_m": float(folded_m.max())}
 
     @property
     def of_bearings(self) -> BearingLoads | None:

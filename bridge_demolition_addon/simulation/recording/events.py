@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -12,9 +12,12 @@ from ...model.scenario import ZoneFiring
 from ...model.sequence.departures import Departure
 from ...model.sequence.events import Event
 from .drivers import Driver
+from .elastic_connections import ElasticConnections
 
 _ROUNDING = 1e-3
 """Part of a sub-step by which adding up sub-steps may be off."""
+
+_NONE = np.zeros(0, int)
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,6 +29,7 @@ class AppliedEvent:
     bodies: np.ndarray
     connections: np.ndarray
     zone: ZoneFiring | None = None
+    bars: np.ndarray = field(default_factory=lambda: _NONE)  # numbers (g,) of groups of bars that stand bare since then
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -41,11 +45,21 @@ class Events(Driver):
     """All events of a world in order of time, each before the first sub-step that begins at its time or later.
 
     The connections are between pairs (m, 2) of bodies with masses (n,); `remaining_strength` (m,) is the part of its
-    strength that each has left.
+    strength that each has left. Bars of blast zones stand bare where connections are elastic. `pressed` (m,) is by how
+    much more strength each has left in compression.
     """
 
-    def __init__(self, world: BulletWorld, pairs: np.ndarray, masses_kg: np.ndarray, events: Sequence[Event]):
+    def __init__(
+        self,
+        world: BulletWorld,
+        pairs: np.ndarray,
+        masses_kg: np.ndarray,
+        events: Sequence[Event],
+        elastic: ElasticConnections | None = None,
+    ):
         self.remaining_strength = np.ones(len(pairs))
+        self.pressed = np.ones(len(pairs)) if any(event.pressed != 1.0 for event in events) else None
+        self._elastic = elastic
         self.applied: list[AppliedEvent] = []
         self._world, self._pairs, self._masses_kg = world, pairs, masses_kg
         self._impulses_ns = np.zeros((len(masses_kg), 3))
@@ -70,12 +84,19 @@ class Events(Driver):
 
     def _apply(self, event: Event) -> None:
         connections = event.connections[self._world.constraints.intact()[event.connections]]
+        bars = _NONE
+        if self._elastic and event.bars:
+            bars = self._elastic.bare(event.bars, self._world.constraints.intact())
         # Connections that broke before may still hold by reinforcement, which is weakened or cut with the others.
         self.remaining_strength[event.connections] *= event.factor
+        if self.pressed is not None:
+            self.pressed[event.connections] *= event.pressed
         if event.factor > 0.0:
             self._world.constraints.weaken(connections, event.factor)
         else:
             self._world.constraints.break_rows(connections)
+        if self._elastic and event.departure:
+            self._elastic.let_go(event.bodies)
         bodies = event.bodies[~self._world.bodies.removed[event.bodies]]
         self._world.bodies.wake(self._concerned(bodies, connections))
         if event.departure is None:
@@ -84,7 +105,7 @@ class Events(Driver):
             self._world.bodies.let_touch(event.bodies, touch=False)
             until_s = self._begins_s + event.departure.duration_s
             self._leaving.append(_Leaving(event.bodies, event.departure, until_s))
-        self.applied.append(AppliedEvent(self._begins_s, event.kind, bodies, connections, event.zone))
+        self.applied.append(AppliedEvent(self._begins_s, event.kind, bodies, connections, event.zone, bars))
 
     def _goes_on(self, leaving: _Leaving, substep_s: float) -> bool:
         """Move bodies that leave their member for one more sub-step, or let them go; return whether they go on."""

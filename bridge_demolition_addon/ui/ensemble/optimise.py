@@ -98,3 +98,4 @@ def _list_panel(name: str, label: str) -> type[bpy.types.Panel]:
 BDA_PT_optimise_quantities = _list_panel("quantities", "Quantities")
 BDA_PT_optimise_places = _list_panel("places", "Positions")
 BDA_PT_optimise_orders = _list_panel("orders", "Orders")
+BDA_PT_optimise_choices = _list_panel("choices", "Choices")

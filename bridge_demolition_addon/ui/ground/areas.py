@@ -13,10 +13,14 @@ from ...display.ground_lines import distance_rings, planned_zone
 from ...engineering.geometry.plan_areas import united
 from ...engineering.geometry.vectors import transformed
 from ...engineering.terrain.recorded import RecordedGround
+from ...errors import GeometryError, ScenarioError
+from ...model.bridge.preparation import prepared_members
 from ...model.debris.exclusion import ExclusionZone, exclusion_zone
 from ...model.debris.footprint import footprint
 from ...model.results.arrays import Results
-from ...model.scenario import Exclusion
+from ...model.scenario import BlastZone, Exclusion
+from ...model.scenario.file import scenario_from_text
+from ...model.structure.blast_zones import PlacedZone, placed_zones
 from ...scene.bodies import Kind, bodies_of, is_uneven_ground, kind_of, triangle_mesh
 from ...scene.rendering.ground import ground_of as ground_in
 from ...simulation.blender_events import shown_results
@@ -72,6 +76,22 @@ def zone_of(scene: bpy.types.Scene, settings: Exclusion) -> ExclusionZone | None
     if results is None or not len(results.inventory.of_kind("shard")):
         return planned_zone(plan, settings)
     return _cached("zone", (*_key(scene), settings), lambda: exclusion_zone(results, settings))
+
+
+def blast_zones_of(scene: bpy.types.Scene) -> tuple[PlacedZone, ...]:
+    """Return the blast zones that a scene was built with; none where their members are not known any more."""
+    text = scene.bda.built_scenario
+    if f"[[{BlastZone.table}]]" not in text:
+        return ()
+
+    def placed() -> tuple[PlacedZone, ...]:
+        try:
+            scenario = scenario_from_text(text)
+            return placed_zones(scenario, prepared_members(scenario).members)
+        except (GeometryError, ScenarioError):
+            return ()
+
+    return _cached("blast zones", (text,), placed)
 
 
 def ground_of(scene: bpy.types.Scene) -> RecordedGround:

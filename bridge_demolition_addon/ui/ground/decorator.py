@@ -13,6 +13,7 @@ import numpy as np
 from manifold3d import CrossSection
 
 from ...display.ground_lines import cross_lines, draped, flash_lines, flash_share, outline_lines, way_lines, zone_lines
+from ...display.zone_boxes import box_lines, delay_colours, hole_lines
 from ...engineering.geometry.plan_areas import outlines
 from ...scene.blast.charges import blast_of, charges_of
 from ...scene.bodies import Kind, kind_of
@@ -21,7 +22,7 @@ from ...scene.world import FIRST_STEP_FRAME
 from ..scenario.built import shown_site
 from ..view_drawing import ViewDrawing, draw_lines, write_at
 from . import areas
-from .prop import DEBRIS, EXCLUSION, FLASHES, NAMES, NEIGHBOURS, RINGS, WAY, ZONES
+from .prop import BLAST_ZONES, DEBRIS, EXCLUSION, FLASHES, NAMES, NEIGHBOURS, RINGS, WAY, ZONES
 
 _COLOURS = {
     EXCLUSION: (1.0, 0.15, 0.1, 1.0),
@@ -117,6 +118,26 @@ def _flashes(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Dr
             yield Drawn(lines, (*_FLASH, share), _WIDTHS_PX[FLASHES], charge.name, charge.place_m)
 
 
+def _blast_zones(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Drawn]:
+    """Zones before they fire, with the time at which they do; a flash as they do so."""
+    zones = areas.blast_zones_of(scene)
+    start_s = blast_of(scene).start_s
+    now_s = simulated_time_s(scene, FIRST_STEP_FRAME) if scene.rigidbody_world else 0.0
+    for placed, colour in zip(zones, delay_colours(zones).tolist(), strict=True):
+        zone = placed.zone
+        fires_s = zone.row_times_s()[-1] + start_s
+        top = placed.box_m.mean(axis=0)
+        top[2] = placed.box_m[1, 2]
+        if not (zone.goes_off and now_s > fires_s):
+            text = f"{zone.name}: {zone.delay_ms:g} ms" if zone.goes_off else f"{zone.name}: misfires"
+            yield Drawn(box_lines(placed.box_m), (*colour, 1.0), _WIDTHS_PX[NAMES], text, tuple(top.tolist()))
+            yield Drawn(hole_lines(placed), (*colour, 0.8))
+        share = flash_share(now_s - fires_s) if zone.goes_off else 0.0
+        if share > 0.0:
+            lines = flash_lines(placed.box_m.mean(axis=0).tolist(), _FLASH_M * share)
+            yield Drawn(lines, (*_FLASH, share), _WIDTHS_PX[FLASHES])
+
+
 def _chosen(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> Iterator[Drawn]:
     body = layer.objects.active
     world = scene.rigidbody_world
@@ -150,6 +171,7 @@ _PARTS = {
     WAY: _path,
     FLASHES: _flashes,
     NAMES: _chosen,
+    BLAST_ZONES: _blast_zones,
 }
 
 

@@ -7,6 +7,7 @@ from ..viewport import redraw_views
 
 EXCLUSION, ZONES, DEBRIS, RINGS = "EXCLUSION", "ZONES", "DEBRIS", "RINGS"
 NEIGHBOURS, WAY, FLASHES, NAMES = "NEIGHBOURS", "WAY", "FLASHES", "NAMES"
+BLAST_ZONES = "BLAST_ZONES"
 _OVERLAYS = (
     (EXCLUSION, "Exclusion Zone", "The exclusion zone: of the last run, or as it is planned before there is one"),
     (ZONES, "Zones", "The zones of Scenario, with their names"),
@@ -16,6 +17,7 @@ _OVERLAYS = (
     (WAY, "Path of Ball", "The path of the ball in the last run"),
     (FLASHES, "Flashes", "A flash where a charge goes off"),
     (NAMES, "Chosen Shard", "Outline and name of the body that is selected"),
+    (BLAST_ZONES, "Blast Zones", "Blast zones as they were built, with their drill holes, coloured by their delays"),
 )
 
 
@@ -27,7 +29,7 @@ class GroundProperties:
         description="What is drawn on the ground and in the air of the 3D view",
         items=_OVERLAYS,
         options={"ENUM_FLAG"},
-        default={ZONES, NEIGHBOURS, FLASHES, NAMES},
+        default={ZONES, NEIGHBOURS, FLASHES, NAMES, BLAST_ZONES},
         update=redraw_views,
     )
     distance_spacing_m: FloatProperty(

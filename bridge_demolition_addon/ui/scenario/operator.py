@@ -29,8 +29,8 @@ from ..operators import (
 )
 from ..viewport import look_at_shards
 from .built import forget_built, keep_built, show_built
-from .preset_menu import preset_files
-from .prop import PRESETS, default_scenario
+from .preset_menu import preset_file
+from .prop import default_scenario
 from .values import scenario_of, show_scenario
 
 _SUFFIX = ".toml"
@@ -94,8 +94,7 @@ class BDA_OT_load_preset(UndoableAction, bpy.types.Operator):
     preset: StringProperty(name="Preset", description="Name of the preset")
 
     def act(self, context: bpy.types.Context) -> str | None:
-        path = preset_files().get(self.preset, PRESETS / (self.preset + _SUFFIX))
-        _show(context.scene.bda, read_scenario(path))
+        _show(context.scene.bda, read_scenario(preset_file(self.preset)))
 
 
 def _has_world(context: bpy.types.Context) -> str | None:

@@ -13,6 +13,12 @@ _PACKAGE = Path(__file__).parents[2]
 _EXAMPLES = (_PACKAGE / "examples", _PACKAGE.parent / "examples")
 """Where the examples are: in the extension, or beside the package in a checkout."""
 
+_REPORT_2019 = "report_2019"
+"""Folder of the examples with the settings of the 2019 report."""
+
+_EARLIER_NAMES = {"one_span_wrecking_ball": "span_of_2019_ball", "one_span_explosives": "span_of_2019_explosives"}
+"""Presets that were renamed, by the names that scripts may still have."""
+
 _SUFFIX, _PICTURE_SUFFIX = ".toml", ".jpg"
 _COLUMNS = 5
 _PICTURE_SCALE = 5.0
@@ -39,9 +45,16 @@ class BDA_MT_presets(bpy.types.Menu):
 
 
 def preset_files() -> dict[str, Path]:
-    """Return the file of each preset by its name: those made for the sidebar, then the examples."""
-    folders = (PRESETS, next((example for example in _EXAMPLES if example.is_dir()), None))
-    return {path.stem: path for folder in folders if folder for path in sorted(folder.glob("*" + _SUFFIX))}
+    """Return the file of each preset by its name: those made for the sidebar, examples, and those of 2019."""
+    examples = next((folder for folder in _EXAMPLES if folder.is_dir()), None)
+    folders = (PRESETS, examples, examples / _REPORT_2019) if examples else (PRESETS,)
+    return {path.stem: path for folder in folders for path in sorted(folder.glob("*" + _SUFFIX))}
+
+
+def preset_file(name: str) -> Path:
+    """Return the file of a preset, also by the name that it had before."""
+    name = _EARLIER_NAMES.get(name, name)
+    return preset_files().get(name, PRESETS / (name + _SUFFIX))
 
 
 def picture_of_preset(name: str) -> Path:

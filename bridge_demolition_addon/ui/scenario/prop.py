@@ -54,7 +54,7 @@ from .number_rows import row_properties
 from .typical_values import typical_words
 
 PRESETS = Path(__file__).parent / "presets"
-DEFAULT_PRESET = PRESETS / "one_span_wrecking_ball.toml"
+DEFAULT_PRESET = PRESETS / "span_of_2019_ball.toml"
 
 ENSEMBLES = {"study": StudySettings, "search": SearchSettings, "optimise": OptimiseSettings}
 """Groups of the scene in addition to that of the scenario."""

@@ -90,6 +90,8 @@ TYPICAL: dict[str, Any] = {
     "ball.cable.angle_degrees": 45.0,
     "blast.constant_decay": 1.0,
     "blast.slow_frame_ms": 1.0,
+    "cuts.position_m": 3.0,
+    "cuts.mass_kg": 2.0,
     "blast_zones.middle_m": 1.5,
     "blast_zones.height_m": 1.5,
     "blast_zones.holes_a_row": 4,

@@ -7,6 +7,7 @@ from support.checkout import EXAMPLES, ROOT
 from bridge_demolition_addon.model.ensemble.reference import reference_pages
 from bridge_demolition_addon.model.optimise.file import read_optimisation
 from bridge_demolition_addon.model.optimise.settings import (
+    ChosenOption,
     ChosenOrder,
     ChosenPlace,
     ChosenQuantity,
@@ -22,7 +23,7 @@ from bridge_demolition_addon.model.study.settings import StudySettings, Vary
 TABLES = {
     "study_file.md": (StudySettings, Vary),
     "search_file.md": (SearchSettings,),
-    "optimise_file.md": (OptimiseSettings, ChosenQuantity, ChosenPlace, ChosenOrder),
+    "optimise_file.md": (OptimiseSettings, ChosenQuantity, ChosenPlace, ChosenOrder, ChosenOption),
 }
 
 
@@ -64,3 +65,10 @@ def test_examples_of_optimisations_can_be_made():
         for share in (0.0, 1.0):
             run = optimisation.run_of(1, [share] * optimisation.space.size)
             assert run.scenario.title == optimisation.scenario.title
+
+
+def test_the_old_path_of_an_optimisation_leads_to_the_one_that_replaced_it(caplog):
+    folder = EXAMPLES / "optimisations"
+    old = read_optimisation(folder / "least_reach.toml")
+    assert old.scenario.title == read_optimisation(folder / "least_charge.toml").scenario.title
+    assert "least_charge.toml" in caplog.text

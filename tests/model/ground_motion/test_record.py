@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.checkout import EXAMPLES
+from support.checkout import EXAMPLES, REPORT_2019
 
 from bridge_demolition_addon.engineering.ground_motion.record import corrected, integrated
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
@@ -166,10 +166,10 @@ def test_a_record_is_written_and_read_back(tmp_path):
 def test_tools_that_machines_hold_and_late_records_are_refused():
     """They would not move with the ground."""
     motion = read_scenario(EXAMPLES / "ground_motion" / "span_in_an_earthquake.toml").ground_motion
-    hammers = read_scenario(EXAMPLES / "jackhammer_dismantling.toml")
+    hammers = read_scenario(REPORT_2019 / "jackhammer_dismantling.toml")
     with pytest.raises(ScenarioError, match="jackhammers is given together with ground_motion"):
         replace(hammers, ground_motion=motion)
-    plain = read_scenario(EXAMPLES / "single_span_awake.toml")
+    plain = read_scenario(REPORT_2019 / "single_span_awake.toml")
     assert replace(plain, ground_motion=motion).ground_record.duration_s == pytest.approx(17.0)
     with pytest.raises(ScenarioError, match=r"ground_motion\.start_s is 3\.0: expected less than time\.duration_s"):
         replace(plain, ground_motion=replace(motion, start_s=3.0))

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.checkout import EXAMPLES
+from support.checkout import DEMOLITIONS
 from support.scenarios import I235
 
 from bridge_demolition_addon.errors import ScenarioError
@@ -37,7 +37,7 @@ BARE = Scenario(
 )
 
 
-@pytest.mark.parametrize("path", sorted(EXAMPLES.glob("*.toml")), ids=lambda path: path.name)
+@pytest.mark.parametrize("path", DEMOLITIONS.values(), ids=lambda path: path.name)
 def test_examples_are_read_and_written_without_loss(path):
     scenario = read_scenario(path)
     assert scenario_from_text(scenario_text(scenario)) == scenario

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.checkout import EXAMPLES
+from support.checkout import REPORT_2019
 from support.scenarios import I235
 
 from bridge_demolition_addon.model.scenario import BallHit, SawCut
@@ -82,7 +82,7 @@ def test_last_event():
     assert last_event_s(replace(I235, ball=None)) == 0.0
     assert last_event_s(replace(I235, ball=None), motion_end_s=7.0) == 7.0
     assert last_event_s(replace(I235, saw_cuts=[SawCut(time_s=3, point_m=(6, 0, 5), normal=(1, 0, 0))])) == 3.0
-    explosive = read_scenario(EXAMPLES / "single_span_explosives.toml")
+    explosive = read_scenario(REPORT_2019 / "single_span_explosives.toml")
     detonations = [explosive.blast.start_s + charge.delay_s for charge in explosive.charges]
     assert last_event_s(replace(explosive, ball=None)) == max(detonations) > 0.0
     quiet = replace(explosive.blast, explosion=False)

@@ -11,9 +11,11 @@ from bridge_demolition_addon.engineering.drilled_charges.specific_charge import 
 from bridge_demolition_addon.engineering.geometry.solids import cylinder
 from bridge_demolition_addon.errors import GeometryError, ScenarioError
 from bridge_demolition_addon.model.bridge.member import Member
+from bridge_demolition_addon.model.materials.bar_layers import BarLayer
 from bridge_demolition_addon.model.scenario import Support
 from bridge_demolition_addon.model.scenario.fracture import FracturePoint
 from bridge_demolition_addon.model.sequence.checked_model import check_actions
+from bridge_demolition_addon.model.sequence.events import model_structure, schedule
 from bridge_demolition_addon.model.structure.blast_zones import grams_per_tonne, placed_zone, zone_firings
 
 MEMBERS = column_members()
@@ -33,7 +35,7 @@ def test_the_worked_example():
     assert zone.effect == Effect.THROWN
     # 22.5 g/t of a structure of 196 t with six such columns.
     structure = [Member("all", "bridge", MEMBERS[0].solid, 196e3 / 1.96)]
-    assert grams_per_tonne([zone] * 6, structure) == pytest.approx(22.5, abs=0.05)
+    assert grams_per_tonne(6 * zone.zone.mass_kg, structure) == pytest.approx(22.5, abs=0.05)
 
 
 @pytest.mark.parametrize(
@@ -145,3 +147,71 @@ def test_only_what_fires_and_does_anything_changes_the_structure(tmp_path):
     thrown = replace(scenario, blast_zones=(replace(ZONE, debris="thrown", cover_factor=0.5),))
     # √(2 × 0.06 × 4e6 × 1 / 2400) = 14.14 m/s, half of it behind the cover
     assert zone_firings(thrown, MEMBERS)[0].speed_m_s == pytest.approx(7.07, abs=0.01)
+
+
+def layers(diameter_mm=20.0, area_mm2=942.5):
+    """3 bars of 20 mm at each of the four sides of the column, 60 mm deep."""
+    return [
+        BarLayer(members=("column",), along="z", side=side, depth_m=0.06, area_mm2=area_mm2, diameter_mm=diameter_mm)
+        for side in ("start", "end", "left", "right")
+    ]
+
+
+def test_the_bars_of_a_zone_are_those_of_its_member():
+    """12 of 20 mm: 1.885 MN at yield; over 1.5 m each buckles at 27.6 kN. They are 0.29 m from one of the axes, or
+    evenly along a side."""
+    zone = placed_zone(ZONE, MEMBERS, layers())
+    assert (zone.bars.count, zone.bars.diameter_m) == pytest.approx((12.0, 0.02), rel=1e-3)
+    assert zone.cage_n == pytest.approx((1.885e6, 12 * 27.56e3), rel=2e-3)
+    assert zone.bars.distances_m == pytest.approx([np.sqrt((0.29**2 + 0.7**2 / 12.0) / 2.0)] * 2)
+
+
+def test_bars_of_several_diameters_keep_both_forces():
+    """6 of 25 mm and 6 of 16 mm: the sums of their areas and of their second moments."""
+    sizes = zip(layers(), (25.0, 16.0, 25.0, 16.0), strict=True)
+    two = [replace(layer, diameter_mm=d, area_mm2=3 * np.pi * d * d / 4.0) for layer, d in sizes]
+    zone = placed_zone(ZONE, MEMBERS, two)
+    assert zone.cage_n[0] == pytest.approx(6 * (245.4e3 + 100.5e3), rel=1e-3)
+    assert zone.cage_n[1] == pytest.approx(6 * (186.9e3 * (0.9 / 1.5) ** 2 + 101.6e3 * (0.5 / 1.5) ** 2), rel=1e-3)
+
+
+def test_bars_of_the_zone_agree_with_those_of_its_member_or_are_refused():
+    assert placed_zone(replace(ZONE, bars=12, bar_diameter_mm=20.0), MEMBERS, layers()).bars.count == pytest.approx(
+        12.0, rel=1e-3
+    )
+    with pytest.raises(ScenarioError, match=r"bars is 8: .* gives column there: 12 bars of 20 mm"):
+        placed_zone(replace(ZONE, bars=8, bar_diameter_mm=25.0), MEMBERS, layers())
+
+
+def test_bars_that_end_in_the_zone_or_run_another_way_do_not_stay():
+    ending = [replace(layer, to_m=1.5) for layer in layers()]
+    level = [BarLayer(members=("column",), along="x", side="left", depth_m=0.06, area_mm2=900.0)]
+    links = [BarLayer(members=("column",), along="x", spread_mm2_m2=1000.0)]
+    assert placed_zone(ZONE, MEMBERS, [*ending, *level, *links]).bars is None
+
+
+def test_bars_stand_between_the_shards_at_both_planes(tmp_path):
+    """Four groups of two bars, at the corners of the rectangle with their second moments."""
+    scenario = column_scenario(tmp_path, replace(ZONE, bars=8, bar_diameter_mm=25.0), shards=200)
+    model = column_model(scenario)
+    (event,) = schedule(zone_firings(scenario, model.members), model_structure(model))
+    bars = event.bars
+    assert (bars.count, bars.diameter_m, bars.yield_pa) == pytest.approx((2.0, 0.025, 500e6))
+    np.testing.assert_allclose(bars.points_m[:, 0, 2], 0.75)
+    np.testing.assert_allclose(bars.points_m[:, 1, 2], 2.25)
+    # Evenly along a square with half a side of 0.35 - 0.05 - 0.0125 m: two thirds of its square.
+    np.testing.assert_allclose(abs(bars.points_m[..., :2]), 0.2875 * np.sqrt(2.0 / 3.0))
+    for plane, (below, above) in enumerate(((0.0, 0.75), (2.25, 4.0))):
+        for shard in bars.bodies[:, plane]:
+            low, high = model.shards[shard].bounds[:, 2]
+            assert below - 0.01 <= low and high <= above + 0.01
+    assert not np.isin(bars.bodies, event.bodies).any()
+
+
+def test_no_bars_stand_at_the_end_of_a_member(tmp_path):
+    zone = replace(ZONE, middle_m=0.75, bars=8, bar_diameter_mm=25.0)
+    scenario = column_scenario(tmp_path, zone)
+    scenario = replace(scenario, connections=replace(scenario.connections, foundation=False))
+    model = column_model(scenario)
+    (event,) = schedule(zone_firings(scenario, model.members), model_structure(model))
+    assert event.bars is None

@@ -4,7 +4,7 @@
 from dataclasses import replace
 
 import pytest
-from support.checkout import EXAMPLES, TESTS
+from support.checkout import DEMOLITIONS, TESTS
 from support.scenarios import I235
 
 from bridge_demolition_addon.errors import ScenarioError
@@ -63,7 +63,7 @@ def test_a_list_without_a_name_leads_to_all_of_it():
 
 
 def test_each_name_that_is_found_leads_back_to_the_same_value():
-    for path in sorted(EXAMPLES.glob("*.toml")):
+    for path in DEMOLITIONS.values():
         scenario = read_scenario(path)
         for name in ("charges.mass_kg", "zones.corners_m.1.1", "fracture.finer.factor", "connections.between.type"):
             try:

@@ -48,7 +48,7 @@ def test_a_file_in_feet_is_in_feet_as_it_says(tmp_path):
     """A point 100 units east is 30.48 m off, 20 units higher, and both are in US survey feet."""
     path = write_landxml(tmp_path / "a.xml", unit='<Imperial linearUnit="USSurveyFoot"/>')
     ground = Ground(file=str(path), origin=(EASTING, NORTHING, HEIGHT), bearing_deg=90.0)
-    scenario = replace(read_scenario(ROOT / "examples" / "i235_one_span.toml"), ground=ground)
+    scenario = replace(read_scenario(ROOT / "examples" / "report_2019" / "i235_one_span.toml"), ground=ground)
     terrain = terrain_of(scenario)
     assert terrain.heights_at(np.array([[100.0 * FOOT_M, 0.0]])) == pytest.approx(20.0 * FOOT_M)
     assert terrain.notes == ("in USSurveyFoot, as it says: 0.3048006 m",)

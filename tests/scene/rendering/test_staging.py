@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.checkout import EXAMPLES
+from support.checkout import REPORT_2019
 from support.scenarios import I235, SHORT_RUN
 
 from bridge_demolition_addon.cli.progress import Silence
@@ -100,7 +100,7 @@ def test_building_twice_leaves_one_sun_one_camera_and_one_sky(startup, blender):
     assert startup.camera.name == "Bridge camera"
 
 
-BLASTED = read_scenario(EXAMPLES / "two_spans_13m_explosives.toml")
+BLASTED = read_scenario(REPORT_2019 / "two_spans_13m_explosives.toml")
 BY_FIELDS = replace(
     BLASTED,
     fracture=replace(BLASTED.fracture, shards=30),

@@ -11,7 +11,7 @@ PLACES = [(0.0, 0.0, 1.0), (13.0, 0.0, 1.0), (6.5, 0.0, 3.5)]
 
 @pytest.fixture
 def built(extension, settings):
-    extension.ops.bda.load_preset(preset="one_span_explosives")
+    extension.ops.bda.load_preset(preset="span_of_2019_explosives")
     settings.scenario.fracture.shards = 20
     extension.ops.bda.build_scenario()
     return extension

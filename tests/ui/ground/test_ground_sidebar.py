@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from matplotlib.image import imread, imsave
-from support.checkout import EXAMPLES
+from support.checkout import EXAMPLES, REPORT_2019
 
 from bridge_demolition_addon.engineering.geometry.plan_areas import outlines
 from bridge_demolition_addon.model.debris.exclusion import exclusion_zone
@@ -15,7 +15,7 @@ from bridge_demolition_addon.model.scenario import Exclusion, Neighbour, Zone
 from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_text
 
 ROAD = Zone(name="Main Street", kind="road", corners_m=((20.0, -5.0), (30.0, -5.0), (30.0, 5.0), (20.0, 5.0)))
-SCENARIO = read_scenario(EXAMPLES / "two_spans_13m_explosives.toml")
+SCENARIO = read_scenario(REPORT_2019 / "two_spans_13m_explosives.toml")
 SHORT = replace(
     SCENARIO,
     fracture=replace(SCENARIO.fracture, shards=40),
@@ -210,3 +210,27 @@ def test_the_timeline_marks_what_happened_and_leaves_other_markers_alone(ran, ex
     assert not ran.tool_settings.lock_markers  # the user has one to move
     assert extension.ops.bda.remove_demolition() == {"FINISHED"}
     assert [marker.name for marker in ran.timeline_markers] == ["mine"]
+
+
+def test_blast_zones_are_drawn_with_their_holes_until_they_fire(extension, tmp_path):
+    scenario = read_scenario(EXAMPLES / "drilled" / "two_spans.toml")
+    first, *others = scenario.blast_zones
+    scenario = replace(
+        scenario,
+        fracture=replace(scenario.fracture, shards=30),
+        blast_zones=[replace(first, fires=False), *others],
+        time=replace(scenario.time, stop_at_rest=False),
+    )
+    path, scene = tmp_path / "scenario.toml", extension.context.scene
+    path.write_text(scenario_text(scenario), encoding="utf-8")
+    scene.bda.scenario_path = str(path)
+    assert extension.ops.bda.build_scenario() == {"FINISHED"}
+    scene.bda.overlays = {"BLAST_ZONES"}
+    assert texts(scene) == [
+        "P2.1: misfires", "P2.2: 0 ms", "P1.1: 300 ms", "P1.2: 300 ms", "P3.1: 600 ms", "P3.2: 600 ms",
+    ]  # fmt: skip
+    parts = everything(scene)
+    assert [len(part.lines) for part in parts[:2]] == [24, 20]  # 12 edges, and 10 holes
+    np.testing.assert_allclose(np.ptp(parts[0].lines, axis=0), (0.7, 0.7, 1.5), atol=1e-6)
+    scene.bda.overlays = set()
+    assert everything(scene) == []

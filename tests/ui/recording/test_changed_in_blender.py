@@ -205,7 +205,7 @@ def test_what_no_scenario_can_say_is_said_beside_it(built, settings, tmp_path, c
 
 
 def test_frames_of_another_length_are_refused_where_slow_motion_is_animated(extension, settings, tmp_path):
-    extension.ops.bda.load_preset(preset="one_span_explosives")
+    extension.ops.bda.load_preset(preset="span_of_2019_explosives")
     settings.scenario.fracture.shards = 20
     settings.scenario.time.duration_s = 0.7
     settings.scenario.blast.use_slow_frame_ms = True

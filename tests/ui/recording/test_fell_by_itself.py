@@ -19,7 +19,7 @@ SAID = "The bridge does not stand by itself: "
 
 @pytest.mark.parametrize("stands", [False, True])
 def test_a_coarse_preset_falls_by_itself_and_that_is_said(extension, settings, tmp_path, capfd, stands):
-    extension.ops.bda.load_preset(preset="one_span_explosives")
+    extension.ops.bda.load_preset(preset="span_of_2019_explosives")
     settings.scenario.fracture.shards = 40
     settings.scenario.time.duration_s = 0.6
     if stands:

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from support.blocks import Blocks
-from support.checkout import EXAMPLES
+from support.checkout import REPORT_2019
 
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 
@@ -179,7 +179,7 @@ def test_run_that_is_ended_by_a_deletion_keeps_its_frames(extension, scene, tmp_
 
 def test_a_run_of_a_scenario_is_told_of_as_on_the_command_line(extension, tmp_path):
     settings = extension.context.scene.bda
-    settings.scenario_path = str(EXAMPLES / "single_span_explosives.toml")
+    settings.scenario_path = str(REPORT_2019 / "single_span_explosives.toml")
     extension.ops.bda.load_scenario()
     settings.scenario.fracture.shards = 20
     settings.scenario.time.duration_s = 0.5
@@ -197,7 +197,7 @@ def test_a_run_of_a_scenario_is_told_of_as_on_the_command_line(extension, tmp_pa
 @pytest.mark.parametrize("stop", [False, True])
 def test_a_run_ends_at_rest_where_it_is_to(extension, tmp_path, stop):
     settings = extension.context.scene.bda
-    settings.scenario_path = str(EXAMPLES / "i235_one_span.toml")
+    settings.scenario_path = str(REPORT_2019 / "i235_one_span.toml")
     extension.ops.bda.load_scenario()
     settings.scenario.use_ball = False
     settings.scenario.fracture.shards = 20

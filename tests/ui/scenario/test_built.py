@@ -4,7 +4,7 @@
 import json
 
 import pytest
-from support.checkout import EXAMPLES, SMALL
+from support.checkout import REPORT_2019, SMALL
 
 from bridge_demolition_addon.model.scenario import Scenario
 from bridge_demolition_addon.model.scenario.file import read_scenario
@@ -149,7 +149,7 @@ def test_a_run_that_is_refused_has_changed_no_objects(built, settings, spoilt, s
 
 
 def test_a_run_without_frames_has_changed_no_objects(extension, settings):
-    settings.scenario_path = str(EXAMPLES / "single_span_explosives.toml")
+    settings.scenario_path = str(REPORT_2019 / "single_span_explosives.toml")
     extension.ops.bda.load_scenario()
     settings.scenario.fracture.shards = 8
     extension.ops.bda.build_scenario()
@@ -207,7 +207,7 @@ def test_a_file_that_only_keeps_its_scenario_is_not_run_with_other_values(built,
 
 
 def test_slow_motion_that_was_animated_otherwise_is_not_run(extension, settings, tmp_path):
-    settings.scenario_path = str(EXAMPLES / "single_span_explosives.toml")
+    settings.scenario_path = str(REPORT_2019 / "single_span_explosives.toml")
     extension.ops.bda.load_scenario()
     settings.scenario.fracture.shards = 20
     extension.ops.bda.build_scenario()

@@ -3,7 +3,7 @@
 
 import pytest
 from PIL import Image
-from support.checkout import EXAMPLES
+from support.checkout import DEMOLITIONS
 
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.ui.scenario.values import scenario_of
@@ -21,8 +21,8 @@ def presets(extension):
 
 def test_it_holds_all_examples(presets):
     files = presets.preset_files()
-    assert {path.stem for path in EXAMPLES.glob("*.toml")} < set(files)
-    assert len(files) == len(list(EXAMPLES.glob("*.toml"))) + 3
+    assert set(DEMOLITIONS) < set(files)
+    assert len(files) == len(DEMOLITIONS) + 4
 
 
 def test_each_has_a_picture_that_shows_something(presets):
@@ -44,7 +44,20 @@ def test_blender_loads_the_pictures_and_lets_go_of_them(extension, presets):
 def test_an_example_is_shown_as_its_file_says(extension, settings, presets):
     for name in ("i235_two_spans", "jackhammer_dismantling", "two_spans_20m_delays"):
         assert extension.ops.bda.load_preset(preset=name) == {"FINISHED"}
-        assert scenario_of(settings) == read_scenario(EXAMPLES / f"{name}.toml")
+        assert scenario_of(settings) == read_scenario(DEMOLITIONS[name])
+
+
+def test_the_first_has_bars_and_is_elastic(presets):
+    first = read_scenario(next(iter(presets.preset_files().values())))
+    assert first.bridge.reinforcement.has_bars and first.connections.is_elastic
+
+
+def test_presets_are_found_by_the_names_that_they_had(presets):
+    for earlier, name in (
+        ("one_span_wrecking_ball", "span_of_2019_ball"),
+        ("one_span_explosives", "span_of_2019_explosives"),
+    ):
+        assert presets.preset_file(earlier) == presets.preset_files()[name]
 
 
 def test_labels_are_all_different(presets):

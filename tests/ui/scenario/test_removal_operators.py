@@ -4,12 +4,12 @@
 from pathlib import Path
 
 import pytest
-from support.checkout import EXAMPLES, SMALL
+from support.checkout import REPORT_2019, SMALL
 
 from bridge_demolition_addon.scene.bodies import Kind, bodies_of, kind_of
 from bridge_demolition_addon.simulation.blender_events import running_recording, shown_results, stop_recording
 
-EXPLOSIVES = EXAMPLES / "single_span_explosives.toml"
+EXPLOSIVES = REPORT_2019 / "single_span_explosives.toml"
 
 
 @pytest.fixture

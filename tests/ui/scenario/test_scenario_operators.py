@@ -2,13 +2,13 @@
 """Load, save, new, presets and build, as they are called from Python."""
 
 import pytest
-from support.checkout import EXAMPLES, SMALL
+from support.checkout import REPORT_2019, SMALL
 
 from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_text
 from bridge_demolition_addon.ui.scenario.prop import PRESETS, default_scenario
 from bridge_demolition_addon.ui.scenario.values import scenario_of
 
-EXAMPLE = EXAMPLES / "single_span_explosives.toml"
+EXAMPLE = REPORT_2019 / "single_span_explosives.toml"
 
 
 def names(bpy):
@@ -120,7 +120,7 @@ def test_building_loads_a_file_that_was_not_loaded_yet(extension, settings):
 
 
 def test_building_keeps_the_charges_that_are_there(extension, settings):
-    extension.ops.bda.load_preset(preset="one_span_explosives")
+    extension.ops.bda.load_preset(preset="span_of_2019_explosives")
     settings.scenario.fracture.shards = 30
     charge = extension.context.scene.objects["West pier"]
     charge.location.x = 0.25

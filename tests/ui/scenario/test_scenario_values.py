@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.checkout import EXAMPLES, SMALL
+from support.checkout import DEMOLITIONS, SMALL
 from support.random_scenarios import varied
 
 from bridge_demolition_addon.engineering.single_precision import shortest
@@ -17,7 +17,7 @@ from bridge_demolition_addon.ui.scenario.hints import breaking_note
 from bridge_demolition_addon.ui.scenario.prop import PRESETS, default_scenario
 from bridge_demolition_addon.ui.scenario.values import scenario_of, show_scenario
 
-FILES = sorted([*EXAMPLES.glob("*.toml"), *PRESETS.glob("*.toml"), SMALL])
+FILES = sorted([*DEMOLITIONS.values(), *PRESETS.glob("*.toml"), SMALL])
 
 
 def test_a_new_scene_shows_the_default(settings):
@@ -110,7 +110,7 @@ def test_one_of_a_list_that_is_wrong_is_named_by_its_number(settings):
 
 def test_charges_are_read_from_where_they_are_now(settings):
     scene = settings.id_data
-    scenario = read_scenario(PRESETS / "one_span_explosives.toml")
+    scenario = read_scenario(PRESETS / "span_of_2019_explosives.toml")
     show_scenario(settings, scenario)
     charge = scene.objects["East pier"]
     charge.location.x = 12.5
@@ -122,7 +122,7 @@ def test_charges_are_read_from_where_they_are_now(settings):
 
 
 def test_a_charge_with_a_wrong_property_is_refused(settings):
-    show_scenario(settings, read_scenario(PRESETS / "one_span_explosives.toml"))
+    show_scenario(settings, read_scenario(PRESETS / "span_of_2019_explosives.toml"))
     settings.id_data.objects["East pier"]["bda_explosive"] = "jelly"
     with pytest.raises(ScenarioError, match="jelly"):
         scenario_of(settings)

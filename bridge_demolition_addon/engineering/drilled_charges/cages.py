@@ -1,0 +1,257 @@
+"""Bars that stand bare between two bodies, where a blast has taken the concrete of a zone away.
+
+Groups of bars, each between a point on the body below and one on the body above, pull and press along the line between
+these. They yield in tension, and rupture. In compression they yield or buckle, and then fold: they resist less the
+closer their ends have come for good, and as little while they are straightened again. Sideways they resist nothing.
+
+A sub-step is implicit, as of cracks. What groups have yielded or folded by follows after it, so that the largest forces
+in a sub-step are those of its beginning.
+
+All arrays have their components first.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+
+from ..arrays import BoolArray, FloatArray, IntArray
+from ..elasticity.equations import summed_on_bodies
+from ..elasticity.gaps import Gaps, SolvedTangents, motion_of_points
+from ..elasticity.joint_rows import cross_products, dot_products, matrix_products, transposed, turned, turned_back
+from ..elasticity.steel_bars import MODULUS_PA, USUAL_STEEL
+from .bare_bars import bar_area_m2, folding_force_n, yield_force_n
+
+RUPTURE_STRAIN = USUAL_STEEL.rupture_strain
+
+_AGREES = 1e-4
+"""Largest error of the force of a group, by that at which it yields."""
+
+_FOLDED_UP = 0.02
+"""Length of a group by its bared height from which on it is folded up, and counts no more."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BareBars:
+    """g groups of bars, each of bars that are alike."""
+
+    first: IntArray  # (g,), bodies
+    second: IntArray
+    first_points_m: FloatArray  # (3, g), where they leave the concrete, in the axes of the world
+    second_points_m: FloatArray
+    counts: FloatArray  # (g,), bars; a part of one counts as such
+    diameters_m: FloatArray  # (g,)
+    yields_pa: FloatArray  # (g,)
+
+    @property
+    def yield_n(self) -> FloatArray:
+        """Forces (g,) at which they yield."""
+        return self.counts * yield_force_n(self.diameters_m, self.yields_pa)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Groups:
+    """State of g groups of bars: anchors in the axes of their bodies, and what they have yielded by."""
+
+    first: IntArray
+    second: IntArray
+    first_anchors_m: FloatArray
+    second_anchors_m: FloatArray
+    bared_m: FloatArray  # (g,), length as they were bared
+    counts: FloatArray
+    diameters_m: FloatArray
+    yields_pa: FloatArray
+    stays_m: FloatArray  # (g,), elongation that stays; below 0 where they have folded
+    pressed_n: FloatArray  # (g,), largest force in compression so far
+    holds: BoolArray  # (g,)
+
+    def joined(self, others: _Groups) -> _Groups:
+        """Return these and others."""
+        pairs = ((getattr(self, item.name), getattr(others, item.name)) for item in fields(self))
+        return _Groups(*(np.concatenate(pair, axis=-1) for pair in pairs))
+
+    def only(self, which: IntArray) -> _Groups:
+        """Return some of them."""
+        return _Groups(*(getattr(self, item.name)[..., which] for item in fields(self)))
+
+    @property
+    def stiffness_n_m(self) -> FloatArray:
+        """Force (g,) by elongation, E A / l."""
+        return self.counts * MODULUS_PA * bar_area_m2(self.diameters_m) / self.bared_m
+
+    @property
+    def limits_n(self) -> tuple[FloatArray, FloatArray]:
+        """Largest forces (g,) in tension and in compression."""
+        yields = self.counts * yield_force_n(self.diameters_m, self.yields_pa)
+        folded_m = np.maximum(-self.stays_m, 0.0)
+        folding = self.counts * folding_force_n(self.diameters_m, self.bared_m, folded_m, self.yields_pa)
+        return np.where(folded_m > 0.0, folding, yields), folding
+
+    def forces_n(self, elongations_m: FloatArray) -> FloatArray:
+        """Return the forces (g,), above 0 in tension, at elongations (g,) since they were bared."""
+        pulled, pressed = self.limits_n
+        return self.holds * np.clip(self.stiffness_n_m * (elongations_m - self.stays_m), -pressed, pulled)
+
+    def lines(self, positions_m: FloatArray, rotations: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Return the lines (3, g) from their first to their second points, and arms (3, g) of these on the bodies."""
+        first = turned(rotations[..., self.first], self.first_anchors_m)
+        second = turned(rotations[..., self.second], self.second_anchors_m)
+        return positions_m[:, self.second] + second - positions_m[:, self.first] - first, first, second
+
+
+class Cages:
+    """All bare bars of a structure; `rows` (g,) are their numbers among what connects bodies, from a number on."""
+
+    def __init__(self, from_row: int):
+        self._from_row = from_row
+        none, numbers = np.zeros(0), np.zeros(0, int)
+        points = np.zeros((3, 0))
+        self._groups = _Groups(numbers, numbers, points, points, none, none, none, none, none, none, np.zeros(0, bool))
+        self._solved_for = np.zeros((3, 3, 0))
+
+    def __len__(self) -> int:
+        return len(self._groups.first)
+
+    @property
+    def rows(self) -> IntArray:
+        """Their numbers (g,)."""
+        return self._from_row + np.arange(len(self))
+
+    @property
+    def ends(self) -> tuple[IntArray, IntArray]:
+        """First and second bodies (g,)."""
+        return self._groups.first, self._groups.second
+
+    def add(self, bars: BareBars, positions_m: FloatArray, rotations: FloatArray) -> IntArray:
+        """Let groups of bars stand bare, from how they are now; return their numbers (g,) among all groups."""
+        ends = ((bars.first, bars.first_points_m), (bars.second, bars.second_points_m))
+        anchors = [turned_back(rotations[..., body], points - positions_m[:, body]) for body, points in ends]
+        line = bars.second_points_m - bars.first_points_m
+        count, zeros = len(bars.first), np.zeros(len(bars.first))
+        added = _Groups(
+            bars.first,
+            bars.second,
+            anchors[0],
+            anchors[1],
+            np.sqrt(dot_products(line, line)),
+            bars.counts,
+            bars.diameters_m,
+            bars.yields_pa,
+            zeros,
+            zeros,
+            np.ones(count, bool),
+        )
+        self._groups = self._groups.joined(added)
+        self._solved_for = np.concatenate((self._solved_for, np.full((3, 3, count), np.nan)), axis=2)
+        return len(self) - count + np.arange(count)
+
+    def let_go(self, bodies: IntArray) -> None:
+        """Let go of all bars that end in some bodies (b,)."""
+        gone = np.isin(self._groups.first, bodies) | np.isin(self._groups.second, bodies)
+        self._groups.holds[gone] = False
+
+    def settle(self, positions_m: FloatArray, rotations: FloatArray) -> None:
+        """Take over, before a sub-step, what has yielded, folded or ruptured by now."""
+        groups = self._groups
+        line, *_ = groups.lines(positions_m, rotations)
+        size = np.sqrt(dot_products(line, line))
+        elongations = size - groups.bared_m
+        forces = groups.forces_n(elongations)
+        np.maximum(groups.pressed_n, -forces, out=groups.pressed_n)
+        elastic = np.divide(forces, groups.stiffness_n_m)
+        groups.stays_m[groups.holds] = (elongations - elastic)[groups.holds]
+        ruptured = groups.stays_m > RUPTURE_STRAIN * groups.bared_m
+        groups.holds[ruptured | (size < _FOLDED_UP * groups.bared_m)] = False
+
+    def stored_j(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
+        """Return the energy (g,) that the bars would give back."""
+        groups = self._groups
+        line, *_ = groups.lines(positions_m, rotations)
+        forces = groups.forces_n(np.sqrt(dot_products(line, line)) - groups.bared_m)
+        stored: FloatArray = 0.5 * forces * forces / groups.stiffness_n_m
+        return stored
+
+    def pressed_n(self, chosen: IntArray) -> FloatArray:
+        """Return the largest forces (k,) in compression that some groups have had so far."""
+        return self._groups.pressed_n[chosen]
+
+    def folded_m(self, chosen: IntArray) -> FloatArray:
+        """Return by how much the ends of some groups (k,) have come closer for good."""
+        return np.maximum(-self._groups.stays_m[chosen], 0.0)
+
+    def in_substep(
+        self, chosen: IntArray, positions_m: FloatArray, rotations: FloatArray, substep_s: float
+    ) -> CageStep:
+        """Return what some groups (k,) do in a sub-step of a length in s."""
+        groups = self._groups.only(chosen)
+        line, first_arms, second_arms = groups.lines(positions_m, rotations)
+        gaps = Gaps(groups.first, groups.second, first_arms, second_arms, line)
+        return CageStep(self.rows[chosen], gaps, groups, SolvedTangents(self._solved_for, chosen), substep_s)
+
+
+class CageStep:
+    """Forces of k groups of bars in a sub-step, along their lines as it begins; `rows` (k,) are their numbers."""
+
+    def __init__(self, rows: IntArray, gaps: Gaps, groups: _Groups, solved: SolvedTangents, substep_s: float):
+        self.rows = rows
+        self._gaps, self._groups, self._solved, self._substep_s = gaps, groups, solved, substep_s
+        self._length = np.sqrt(dot_products(gaps.widths_m, gaps.widths_m))
+        self._directions = gaps.widths_m / np.where(self._length > 0.0, self._length, 1.0)
+        self._yields_n = groups.counts * yield_force_n(groups.diameters_m, groups.yields_pa)
+        self._begin_at(np.zeros(len(rows)))
+
+    def changed(self) -> BoolArray:
+        """Return whether each group (k,) has another tangent than its equations."""
+        return self._solved.differ(self._tangents)
+
+    def blocks(self, chosen: IntArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Return what groups (c,) add to the equations of their first and second bodies, and between, (6, 6, c)."""
+        tangents = self._tangents[..., chosen]
+        self._solved.take_over(chosen, tangents)
+        implicit = self._substep_s * self._substep_s * tangents
+        arms = self._gaps.first_arms_m, self._gaps.second_arms_m
+        first, second = (motion_of_points(of_body[:, chosen]) for of_body in arms)
+        by_first, by_second = matrix_products(implicit, first), matrix_products(implicit, second)
+        return (
+            matrix_products(transposed(first), by_first),
+            matrix_products(transposed(second), by_second),
+            -matrix_products(transposed(first), by_second),
+        )
+
+    def loads(self, velocities: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the impulses (6, k) on the first and second bodies, which have velocities (6, n) then."""
+        force = self._at_rest_n + self._stiffness_n_m * self._stretched(velocities)
+        pull = self._substep_s * force * self._directions
+        first = np.concatenate((pull, cross_products(self._gaps.first_arms_m, pull)))
+        second = np.concatenate((-pull, -cross_products(self._gaps.second_arms_m, pull)))
+        return first, second
+
+    def agrees(self, velocities: FloatArray) -> bool:
+        """Return whether the forces follow from velocities (6, n); if not, guess again."""
+        stretched = self._stretched(velocities)
+        guessed = self._at_rest_n + self._stiffness_n_m * stretched
+        if (abs(self._resisted(stretched) - guessed) <= _AGREES * self._yields_n).all():
+            return True
+        self._begin_at(stretched)
+        return False
+
+    def of_bodies(self, loads: tuple[FloatArray, FloatArray], count: int) -> FloatArray:
+        """Return the sums (6, n) of loads (6, k) on the first and on the second bodies, for n bodies."""
+        return summed_on_bodies(self._gaps.first, self._gaps.second, loads, count)
+
+    def _stretched(self, velocities: FloatArray) -> FloatArray:
+        """Elongations (k,) in the sub-step."""
+        return self._substep_s * dot_products(self._directions, self._gaps.rates(velocities))
+
+    def _resisted(self, stretched_m: FloatArray) -> FloatArray:
+        return self._groups.forces_n(self._length - self._groups.bared_m + stretched_m)
+
+    def _begin_at(self, stretched_m: FloatArray) -> None:
+        """Take forces for linear about elongations (k,) in the sub-step."""
+        forces = self._resisted(stretched_m)
+        pulled, pressed = self._groups.limits_n
+        is_elastic = self._groups.holds & (forces < pulled) & (forces > -pressed)
+        self._stiffness_n_m = np.where(is_elastic, self._groups.stiffness_n_m, 0.0)
+        self._at_rest_n = forces - self._stiffness_n_m * stretched_m
+        self._tangents = self._stiffness_n_m * (self._directions[:, None] * self._directions)
