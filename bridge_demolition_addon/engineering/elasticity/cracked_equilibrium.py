@@ -134,8 +134,9 @@ class CrackedStructure:
         return True, step
 
     def _short_step(self, structure: ElasticStructure, accelerations: FloatArray) -> ElasticStep:
-        """Return a step in which nothing goes farther than `_LONGEST_M`, or the shortest one, as while something falls."""
-        for self._step_s in _STEPS_S[-1:] if self._falls else _STEPS_S:
+        """Return a step in which nothing goes farther than `_LONGEST_M`; or the shortest, as while something falls."""
+        lengths = _STEPS_S[-1:] if self._falls else _STEPS_S
+        for self._step_s in lengths:
             free = np.where(self.held, self._step_s * accelerations, 0.0)
             step = self._with_friction(structure, StepInput(self.positions_m, self.rotations, free, ~self.held))
             if self._farthest_m(step) <= _LONGEST_M:
