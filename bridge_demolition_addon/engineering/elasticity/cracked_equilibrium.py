@@ -120,6 +120,7 @@ class CrackedStructure:
         self, structure: ElasticStructure, accelerations: FloatArray, overloaded: Overloaded, tear: Tear
     ) -> tuple[bool, ElasticStep]:
         """Whether anything broke in a step, and the step without that."""
+        self._step_s = _STEPS_S[-1] if self._falls else _STEPS_S[0]
         step = self._short_step(structure, accelerations)
         for number in range(_MOST_ROUNDS):
             self._falls = self._farthest_m(step) > _FALLS_M[_STEPS_S.index(self._step_s)]
@@ -134,9 +135,9 @@ class CrackedStructure:
         return True, step
 
     def _short_step(self, structure: ElasticStructure, accelerations: FloatArray) -> ElasticStep:
-        """Return a step in which nothing goes farther than `_LONGEST_M`; or the shortest, as while something falls."""
-        lengths = _STEPS_S[-1:] if self._falls else _STEPS_S
-        for self._step_s in lengths:
+        """Return a step in which nothing goes farther than `_LONGEST_M`, or the shortest; no longer than the last."""
+        for step_s in _STEPS_S[_STEPS_S.index(self._step_s) :]:
+            self._step_s = step_s
             free = np.where(self.held, self._step_s * accelerations, 0.0)
             step = self._with_friction(structure, StepInput(self.positions_m, self.rotations, free, ~self.held))
             if self._farthest_m(step) <= _LONGEST_M:
