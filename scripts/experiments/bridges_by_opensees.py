@@ -241,7 +241,7 @@ def skewed_slab() -> dict[str, float]:
 
 
 def example_frame() -> dict[str, float]:
-    """The bridge of examples/report_2019/single_span_explosives.toml: deck, caps and columns in one piece, feet held."""
+    """The bridge of examples/report_2019/single_span_explosives.toml: deck, caps and columns in one, feet held."""
     grid = (
         spaced(
             (-0.5, -0.35, 1),

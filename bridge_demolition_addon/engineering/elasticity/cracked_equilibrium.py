@@ -43,8 +43,9 @@ _MOST_ROUNDS = 200
 _REGRIPS = 2
 """How often sides of cracks rub by the pressing force that was found before, in one step."""
 
-_FALLS_M = 0.2
-"""Motion in one step of what falls: what else breaks waits for the next, without what has come loose by then."""
+_FALLS_M = (0.2, 0.2, 0.02)
+"""Motion in one step of what falls, by its length: what else breaks waits for the next, without what has come loose by
+then."""
 
 _FARTHEST_M = 0.5
 """Displacement from where it was built, beyond which a body has fallen."""
@@ -78,6 +79,7 @@ class CrackedStructure:
     def __init__(self, built: BuiltStructure, cracks: Cracks, left: FloatArray, intact: BoolArray, rest: Equilibrium):
         self._built, self.cracks, self._left = built, cracks, left
         self._frames, self._bodies, self._step_s = built.frames, built.bodies, _STEPS_S[0]
+        self._falls = False
         self.positions_m, self.rotations = rest.positions_m, rest.rotations
         self.intact, self.held = intact.copy(), rest.held.copy()
         self.loads = np.zeros(
@@ -98,6 +100,7 @@ class CrackedStructure:
         structure = ElasticStructure(
             built.frames, built.stiffness, built.bodies, 0.0, self.cracks, built.soil, built.bearings
         )
+        self._falls = False
         for _ in range(_MOST_STEPS):
             ruptured = structure.settle(self.positions_m, self.rotations)
             self._let_go()
@@ -117,9 +120,11 @@ class CrackedStructure:
         self, structure: ElasticStructure, accelerations: FloatArray, overloaded: Overloaded, tear: Tear
     ) -> tuple[bool, ElasticStep]:
         """Whether anything broke in a step, and the step without that."""
+        self._step_s = _STEPS_S[-1] if self._falls else _STEPS_S[0]
         step = self._short_step(structure, accelerations)
         for number in range(_MOST_ROUNDS):
-            if self._farthest_m(step) > _FALLS_M:
+            self._falls = self._farthest_m(step) > _FALLS_M[_STEPS_S.index(self._step_s)]
+            if self._falls:
                 return True, step
             rows = overloaded(self._loads_of(step), self.intact)
             if not len(rows):
@@ -130,8 +135,9 @@ class CrackedStructure:
         return True, step
 
     def _short_step(self, structure: ElasticStructure, accelerations: FloatArray) -> ElasticStep:
-        """Return a step in which nothing goes farther than `_LONGEST_M`, or the shortest one."""
-        for self._step_s in _STEPS_S:
+        """Return a step in which nothing goes farther than `_LONGEST_M`, or the shortest; no longer than the last."""
+        for step_s in _STEPS_S[_STEPS_S.index(self._step_s) :]:
+            self._step_s = step_s
             free = np.where(self.held, self._step_s * accelerations, 0.0)
             step = self._with_friction(structure, StepInput(self.positions_m, self.rotations, free, ~self.held))
             if self._farthest_m(step) <= _LONGEST_M:

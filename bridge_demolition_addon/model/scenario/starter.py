@@ -67,7 +67,8 @@ members = ["pier {1 + len(answers.spans_m) // 2}"]
 def _ball(answers: Answers) -> str:
     middle = sum(answers.spans_m[: len(answers.spans_m) // 2]) + answers.spans_m[len(answers.spans_m) // 2] / 2.0
     return f"""\
-# What is done: a crane drops a steel ball. A slab with bars may carry that: see docs/search.md for the lightest that does not.
+# What is done: a crane drops a steel ball. A slab with bars may carry that: a search, as in docs/search.md, says how
+# heavy it has to be.
 [ball]
 mass_kg = 8000
 diameter_m = 1.25                # a ball of steel of this mass

@@ -1,4 +1,4 @@
-"""Whether a bridge carries the loads that its bars are designed for: 1.35 times its weight and 1.5 times its traffic."""
+"""Whether a bridge carries what its bars are designed for: 1.35 times its weight and 1.5 times its traffic."""
 
 from __future__ import annotations
 
@@ -71,7 +71,10 @@ def design_load_sentences(loads: Sequence[DesignLoad]) -> Iterator[str]:
 
 
 def load_cases(scenario: Scenario, model: Model) -> Iterator[tuple[str, np.ndarray]]:
-    """Yield names of positions, and loads (6, n) on the shards beside their weight; all times 1.35 is 1.35 G + 1.5 Q."""
+    """Yield names of positions, and loads (6, n) on the shards beside their weight.
+
+    Weight and these together, times 1.35, are 1.35 G + 1.5 Q.
+    """
     rule = bars_by_rule(scenario)
     if rule is None or rule.ratios:
         return
@@ -110,7 +113,7 @@ def _traffic_loads(model: Model, traffic: Traffic, spans: Sequence[tuple[float, 
 
 
 def _moment(load: MovingLoad, span_m: float) -> float:
-    """Moment in the middle of a simple span with the vehicle there, N·m; below 0 for what counts over supports alone."""
+    """Return the moment in the middle of a simple span, N·m; below 0 for what counts over supports alone."""
     if load.hogging_only:
         return -1.0
     arms = np.maximum(span_m / 2.0 - abs(_centred(load)), 0.0) / 2.0

@@ -43,6 +43,24 @@ def test_examples_are_read_and_written_without_loss(path):
     assert scenario_from_text(scenario_text(scenario)) == scenario
 
 
+def test_old_paths_of_the_examples_of_2019_lead_to_where_they_are_now(tmp_path, caplog):
+    (tmp_path / "report_2019").mkdir()
+    moved = tmp_path / "report_2019" / "bare.toml"
+    moved.write_text(scenario_text(BARE), encoding="utf-8")
+    (tmp_path / "deeper").mkdir()
+    variant = tmp_path / "deeper" / "variant.toml"
+    variant.write_text('[scenario]\nbased_on = "../bare.toml"\n', encoding="utf-8")
+    assert read_scenario(tmp_path / "bare.toml") == read_scenario(variant) == BARE
+    assert [record.getMessage() for record in caplog.records] == [f"{tmp_path / 'bare.toml'} is now {moved}"] * 2
+    # A file that is where it is asked for comes first, and what is nowhere is missed where it was asked for.
+    other = replace(BARE, title="other")
+    (tmp_path / "bare.toml").write_text(scenario_text(other), encoding="utf-8")
+    assert read_scenario(tmp_path / "bare.toml") == read_scenario(variant) == other
+    assert len(caplog.records) == 2
+    with pytest.raises(ScenarioError, match=r"none\.toml: no such file"):
+        read_scenario(tmp_path / "none.toml")
+
+
 def test_what_is_left_out_stays_left_out():
     text = scenario_text(BARE)
     assert scenario_from_text(text) == BARE
