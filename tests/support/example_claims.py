@@ -94,20 +94,20 @@ CLAIMS: dict[str, dict[str, tuple[float, float]]] = {
         "inner_deck_fallen_share_at_1_5_s": (0.4, 1.0),  # 0.66 to 0.77
         "largest_throw_m": (0.0, 8.0),  # 1.7 to 4.1
     },
-    "three_span_box_girder": {  # 2 seeds; `scripts/seeds` with 12 or more says better how far these may go
+    "three_span_box_girder": {  # 3 seeds; `scripts/seeds` with 12 or more says better how far these may go
         # It cracks nowhere by its own weight.
         "moved_before_m": (0.0, 0.01),  # 0.001
         "broken_before_share": (0.0, 0.05),  # 0.000 to 0.007
         # At rest on a whole deck the middle of the ball would be at 8.27 m.
-        "ball_ends_m": (7.6, 8.27),  # 8.13 to 8.14
+        "ball_ends_m": (7.6, 8.27),  # 8.13 to 8.16
         "deflection_under_ball_m": (0.02, 0.6),  # 0.10 to 0.17
-        "broken_connections": (50, MOST),  # 563 to 584
+        "broken_connections": (50, MOST),  # 527 to 584
         "most_loaded_from_target_m": (0.0, 4.0),  # 0.2 to 0.3
         "span_2_share_fallen_2_m": (0.0, 0.0),
         "first_span_moved_m": (0.0, 0.1),  # 0.01
         "piers_moved_m": (0.0, 0.05),  # 0.001 to 0.002
         "abutments_moved_m": (0.0, 0.0),
-        "made_share": (0.0, 0.02),  # 0.008 to 0.010
+        "made_share": (0.0, 0.04),  # 0.008 to 0.018
     },
     "two_spans_13m_ball": {  # 3 seeds; `scripts/seeds` with 12 or more says better how far these may go
         # The decks crack by their own weight, and rest on their bars.
