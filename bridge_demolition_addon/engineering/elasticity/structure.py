@@ -111,9 +111,6 @@ class BareBarLaw(SpringLaw, Protocol):
     def ends(self) -> tuple[IntArray, IntArray]:
         """First and second bodies (g,)."""
 
-    def let_go(self, bodies: IntArray) -> None:
-        """Let go of all bars that end in some bodies (b,)."""
-
 
 class _Part:
     def __init__(self, bodies: IntArray, connections: IntArray, first: IntArray, second: IntArray):
@@ -170,9 +167,8 @@ class ElasticStructure:
         cracks: Cracks | None = None,
         soil: SpringLaw | None = None,
         bearings: Bearings | None = None,
-        bare_bars: BareBarLaw | None = None,
     ):
-        self._bare_bars = bare_bars
+        self._bare_bars: BareBarLaw | None = None
         self._frames, self._bodies = frames, bodies
         self._damping_s = np.broadcast_to(np.asarray(damping_s, float), len(frames))
         self._springs = [springs for springs in (soil, bearings) if springs is not None]
@@ -327,8 +323,9 @@ class ElasticStructure:
             self._has_broken = True
         return gone
 
-    def find_parts(self) -> None:
-        """Find the parts again, for bars that stand bare from now on."""
+    def stand_bare(self, bars: BareBarLaw) -> None:
+        """Take over bars that stand bare, before a sub-step; again where there are more."""
+        self._bare_bars = bars
         self._partition()
 
     def end_substep(self) -> None:

@@ -44,7 +44,7 @@ from .jackhammer import Jackhammer
 from .recording import PictureSettings, RecordingSettings
 from .reinforcement import BridgeReinforcement
 from .site import Exclusion, Neighbour, Site, Zone
-from .structural_changes import Change, Removal, SawCut, Severing, Weakening
+from .structural_changes import Change, Removal, SawCut, Weakening, severing
 from .time import MOST_FRAMES, TimeSettings
 
 _RIGID_WITH_BARS = "bars between rigid bodies would make energy"
@@ -193,17 +193,9 @@ class Scenario(Table):
     @property
     def changes(self) -> tuple[Change, ...]:
         """Changes to the structure, but for those of blast zones, which depend on its model."""
-        return (*self.removals, *self.saw_cuts, *self.weakenings, *map(self.severing, self._cuts_that_fire))
-
-    @property
-    def _cuts_that_fire(self) -> tuple[MemberCut, ...]:
-        return tuple(cut for cut in self.cuts if cut.fires) if self.blast.explosion else ()
-
-    def severing(self, cut: MemberCut) -> Severing:
-        """Return a member that explosive severs as a change to the structure."""
-        point_m, normal = cut.plane
-        time_s = self.blast.start_s + cut.fired_after_s(self.seed)
-        return Severing(time_s=time_s, members=(cut.member,), point_m=point_m, normal=normal)
+        fired = [cut for cut in self.cuts if cut.fires and self.blast.explosion]
+        severed = (severing(cut, self.blast.start_s, self.seed) for cut in fired)
+        return (*self.removals, *self.saw_cuts, *self.weakenings, *severed)
 
     def _check_together(self) -> None:
         self._settle_contacts()

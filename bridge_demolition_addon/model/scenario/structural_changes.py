@@ -8,6 +8,7 @@ from ...engineering.drilled_charges.specific_charge import Effect
 from ...engineering.geometry.sides import AXES
 from ...errors import ScenarioError
 from ..actions import Fact, Plan, Worksite
+from ..blast.cuts import MemberCut
 from ..loads import Part
 from ..schema import key, shown
 
@@ -80,6 +81,12 @@ class Severing(SawCut):
 
     table: ClassVar[str] = "severings"
     kind: ClassVar[str] = "severed member"
+
+
+def severing(cut: MemberCut, start_s: float, seed: int) -> Severing:
+    """Return a member that explosive severs as a change to the structure, in a run with a seed and a start."""
+    point_m, normal = cut.plane
+    return Severing(time_s=start_s + cut.fired_after_s(seed), members=(cut.member,), point_m=point_m, normal=normal)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

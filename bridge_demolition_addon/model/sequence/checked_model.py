@@ -19,6 +19,7 @@ from ..loads import Load
 from ..materials.bar_layers import BarLayer
 from ..reinforcement.design import all_layers
 from ..scenario import Change, MemberCut, Scenario
+from ..scenario.structural_changes import severing
 from ..structure.blast_zones import one_member, placed_zone
 from ..structure.model import Model, build_model
 from .events import Structure, model_structure, schedule
@@ -90,7 +91,7 @@ class ModelWorksite:
             raise cut.unexpected(
                 "position_m", f"a position in {member.name}, from {lowest:g} to {highest:g} (m) along {cut.along}"
             )
-        schedule((self.plan.severing(cut),), self._structure)
+        schedule((severing(cut, self.plan.blast.start_s, self.plan.seed),), self._structure)
 
     def number_of(self, action: PlannedAction) -> int:
         alike = [other for other in self.plan.actions if type(other) is type(action)]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any
 
 import bpy
 import numpy as np
@@ -71,7 +70,6 @@ class BulletReader:
         self.rigid_because: LayoutError | None = None
         self._built_positions_m, self._built_rotations = world.bodies.positions()
         elastic = self._elastic_connections(setup) if setup.elasticity and len(setup.connections) else None
-        self._elastic = elastic
         self.resting_state = elastic.resting_state if elastic else None
         self._named_bearings = named_bearings_of(setup.connections.objects)
         self._last_loads = None if every_substep else LastSubstepLoads(world.constraints)
@@ -206,13 +204,6 @@ class BulletReader:
     def applied_events(self) -> Sequence[AppliedEvent]:
         """Removals, saw cuts and weakenings so far."""
         return self._events.applied
-
-    def bare_bars(self, event: AppliedEvent) -> dict[str, Any]:
-        """Return what the bars of a blast zone have done so far, ready for JSON; nothing where none stand bare."""
-        if self._elastic is None or not len(event.bars):
-            return {}
-        pressed_n, folded_m = self._elastic.bare_bars(event.bars)
-        return {"cage_pressed_n": float(pressed_n.sum()), "cage_folded_m": float(folded_m.max())}
 
     @property
     def of_bearings(self) -> BearingLoads | None:

@@ -15,7 +15,6 @@ from ...bullet.body_motion import BodyMotion
 from ...bullet.constraint_rows import ConstraintRows, check_frames
 from ...bullet.world import BulletWorld
 from ...engineering.arithmetic import power
-from ...engineering.drilled_charges.cages import BareBars, Cages
 from ...engineering.elasticity.bearings import Bearings, PadSprings
 from ...engineering.elasticity.crack_state import CrackState
 from ...engineering.elasticity.cracks import Cracks
@@ -29,7 +28,6 @@ from ...engineering.elasticity.joint_rows import (
     joint_positions,
     matrix_products,
     transposed,
-    turned,
     turned_back,
 )
 from ...engineering.elasticity.section_stiffness import SectionStiffness, in_frames
@@ -40,9 +38,9 @@ from ...engineering.mechanics.reinforcement import FaceBars
 from ...engineering.mechanics.section_forces import section_axes
 from ...model.results.inventory import Inventory
 from ...model.schema import given
-from ...model.sequence.bare_bars import StandingBars
 from ...scene.connections.breaking_settings import Breaking
 from ...scene.world import scene_time_step
+from .standing_bars import StandingBarsOfZones
 
 _SOFTEST = 0.1
 """Frequency over that of the bridge as it was built, down to which damping follows. What is softer is falling, and
@@ -153,7 +151,7 @@ class ElasticConnections:
         self._is_first = is_first
         self._inventory = inventory
         self._cracks: Cracks | None = None
-        self._cages = Cages(len(self._frames))
+        self.bare_bars = StandingBarsOfZones(self._reader, motion, self._masses, len(self._frames))
         self._built = motion
         self._substep_s = 0.0
         self._loads = np.zeros((2, 6, len(self._frames)))
@@ -173,38 +171,6 @@ class ElasticConnections:
             bars = bars.with_even(even, float(ductility.elongation_m))
         self._faces = CrackFaces(self._inventory.areas_m2, self._inventory.second_moments_m4, bars)
         self._cracks = self._faces.cracks(breaking.steel, left, self._axial_n_m)
-
-    def bare(self, bars: StandingBars, left: np.ndarray) -> np.ndarray:
-        """Let bars of a blast zone stand bare, before its connections are cut; return the numbers (g,) of their groups.
-
-        Bars that no longer reach a shard that holds them, of the connections (m,) that are `left`, are gone.
-        """
-        holds = self.holding(left)[bars.connections].all(axis=1) & (self._masses[bars.bodies] > 0.0).any(axis=1)
-        first, second = bars.bodies[holds].T
-        motion, built = self._reader.read(), self._built
-        points = []
-        for bodies, places in zip((first, second), np.moveaxis(bars.points_m[holds], 1, 0), strict=True):
-            from_centre = places.T - built.position_components_m[:, bodies]
-            anchors = turned_back(built.rotation_components[..., bodies], from_centre)
-            points.append(
-                motion.position_components_m[:, bodies] + turned(motion.rotation_components[..., bodies], anchors)
-            )
-        count = len(first)
-        alike = (np.full(count, value) for value in (bars.count, bars.diameter_m, bars.yield_pa))
-        numbers = self._cages.add(
-            BareBars(first, second, *points, *alike), motion.position_components_m, motion.rotation_components
-        )
-        if self._structure is not None:
-            self._structure.find_parts()
-        return numbers
-
-    def let_go(self, bodies: np.ndarray) -> None:
-        """Let go of bare bars that end in bodies (b,), which leave their member."""
-        self._cages.let_go(bodies)
-
-    def bare_bars(self, numbers: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the largest force in compression (g,) of groups of bare bars so far, and how far they have folded."""
-        return self._cages.pressed_n(numbers), self._cages.folded_m(numbers)
 
     def tear(self, rows: np.ndarray, points_m: np.ndarray, axes: np.ndarray) -> None:
         """Let the reinforcement hold of connections (r,) that broke at points (r, 3), with section axes (r, 3, 3)."""
@@ -244,6 +210,8 @@ class ElasticConnections:
         self._motion = motion = self._reader.read()
         if substep_s != self._substep_s:
             self._prepare(motion, substep_s)
+        if self.bare_bars.take_added():
+            given(self._structure).stand_bare(self.bare_bars.law)
         self._follow_frequencies(motion)
         left = np.where(motion.inverse_masses > 0.0, power(self._left_per_second, substep_s), 1.0)
         velocities = left * motion.velocity_components
@@ -354,7 +322,6 @@ class ElasticConnections:
                 self._cracks,
                 self._footings,
                 self._bearings,
-                self._cages,
             )
         self._structure.damp(self._damping_s)
         self._soften(motion)

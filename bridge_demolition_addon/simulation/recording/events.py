@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from ...bullet.world import BulletWorld
+from ...engineering.drilled_charges.cages import Cages
 from ...model.scenario import ZoneFiring
 from ...model.sequence.departures import Departure
 from ...model.sequence.events import Event
@@ -30,6 +31,14 @@ class AppliedEvent:
     connections: np.ndarray
     zone: ZoneFiring | None = None
     bars: np.ndarray = field(default_factory=lambda: _NONE)  # numbers (g,) of groups of bars that stand bare since then
+    law: Cages | None = None  # of all such bars
+
+    def bars_so_far(self) -> dict[str, float]:
+        """Return the largest force that pressed its bars, and how far they folded; nothing where none stand bare."""
+        if self.law is None or not len(self.bars):
+            return {}
+        pressed_n, folded_m = self.law.pressed_n(self.bars), self.law.folded_m(self.bars)
+        return {"cage_pressed_n": float(pressed_n.sum()), "cage_folded_m": float(folded_m.max())}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -86,7 +95,8 @@ class Events(Driver):
         connections = event.connections[self._world.constraints.intact()[event.connections]]
         bars = _NONE
         if self._elastic and event.bars:
-            bars = self._elastic.bare(event.bars, self._world.constraints.intact())
+            holding = self._elastic.holding(self._world.constraints.intact())
+            bars = self._elastic.bare_bars.bare(event.bars, holding)
         # Connections that broke before may still hold by reinforcement, which is weakened or cut with the others.
         self.remaining_strength[event.connections] *= event.factor
         if self.pressed is not None:
@@ -96,7 +106,7 @@ class Events(Driver):
         else:
             self._world.constraints.break_rows(connections)
         if self._elastic and event.departure:
-            self._elastic.let_go(event.bodies)
+            self._elastic.bare_bars.law.let_go(event.bodies)
         bodies = event.bodies[~self._world.bodies.removed[event.bodies]]
         self._world.bodies.wake(self._concerned(bodies, connections))
         if event.departure is None:
@@ -105,7 +115,8 @@ class Events(Driver):
             self._world.bodies.let_touch(event.bodies, touch=False)
             until_s = self._begins_s + event.departure.duration_s
             self._leaving.append(_Leaving(event.bodies, event.departure, until_s))
-        self.applied.append(AppliedEvent(self._begins_s, event.kind, bodies, connections, event.zone, bars))
+        law = self._elastic.bare_bars.law if self._elastic else None
+        self.applied.append(AppliedEvent(self._begins_s, event.kind, bodies, connections, event.zone, bars, law))
 
     def _goes_on(self, leaving: _Leaving, substep_s: float) -> bool:
         """Move bodies that leave their member for one more sub-step, or let them go; return whether they go on."""

@@ -181,7 +181,7 @@ class Recording(RecordedFrames):
                 "kind": event.kind,
                 "shards": [str(names[body]) for body in event.bodies],
                 "connections": len(event.connections),
-                **(_of_zone(event.zone) | given(self._reader).bare_bars(event) if event.zone else {}),
+                **(_of_zone(event.zone) | event.bars_so_far() if event.zone else {}),
             }
             for event in (self._reader.applied_events if self._reader else ())
         ]

@@ -134,12 +134,12 @@ def test_bars_between_two_flying_bodies_make_no_energy(seed, speed_m_s, rate_rad
     none, cages = np.zeros(0, int), Cages(0)
     frames = JointFrames(none, none, *np.zeros((2, 3, 3, 0)), *np.zeros((2, 3, 0)))
     bodies = RigidBodies(masses, inertias, positions, rotations)
-    structure = ElasticStructure(frames, np.zeros((6, 6, 0)), bodies, np.zeros(0), bare_bars=cages)
+    structure = ElasticStructure(frames, np.zeros((6, 6, 0)), bodies, np.zeros(0))
     corners = np.array([(-0.25, -0.25, 0.25, 0.25), (-0.25, 0.25, -0.25, 0.25)])
     ends = [np.vstack([corners, np.full((1, 4), height)]) for height in (0.5, 2.0)]
     lower, alike = np.zeros(4, int), np.ones(4)
     cages.add(BareBars(lower, lower + 1, *ends, 2.0 * alike, 0.025 * alike, 500e6 * alike), positions, rotations)
-    structure.find_parts()
+    structure.stand_bare(cages)
     random = np.random.default_rng(seed).normal(size=(6, 2))
     velocities = random * np.repeat((speed_m_s, rate_rad_s), 3)[:, None]
     momentum, energies = (masses * velocities[:3]).sum(axis=1), []
