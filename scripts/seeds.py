@@ -105,6 +105,8 @@ def table(name: str, rows: Sequence[dict[str, float | None]]) -> str:
             lines.append(f"{quantity:36}" + "".join(f"{figure:10.4g}" for figure in figures) + f"{len(values):6}")
         else:
             lines.append(f"{quantity:36}{'':30}{0:6}")
+    if moving := sum(bool(row.get("still_moving_shards")) for row in rows):
+        lines.append(f"in {moving} of {len(rows)} runs shards still moved at the end: their throws are not final")
     return "\n".join(lines)
 
 

@@ -57,8 +57,13 @@ def deck_falls(run: ExampleRun) -> dict[str, float | None]:
 
 
 def times(run: ExampleRun) -> dict[str, float | None]:
-    """When the ball first hits, and since when everything rests."""
-    return {"first_impact_s": first_hit_s(run.summary), "came_to_rest_s": run.summary["came_to_rest_s"]}
+    """When the ball first hits, since when everything rests, and how many shards still move at the end."""
+    moving = run.summary["moving_at_end"]
+    return {
+        "first_impact_s": first_hit_s(run.summary),
+        "came_to_rest_s": run.summary["came_to_rest_s"],
+        "still_moving_shards": moving["shards"] if moving else 0,
+    }
 
 
 def solver_energy(run: ExampleRun) -> dict[str, float | None]:

@@ -205,11 +205,10 @@ def stability_of(
         reason = f'connections.method is "{method}": without the faces of shards there are no stresses{lies}'
         return Stability(verdict=UNKNOWN, reason=reason, **known)
     try:
-        elastic = made_elastic(_without_hinges(scenario))
-        contacts = _loose_contacts(model, paths)
-        if known["loose"]:
-            elastic = replace(elastic, bearings=(*elastic.bearings, *_as_bearings(elastic, model.members, contacts)))
-        if elastic is not scenario:
+        contacts = _loose_contacts(model, paths) if known["loose"] else []
+        on_bearings = _with_bearings(scenario, model.members, contacts)
+        elastic = made_elastic(_without_hinges(on_bearings))
+        if elastic != scenario:
             model = build_model(elastic, model.members)
     except DemolitionError as error:
         return Stability(verdict=UNKNOWN, reason=str(error), **known)
@@ -219,7 +218,9 @@ def stability_of(
         known["loose_on"] = ()
         reason = f"{_named(still)} lie loose, held by contact alone, which statics does not follow"
         return Stability(verdict=UNKNOWN, reason=reason, **known)
-    return _by_statics(StandingBridge(model, elastic.joints, pause), paths_on_bearings, known, with_factor=with_factor)
+    return _by_statics(
+        StandingBridge(model, on_bearings.joints, pause), paths_on_bearings, known, with_factor=with_factor
+    )
 
 
 def _by_statics(
@@ -314,13 +315,16 @@ def _loose_contacts(model: Model, paths: SupportPaths) -> list[tuple[int, int]]:
     ]
 
 
-def _as_bearings(
-    scenario: Scenario, members: Sequence[Member], contacts: Sequence[tuple[int, int]]
-) -> Iterator[Bearing]:
-    """Yield a bearing without uplift for each contact, that slides where friction between shards ends."""
+def _with_bearings(scenario: Scenario, members: Sequence[Member], contacts: Sequence[tuple[int, int]]) -> Scenario:
+    """Return a scenario with a bearing without uplift for each contact, that slides where friction of shards ends."""
+    if not contacts:
+        return scenario
     friction = scenario.surface_of(scenario.shards).friction ** 2  # Bullet multiplies the values of both bodies
-    for above, below in contacts:
-        yield Bearing(members=(members[above].name, members[below].name), kind=SLIDING, friction=friction)
+    bearings = (
+        Bearing(members=(members[above].name, members[below].name), kind=SLIDING, friction=friction)
+        for above, below in contacts
+    )
+    return replace(scenario, bearings=(*scenario.bearings, *bearings))
 
 
 def _named(shares: Sequence[MemberShare]) -> str:

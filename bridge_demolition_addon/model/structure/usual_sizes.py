@@ -27,7 +27,7 @@ _MOST_NAMED = 5
 
 def size_facts(scenario: Scenario, members: Sequence[Member]) -> Iterator[Fact]:
     """Yield what is so large or small that it was probably given in another unit."""
-    found = [*_member_sizes(members), *_deck_sizes(scenario)]
+    found = [*_deck_sizes(scenario), *_member_sizes(members), *_densities(members)]
     yield from (("unusual", text) for text in found[:_MOST_NAMED])
     if found:
         yield "", "was it given in another unit? Lengths are in m, masses in kg, densities in kg/m³"
@@ -36,13 +36,21 @@ def size_facts(scenario: Scenario, members: Sequence[Member]) -> Iterator[Fact]:
 def _member_sizes(members: Sequence[Member]) -> Iterator[str]:
     for member in members:
         extents = np.ptp(member.solid.vertices, axis=0)
-        longest_m, density = float(extents.max()), member.mass_kg / member.volume_m3
+        longest_m = float(extents.max())
         if not _usual(longest_m, USUAL_LENGTH_M):
             yield f"{member.name} is {longest_m:.4g} m long"
         elif not _usual(member.thickness_m, USUAL_THICKNESS_M):
             yield f"{member.name} is {member.thickness_m:.4g} m thick"
+
+
+def _densities(members: Sequence[Member]) -> Iterator[str]:
+    by_density: dict[str, list[str]] = {}
+    for member in members:
+        density = member.mass_kg / member.volume_m3
         if not _usual(density, USUAL_DENSITY_KG_M3):
-            yield f"{member.name} has {density:.4g} kg/m³"
+            by_density.setdefault(f"{density:.4g} kg/m³", []).append(member.name)
+    for text, names in by_density.items():
+        yield f"{names[0]} has {text}" if len(names) == 1 else f"{len(names)} members, such as {names[0]}, have {text}"
 
 
 def _deck_sizes(scenario: Scenario) -> Iterator[str]:

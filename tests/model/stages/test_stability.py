@@ -9,8 +9,10 @@ from support.scenarios import I235
 from support.stage_beams import DENSITY_KG_M3, MODULUS_M3, STRENGTH_PA, WEIGHT_N_M, add_block, beam_file
 
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
-from bridge_demolition_addon.model.scenario import ConnectionSettings
+from bridge_demolition_addon.model.bridge.preparation import prepared_members
+from bridge_demolition_addon.model.scenario import Charge, ConnectionSettings
 from bridge_demolition_addon.model.scenario.file import read_scenario
+from bridge_demolition_addon.model.sequence.undisturbed import left_alone
 from bridge_demolition_addon.model.stages.stability import (
     COMES_DOWN,
     STANDS,
@@ -19,6 +21,7 @@ from bridge_demolition_addon.model.stages.stability import (
     stability_of,
     stability_texts,
 )
+from bridge_demolition_addon.model.structure.usual_sizes import size_facts
 
 HEAD = """
 [scenario]
@@ -125,3 +128,28 @@ def test_a_verdict_is_stored_as_json_and_read_again(tmp_path):
     assert Stability.of_stored(stored) == found
     assert stability_texts({"stability": stored}) == (found.sentence,)
     assert stability_texts({"stability": None}) == stability_texts({}) == ()
+
+
+def test_a_mesh_that_ends_within_a_millimetre_of_the_ground_is_held_by_it(tmp_path):
+    for gap_m, verdict in ((0.0005, STANDS), (-0.0005, STANDS), (0.004, UNKNOWN), (0.1, COMES_DOWN)):
+        folder = tmp_path / f"{gap_m}"
+        folder.mkdir()
+        found = stability_of(blocks(folder, ("block", (2, 1, 1), (0, 0, 0.5 + gap_m))), with_factor=False)
+        assert found.verdict == verdict, gap_m
+
+
+def test_a_bridge_is_left_alone_awake_and_without_actions():
+    alone = left_alone(replace(I235, charges=(Charge(place_m=(6.5, 0.0, 1.0), mass_kg=1.0),)), 2.0)
+    assert alone.actions == () and not alone.shards.start_deactivated
+    assert (alone.time.duration_s, alone.time.stop_at_rest) == (2.0, False)
+    assert alone.bridge == I235.bridge and alone.zones == I235.zones
+
+
+def test_sizes_that_look_like_another_unit_are_named():
+    def said(**deck):
+        changed = replace(I235, bridge=replace(I235.bridge, deck=replace(I235.bridge.deck, **deck)))
+        return " ".join(text for _, text in size_facts(changed, prepared_members(changed).members))
+
+    assert list(size_facts(I235, prepared_members(I235).members)) == []
+    assert "deck is 250 m thick" in said(thickness_m=250.0) and "another unit" in said(thickness_m=250.0)
+    assert "0.0012 m thick" in said(thickness_m=0.0012)
