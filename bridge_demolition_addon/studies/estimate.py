@@ -27,6 +27,10 @@ _PER_PART_S, _ITERATIONS = 2e-6, 20.0
 """Time for a shard or a connection in a sub-step, and iterations of the solver that take as long as all else of it:
 from the I-235 span and the examples with 50 and 100 iterations, on one core. Thousands of shards take longer each."""
 
+_ELASTIC, _WITH_BARS = 4.0, 2.0
+"""So many times as long takes a sub-step with elastic connections, and with bars that hold their cracks on top of that:
+`scripts/bench elastic` and docs/reinforced_deck.md."""
+
 _PER_RUN_S = 0.5
 
 _PROCESS_MB, _PER_PART_MB = 430.0, 0.03
@@ -42,7 +46,9 @@ def seconds_by_size(scenario: Scenario, model: Model) -> float:
     time = scenario.time
     substeps = time.duration_s * time.frames_per_second * _mean_substeps(scenario, model)
     parts = len(model.shards) + len(model.connections)
-    return _PER_RUN_S + _PER_PART_S * substeps * parts * (1.0 + time.solver_iterations / _ITERATIONS)
+    elastic = _ELASTIC if scenario.connections.is_elastic else 1.0
+    bars = _WITH_BARS if scenario.is_reinforced and scenario.connections.is_elastic else 1.0
+    return _PER_RUN_S + elastic * bars * _PER_PART_S * substeps * parts * (1.0 + time.solver_iterations / _ITERATIONS)
 
 
 def megabytes_by_size(model: Model) -> float:

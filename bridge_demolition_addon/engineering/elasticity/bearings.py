@@ -24,6 +24,13 @@ from .gaps import SolvedTangents
 from .joint_rows import turned, turned_back
 from .springs import PressedSprings, SpringPositions, SpringStep, loads_of_springs, stiffness_of_springs
 
+_LIFTED_M = 0.02
+"""Opening from which on pins and guides of a bearing that holds no uplift are out of their holes."""
+
+_LARGEST_TURN = 0.05
+"""Angle, rad, between what lies above and below, from which on edges carry and no pads. Bearings are made for up to
+0.02 (EN 1337-3, -5); the springs have the positions of small angles."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PadSprings:
@@ -108,7 +115,8 @@ class Bearings:
         self.rows, self._springs = springs.rows, springs
         of, ends = springs.parts, (first[self.rows], second[self.rows])
         self._positions = SpringPositions.built(of, springs.places_m, ends, above, positions_m, rotations)
-        self._above = above
+        self._above, self._ends = above, ends
+        self._built_turns = self._turns(rotations)
         self._middles = turned_back(rotations[..., above], springs.middles_m().T - positions_m[:, above])
         self._law = PressedSprings(
             springs.vertical_n_m,
@@ -136,7 +144,10 @@ class Bearings:
         slides = ~np.isinf(self._law.friction) | (~self._law.pulls & (self._law.pressed_n <= 0.0))
         self._free[:2, slides] = slid[:, slides]
         apart = self._positions.summed(gaps) / np.bincount(self._positions.of, minlength=len(self.rows))
-        self._gone = np.sqrt((apart * apart).sum(axis=0)) > self._springs.travel_m
+        far = np.sqrt((apart * apart).sum(axis=0)) > self._springs.travel_m
+        turns = (self._built_turns * self._turns(rotations)).sum(axis=(0, 1))  # 1 + 2 cos of the angle
+        unseated = (apart[2] > _LIFTED_M) | (turns < 3.0 - _LARGEST_TURN * _LARGEST_TURN)
+        self._gone = far | (unseated & ~self._springs.pulls)
 
     def failed(self, intact: BoolArray, left: FloatArray) -> IntArray:
         """Return which connections (k,) of those (m,) that are intact break, as it settled last.
@@ -226,6 +237,12 @@ class Bearings:
             substep_s,
             keep,
         )
+
+    def _turns(self, rotations: FloatArray) -> FloatArray:
+        """Return how the first body of each connection is turned in the axes of the second, (3, 3, c)."""
+        first, second = (rotations[..., bodies] for bodies in self._ends)
+        turns: FloatArray = (second[:, :, None] * first[:, None, :]).sum(axis=0)
+        return turns
 
     def _pressing(self, gaps_m: FloatArray) -> FloatArray:
         """Pressing forces (p,) of springs with these gaps."""
