@@ -98,6 +98,7 @@ title = "Ball on a reinforced deck"
 seed = {int(seed)}
 [time]
 duration_s = 1.8
+stop_at_rest = false
 substeps_per_frame = {round(10 * finer)}
 farthest_per_substep_m = {0.01 / finer}
 [fracture]
