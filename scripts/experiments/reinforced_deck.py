@@ -9,7 +9,8 @@ mid-span resists with 4 M_p / L less half the weight of the deck and that of the
 deck's mass goes along after a plastic impact.
 
 Usage: reinforced_deck.py [MOST_SEEDS] writes docs/data/reinforced_deck.csv, and goes on where it stopped;
-reinforced_deck.py --one BALL_KG SHARDS SEED FINER RUPTURE_M BARS prints one row.
+reinforced_deck.py --one BALL_KG SHARDS SEED FINER RUPTURE_M BARS prints one row; reinforced_deck.py --table prints
+what docs/reinforcement.md says of all.
 """
 
 from __future__ import annotations
@@ -37,6 +38,7 @@ KEYS = ("ball_kg", "shards", "seed", "finer", "rupture_m", "bars")
 MEASURES = ("sag_m", "largest_throw_m", "broken", "made_by_connections_kj", "made_by_contacts_kj", "dissipated_kj")
 COLUMNS = (*KEYS, *MEASURES, "processor_s")
 MIDDLE_M, NEAR_M = 6.5, 1.3
+_SUBSTEPS = {0.5: "twice as long", 1.0: "as they are", 2.0: "half as long"}
 NO_BARS = '[bridge.reinforcement]\ndesigned_for = "none"'
 
 
@@ -65,6 +67,9 @@ def main(arguments: list[str]) -> int:
     if arguments[:1] == ["--one"]:
         print(json.dumps(measured(*(float(text) for text in arguments[1:]))), flush=True)
         os._exit(0)  # Blender's own end may hang.
+    if arguments[:1] == ["--table"]:
+        print("\n".join(summary(rows())))
+        return 0
     done = rows() if TABLE.exists() else []
     known = {tuple(float(row[key]) for key in KEYS) for row in done}
     for case in cases(int(arguments[0]) if arguments else 12):
@@ -84,6 +89,40 @@ def rows() -> list[dict[str, str]]:
     """Rows that were measured."""
     with TABLE.open(newline="", encoding="utf-8") as file:
         return list(csv.DictReader(file))
+
+
+def summary(measured_rows: list[dict[str, str]]) -> list[str]:
+    """Lines of a table: median and range over the seeds of each variant."""
+    lines = [
+        "| ball | shards | sub-steps | bars rupture at | seeds | sag, median (range) | made by the solver | time |",
+        "| --- | --- | --- | --- | --- | --- | --- | --- |",
+    ]
+    variants: dict[tuple[str, ...], list[dict[str, str]]] = {}
+    for row in measured_rows:
+        variants.setdefault(tuple(row[key] for key in KEYS if key != "seed"), []).append(row)
+    for (ball, shards, finer, rupture, bars), own in sorted(variants.items(), key=_order):
+        sags = [float(row["sag_m"]) for row in own]
+        made = [100.0 * made_share(row) for row in own]
+        seconds = [float(row["processor_s"]) for row in own]
+        opening = f"{1e3 * float(rupture):.0f} mm" if float(rupture) else "by steel and bond"
+        lines.append(
+            f"| {float(ball) / 1e3:g} t | {shards} | {_SUBSTEPS[float(finer)]} | "
+            f"{opening if float(bars) else 'no bars'} | {len(own)} | "
+            f"{np.median(sags):.3f} m ({min(sags):.3f} to {max(sags):.3f}) | "
+            f"{np.median(made):.1f} % ({min(made):.1f} to {max(made):.1f}) | {np.median(seconds):.0f} s |"
+        )
+    return lines
+
+
+def made_share(row: dict[str, str]) -> float:
+    """Energy that the solver made over what was dissipated."""
+    made_kj = float(row["made_by_connections_kj"]) + float(row["made_by_contacts_kj"])
+    return made_kj / float(row["dissipated_kj"])
+
+
+def _order(variant: tuple[tuple[str, ...], list[dict[str, str]]]) -> tuple[float, ...]:
+    ball, shards, finer, rupture, bars = map(float, variant[0])
+    return -bars, ball, shards, finer, rupture
 
 
 def measured(
