@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Demolish one span of the I-235 bridge, as an example of what a run gives::
+"""Bring down a reinforced bridge of two spans by drilled charges, as an example of what a run gives::
 
-    python scripts/demo.py [OUTPUT]      (runs/i235_one_span)
+    python scripts/demo.py [OUTPUT]      (runs/drilled_two_spans)
 
 Needs an environment in which the project is installed; on Linux, scripts/demo makes one.
 """
@@ -12,8 +12,8 @@ from pathlib import Path
 from bridge_demolition_addon.__main__ import main
 
 ROOT = Path(__file__).resolve().parents[1]
-EXAMPLE = ROOT / "examples" / "report_2019" / "i235_one_span.toml"
-OUTPUT = ROOT / "runs" / "i235_one_span"
+EXAMPLE = ROOT / "examples" / "drilled" / "two_spans.toml"
+OUTPUT = ROOT / "runs" / "drilled_two_spans"
 
 if __name__ == "__main__":
     output = sys.argv[1] if len(sys.argv) > 1 else str(OUTPUT)

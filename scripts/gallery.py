@@ -17,6 +17,7 @@ from PIL import Image
 ROOT = Path(__file__).resolve().parent.parent
 EXAMPLES, RUNS = ROOT / "examples", ROOT / "runs" / "gallery"
 REPORT_2019 = EXAMPLES / "report_2019"
+DRILLED = EXAMPLES / "drilled" / "two_spans.toml"
 PAGE, PICTURES = ROOT / "docs" / "gallery.md", ROOT / "docs" / "pictures" / "gallery"
 TIMES = PICTURES / "times.json"
 """Seconds that each run took, kept so that a page can be written without all of them."""
@@ -80,23 +81,28 @@ Study: [i235_one_span.toml](../examples/studies/i235_one_span.toml).
 
 def main(names: list[str]) -> int:
     """Run examples, write the page and return the exit status."""
-    found = {path.stem: path for path in (*examples(), *examples(REPORT_2019))}
-    if missing := [name for name in names if name not in found]:
+    found = {name(path): path for path in (*examples(), *examples(REPORT_2019))}
+    if missing := [unknown for unknown in names if unknown not in found]:
         print(f"gallery: there is no example {', '.join(missing)}", file=sys.stderr)
         return 2
-    wanted = [found[name] for name in names or found]
+    wanted = [found[wanted_name] for wanted_name in names or found]
     PICTURES.mkdir(parents=True, exist_ok=True)
     for path in wanted:
         seconds = run(path)
-        side_by_side(RUNS / path.stem / "frames", PICTURES / f"{path.stem}.jpg")
-        TIMES.write_text(json.dumps(times() | {path.stem: seconds}, indent=2, sort_keys=True) + "\n", encoding="utf-8")
+        side_by_side(RUNS / name(path) / "frames", PICTURES / f"{name(path)}.jpg")
+        TIMES.write_text(json.dumps(times() | {name(path): seconds}, indent=2, sort_keys=True) + "\n", encoding="utf-8")
     PAGE.write_text(page(), encoding="utf-8", newline="\n")
     return 0
 
 
 def examples(folder: Path = EXAMPLES) -> list[Path]:
-    """Return the examples in a folder, by name: those of bridges as they are, or of the 2019 report."""
-    return sorted(folder.glob("*.toml"))
+    """Return the examples in a folder, by name: those of bridges as they are, drilled charges first, or of 2019."""
+    return [*([DRILLED] if folder == EXAMPLES else []), *sorted(folder.glob("*.toml"))]
+
+
+def name(path: Path) -> str:
+    """Return what the pictures of an example are called."""
+    return f"drilled_{path.stem}" if path == DRILLED else path.stem
 
 
 def link(path: Path) -> str:
@@ -108,7 +114,7 @@ def run(path: Path) -> float:
     """Run an example as a reader does and return the seconds it took."""
     bda = Path(sys.executable).parent / "bda"
     began = time.perf_counter()
-    subprocess.run([bda, "run", path, "--output", RUNS / path.stem, "--overwrite"], check=True)
+    subprocess.run([bda, "run", path, "--output", RUNS / name(path), "--overwrite"], check=True)
     return round(time.perf_counter() - began, 1)
 
 
@@ -133,7 +139,7 @@ def page() -> str:
     taken = times()
     header = HEADER.format(minutes=max(1, round(sum(taken.values()) / 60.0)), table=table(EXAMPLES))
     now, of_2019 = (
-        [section(path, taken.get(path.stem)) for path in examples(folder)] for folder in (EXAMPLES, REPORT_2019)
+        [section(path, taken.get(name(path))) for path in examples(folder)] for folder in (EXAMPLES, REPORT_2019)
     )
     return "\n".join([header, *now, HEADER_2019.format(table=table(REPORT_2019)), *of_2019, STUDY])
 
@@ -142,7 +148,7 @@ def table(folder: Path) -> str:
     """Return a table of the examples in a folder and their times."""
     taken = times()
     rows = [
-        f"| [{path.stem}]({link(path)}) | {title(path)} | {rounded(taken[path.stem])} |" for path in examples(folder)
+        f"| [{name(path)}]({link(path)}) | {title(path)} | {rounded(taken[name(path)])} |" for path in examples(folder)
     ]
     return "\n".join(["| example | what it shows | s |", "| --- | --- | --- |", *rows])
 
@@ -157,7 +163,7 @@ def section(path: Path, seconds: float | None) -> str:
     words = [paragraph for paragraph in paragraphs(path) if not paragraph.startswith(LEFT_OUT)]
     took = [] if seconds is None else [f"Takes {rounded(seconds)} s."]
     file = f"[{path.name}]({link(path)})"
-    picture = f"![{title(path)}: at the start, at the decisive moment, at the end](pictures/gallery/{path.stem}.jpg)"
+    picture = f"![{title(path)}: at the start, at the decisive moment, at the end](pictures/gallery/{name(path)}.jpg)"
     return "\n\n".join([f"## {title(path)}", picture, *words, " ".join([f"Scenario: {file}.", *took])]) + "\n"
 
 

@@ -29,11 +29,11 @@ def test_the_page_is_made_of_what_the_examples_say():
 
 def test_its_table_lists_all_examples():
     listed = re.findall(r"^\| \[(\w+)\]", gallery.page(), flags=re.M)
-    assert listed == [path.stem for path in EXAMPLES]
+    assert listed == [gallery.name(path) for path in EXAMPLES]
 
 
 def test_every_example_has_its_picture_and_its_time_and_no_other_has():
-    names = {path.stem for path in EXAMPLES}
+    names = {gallery.name(path) for path in EXAMPLES}
     assert {path.stem for path in gallery.PICTURES.glob("*.jpg")} == names
     assert set(gallery.times()) == names
     assert sum(gallery.times().values()) < 20 * 60
