@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from matplotlib.figure import Figure
@@ -78,7 +78,10 @@ class Case:
 
 
 def simulated(folder: Path, name: str, scenario: str, meshes: Mapping[str, TriangleMesh]) -> Results:
-    """Write a scenario and its meshes into a folder, so that anyone can run it, run it, and return the results."""
+    """Write a scenario and its meshes into a folder, so that anyone can run it, run it, and return the results.
+
+    It runs for all of its time, also where everything rests before.
+    """
     from bridge_demolition_addon.model.bridge.mesh_files import exported
     from bridge_demolition_addon.simulation.run import run_scenario
 
@@ -87,9 +90,9 @@ def simulated(folder: Path, name: str, scenario: str, meshes: Mapping[str, Trian
     for mesh, solid in meshes.items():
         (position / f"{mesh}.stl").write_bytes(exported(solid, ".stl"))
     (position / "scenario.toml").write_text(scenario, encoding="utf-8")
-    run_scenario(
-        read_scenario(position / "scenario.toml"), position / "run", overwrite=True, pictures=False, progress=Silence()
-    )
+    planned = read_scenario(position / "scenario.toml")
+    whole = replace(planned, time=replace(planned.time, stop_at_rest=False))
+    run_scenario(whole, position / "run", overwrite=True, pictures=False, progress=Silence())
     return load_results(position / "run" / "results.npz")
 
 

@@ -205,7 +205,7 @@ def test_no_title_and_no_name_is_read_as_markup(tmp_path):
 def test_a_path_that_is_too_long_for_blender_is_refused_before_anything_is_built(tmp_path, capsys):
     path = scenario_file(tmp_path, BRIEF)
     output = tmp_path.joinpath(*["x" * 200] * 5)
-    excess = len(os.fsencode(output / "contours_slow_motion.mp4")) - 1023
+    excess = len(os.fsencode(output / "exclusion_zone_of_one_run.geojson")) - 1023
     status, printed, complained = call_bda(capsys, "run", path, "--output", output)
     assert (status, printed) == (2, "")
     assert complained.startswith(f"bda: error: {output}: its path is {excess} bytes too long")

@@ -48,6 +48,7 @@ title = "beam on its bars"
 
 [time]
 duration_s = {duration_s}
+stop_at_rest = false
 substeps_per_frame = 20
 solver_iterations = 50
 {tables}

@@ -46,7 +46,8 @@ class Rest:
             speeds = distance(positions_m, before_m) / step_s
             # A rotation by a small angle φ changes the matrix by √2 φ in the Frobenius norm.
             angular_velocities = distance(rotations.reshape(-1, 9), before.reshape(-1, 9)) / (np.sqrt(2.0) * step_s)
-            squares = (speeds / self._limits[0]) ** 2 + (angular_velocities / self._limits[1]) ** 2
+            shares = speeds / self._limits[0], angular_velocities / self._limits[1]
+            squares = shares[0] * shares[0] + shares[1] * shares[1]
             if not _rest(np.where(asleep, 0.0, squares), masses_kg) or before_s < self._not_before_s:
                 self.since_s = None
             elif self.since_s is None:

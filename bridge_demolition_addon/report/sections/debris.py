@@ -257,23 +257,22 @@ def _largest_throws(results: Results, debris: Debris) -> DataTable:
     inventory, bodies, last_m = results.inventory, debris.bodies, results.frames.positions_m[-1]
     speeds = length(np.asarray(relative_to_ground(results).frames.velocities_m_s[-1], float))
     columns = (
-        Column("No.", "number", "d", lambda number, _: number),
-        Column("shard", "shard", "", lambda _, row: str(inventory.body_names[bodies[row]])),
-        Column("of", "member", "", lambda _, row: str(inventory.body_members[bodies[row]])),
-        Column("mass (kg)", "mass_kg", ".0f", significant=3, value=lambda _, row: float(debris.masses_kg[row])),
-        Column("throw (m)", "throw_m", ".2f", lambda _, row: float(debris.throws_m[row])),
-        Column("debris distance (m)", "reach_m", ".2f", lambda _, row: float(debris.reaches_m[row])),
-        Column("to x (m)", "x_m", ".2f", lambda _, row: float(last_m[bodies[row], 0])),
-        Column("y (m)", "y_m", ".2f", lambda _, row: float(last_m[bodies[row], 1])),
-        Column("z (m)", "z_m", ".2f", lambda _, row: float(last_m[bodies[row], 2])),
-        Column("speed at the end (m/s)", "end_speed_m_s", ".2f", lambda _, row: float(speeds[bodies[row]])),
-        Column("by the solver (%)", "made_by_solver_percent", ".0f", lambda _, row: 100.0 * shares[bodies[row]]),
-        Column("doubtful", "doubtful", "", lambda _, row: "yes" if doubts[bodies[row]] else "no"),
+        Column("shard", "shard", "", lambda row: str(inventory.body_names[bodies[row]])),
+        Column("of", "member", "", lambda row: str(inventory.body_members[bodies[row]])),
+        Column("mass (kg)", "mass_kg", ".0f", significant=3, value=lambda row: float(debris.masses_kg[row])),
+        Column("throw (m)", "throw_m", ".2f", lambda row: float(debris.throws_m[row])),
+        Column("debris distance (m)", "reach_m", ".2f", lambda row: float(debris.reaches_m[row])),
+        Column("to x (m)", "x_m", ".2f", lambda row: float(last_m[bodies[row], 0])),
+        Column("y (m)", "y_m", ".2f", lambda row: float(last_m[bodies[row], 1])),
+        Column("z (m)", "z_m", ".2f", lambda row: float(last_m[bodies[row], 2])),
+        Column("at the end (m/s)", "end_speed_m_s", ".2f", lambda row: float(speeds[bodies[row]])),
+        Column("by the solver (%)", "made_by_solver_percent", ".0f", lambda row: 100.0 * shares[bodies[row]]),
+        Column("doubtful", "doubtful", "", lambda row: "yes" if doubts[bodies[row]] else "no"),
     )
     farthest = np.argsort(-debris.throws_m, kind="stable")[:NAMED]
     by_solver = "By the solver: energy that it made, over the shard's largest kinetic energy"
     title = f"Largest throws{_not_final(results)}. {by_solver}"
-    return DataTable.of("largest_throws", title, columns, range(1, len(farthest) + 1), farthest)
+    return DataTable.of("largest_throws", title, columns, farthest)
 
 
 def _not_final(results: Results) -> str:
