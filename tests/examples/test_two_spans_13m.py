@@ -30,7 +30,8 @@ def test_the_ball_hits_as_hard_as_its_fall_makes_it(ball):
     hit = ball.summary["hits_of_the_ball"][0]
     # v = √(2 g h) with 5 m: 9.90 m/s. Deck and ball are a millimetre off, sub-steps 4 ms: 0.04 m/s.
     assert hit["approach_m_s"] == pytest.approx(9.90, abs=0.1)
-    assert ball.summary["impact"]["time_s"] == pytest.approx(0.1 + 1.01, abs=1 / 24)
+    # The largest force of the ball comes in the frame of the hit, or in the next.
+    assert ball.summary["impact"]["time_s"] == pytest.approx(0.1 + 1.01, abs=2 / 24)
 
 
 def test_the_ball_leaves_a_dent_and_both_spans_stand(ball):

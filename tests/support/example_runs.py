@@ -50,8 +50,9 @@ class ExampleRun:
         return self.shards[np.isin(self.results.inventory.body_member_kinds[self.shards], kinds)]
 
     def at(self, time_s):
-        """Recorded step that begins a frame at a time or, where none does, the one after."""
-        return int(np.searchsorted(self.results.frames.time_s, time_s - 1e-6))
+        """Recorded step that begins a frame at a time or, where none does, the one after; the last of a run at rest."""
+        times_s = self.results.frames.time_s
+        return min(int(np.searchsorted(times_s, time_s - 1e-6)), len(times_s) - 1)
 
     def moved_m(self, bodies, step=-1):
         """How far bodies are from where they were at first, (n,) m."""
