@@ -33,7 +33,7 @@ POSITIONS = {
     "excavator_on_the_deck": {"LM1 on span 1", "LM1 on span 1 and 2"},
     "reinforced_spans_pier_removed": {"LM1 on span 1", "LM1 on span 1 and 2"},
     "two_spans_13m_ball": {"LM1 on span 1"},
-    "viaduct_pier": {"LM1 on span 1 and 2"},
+    "viaduct_pier": {"LM1 on span 1"},
 }
 """Those of the loads that are tried, of several that are alike or carry less."""
 
