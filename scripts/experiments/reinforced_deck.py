@@ -94,7 +94,7 @@ def rows() -> list[dict[str, str]]:
 def summary(measured_rows: list[dict[str, str]]) -> list[str]:
     """Lines of a table: median and range over the seeds of each variant."""
     lines = [
-        "| ball | shards | sub-steps | bars rupture at | seeds | deflection, median (range) | made by the solver | time |",
+        "| ball | shards | sub-steps | bars rupture at | seeds | deflection, median (range) | made by solver | time |",
         "| --- | --- | --- | --- | --- | --- | --- | --- |",
     ]
     variants: dict[tuple[str, ...], list[dict[str, str]]] = {}
