@@ -70,6 +70,7 @@ def main() -> int:
 def arguments(known: Iterable[str]) -> argparse.Namespace:
     """What the command line says."""
     parser = argparse.ArgumentParser(prog="remake", description=__doc__.splitlines()[0])
+    # No name at all is checked against the choices as an empty list.
     parser.add_argument("names", nargs="*", choices=[*known, []], metavar="NAME", help="products; see --list")
     parser.add_argument("--list", action="store_true", help="print what would be made and how long that takes")
     parser.add_argument("--check", action="store_true", help="note the version of ranges whose first seed is the same")
@@ -109,7 +110,7 @@ def check(product: Product) -> None:
         known = json.loads(versions.read_text(encoding="utf-8")) if versions.exists() else {}
         known |= json.loads((folder / versions.name).read_text(encoding="utf-8"))
         versions.write_text(json.dumps(known, indent=1, sort_keys=True) + "\n", encoding="utf-8", newline="\n")
-    note(product, float(notes().get(product.name, {}).get("seconds", UNKNOWN_S)))
+    note(product)
     print("    seed 1 is the same run", flush=True)
 
 
@@ -130,9 +131,10 @@ def needed_s(product: Product) -> float:
     return float(notes().get(product.name, {}).get("seconds", UNKNOWN_S))
 
 
-def note(product: Product, seconds: float) -> None:
-    """Keep which version made a product, and how long that took."""
-    made = notes() | {product.name: {"version": product.version(), "seconds": seconds}}
+def note(product: Product, seconds: float | None = None) -> None:
+    """Keep which version made a product, or would make it alike, and how long it took if it was made."""
+    took = notes().get(product.name, {}) if seconds is None else {"seconds": seconds}
+    made = notes() | {product.name: took | {"version": product.version()}}
     NOTES.write_text(json.dumps(made, indent=1, sort_keys=True) + "\n", encoding="utf-8", newline="\n")
 
 

@@ -124,9 +124,9 @@ def test_formulas_of_loaded_beams_are_those_of_a_hand_calculation():
 
 def test_a_reinforced_beam_comes_down_about_when_its_section_yields(blender, tmp_path):
     import bent_beam
-    from loaded_beams import comes_down_at_n
+    from loaded_beams import comes_down_at_n, course
 
-    load = comes_down_at_n(bent_beam.course(tmp_path, 1), 0.06, 0.002)
+    load = comes_down_at_n(*course(tmp_path, bent_beam.BEAM, 1, bent_beam.MOST_N))
     assert load == pytest.approx(bent_beam.BEAM.bends_at_n, rel=0.15)
 
 

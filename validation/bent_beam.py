@@ -6,27 +6,24 @@ from typing import TypeVar
 
 import numpy as np
 from case import EXACT, Case, Comparison, Found
-from loaded_beams import LoadedBeam, comes_down_at_n, loaded
+from loaded_beams import LoadedBeam, collapse_loads_n, courses, draw_courses
 from matplotlib.figure import Figure
 
 BEAM = LoadedBeam(4.0, 0.3, 0.4, 0.35, 900.0, 38.0, 1000.0, 4000.0, 40)
-SEEDS = (1, 2, 3)
 Numbers = TypeVar("Numbers", float, np.ndarray)
-MOST_N, GROWS_S = 1.3 * BEAM.bends_at_n, 1.0
+MOST_N = 1.3 * BEAM.bends_at_n
 BENDS_UNTIL = 0.95
 """Part of the load of plastic theory at which deflections are compared: bars yield at about the same."""
 
 
 def run(folder: Path) -> Found:
     """Load a beam of each seed."""
-    courses = {seed: course(folder, seed) for seed in SEEDS}
-    loads = {f"seed {seed}": comes_down_at_n(found, 0.06, 0.002) for seed, found in courses.items()}
-    loads["median"] = float(np.median(list(loads.values())))
+    found = courses(folder, BEAM, MOST_N)
     at_n = BENDS_UNTIL * BEAM.bends_at_n
-    bends = [float(np.interp(at_n, *found)) for found in courses.values()]
+    bends = [float(np.interp(at_n, *of_seed)) for of_seed in found.values()]
     comparisons = [
         Comparison(f"load as it comes down, {name}", "kN", 1e-3 * BEAM.bends_at_n, 1e-3 * load, 0.15)
-        for name, load in loads.items()
+        for name, load in collapse_loads_n(found).items()
     ]
     comparisons.append(
         Comparison("deflection just before, median", "mm", 1e3 * expected_m(at_n), 1e3 * float(np.median(bends)), 0.3)
@@ -34,12 +31,10 @@ def run(folder: Path) -> Found:
 
     def draw(figure: Figure) -> None:
         axes = figure.subplots()
-        for (seed, (load, sunk)), style in zip(courses.items(), ("-", "--", ":"), strict=True):
-            axes.plot(1e3 * sunk, 1e-3 * load, color="black", linestyle=style, label=f"seed {seed}")
+        draw_courses(axes, found, 40.0)
         along = np.array([0.0, BEAM.bends_at_n])
         axes.plot(1e3 * expected_m(along), 1e-3 * along, color="0.6", label="cracked section")
         axes.axhline(1e-3 * BEAM.bends_at_n, color="0.6", linewidth=0.8)
-        axes.set(xlabel="deflection (mm)", ylabel="load in the middle (kN)", xlim=(0.0, 40.0))
         axes.legend()
 
     return Found(comparisons, draw)
@@ -48,11 +43,6 @@ def run(folder: Path) -> Found:
 def expected_m(load_n: Numbers) -> Numbers:
     """Deflection of a beam that is cracked along all of its length, F L³ / (48 E I)."""
     return load_n * BEAM.span_m**3 / (48.0 * BEAM.cracked_stiffness_nm2)
-
-
-def course(folder: Path, seed: int) -> np.ndarray:
-    """Loads and deflections."""
-    return loaded(folder, f"seed_{seed}", BEAM, seed, MOST_N, GROWS_S)
 
 
 CASE = Case(

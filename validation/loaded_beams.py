@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 from case import RIGID_BODIES, simulated
+from matplotlib.axes import Axes
 from solids import block
 
 from bridge_demolition_addon.engineering.elasticity.bar_rupture import tensile_strength_pa
@@ -17,6 +18,10 @@ from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2 as G
 DENSITY_KG_M3, BOTTOM_M, WALL_M, YIELD_N_MM2, DIAMETER_MM = 2400.0, 3.0, 0.2, 500.0, 20.0
 CONCRETE_PA = 33e9
 FRAMES = 48
+SEEDS = (1, 2, 3)
+GROWS_S = 1.0
+FALLS_M, FAST_M = 0.06, 0.002
+"""A beam that has gone down by the first at last is coming down from when it goes down by the second in a frame."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,8 +99,8 @@ class LoadedBeam:
             "right": block((end - WALL_M, -half, BOTTOM_M - 1.0), (end, half, BOTTOM_M)),
         }
 
-    def scenario(self, seed: int, most_n: float, grows_s: float) -> str:
-        """Its scenario, under a load that grows to the largest in a time."""
+    def scenario(self, seed: int, most_n: float) -> str:
+        """Its scenario, under a load that grows to the largest."""
         members = "".join(
             f'[[geometry]]\nname = "{name}"\nkind = "{kind}"\nfile = "{name}.stl"\ndensity_kg_m3 = {DENSITY_KG_M3}\n'
             for name, kind in (("beam", "beam"), ("left", "wall"), ("right", "wall"))
@@ -115,7 +120,7 @@ title = "beam under a load in its middle"
 seed = {seed}
 
 [time]
-duration_s = {grows_s}
+duration_s = {GROWS_S}
 frames_per_second = {FRAMES}
 substeps_per_frame = 20
 {members}
@@ -165,27 +170,44 @@ kind = "rocker"
 members = ["beam"]
 lowest_corner_m = [-0.2, -1.0, 0.0]
 highest_corner_m = [0.2, 1.0, 9.0]
-times_s = [0.1, {grows_s}]
+times_s = [0.1, {GROWS_S}]
 forces_n = [0.0, {most_n:.1f}]
 {RIGID_BODIES.format(shards=0.64, ground=0.64)}"""
 
 
-def loaded(folder: Path, name: str, beam: LoadedBeam, seed: int, most_n: float, grows_s: float) -> np.ndarray:
+def course(folder: Path, beam: LoadedBeam, seed: int, most_n: float) -> np.ndarray:
     """Loads and deflections of the middle as a load grows, in N and m: (2, frames)."""
-    results = simulated(folder, name, beam.scenario(seed, most_n, grows_s), beam.solids)
+    results = simulated(folder, f"seed_{seed}", beam.scenario(seed, most_n), beam.solids)
     inventory, frames = results.inventory, results.frames
     own = (inventory.body_kinds == "shard") & (inventory.body_members == "beam")
     own &= abs(frames.positions_m[0, :, 0]) <= 0.2
     heights = frames.positions_m[:, own, 2].mean(axis=1)
-    loads_n = np.interp(frames.time_s, (0.1, grows_s), (0.0, most_n))
+    loads_n = np.interp(frames.time_s, (0.1, GROWS_S), (0.0, most_n))
     return np.stack((loads_n, heights[0] - heights))
 
 
-def comes_down_at_n(course: np.ndarray, falls_m: float, fast_m: float) -> float:
-    """Load as the beam last was slow: it went down by less than `fast_m` in a frame; infinite where it stands."""
-    loads, sunk = course
-    fallen = np.flatnonzero(sunk > falls_m)
+def courses(folder: Path, beam: LoadedBeam, most_n: float) -> dict[int, np.ndarray]:
+    """The course of a beam of each seed."""
+    return {seed: course(folder, beam, seed, most_n) for seed in SEEDS}
+
+
+def collapse_loads_n(found: Mapping[int, np.ndarray]) -> dict[str, float]:
+    """Loads at which beams come down, by what they are called, and their median."""
+    loads = {f"seed {seed}": comes_down_at_n(*of_seed) for seed, of_seed in found.items()}
+    return loads | {"median": float(np.median(list(loads.values())))}
+
+
+def draw_courses(axes: Axes, found: Mapping[int, np.ndarray], most_mm: float) -> None:
+    """Draw loads over deflections."""
+    for (seed, (load, sunk)), style in zip(found.items(), ("-", "--", ":"), strict=True):
+        axes.plot(1e3 * sunk, 1e-3 * load, color="black", linestyle=style, label=f"seed {seed}")
+    axes.set(xlabel="deflection (mm)", ylabel="load in the middle (kN)", xlim=(0.0, most_mm))
+
+
+def comes_down_at_n(loads: np.ndarray, sunk: np.ndarray) -> float:
+    """Load as the beam last was slow; infinite where it stands."""
+    fallen = np.flatnonzero(sunk > FALLS_M)
     if not len(fallen):
         return float("inf")
-    slow = np.flatnonzero(np.diff(sunk[: fallen[0] + 1]) < fast_m)
+    slow = np.flatnonzero(np.diff(sunk[: fallen[0] + 1]) < FAST_M)
     return float(loads[slow[-1] + 1])

@@ -3,21 +3,18 @@
 
 from pathlib import Path
 
-import numpy as np
 from case import PUBLISHED, Case, Comparison, Found
-from loaded_beams import LoadedBeam, comes_down_at_n, loaded
+from loaded_beams import LoadedBeam, collapse_loads_n, courses, draw_courses
 from matplotlib.figure import Figure
 
 BEAM = LoadedBeam(3.0, 0.2, 0.4, 0.36, 1440.0, 38.0, 4.0, 0.0, 40)
-SEEDS = (1, 2, 3)
-MOST_N, GROWS_S = 1.5 * BEAM.shears_at_n, 1.0
+MOST_N = 1.5 * BEAM.shears_at_n
 
 
 def run(folder: Path) -> Found:
     """Load a beam of each seed."""
-    courses = {seed: course(folder, seed) for seed in SEEDS}
-    loads = {f"seed {seed}": comes_down_at_n(found, 0.06, 0.002) for seed, found in courses.items()}
-    loads["median"] = float(np.median(list(loads.values())))
+    found = courses(folder, BEAM, MOST_N)
+    loads = collapse_loads_n(found)
     comparisons = [
         Comparison(f"load as it comes down, {name}", "kN", 1e-3 * BEAM.shears_at_n, 1e-3 * load, 0.3)
         for name, load in loads.items()
@@ -28,20 +25,13 @@ def run(folder: Path) -> Found:
 
     def draw(figure: Figure) -> None:
         axes = figure.subplots()
-        for (seed, (load, sunk)), style in zip(courses.items(), ("-", "--", ":"), strict=True):
-            axes.plot(1e3 * sunk, 1e-3 * load, color="black", linestyle=style, label=f"seed {seed}")
+        draw_courses(axes, found, 20.0)
         for load, name in ((BEAM.shears_at_n, "shear"), (BEAM.bends_at_n, "bending")):
             axes.axhline(1e-3 * load, color="0.6", linewidth=0.8)
             axes.text(19.8, 1e-3 * load, f"{name} by EN 1992-1-1", ha="right", va="bottom", fontsize=8)
-        axes.set(xlabel="deflection (mm)", ylabel="load in the middle (kN)", xlim=(0.0, 20.0))
         axes.legend()
 
     return Found(comparisons, draw)
-
-
-def course(folder: Path, seed: int) -> np.ndarray:
-    """Loads and deflections."""
-    return loaded(folder, f"seed_{seed}", BEAM, seed, MOST_N, GROWS_S)
 
 
 CASE = Case(

@@ -16,7 +16,7 @@ from ..model.scenario.file import read_scenario
 from ..model.scenario.scenario import bars_by_rule
 from ..model.sequence.checked_model import ModelWorksite, checked_model
 from ..model.sequence.undisturbed import AWAKE_S, self_collapse_text
-from ..model.stages.stability import stability_of
+from ..model.stages.stability_by_statics import stability_of
 from ..model.stages.stages import equipment_facts
 from ..model.stages.standing import made_elastic
 from ..model.structure.blast_zones import placed_zones, zone_totals

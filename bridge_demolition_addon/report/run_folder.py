@@ -17,6 +17,7 @@ from ..errors import OutputError, ScenarioError, UnreadableError
 from ..model.debris.footprint import check_covers_ground
 from ..model.results.arrays import FRAMES_FILE, RESULTS_FILE, Results, load_results, results_in
 from ..model.results.motion import without_removed
+from ..model.results.moving import moving_summary, moving_text
 from ..model.results.summary import hits_of_balls, impact_of
 from ..model.run_folder.files import FORCE_LOG, PICTURE_FOLDER, PICTURES, SCENARIO_FILE, SUMMARY_FILE
 from ..model.run_folder.folder import holds_run, writer_of_run
@@ -57,6 +58,12 @@ class ReportedRun:
     def planned(self) -> Scenario:
         """Scenario of a run that is known to have one."""
         return given(self.scenario)
+
+    @property
+    def still_moving(self) -> str:
+        """What of it still moved at the end, as a sentence without a full stop; empty where all rested."""
+        summary = self.summary.values if self.summary else {}
+        return moving_text({**summary, "moving_at_end": moving_summary(self.recorded)})
 
     @property
     def name(self) -> str:

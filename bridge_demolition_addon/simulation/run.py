@@ -21,7 +21,7 @@ from ..model.scenario import Scenario
 from ..model.scenario.contact_facts import own_values_sentence
 from ..model.scenario.recording import PictureSettings
 from ..model.sequence.checked_model import checked_model
-from ..model.stages.stability import stability_of
+from ..model.stages.stability_by_statics import stability_of
 from ..model.structure.model import Model
 from ..scene.demolition import build_demolition
 from ..scene.rendering.staging import stage

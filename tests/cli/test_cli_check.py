@@ -239,7 +239,11 @@ def test_how_a_rigid_bridge_would_stand_is_said_when_asked_for(tmp_path, capsys)
     assert "At rest" in texts[0]
     assert texts[0].count("as if its connections were elastic") == 1
     rigid, elastic = (text[text.index("\nBridge\n") :].splitlines() for text in texts)
-    ((said_of_rigid, said_of_elastic),) = [pair for pair in zip(rigid, elastic, strict=True) if pair[0] != pair[1]]
+    # How long a run takes differs as well.
+    different = [
+        pair for pair in zip(rigid, elastic, strict=True) if pair[0] != pair[1] and "a run takes" not in pair[0]
+    ]
+    ((said_of_rigid, said_of_elastic),) = different
     assert "a run says whether it stands" in said_of_rigid
     assert "the bridge may fall by itself" in said_of_elastic
     assert main(["check", "--stand", str(I235_FILE)]) == 2

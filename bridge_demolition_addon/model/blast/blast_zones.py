@@ -227,13 +227,7 @@ class BlastZone(PlannedAction):
     def check_plan(self, plan: Plan) -> None:
         """Check that it fires after the settling and before the end of the run, if at all."""
         first_s, last_s = self.begins_s(plan), self.ends_s(plan)
-        latest_s = plan.time.duration_s - plan.time.step.frame_s
-        if math.isfinite(first_s) and not plan.warm_up_s <= first_s <= last_s < latest_s:
-            raise ScenarioError(
-                f"{self.name} fires from {first_s:g} to {last_s:g} s (blast.start_s and its delays): expected at least "
-                f"connections.warm_up_s, {plan.warm_up_s:g} (s), and less than {latest_s:.6g} (s), a frame before "
-                "time.duration_s is over"
-            )
+        check_fires_within(plan, first_s, last_s, f"{self.name} fires from {first_s:g} to {last_s:g} s")
 
     def check_model(self, site: Worksite) -> None:
         site.check_zone(self)
@@ -308,6 +302,16 @@ def charges_fired(zones: Sequence[BlastZone]) -> list[tuple[float, float, float]
         if zone.goes_off
         for time_s, deviation_s in zip(zone.row_times_s(), zone.deviations_s(), strict=True)
     ]
+
+
+def check_fires_within(plan: Plan, first_s: float, last_s: float, when: str) -> None:
+    """Check that charges fire after the settling and before the end, if at all; `when` says which do, and when."""
+    latest_s = plan.time.duration_s - plan.time.step.frame_s
+    if math.isfinite(first_s) and not plan.warm_up_s <= first_s <= last_s < latest_s:
+        raise ScenarioError(
+            f"{when} (blast.start_s and what delays it): expected at least connections.warm_up_s, {plan.warm_up_s:g} "
+            f"(s), and less than {latest_s:.6g} (s), a frame before time.duration_s is over"
+        )
 
 
 def scattered_time_s(time_s: float, deviation_s: float, seed: int, name: str) -> float:

@@ -9,7 +9,7 @@ from ...engineering.geometry.sides import AXES
 from ...errors import ScenarioError
 from ..actions import Fact, Plan, PlannedAction, Worksite
 from ..schema import POSITION, SHARE, key, shown
-from .blast_zones import DETONATORS, NO_SCATTER, BlastZone, scattered_time_s
+from .blast_zones import DETONATORS, NO_SCATTER, BlastZone, check_fires_within, scattered_time_s
 from .charges import LARGEST_CHARGE_KG, MS_PER_S
 
 
@@ -71,13 +71,8 @@ class MemberCut(PlannedAction):
 
     def check_plan(self, plan: Plan) -> None:
         """Check that it fires after the settling and before the end of the run, if at all."""
-        time_s, latest_s = self.begins_s(plan), plan.time.duration_s - plan.time.step.frame_s
-        if math.isfinite(time_s) and not plan.warm_up_s <= time_s < latest_s:
-            raise ScenarioError(
-                f"{self.name} fires at {time_s:g} s (blast.start_s and its delay): expected at least "
-                f"connections.warm_up_s, {plan.warm_up_s:g} (s), and less than {latest_s:.6g} (s), a frame before "
-                "time.duration_s is over"
-            )
+        time_s = self.begins_s(plan)
+        check_fires_within(plan, time_s, time_s, f"{self.name} fires at {time_s:g} s")
 
     def check_model(self, site: Worksite) -> None:
         site.check_cut(self)

@@ -26,7 +26,8 @@ from ..structure.utilisation import Utilisations
 _MOST_ROUNDS = 200
 """A bridge that still breaks after so many breaks, one after another, comes down."""
 
-_LARGEST_FACTOR = 64.0
+LARGEST_FACTOR = 64.0
+"""Load factor up to which collapse is looked for."""
 _PRECISION = 0.01
 
 DIRECTIONS = TENSION, COMPRESSION, SHEAR, TORSION, BENDING, FORCE, BARS = (
@@ -235,7 +236,7 @@ def _largest(stands: Callable[[float], bool]) -> float:
     low, high = 0.0, 1.0
     while stands(high):
         low, high = high, 2.0 * high
-        if high > _LARGEST_FACTOR:
+        if high > LARGEST_FACTOR:
             return np.inf
     while high - low > _PRECISION * high:
         middle = (low + high) / 2.0

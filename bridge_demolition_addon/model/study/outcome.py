@@ -86,7 +86,6 @@ def evaluate(
     hazards = bodies_that_moved(left, np.concatenate([heavy, balls]))
     outputs = {
         **_throws(left, hazards, plan),
-        **_without_doubtful(left, hazards, plan),
         **_course(left, summary, scenario),
         **_surroundings(left, scenario, np.concatenate([shards, balls])),
     }
@@ -111,11 +110,14 @@ def _throws(results: Results, hazards: np.ndarray, plan: CrossSection) -> dict[s
         "resting_reach_m": float(debris.reaches_m.max(initial=0.0)),
         "debris_kg": float(debris.masses_kg.sum()),
         "debris_area_m2": float(debris.area.area()),
+        **_without_doubtful(results, hazards, on_the_way),
     }
 
 
-def _without_doubtful(results: Results, hazards: np.ndarray, plan: CrossSection) -> dict[str, Any]:
+def _without_doubtful(results: Results, hazards: np.ndarray, on_the_way_m: np.ndarray) -> dict[str, Any]:
     """Return how many throws nothing explains, and the debris distance without them; None where that cannot be known.
+
+    Hazards (h,) get so far on the way (h,).
 
     Without recorded work a throw is doubtful by the height of fall alone, which says nothing where charges went off.
     """
@@ -124,10 +126,10 @@ def _without_doubtful(results: Results, hazards: np.ndarray, plan: CrossSection)
         return {"doubtful_throws": None, TRUSTED_REACH: None}
     throws = throws_of(results)
     doubtful = throws.doubtful if has_energy else throws.beyond_fall
-    trusted = hazards[~np.isin(hazards, throws.bodies[doubtful])]
+    trusted = ~np.isin(hazards, throws.bodies[doubtful])
     return {
         "doubtful_throws": int(doubtful.sum()),
-        TRUSTED_REACH: float(reaches_on_the_way(results, trusted, plan).max(initial=0.0)),
+        TRUSTED_REACH: float(on_the_way_m[trusted].max(initial=0.0)),
     }
 
 

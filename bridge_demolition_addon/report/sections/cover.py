@@ -12,7 +12,6 @@ from ...model.reinforcement.concrete_members import plain_concrete_text
 from ...model.results.arrays import Results
 from ...model.results.creep import creep_summary, creep_text
 from ...model.results.motion import without_removed
-from ...model.results.moving import moving_summary, moving_text
 from ...model.run_folder.summary import RunSummary
 from ...model.scenario import Scenario
 from ...model.scenario.contact_facts import contact_facts
@@ -173,7 +172,7 @@ def _doubts(run: ReportedRun) -> Iterator[str]:
     yield from (f"{text}." for text in stability)
     if not stability and run.scenario and (asleep := asleep_text(run.scenario)):  # of a run of an earlier version
         yield f"{asleep}."
-    if moving := moving_text({"moving_at_end": moving_summary(results)}):
+    if moving := run.still_moving:
         yield f"{moving}. Footprint, pile and zones are not final either."
     if text := creep_text({"creeping": creep_summary(without_removed(results)[0])}):
         yield f"{text}."

@@ -18,7 +18,7 @@ from ...model.debris.throws import PERCENTS, Debris, HeightMap, height_map, perc
 from ...model.debris.zones import watch_zone
 from ...model.results.arrays import Results
 from ...model.results.motion import MOVED_M, relative_to_ground, without_removed
-from ...model.results.moving import moving_summary, moving_text, still_moving_note
+from ...model.results.moving import still_moving_note
 from ...model.results.solver_energy import throws_of
 from ...model.scenario import Zone
 from ...model.schema import given
@@ -42,7 +42,7 @@ def debris_section(run: ReportedRun, debris: Debris, *, trajectories: bool) -> S
         "ends outside the bridge's first outline in plan."
     )
     blocks: list[Block] = [Paragraph(words)]
-    if moving := moving_text({"moving_at_end": moving_summary(results)}):
+    if moving := run.still_moving:
         blocks.append(Paragraph(f"{moving}.", is_notice=True))
     if len(debris.bodies):
         heights = height_map(results, debris.bodies)

@@ -7,7 +7,7 @@ from ...display.camera_targets import points_to_see
 from ...model.scenario import Scenario
 from ...model.scenario.file import read_scenario, scenario_text
 from ...model.sequence.checked_model import checked_model
-from ...model.stages.stability import stability_of
+from ...model.stages.stability_by_statics import stability_of
 from ...scene.as_built import keep_as_built
 from ...scene.bodies import lacks_ground
 from ...scene.demolition import build_demolition, check_replaceable

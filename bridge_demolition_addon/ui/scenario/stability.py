@@ -6,7 +6,8 @@ import bpy
 
 from ...errors import DemolitionError
 from ...model.sequence.checked_model import checked_model
-from ...model.stages.stability import COMES_DOWN, STANDS, Stability, stability_of
+from ...model.stages.stability import COMES_DOWN, STANDS, Stability
+from ...model.stages.stability_by_statics import stability_of
 from ...scene.stability import keep_stability, kept_stability
 from ..operators import Action, recording_runs, unset
 from ..sidebar import draw_sentence

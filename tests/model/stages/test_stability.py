@@ -18,9 +18,9 @@ from bridge_demolition_addon.model.stages.stability import (
     STANDS,
     UNKNOWN,
     Stability,
-    stability_of,
     stability_texts,
 )
+from bridge_demolition_addon.model.stages.stability_by_statics import stability_of
 from bridge_demolition_addon.model.structure.usual_sizes import size_facts
 
 HEAD = """
