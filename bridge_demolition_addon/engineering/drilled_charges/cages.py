@@ -19,6 +19,7 @@ import numpy as np
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..elasticity.equations import summed_on_bodies
 from ..elasticity.gaps import Gaps, SolvedTangents, motion_of_points
+from ..elasticity.guesses import GuessedForces
 from ..elasticity.joint_rows import cross_products, dot_products, matrix_products, transposed, turned, turned_back
 from ..elasticity.steel_bars import MODULUS_PA, USUAL_STEEL
 from .bare_bars import bar_area_m2, folding_force_n, yield_force_n
@@ -190,16 +191,16 @@ class Cages:
         return CageStep(self.rows[chosen], gaps, groups, SolvedTangents(self._solved_for, chosen), substep_s)
 
 
-class CageStep:
+class CageStep(GuessedForces):
     """Forces of k groups of bars in a sub-step, along their lines as it begins; `rows` (k,) are their numbers."""
 
     def __init__(self, rows: IntArray, gaps: Gaps, groups: _Groups, solved: SolvedTangents, substep_s: float):
-        self.rows = rows
+        super().__init__(rows, np.arange(len(rows)))
         self._gaps, self._groups, self._solved, self._substep_s = gaps, groups, solved, substep_s
         self._length = np.sqrt(dot_products(gaps.widths_m, gaps.widths_m))
         self._directions = gaps.widths_m / np.where(self._length > 0.0, self._length, 1.0)
         self._yields_n = groups.counts * yield_force_n(groups.diameters_m, groups.yields_pa)
-        self._begin_at(np.zeros(len(rows)))
+        self._begin_at(np.zeros((1, len(rows))))
 
     def changed(self) -> BoolArray:
         """Return whether each group (k,) has another tangent than its equations."""
@@ -221,37 +222,31 @@ class CageStep:
 
     def loads(self, velocities: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the impulses (6, k) on the first and second bodies, which have velocities (6, n) then."""
-        force = self._at_rest_n + self._stiffness_n_m * self._stretched(velocities)
-        pull = self._substep_s * force * self._directions
+        pull = self._substep_s * self._linear(self._moved(velocities)) * self._directions
         first = np.concatenate((pull, cross_products(self._gaps.first_arms_m, pull)))
         second = np.concatenate((-pull, -cross_products(self._gaps.second_arms_m, pull)))
         return first, second
-
-    def agrees(self, velocities: FloatArray) -> bool:
-        """Return whether the forces follow from velocities (6, n); if not, guess again."""
-        stretched = self._stretched(velocities)
-        guessed = self._at_rest_n + self._stiffness_n_m * stretched
-        if (abs(self._resisted(stretched) - guessed) <= _AGREES * self._yields_n).all():
-            return True
-        self._begin_at(stretched)
-        return False
 
     def of_bodies(self, loads: tuple[FloatArray, FloatArray], count: int) -> FloatArray:
         """Return the sums (6, n) of loads (6, k) on the first and on the second bodies, for n bodies."""
         return summed_on_bodies(self._gaps.first, self._gaps.second, loads, count)
 
-    def _stretched(self, velocities: FloatArray) -> FloatArray:
-        """Elongations (k,) in the sub-step."""
-        return self._substep_s * dot_products(self._directions, self._gaps.rates(velocities))
+    def _moved(self, velocities: FloatArray) -> FloatArray:
+        return self._substep_s * dot_products(self._directions, self._gaps.rates(velocities))[None]
 
-    def _resisted(self, stretched_m: FloatArray) -> FloatArray:
-        return self._groups.forces_n(self._length - self._groups.bared_m + stretched_m)
+    def _resisted(self, moved: FloatArray) -> FloatArray:
+        return self._groups.forces_n(self._length - self._groups.bared_m + moved)
 
-    def _begin_at(self, stretched_m: FloatArray) -> None:
-        """Take forces for linear about elongations (k,) in the sub-step."""
-        forces = self._resisted(stretched_m)
+    def _linear(self, moved: FloatArray) -> FloatArray:
+        return self._at_rest_n + self._stiffness_n_m * moved
+
+    def _begin_at(self, moved: FloatArray) -> None:
+        forces = self._resisted(moved)
         pulled, pressed = self._groups.limits_n
         is_elastic = self._groups.holds & (forces < pulled) & (forces > -pressed)
         self._stiffness_n_m = np.where(is_elastic, self._groups.stiffness_n_m, 0.0)
-        self._at_rest_n = forces - self._stiffness_n_m * stretched_m
+        self._at_rest_n = forces - self._stiffness_n_m * moved
         self._tangents = self._stiffness_n_m * (self._directions[:, None] * self._directions)
+
+    def _slack(self) -> FloatArray:
+        return _AGREES * self._yields_n

@@ -5,16 +5,13 @@ each is a quarter of the bars, or what resists the same moments as bars in their
 press on each other where it is closed, as stiff as the connection was. So bars have the plastic moment of such that are
 spread evenly over the face, or are in their layers: all of them yield, about the pressed edge.
 
-A sub-step is implicit, as of connections, but these forces are not linear: the equations are made for the forces at a
-guess, and again for the opening that follows, until both agree (Newton). Each guess takes energy off, so that this
-ends: the energy is convex.
+A sub-step is implicit, as of connections, but these forces are not linear: they are guessed (`guesses`).
 
 All arrays have their components first. Places are numbered corner by corner, in each of these all cracks.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, fields
 from typing import TypeVar
 
@@ -25,6 +22,7 @@ from .crack_law import FRICTION, CrackLaw, rubbing_bars, sliding, stretches_of_b
 from .crack_state import CornerState, CrackState
 from .equations import summed_on_bodies
 from .gaps import Gaps, SolvedTangents, motion_of_points
+from .guesses import GuessedForces
 from .joint_rows import (
     JointPositions,
     JointRows,
@@ -43,10 +41,6 @@ CORNERS = np.array([(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)])
 """Places as shares of half of the sides of the rectangle."""
 
 _COUNT = len(CORNERS)
-
-_MOST_SECANTS = 12
-_FLAT = 0.01
-"""Slope of the energy on the way from one guess to the next, by that at its beginning, which is taken for none."""
 
 _AGREES = 1e-4
 """Largest error of the force at a corner, by what its bars yield at, or presses its sides together so far."""
@@ -283,14 +277,14 @@ class CrackJoints:
         return JointPositions(self.axes, self.axes, self.first_arms_m, self.second_arms_m, none).rows()
 
 
-class CrackStep:
+class CrackStep(GuessedForces):
     """Forces of c cracks, in place of connections `rows` (c,), with 4 c bars in a sub-step."""
 
     def __init__(self, rows: IntArray, gaps: Gaps, law: CrackLaw, solved: SolvedTangents, substep_s: float):
-        self.rows = rows
+        super().__init__(rows, np.tile(np.arange(len(rows)), _COUNT))
         self._gaps, self._law, self._solved, self._substep_s = gaps, law, solved, substep_s
-        self._mean_n = np.maximum(np.tile(_summed(law.bars.yield_n) / _COUNT, _COUNT), _LITTLE_M * law.pressed_n_m)
-        self._guess: tuple[FloatArray, FloatArray] | None = None
+        mean_n = np.maximum(np.tile(_summed(law.bars.yield_n) / _COUNT, _COUNT), _LITTLE_M * law.pressed_n_m)
+        self._slack_n = _AGREES * mean_n
         self._begin_at(np.zeros_like(gaps.widths_m))
 
     def changed(self) -> BoolArray:
@@ -314,40 +308,27 @@ class CrackStep:
 
     def loads(self, velocities: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the impulses (6, c) of cracks on their first and second bodies, which have velocities (6, n) then."""
-        opening = self._substep_s * self._gaps.rates(velocities)
-        pull = self._substep_s * (self._forces + turned(self._tangents, opening))
+        pull = self._substep_s * self._linear(self._moved(velocities))
         first = np.concatenate((pull, cross_products(self._gaps.first_arms_m, pull)))
         second = np.concatenate((-pull, -cross_products(self._gaps.second_arms_m, pull)))
         return _summed(first), _summed(second)
 
-    def agrees(self, velocities: FloatArray) -> bool:
-        """Whether the forces are those of the opening that follows from velocities (6, n); if not, guess again."""
-        opening = self._substep_s * self._gaps.rates(velocities)
-        balance = self._forces + turned(self._tangents, opening)
-        if (abs(self._out_of_balance(opening, balance)) <= _AGREES * self._mean_n).all():
-            return True
-        if self._guess is not None:
-            opening, balance = self._least(*self._guess, opening, balance)
-        self._guess = opening, balance
-        self._begin_at(opening)
-        return False
+    def _moved(self, velocities: FloatArray) -> FloatArray:
+        return self._substep_s * self._gaps.rates(velocities)
 
-    def _out_of_balance(self, opening: FloatArray, balance: FloatArray) -> FloatArray:
-        """Resistance (3, 4 c) of cracks with this opening, less the forces that are in balance with all else."""
-        return self._law.forces(self._gaps.widths_m + opening) - balance
+    def _resisted(self, moved: FloatArray) -> FloatArray:
+        return self._law.forces(self._gaps.widths_m + moved)
 
-    def _least(
-        self, opening: FloatArray, balance: FloatArray, coming: FloatArray, coming_balance: FloatArray
-    ) -> tuple[FloatArray, FloatArray]:
-        """Go from one guess towards the next as long as that takes energy off; what balances changes evenly."""
-        step, change = coming - opening, coming_balance - balance
+    def _linear(self, moved: FloatArray) -> FloatArray:
+        return self._forces + turned(self._tangents, moved)
 
-        def slope(share: float) -> float:
-            out_of_balance = self._out_of_balance(opening + share * step, balance + share * change)
-            return float((out_of_balance * step).sum())
+    def _begin_at(self, moved: FloatArray) -> None:
+        widths_m = self._gaps.widths_m + moved
+        self._tangents = self._law.tangents(widths_m)
+        self._forces = self._law.forces(widths_m) - turned(self._tangents, moved)
 
-        share = _zero_of(slope)
-        return opening + share * step, balance + share * change
+    def _slack(self) -> FloatArray:
+        return self._slack_n
 
     def joints(self) -> CrackJoints:
         """Return how the cracks resist changes of the motion that was guessed last."""
@@ -379,12 +360,6 @@ class CrackStep:
         cracks = len(self.rows)
         return summed_on_bodies(self._gaps.first[:cracks], self._gaps.second[:cracks], loads, count)
 
-    def _begin_at(self, opening: FloatArray) -> None:
-        """Take forces for linear about cracks that have opened further (3, 4 c)."""
-        widths_m = self._gaps.widths_m + opening
-        self._tangents = self._law.tangents(widths_m)
-        self._forces = self._law.forces(widths_m) - turned(self._tangents, opening)
-
 
 def corner_positions(points_m: FloatArray, axes: FloatArray, sides_m: FloatArray) -> FloatArray:
     """Return the corners (3, 4, r) of cracks with middles (3, r), principal axes (3, 2, r), and sides (2, r)."""
@@ -400,28 +375,6 @@ def corner_shares(positions_m: FloatArray, sides_m: FloatArray) -> FloatArray:
     beside = np.clip(2.0 * positions_m / sides_m, -1.0, 1.0)
     shares: FloatArray = 0.25 * (1.0 + CORNERS[:, :1] * beside[0]) * (1.0 + CORNERS[:, 1:] * beside[1])
     return shares
-
-
-def _zero_of(slope: Callable[[float], float]) -> float:
-    """Return where a slope that grows becomes 0, from below 0 at 0 on; at most 1.
-
-    M. Dowell and P. Jarratt (1971), A modified regula falsi method for computing the root of an equation, BIT 11, for
-    the Illinois method.
-    """
-    low, high, at_low, at_high = 0.0, 1.0, slope(0.0), slope(1.0)
-    flat = _FLAT * abs(at_low)
-    if at_high <= 0.0 or at_low >= 0.0:
-        return 1.0
-    for _ in range(_MOST_SECANTS):
-        share = (low * at_high - high * at_low) / (at_high - at_low)
-        at_share = slope(share)
-        if abs(at_share) <= flat:
-            return share
-        if at_share < 0.0:
-            low, at_low, at_high = share, at_share, 0.5 * at_high
-        else:
-            high, at_high, at_low = share, at_share, 0.5 * at_low
-    return high
 
 
 def _joined(before: Numbers, added: Numbers) -> Numbers:

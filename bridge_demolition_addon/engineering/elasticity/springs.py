@@ -1,7 +1,6 @@
 """Springs between two bodies: footings on soil, and pads of bearings; where they are, and what they do in a sub-step.
 
-A sub-step is implicit, and solved as `elasticity.cracks` is: forces are linear about a guess, which is followed by
-another until both agree.
+A sub-step is implicit, and its forces are guessed (`guesses`).
 
 All arrays have their components first, except places.
 """
@@ -17,6 +16,7 @@ import numpy as np
 from ..arrays import BoolArray, FloatArray, IntArray
 from .equations import summed_on_bodies
 from .gaps import Gaps, SolvedTangents, motion_of_points
+from .guesses import GuessedForces
 from .joint_rows import cross_products, matrix_products, transposed, turned, turned_back
 
 _AGREES = 1e-4
@@ -153,7 +153,7 @@ class PressedSprings:
         return np.where(holds & (self.pulls | (self.pressed_n > 0.0)), np.inf, by_friction)
 
 
-class SpringStep:
+class SpringStep(GuessedForces):
     """Forces of c connections, `rows` (c,), with q springs in a sub-step.
 
     `gaps` are from the bodies below to those above, and from where springs resist nothing. `keep` gets the upward
@@ -170,13 +170,13 @@ class SpringStep:
         substep_s: float,
         keep: Callable[[FloatArray], None] | None = None,
     ):
-        self.rows = rows
+        super().__init__(rows, positions.of)
         self._positions, self._gaps, self._law = positions, gaps, law
         self._solved, self._substep_s, self._keep = solved, substep_s, keep
         self._begin_at(np.zeros_like(gaps.widths_m))
         of = positions.of
         mean_n = positions.summed(abs(self._forces).max(axis=0)) / np.bincount(of, minlength=len(rows))
-        self._slack = _AGREES * mean_n[of] + _EVEN_M * law.vertical_n_m
+        self._slack_n = _AGREES * mean_n[of] + _EVEN_M * law.vertical_n_m
 
     def changed(self) -> BoolArray:
         """Return whether each connection (c,) has other tangents than its equations."""
@@ -194,20 +194,11 @@ class SpringStep:
 
     def loads(self, velocities: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the impulses (6, c) on the first and second bodies, which have velocities (6, n) then."""
-        forces = self._linear(self._substep_s * self._gaps.rates(velocities))
+        forces = -self._linear(self._moved(velocities))
         if self._keep is not None:
             self._keep(forces[2])
         push = self._substep_s * forces
         return loads_of_springs(self._positions, push, self._gaps.second_arms_m, self._gaps.first_arms_m)
-
-    def agrees(self, velocities: FloatArray) -> bool:
-        """Whether the forces are those that follow from velocities (6, n); if not, guess again."""
-        moved = self._substep_s * self._gaps.rates(velocities)
-        off = abs(self._law.resisted(self._gaps.widths_m + moved)[0] - self._linear(moved)).max(axis=0)
-        if (off <= self._slack).all():
-            return True
-        self._begin_at(moved)
-        return False
 
     def of_bodies(self, loads: tuple[FloatArray, FloatArray], count: int) -> FloatArray:
         """Return the sums (6, n) of loads (6, c) on the first and on the second bodies, for n bodies."""
@@ -216,13 +207,21 @@ class SpringStep:
         first, second = (np.where(self._positions.above_first, *ends) for ends in ((above, below), (below, above)))
         return summed_on_bodies(first, second, loads, count)
 
-    def _begin_at(self, moved: FloatArray) -> None:
-        """Take forces for linear about springs that have moved further (3, q)."""
-        forces, self._tangents = self._law.resisted(self._gaps.widths_m + moved)
-        self._forces = forces + turned(self._tangents, moved)
+    def _moved(self, velocities: FloatArray) -> FloatArray:
+        return self._substep_s * self._gaps.rates(velocities)
+
+    def _resisted(self, moved: FloatArray) -> FloatArray:
+        return -self._law.resisted(self._gaps.widths_m + moved)[0]
 
     def _linear(self, moved: FloatArray) -> FloatArray:
-        return self._forces - turned(self._tangents, moved)
+        return self._forces + turned(self._tangents, moved)
+
+    def _begin_at(self, moved: FloatArray) -> None:
+        upwards, self._tangents = self._law.resisted(self._gaps.widths_m + moved)
+        self._forces = -upwards - turned(self._tangents, moved)
+
+    def _slack(self) -> FloatArray:
+        return self._slack_n
 
 
 def stiffness_of_springs(

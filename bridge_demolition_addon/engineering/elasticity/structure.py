@@ -24,6 +24,7 @@ from .crack_state import CrackState
 from .cracks import CrackJoints, Cracks, CrackStep
 from .equations import RigidBodies, connected_parts, stiffness_blocks, stressed, summed_on_bodies, without
 from .frequencies import SLACK, first_frequency
+from .guesses import GuessedForces, next_shares
 from .joint_rows import JointFrames, JointPositions, JointRows, joint_positions
 from .sparse_system import BlockSystem
 
@@ -64,27 +65,6 @@ class ElasticStep:
     crack_joints: Callable[[], CrackJoints] | None  # how the cracks resist changes; None where there is none
 
 
-class NonlinearTerms(Protocol):
-    """Forces in a sub-step that are not proportional to deformation: of cracks, bearings, and footings on soil."""
-
-    rows: IntArray
-
-    def changed(self) -> BoolArray:
-        """Return whether each of `rows` (c,) has other tangents than its equations."""
-
-    def blocks(self, chosen: IntArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return what some (k,) add to the equations of their first and second bodies, and between, (6, 6, k)."""
-
-    def loads(self, velocities: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the impulses (6, c) on the first and second bodies, with velocities (6, n) then."""
-
-    def agrees(self, velocities: FloatArray) -> bool:
-        """Return whether the forces are those that follow from velocities (6, n); if not, guess again."""
-
-    def of_bodies(self, loads: tuple[FloatArray, FloatArray], count: int) -> FloatArray:
-        """Return the sums (6, n) of loads (6, c) on the first and on the second bodies, for n bodies."""
-
-
 class SpringLaw(Protocol):
     """Springs of footings or bearings in place of some connections, whose own stiffness does not count."""
 
@@ -97,7 +77,7 @@ class SpringLaw(Protocol):
 
     def in_substep(
         self, chosen: IntArray, positions_m: FloatArray, rotations: FloatArray, substep_s: float
-    ) -> NonlinearTerms:
+    ) -> GuessedForces:
         """Return what some of them (c,) do in a sub-step of a length in s."""
 
     def stored_j(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
@@ -252,7 +232,7 @@ class ElasticStructure:
         loads = summed_on_bodies(frames.first, frames.second, rows.loads(amounts), self._count)
         changes = self._solved(awake, self._with_nonlinear(loads, nonlinear, start.velocities))
         for _ in range(_MOST_GUESSES if nonlinear else 0):
-            if all([terms.agrees(start.velocities + changes) for terms in nonlinear]):  # a list: all guess again
+            if not self._guess_again(nonlinear, start.velocities + changes):
                 break
             self._refresh(start, awake, acting, positions, nonlinear)
             changes = self._solved(awake, self._with_nonlinear(loads, nonlinear, start.velocities))
@@ -402,7 +382,7 @@ class ElasticStructure:
 
     def _acting_terms(
         self, springs: Cracks | SpringLaw | None, acts: BoolArray, start: StepInput
-    ) -> NonlinearTerms | None:
+    ) -> GuessedForces | None:
         """Cracks that reinforcement holds, or springs, of connections that act (m,); None where there is none."""
         if springs is None or not acts[springs.rows].any():
             return None
@@ -410,7 +390,7 @@ class ElasticStructure:
         return springs.in_substep(chosen, start.positions_m, start.rotations, self._substep_s)
 
     def _with_nonlinear(
-        self, loads: FloatArray, nonlinear: Sequence[NonlinearTerms], velocities: FloatArray
+        self, loads: FloatArray, nonlinear: Sequence[GuessedForces], velocities: FloatArray
     ) -> FloatArray:
         """Impulses (6, n) with those of nonlinear terms, on bodies that have velocities (6, n) at the end."""
         for terms in nonlinear:
@@ -423,7 +403,7 @@ class ElasticStructure:
         awake: BoolArray,
         acting: IntArray,
         positions: JointPositions,
-        nonlinear: Sequence[NonlinearTerms],
+        nonlinear: Sequence[GuessedForces],
     ) -> None:
         """Make rows and equations again of parts that have turned, lost a connection, or have what yields."""
         for terms in nonlinear:
@@ -456,6 +436,21 @@ class ElasticStructure:
             which = place_of[part.connections]
             part.system.factor(own[..., row_of_body[part.bodies]], *(block[..., which] for block in blocks))
         self._stale[stale] = False
+
+    def _guess_again(self, nonlinear: Sequence[GuessedForces], velocities: FloatArray) -> bool:
+        """Return whether forces do not agree with the velocities (6, n) that solved the equations: then guess others."""
+        number_of_none = len(self._parts)
+        parts = [self.part_of_connection[terms.rows] for terms in nonlinear]
+        parts = [np.where(part < 0, number_of_none, part) for part in parts]
+        are_off = np.zeros(len(self._parts) + 1, bool)
+        for terms, part in zip(nonlinear, parts, strict=True):
+            are_off[part[terms.take(velocities)]] = True
+        if not are_off.any():
+            return False
+        shares = next_shares(nonlinear, parts, are_off)
+        for terms, part in zip(nonlinear, parts, strict=True):
+            terms.go(shares[part])
+        return True
 
     def _solved(self, awake: BoolArray, right: FloatArray) -> FloatArray:
         """Changes of velocities (6, n) by impulses (6, n), with the connections of awake parts (p + 1,)."""
