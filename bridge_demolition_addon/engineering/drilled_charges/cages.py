@@ -18,9 +18,9 @@ import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..elasticity.equations import summed_on_bodies
-from ..elasticity.gaps import Gaps, SolvedTangents, motion_of_points
+from ..elasticity.gaps import Gaps, SolvedTangents, stiffness_of_points
 from ..elasticity.guesses import GuessedForces
-from ..elasticity.joint_rows import cross_products, dot_products, matrix_products, transposed, turned, turned_back
+from ..elasticity.joint_rows import cross_products, dot_products, turned, turned_back
 from ..elasticity.steel_bars import MODULUS_PA, USUAL_STEEL
 from .bare_bars import bar_area_m2, folding_force_n, yield_force_n
 
@@ -91,8 +91,11 @@ class _Groups:
 
     def forces_n(self, elongations_m: FloatArray) -> FloatArray:
         """Return the forces (g,), above 0 in tension, at elongations (g,) since they were bared."""
-        pulled, pressed = self.limits_n
-        return self.holds * np.clip(self.stiffness_n_m * (elongations_m - self.stays_m), -pressed, pulled)
+        return self.forces_within(elongations_m, *self.limits_n)
+
+    def forces_within(self, elongations_m: FloatArray, pulled_n: FloatArray, pressed_n: FloatArray) -> FloatArray:
+        """Return the same with largest forces (g,) in tension and in compression that are known already."""
+        return self.holds * np.clip(self.stiffness_n_m * (elongations_m - self.stays_m), -pressed_n, pulled_n)
 
     def lines(self, positions_m: FloatArray, rotations: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return the lines (3, g) from their first to their second points, and arms (3, g) of these on the bodies."""
@@ -200,6 +203,7 @@ class CageStep(GuessedForces):
         self._length = np.sqrt(dot_products(gaps.widths_m, gaps.widths_m))
         self._directions = gaps.widths_m / np.where(self._length > 0.0, self._length, 1.0)
         self._yields_n = groups.counts * yield_force_n(groups.diameters_m, groups.yields_pa)
+        self._pulled_n, self._pressed_n = groups.limits_n
         self._begin_at(np.zeros((1, len(rows))))
 
     def changed(self) -> BoolArray:
@@ -211,14 +215,8 @@ class CageStep(GuessedForces):
         tangents = self._tangents[..., chosen]
         self._solved.take_over(chosen, tangents)
         implicit = self._substep_s * self._substep_s * tangents
-        arms = self._gaps.first_arms_m, self._gaps.second_arms_m
-        first, second = (motion_of_points(of_body[:, chosen]) for of_body in arms)
-        by_first, by_second = matrix_products(implicit, first), matrix_products(implicit, second)
-        return (
-            matrix_products(transposed(first), by_first),
-            matrix_products(transposed(second), by_second),
-            -matrix_products(transposed(first), by_second),
-        )
+        arms = self._gaps.first_arms_m[:, chosen], self._gaps.second_arms_m[:, chosen]
+        return stiffness_of_points(implicit, *arms)
 
     def loads(self, velocities: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the impulses (6, k) on the first and second bodies, which have velocities (6, n) then."""
@@ -235,15 +233,15 @@ class CageStep(GuessedForces):
         return self._substep_s * dot_products(self._directions, self._gaps.rates(velocities))[None]
 
     def _resisted(self, moved: FloatArray) -> FloatArray:
-        return self._groups.forces_n(self._length - self._groups.bared_m + moved)
+        elongations = self._length - self._groups.bared_m + moved
+        return self._groups.forces_within(elongations, self._pulled_n, self._pressed_n)
 
     def _linear(self, moved: FloatArray) -> FloatArray:
         return self._at_rest_n + self._stiffness_n_m * moved
 
     def _begin_at(self, moved: FloatArray) -> None:
         forces = self._resisted(moved)
-        pulled, pressed = self._groups.limits_n
-        is_elastic = self._groups.holds & (forces < pulled) & (forces > -pressed)
+        is_elastic = self._groups.holds & (forces < self._pulled_n) & (forces > -self._pressed_n)
         self._stiffness_n_m = np.where(is_elastic, self._groups.stiffness_n_m, 0.0)
         self._at_rest_n = forces - self._stiffness_n_m * moved
         self._tangents = self._stiffness_n_m * (self._directions[:, None] * self._directions)

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from .joint_rows import dot_products
-from .steel_bars import BarResponse, Bars, bar_response
+from .steel_bars import Bars, bar_forces, bar_response
 
 DOWEL_SHARE = 0.9 * np.sqrt(35.0 / 500.0)
 """Force across themselves that bars resist as dowels, by that along them: 0.9 √(f_c / f_y) for rough cracks, of C35/45
@@ -45,31 +45,35 @@ class CrackLaw:
 
     def forces(self, gaps_m: FloatArray) -> FloatArray:
         """Return the forces (3, b) across gaps (3, b)."""
-        bars, rubs = self._responses(gaps_m)
-        closing = np.minimum(dot_products(self.normals, gaps_m), 0.0)
-        pulls: FloatArray = stretches_of_bars(bars.forces_n, self.directions)
-        return pulls + rubs.forces_n + self.pressed_n_m * closing * self.normals
+        across_m = dot_products(self.normals, gaps_m)
+        slid_m = gaps_m - across_m * self.normals
+        bars = bar_forces(self.bars, stretches_of_bars(gaps_m, self.directions), self.slips_m, self.flows_m)
+        rubs = bar_forces(self._rubbing(), slid_m, self.rests_m, np.zeros_like(across_m))
+        return self._together(bars, rubs, across_m)
 
-    def tangents(self, gaps_m: FloatArray) -> FloatArray:
-        """Return how the forces across gaps (3, b) change with these, (3, 3, b)."""
-        bars, rubs = self._responses(gaps_m)
-        normals, directions, pulls = self.normals, self.directions, stretches_of_bars(bars.directions, self.directions)
-        pressed = np.where(dot_products(normals, gaps_m) < 0.0, self.pressed_n_m, 0.0)
+    def linear(self, gaps_m: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return the forces (3, b) across gaps (3, b), and how they change with these, (3, 3, b)."""
+        normals, directions, across_m = self.normals, self.directions, dot_products(self.normals, gaps_m)
+        slid_m = gaps_m - across_m * normals
+        bars = bar_response(self.bars, stretches_of_bars(gaps_m, directions), self.slips_m, self.flows_m)
+        rubs = bar_response(self._rubbing(), slid_m, self.rests_m, np.zeros_like(across_m))
+        pulls = stretches_of_bars(bars.directions, directions)
+        pressed = np.where(across_m < 0.0, self.pressed_n_m, 0.0)
         even = DOWEL_SHARE * DOWEL_SHARE
         tangents: FloatArray = (pressed - rubs.across_n_m) * (normals[:, None] * normals)
         tangents += (1.0 - even) * bars.across_n_m * (directions[:, None] * directions)
         tangents += (bars.along_n_m - bars.across_n_m) * (pulls[:, None] * pulls)
         tangents += (rubs.along_n_m - rubs.across_n_m) * (rubs.directions[:, None] * rubs.directions)
         tangents[[0, 1, 2], [0, 1, 2]] += even * bars.across_n_m + rubs.across_n_m
-        return tangents
+        return self._together(bars.forces_n, rubs.forces_n, across_m), tangents
 
-    def _responses(self, gaps_m: FloatArray) -> tuple[BarResponse, BarResponse]:
-        """What bars do across gaps (3, b), and sides that rub on each other."""
-        rubbing, never = rubbing_bars(self.grips_n, self.pressed_n_m), np.zeros_like(self.grips_n)
-        return (
-            bar_response(self.bars, stretches_of_bars(gaps_m, self.directions), self.slips_m, self.flows_m),
-            bar_response(rubbing, sliding(gaps_m, self.normals), self.rests_m, never),
-        )
+    def _together(self, bars_n: FloatArray, rubs_n: FloatArray, across_m: FloatArray) -> FloatArray:
+        """Forces (3, b) of bars, of sides that rub, and of sides that press where they are closed (b,)."""
+        pressing = self.pressed_n_m * np.minimum(across_m, 0.0)
+        return stretches_of_bars(bars_n, self.directions) + rubs_n + pressing * self.normals
+
+    def _rubbing(self) -> Bars:
+        return rubbing_bars(self.grips_n, self.pressed_n_m)
 
 
 def stretches_of_bars(gaps_m: FloatArray, directions: FloatArray) -> FloatArray:

@@ -21,15 +21,13 @@ from ..arrays import BoolArray, FloatArray, IntArray
 from .crack_law import FRICTION, CrackLaw, rubbing_bars, sliding, stretches_of_bars
 from .crack_state import CornerState, CrackState
 from .equations import summed_on_bodies
-from .gaps import Gaps, SolvedTangents, motion_of_points
+from .gaps import Gaps, SolvedTangents, stiffness_of_points
 from .guesses import GuessedForces
 from .joint_rows import (
     JointPositions,
     JointRows,
     cross_products,
     dot_products,
-    matrix_products,
-    transposed,
     turned,
     turned_back,
 )
@@ -297,14 +295,8 @@ class CrackStep(GuessedForces):
         tangents = self._tangents[..., bars]
         self._solved.take_over(bars, tangents)
         implicit = self._substep_s * self._substep_s * tangents
-        arms = self._gaps.first_arms_m, self._gaps.second_arms_m
-        first, second = (motion_of_points(of_body[:, bars]) for of_body in arms)
-        by_first, by_second = matrix_products(implicit, first), matrix_products(implicit, second)
-        return (
-            _summed(matrix_products(transposed(first), by_first)),
-            _summed(matrix_products(transposed(second), by_second)),
-            -_summed(matrix_products(transposed(first), by_second)),
-        )
+        arms = self._gaps.first_arms_m[:, bars], self._gaps.second_arms_m[:, bars]
+        return stiffness_of_points(implicit, *arms, _summed)
 
     def loads(self, velocities: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the impulses (6, c) of cracks on their first and second bodies, which have velocities (6, n) then."""
@@ -323,9 +315,8 @@ class CrackStep(GuessedForces):
         return self._forces + turned(self._tangents, moved)
 
     def _begin_at(self, moved: FloatArray) -> None:
-        widths_m = self._gaps.widths_m + moved
-        self._tangents = self._law.tangents(widths_m)
-        self._forces = self._law.forces(widths_m) - turned(self._tangents, moved)
+        forces, self._tangents = self._law.linear(self._gaps.widths_m + moved)
+        self._forces = forces - turned(self._tangents, moved)
 
     def _slack(self) -> FloatArray:
         return self._slack_n

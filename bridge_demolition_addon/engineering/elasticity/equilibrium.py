@@ -137,7 +137,8 @@ class _Part:
         blocks = stiffness_blocks(self._rows, self._stiffness)
         if self._pads is not None:
             self._pads.add_blocks(blocks, positions_m, rotations)
-        self.system.factor(own, *blocks)
+        self.system.assemble(own, np.arange(len(self._frames)), *blocks)
+        self.system.factor()
 
 
 class _PartOnBearings:

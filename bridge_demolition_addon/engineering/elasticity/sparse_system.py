@@ -6,6 +6,8 @@ and the solvers of scipy go through BLAS, which rounds by processor.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import qdldl
 from scipy.sparse import csc_matrix
@@ -23,31 +25,25 @@ class BlockSystem:
 
     def __init__(self, body_count: int, first: IntArray, second: IntArray):
         self._count = body_count
-        self._has_first, self._has_second = first >= 0, second >= 0
-        self._has_both = self._has_first & self._has_second
-        self._is_turned = (first > second)[self._has_both]
-        blocks = np.concatenate(
-            (
-                np.repeat(np.arange(body_count)[:, None], 2, axis=1),
-                np.repeat(first[self._has_first, None], 2, axis=1),
-                np.repeat(second[self._has_second, None], 2, axis=1),
-                np.sort(np.stack((first, second), axis=1)[self._has_both], axis=1),
-            )
-        )
         self._matrix: csc_matrix | None = None
         self._solver: qdldl.Solver | None = None
-        self._find_positions(blocks)
+        bodies = np.arange(body_count)
+        self._find_positions(((bodies, bodies), (first, first), (second, second), (first, second)))
+        self._assembled = np.zeros(self._size)
 
-    def factor(self, of_bodies: FloatArray, first: FloatArray, second: FloatArray, between: FloatArray) -> None:
-        """Take over and factor the numbers of each body (6, 6, b), and what each connection adds (6, 6, c).
+    def assemble(self, of_bodies: FloatArray, connections: IntArray, *blocks: FloatArray) -> None:
+        """Take over the numbers of each body (6, 6, b), and what some connections (k,) add, three (6, 6, k).
 
-        A connection adds to its `first` and `second` body, and `between` them, with rows for the first body.
+        A connection adds to its first body, its second, and between them, with rows for the first body.
         """
-        both = between[..., self._has_both]
-        both = np.where(self._is_turned, np.swapaxes(both, 0, 1), both)
-        parts = (of_bodies, first[..., self._has_first], second[..., self._has_second], both)
-        values = np.concatenate(parts, axis=2).reshape(-1)
-        data = np.bincount(self._places, values, self._size + 1)[: self._size]
+        places = (self._of_bodies, *(of_all[..., connections] for of_all in self._of_connections))
+        self._assembled = self._summed(places, (of_bodies, *blocks))
+
+    def factor(self, connections: IntArray | None = None, *blocks: FloatArray) -> None:
+        """Factor what was assembled, with what more connections (k,) add, which counts only until this is called again."""
+        data = self._assembled
+        if connections is not None:
+            data = data + self._summed([of_all[..., connections] for of_all in self._of_connections], blocks)
         if self._matrix is None or self._solver is None:
             self._matrix = csc_matrix((data, self._indices, self._starts), shape=(_BLOCK * self._count,) * 2)
             self._solver = qdldl.Solver(self._matrix, upper=True)
@@ -61,14 +57,25 @@ class BlockSystem:
         unknowns: FloatArray = self._solver.solve(np.ascontiguousarray(right.T).reshape(-1))
         return unknowns.reshape(-1, _BLOCK).T
 
-    def _find_positions(self, blocks: FloatArray) -> None:
-        """Find where each number of blocks (k, 2) belongs in the upper triangle, column by column."""
-        keys = blocks[:, 1] * self._count + blocks[:, 0]
+    def _summed(self, places: Sequence[IntArray], blocks: Sequence[FloatArray]) -> FloatArray:
+        """Return numbers of the upper triangle, from blocks (6, 6, …) at places alike."""
+        all_places, values = (np.concatenate([part.reshape(-1) for part in parts]) for parts in (places, blocks))
+        return np.bincount(all_places, values, self._size + 1)[: self._size]
+
+    def _find_positions(self, kinds: Sequence[tuple[IntArray, IntArray]]) -> None:
+        """Find where each number of blocks with rows and columns (k,) belongs in the upper triangle, column by column.
+
+        The numbers of a block that lies below the diagonal belong where its transpose does; those of bodies whose
+        motion is known belong nowhere, which is the place after the last.
+        """
+        rows, columns = (np.concatenate(ends) for ends in zip(*kinds, strict=True))
+        is_known = (rows < 0) | (columns < 0)
+        keys = np.where(is_known, 0, np.maximum(rows, columns) * self._count + np.minimum(rows, columns))
         kept, which = np.unique(keys, return_inverse=True)
-        columns, rows = np.divmod(kept, self._count)
+        block_columns, block_rows = np.divmod(kept, self._count)
         row, column = np.meshgrid(np.arange(_BLOCK), np.arange(_BLOCK), indexing="ij")
-        all_rows = _BLOCK * rows[:, None, None] + row
-        all_columns = _BLOCK * columns[:, None, None] + column
+        all_rows = _BLOCK * block_rows[:, None, None] + row
+        all_columns = _BLOCK * block_columns[:, None, None] + column
         upper = all_rows <= all_columns
         order = np.lexsort((all_rows[upper], all_columns[upper]))
         self._size = len(order)
@@ -76,7 +83,11 @@ class BlockSystem:
         sorted_positions = np.empty(self._size, int)
         sorted_positions[order] = np.arange(self._size)
         positions[upper] = sorted_positions
-        self._places = np.moveaxis(positions[which], 0, 2).reshape(-1)
+        places = positions[which]
+        places[rows > columns] = np.swapaxes(places[rows > columns], 1, 2)
+        places[is_known] = self._size
+        ends = np.cumsum([len(of_kind) for of_kind, _ in kinds])[:-1]
+        self._of_bodies, *self._of_connections = np.split(np.moveaxis(places, 0, 2), ends, axis=2)
         self._indices = all_rows[upper][order].astype(np.int32)
         per_column = np.bincount(all_columns[upper], minlength=_BLOCK * self._count)
         self._starts = np.concatenate(([0], np.cumsum(per_column))).astype(np.int32)

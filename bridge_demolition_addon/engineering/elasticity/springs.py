@@ -15,9 +15,9 @@ import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
 from .equations import summed_on_bodies
-from .gaps import Gaps, SolvedTangents, motion_of_points
+from .gaps import Gaps, SolvedTangents, stiffness_of_points
 from .guesses import GuessedForces
-from .joint_rows import cross_products, matrix_products, transposed, turned, turned_back
+from .joint_rows import cross_products, turned, turned_back
 
 _AGREES = 1e-4
 """Largest error of the force of a spring, by the mean force of the springs of its connection."""
@@ -231,13 +231,8 @@ def stiffness_of_springs(
 
     Springs have tangents (3, 3, p), and arms (3, p) from the centres of the bodies above and below.
     """
-    above, below = motion_of_points(arms), motion_of_points(arms_below)
-    stiff_above, stiff_below = matrix_products(tangents, above), matrix_products(tangents, below)
-    first, second = positions.ordered(
-        positions.summed(matrix_products(transposed(above), stiff_above)),
-        positions.summed(matrix_products(transposed(below), stiff_below)),
-    )
-    between = -positions.summed(matrix_products(transposed(above), stiff_below))
+    of_above, of_below, between = stiffness_of_points(tangents, arms, arms_below, positions.summed)
+    first, second = positions.ordered(of_above, of_below)
     return first, second, np.where(positions.above_first, between, np.swapaxes(between, 0, 1))
 
 

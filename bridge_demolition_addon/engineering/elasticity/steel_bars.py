@@ -70,6 +70,11 @@ class Bars:
         slope = (steel.hardening - 1.0) * yield_n / (elongation_m - at_yield_m)
         return cls(yield_n, stiffness, stiffness * slope / np.where(stiffness > 0.0, stiffness - slope, 1.0))
 
+    @property
+    def resists_n_m(self) -> FloatArray:
+        """Force (b,) by which bars that yield fall short of elastic ones, by the part of their stretch that stays."""
+        return np.where(self.stiffness_n_m > 0.0, self.stiffness_n_m + self.modulus_n_m, 1.0)
+
     def __getitem__(self, which: IntArray) -> Bars:
         return Bars(self.yield_n[which], self.stiffness_n_m[which], self.modulus_n_m[which])
 
@@ -97,25 +102,34 @@ class BarResponse:
         return tangents
 
 
+def bar_forces(bars: Bars, stretches_m: FloatArray, slips_m: FloatArray, flows_m: FloatArray) -> FloatArray:
+    """Return the forces (3, b) of `bar_response` alone."""
+    trial = bars.stiffness_n_m * (stretches_m - slips_m)
+    size = np.sqrt(dot_products(trial, trial))
+    flow = np.maximum(size - bars.yield_n - bars.modulus_n_m * flows_m, 0.0) / bars.resists_n_m
+    return _shortened(trial, size, bars.stiffness_n_m * flow)
+
+
 def bar_response(bars: Bars, stretches_m: FloatArray, slips_m: FloatArray, flows_m: FloatArray) -> BarResponse:
     """Return what bars do under stretches (3, b), after slips (3, b) that came on ways of a length (b,)."""
     trial = bars.stiffness_n_m * (stretches_m - slips_m)
     size = np.sqrt(dot_products(trial, trial))
-    limit = bars.yield_n + bars.modulus_n_m * flows_m
-    resists = np.where(bars.stiffness_n_m > 0.0, bars.stiffness_n_m + bars.modulus_n_m, 1.0)
-    flow = np.maximum(size - limit, 0.0) / resists
-    yields = flow > 0.0
+    flow = np.maximum(size - bars.yield_n - bars.modulus_n_m * flows_m, 0.0) / bars.resists_n_m
+    less = bars.stiffness_n_m * flow
     direction = np.divide(trial, size, out=np.zeros_like(trial), where=size > 0.0)
-    forces = np.where(yields, trial - bars.stiffness_n_m * flow * direction, trial)
-    share = np.where(
-        yields, np.divide(limit + bars.modulus_n_m * flow, size, out=np.ones_like(size), where=yields), 1.0
-    )
-    along = np.where(yields, bars.modulus_n_m / resists, 1.0)
+    share = 1.0 - np.divide(less, size, out=np.zeros_like(size), where=size > 0.0)
+    along = np.where(flow > 0.0, bars.modulus_n_m / bars.resists_n_m, 1.0)
     return BarResponse(
-        forces,
+        _shortened(trial, size, less),
         slips_m + flow * direction,
         flows_m + flow,
         direction,
         bars.stiffness_n_m * share,
         bars.stiffness_n_m * along,
     )
+
+
+def _shortened(vectors: FloatArray, sizes: FloatArray, less: FloatArray) -> FloatArray:
+    """Vectors (3, b) of some sizes (b,) that are shorter by `less` (b,)."""
+    shorter: FloatArray = (1.0 - np.divide(less, sizes, out=np.zeros_like(sizes), where=sizes > 0.0)) * vectors
+    return shorter

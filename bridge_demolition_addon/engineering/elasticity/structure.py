@@ -200,7 +200,8 @@ class ElasticStructure:
             blocks = stiffness_blocks(rows, self._with_soil[..., part.connections])
             if self._bearings is not None:  # neither lifted off nor sliding, as at first
                 self._bearings.add_stiffness(blocks, part.connections, positions_m, rotations, None)
-            part.system.factor(SLACK * own, *blocks)
+            part.system.assemble(SLACK * own, np.arange(len(part.connections)), *blocks)
+            part.system.factor()
             self._stale[number] = True
             found.append((part.connections, first_frequency(part.system, own)))
         return found
@@ -405,15 +406,21 @@ class ElasticStructure:
         positions: JointPositions,
         nonlinear: Sequence[GuessedForces],
     ) -> None:
-        """Make rows and equations again of parts that have turned, lost a connection, or have what yields."""
-        for terms in nonlinear:
-            self._stale[self.part_of_connection[terms.rows[terms.changed()]]] = True
+        """Make rows again of parts that have turned or lost a connection, and equations also of those with new guesses."""
         turned = abs(start.rotations - self._rotations).max(axis=(0, 1)) > TURNED_RAD
         turned &= self._part_of_body >= 0
         self._stale[self._part_of_body[turned]] = True
-        stale = self._stale & awake
-        if not stale.any():
-            return
+        unsolved = self._stale & awake
+        if unsolved.any():
+            self._assemble(start, unsolved, acting, positions)
+        for terms in nonlinear:
+            unsolved[self.part_of_connection[terms.rows[terms.changed()]]] = True
+        unsolved[-1] = False
+        if unsolved.any():
+            self._factor(unsolved, nonlinear)
+
+    def _assemble(self, start: StepInput, stale: BoolArray, acting: IntArray, positions: JointPositions) -> None:
+        """Make rows and equations of some parts (p + 1,), but for what is guessed."""
         bodies = stale[self._part_of_body]
         self._rotations[..., bodies] = start.rotations[..., bodies]
         chosen = np.flatnonzero(stale[self.part_of_connection[acting]])
@@ -421,21 +428,29 @@ class ElasticStructure:
         rows = positions.only(chosen).rows()
         self._rows.set(connections, rows)
         implicit = self._substep_s * (self._substep_s + self._damping_s[connections])
-        blocks: Sequence[FloatArray] = stiffness_blocks(rows, implicit * self._stiffness[..., connections])
+        blocks = stiffness_blocks(rows, implicit * self._stiffness[..., connections])
         own = self._bodies.mass_matrices(start.rotations, np.flatnonzero(bodies))
-        row_of_body = np.cumsum(bodies) - 1
-        for terms in nonlinear:
-            of_stale = np.flatnonzero(stale[self.part_of_connection[terms.rows]])
-            blocks = [np.concatenate(pair, axis=2) for pair in zip(blocks, terms.blocks(of_stale), strict=True)]
-            connections = np.concatenate((connections, terms.rows[of_stale]))
-        place_of = np.full(len(self.part_of_connection), len(connections))
-        place_of[connections] = np.arange(len(connections))
-        blocks = [np.concatenate((block, np.zeros((6, 6, 1))), axis=2) for block in blocks]  # what broke since has none
+        row_of_body, of_part = np.cumsum(bodies) - 1, self.part_of_connection[connections]
         for number in np.flatnonzero(stale).tolist():
-            part = self._parts[number]
-            which = place_of[part.connections]
-            part.system.factor(own[..., row_of_body[part.bodies]], *(block[..., which] for block in blocks))
+            part, mine = self._parts[number], np.flatnonzero(of_part == number)
+            within = np.searchsorted(part.connections, connections[mine])
+            part.system.assemble(own[..., row_of_body[part.bodies]], within, *(block[..., mine] for block in blocks))
         self._stale[stale] = False
+
+    def _factor(self, unsolved: BoolArray, nonlinear: Sequence[GuessedForces]) -> None:
+        """Factor the equations of some parts (p + 1,), with what is guessed."""
+        connections, blocks = [np.zeros(0, int)], [[np.zeros((6, 6, 0))] * 3]
+        for terms in nonlinear:
+            chosen = np.flatnonzero(unsolved[self.part_of_connection[terms.rows]])
+            connections.append(terms.rows[chosen])
+            blocks.append(list(terms.blocks(chosen)))
+        rows = np.concatenate(connections)
+        all_blocks = [np.concatenate(of_kind, axis=2) for of_kind in zip(*blocks, strict=True)]
+        of_part = self.part_of_connection[rows]
+        for number in np.flatnonzero(unsolved).tolist():
+            part, mine = self._parts[number], np.flatnonzero(of_part == number)
+            within = np.searchsorted(part.connections, rows[mine])
+            part.system.factor(within, *(block[..., mine] for block in all_blocks))
 
     def _guess_again(self, nonlinear: Sequence[GuessedForces], velocities: FloatArray) -> bool:
         """Return whether forces do not agree with the velocities (6, n) that solved the equations: then guess others."""

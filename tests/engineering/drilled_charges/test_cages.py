@@ -112,8 +112,9 @@ def test_the_forces_of_a_substep_are_those_at_its_end():
         velocities[2, 1] = -speed_m_s
         step = cages.in_substep(np.array([0]), positions, LEVEL, substep_s)
         for _ in range(3):
-            if step.agrees(velocities):
+            if not step.take(velocities).any():
                 break
+            step.go(np.ones(1))
         pressed = step.loads(velocities)[1][2, 0] / substep_s
         assert pressed == pytest.approx(min(stiffness * speed_m_s * substep_s, 1495.3e3), rel=1e-3)
 
