@@ -78,4 +78,6 @@ def _across(arms_m: FloatArray, tangents_n_m: FloatArray) -> FloatArray:
 
 def _block(shifts: FloatArray, turns: FloatArray, moments: FloatArray, moments_of_turns: FloatArray) -> FloatArray:
     """Matrices (6, 6, c) of four (3, 3, c)."""
-    return np.concatenate((np.concatenate((shifts, turns), axis=1), np.concatenate((moments, moments_of_turns), axis=1)))
+    return np.concatenate(
+        (np.concatenate((shifts, turns), axis=1), np.concatenate((moments, moments_of_turns), axis=1))
+    )

@@ -40,7 +40,7 @@ class BlockSystem:
         self._assembled = self._summed(places, (of_bodies, *blocks))
 
     def factor(self, connections: IntArray | None = None, *blocks: FloatArray) -> None:
-        """Factor what was assembled, with what more connections (k,) add, which counts only until this is called again."""
+        """Factor what was assembled, with what other connections (k,) add; the next time that is forgotten."""
         data = self._assembled
         if connections is not None:
             data = data + self._summed([of_all[..., connections] for of_all in self._of_connections], blocks)
@@ -66,7 +66,7 @@ class BlockSystem:
         """Find where each number of blocks with rows and columns (k,) belongs in the upper triangle, column by column.
 
         The numbers of a block that lies below the diagonal belong where its transpose does; those of bodies whose
-        motion is known belong nowhere, which is the place after the last.
+        motion is known belong nowhere: their position is the one after the last.
         """
         rows, columns = (np.concatenate(ends) for ends in zip(*kinds, strict=True))
         is_known = (rows < 0) | (columns < 0)

@@ -406,7 +406,7 @@ class ElasticStructure:
         positions: JointPositions,
         nonlinear: Sequence[GuessedForces],
     ) -> None:
-        """Make rows again of parts that have turned or lost a connection, and equations also of those with new guesses."""
+        """Make rows of parts again that have turned or lost a connection; factor these, and those with new guesses."""
         turned = abs(start.rotations - self._rotations).max(axis=(0, 1)) > TURNED_RAD
         turned &= self._part_of_body >= 0
         self._stale[self._part_of_body[turned]] = True
@@ -453,7 +453,7 @@ class ElasticStructure:
             part.system.factor(within, *(block[..., mine] for block in all_blocks))
 
     def _guess_again(self, nonlinear: Sequence[GuessedForces], velocities: FloatArray) -> bool:
-        """Return whether forces do not agree with the velocities (6, n) that solved the equations: then guess others."""
+        """Return whether forces do not agree with velocities (6, n) that solve the equations; then guess others."""
         number_of_none = len(self._parts)
         parts = [self.part_of_connection[terms.rows] for terms in nonlinear]
         parts = [np.where(part < 0, number_of_none, part) for part in parts]
