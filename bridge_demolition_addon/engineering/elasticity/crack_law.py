@@ -16,7 +16,7 @@ from ..arrays import FloatArray
 from .joint_rows import dot_products
 from .steel_bars import Bars, bar_forces, bar_response
 
-DOWEL_SHARE = 0.9 * np.sqrt(35.0 / 500.0)
+DOWEL_SHARE = float(0.9 * np.sqrt(35.0 / 500.0))
 """Force across themselves that bars resist as dowels, by that along them: 0.9 √(f_c / f_y) for rough cracks, of C35/45
 and B500 (fib Model Code 2010, equation 7.3-51 and table 7.3-2). Both together are on an ellipse, as normal and shear
 stress by von Mises' criterion.
@@ -48,7 +48,7 @@ class CrackLaw:
         across_m = dot_products(self.normals, gaps_m)
         slid_m = gaps_m - across_m * self.normals
         bars = bar_forces(self.bars, stretches_of_bars(gaps_m, self.directions), self.slips_m, self.flows_m)
-        rubs = bar_forces(self._rubbing(), slid_m, self.rests_m, np.zeros_like(across_m))
+        rubs = bar_forces(self.rubbing, slid_m, self.rests_m, np.zeros_like(across_m))
         return self._together(bars, rubs, across_m)
 
     def linear(self, gaps_m: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -56,7 +56,7 @@ class CrackLaw:
         normals, directions, across_m = self.normals, self.directions, dot_products(self.normals, gaps_m)
         slid_m = gaps_m - across_m * normals
         bars = bar_response(self.bars, stretches_of_bars(gaps_m, directions), self.slips_m, self.flows_m)
-        rubs = bar_response(self._rubbing(), slid_m, self.rests_m, np.zeros_like(across_m))
+        rubs = bar_response(self.rubbing, slid_m, self.rests_m, np.zeros_like(across_m))
         pulls = stretches_of_bars(bars.directions, directions)
         pressed = np.where(across_m < 0.0, self.pressed_n_m, 0.0)
         even = DOWEL_SHARE * DOWEL_SHARE
@@ -72,7 +72,9 @@ class CrackLaw:
         pressing = self.pressed_n_m * np.minimum(across_m, 0.0)
         return stretches_of_bars(bars_n, self.directions) + rubs_n + pressing * self.normals
 
-    def _rubbing(self) -> Bars:
+    @property
+    def rubbing(self) -> Bars:
+        """Friction of the sides, as of bars that yield at it."""
         return rubbing_bars(self.grips_n, self.pressed_n_m)
 
 

@@ -18,10 +18,11 @@ from typing import TypeVar
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
+from .compiled_cracks import quickest, stiffness_of_corners, summed
 from .crack_law import FRICTION, CrackLaw, rubbing_bars, sliding, stretches_of_bars
 from .crack_state import CornerState, CrackState
 from .equations import summed_on_bodies
-from .gaps import Gaps, SolvedTangents, stiffness_of_points
+from .gaps import Gaps, SolvedTangents
 from .guesses import GuessedForces
 from .joint_rows import (
     JointPositions,
@@ -281,6 +282,7 @@ class CrackStep(GuessedForces):
     def __init__(self, rows: IntArray, gaps: Gaps, law: CrackLaw, solved: SolvedTangents, substep_s: float):
         super().__init__(rows, np.tile(np.arange(len(rows)), _COUNT))
         self._gaps, self._law, self._solved, self._substep_s = gaps, law, solved, substep_s
+        self._resistance = quickest(law)
         mean_n = np.maximum(np.tile(_summed(law.bars.yield_n) / _COUNT, _COUNT), _LITTLE_M * law.pressed_n_m)
         self._slack_n = _AGREES * mean_n
         self._begin_at(np.zeros_like(gaps.widths_m))
@@ -296,7 +298,7 @@ class CrackStep(GuessedForces):
         self._solved.take_over(bars, tangents)
         implicit = self._substep_s * self._substep_s * tangents
         arms = self._gaps.first_arms_m[:, bars], self._gaps.second_arms_m[:, bars]
-        return stiffness_of_points(implicit, *arms, _summed)
+        return stiffness_of_corners(implicit, *arms, _COUNT)
 
     def loads(self, velocities: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the impulses (6, c) of cracks on their first and second bodies, which have velocities (6, n) then."""
@@ -309,13 +311,13 @@ class CrackStep(GuessedForces):
         return self._substep_s * self._gaps.rates(velocities)
 
     def _resisted(self, moved: FloatArray) -> FloatArray:
-        return self._law.forces(self._gaps.widths_m + moved)
+        return self._resistance.forces(self._gaps.widths_m + moved)
 
     def _linear(self, moved: FloatArray) -> FloatArray:
         return self._forces + turned(self._tangents, moved)
 
     def _begin_at(self, moved: FloatArray) -> None:
-        forces, self._tangents = self._law.linear(self._gaps.widths_m + moved)
+        forces, self._tangents = self._resistance.linear(self._gaps.widths_m + moved)
         self._forces = forces - turned(self._tangents, moved)
 
     def _slack(self) -> FloatArray:
@@ -377,8 +379,4 @@ def _joined(before: Numbers, added: Numbers) -> Numbers:
 
 def _summed(values: FloatArray) -> FloatArray:
     """Sums (…, c) over the bars (…, 4 c) of each crack."""
-    corners = values.reshape(*values.shape[:-1], _COUNT, -1)
-    total = corners[..., 0, :]
-    for corner in range(1, _COUNT):
-        total = total + corners[..., corner, :]
-    return total
+    return summed(values, _COUNT)

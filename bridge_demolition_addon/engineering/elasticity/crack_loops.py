@@ -1,0 +1,212 @@
+"""The law of cracks as loops over gaps, which Numba compiles: import this only where it is installed.
+
+For some hundred gaps numpy takes longer to call its functions than these to calculate. The loops give the same bits as
+`crack_law` and `gaps`, which are read, changed and tested first: every operation here stands there, in the same order.
+Numba neither fuses nor reorders any, as its `fastmath` is off.
+
+All arrays have their components first.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numba
+import numpy as np
+
+compiled = numba.njit(cache=True, nogil=True, error_model="numpy")
+
+
+@compiled
+def _stretched(gap: Any, direction: Any, dowel: Any) -> Any:
+    """Stretch of a bar by a gap, as `crack_law.stretches_of_bars`."""
+    along = gap[0] * direction[0] + gap[1] * direction[1] + gap[2] * direction[2]
+    return (
+        dowel * gap[0] + (1.0 - dowel) * along * direction[0],
+        dowel * gap[1] + (1.0 - dowel) * along * direction[1],
+        dowel * gap[2] + (1.0 - dowel) * along * direction[2],
+    )
+
+
+@compiled
+def _tried(stiffness: Any, stretch: Any, slip: Any) -> Any:
+    """Force of a bar that has not yielded, and its size."""
+    trial = (
+        stiffness * (stretch[0] - slip[0]),
+        stiffness * (stretch[1] - slip[1]),
+        stiffness * (stretch[2] - slip[2]),
+    )
+    return trial, np.sqrt(trial[0] * trial[0] + trial[1] * trial[1] + trial[2] * trial[2])
+
+
+@compiled
+def _vector(values: Any, row: Any) -> Any:
+    """Components of one of vectors (3, b)."""
+    return values[0, row], values[1, row], values[2, row]
+
+
+@compiled
+def _across(normal: Any, gap: Any) -> Any:
+    """How far a gap is open."""
+    return normal[0] * gap[0] + normal[1] * gap[1] + normal[2] * gap[2]
+
+
+@compiled
+def _share_left(less: Any, size: Any) -> Any:
+    """Part of a force that is left where a bar yields."""
+    return 1.0 - (less / size if size > 0.0 else 0.0)
+
+
+@compiled
+def forces(
+    bars: Any,
+    slips: Any,
+    flows: Any,
+    normals: Any,
+    directions: Any,
+    pressed: Any,
+    rubbing: Any,
+    rests: Any,
+    gaps: Any,
+    dowel: float,
+) -> Any:
+    """`CrackLaw.forces`."""
+    yields, stiffness, modulus, resists = bars
+    grips, sliding, sliding_resists = rubbing
+    result = np.empty_like(gaps)
+    for row in range(gaps.shape[1]):
+        gap, normal, direction = _vector(gaps, row), _vector(normals, row), _vector(directions, row)
+        opened = _across(normal, gap)
+        trial, size = _tried(stiffness[row], _stretched(gap, direction, dowel), _vector(slips, row))
+        flow = max(size - yields[row] - modulus[row] * flows[row], 0.0) / resists[row]
+        left = _share_left(stiffness[row] * flow, size)
+        pull = _stretched((left * trial[0], left * trial[1], left * trial[2]), direction, dowel)
+        slid = gap[0] - opened * normal[0], gap[1] - opened * normal[1], gap[2] - opened * normal[2]
+        rub, rub_size = _tried(sliding[row], slid, _vector(rests, row))
+        rub_left = _share_left(sliding[row] * (max(rub_size - grips[row], 0.0) / sliding_resists[row]), rub_size)
+        pressing = pressed[row] * min(opened, 0.0)
+        for axis in range(3):
+            result[axis, row] = pull[axis] + rub_left * rub[axis] + pressing * normal[axis]
+    return result
+
+
+@compiled
+def linear(
+    bars: Any,
+    slips: Any,
+    flows: Any,
+    normals: Any,
+    directions: Any,
+    pressed: Any,
+    rubbing: Any,
+    rests: Any,
+    gaps: Any,
+    dowel: float,
+) -> Any:
+    """`CrackLaw.linear`."""
+    yields, stiffness, modulus, resists = bars
+    grips, sliding, sliding_resists = rubbing
+    count = gaps.shape[1]
+    result, tangents = np.empty_like(gaps), np.empty((3, 3, count))
+    even = dowel * dowel
+    for row in range(count):
+        gap, normal, direction = _vector(gaps, row), _vector(normals, row), _vector(directions, row)
+        opened = _across(normal, gap)
+        trial, size = _tried(stiffness[row], _stretched(gap, direction, dowel), _vector(slips, row))
+        flow = max(size - yields[row] - modulus[row] * flows[row], 0.0) / resists[row]
+        left = _share_left(stiffness[row] * flow, size)
+        bars_across = stiffness[row] * left
+        bars_along = stiffness[row] * (modulus[row] / resists[row] if flow > 0.0 else 1.0)
+        pull = _stretched((left * trial[0], left * trial[1], left * trial[2]), direction, dowel)
+        unit = (trial[0] / size, trial[1] / size, trial[2] / size) if size > 0.0 else (0.0, 0.0, 0.0)
+        along = _stretched(unit, direction, dowel)
+        slid = gap[0] - opened * normal[0], gap[1] - opened * normal[1], gap[2] - opened * normal[2]
+        rub, rub_size = _tried(sliding[row], slid, _vector(rests, row))
+        rub_flow = max(rub_size - grips[row], 0.0) / sliding_resists[row]
+        rub_left = _share_left(sliding[row] * rub_flow, rub_size)
+        rubs_across = sliding[row] * rub_left
+        rubs_along = sliding[row] * (0.0 / sliding_resists[row] if rub_flow > 0.0 else 1.0)
+        turn = (rub[0] / rub_size, rub[1] / rub_size, rub[2] / rub_size) if rub_size > 0.0 else (0.0, 0.0, 0.0)
+        pressing = pressed[row] * min(opened, 0.0)
+        presses = pressed[row] if opened < 0.0 else 0.0
+        for axis in range(3):
+            result[axis, row] = pull[axis] + rub_left * rub[axis] + pressing * normal[axis]
+            for other in range(3):
+                total = (presses - rubs_across) * (normal[axis] * normal[other])
+                total += (1.0 - even) * bars_across * (direction[axis] * direction[other])
+                total += (bars_along - bars_across) * (along[axis] * along[other])
+                total += (rubs_along - rubs_across) * (turn[axis] * turn[other])
+                if axis == other:
+                    total += even * bars_across + rubs_across
+                tangents[axis, other, row] = total
+    return result, tangents
+
+
+@compiled
+def _crossed(first: Any, second: Any) -> Any:
+    """Cross product."""
+    (x, y, z), (a, b, c) = first, second
+    return y * c - z * b, z * a - x * c, x * b - y * a
+
+
+@compiled
+def _column(matrix: Any, other: Any) -> Any:
+    """Column of a matrix."""
+    return matrix[0, other], matrix[1, other], matrix[2, other]
+
+
+@compiled
+def corner_stiffness(tangents: Any, first_arms: Any, second_arms: Any, corners: Any) -> Any:
+    """`gaps.stiffness_of_points`, summed over the corners of each crack."""
+    count = tangents.shape[2] // corners
+    of_first, of_second, between = np.empty((6, 6, count)), np.empty((6, 6, count)), np.empty((6, 6, count))
+    tangent, turning_first, turning_second = np.empty((3, 3)), np.empty((3, 3)), np.empty((3, 3))
+    sums = np.empty((8, 3, 3))
+    for row in range(count):
+        for corner in range(corners):
+            gap = corner * count + row
+            first_arm, second_arm = _vector(first_arms, gap), _vector(second_arms, gap)
+            for axis in range(3):
+                line = tangents[axis, 0, gap], tangents[axis, 1, gap], tangents[axis, 2, gap]
+                by_first, by_second = _crossed(first_arm, line), _crossed(second_arm, line)
+                for other in range(3):
+                    tangent[axis, other] = line[other]
+                    turning_first[axis, other] = by_first[other]
+                    turning_second[axis, other] = by_second[other]
+            for other in range(3):
+                to_first = _crossed(first_arm, _column(tangent, other))
+                to_second = _crossed(second_arm, _column(tangent, other))
+                about_first = _crossed(first_arm, _column(turning_first, other))
+                about_second = _crossed(second_arm, _column(turning_second, other))
+                about_both = _crossed(first_arm, _column(turning_second, other))
+                for axis in range(3):
+                    added = (
+                        tangent[axis, other],
+                        turning_first[axis, other],
+                        turning_second[axis, other],
+                        to_first[axis],
+                        to_second[axis],
+                        about_first[axis],
+                        about_second[axis],
+                        about_both[axis],
+                    )
+                    for kind in range(8):
+                        if corner == 0:
+                            sums[kind, axis, other] = added[kind]
+                        else:
+                            sums[kind, axis, other] += added[kind]
+        for axis in range(3):
+            for other in range(3):
+                pushed = sums[0, axis, other]
+                of_first[axis, other, row], of_second[axis, other, row] = pushed, pushed
+                between[axis, other, row] = -pushed
+                of_first[axis, 3 + other, row] = sums[1, axis, other]
+                of_second[axis, 3 + other, row] = sums[2, axis, other]
+                between[axis, 3 + other, row] = -sums[2, axis, other]
+                of_first[3 + axis, other, row] = sums[3, axis, other]
+                of_second[3 + axis, other, row] = sums[4, axis, other]
+                between[3 + axis, other, row] = -sums[3, axis, other]
+                of_first[3 + axis, 3 + other, row] = sums[5, axis, other]
+                of_second[3 + axis, 3 + other, row] = sums[6, axis, other]
+                between[3 + axis, 3 + other, row] = -sums[7, axis, other]
+    return of_first, of_second, between
