@@ -12,12 +12,17 @@ from ...engineering.units import mass_text
 from ..scenario import Scenario, ZoneFiring
 from ..sequence.events import Event, model_structure, schedule
 from ..structure.blast_zones import zone_firings
+from .changed_bridge import ChangedBridge
 from .standing import StandingBridge
 
 MISFIRES_FILE = "misfires.csv"
-MISFIRE_COLUMNS = ("fails", "stands_kg", "falls_kg", "falls_share", "members_that_stand")
+MISFIRE_COLUMNS = ("fails", "stands_kg", "falls_kg", "falls_share", "members_that_stand", "falls_at_once_kg")
 
 ALL_FIRE = "none: all zones fire"
+
+AT_ONCE = 0.5
+"""Share of what bare bars resist that is counted on where their load comes upon them at once: it presses elastic bars up
+to twice as much as at rest."""
 
 _STANDS = 0.99
 """Part of a member's mass that has to be held for it to stand."""
@@ -32,6 +37,7 @@ class Misfire:
     falls_kg: float  # without what the zones themselves throw out
     falls_share: float  # part of what was held
     members: tuple[str, ...]  # those that stand
+    falls_at_once_kg: float  # what comes down where bars are pressed twice as much, as their load comes upon them at once
 
 
 def misfires(scenario: Scenario, bridge: StandingBridge, progress: Callable[[int, int], None]) -> list[Misfire]:
@@ -57,22 +63,24 @@ def misfires(scenario: Scenario, bridge: StandingBridge, progress: Callable[[int
 
 
 def _without(bridge: StandingBridge, events: Sequence[Event], held: np.ndarray, fails: str) -> Misfire:
-    model = bridge.model
-    intact, left = np.ones(len(model.connections), bool), np.ones(len(model.connections))
-    removed = np.zeros(len(model.shards), bool)
-    for event in events:
-        removed[event.bodies] = True
-        left[event.connections] *= event.factor
-        intact[event.connections] &= event.factor > 0.0
-    left = np.where(left > 0.0, left, 1.0)
-    nothing = np.zeros((6, len(model.shards)))
-    down = held & ~bridge.rest(intact, left, nothing).held
-    down |= bridge.comes_down(intact, left, nothing, 1.0)
-    stands = held & ~down & ~removed
-    falls = held & down & ~removed
-    masses = model.masses_kg
-    stands_kg, falls_kg = float(masses[stands].sum()), float(masses[falls].sum())
-    return Misfire(fails, stands_kg, falls_kg, falls_kg / float(masses[held].sum() or 1.0), _standing(bridge, stands))
+    masses, changed = bridge.model.masses_kg, ChangedBridge.as_built(bridge.model).after(events)
+    down = _coming_down(bridge, changed, held)
+    at_once = _coming_down(bridge, changed, held, AT_ONCE) | down if changed.bare else down
+    stands = held & ~down & ~changed.removed
+    stands_kg, falls_kg, at_once_kg = (float(masses[which].sum()) for which in (stands, down, at_once))
+    whole_kg = float(masses[held].sum() or 1.0)
+    return Misfire(fails, stands_kg, falls_kg, falls_kg / whole_kg, _standing(bridge, stands), at_once_kg)
+
+
+def _coming_down(bridge: StandingBridge, changed: ChangedBridge, held: np.ndarray, share: float = 1.0) -> np.ndarray:
+    """Return which shards (n,) come down of those that were held, with a share of what bare bars resist."""
+    nothing = np.zeros((6, len(bridge.model.shards)))
+    state = changed.intact, changed.left, nothing
+    down = ~bridge.rest(*state, bare=changed.bare, bare_share=share).held
+    if changed.bare is None:
+        down |= bridge.comes_down(*state, 1.0)
+    falls: np.ndarray = held & down & ~changed.removed
+    return falls
 
 
 def _standing(bridge: StandingBridge, stands: np.ndarray) -> tuple[str, ...]:
@@ -89,7 +97,9 @@ def _standing(bridge: StandingBridge, stands: np.ndarray) -> tuple[str, ...]:
 
 def misfire_row(misfire: Misfire) -> dict[str, Any]:
     """Return the row of a zone that fails."""
-    values = misfire.fails, misfire.stands_kg, misfire.falls_kg, misfire.falls_share, ", ".join(misfire.members)
+    members = ", ".join(misfire.members)
+    masses = misfire.stands_kg, misfire.falls_kg, misfire.falls_share
+    values = misfire.fails, *masses, members, misfire.falls_at_once_kg
     return dict(zip(MISFIRE_COLUMNS, values, strict=True))
 
 
@@ -101,6 +111,9 @@ def misfire_sentences(found: Sequence[Misfire]) -> list[str]:
         falls = "nothing comes down"
         if misfire.falls_kg:
             falls = f"{mass_text(misfire.falls_kg, 1)} come down, {misfire.falls_share:.0%}"
+        more_kg = misfire.falls_at_once_kg - misfire.falls_kg
+        if more_kg > 0.0:
+            falls += f" at rest, and up to {mass_text(misfire.falls_at_once_kg, 1)} as its load comes upon bars at once"
         left = f"; {', '.join(misfire.members)} stand" if misfire.members else "; no member stands"
         sentences.append(f"{case}: {falls}{left}")
     return sentences

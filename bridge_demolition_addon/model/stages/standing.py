@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ...engineering.drilled_charges.cages import BareBars
 from ...engineering.elasticity.equilibrium import Equilibrium
 from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.overloads import Overloads
@@ -54,6 +55,7 @@ class Standing:
     frequency_hz: float  # first natural frequency, without cracks
     cracked: np.ndarray  # (m,), connections that cracked and hold by their bars, of which both utilisations are then
     uncracked: Equilibrium  # as if nothing cracked
+    bare_n: np.ndarray  # (g,), forces of bars that stand bare, above 0 in tension
 
     @property
     def used(self) -> np.ndarray:
@@ -69,6 +71,7 @@ class StandingBridge:
         self._masses = np.where(model.fixed, 0.0, model.masses_kg)
         self._inertias, self._held_motions = inertias_of(model), held_motions(model, joints)
         self._utilisations = Utilisations(model, joints)
+        self._as_built: Standing | None = None
 
     def rest(
         self,
@@ -78,14 +81,20 @@ class StandingBridge:
         factor: float = 1.0,
         *,
         every_section: bool = True,
+        bare: BareBars | None = None,
+        bare_share: float = 1.0,
     ) -> Standing:
         """Return the bridge at rest with the connections that are `intact` (m,), and `left` (m,) of their strength.
 
         Loads (6, n) are forces and moments on the shards, beside their weight; all are times the load factor. Without
         `every_section`, only sections of connections that are overloaded by themselves are judged: no other breaks.
-        Where bars cross what is overloaded, that cracks, if the bridge then stands.
+        Where bars cross what is overloaded, that cracks, if the bridge then stands. Where bars stand `bare`, with a
+        share of what they resist, all that is overloaded breaks or cracks.
         """
         standing = self._elastic(intact, left, loads, factor, every_section=every_section)
+        if bare is not None:
+            on_bare = self._carried_by_bare_bars(intact, left, loads, factor, bare, bare_share)
+            return self._on_bars(on_bare, left, standing)
         if self.model.crack_bars is None or not len(self._broken(standing, intact)):
             return standing
         cracked = self._begun(intact, left, standing)
@@ -133,11 +142,31 @@ class StandingBridge:
             frequency_hz=solution.frequency_hz,
             cracked=np.zeros(len(intact), bool),
             uncracked=solution,
+            bare_n=np.zeros(0),
         )
 
     def _begun(self, intact: np.ndarray, left: np.ndarray, elastic: Standing) -> CrackedBridge:
         """Return a bridge whose concrete cracks under loads, before any."""
         return CrackedBridge(self.model, self._joints, self._utilisations, intact, left, elastic.uncracked)
+
+    def _carried_by_bare_bars(
+        self,
+        intact: np.ndarray,
+        left: np.ndarray,
+        loads: np.ndarray,
+        factor: float,
+        bare: BareBars,
+        share: float,
+    ) -> CrackedBridge:
+        """Return a bridge that stood as it was built until bars of it were bared, or what is left of it."""
+        if self._as_built is None:
+            whole = np.ones(len(intact))
+            self._as_built = self._elastic(whole > 0.0, whole, np.zeros_like(loads), 1.0, every_section=False)
+        built = self._as_built.uncracked
+        bridge = CrackedBridge(self.model, self._joints, self._utilisations, intact, left, built, bare, share)
+        self._pause()
+        bridge.carry(factor, loads)
+        return bridge
 
     def _on_bars(self, cracked: CrackedBridge, left: np.ndarray, elastic: Standing) -> Standing:
         """Return a bridge that stands with cracks."""
@@ -154,13 +183,25 @@ class StandingBridge:
             together=together,
             sag_m=cracked.deflection_m,
             cracked=has_bars,
+            bare_n=cracked.bare_n,
         )
 
-    def comes_down(self, intact: np.ndarray, left: np.ndarray, loads: np.ndarray, factor: float) -> np.ndarray:
+    def comes_down(
+        self,
+        intact: np.ndarray,
+        left: np.ndarray,
+        loads: np.ndarray,
+        factor: float,
+        bare: BareBars | None = None,
+        bare_share: float = 1.0,
+    ) -> np.ndarray:
         """Return which shards (n,) come down at a load factor, as overloaded connections break one after another.
 
-        Splinters that come loose do not count.
+        Splinters that come loose do not count, nor does what neither connections nor bars that stand `bare` hold at
+        first; these count with a share of what they resist.
         """
+        if bare is not None:
+            return self._carried_by_bare_bars(intact, left, loads, factor, bare, bare_share).fallen
         first = standing = self._elastic(intact, left, loads, factor, every_section=False)
         if self.model.crack_bars is not None:
             cracked = self._begun(intact, left, first)
@@ -181,11 +222,16 @@ class StandingBridge:
                 is_collapse, rounds = True, 0
         return first.held & ~standing.held if is_collapse else first.held
 
-    def collapse_factor(self, intact: np.ndarray, left: np.ndarray, loads: np.ndarray) -> float:
+    def collapse_factor(
+        self, intact: np.ndarray, left: np.ndarray, loads: np.ndarray, bare: BareBars | None = None
+    ) -> float:
         """Return the collapse load factor, within 1 %: ∞ above 64, nan where nothing is held.
 
-        With bars, what cracked or yielded under a smaller factor stays so under a larger one.
+        With bars, what cracked or yielded under a smaller factor stays so under a larger one; not so where some stand
+        `bare`.
         """
+        if bare is not None:
+            return _largest(lambda factor: not self.comes_down(intact, left, loads, factor, bare).any())
         elastic = self._elastic(intact, left, loads, 1.0, every_section=False)
         if not elastic.held.any():
             return np.nan
