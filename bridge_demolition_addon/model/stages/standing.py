@@ -82,18 +82,20 @@ class StandingBridge:
         *,
         every_section: bool = True,
         bare: BareBars | None = None,
-        bare_share: float = 1.0,
+        at_worst: bool = False,
     ) -> Standing:
         """Return the bridge at rest with the connections that are `intact` (m,), and `left` (m,) of their strength.
 
         Loads (6, n) are forces and moments on the shards, beside their weight; all are times the load factor. Without
         `every_section`, only sections of connections that are overloaded by themselves are judged: no other breaks.
-        Where bars cross what is overloaded, that cracks, if the bridge then stands. Where bars stand `bare`, with a
-        share of what they resist, all that is overloaded breaks or cracks.
+        Where bars cross what is overloaded, that cracks, if the bridge then stands. Where bars stand `bare`, all
+        that is overloaded breaks or cracks; `at_worst` is as in `CrackedBridge`.
         """
         standing = self._elastic(intact, left, loads, factor, every_section=every_section)
         if bare is not None:
-            on_bare = self._carried_by_bare_bars(intact, left, loads, factor, bare, bare_share)
+            on_bare = self._on_bare_bars(intact, left, bare, at_worst)
+            self._pause()
+            on_bare.carry(factor, loads)
             return self._on_bars(on_bare, left, standing)
         if self.model.crack_bars is None or not len(self._broken(standing, intact)):
             return standing
@@ -149,24 +151,13 @@ class StandingBridge:
         """Return a bridge whose concrete cracks under loads, before any."""
         return CrackedBridge(self.model, self._joints, self._utilisations, intact, left, elastic.uncracked)
 
-    def _carried_by_bare_bars(
-        self,
-        intact: np.ndarray,
-        left: np.ndarray,
-        loads: np.ndarray,
-        factor: float,
-        bare: BareBars,
-        share: float,
-    ) -> CrackedBridge:
-        """Return a bridge that stood as it was built until bars of it were bared, or what is left of it."""
+    def _on_bare_bars(self, intact: np.ndarray, left: np.ndarray, bare: BareBars, at_worst: bool) -> CrackedBridge:
+        """Return a bridge that stands as it was built, in the moment in which bars of it are bared."""
         if self._as_built is None:
-            whole = np.ones(len(intact))
-            self._as_built = self._elastic(whole > 0.0, whole, np.zeros_like(loads), 1.0, every_section=False)
+            whole, nothing = np.ones(len(intact)), np.zeros((6, len(self.model.shards)))
+            self._as_built = self._elastic(whole > 0.0, whole, nothing, 1.0, every_section=False)
         built = self._as_built.uncracked
-        bridge = CrackedBridge(self.model, self._joints, self._utilisations, intact, left, built, bare, share)
-        self._pause()
-        bridge.carry(factor, loads)
-        return bridge
+        return CrackedBridge(self.model, self._joints, self._utilisations, intact, left, built, bare, at_worst)
 
     def _on_bars(self, cracked: CrackedBridge, left: np.ndarray, elastic: Standing) -> Standing:
         """Return a bridge that stands with cracks."""
@@ -186,22 +177,11 @@ class StandingBridge:
             bare_n=cracked.bare_n,
         )
 
-    def comes_down(
-        self,
-        intact: np.ndarray,
-        left: np.ndarray,
-        loads: np.ndarray,
-        factor: float,
-        bare: BareBars | None = None,
-        bare_share: float = 1.0,
-    ) -> np.ndarray:
+    def comes_down(self, intact: np.ndarray, left: np.ndarray, loads: np.ndarray, factor: float) -> np.ndarray:
         """Return which shards (n,) come down at a load factor, as overloaded connections break one after another.
 
-        Splinters that come loose do not count, nor does what neither connections nor bars that stand `bare` hold at
-        first; these count with a share of what they resist.
+        Splinters that come loose do not count.
         """
-        if bare is not None:
-            return self._carried_by_bare_bars(intact, left, loads, factor, bare, bare_share).fallen
         first = standing = self._elastic(intact, left, loads, factor, every_section=False)
         if self.model.crack_bars is not None:
             cracked = self._begun(intact, left, first)
@@ -227,18 +207,18 @@ class StandingBridge:
     ) -> float:
         """Return the collapse load factor, within 1 %: ∞ above 64, nan where nothing is held.
 
-        With bars, what cracked or yielded under a smaller factor stays so under a larger one; not so where some stand
-        `bare`.
+        With bars, also such as stand `bare`, what cracked or yielded under a smaller factor stays so under a larger one.
         """
         if bare is not None:
-            return _largest(lambda factor: not self.comes_down(intact, left, loads, factor, bare).any())
+            return self._collapse_factor_of(self._on_bare_bars(intact, left, bare, False), loads)
         elastic = self._elastic(intact, left, loads, 1.0, every_section=False)
         if not elastic.held.any():
             return np.nan
         if self.model.crack_bars is None:
             return _largest(lambda factor: not self.comes_down(intact, left, loads, factor).any())
-        kept = self._begun(intact, left, elastic)
+        return self._collapse_factor_of(self._begun(intact, left, elastic), loads)
 
+    def _collapse_factor_of(self, kept: CrackedBridge, loads: np.ndarray) -> float:
         def stands(factor: float) -> bool:
             nonlocal kept
             self._pause()

@@ -35,12 +35,18 @@ FALLEN_SHARE = 0.005
 """Least part of the held mass for a collapse: a splinter that comes loose is not one."""
 
 
+_AT_ONCE = 0.5
+"""Share of what bare bars resist where their load comes upon them at once: elastic ones are then pressed up to twice as
+much as at rest."""
+
+
 class CrackedBridge:
     """A model with bars, under loads that grow: what has cracked or yielded stays so.
 
     `intact` (m,) are its connections that are whole, with a part `left` (m,) of their strength each. At first it is at
-    `rest` without cracks. Then bars stand `bare`, between points of the bridge as it was built, and `bare_share` of
-    what they resist is counted on. Without bars across faces, what breaks carries nothing.
+    `rest` without cracks. Then bars stand `bare`, between points of the bridge as it was built: their ends are held
+    sideways and their load comes upon them slowly, or, `at_worst`, neither. Without bars across faces, what breaks
+    carries nothing.
     """
 
     def __init__(
@@ -52,7 +58,7 @@ class CrackedBridge:
         left: np.ndarray,
         rest: Equilibrium,
         bare: BareBars | None = None,
-        bare_share: float = 1.0,
+        at_worst: bool = False,
     ):
         self._model, self._utilisations, self._left = model, utilisations, left
         self._masses = np.append(np.where(model.fixed, 0.0, model.masses_kg), 0.0)
@@ -85,7 +91,7 @@ class CrackedBridge:
             pads,
         )
         cracks = self._faces.cracks(bars.steel, of_bars, stiffness.axial_n_m)
-        cages = None if bare is None else _standing(bare, len(connections), bodies, rest, bare_share)
+        cages = None if bare is None else _standing(bare, len(connections), bodies, rest, at_worst)
         self._structure = CrackedStructure(built, cracks, of_bars, intact, rest, cages)
         self._held_at_first = self._structure.held.copy()
 
@@ -183,9 +189,9 @@ class CrackedBridge:
         self._faces.tear(cracks, torn, positions_m, rotations)
 
 
-def _standing(bare: BareBars, from_row: int, built: RigidBodies, rest: Equilibrium, share: float) -> Cages:
+def _standing(bare: BareBars, from_row: int, built: RigidBodies, rest: Equilibrium, at_worst: bool) -> Cages:
     """Return bars between points of bodies as they were built, without force where these are at rest."""
-    cages = Cages(from_row, held_sideways=True, share=share)
+    cages = Cages(from_row, held_sideways=not at_worst, share=_AT_ONCE if at_worst else 1.0)
     points = []
     for ends, built_m in ((bare.first, bare.first_points_m), (bare.second, bare.second_points_m)):
         anchors = built_m - built.positions_m[:, ends]
