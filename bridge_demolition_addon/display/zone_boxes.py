@@ -51,7 +51,9 @@ def rods(lines: np.ndarray, width_m: float) -> TriangleMesh:
     """Return lines (2 k, 3) along the axes as square rods of a width, which stick out by half of it at their ends."""
     ends = lines.reshape(-1, 2, 3)
     lowest, highest = ends.min(axis=1) - width_m / 2.0, ends.max(axis=1) + width_m / 2.0
-    solids = [box(high - low, (low + high) / 2.0) for low, high in zip(lowest, highest, strict=True)]
+    solids = [
+        box((high - low).tolist(), ((low + high) / 2.0).tolist()) for low, high in zip(lowest, highest, strict=True)
+    ]
     begins = np.cumsum([0, *(len(solid.vertices) for solid in solids)])
     return TriangleMesh(
         np.concatenate([np.zeros((0, 3)), *(solid.vertices for solid in solids)]),
@@ -62,7 +64,7 @@ def rods(lines: np.ndarray, width_m: float) -> TriangleMesh:
 
 
 def zone_rods(placed: PlacedZone) -> TriangleMesh:
-    """Return the edges of a zone, on the outside of its member, and its drill holes, which stick out of their mouths."""
+    """Return the edges of a zone, outside its member, and its drill holes, which stick out of their mouths."""
     edges = box_lines(placed.box_m + np.array([[-1.0], [1.0]]) * _EDGE_M / 2.0)
     holes = hole_lines(placed)
     drilled, sign = placed.zone.axes[1], SIDES[placed.zone.side][1]
@@ -77,7 +79,7 @@ def zone_rods(placed: PlacedZone) -> TriangleMesh:
 def flash_of(placed: PlacedZone) -> TriangleMesh:
     """Return what flashes as a zone fires: a box around it."""
     size_m = np.diff(placed.box_m, axis=0)[0] + 2.0 * _STICK_OUT_M
-    return box(size_m, placed.box_m.mean(axis=0))
+    return box(size_m.tolist(), placed.box_m.mean(axis=0).tolist())
 
 
 def delay_colours(zones: Sequence[PlacedZone]) -> np.ndarray:

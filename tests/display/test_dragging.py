@@ -20,7 +20,9 @@ def test_a_ray_that_does_not_meet_the_plane_leads_nowhere(ray):
 def test_upright_is_where_the_ray_passes_nearest():
     eye = np.array((0.0, -10.0, 6.0))
     # After 10 m the ray is 2 m lower, and passes 1 m beside the upright through the foot.
-    assert dragged_along(eye, np.array((0.0, 5.0, -1.0)), np.array((1.0, 0.0, 99.0)), 2) == pytest.approx((1.0, 0.0, 4.0))
+    assert dragged_along(eye, np.array((0.0, 5.0, -1.0)), np.array((1.0, 0.0, 99.0)), 2) == pytest.approx(
+        (1.0, 0.0, 4.0)
+    )
 
 
 def test_seen_from_straight_above_nothing_can_be_lifted():

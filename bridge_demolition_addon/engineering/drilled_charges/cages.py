@@ -116,7 +116,9 @@ class Cages:
         self._from_row, self._held_sideways, self._share = from_row, held_sideways, share
         none, numbers = np.zeros(0), np.zeros(0, int)
         points = np.zeros((3, 0))
-        self._groups = _Groups(numbers, numbers, points, points, none, none, none, none, none, none, np.zeros(0, bool), points, none)
+        self._groups = _Groups(
+            numbers, numbers, points, points, none, none, none, none, none, none, np.zeros(0, bool), points, none
+        )
         self._solved_for = np.zeros((3, 3, 0))
 
     def __len__(self) -> int:

@@ -120,7 +120,9 @@ def misfire_sentences(found: Sequence[Misfire]) -> list[str]:
             falls = f"{mass_text(misfire.falls_kg, 1)} come down, {misfire.falls_share:.0%}"
         more_kg = misfire.falls_at_most_kg - misfire.falls_kg
         if more_kg > 0.0:
-            falls += f" at rest, and up to {mass_text(misfire.falls_at_most_kg, 1)} where bars are pressed at once and sway"
+            falls += (
+                f" at rest, and up to {mass_text(misfire.falls_at_most_kg, 1)} where bars are pressed at once and sway"
+            )
         left = f"; {', '.join(misfire.members)} stand" if misfire.members else "; no member stands"
         sentences.append(f"{case}: {falls}{left}")
     return sentences

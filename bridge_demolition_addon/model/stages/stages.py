@@ -14,8 +14,8 @@ from ..scenario import Equipment, Scenario
 from ..sequence.events import Event, model_structure, schedule
 from ..structure.blast_zones import zone_firings
 from ..structure.model import Model
-from .reactions import supports_of
 from .changed_bridge import ChangedBridge, PressedBars
+from .reactions import supports_of
 from .standing import Standing, StandingBridge
 
 _BUILT, _MACHINES = "as it was built", "equipment comes or goes"

@@ -207,7 +207,7 @@ class StandingBridge:
     ) -> float:
         """Return the collapse load factor, within 1 %: ∞ above 64, nan where nothing is held.
 
-        With bars, also such as stand `bare`, what cracked or yielded under a smaller factor stays so under a larger one.
+        With bars, also if they stand `bare`, what cracked or yielded under a smaller factor stays so.
         """
         if bare is not None:
             return self._collapse_factor_of(self._on_bare_bars(intact, left, bare, False), loads)

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...engineering.blast.vibration import peak_particle_velocity
+from ...engineering.drilled_charges.fragments import HeightsAt
 from ...engineering.drilled_charges.neighbours import (
     BARE_KPA,
     STEMMED_KPA,
@@ -16,7 +17,6 @@ from ...engineering.drilled_charges.neighbours import (
     fires_together,
     largest_mass_together_kg,
 )
-from ...engineering.drilled_charges.fragments import HeightsAt
 from ...engineering.geometry.sides import AXES
 from ...engineering.geometry.vectors import distance
 from ..bridge.extent import room_around

@@ -26,8 +26,8 @@ from ...engineering.mechanics.section_cuts import ConnectionLoads
 from ...engineering.structure.connections import GROUND
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ..schema import given
-from .equilibrium import held_motions, inertias_of
 from .crack_bars import CrackBars
+from .equilibrium import held_motions, inertias_of
 from .model import Model
 from .utilisation import Utilisations
 

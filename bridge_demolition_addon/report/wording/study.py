@@ -11,7 +11,6 @@ from ...model.study.file import Ensemble, Study
 from ...model.study.fragments import FragmentLimits
 from .numbers import listed, ordinal, percent, percent_down, percent_up, rounded_down, rounded_up
 
-
 _DOUBT = "All of these are known within a factor of 2: factor 2, no safety distance."
 
 
@@ -55,8 +54,8 @@ def fragments_sentence(limits: FragmentLimits, cordon_m: float | None) -> str:
     )
     return (
         f"Fragments that are smaller than shards: with {percent(limits.confidence)} confidence for each, in at least "
-        f"{percent(limits.quantile)} of such runs 50 % of their mass stay within {half} of their blast zone, 99 % within "
-        f"{most} and 99.9 % within {nearly_all}. {beside}. {_DOUBT}"
+        f"{percent(limits.quantile)} of such runs 50 % of their mass stay within {half} of their blast zone, 99 % "
+        f"within {most} and 99.9 % within {nearly_all}. {beside}. {_DOUBT}"
     )
 
 

@@ -20,7 +20,6 @@ from ...scene.rendering.zone_markers import ShownZone, show_zones
 from ...scene.world import START_FRAME
 from ...system.disk import writing
 
-
 _FLASH_S = 0.12
 
 

@@ -9,8 +9,8 @@ from typing import Any
 
 import bpy
 
-from ...model.bridge import deck_top
 from ...errors import GeometryError
+from ...model.bridge import deck_top
 from ...scene.blast.charges import charge_objects
 from .decorator import sizes_shown
 from .zone_handles import drag_zone, ends_of, zones_shown
@@ -107,7 +107,9 @@ def _of_ball(scene: bpy.types.Scene) -> Iterator[Handle]:
         number = f" of hit {index + 1}" if ball.hits else ""
         x, y = drop.target_m
         yield Handle(HandleKind.TARGET, index, False, f"Target{number}", (x, y, top))
-        yield Handle(HandleKind.DROP, index, True, f"Drop height{number}", (x, y, top + drop.drop_height_m), points_to=_UP)
+        yield Handle(
+            HandleKind.DROP, index, True, f"Drop height{number}", (x, y, top + drop.drop_height_m), points_to=_UP
+        )
 
 
 def _of_charges(scene: bpy.types.Scene) -> Iterator[Handle]:

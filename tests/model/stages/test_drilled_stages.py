@@ -87,7 +87,7 @@ def pressed_n(height_m):
 
 @pytest.mark.parametrize(("height_m", "holes"), [(0.4, 1), (0.9, 3), (1.5, 5)])
 def test_bare_bars_carry_up_to_yield_or_buckling(tmp_path, height_m, holes):
-    """8 bars of 25 mm, by hand: 8 A f_y, or 8 π² E I / (h / 2)² where that is less; the load factor is that by weight."""
+    """8 bars of 25 mm, by hand: 8 A f_y, or 8 π² E I / (h / 2)² where that is less; factors by weight."""
     zone = replace(ZONE, height_m=height_m, holes_a_row=holes, charge_g=100.0, bars=8, bar_diameter_mm=25.0)
     scenario = column_scenario(tmp_path, zone)
     model = column_model(scenario)
