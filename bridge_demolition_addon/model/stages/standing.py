@@ -19,7 +19,7 @@ from ...errors import ScenarioError
 from ..scenario import Scenario
 from ..scenario.connections import MATERIAL_OF_LARGE_MODELS
 from ..schema import given
-from ..structure.cracking import FALLEN_SHARE, CrackedBridge
+from ..structure.cracking import FALLEN_SHARE, CrackedBridge, StandingBare
 from ..structure.equilibrium import at_rest, held_motions, inertias_of
 from ..structure.model import Model
 from ..structure.utilisation import Utilisations
@@ -89,7 +89,7 @@ class StandingBridge:
         Loads (6, n) are forces and moments on the shards, beside their weight; all are times the load factor. Without
         `every_section`, only sections of connections that are overloaded by themselves are judged: no other breaks.
         Where bars cross what is overloaded, that cracks, if the bridge then stands. Where bars stand `bare`, all
-        that is overloaded breaks or cracks; `at_worst` is as in `CrackedBridge`.
+        that is overloaded breaks or cracks; `at_worst` is as in `StandingBare`.
         """
         standing = self._elastic(intact, left, loads, factor, every_section=every_section)
         if bare is not None:
@@ -157,7 +157,9 @@ class StandingBridge:
             whole, nothing = np.ones(len(intact)), np.zeros((6, len(self.model.shards)))
             self._as_built = self._elastic(whole > 0.0, whole, nothing, 1.0, every_section=False)
         built = self._as_built.uncracked
-        return CrackedBridge(self.model, self._joints, self._utilisations, intact, left, built, bare, at_worst)
+        return CrackedBridge(
+            self.model, self._joints, self._utilisations, intact, left, built, StandingBare(bare, at_worst)
+        )
 
     def _on_bars(self, cracked: CrackedBridge, left: np.ndarray, elastic: Standing) -> Standing:
         """Return a bridge that stands with cracks."""

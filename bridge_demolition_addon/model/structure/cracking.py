@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from copy import copy
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -40,13 +40,22 @@ _AT_ONCE = 0.5
 much as at rest."""
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class StandingBare:
+    """Bars that stand bare, between points of the bridge as it was built.
+
+    Their ends are held sideways and their load comes upon them slowly, or, `at_worst`, neither.
+    """
+
+    bars: BareBars
+    at_worst: bool = False
+
+
 class CrackedBridge:
     """A model with bars, under loads that grow: what has cracked or yielded stays so.
 
     `intact` (m,) are its connections that are whole, with a part `left` (m,) of their strength each. At first it is at
-    `rest` without cracks. Then bars stand `bare`, between points of the bridge as it was built: their ends are held
-    sideways and their load comes upon them slowly, or, `at_worst`, neither. Without bars across faces, what breaks
-    carries nothing.
+    `rest` without cracks. Then bars may stand `bare`. Without bars across faces, what breaks carries nothing.
     """
 
     def __init__(
@@ -57,8 +66,7 @@ class CrackedBridge:
         intact: np.ndarray,
         left: np.ndarray,
         rest: Equilibrium,
-        bare: BareBars | None = None,
-        at_worst: bool = False,
+        bare: StandingBare | None = None,
     ):
         self._model, self._utilisations, self._left = model, utilisations, left
         self._masses = np.append(np.where(model.fixed, 0.0, model.masses_kg), 0.0)
@@ -91,7 +99,7 @@ class CrackedBridge:
             pads,
         )
         cracks = self._faces.cracks(bars.steel, of_bars, stiffness.axial_n_m)
-        cages = None if bare is None else _standing(bare, len(connections), bodies, rest, at_worst)
+        cages = None if bare is None else _standing(bare, len(connections), bodies, rest)
         self._structure = CrackedStructure(built, cracks, of_bars, intact, rest, cages)
         self._held_at_first = self._structure.held.copy()
 
@@ -189,14 +197,14 @@ class CrackedBridge:
         self._faces.tear(cracks, torn, positions_m, rotations)
 
 
-def _standing(bare: BareBars, from_row: int, built: RigidBodies, rest: Equilibrium, at_worst: bool) -> Cages:
+def _standing(bare: StandingBare, from_row: int, built: RigidBodies, rest: Equilibrium) -> Cages:
     """Return bars between points of bodies as they were built, without force where these are at rest."""
-    cages = Cages(from_row, held_sideways=not at_worst, share=_AT_ONCE if at_worst else 1.0)
-    points = []
-    for ends, built_m in ((bare.first, bare.first_points_m), (bare.second, bare.second_points_m)):
+    cages = Cages(from_row, held_sideways=not bare.at_worst, share=_AT_ONCE if bare.at_worst else 1.0)
+    bars, points = bare.bars, []
+    for ends, built_m in ((bars.first, bars.first_points_m), (bars.second, bars.second_points_m)):
         anchors = built_m - built.positions_m[:, ends]
         points.append(rest.positions_m[:, ends] + turned(rest.rotations[..., ends], anchors))
-    placed = replace(bare, first_points_m=points[0], second_points_m=points[1])
+    placed = replace(bars, first_points_m=points[0], second_points_m=points[1])
     cages.add(placed, rest.positions_m, rest.rotations)
     return cages
 
