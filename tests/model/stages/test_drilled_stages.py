@@ -14,7 +14,7 @@ from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
 from bridge_demolition_addon.model.stages.misfires import ALL_FIRE, misfire_sentences, misfires
 from bridge_demolition_addon.model.stages.stages import criticality, stages_of
-from bridge_demolition_addon.model.stages.standing import StandingBridge
+from bridge_demolition_addon.model.stages.standing import StandingBridge, made_elastic
 from bridge_demolition_addon.model.stages.tables import write_tables
 from bridge_demolition_addon.report.sections.stages import stages_section
 
@@ -163,3 +163,25 @@ def test_bars_of_what_was_taken_away_are_gone(tmp_path):
     *_, fired, last = stages_of(scenario, StandingBridge(model, scenario.joints), lambda done, of: None)
     assert fired.bars[0].force_n == pytest.approx(-pressed_n(0.9), rel=1e-3)
     assert last.bars[0].force_n == pytest.approx(-(pressed_n(0.9) - LOAD_N), rel=1e-2)
+
+
+def test_what_stands_of_the_viaduct_if_a_zone_fails():
+    """Walls of 0.8 × 5 m. A foot that fails leaves its wall up to the middle zone; a middle that fails comes down."""
+    scenario = read_scenario(EXAMPLES / "drilled" / "viaduct_pier.toml")
+    scenario = replace(scenario, fracture=replace(scenario.fracture, shards=60))
+    model = checked_model(made_elastic(scenario))
+    all_fire, *failed = misfires(scenario, StandingBridge(model, scenario.joints), lambda done, of: None)
+    zones = {zone.name: zone.ends_along_m for zone in scenario.blast_zones}
+    kg_m = 0.8 * 5.0 * 2450.0
+    stumps_kg = kg_m * sum(begin_m for name, (begin_m, _) in zones.items() if "foot" in name)
+    assert all_fire.stands_kg == pytest.approx(stumps_kg)
+    assert [misfire.fails for misfire in failed] == list(zones)
+    for misfire in failed:
+        begin_m, end_m = zones[misfire.fails]
+        pier = misfire.fails.split()[0]
+        if "foot" in misfire.fails:
+            left_kg = kg_m * (zones[f"{pier} middle"][0] - begin_m)
+            assert misfire.stands_kg == pytest.approx(stumps_kg + left_kg)
+        else:
+            assert misfire.falls_kg == pytest.approx(all_fire.falls_kg + kg_m * (end_m - begin_m))
+        assert misfire.falls_at_most_kg == misfire.falls_kg
