@@ -1,4 +1,4 @@
-"""Where in space a mouse drags something to: level, or straight up and down."""
+"""Where in space a mouse drags something to: level, straight up and down, or along another axis."""
 
 from __future__ import annotations
 
@@ -17,15 +17,19 @@ def dragged_level(eye: np.ndarray, ray: np.ndarray, height_m: float) -> np.ndarr
     return None if distance <= 0.0 else np.array((*(eye[:2] + distance * ray[:2]), height_m))
 
 
-def dragged_upright(eye: np.ndarray, ray: np.ndarray, foot: np.ndarray) -> np.ndarray | None:
-    """Return the position (3,) float, m, straight above or below a foot (3,) that is nearest to a ray (3,) from an eye.
+def dragged_along(eye: np.ndarray, ray: np.ndarray, foot: np.ndarray, axis: int) -> np.ndarray | None:
+    """Return the position (3,) float, m, on the line through a foot (3,) along an axis that is nearest to a ray (3,).
 
-    None where the ray is all but upright itself.
+    The ray is from an eye (3,). None where it is all but along that axis itself.
     """
     ray = ray / np.linalg.norm(ray)
-    level = float((ray[:2] * ray[:2]).sum())
-    if level < _GRAZING * _GRAZING:
+    along = float(ray[axis])
+    across = 1.0 - along * along
+    if across < _GRAZING * _GRAZING:
         return None
     # The nearest points of two lines: what lies between them is at right angles to both.
-    distance = float(((foot[:2] - eye[:2]) * ray[:2]).sum()) / level
-    return np.array((foot[0], foot[1], eye[2] + distance * ray[2]))
+    apart = foot - eye
+    moved = (along * float((apart * ray).sum()) - float(apart[axis])) / across
+    position = np.array(foot, float)
+    position[axis] += moved
+    return position

@@ -21,7 +21,7 @@ from ..model.stages.standing import StandingBridge, made_elastic
 from ..model.stages.tables import write_tables as write_stage_tables
 from ..system.progress import Progress
 from ..version import VERSION
-from .charge_areas import areas_of_fragments
+from .charge_areas import areas_of_fragments, cordon_area
 from .document.blocks import Document, Report
 from .run_folder import ReportedRun
 from .sections.blast import blast_section
@@ -113,7 +113,8 @@ def _work_out_stages(run: ReportedRun, target: Path, progress: Progress) -> None
 
 
 def _write_plans(zone: ExclusionZone, run: ReportedRun, target: Path) -> list[Path]:
-    areas = areas_of_fragments(run.scenario) | {
+    around = areas_of_fragments(run.scenario) | cordon_area(run.planned, zone.plan)
+    areas = around | {
         "exclusion zone of one run": zone.whole,
         "debris of one run": zone.debris,
         "designed drop": zone.drop,

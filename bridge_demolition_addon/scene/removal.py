@@ -14,6 +14,7 @@ from .rendering.dust import remove_dust
 from .rendering.markers import clear_markers
 from .rendering.materials import remove_unused_materials
 from .rendering.surroundings import clear_surroundings
+from .rendering.zone_markers import remove_zones
 from .stability import keep_stability
 from .time_scale import stop_animation
 from .world import START_FRAME, remove_world
@@ -37,6 +38,7 @@ def remove_demolition(scene: bpy.types.Scene) -> int:
         bodies,
     )
     remove_dust(scene)
+    remove_zones(scene)
     clear_markers(scene)
     clear_surroundings(scene)
     remove_unused_materials()

@@ -33,7 +33,7 @@ from ..system.native_output import without_noise
 from ..system.progress import Progress
 from ..system.signals import Interrupted, interrupted_afterwards, signals_noted
 from .display.film import FilmRendering, FilmSettings
-from .display.pictures import check_camera, rendered_pictures, show_charges
+from .display.pictures import check_camera, rendered_pictures, show_blast_zones, show_charges
 from .kept_run import keep_recording
 from .playback import Playing
 from .recording.recorder import Recording
@@ -187,6 +187,7 @@ def _prepare_view(scene: bpy.types.Scene, scenario: Scenario, model: Model, shar
     prepare_pictures(scene, scenario.pictures.width_px, scenario.pictures.height_px)
     stage(scene, shards, model, points_to_see(scenario, model.members), scenario.pictures)
     show_charges(scene, scenario)
+    show_blast_zones(scene, scenario)
 
 
 def _simulate(

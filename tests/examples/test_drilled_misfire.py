@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One of six zones misfires: the bridge stands on the bars of the others."""
+"""One of six zones misfires: at first the bridge stands on the bars of the others."""
 
 from dataclasses import replace
 
@@ -10,8 +10,8 @@ from support.example_runs import example
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
 
 
-def test_a_misfire_leaves_the_bridge_on_its_bars(tmp_path):
-    """14 bars of 20 mm over 1.5 m resist 14 × π² E π d⁴ / 64 / 0.75² = 0.386 MN."""
+def test_a_misfire_leaves_the_bridge_on_its_bars_at_first(tmp_path):
+    """It does for 1.3 s at least. 14 bars of 20 mm over 1.5 m resist 14 × π² E π d⁴ / 64 / 0.75² = 0.386 MN."""
     from bridge_demolition_addon.simulation.motion_run import motion_run
 
     scenario = example("drilled_misfire", duration_s=1.8, shards=50)

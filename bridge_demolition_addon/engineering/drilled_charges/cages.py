@@ -7,6 +7,9 @@ closer their ends have come for good, and as little while they are straightened 
 A sub-step is implicit, as of cracks. What groups have yielded or folded by follows after it, so that the largest forces
 in a sub-step are those of its beginning.
 
+At rest, the ends of bars are taken for held sideways, as their buckling load takes them: a bridge that is not quite
+upright would tip over on bars without any stiffness sideways.
+
 All arrays have their components first.
 """
 
@@ -66,6 +69,8 @@ class _Groups:
     stays_m: FloatArray  # (g,), elongation that stays; below 0 where they have folded
     pressed_n: FloatArray  # (g,), largest force in compression so far
     holds: BoolArray  # (g,)
+    lines_m: FloatArray  # (3, g), from their first to their second points as they were bared, in the axes of the world
+    shares: FloatArray  # (g,), part of what they resist that is counted on
 
     def joined(self, others: _Groups) -> _Groups:
         """Return these and others."""
@@ -87,7 +92,7 @@ class _Groups:
         yields = self.counts * yield_force_n(self.diameters_m, self.yields_pa)
         folded_m = np.maximum(-self.stays_m, 0.0)
         folding = self.counts * folding_force_n(self.diameters_m, self.bared_m, folded_m, self.yields_pa)
-        return np.where(folded_m > 0.0, folding, yields), folding
+        return self.shares * np.where(folded_m > 0.0, folding, yields), self.shares * folding
 
     def forces_n(self, elongations_m: FloatArray) -> FloatArray:
         """Return the forces (g,), above 0 in tension, at elongations (g,) since they were bared."""
@@ -105,13 +110,19 @@ class _Groups:
 
 
 class Cages:
-    """All bare bars of a structure; `rows` (g,) are their numbers among what connects bodies, from a number on."""
+    """All bare bars of a structure; `rows` (g,) are their numbers among what connects bodies, from a number on.
 
-    def __init__(self, from_row: int):
-        self._from_row = from_row
+    Ends that are `held_sideways` are so as stiffly as the bars are along their lines. `share` is the part of what bars
+    resist that is counted on: a half where their load comes upon them at once.
+    """
+
+    def __init__(self, from_row: int, *, held_sideways: bool = False, share: float = 1.0):
+        self._from_row, self._held_sideways, self._share = from_row, held_sideways, share
         none, numbers = np.zeros(0), np.zeros(0, int)
         points = np.zeros((3, 0))
-        self._groups = _Groups(numbers, numbers, points, points, none, none, none, none, none, none, np.zeros(0, bool))
+        self._groups = _Groups(
+            numbers, numbers, points, points, none, none, none, none, none, none, np.zeros(0, bool), points, none
+        )
         self._solved_for = np.zeros((3, 3, 0))
 
     def __len__(self) -> int:
@@ -145,10 +156,17 @@ class Cages:
             zeros,
             zeros,
             np.ones(count, bool),
+            line,
+            np.full(count, self._share),
         )
         self._groups = self._groups.joined(added)
         self._solved_for = np.concatenate((self._solved_for, np.full((3, 3, count), np.nan)), axis=2)
         return len(self) - count + np.arange(count)
+
+    @property
+    def holds(self) -> BoolArray:
+        """Which of them (g,) hold."""
+        return self._groups.holds
 
     def let_go(self, bodies: IntArray) -> None:
         """Let go of all bars that end in some bodies (b,)."""
@@ -176,6 +194,11 @@ class Cages:
         stored: FloatArray = 0.5 * forces * forces / groups.stiffness_n_m
         return stored
 
+    def forces_n(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
+        """Return the forces (g,) along their lines, above 0 in tension."""
+        line, *_ = self._groups.lines(positions_m, rotations)
+        return self._groups.forces_n(np.sqrt(dot_products(line, line)) - self._groups.bared_m)
+
     def pressed_n(self, chosen: IntArray) -> FloatArray:
         """Return the largest forces (k,) in compression that some groups have had so far."""
         return self._groups.pressed_n[chosen]
@@ -191,14 +214,25 @@ class Cages:
         groups = self._groups.only(chosen)
         line, first_arms, second_arms = groups.lines(positions_m, rotations)
         gaps = Gaps(groups.first, groups.second, first_arms, second_arms, line)
-        return CageStep(self.rows[chosen], gaps, groups, SolvedTangents(self._solved_for, chosen), substep_s)
+        solved = SolvedTangents(self._solved_for, chosen)
+        return CageStep(self.rows[chosen], gaps, groups, solved, substep_s, held_sideways=self._held_sideways)
 
 
 class CageStep(GuessedForces):
     """Forces of k groups of bars in a sub-step, along their lines as it begins; `rows` (k,) are their numbers."""
 
-    def __init__(self, rows: IntArray, gaps: Gaps, groups: _Groups, solved: SolvedTangents, substep_s: float):
+    def __init__(
+        self,
+        rows: IntArray,
+        gaps: Gaps,
+        groups: _Groups,
+        solved: SolvedTangents,
+        substep_s: float,
+        *,
+        held_sideways: bool = False,
+    ):
         super().__init__(rows, np.arange(len(rows)))
+        self._held_sideways = held_sideways
         self._gaps, self._groups, self._solved, self._substep_s = gaps, groups, solved, substep_s
         self._length = np.sqrt(dot_products(gaps.widths_m, gaps.widths_m))
         self._directions = gaps.widths_m / np.where(self._length > 0.0, self._length, 1.0)
@@ -221,6 +255,8 @@ class CageStep(GuessedForces):
     def loads(self, velocities: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the impulses (6, k) on the first and second bodies, which have velocities (6, n) then."""
         pull = self._substep_s * self._linear(self._moved(velocities)) * self._directions
+        if self._held_sideways:
+            pull += self._substep_s * self._sideways_n(velocities)
         first = np.concatenate((pull, cross_products(self._gaps.first_arms_m, pull)))
         second = np.concatenate((-pull, -cross_products(self._gaps.second_arms_m, pull)))
         return first, second
@@ -231,6 +267,13 @@ class CageStep(GuessedForces):
 
     def _moved(self, velocities: FloatArray) -> FloatArray:
         return self._substep_s * dot_products(self._directions, self._gaps.rates(velocities))[None]
+
+    def _sideways_n(self, velocities: FloatArray) -> FloatArray:
+        """Forces (3, k) across the lines, by how far their ends have moved sideways since they were bared."""
+        moved = self._gaps.widths_m - self._groups.lines_m + self._substep_s * self._gaps.rates(velocities)
+        across = moved - dot_products(moved, self._directions) * self._directions
+        forces: FloatArray = self._groups.holds * self._groups.stiffness_n_m * across
+        return forces
 
     def _resisted(self, moved: FloatArray) -> FloatArray:
         elongations = self._length - self._groups.bared_m + moved
@@ -245,6 +288,10 @@ class CageStep(GuessedForces):
         self._stiffness_n_m = np.where(is_elastic, self._groups.stiffness_n_m, 0.0)
         self._at_rest_n = forces - self._stiffness_n_m * moved
         self._tangents = self._stiffness_n_m * (self._directions[:, None] * self._directions)
+        if self._held_sideways:
+            sideways = self._groups.holds * self._groups.stiffness_n_m
+            across = np.eye(3)[:, :, None] - self._directions[:, None] * self._directions
+            self._tangents = self._tangents + sideways * across
 
     def _slack(self) -> FloatArray:
         return _AGREES * self._yields_n

@@ -23,7 +23,7 @@ from .cracks import Cracks
 from .equations import RigidBodies, connected_parts
 from .equilibrium import Equilibrium
 from .joint_rows import JointFrames, components_first, components_last, cross_products, turned
-from .structure import ElasticStep, ElasticStructure, SpringLaw, StepInput
+from .structure import BareBarLaw, ElasticStep, ElasticStructure, SpringLaw, StepInput
 
 _STEPS_S = (1.0, 0.25, 0.06)
 """Lengths of a step: in the first, what hangs by a thousandth of the stiffness of a bridge with 5 Hz still finds its
@@ -73,18 +73,28 @@ class CrackedStructure:
 
     `intact` (m,) are connections that are whole, with
     which it is at `rest` at first: springs that do not touch anything would not know where it rests. `left` (m,) is
-    what `cracks` have as the shares of their bars.
+    what `cracks` have as the shares of their bars. `bare_bars` stand where connections are gone.
     """
 
-    def __init__(self, built: BuiltStructure, cracks: Cracks, left: FloatArray, intact: BoolArray, rest: Equilibrium):
+    def __init__(
+        self,
+        built: BuiltStructure,
+        cracks: Cracks,
+        left: FloatArray,
+        intact: BoolArray,
+        rest: Equilibrium,
+        bare_bars: BareBarLaw | None = None,
+    ):
         self._built, self.cracks, self._left = built, cracks, left
         self._frames, self._bodies, self._step_s = built.frames, built.bodies, _STEPS_S[0]
-        self._falls = False
+        self._falls, self.bare_bars = False, bare_bars
         self.positions_m, self.rotations = rest.positions_m, rest.rotations
         self.intact, self.held = intact.copy(), rest.held.copy()
         self.loads = np.zeros(
             (6, len(built.frames))
         )  # on the first bodies about their points, in the axes of the world
+        if bare_bars is not None:
+            self._let_go()
 
     def copy(self) -> CrackedStructure:
         """Return one in the same state, that goes on by itself."""
@@ -100,6 +110,8 @@ class CrackedStructure:
         structure = ElasticStructure(
             built.frames, built.stiffness, built.bodies, 0.0, self.cracks, built.soil, built.bearings
         )
+        if self.bare_bars is not None:
+            structure.stand_bare(self.bare_bars)
         self._falls = False
         for _ in range(_MOST_STEPS):
             ruptured = structure.settle(self.positions_m, self.rotations)
@@ -188,6 +200,12 @@ class CrackedStructure:
         holds = self.intact.copy()
         holds[self.cracks.rows[~of_lost[self.cracks.rows]]] = True
         first, second = frames.first[holds], frames.second[holds]
+        if self.bare_bars is not None:
+            self.bare_bars.let_go(np.flatnonzero(lost))
+            first, second = (
+                np.concatenate((ends, of_bars[self.bare_bars.holds]))
+                for ends, of_bars in zip((first, second), self.bare_bars.ends, strict=True)
+            )
         label = connected_parts(moves, first, second)
         supported = np.unique(np.concatenate((label[first[~moves[second]]], label[second[~moves[first]]])))
         self.held &= ~lost & (np.isin(label, supported[supported >= 0]) | ~moves)

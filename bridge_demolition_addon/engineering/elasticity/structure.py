@@ -91,6 +91,16 @@ class BareBarLaw(SpringLaw, Protocol):
     def ends(self) -> tuple[IntArray, IntArray]:
         """First and second bodies (g,)."""
 
+    @property
+    def holds(self) -> BoolArray:
+        """Which of them (g,) hold."""
+
+    def let_go(self, bodies: IntArray) -> None:
+        """Let go of all bars that end in some bodies (b,)."""
+
+    def forces_n(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
+        """Return the forces (g,) along them, above 0 in tension, with bodies at positions and in rotations."""
+
 
 class _Part:
     def __init__(self, bodies: IntArray, connections: IntArray, first: IntArray, second: IntArray):

@@ -60,6 +60,13 @@ class Exclusion(Table):
     designed_drop_m: float = key(
         "Distance around the bridge's plan within which it is designed to drop.", default=0.0, unit="m", at_least=0
     )
+    cordon_m: float | None = key(
+        "Distance around the bridge's plan that is kept clear of people, such as 300 m: plans and studies state beside "
+        "it how far fragments of blast zones fly.",
+        default=None,
+        unit="m",
+        at_least=0,
+    )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -8,16 +8,20 @@ from typing import Any
 
 import numpy as np
 
-from ...engineering.units import mass_text
+from ...engineering.units import STANDARD_GRAVITY_M_S2, mass_text
 from ..scenario import Scenario, ZoneFiring
 from ..sequence.events import Event, model_structure, schedule
 from ..structure.blast_zones import zone_firings
+from .changed_bridge import ChangedBridge
 from .standing import StandingBridge
 
 MISFIRES_FILE = "misfires.csv"
-MISFIRE_COLUMNS = ("fails", "stands_kg", "falls_kg", "falls_share", "members_that_stand")
+MISFIRE_COLUMNS = ("fails", "stands_kg", "falls_kg", "falls_share", "members_that_stand", "falls_at_most_kg")
 
 ALL_FIRE = "none: all zones fire"
+
+_INCLINATION = 1.0 / 200.0
+"""Of a structure that is not quite upright, rad: EN 1992-1-1:2004, 5.2 (5)."""
 
 _STANDS = 0.99
 """Part of a member's mass that has to be held for it to stand."""
@@ -32,6 +36,7 @@ class Misfire:
     falls_kg: float  # without what the zones themselves throw out
     falls_share: float  # part of what was held
     members: tuple[str, ...]  # those that stand
+    falls_at_most_kg: float  # the same where bare bars are pressed at once, and the bridge can sway on them
 
 
 def misfires(scenario: Scenario, bridge: StandingBridge, progress: Callable[[int, int], None]) -> list[Misfire]:
@@ -57,22 +62,32 @@ def misfires(scenario: Scenario, bridge: StandingBridge, progress: Callable[[int
 
 
 def _without(bridge: StandingBridge, events: Sequence[Event], held: np.ndarray, fails: str) -> Misfire:
-    model = bridge.model
-    intact, left = np.ones(len(model.connections), bool), np.ones(len(model.connections))
-    removed = np.zeros(len(model.shards), bool)
-    for event in events:
-        removed[event.bodies] = True
-        left[event.connections] *= event.factor
-        intact[event.connections] &= event.factor > 0.0
-    left = np.where(left > 0.0, left, 1.0)
-    nothing = np.zeros((6, len(model.shards)))
-    down = held & ~bridge.rest(intact, left, nothing).held
-    down |= bridge.comes_down(intact, left, nothing, 1.0)
-    stands = held & ~down & ~removed
-    falls = held & down & ~removed
-    masses = model.masses_kg
-    stands_kg, falls_kg = float(masses[stands].sum()), float(masses[falls].sum())
-    return Misfire(fails, stands_kg, falls_kg, falls_kg / float(masses[held].sum() or 1.0), _standing(bridge, stands))
+    masses, changed = bridge.model.masses_kg, ChangedBridge.as_built(bridge.model).after(events)
+    down = _coming_down(bridge, changed, held)
+    at_most = down
+    if changed.bare and not down[held & ~changed.removed].all():
+        at_most = down | _coming_down(bridge, changed, held, at_worst=True)
+    stands = held & ~down & ~changed.removed
+    stands_kg, falls_kg, at_most_kg = (float(masses[which].sum()) for which in (stands, down, at_most))
+    whole_kg = float(masses[held].sum() or 1.0)
+    return Misfire(fails, stands_kg, falls_kg, falls_kg / whole_kg, _standing(bridge, stands), at_most_kg)
+
+
+def _coming_down(
+    bridge: StandingBridge, changed: ChangedBridge, held: np.ndarray, *, at_worst: bool = False
+) -> np.ndarray:
+    """Return which shards (n,) come down of those that were held.
+
+    At worst bare bars are pressed at once and hold nothing sideways, and the bridge is inclined.
+    """
+    model, loads = bridge.model, np.zeros((6, len(bridge.model.shards)))
+    if at_worst:
+        loads[:2] = _INCLINATION * STANDARD_GRAVITY_M_S2 * np.where(model.fixed, 0.0, model.masses_kg)
+    down = ~bridge.rest(changed.intact, changed.left, loads, bare=changed.bare, at_worst=at_worst).held
+    if changed.bare is None:
+        down |= bridge.comes_down(changed.intact, changed.left, loads, 1.0)
+    falls: np.ndarray = held & down & ~changed.removed
+    return falls
 
 
 def _standing(bridge: StandingBridge, stands: np.ndarray) -> tuple[str, ...]:
@@ -89,7 +104,9 @@ def _standing(bridge: StandingBridge, stands: np.ndarray) -> tuple[str, ...]:
 
 def misfire_row(misfire: Misfire) -> dict[str, Any]:
     """Return the row of a zone that fails."""
-    values = misfire.fails, misfire.stands_kg, misfire.falls_kg, misfire.falls_share, ", ".join(misfire.members)
+    members = ", ".join(misfire.members)
+    masses = misfire.stands_kg, misfire.falls_kg, misfire.falls_share
+    values = misfire.fails, *masses, members, misfire.falls_at_most_kg
     return dict(zip(MISFIRE_COLUMNS, values, strict=True))
 
 
@@ -101,6 +118,11 @@ def misfire_sentences(found: Sequence[Misfire]) -> list[str]:
         falls = "nothing comes down"
         if misfire.falls_kg:
             falls = f"{mass_text(misfire.falls_kg, 1)} come down, {misfire.falls_share:.0%}"
+        more_kg = misfire.falls_at_most_kg - misfire.falls_kg
+        if more_kg > 0.0:
+            falls += (
+                f" at rest, and up to {mass_text(misfire.falls_at_most_kg, 1)} where bars are pressed at once and sway"
+            )
         left = f"; {', '.join(misfire.members)} stand" if misfire.members else "; no member stands"
         sentences.append(f"{case}: {falls}{left}")
     return sentences

@@ -14,6 +14,7 @@ from ..scenario import Equipment, Scenario
 from ..sequence.events import Event, model_structure, schedule
 from ..structure.blast_zones import zone_firings
 from ..structure.model import Model
+from .changed_bridge import ChangedBridge, PressedBars
 from .reactions import supports_of
 from .standing import Standing, StandingBridge
 
@@ -43,6 +44,7 @@ class Stage:
     equipment: tuple[str, ...]  # names
     equipment_n: float  # its weight
     collapse_factor: float  # load factor at which it collapses
+    bars: tuple[PressedBars, ...] = ()  # that stand bare
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,27 +61,24 @@ def stages_of(scenario: Scenario, bridge: StandingBridge, progress: Callable[[in
     model = bridge.model
     changes = (*scenario.changes, *zone_firings(scenario, model.members))
     steps = _steps(scenario, schedule(changes, model_structure(model)))
-    intact, left = np.ones(len(model.connections), bool), np.ones(len(model.connections))
-    removed, stages = np.zeros(len(model.shards), bool), []
+    changed, stages = ChangedBridge.as_built(model), []
     for number, (time_s, events) in enumerate(steps):
-        for event in events:
-            removed[event.bodies] = True
-            left[event.connections] *= event.factor
-            intact[event.connections] &= event.factor > 0.0
+        changed = changed.after(events)
         machines = [machine for machine in scenario.equipment if machine.stands_at(time_s)]
-        loads = equipment_loads(model, machines, removed)
-        safe = np.where(left > 0.0, left, 1.0)
-        standing = bridge.rest(intact, safe, loads)
+        loads = equipment_loads(model, machines, changed.removed)
+        state = changed.intact, changed.left, loads
+        standing = bridge.rest(*state, bare=changed.bare)
         stages.append(
             Stage(
                 time_s=time_s,
                 step=", ".join(_described(event, model) for event in events) or (_MACHINES if number else _BUILT),
                 standing=standing,
-                removed=removed.copy(),
-                loose=~standing.held & ~removed & ~model.fixed,
+                removed=changed.removed,
+                loose=~standing.held & ~changed.removed & ~model.fixed,
                 equipment=tuple(machine.name for machine in machines),
                 equipment_n=STANDARD_GRAVITY_M_S2 * sum(machine.mass_kg for machine in machines),
-                collapse_factor=bridge.collapse_factor(intact, safe, loads),
+                collapse_factor=bridge.collapse_factor(*state, changed.bare),
+                bars=changed.pressed_bars(standing.bare_n),
             )
         )
         progress(number + 1, len(steps))

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from ...engineering.drilled_charges.cages import BareBars
 from ...engineering.elasticity.equilibrium import Equilibrium
 from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.overloads import Overloads
@@ -18,7 +19,7 @@ from ...errors import ScenarioError
 from ..scenario import Scenario
 from ..scenario.connections import MATERIAL_OF_LARGE_MODELS
 from ..schema import given
-from ..structure.cracking import FALLEN_SHARE, CrackedBridge
+from ..structure.cracking import FALLEN_SHARE, CrackedBridge, StandingBare
 from ..structure.equilibrium import at_rest, held_motions, inertias_of
 from ..structure.model import Model
 from ..structure.utilisation import Utilisations
@@ -54,6 +55,7 @@ class Standing:
     frequency_hz: float  # first natural frequency, without cracks
     cracked: np.ndarray  # (m,), connections that cracked and hold by their bars, of which both utilisations are then
     uncracked: Equilibrium  # as if nothing cracked
+    bare_n: np.ndarray  # (g,), forces of bars that stand bare, above 0 in tension
 
     @property
     def used(self) -> np.ndarray:
@@ -69,6 +71,7 @@ class StandingBridge:
         self._masses = np.where(model.fixed, 0.0, model.masses_kg)
         self._inertias, self._held_motions = inertias_of(model), held_motions(model, joints)
         self._utilisations = Utilisations(model, joints)
+        self._as_built: Standing | None = None
 
     def rest(
         self,
@@ -78,14 +81,22 @@ class StandingBridge:
         factor: float = 1.0,
         *,
         every_section: bool = True,
+        bare: BareBars | None = None,
+        at_worst: bool = False,
     ) -> Standing:
         """Return the bridge at rest with the connections that are `intact` (m,), and `left` (m,) of their strength.
 
         Loads (6, n) are forces and moments on the shards, beside their weight; all are times the load factor. Without
         `every_section`, only sections of connections that are overloaded by themselves are judged: no other breaks.
-        Where bars cross what is overloaded, that cracks, if the bridge then stands.
+        Where bars cross what is overloaded, that cracks, if the bridge then stands. Where bars stand `bare`, all
+        that is overloaded breaks or cracks; `at_worst` is as in `StandingBare`.
         """
         standing = self._elastic(intact, left, loads, factor, every_section=every_section)
+        if bare is not None:
+            on_bare = self._on_bare_bars(intact, left, bare, at_worst)
+            self._pause()
+            on_bare.carry(factor, loads)
+            return self._on_bars(on_bare, left, standing)
         if self.model.crack_bars is None or not len(self._broken(standing, intact)):
             return standing
         cracked = self._begun(intact, left, standing)
@@ -133,11 +144,22 @@ class StandingBridge:
             frequency_hz=solution.frequency_hz,
             cracked=np.zeros(len(intact), bool),
             uncracked=solution,
+            bare_n=np.zeros(0),
         )
 
     def _begun(self, intact: np.ndarray, left: np.ndarray, elastic: Standing) -> CrackedBridge:
         """Return a bridge whose concrete cracks under loads, before any."""
         return CrackedBridge(self.model, self._joints, self._utilisations, intact, left, elastic.uncracked)
+
+    def _on_bare_bars(self, intact: np.ndarray, left: np.ndarray, bare: BareBars, at_worst: bool) -> CrackedBridge:
+        """Return a bridge that stands as it was built, in the moment in which bars of it are bared."""
+        if self._as_built is None:
+            whole, nothing = np.ones(len(intact)), np.zeros((6, len(self.model.shards)))
+            self._as_built = self._elastic(whole > 0.0, whole, nothing, 1.0, every_section=False)
+        built = self._as_built.uncracked
+        return CrackedBridge(
+            self.model, self._joints, self._utilisations, intact, left, built, StandingBare(bare, at_worst)
+        )
 
     def _on_bars(self, cracked: CrackedBridge, left: np.ndarray, elastic: Standing) -> Standing:
         """Return a bridge that stands with cracks."""
@@ -154,6 +176,7 @@ class StandingBridge:
             together=together,
             sag_m=cracked.deflection_m,
             cracked=has_bars,
+            bare_n=cracked.bare_n,
         )
 
     def comes_down(self, intact: np.ndarray, left: np.ndarray, loads: np.ndarray, factor: float) -> np.ndarray:
@@ -181,18 +204,23 @@ class StandingBridge:
                 is_collapse, rounds = True, 0
         return first.held & ~standing.held if is_collapse else first.held
 
-    def collapse_factor(self, intact: np.ndarray, left: np.ndarray, loads: np.ndarray) -> float:
+    def collapse_factor(
+        self, intact: np.ndarray, left: np.ndarray, loads: np.ndarray, bare: BareBars | None = None
+    ) -> float:
         """Return the collapse load factor, within 1 %: ∞ above 64, nan where nothing is held.
 
-        With bars, what cracked or yielded under a smaller factor stays so under a larger one.
+        With bars, also if they stand `bare`, what cracked or yielded under a smaller factor stays so.
         """
+        if bare is not None:
+            return self._collapse_factor_of(self._on_bare_bars(intact, left, bare, False), loads)
         elastic = self._elastic(intact, left, loads, 1.0, every_section=False)
         if not elastic.held.any():
             return np.nan
         if self.model.crack_bars is None:
             return _largest(lambda factor: not self.comes_down(intact, left, loads, factor).any())
-        kept = self._begun(intact, left, elastic)
+        return self._collapse_factor_of(self._begun(intact, left, elastic), loads)
 
+    def _collapse_factor_of(self, kept: CrackedBridge, loads: np.ndarray) -> float:
         def stands(factor: float) -> bool:
             nonlocal kept
             self._pause()

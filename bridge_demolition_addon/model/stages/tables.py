@@ -14,6 +14,7 @@ from ...engineering.units import STANDARD_GRAVITY_M_S2, mass_text, with_digits
 from ...system.disk import whole_file
 from ..structure.model import Model
 from .bearing_rows import BEARING_COLUMNS, BEARINGS_FILE, bearing_rows
+from .changed_bridge import PressedBars
 from .misfires import MISFIRE_COLUMNS, MISFIRES_FILE, Misfire, misfire_row
 from .reactions import SupportPoint, supports_of
 from .stages import Criticality, Stage, reactions_n
@@ -51,6 +52,7 @@ STAGE_COLUMNS = (
     "collapse_factor",
     "sag_mm",
     "first_frequency_Hz",
+    "bare_bars_used",
 )
 REACTION_COLUMNS = (
     "stage",
@@ -143,6 +145,7 @@ def stage_row(number: int, stage: Stage, bridge: StandingBridge) -> dict[str, An
         "collapse_factor": stage.collapse_factor,
         "sag_mm": standing.sag_m * _KILO,
         "first_frequency_Hz": standing.frequency_hz,
+        "bare_bars_used": max((bars.used for bars in stage.bars), default=None),
     }
     if np.isfinite(standing.used).any():
         worst = int(np.nanargmax(standing.used))
@@ -205,10 +208,17 @@ def stage_sentences(stage: Stage, row: Mapping[str, Any]) -> list[str]:
         )
     if row["cracked"]:
         sentences.append(f"{row['cracked']} connections have cracked, and hold by their bars")
+    sentences += [_of_bare_bars(bars) for bars in stage.bars]
     sentences.append(factor_in_words(stage.collapse_factor))
     if stage.collapse_factor < 1.0:
         sentences.append(SLOW_COLLAPSE)
     return sentences
+
+
+def _of_bare_bars(bars: PressedBars) -> str:
+    how = "pulled" if bars.force_n > 0.0 else "pressed"
+    force, resisted = (f"{with_digits(abs(load_n) / _KILO, 0)} kN" for load_n in (bars.force_n, bars.resisted_n))
+    return f"bare bars of {bars.zone} are {how} with {force} at rest, and resist {resisted}"
 
 
 def criticality_sentences(members: Sequence[Criticality]) -> list[str]:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ...engineering.blast.vibration import peak_particle_velocity
+from ...engineering.drilled_charges.fragments import HeightsAt
 from ...engineering.drilled_charges.neighbours import (
     BARE_KPA,
     STEMMED_KPA,
@@ -122,10 +123,7 @@ def charge_plan(scenario: Scenario, members: Sequence[Member]) -> ChargePlan:
     """Return the plan of a scenario with blast zones or cuts, in its members."""
     zones = placed_zones(scenario, members)
     rows = _rows(scenario, zones, members)
-    heights_at = None
-    if not scenario.has_flat_ground:
-        solids = [(member.name, member.solid) for member in members]
-        heights_at = built_ground(scenario, solids, room_around(scenario, members)).heights_at
+    heights_at = _heights_at(scenario, members)
     return ChargePlan(
         zones,
         scenario.cuts,
@@ -134,6 +132,23 @@ def charge_plan(scenario: Scenario, members: Sequence[Member]) -> ChargePlan:
         _at_neighbours(scenario, rows),
         tuple(flyrock_of(placed, heights_at, scenario.seed) if placed.zone.mass_kg else None for placed in zones),
     )
+
+
+def _heights_at(scenario: Scenario, members: Sequence[Member]) -> HeightsAt | None:
+    """Return the heights of the ground that fragments fall on; None where it is flat."""
+    if scenario.has_flat_ground:
+        return None
+    solids = [(member.name, member.solid) for member in members]
+    return built_ground(scenario, solids, room_around(scenario, members)).heights_at
+
+
+def flyrock_of_run(scenario: Scenario, members: Sequence[Member]) -> tuple[FlyrockOfZone, ...]:
+    """Return how far fragments fly of the zones that fire in a run of a scenario."""
+    fired = [placed for placed in placed_zones(scenario, members) if placed.zone.goes_off]
+    if not fired or not scenario.blast.explosion:
+        return ()
+    heights_at = _heights_at(scenario, members)
+    return tuple(flyrock_of(placed, heights_at, scenario.seed) for placed in fired)
 
 
 def neighbours_of_zones(scenario: Scenario, members: Sequence[Member]) -> tuple[AtNeighbour, ...]:

@@ -1,27 +1,32 @@
-"""A model whose concrete cracks under its loads, and whose bars hold: at rest, by the law of a run."""
+"""A model whose concrete cracks or is gone, and whose bars hold: at rest, by the law of a run."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from copy import copy
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from ...engineering.drilled_charges.cages import BareBars, Cages
 from ...engineering.elasticity.bearings import Bearings
 from ...engineering.elasticity.cracked_equilibrium import BuiltStructure, CrackedStructure
 from ...engineering.elasticity.cracks import Cracks
 from ...engineering.elasticity.equations import RigidBodies
 from ...engineering.elasticity.equilibrium import Equilibrium
-from ...engineering.elasticity.joint_rows import JointFrames, components_first, turned_back
+from ...engineering.elasticity.joint_rows import JointFrames, components_first, turned, turned_back
 from ...engineering.elasticity.section_stiffness import in_frames
+from ...engineering.elasticity.steel_bars import USUAL_STEEL
 from ...engineering.foundations.footings import Footings
 from ...engineering.geometry.vectors import product, transformed
 from ...engineering.mechanics.crack_faces import CrackFaces, TornFaces
 from ...engineering.mechanics.joint import Joint
+from ...engineering.mechanics.reinforcement import FaceBars
 from ...engineering.mechanics.section_cuts import ConnectionLoads
 from ...engineering.structure.connections import GROUND
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ..schema import given
+from .crack_bars import CrackBars
 from .equilibrium import held_motions, inertias_of
 from .model import Model
 from .utilisation import Utilisations
@@ -30,11 +35,27 @@ FALLEN_SHARE = 0.005
 """Least part of the held mass for a collapse: a splinter that comes loose is not one."""
 
 
+_AT_ONCE = 0.5
+"""Share of what bare bars resist where their load comes upon them at once: elastic ones are then pressed up to twice as
+much as at rest."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class StandingBare:
+    """Bars that stand bare, between points of the bridge as it was built.
+
+    Their ends are held sideways and their load comes upon them slowly, or, `at_worst`, neither.
+    """
+
+    bars: BareBars
+    at_worst: bool = False
+
+
 class CrackedBridge:
     """A model with bars, under loads that grow: what has cracked or yielded stays so.
 
     `intact` (m,) are its connections that are whole, with a part `left` (m,) of their strength each. At first it is at
-    `rest` without cracks.
+    `rest` without cracks. Then bars may stand `bare`. Without bars across faces, what breaks carries nothing.
     """
 
     def __init__(
@@ -45,15 +66,16 @@ class CrackedBridge:
         intact: np.ndarray,
         left: np.ndarray,
         rest: Equilibrium,
+        bare: StandingBare | None = None,
     ):
         self._model, self._utilisations, self._left = model, utilisations, left
         self._masses = np.append(np.where(model.fixed, 0.0, model.masses_kg), 0.0)
         self._inertias = np.vstack((inertias_of(model), np.zeros(3)))
-        self._held_at_first = rest.held
-        bars, connections, stiffness = given(model.crack_bars), model.connections, given(model.stiffness)
+        connections, stiffness = model.connections, given(model.stiffness)
+        bars = model.crack_bars or CrackBars(FaceBars.none(len(connections)), USUAL_STEEL)
         self._faces = CrackFaces(connections.areas, model.second_moments_m4, bars.bars)
         has_strength = np.array([joint.strength is not None for joint in joints])[model.joint_of_connection]
-        self._tears = has_strength & model.breakable
+        self._tears = has_strength & model.breakable & (model.crack_bars is not None)
         self._first, second = connections.pairs.T
         self._second = np.where(second == GROUND, len(model.shards), second)
         positions = np.vstack((model.centres_m, np.zeros(3)))
@@ -77,7 +99,9 @@ class CrackedBridge:
             pads,
         )
         cracks = self._faces.cracks(bars.steel, of_bars, stiffness.axial_n_m)
-        self._structure = CrackedStructure(built, cracks, of_bars, intact, rest)
+        cages = None if bare is None else _standing(bare, len(connections), bodies, rest)
+        self._structure = CrackedStructure(built, cracks, of_bars, intact, rest, cages)
+        self._held_at_first = self._structure.held.copy()
 
     def copy(self) -> CrackedBridge:
         """Return one in the same state, that goes on by itself."""
@@ -133,6 +157,14 @@ class CrackedBridge:
         return ConnectionLoads(loads[:3].T, loads[3:].T, self._model.connections.points)
 
     @property
+    def bare_n(self) -> np.ndarray:
+        """Return the forces (g,) of bars that stand bare, above 0 in tension; 0 for those that are gone."""
+        structure = self._structure
+        if structure.bare_bars is None:
+            return np.zeros(0)
+        return structure.bare_bars.forces_n(structure.positions_m, structure.rotations)
+
+    @property
     def deflection_m(self) -> float:
         """Return the largest deflection of a shard that is held."""
         fallen = self._model.centres_m[:, 2] - self._structure.positions_m[2, :-1]
@@ -163,6 +195,18 @@ class CrackedBridge:
         axes = product(turns, self._utilisations.axes[rows])
         torn = TornFaces(rows, first, self._second[rows], points, axes, np.ones(len(rows)))
         self._faces.tear(cracks, torn, positions_m, rotations)
+
+
+def _standing(bare: StandingBare, from_row: int, built: RigidBodies, rest: Equilibrium) -> Cages:
+    """Return bars between points of bodies as they were built, without force where these are at rest."""
+    cages = Cages(from_row, held_sideways=not bare.at_worst, share=_AT_ONCE if bare.at_worst else 1.0)
+    bars, points = bare.bars, []
+    for ends, built_m in ((bars.first, bars.first_points_m), (bars.second, bars.second_points_m)):
+        anchors = built_m - built.positions_m[:, ends]
+        points.append(rest.positions_m[:, ends] + turned(rest.rotations[..., ends], anchors))
+    placed = replace(bars, first_points_m=points[0], second_points_m=points[1])
+    cages.add(placed, rest.positions_m, rest.rotations)
+    return cages
 
 
 def cracked_by_weight(model: Model, joints: Sequence[Joint], rest: Equilibrium) -> CrackedBridge | None:

@@ -19,6 +19,7 @@ from ...engineering.statistics.order_limits import achieved_confidence, coverage
 from ...engineering.statistics.repetition import repeated_limit
 from ...errors import OutputError
 from .file import Study
+from .fragments import FragmentLimits, fragment_limits
 from .runs_table import REACH, TRUSTED_REACH, RunsTable
 
 SIMULTANEOUS = (REACH, "largest_throw_m")
@@ -108,6 +109,7 @@ class Conclusions:
     at_once: SimultaneousLimits | None  # None where there are too few runs
     doubtful: DoubtfulThrows | None  # None where no run knows of any, as in studies of earlier versions
     still_moving: int = 0  # runs at whose end shards still moved: their distances are not final
+    fragments: FragmentLimits | None = None  # None without blast zones
 
     def as_json(self) -> dict[str, Any]:
         """Return them as ``study.json`` has them."""
@@ -119,6 +121,7 @@ class Conclusions:
             "at_once": self.at_once and as_json(self.at_once),
             "doubtful_throws": self.doubtful and as_json(self.doubtful),
             "still_moving": self.still_moving,
+            **({"fragments": as_json(self.fragments)} if self.fragments else {}),
         }
 
 
@@ -144,6 +147,7 @@ def conclusions(study: Study, table: RunsTable) -> Conclusions:
         ),
         doubtful=_doubtful_throws(study, table),
         still_moving=table.still_moving,
+        fragments=fragment_limits(table, settings.quantile, confidence, settings.rank),
     )
 
 

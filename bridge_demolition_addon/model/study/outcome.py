@@ -25,6 +25,7 @@ from ..results.solver_energy import is_known, throws_of
 from ..scenario import Scenario
 from ..structure.charge_plan import AtNeighbour, neighbours_of_zones
 from .criteria import COLLAPSED, Criterion, neighbour_output, span_output, zone_output
+from .fragments import fragment_outputs
 from .runs_table import MOVING, RESTED, TRUSTED_REACH
 
 SUCCESS = "success"
@@ -88,6 +89,7 @@ def evaluate(
         **_throws(left, hazards, plan),
         **_course(left, summary, scenario),
         **_surroundings(left, scenario, np.concatenate([shards, balls])),
+        **fragment_outputs(scenario),
     }
     met = {criterion.output: criterion.is_met(outputs) for criterion in criteria}
     outputs |= met | ({SUCCESS: all(met.values())} if met else {})

@@ -13,7 +13,7 @@ from ...charts.study_plan import study_plan
 from ...engineering.statistics.probability_map import LEVELS
 from ...model.schema import given
 from ...model.study.verification import zone_area
-from ..charge_areas import areas_of_fragments
+from ..charge_areas import areas_of_fragments, cordon_area
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section
 from ..wording.numbers import percent, rounded_up
 from ..wording.study import shape_sentence, verified_sentence
@@ -40,8 +40,14 @@ def layers(runs: StudyRuns) -> dict[str, CrossSection]:
     """Return all areas of a study for a site plan by their names, the largest first."""
     limits = {name: area for name, (_, area) in reversed(runs.limits.items())}
     zones = {f"zone {zone.name}": zone_area(zone) for zone in runs.ensemble.scenario.zones}
-    fragments = areas_of_fragments(runs.ensemble.scenario)
-    return {**fragments, **limits, **_likely_by_words(runs), "bridge": runs.bridge, **zones}
+    cordon = cordon_area(runs.ensemble.scenario, runs.bridge)
+    return {**areas_of_fragments_in(runs), **cordon, **limits, **_likely_by_words(runs), "bridge": runs.bridge, **zones}
+
+
+def areas_of_fragments_in(runs: StudyRuns) -> dict[str, CrossSection]:
+    """Return areas that fragments stay within: by the limits of the study, or where there are none of its scenario."""
+    said = runs.conclusions.fragments if runs.conclusions else None
+    return areas_of_fragments(runs.ensemble.scenario, said.ranges if said and said.are_known else None)
 
 
 def _picture(runs: StudyRuns) -> Picture:

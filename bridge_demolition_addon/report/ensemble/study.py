@@ -18,6 +18,7 @@ from ..site_plan import write_areas
 from ..wording.numbers import ordinal, percent, rounded_up
 from ..wording.study import study_sentences
 from .document import ensemble_document, statement_section, unfinished_sentence
+from .fragments import fragments_section
 from .influence import correlation_table
 from .plan import layers, plan_section
 from .reported_ensemble import shown
@@ -56,7 +57,7 @@ def study_document(runs: StudyRuns, version: str, files: Sequence[str] = ()) -> 
         runs,
         version,
         statement_section(runs, version, sentences, _asked(runs)),
-        (plan_section(runs, files), distance_section(runs)),
+        filter(None, (plan_section(runs, files), distance_section(runs), fragments_section(runs))),
         (extremes_section(runs), runs_section(runs)),
         _STATISTICS,
     )

@@ -127,11 +127,11 @@ def charge_plan_section(scenario: Scenario) -> Section | None:
 def planned_section(scenario: Scenario) -> Section:
     """Return the charge plan of a scenario with blast zones or cuts, all of whose files are there."""
     plan = charge_plan(scenario, prepared_members(scenario).members)
-    return Section(_TITLE, tuple(plan_blocks(plan)))
+    return Section(_TITLE, tuple(plan_blocks(plan, scenario.exclusion.cordon_m if scenario.exclusion else None)))
 
 
-def plan_blocks(plan: ChargePlan) -> Iterator[Block]:
-    """Yield the tables of a charge plan, with what they mean."""
+def plan_blocks(plan: ChargePlan, cordon_m: float | None = None) -> Iterator[Block]:
+    """Yield the tables of a charge plan, with what they mean, and what is kept clear around the bridge."""
     yield Paragraph(_BY_WHOM)
     yield from _warnings(plan)
     if plan.zones:
@@ -148,7 +148,8 @@ def plan_blocks(plan: ChargePlan) -> Iterator[Block]:
     yield from _neighbours(plan.neighbours)
     flown = [(placed, of) for placed, of in zip(plan.zones, plan.flyrock, strict=True) if of is not None]
     if flown:
-        yield Paragraph(_FLYING)
+        clear = "" if cordon_m is None else f" {cordon_m:g} m around the bridge's plan are kept clear."
+        yield Paragraph(_FLYING + clear)
         yield _fragments(flown)
 
 

@@ -69,14 +69,21 @@ _BEARINGS = (
     "Bearings: least and largest forces (kN) on what lies above them over the stages, z upwards. They go on into the "
     "supports, and are no part of their sum"
 )
+_SINCE_LATER = ("cracked", "bare_bars_used", "falls_at_most_kg")
+"""Columns that earlier versions did not write."""
+
 _MISFIRES = (
-    "The bridge at rest after all changes but one blast zone: masses of what connections to supports held at first. A "
-    "bridge that stands on charges that did not fire must not be approached."
+    "The bridge at rest after all changes but one blast zone: masses of what connections to supports held at first. "
+    "Bare bars of zones that fired carry up to their force at yield or buckling, with their ends held sideways. At "
+    "most so much comes down where their load comes upon them at once, which presses them up to twice as much, and "
+    "where they hold nothing sideways and the bridge is inclined by 1/200. A bridge that stands on charges that did "
+    "not fire must not be approached."
 )
 _MISFIRE = (
     Column("Fails", "fails", "", lambda row: row["fails"]),
     Column("come down (t)", "falls_t", ".1f", significant=3, value=lambda row: float(row["falls_kg"]) / 1e3),
     Column("of what was held", "falls_share", ".0%", lambda row: float(row["falls_share"])),
+    Column("at most (t)", "falls_at_most_t", ".1f", significant=3, value=lambda row: _tonnes(row, "falls_at_most_kg")),
     Column("stand (t)", "stands_t", ".1f", significant=3, value=lambda row: float(row["stands_kg"]) / 1e3),
     Column("Members that stand", "members_that_stand", "", lambda row: row["members_that_stand"] or None),
 )
@@ -88,6 +95,11 @@ def has_stages(folder: Path) -> bool:
     return (folder / STAGES_FILE).is_file() and (folder / CRITICALITY_FILE).is_file()
 
 
+def _tonnes(row: dict[str, str], column: str) -> float | None:
+    mass_kg = _number(row.get(column, ""))
+    return None if mass_kg is None else mass_kg / 1e3
+
+
 def stages_report(folder: Path, _target: Path, _progress: Progress) -> Report:
     """Return the report of stages alone."""
     subtitle = f"Report of the stages of a demolition. Bridge Demolition Add-on {VERSION}"
@@ -96,7 +108,7 @@ def stages_report(folder: Path, _target: Path, _progress: Progress) -> Report:
 
 def stages_section(folder: Path) -> Section:
     """Return what the tables of stages in a folder say."""
-    always = [name for name in STAGE_COLUMNS if name != "cracked"]  # which earlier versions did not write
+    always = [name for name in STAGE_COLUMNS if name not in _SINCE_LATER]
     stages = _rows(folder / STAGES_FILE, always)
     members = _rows(folder / CRITICALITY_FILE, CRITICALITY_COLUMNS)
     try:
@@ -126,7 +138,8 @@ def stages_section(folder: Path) -> Section:
 def _misfire_blocks(folder: Path) -> list[Block]:
     """Return what stands if a blast zone fails; nothing without zones, or where an earlier version wrote the tables."""
     path = folder / MISFIRES_FILE
-    rows = _rows(path, MISFIRE_COLUMNS, may_be_empty=True) if path.is_file() else []
+    always = [name for name in MISFIRE_COLUMNS if name not in _SINCE_LATER]
+    rows = _rows(path, always, may_be_empty=True) if path.is_file() else []
     if not rows:
         return []
     try:

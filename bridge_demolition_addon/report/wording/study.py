@@ -8,7 +8,10 @@ from collections.abc import Iterator, Sequence
 from ...engineering.statistics.order_limits import least_runs
 from ...model.study.conclusions import Conclusions, DebrisLimit, DoubtfulThrows, Proportion
 from ...model.study.file import Ensemble, Study
+from ...model.study.fragments import FragmentLimits
 from .numbers import listed, ordinal, percent, percent_down, percent_up, rounded_down, rounded_up
+
+_DOUBT = "All of these are known within a factor of 2: factor 2, no safety distance."
 
 
 def input_names(ensemble: Ensemble) -> list[str]:
@@ -29,10 +32,31 @@ def study_sentences(study: Study, conclusions: Conclusions) -> Iterator[str]:
         yield repeat_sentence(conclusions.reach)
     if conclusions.doubtful and conclusions.doubtful.throws:
         yield doubtful_sentence(conclusions.doubtful)
+    if conclusions.fragments:
+        yield fragments_sentence(conclusions.fragments, exclusion.cordon_m if exclusion else None)
     for criterion in conclusions.criteria:
         yield success_sentence(criterion)
     if conclusions.success and len(conclusions.criteria) > 1:
         yield success_sentence(conclusions.success)
+
+
+def fragments_sentence(limits: FragmentLimits, cordon_m: float | None) -> str:
+    """Return how far fragments of blast zones fly, beside two rules and the cordon of the scenario, if any."""
+    rules = (
+        f"By Lundborg they fly up to {rounded_up(limits.lundborg_m, '1')} m, by McKenzie up to "
+        f"{rounded_up(limits.mckenzie_m, '1')} m, as if nothing covered the holes"
+    )
+    beside = rules if cordon_m is None else f"{rules}; {cordon_m:g} m around the bridge's plan are kept clear"
+    if not limits.are_known:
+        return f"How far fragments that are smaller than shards fly has no limit yet. {beside}. {_DOUBT}"
+    half, most, nearly_all = (
+        f"{rounded_up(limit_m, '1')} m" for limit_m in (limits.half_m, limits.most_m, limits.nearly_all_m)
+    )
+    return (
+        f"Fragments that are smaller than shards: with {percent(limits.confidence)} confidence for each, in at least "
+        f"{percent(limits.quantile)} of such runs 50 % of their mass stay within {half} of their blast zone, 99 % "
+        f"within {most} and 99.9 % within {nearly_all}. {beside}. {_DOUBT}"
+    )
 
 
 def moving_sentence(moving: int, runs: int) -> str:

@@ -7,15 +7,20 @@ from pathlib import Path
 
 import bpy
 
-from ...errors import OutputError
+from ...errors import GeometryError, OutputError, ScenarioError
+from ...model.bridge.preparation import prepared_members
 from ...model.run_folder.files import AFTER, BEFORE, IMPACT, PICTURE_FOLDER
 from ...model.scenario import Scenario
 from ...model.scenario.recording import PictureSettings
+from ...model.structure.blast_zones import PlacedZone, placed_zones
 from ...scene.blast.charges import charge_objects, show_never, show_until
 from ...scene.demolition import first_frame_after
 from ...scene.rendering.stills import prepared_for_pictures, render_picture
+from ...scene.rendering.zone_markers import ShownZone, show_zones
 from ...scene.world import START_FRAME
 from ...system.disk import writing
+
+_FLASH_S = 0.12
 
 
 def check_camera(view: PictureSettings) -> None:
@@ -33,6 +38,25 @@ def show_charges(scene: bpy.types.Scene, scenario: Scenario) -> None:
             show_until(empty, first_frame_after(scenario, scenario.blast.start_s + charge.delay_s))
         else:
             show_never(empty)
+
+
+def show_blast_zones(scene: bpy.types.Scene, scenario: Scenario) -> None:
+    """Show blast zones in pictures until they fire, with a flash as they do; none where their members are not known."""
+    placed: tuple[PlacedZone, ...] = ()
+    if scenario.blast_zones:
+        try:
+            placed = placed_zones(scenario, prepared_members(scenario).members)
+        except (GeometryError, ScenarioError):  # files of members may be gone since the scene was built
+            placed = ()
+    show_zones(scene, [_shown(scenario, one) for one in placed])
+
+
+def _shown(scenario: Scenario, placed: PlacedZone) -> ShownZone:
+    if not (placed.zone.goes_off and scenario.blast.explosion):
+        return ShownZone(placed, None)
+    fires_s = scenario.blast.start_s + placed.zone.fired_after_s(scenario.seed)
+    fired_in, over_in = (first_frame_after(scenario, time_s) for time_s in (fires_s, fires_s + _FLASH_S))
+    return ShownZone(placed, fired_in, max(over_in, fired_in + 1))
 
 
 def rendered_pictures(

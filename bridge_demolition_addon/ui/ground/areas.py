@@ -24,6 +24,7 @@ from ...model.structure.blast_zones import PlacedZone, placed_zones
 from ...scene.bodies import Kind, bodies_of, is_uneven_ground, kind_of, triangle_mesh
 from ...scene.rendering.ground import ground_of as ground_in
 from ...simulation.blender_events import shown_results
+from ..preview.zone_handles import zones_shown
 
 _kept: dict[str, tuple[tuple, Any]] = {}
 """Results that were worked out last, with the keys that they depend on."""
@@ -92,6 +93,14 @@ def blast_zones_of(scene: bpy.types.Scene) -> tuple[PlacedZone, ...]:
             return ()
 
     return _cached("blast zones", (text,), placed)
+
+
+def planned_blast_zones_of(scene: bpy.types.Scene) -> tuple[PlacedZone, ...]:
+    """Return the blast zones that the panels show, where they lie in their members; none where that is not known."""
+    try:
+        return tuple(placed for placed in zones_shown(scene.bda) if placed is not None)
+    except (GeometryError, ScenarioError):
+        return ()
 
 
 def ground_of(scene: bpy.types.Scene) -> RecordedGround:

@@ -17,7 +17,7 @@ _OVERLAYS = (
     (WAY, "Path of Ball", "The path of the ball in the last run"),
     (FLASHES, "Flashes", "A flash where a charge goes off"),
     (NAMES, "Chosen Shard", "Outline and name of the body that is selected"),
-    (BLAST_ZONES, "Blast Zones", "Blast zones as they were built, with their drill holes, coloured by their delays"),
+    (BLAST_ZONES, "Blast Zones", "Blast zones with their drill holes, coloured by their delays, until they fire"),
 )
 
 

@@ -14,6 +14,7 @@ from ..scenario.prop import shown_tables
 from ..scenario.values import inner_of
 from ..sidebar import SidebarPanel
 from ..view_drawing import ViewDrawing, draw_lines
+from . import zone_handles
 
 _COLOUR = (0.45, 0.85, 1.0, 0.9)
 _WIDTH_PX = 1.5
@@ -70,6 +71,7 @@ def _draw(context: bpy.types.Context) -> None:
 def _forget() -> None:
     _lines.cache_clear()
     _sizes_of.cache_clear()
+    zone_handles.forget()
 
 
 drawing = ViewDrawing(_draw, forget=_forget)

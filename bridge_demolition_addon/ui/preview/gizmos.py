@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import bpy
-from mathutils import Matrix
+from mathutils import Matrix, Vector
 
 from ...errors import ScenarioError
 from ..operators import recording_runs
@@ -14,6 +14,7 @@ _COLOURS = {
     HandleKind.TARGET: (1.0, 0.85, 0.2),
     HandleKind.DROP: (1.0, 0.85, 0.2),
     HandleKind.CHARGE: (1.0, 0.35, 0.1),
+    **dict.fromkeys((HandleKind.ZONE, HandleKind.ZONE_BEGIN, HandleKind.ZONE_END), (1.0, 0.35, 0.1)),
 }
 _CHOSEN = (1.0, 1.0, 1.0)
 _RING_SIZE, _ARROW_SIZE = 0.14, 0.6
@@ -24,9 +25,10 @@ _ARROW_FOOT = Matrix.Translation((0.0, 0.0, 0.5))
 
 
 class BDA_GGT_handles(bpy.types.GizmoGroup):
-    """A ring to drag a point level, and an arrow to drag it up and down."""
+    """A ring to drag a point level, and an arrow to drag it up and down; of a zone a ring to move it along its member,
+    and an arrow at each of its ends."""
 
-    bl_label = "Targets and Charges"
+    bl_label = "Targets, Charges and Blast Zones"
     bl_space_type = "VIEW_3D"
     bl_region_type = "WINDOW"
     bl_options = {"3D", "PERSISTENT"}
@@ -52,18 +54,20 @@ class BDA_GGT_handles(bpy.types.GizmoGroup):
             if key not in self.made:
                 self.made[key] = _new(self, handle)
             self.made[key].hide = False
-            self.made[key].matrix_basis = Matrix.Translation(handle.position_m)
+            turn = Vector(handle.points_to or (0.0, 0.0, 1.0)).to_track_quat("Z", "Y").to_matrix().to_4x4()
+            self.made[key].matrix_basis = Matrix.Translation(handle.position_m) @ turn
 
 
 def _new(group: BDA_GGT_handles, handle: Handle) -> bpy.types.Gizmo:
-    gizmo = group.gizmos.new("GIZMO_GT_arrow_3d" if handle.is_upright else "GIZMO_GT_move_3d")
+    has_arrow = handle.points_to is not None
+    gizmo = group.gizmos.new("GIZMO_GT_arrow_3d" if has_arrow else "GIZMO_GT_move_3d")
     gizmo.color, gizmo.alpha = _COLOURS[handle.kind], 0.9
     gizmo.color_highlight, gizmo.alpha_highlight = _CHOSEN, 1.0
-    gizmo.scale_basis = _ARROW_SIZE if handle.is_upright else _RING_SIZE
+    gizmo.scale_basis = _ARROW_SIZE if has_arrow else _RING_SIZE
     gizmo.use_draw_modal = True
     if handle.is_upright:
         gizmo.matrix_offset = _ARROW_FOOT
-    else:
+    elif not has_arrow:
         gizmo.draw_options = {"FILL_SELECT", "ALIGN_VIEW"}
     drag = gizmo.target_set_operator("bda.drag_handle")
     drag.kind, drag.index, drag.is_upright = handle.kind.value, handle.index, handle.is_upright

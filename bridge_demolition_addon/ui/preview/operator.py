@@ -7,21 +7,26 @@ import numpy as np
 from bpy.props import BoolProperty, EnumProperty, FloatVectorProperty, IntProperty
 from bpy_extras.view3d_utils import region_2d_to_origin_3d, region_2d_to_vector_3d
 
-from ...display.dragging import dragged_level, dragged_upright
+from ...display.dragging import dragged_along, dragged_level
 from ...errors import ScenarioError
 from ..operators import Action, recording_runs, refused
 from ..viewport import redraw_views
-from .handles import Handle, HandleKind, drag, handles
+from .handles import Handle, HandleKind, drag, dragged_values, handles
+
+_SNAP_M = 0.1
 
 _KINDS = [
     (HandleKind.TARGET.value, "Target", "Where a drop of the ball hits the deck"),
     (HandleKind.DROP.value, "Drop Height", "How high the ball hangs over the deck"),
     (HandleKind.CHARGE.value, "Charge", "Where a charge is"),
+    (HandleKind.ZONE.value, "Blast Zone", "Where a blast zone is along its member"),
+    (HandleKind.ZONE_BEGIN.value, "Begin of Blast Zone", "Where a blast zone begins along its member"),
+    (HandleKind.ZONE_END.value, "End of Blast Zone", "Where a blast zone ends along its member"),
 ]
 
 
 class BDA_OT_drag_handle(Action, bpy.types.Operator):
-    """Drag to move it; Esc or a right click puts it back"""
+    """Drag to move it, with Ctrl in steps of 0.1 m; Esc or a right click puts it back"""
 
     bl_label = "Drag"
     bl_options = {"REGISTER", "UNDO", "INTERNAL"}
@@ -42,7 +47,8 @@ class BDA_OT_drag_handle(Action, bpy.types.Operator):
             handle = self._handle(context)
         except ScenarioError as error:
             return refused(self, error)
-        self._start, self._held = np.array(handle.position_m), None
+        self._start, self._held, self._axis = np.array(handle.position_m), None, handle.axis
+        self._before = dragged_values(context.scene, handle.kind, handle.index)
         self._follow(context, event)
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
@@ -50,7 +56,8 @@ class BDA_OT_drag_handle(Action, bpy.types.Operator):
     def modal(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
         if event.type in {"ESC", "RIGHTMOUSE"} and event.value == "PRESS":
             self.place_m = self._start
-            drag(context.scene, HandleKind(self.kind), self.index, self._start.tolist())
+            for owner, name, value in self._before:
+                setattr(owner, name, value)
             return self._leave(context, {"CANCELLED"})
         if event.type == "MOUSEMOVE":
             self._follow(context, event)
@@ -67,19 +74,21 @@ class BDA_OT_drag_handle(Action, bpy.types.Operator):
         for handle in handles(context.scene):
             if (handle.kind, handle.index, handle.is_upright) == wanted:
                 return handle
-        raise ScenarioError(f"there is no {self.kind.lower()} {self.index + 1} here to be dragged")
+        kind = self.kind.lower().replace("_", " ")
+        raise ScenarioError(f"there is no {kind} {self.index + 1} here to be dragged")
 
     def _follow(self, context: bpy.types.Context, event: bpy.types.Event) -> None:
         """Move it as far as the mouse was moved since it was pressed, which was beside the middle of the handle."""
-        under = _position_under(context, event, self._start, self.is_upright)
+        under = _position_under(context, event, self._start, 2 if self.is_upright else self._axis)
         if under is None:
             return
         self._held = under - self._start if self._held is None else self._held
-        self.place_m = under - self._held
+        place_m = under - self._held
+        self.place_m = np.round(place_m / _SNAP_M) * _SNAP_M if event.ctrl else place_m
         drag(context.scene, HandleKind(self.kind), self.index, tuple(self.place_m))
         position = ", ".join(f"{coordinate:.2f} m" for coordinate in self.place_m)
         if context.area:
-            context.area.header_text_set(f"{position} | Let go: done | Esc: back")
+            context.area.header_text_set(f"{position} | Ctrl: steps of {_SNAP_M:g} m | Let go: done | Esc: back")
         redraw_views()
 
     def _leave(self, context: bpy.types.Context, ended: set[str]) -> set[str]:
@@ -90,10 +99,10 @@ class BDA_OT_drag_handle(Action, bpy.types.Operator):
 
 
 def _position_under(
-    context: bpy.types.Context, event: bpy.types.Event, start: np.ndarray, is_upright: bool
+    context: bpy.types.Context, event: bpy.types.Event, start: np.ndarray, axis: int | None
 ) -> np.ndarray | None:
     region, view = context.region, context.region_data
     mouse = (event.mouse_x - region.x, event.mouse_y - region.y)
     eye = np.array(region_2d_to_origin_3d(region, view, mouse))
     ray = np.array(region_2d_to_vector_3d(region, view, mouse))
-    return dragged_upright(eye, ray, start) if is_upright else dragged_level(eye, ray, float(start[2]))
+    return dragged_level(eye, ray, float(start[2])) if axis is None else dragged_along(eye, ray, start, axis)

@@ -20,7 +20,7 @@ from ...scene.as_built import manual_edits
 from ...scene.run_setup import run_setup_of
 from ...scene.world import start_over
 from ...simulation.blender_events import running_recording, shown_results, start_recording, stop_recording
-from ...simulation.display.pictures import show_charges
+from ...simulation.display.pictures import show_blast_zones, show_charges
 from ...simulation.kept_run import keep_recording
 from ...simulation.recording.logs import LogFiles, checked_log
 from ...simulation.recording.recordable import check_recordable
@@ -112,6 +112,7 @@ def new_recording(scene: bpy.types.Scene) -> Recording:
     if scenario:
         keep_scenario(folder, scenario, by_hand)
         show_charges(scene, scenario)
+        show_blast_zones(scene, scenario)
     _contexts[recording] = RunContext.of(scene, title, scenario, by_hand)
     return recording
 

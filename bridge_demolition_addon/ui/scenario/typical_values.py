@@ -116,6 +116,7 @@ TYPICAL: dict[str, Any] = {
     "zones.top_m": 5.0,
     "zones.corners_m": [[-5.0, 8.0], [20.0, 8.0], [20.0, 12.0]],
     "exclusion.buffer_m": 5.0,
+    "exclusion.cordon_m": 300.0,
     "site.latitude_deg": 41.6,
     "site.longitude_deg": -93.6,
     "equipment.footprint_m": [4.0, 3.0],

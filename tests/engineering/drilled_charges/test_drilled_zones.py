@@ -97,8 +97,10 @@ def test_stronger_explosives_need_less():
     ("element", "burden_m", "expected"),
     [
         (DrilledElement.BEAM_OR_COLUMN, 0.15, (0.50, 0.56)),
+        (DrilledElement.BEAM_OR_COLUMN, 0.20, (0.38, 0.42)),
         (DrilledElement.BEAM_OR_COLUMN, 0.30, (0.30, 0.34)),
         (DrilledElement.BEAM_OR_COLUMN, 0.35, (0.28, 0.31)),  # half way to 0.26 and 0.28
+        (DrilledElement.BEAM_OR_COLUMN, 0.40, (0.26, 0.28)),
         (DrilledElement.BEAM_OR_COLUMN, 1.00, (0.26, 0.28)),
         (DrilledElement.CAP_BEAM, 0.35, (0.44, 0.50)),
         (DrilledElement.SLAB, 0.35, (0.48, 0.55)),

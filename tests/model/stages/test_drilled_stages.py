@@ -2,16 +2,19 @@
 """Blast zones as steps between stages."""
 
 import csv
+from dataclasses import replace
 
+import numpy as np
 import pytest
 from support.checkout import EXAMPLES
 from support.drilled_columns import LOAD_N, ZONE, column_model, column_scenario
 
+from bridge_demolition_addon.model.scenario import Removal
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
 from bridge_demolition_addon.model.stages.misfires import ALL_FIRE, misfire_sentences, misfires
 from bridge_demolition_addon.model.stages.stages import criticality, stages_of
-from bridge_demolition_addon.model.stages.standing import StandingBridge
+from bridge_demolition_addon.model.stages.standing import StandingBridge, made_elastic
 from bridge_demolition_addon.model.stages.tables import write_tables
 from bridge_demolition_addon.report.sections.stages import stages_section
 
@@ -71,3 +74,114 @@ def test_tables_and_report_have_the_misfires(tmp_path):
 def test_without_zones_nothing_can_fail(tmp_path):
     scenario = column_scenario(tmp_path)
     assert misfires(scenario, StandingBridge(column_model(scenario), scenario.joints), lambda done, of: None) == []
+
+
+G = 9.80665
+BAR_M2, BAR_M4 = np.pi * 0.025**2 / 4.0, np.pi * 0.025**4 / 64.0
+
+
+def pressed_n(height_m):
+    """Weight of the block and of the column above a zone about 1.5 m, N."""
+    return LOAD_N + 0.49 * (4.0 - 1.5 - height_m / 2.0) * 2400.0 * G
+
+
+@pytest.mark.parametrize(("height_m", "holes"), [(0.4, 1), (0.9, 3), (1.5, 5)])
+def test_bare_bars_carry_up_to_yield_or_buckling(tmp_path, height_m, holes):
+    """8 bars of 25 mm, by hand: 8 A f_y, or 8 π² E I / (h / 2)² where that is less; factors by weight."""
+    zone = replace(ZONE, height_m=height_m, holes_a_row=holes, charge_g=100.0, bars=8, bar_diameter_mm=25.0)
+    scenario = column_scenario(tmp_path, zone)
+    model = column_model(scenario)
+    _, fired = stages_of(scenario, StandingBridge(model, scenario.joints), lambda done, of: None)
+    (bars,) = fired.bars
+    most_n = 8.0 * min(500e6 * BAR_M2, np.pi**2 * 200e9 * BAR_M4 / (height_m / 2.0) ** 2)
+    assert bars.force_n == pytest.approx(-pressed_n(height_m), rel=1e-3)
+    assert bars.resisted_n == pytest.approx(most_n)
+    assert fired.standing.held[model.member_of_shard == 1].all()
+    assert fired.collapse_factor == pytest.approx(most_n / pressed_n(height_m), rel=0.015)
+    shortened_m = pressed_n(height_m) * height_m / (200e9 * 8.0 * BAR_M2)
+    assert fired.standing.sag_m > shortened_m
+
+
+def test_bars_that_resist_less_than_the_weight_are_no_support(tmp_path):
+    """7 bars of 25 mm over 1.5 m resist 471 kN of 520 kN."""
+    scenario = column_scenario(tmp_path, replace(ZONE, bars=7, bar_diameter_mm=25.0))
+    model = column_model(scenario)
+    bridge = StandingBridge(model, scenario.joints)
+    _, fired = stages_of(scenario, bridge, lambda done, of: None)
+    assert not fired.standing.held[model.member_of_shard == 1].any()
+    assert fired.bars == ()
+    assert fired.collapse_factor == pytest.approx(471.0e3 / pressed_n(1.5), rel=0.015)
+    all_fire, _ = misfires(scenario, bridge, lambda done, of: None)
+    assert all_fire.falls_kg == pytest.approx(pressed_n(1.5) / G, rel=1e-6)
+
+
+def test_hanging_bars_carry_up_to_yield(tmp_path):
+    """A column that hangs from its block, which is held: 2 bars of 12 mm carry its 40 kN up to 2 A f_y = 113 kN."""
+    from bridge_demolition_addon.engineering.geometry.solids import box
+    from bridge_demolition_addon.model.bridge.member import Member
+    from bridge_demolition_addon.model.scenario import Support
+    from bridge_demolition_addon.model.structure.model import build_model
+
+    scenario = replace(
+        column_scenario(tmp_path, replace(ZONE, middle_m=4.0, bars=2, bar_diameter_mm=12.0)),
+        supports=(Support(member="block"),),
+    )
+    model = build_model(
+        scenario,
+        [
+            Member("column", "pier", box([0.7, 0.7, 4.0], [0.0, 0.0, 3.0]), 2400.0),
+            Member("block", "deck", box([4.0, 4.0, 1.0], [0.0, 0.0, 5.5]), 2400.0),
+        ],
+    )
+    _, fired = stages_of(scenario, StandingBridge(model, scenario.joints), lambda done, of: None)
+    (bars,) = fired.bars
+    hanging_n, most_n = 0.49 * 2.25 * 2400.0 * G, 2.0 * 500e6 * np.pi * 0.012**2 / 4.0
+    assert bars.force_n == pytest.approx(hanging_n, rel=1e-3)
+    assert bars.resisted_n == pytest.approx(most_n)
+    assert fired.collapse_factor == pytest.approx(most_n / hanging_n, rel=0.015)
+
+
+def test_what_comes_down_at_most_is_that_on_bars_that_sway_or_are_pressed_twice(tmp_path):
+    """Over 0.9 m the bars resist 1.5 MN, more than twice the load, but a column alone sways on them: as a cantilever
+    of π² E I / h² for both ends fixed they resist 374 kN of 523 kN."""
+    zone = replace(ZONE, height_m=0.9, holes_a_row=3, bars=8, bar_diameter_mm=25.0)
+    scenario = column_scenario(tmp_path, zone)
+    fired, failed = misfires(scenario, StandingBridge(column_model(scenario), scenario.joints), lambda done, of: None)
+    assert fired.falls_kg == 0.0
+    assert fired.falls_at_most_kg == pytest.approx(pressed_n(0.9) / G, rel=1e-6)
+    assert failed.falls_at_most_kg == 0.0
+    assert misfire_sentences([fired])[0] == (
+        "if all zones fire: nothing comes down at rest, and up to 53.4 t where bars are pressed at once and sway; "
+        "block stand"
+    )
+
+
+def test_bars_of_what_was_taken_away_are_gone(tmp_path):
+    zone = replace(ZONE, height_m=0.9, holes_a_row=3, bars=8, bar_diameter_mm=25.0)
+    scenario = replace(column_scenario(tmp_path, zone), removals=(Removal(time_s=0.6, members=("block",)),))
+    model = column_model(scenario)
+    *_, fired, last = stages_of(scenario, StandingBridge(model, scenario.joints), lambda done, of: None)
+    assert fired.bars[0].force_n == pytest.approx(-pressed_n(0.9), rel=1e-3)
+    assert last.bars[0].force_n == pytest.approx(-(pressed_n(0.9) - LOAD_N), rel=1e-2)
+
+
+def test_what_stands_of_the_viaduct_if_a_zone_fails():
+    """Walls of 0.8 × 5 m. A foot that fails leaves its wall up to the middle zone; a middle that fails comes down."""
+    scenario = read_scenario(EXAMPLES / "drilled" / "viaduct_pier.toml")
+    scenario = replace(scenario, fracture=replace(scenario.fracture, shards=60))
+    model = checked_model(made_elastic(scenario))
+    all_fire, *failed = misfires(scenario, StandingBridge(model, scenario.joints), lambda done, of: None)
+    zones = {zone.name: zone.ends_along_m for zone in scenario.blast_zones}
+    kg_m = 0.8 * 5.0 * 2450.0
+    stumps_kg = kg_m * sum(begin_m for name, (begin_m, _) in zones.items() if "foot" in name)
+    assert all_fire.stands_kg == pytest.approx(stumps_kg)
+    assert [misfire.fails for misfire in failed] == list(zones)
+    for misfire in failed:
+        begin_m, end_m = zones[misfire.fails]
+        pier = misfire.fails.split()[0]
+        if "foot" in misfire.fails:
+            left_kg = kg_m * (zones[f"{pier} middle"][0] - begin_m)
+            assert misfire.stands_kg == pytest.approx(stumps_kg + left_kg)
+        else:
+            assert misfire.falls_kg == pytest.approx(all_fire.falls_kg + kg_m * (end_m - begin_m))
+        assert misfire.falls_at_most_kg == misfire.falls_kg

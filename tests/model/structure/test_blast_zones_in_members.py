@@ -8,7 +8,7 @@ import pytest
 from support.drilled_columns import ZONE, column_members, column_model, column_scenario
 
 from bridge_demolition_addon.engineering.drilled_charges.specific_charge import Effect
-from bridge_demolition_addon.engineering.geometry.solids import cylinder
+from bridge_demolition_addon.engineering.geometry.solids import box, cylinder
 from bridge_demolition_addon.errors import GeometryError, ScenarioError
 from bridge_demolition_addon.model.bridge.member import Member
 from bridge_demolition_addon.model.materials.bar_layers import BarLayer
@@ -16,7 +16,13 @@ from bridge_demolition_addon.model.scenario import Support
 from bridge_demolition_addon.model.scenario.fracture import FracturePoint
 from bridge_demolition_addon.model.sequence.checked_model import check_actions
 from bridge_demolition_addon.model.sequence.events import model_structure, schedule
-from bridge_demolition_addon.model.structure.blast_zones import grams_per_tonne, placed_zone, zone_firings
+from bridge_demolition_addon.model.structure.blast_zones import (
+    POSSIBLE_G_T,
+    RECORDED_G_T,
+    grams_per_tonne,
+    placed_zone,
+    zone_firings,
+)
 
 MEMBERS = column_members()
 
@@ -215,3 +221,25 @@ def test_no_bars_stand_at_the_end_of_a_member(tmp_path):
     model = column_model(scenario)
     (event,) = schedule(zone_firings(scenario, model.members), model_structure(model))
     assert event.bars is None
+
+
+@pytest.mark.parametrize(
+    ("mass_t", "explosive_kg", "expected_g_t"),
+    [
+        (17_000.0, 150.0, 8.8),  # Rahmede viaduct, 2023
+        (14_500.0, 45.0, 3.1),  # Eisern viaduct, 2023
+        (3_000.0, 250.0, 83.0),  # motorway bridge of the 1960s, whose deck was blasted too
+        (56_000.0, 600.0, 10.7),  # cooling towers of Gundremmingen, 2025
+        (37_700.0, 275.0, 7.3),  # towers of Andorra
+        (6_000.0, 75.0, 12.5),  # preheaters there, of steel
+        (4_620.0, 82.6, 17.9),  # Cleveland Inner Belt, of steel, 2014
+    ],
+)
+def test_recorded_jobs_are_within_what_is_possible(mass_t, explosive_kg, expected_g_t):
+    """Explosive by the mass of the structure; all but the one with its deck are within 3 to 18 g/t."""
+    one = Member("structure", "pier", box([1.0, 1.0, 1.0], [0.0, 0.0, 0.5]), 1e3 * mass_t)
+    rate = grams_per_tonne(explosive_kg, [one])
+    assert rate == pytest.approx(expected_g_t, abs=0.4)
+    (least, most), (lowest, highest) = RECORDED_G_T, POSSIBLE_G_T
+    assert lowest < rate < highest
+    assert (least <= rate <= most) == (mass_t != 3_000.0)
