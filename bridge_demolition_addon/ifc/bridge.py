@@ -33,6 +33,7 @@ from .materials import MaterialTable, material_table
 from .outcome import CONNECTION, Outcome
 from .placement import Placement, placement_of
 from .quantities import quantities_of, units_of
+from .rule_bars import bars_by_rule
 from .settings import ImportSettings
 from .several_bridges import CARRYING, chosen_elements
 from .shapes import KeptShapes
@@ -96,6 +97,7 @@ def _bridge(path: Path, table: MaterialTable, settings: ImportSettings, kept: Ke
     if settings.strict:
         result.add_bearings(bearings, solids, placement, gap_m, table)
     else:
+        result.leave_out_light_bracing(settings.shards)
         result.fit_together()
         result.close_gaps(gap_m)
         result.add_bearings(bearings, solids, placement, gap_m, table)
@@ -107,8 +109,14 @@ def _bridge(path: Path, table: MaterialTable, settings: ImportSettings, kept: Ke
         bars, said = bar_layers(source, elements, dict(result.members()), placement)
         result.notes += said
     scenario, meshes, held = _scenario(source, settings, result, site, chosen.title or _title(source))
+    if bars:
+        scenario = replace(scenario, reinforcement=tuple(bars))
+    if not settings.strict:
+        more, said = bars_by_rule(scenario, [member for _, member in result.members()])
+        scenario = replace(scenario, reinforcement=(*scenario.reinforcement, *more))
+        result.notes += said
     return ImportedBridge(
-        scenario=replace(scenario, reinforcement=tuple(bars)) if bars else scenario,
+        scenario=scenario,
         meshes=meshes,
         outcomes=tuple(result.outcomes.values()),
         ground_m=ground_m,

@@ -55,7 +55,9 @@ class _Gap:
     def filled(self, into_m: float) -> Manifold:
         """Return the solid of the space, so far into the girder and the deck."""
         nodes = self.plate.vertices
-        low, high = self.top - into_m, np.maximum(self.underside, self.top) + into_m
+        # Where the plan goes beyond the flange, the face below is that of another one.
+        low = np.maximum(self.top - into_m, self.underside - HIGHEST_M)
+        high = np.maximum(self.underside, self.top) + into_m
         heights = low + nodes[:, 2] * (high - low)
         vertices = np.ascontiguousarray(np.column_stack((nodes[:, :2], heights)))
         return Manifold(Mesh64(vertices, np.ascontiguousarray(self.plate.triangles.astype(np.uint64))))
@@ -97,7 +99,7 @@ def _haunched(girder: TriangleMesh, deck: TriangleMesh) -> tuple[TriangleMesh, f
             continue
         sound = sound_simplified(from_manifold(max(bodies, key=lambda body: body.volume())))
         if sound is not None:
-            return sound, float(gap.heights_m.max())
+            return sound, float(min(gap.heights_m.max(), HIGHEST_M))
     return None
 
 
