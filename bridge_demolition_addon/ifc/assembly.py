@@ -168,8 +168,8 @@ class Assembly:
             )
         kind = braced[0][1].kind
         self.notes.append(
-            f"{len(light)} parts of bracing, each lighter than {limit_kg:.0f} kg, are left out: their {mass_kg / 1e3:.1f} t "
-            f"are on members of the kind {kind}, which are {100.0 * (share - 1.0):.1f} % denser"
+            f"{len(light)} parts of bracing, each lighter than {limit_kg:.0f} kg, are left out: their "
+            f"{mass_kg / 1e3:.1f} t are on members of the kind {kind}, which are {100.0 * (share - 1.0):.1f} % denser"
         )
 
     def fit_together(self) -> None:

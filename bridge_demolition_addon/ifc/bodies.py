@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -30,6 +30,8 @@ class Bodies:
     repairs: dict[int, tuple[str, ...]]
     missing: dict[int, str]
     origin: np.ndarray
+    unsound: dict[int, TriangleMesh] = field(default_factory=dict)
+    """Meshes of those that have a shape, but no body."""
 
 
 def bodies_of(
@@ -59,6 +61,7 @@ def bodies_of(
                 repaired = sound_solid(mesh, element.facts.name, volumes.get(number))
         except GeometryError as error:
             bodies.missing[number] = str(error).removeprefix(f"{element.facts.name}: ")
+            bodies.unsound[number] = mesh
             continue
         bodies.solids[number], bodies.repairs[number] = repaired.solid, repaired.repairs
     kept.begins(len(elements), len(elements), None)

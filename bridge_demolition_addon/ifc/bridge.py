@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from itertools import groupby
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import chain, count, groupby
 from pathlib import Path
 
 from ..engineering.geometry.mesh import TriangleMesh
@@ -28,9 +28,9 @@ from .bodies import Bodies, bodies_of
 from .contacts import NearbyMembers
 from .element_materials import substances
 from .elements import Element, elements_of
-from .map_place import site_of
+from .map_place import ground_of, site_of
 from .materials import MaterialTable, material_table
-from .outcome import CONNECTION, Outcome
+from .outcome import CONNECTION, LEFT_OUT, Outcome
 from .placement import Placement, placement_of
 from .quantities import quantities_of, units_of
 from .rule_bars import bars_by_rule
@@ -67,6 +67,8 @@ class ImportedBridge:
     ground_source: str
     site_source: str
     notes: tuple[str, ...]
+    left_out: dict[str, TriangleMesh] = field(default_factory=dict)
+    """Elements that have a shape, but are no members, where they stand, by different names."""
 
 
 def read_bridge(path: Path, settings: ImportSettings, kept: KeptShapes | None = None) -> ImportedBridge:
@@ -90,6 +92,7 @@ def _bridge(path: Path, table: MaterialTable, settings: ImportSettings, kept: Ke
     ground_m, ground_source = _ground(wanted, bodies, settings)
     placement, solids = _placed(path, wanted, bodies, ground_m)
     site, site_source = site_of(source, placement)
+    ground, of_ground = ground_of(source, placement)
     result = Assembly(elements, made_of, quantities, bodies)
     result.add_members(solids)
     bearings = [element for element in wanted if element.kind == "bearing" and element.entity.id() in solids]
@@ -109,6 +112,8 @@ def _bridge(path: Path, table: MaterialTable, settings: ImportSettings, kept: Ke
         bars, said = bar_layers(source, elements, dict(result.members()), placement)
         result.notes += said
     scenario, meshes, held = _scenario(source, settings, result, site, chosen.title or _title(source))
+    if ground:
+        scenario = replace(scenario, ground=ground)
     if bars:
         scenario = replace(scenario, reinforcement=tuple(bars))
     if not settings.strict:
@@ -122,8 +127,27 @@ def _bridge(path: Path, table: MaterialTable, settings: ImportSettings, kept: Ke
         ground_m=ground_m,
         ground_source=ground_source,
         site_source=site_source,
-        notes=(*source.notes, *chosen.notes, *result.notes, *held),
+        notes=(*source.notes, *chosen.notes, *of_ground, *result.notes, *held),
+        left_out=_left_out(result, bodies, placement, solids),
     )
+
+
+def _left_out(
+    result: Assembly, bodies: Bodies, placement: Placement, solids: Mapping[int, TriangleMesh]
+) -> dict[str, TriangleMesh]:
+    """Return the meshes of elements that have a shape and are left out, by different names."""
+    near = replace(placement, origin_m=placement.origin_m - bodies.origin)
+    meshes: dict[str, TriangleMesh] = {}
+    for number, outcome in result.outcomes.items():
+        if outcome.became != LEFT_OUT:
+            continue
+        mesh = solids.get(number)
+        if mesh is None and number in bodies.unsound:
+            mesh = near.placed(bodies.unsound[number])
+        if mesh is not None:
+            name = plain_text(outcome.facts.name) or outcome.facts.classes[0]
+            meshes[next(text for text in chain([name], (f"{name} {n}" for n in count(2))) if text not in meshes)] = mesh
+    return meshes
 
 
 def _check_kinds(path: Path, elements: Sequence[Element], settings: ImportSettings) -> None:

@@ -25,8 +25,8 @@ _MOSTLY = 0.9
 _LOOKS_UP = 0.7
 _LOW_M = 0.02
 _INTO_M = (0.02, 0.013, 0.03, 0.04, 0.05)
-"""How far a haunch goes into girder and deck before that is cut off: so that it ends within them in spite of chords. The
-others are tried where the first gives no sound solid."""
+"""How far a haunch goes into girder and deck before that is cut off: so that it ends within them in spite of chords.
+The others are tried where the first gives no sound solid."""
 
 _INSET_M, _HEALED_M, _STEP_M, _LEAST_M2 = 0.005, 0.01, 0.5, 0.05
 _SIMPLER_M = 1e-4

@@ -31,10 +31,10 @@ PERCENT = {
 }
 """Steel by area of the section across it, both faces together, along a member, across it in plan, and upright.
 
-Bars are spread over a section, so that they have half the lever arm of bars at both faces: those along what spans are as
-many as both faces of a section have that is designed for 60 to 80 % of its moment at each, 80 to 150 kg of steel in each
-m³ of a deck. Girders have more, for the prestress that they had. Walls have those of EN 1992-1-1:2004, 9.6, and half as
-much again. Footings and approach slabs never move, and have none.
+Bars are spread over a section, so that they have half the lever arm of bars at its faces: a deck has as many as one
+with 0.75 % at each face, 150 kg of steel in each m³ with those across. Girders have more, for the prestress that they
+had. Walls have those of EN 1992-1-1:2004, 9.6, and half as many again. Footings and approach slabs never move, and have
+none.
 """
 
 
@@ -82,6 +82,6 @@ def _note(chosen: Sequence[Member]) -> str:
     kinds = dict.fromkeys(member.kind for member in chosen)
     texts = [f"{kind} {PERCENT[kind][_ALONG]:g} % along, {PERCENT[kind][_UPRIGHT]:g} % upright" for kind in kinds]
     return (
-        f"the file has no bars in {len(chosen)} members of concrete: they have bars by rule, spread over their sections, "
-        f"{'; '.join(texts)}. [[reinforcement]] says it better"
+        f"the file has no bars in {len(chosen)} members of concrete: they have bars by rule, spread over their "
+        f"sections, {'; '.join(texts)}. [[reinforcement]] says it better"
     )

@@ -3,7 +3,7 @@
 
 import numpy as np
 import pytest
-from support.ifc_bridges import VOLUMES_M3, IfcBridge, whole_bridge
+from support.ifc_bridges import MASS_KG, VOLUMES_M3, IfcBridge, whole_bridge
 
 from bridge_demolition_addon.engineering.geometry.mesh import TriangleMesh, joined_meshes
 from bridge_demolition_addon.engineering.geometry.solids import box, cylinder, to_manifold
@@ -127,6 +127,50 @@ def test_a_column_within_a_wall_is_cut_out_of_the_wall(tmp_path):
     names = [table.name for table in bridge.scenario.geometry]
     assert names.index("Stiff") < names.index("Abutment 1")
     assert any("Stiff lies within Abutment 1: it is cut out of that" in note for note in bridge.notes)
+
+
+@pytest.mark.parametrize("gap_m, has_haunch", [(0.004, True), (0.12, True), (0.5, False)])
+def test_a_girder_goes_up_to_its_deck_by_a_haunch(gap_m, has_haunch, tmp_path):
+    """Under a deck that lies higher: 0.4 m wide less 5 mm at each side, 21 m long less 2 cm and 5 mm at each end."""
+    made = whole_bridge()
+    (deck,) = (slab for slab in made.file.by_type("IfcSlab") if slab.Name == "Carriageway")
+    deck.Representation.Representations[0].Items[0].Position.Location.Coordinates = (10.0, 0.0, 4.4 + gap_m)
+    bridge = read(made, tmp_path)
+    girder = outcome(bridge, "Girder left").member
+    added = girder.volume_m3 - VOLUMES_M3["girder"] / 2.0
+    assert added == pytest.approx(gap_m * (0.4 - 0.01) * (21.0 - 0.05) if has_haunch else 0.0, abs=1e-4)
+    if has_haunch:
+        top = outcome(bridge, "Carriageway").member.solid
+        assert to_manifold(girder.solid).min_gap(to_manifold(top), 1.0) < 1e-6
+        assert any("Girder left has a haunch" in note for note in bridge.notes)
+    as_it_is = outcome(read(made, tmp_path, strict=True), "Girder left").member
+    assert as_it_is.volume_m3 == pytest.approx(VOLUMES_M3["girder"] / 2.0)
+
+
+def test_light_bracing_is_mass_on_the_girders(tmp_path):
+    """A rod of 5 cm × 5 cm × 1.6 m of steel, 31.4 kg, between two girders that have 105.504 t together."""
+    made = whole_bridge()
+    rod = (0.05, 1.6, 0.05), (5.0, 0.0, 4.0), "SUPERSTRUCTURE"
+    made.box("IfcMember", "Rod", *rod, material=made.material("Steel"))
+    bridge = read(made, tmp_path, kinds=(("Rod", "bracing"),))
+    assert outcome(bridge, "Rod").became == "left out"
+    assert outcome(bridge, "Girder left").member.density_kg_m3 == pytest.approx(7850.0 * (1.0 + 31.4 / 105_504.0))
+    assert sum(o.member.mass_kg for o in bridge.outcomes if o.member) == pytest.approx(MASS_KG + 31.4)
+    assert any("1 parts of bracing" in note for note in bridge.notes)
+
+
+def test_of_several_spans_without_piers_only_the_beginning_is_pinned(tmp_path):
+    """Two spans of 10 m below one deck: with both pinned at their first ends it would be an arch between these."""
+    made = IfcBridge()
+    concrete = made.material("Concrete")
+    for name, along in (("A", 5.0), ("B", 15.1)):
+        made.box("IfcBeam", name, (10.0, 0.4, 0.8), (along, 0.0, 3.6), "SUPERSTRUCTURE", material=concrete)
+    made.box("IfcSlab", "Plate", (20.1, 2.0, 0.2), (10.05, 0.0, 4.4), "DECK", material=concrete)
+    bridge = read(made, tmp_path)
+    by_name = {bearing.members[0]: [] for bearing in bridge.scenario.bearings}
+    for bearing in bridge.scenario.bearings:
+        by_name[bearing.members[0]].append(bearing.kind)
+    assert by_name == {"A": ["pinned", "rocker"], "B": ["rocker", "rocker"]}
 
 
 def test_a_superstructure_without_piers_gets_supports_under_its_ends(tmp_path):
@@ -321,10 +365,24 @@ def test_reinforcing_bars_are_layers_of_their_members(turn_deg, tmp_path):
         bar((1.0 + 3.0 * number, -1.9, 4.43), (1.0 + 3.0 * number, 1.9, 4.43), 0.016)
     bar((0.0, 0.0, 4.45), (1.0, 1.0, 4.45), 0.02)
     bridge = read(made, tmp_path)
-    along, across = bridge.scenario.reinforcement
+    along, across = (layer for layer in bridge.scenario.reinforcement if "Carriageway" in layer.members)
     assert (along.members, along.along, along.side) == (("Carriageway",), "x", "top")
     assert (along.depth_m, along.area_mm2) == pytest.approx((0.05, 3141.6), rel=1e-3)
     assert (across.along, across.side) == ("y", "bottom")
     assert (across.depth_m, across.area_mm2) == pytest.approx((0.03, 1146.1), rel=1e-3)
     assert any("24 reinforcing bars are 2 layers" in note for note in bridge.notes)
     assert any("bent, inclined or in no member" in note for note in bridge.notes)
+
+
+def test_members_of_concrete_without_bars_have_them_by_ratio(tmp_path):
+    """1.5 % of a deck along it are 15 000 mm² of bars in each m² across them; girders of steel have none."""
+    bridge = read(whole_bridge(), tmp_path)
+    layers = {
+        (layer.along, name): layer.spread_mm2_m2 for layer in bridge.scenario.reinforcement for name in layer.members
+    }
+    assert (layers["x", "deck"], layers["y", "deck"], layers["z", "deck"]) == (15_000.0, 5_000.0, 1_500.0)
+    assert layers["z", "pier"] == 15_000.0
+    assert layers["y", "pier cap"] == 15_000.0  # which is longest across the road
+    assert not {"girder", "footing"} & {name for _, name in layers}
+    assert any("bars by rule" in note for note in bridge.notes)
+    assert not read(whole_bridge(), tmp_path, strict=True).scenario.reinforcement

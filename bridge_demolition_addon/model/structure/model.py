@@ -193,7 +193,9 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
         soil=soil,
         bars=bars,
         bearings=bearings,
-        crack_bars=_crack_bars(scenario, bars, within, connections, joint_of_connection, bearings) if stiffness else None,
+        crack_bars=_crack_bars(scenario, bars, within, connections, joint_of_connection, bearings)
+        if stiffness
+        else None,
     )
 
 
