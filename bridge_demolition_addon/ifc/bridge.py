@@ -10,6 +10,7 @@ from pathlib import Path
 
 from ..engineering.geometry.mesh import TriangleMesh
 from ..errors import IfcError
+from ..model.bridge.member import Member
 from ..model.materials.bar_layers import BarLayer
 from ..model.scenario import (
     ConnectionBetween,
@@ -28,6 +29,7 @@ from .bodies import Bodies, bodies_of
 from .contacts import NearbyMembers
 from .element_materials import substances
 from .elements import Element, elements_of
+from .fineness import fracture_of
 from .map_place import ground_of, site_of
 from .materials import MaterialTable, material_table
 from .outcome import CONNECTION, LEFT_OUT, Outcome
@@ -234,7 +236,7 @@ def _scenario(
         title=title,
         time=TimeSettings(duration_s=_DURATION_S),
         geometry=geometry,
-        fracture=FractureSettings(shards=max(settings.shards, len(members))),
+        fracture=_fracture(settings, members, [member.name for member in result.added]),
         materials=tuple({own.name: own for outcome in kept if (own := outcome.part[1].row.own)}.values()),
         connections=_connections(main, between, strict=settings.strict),
         shards=ShardSettings(start_deactivated=settings.strict),
@@ -243,6 +245,12 @@ def _scenario(
         site=site,
     )
     return scenario, meshes, [*tables.notes, *held, *loose]
+
+
+def _fracture(settings: ImportSettings, members: Sequence[Member], added: Sequence[str]) -> FractureSettings:
+    if settings.strict:
+        return FractureSettings(shards=max(settings.shards, len(members)))
+    return fracture_of(members, added, settings.shards)
 
 
 def _connections(main: str, between: Sequence[ConnectionBetween], *, strict: bool) -> ConnectionSettings:
