@@ -159,7 +159,7 @@ class Assembly:
         mass_kg = sum(member.mass_kg for _, member in light)
         share = 1.0 + mass_kg / sum(member.mass_kg for _, member in braced)
         for number, member in braced:
-            heavier = replace(member, density_kg_m3=share * member.density_kg_m3)
+            heavier = replace(member, density_kg_m3=share * member.mass_kg / member.volume_m3)
             self.outcomes[number] = replace(self.outcomes[number], member=heavier)
         for number, _ in light:
             why = "bracing that is much lighter than a shard: its mass is on what it braces"

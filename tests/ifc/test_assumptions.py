@@ -386,3 +386,11 @@ def test_members_of_concrete_without_bars_have_them_by_ratio(tmp_path):
     assert not {"girder", "footing"} & {name for _, name in layers}
     assert any("bars by rule" in note for note in bridge.notes)
     assert not read(whole_bridge(), tmp_path, strict=True).scenario.reinforcement
+
+
+def test_a_long_girder_is_cut_by_its_length(tmp_path):
+    """A girder of 21 m × 0.4 m × 0.8 m: at least 21 / (3 × 0.8) = 8.75 shards, though 5 % of 20 are one."""
+    fracture = read(whole_bridge(), tmp_path, shards=20).scenario.fracture
+    counts = {rule.member: rule.shards for rule in fracture.members}
+    assert counts["Girder left"] == counts["Girder right"] == 9
+    assert 20 + len(counts) <= fracture.shards <= 20 + sum(counts.values())
