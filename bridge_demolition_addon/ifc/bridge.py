@@ -30,6 +30,7 @@ from .contacts import NearbyMembers
 from .element_materials import substances
 from .elements import Element, elements_of
 from .fineness import fracture_of
+from .kinds_by_shape import with_kinds_by_shape
 from .map_place import ground_of, site_of
 from .materials import MaterialTable, material_table
 from .outcome import CONNECTION, LEFT_OUT, Outcome
@@ -82,7 +83,11 @@ def read_bridge(path: Path, settings: ImportSettings, kept: KeptShapes | None = 
 
 def _bridge(path: Path, table: MaterialTable, settings: ImportSettings, kept: KeptShapes) -> ImportedBridge:
     source = open_source(path, settings)
-    chosen = chosen_elements(source, elements_of(source, settings), settings)
+    found = elements_of(source, settings)
+    by_shape: tuple[str, ...] = ()
+    if not settings.strict:
+        found, by_shape = with_kinds_by_shape(source, found, kept)
+    chosen = chosen_elements(source, found, settings)
     elements = chosen.elements
     _check_kinds(path, elements, settings)
     wanted = [element for element in elements if element.is_member]
@@ -129,7 +134,7 @@ def _bridge(path: Path, table: MaterialTable, settings: ImportSettings, kept: Ke
         ground_m=ground_m,
         ground_source=ground_source,
         site_source=site_source,
-        notes=(*source.notes, *chosen.notes, *of_ground, *result.notes, *held),
+        notes=(*source.notes, *chosen.notes, *by_shape, *of_ground, *result.notes, *held),
         left_out=_left_out(result, bodies, placement, solids),
     )
 

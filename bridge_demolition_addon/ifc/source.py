@@ -37,6 +37,9 @@ _SCHEMA = re.compile(rb"FILE_SCHEMA\s*\(\s*\(\s*'([^']*)'", flags=re.IGNORECASE)
 _AMERICAN = re.compile(rb"(IFCSIUNIT\s*\([^;]*?\.(?:SQUARE_|CUBIC_)?)METER(\.\s*\)\s*;)", flags=re.IGNORECASE)
 """A unit as some programs spell it; the standard's metre is METRE."""
 
+_MOST, _LARGEST_IN_METRES = 0.75, 200.0
+"""Part of all coordinates, and what it does not exceed in metres: parts of bridges are smaller, and placements few."""
+
 _BEYOND_ASCII = re.compile(r"[^\x00-\x7f]+")
 
 
@@ -91,6 +94,9 @@ def open_source(path: Path, settings: ImportSettings) -> IfcSource:
         notes = (*notes, f"{_NEWEST} has no {', '.join(lost)}: what is placed along these has no shape")
     own_m = _unit_of_file(model)
     unit_m = own_m if settings.unit is None else UNITS[settings.unit]
+    if unit_m is None and not settings.strict and (guessed := _guessed_unit(model)):
+        unit_m = UNITS[guessed]
+        notes = (*notes, f"the file has no unit of length that is known: taken for {guessed}; --unit says it better")
     if unit_m is None:
         raise IfcError(
             f"{path}: has no unit of length that is known; say which it is, one of {', '.join(UNITS)}, by --unit"
@@ -155,6 +161,15 @@ def _text(content: bytes) -> str:
     except UnicodeDecodeError:  # against the standard, but what programs of some countries write
         text = content.decode("latin-1")
     return _BEYOND_ASCII.sub(lambda match: f"\\X4\\{match.group().encode('utf-32-be').hex().upper()}\\X0\\", text)
+
+
+def _guessed_unit(model: Any) -> str:
+    """Return the unit that most coordinates of a file can be in, m or mm; empty where it has none."""
+    points = (point.Coordinates for point in model.by_type("IfcCartesianPoint"))
+    sizes = sorted(abs(float(value)) for values in points for value in values or () if value)
+    if not sizes:
+        return ""
+    return "mm" if sizes[int(_MOST * (len(sizes) - 1))] > _LARGEST_IN_METRES else "m"
 
 
 def _unit_of_file(model: Any) -> float | None:

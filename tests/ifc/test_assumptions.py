@@ -394,3 +394,41 @@ def test_a_long_girder_is_cut_by_its_length(tmp_path):
     counts = {rule.member: rule.shards for rule in fracture.members}
     assert counts["Girder left"] == counts["Girder right"] == 9
     assert 20 + len(counts) <= fracture.shards <= 20 + sum(counts.values())
+
+
+# Files that say little ------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("schema", ["IFC2X3", "IFC4X3"])
+def test_proxies_without_names_are_taken_by_their_shape(schema, tmp_path):
+    """Two abutments on footings, girders and a deck, all proxies that are called by numbers, and without materials."""
+    made = IfcBridge(schema=schema)
+    boxes = {
+        "10": ((3.0, 5.0, 0.5), (0.0, 0.0, 0.0), "footing"),
+        "11": ((3.0, 5.0, 0.5), (20.0, 0.0, 0.0), "footing"),
+        "20": ((1.0, 4.0, 3.1), (0.0, 0.0, 0.5), "wall"),
+        "21": ((1.0, 4.0, 3.1), (20.0, 0.0, 0.5), "wall"),
+        "30": ((21.0, 0.4, 0.8), (10.0, 1.0, 3.6), "girder"),
+        "31": ((21.0, 0.4, 0.8), (10.0, -1.0, 3.6), "girder"),
+        "40": ((21.0, 4.0, 0.2), (10.0, 0.0, 4.4), "deck"),
+    }
+    for name, (size, place, _) in boxes.items():
+        made.box("IfcBuildingElementProxy", name, size, place, "NOTDEFINED")
+    bridge = read(made, tmp_path)
+    assert {o.facts.name: o.member.kind for o in bridge.outcomes if o.member} == {
+        name: kind for name, (_, _, kind) in boxes.items()
+    }
+    assert any("nothing says what 7 elements are" in note for note in bridge.notes)
+    assert {support.member for support in bridge.scenario.supports} == {"footing"}
+    with pytest.raises(IfcError, match="has no element that is a member of a bridge"):
+        read(made, tmp_path, strict=True)
+
+
+@pytest.mark.parametrize("unit", ["METRE", "MILLI"])
+def test_a_unit_that_the_file_lacks_is_guessed(unit, tmp_path):
+    made = whole_bridge(unit=unit)
+    (assigned,) = made.file.by_type("IfcUnitAssignment")
+    assigned.Units = [one for one in assigned.Units if one.UnitType != "LENGTHUNIT"]
+    bridge = read(made, tmp_path)
+    assert sum(o.member.volume_m3 for o in bridge.outcomes if o.member) == pytest.approx(sum(VOLUMES_M3.values()))
+    assert any("has no unit of length that is known: taken for m" in note for note in bridge.notes)

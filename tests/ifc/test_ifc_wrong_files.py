@@ -79,7 +79,9 @@ def test_no_project(text, tmp_path):
 
 def test_no_unit_of_length_until_the_user_says_it(tmp_path):
     path = whole_bridge(unit=None).written(tmp_path / "bridge.ifc")
-    assert "has no unit of length that is known; say which it is, one of m, cm, mm, ft, in, by --unit" in refused(path)
+    assert "has no unit of length that is known; say which it is, one of m, cm, mm, ft, in, by --unit" in refused(
+        path, strict=True
+    )
     bridge = read_bridge(path, ImportSettings(unit="m"))
     assert bridge.scenario.geometry
 
