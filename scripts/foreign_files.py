@@ -176,6 +176,8 @@ def page() -> str:
 
 def _damaged() -> list[str]:
     """Return the paragraph on damaged files, as `scripts/fuzz_foreign.py --keep` has counted them."""
+    if not DAMAGED.exists():
+        return []
     with DAMAGED.open(encoding="utf-8", newline="") as file:
         counts = {row["result"]: int(row["files"]) for row in csv.DictReader(file)}
     faults = sum(count for result, count in counts.items() if "FAULT" in result)

@@ -36,7 +36,7 @@ from .materials import MaterialTable, material_table
 from .outcome import CONNECTION, LEFT_OUT, Outcome
 from .placement import Placement, placement_of
 from .quantities import quantities_of, units_of
-from .rule_bars import bars_by_rule
+from .rule_bars import SHARE, notes_on_bars
 from .settings import ImportSettings
 from .several_bridges import CARRYING, chosen_elements
 from .shapes import KeptShapes
@@ -124,9 +124,8 @@ def _bridge(path: Path, table: MaterialTable, settings: ImportSettings, kept: Ke
     if bars:
         scenario = replace(scenario, reinforcement=tuple(bars))
     if not settings.strict:
-        more, said = bars_by_rule(scenario, [member for _, member in result.members()])
-        scenario = replace(scenario, reinforcement=(*scenario.reinforcement, *more))
-        result.notes += said
+        added = {member.name for member in result.added}
+        result.notes += notes_on_bars(scenario, [one for _, one in result.members() if one.name not in added])
     return ImportedBridge(
         scenario=scenario,
         meshes=meshes,
@@ -266,7 +265,7 @@ def _connections(main: str, between: Sequence[ConnectionBetween], *, strict: boo
     return replace(
         rigid,
         stiffness="elastic",
-        ductile_share=1.0,
+        ductile_share=SHARE,
         ductile_elongation_m=_ELONGATION_M,
         warm_up_s=_WARM_UP_S,
         warm_up_damping=_WARM_UP_DAMPING,

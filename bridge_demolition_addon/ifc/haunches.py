@@ -71,7 +71,8 @@ def with_haunches(members: Sequence[Member]) -> tuple[list[Member], list[str]]:
         if member.kind != "girder":
             continue
         for deck in decks:
-            made = _haunched(done[index].solid, deck.solid)
+            others = [other.solid for other in members if other is not member and other is not deck]
+            made = _haunched(done[index].solid, deck.solid, others)
             if made is None:
                 continue
             solid, highest_m = made
@@ -83,14 +84,21 @@ def with_haunches(members: Sequence[Member]) -> tuple[list[Member], list[str]]:
     return done, notes
 
 
-def _haunched(girder: TriangleMesh, deck: TriangleMesh) -> tuple[TriangleMesh, float] | None:
-    """Return a girder that goes up to a deck, and the height of the haunch; None where it needs none."""
+def _haunched(
+    girder: TriangleMesh, deck: TriangleMesh, others: Sequence[TriangleMesh]
+) -> tuple[TriangleMesh, float] | None:
+    """Return a girder that goes up to a deck, and the height of the haunch; None where it needs none.
+
+    It has none where others take that room, such as girders that lie on one across them.
+    """
     if (girder.bounds[0, :2] > deck.bounds[1, :2]).any() or (girder.bounds[1, :2] < deck.bounds[0, :2]).any():
         return None
     if girder.bounds[0, 2] > deck.bounds[1, 2] or girder.bounds[1, 2] + HIGHEST_M < deck.bounds[0, 2]:
         return None
     gap = _gap(girder, deck)
     if gap is None or not gap.is_haunch:
+        return None
+    if any(_shared_m3(gap.filled(_INTO_M[0]), other) > _LEAST_M2 * _LOW_M for other in others):
         return None
     for into_m in _INTO_M:
         whole = (to_manifold(girder) + gap.filled(into_m)) - to_manifold(deck)
@@ -101,6 +109,14 @@ def _haunched(girder: TriangleMesh, deck: TriangleMesh) -> tuple[TriangleMesh, f
         if sound is not None:
             return sound, float(min(gap.heights_m.max(), HIGHEST_M))
     return None
+
+
+def _shared_m3(filled: Manifold, other: TriangleMesh) -> float:
+    low_x, low_y, low_z, high_x, high_y, high_z = filled.bounding_box()
+    low, high = np.array((low_x, low_y, low_z)), np.array((high_x, high_y, high_z))
+    if (other.bounds[0] >= high).any() or (other.bounds[1] <= low).any():
+        return 0.0
+    return float((filled ^ to_manifold(other)).volume())
 
 
 def _gap(girder: TriangleMesh, deck: TriangleMesh) -> _Gap | None:

@@ -374,18 +374,13 @@ def test_reinforcing_bars_are_layers_of_their_members(turn_deg, tmp_path):
     assert any("bent, inclined or in no member" in note for note in bridge.notes)
 
 
-def test_members_of_concrete_without_bars_have_them_by_ratio(tmp_path):
-    """1.5 % of a deck along it are 15 000 mm² of bars in each m² across them; girders of steel have none."""
+def test_steel_by_rule_is_that_which_yields_as_the_concrete_tears(tmp_path):
+    """Of a slab that tears at 5.2 N/mm², 1.04 % with 500 N/mm²; none is said of girders of steel."""
     bridge = read(whole_bridge(), tmp_path)
-    layers = {
-        (layer.along, name): layer.spread_mm2_m2 for layer in bridge.scenario.reinforcement for name in layer.members
-    }
-    assert (layers["x", "deck"], layers["y", "deck"], layers["z", "deck"]) == (15_000.0, 5_000.0, 1_500.0)
-    assert layers["z", "pier"] == 15_000.0
-    assert layers["y", "pier cap"] == 15_000.0  # which is longest across the road
-    assert not {"girder", "footing"} & {name for _, name in layers}
-    assert any("bars by rule" in note for note in bridge.notes)
-    assert not read(whole_bridge(), tmp_path, strict=True).scenario.reinforcement
+    (note,) = (note for note in bridge.notes if "the file has no bars" in note)
+    assert "in 5 members of reinforced concrete slab (abutment, pier, pier cap, deck): by rule 1 % of each" in note
+    assert bridge.scenario.connections.ductile_share == 1.0
+    assert not any("no bars" in note for note in read(whole_bridge(), tmp_path, strict=True).notes)
 
 
 def test_a_long_girder_is_cut_by_its_length(tmp_path):
