@@ -34,7 +34,8 @@ def notes_on_bars(scenario: Scenario, members: Sequence[Member]) -> Iterator[str
         kinds = ", ".join(dict.fromkeys(member.kind for member in found))
         yield (
             f"the file has no bars in {len(found)} members of {name} ({kinds}): by rule {percent:.2g} % of each "
-            "section is steel, across every crack, with the force at which the concrete tears; [[reinforcement]] says it better"
+            "section is steel, across every crack, with the force at which the concrete tears; [[reinforcement]] "
+            "says it better"
         )
 
 
