@@ -51,10 +51,6 @@ _NUDGE_M = 5e-4
 
 _SMALLEST_M3 = 1e-6
 
-_BRACED = ("girder", "arch", "deck")
-_LIGHT = 0.25
-"""Mass of bracing by that of a mean shard up to which it is no member."""
-
 
 @dataclass(slots=True)
 class Assembly:
@@ -143,34 +139,6 @@ class Assembly:
             for number, outcome in self.outcomes.items()
             if outcome.member and outcome.became != CONNECTION
         ]
-
-    def leave_out_light_bracing(self, shards: int) -> None:
-        """Leave out bracing that is much lighter than one of so many shards, and put its mass on what it braces.
-
-        Between shards a hundred times as heavy it would say nothing of the bridge, and throw its pieces about.
-        """
-        members = self.members()
-        limit_kg = _LIGHT * sum(member.mass_kg for _, member in members) / shards
-        light = [(number, member) for number, member in members if _is_light_bracing(member, limit_kg)]
-        of_kinds = ([one for one in members if one[1].kind == kind] for kind in _BRACED)
-        braced = next(filter(None, of_kinds), [])
-        if not light or not braced:
-            return
-        mass_kg = sum(member.mass_kg for _, member in light)
-        share = 1.0 + mass_kg / sum(member.mass_kg for _, member in braced)
-        for number, member in braced:
-            heavier = replace(member, density_kg_m3=share * member.mass_kg / member.volume_m3)
-            self.outcomes[number] = replace(self.outcomes[number], member=heavier)
-        for number, _ in light:
-            why = "bracing that is much lighter than a shard: its mass is on what it braces"
-            self.outcomes[number] = replace(
-                self.outcomes[number], member=None, substance=None, became=LEFT_OUT, why=why
-            )
-        kind = braced[0][1].kind
-        self.notes.append(
-            f"{len(light)} parts of bracing, each lighter than {limit_kg:.0f} kg, are left out: their "
-            f"{mass_kg / 1e3:.1f} t are on members of the kind {kind}, which are {100.0 * (share - 1.0):.1f} % denser"
-        )
 
     def fit_together(self) -> None:
         """Leave out doubles, and have members that lie within larger ones cut out of these: columns in walls."""
@@ -461,10 +429,6 @@ def _above_ground(solid: TriangleMesh) -> TriangleMesh | None:
     if kept.is_empty() or kept.bounding_box()[5] < _BELOW_GROUND_M:
         return None
     return from_manifold(kept)
-
-
-def _is_light_bracing(member: Member, limit_kg: float) -> bool:
-    return member.kind == "bracing" and member.mass_kg < limit_kg
 
 
 def _boxes_meet(one: TriangleMesh, other: TriangleMesh) -> bool:

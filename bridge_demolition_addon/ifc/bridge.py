@@ -31,6 +31,7 @@ from .element_materials import substances
 from .elements import Element, elements_of
 from .fineness import fracture_of
 from .kinds_by_shape import with_kinds_by_shape
+from .light_bracing import leave_out_light_bracing
 from .map_place import ground_of, site_of
 from .materials import MaterialTable, material_table
 from .outcome import CONNECTION, LEFT_OUT, Outcome
@@ -107,7 +108,7 @@ def _bridge(path: Path, table: MaterialTable, settings: ImportSettings, kept: Ke
     if settings.strict:
         result.add_bearings(bearings, solids, placement, gap_m, table)
     else:
-        result.leave_out_light_bracing(settings.shards)
+        leave_out_light_bracing(result, settings.shards)
         result.fit_together()
         result.close_gaps(gap_m)
         result.add_bearings(bearings, solids, placement, gap_m, table)

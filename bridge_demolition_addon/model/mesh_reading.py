@@ -68,7 +68,10 @@ def loaded(path: Path, *, is_cloud: bool) -> tuple[np.ndarray, np.ndarray]:
         return _points(whole, path), np.empty((0, 3), np.int64)
     if not isinstance(whole, trimesh.Trimesh) or not len(whole.faces):
         raise GeometryError(f"{path}: has no faces; export a closed surface.")
-    return _vertices(whole, path), np.asarray(whole.faces, dtype=np.int64)
+    vertices, triangles = _vertices(whole, path), np.asarray(whole.faces, dtype=np.int64)
+    if triangles.min() < 0 or triangles.max() >= len(vertices):
+        raise GeometryError(f"{path}: has faces with vertices that it does not have: it is damaged; export it again.")
+    return vertices, triangles
 
 
 def _points(whole: Any, path: Path) -> np.ndarray:

@@ -48,3 +48,16 @@ def test_a_reader_of_heights_that_crashes_is_named(tmp_path, monkeypatch):
 def test_a_reader_that_takes_too_long_is_ended(tmp_path):
     with pytest.raises(UnreadableError, match=r"took its reader longer than 0.01 s"):
         isolated.isolated("model.mesh_program", {"path": "x", "is_cloud": False, "kept": "y"}, 0.01)
+
+
+def test_a_face_without_its_vertices_is_a_damaged_file(tmp_path):
+    """A triangle of a binary PLY that names vertex 1000 of three."""
+    head = (
+        "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+    )
+    head += "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+    points = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], "<f4").tobytes()
+    path = tmp_path / "triangle.ply"
+    path.write_bytes(head.encode() + points + b"\x03" + np.array([0, 1, 1000], "<i4").tobytes())
+    with pytest.raises(DemolitionError, match=r"triangle\.ply: (has faces with vertices|cannot be)"):
+        read_mesh(path)
