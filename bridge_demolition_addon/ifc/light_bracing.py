@@ -36,7 +36,8 @@ def leave_out_light_bracing(assembly: Assembly, shards: int) -> None:
         outcomes[number] = replace(outcomes[number], member=None, substance=None, became=LEFT_OUT, why=why)
     assembly.notes.append(
         f"{len(light)} parts of bracing, each lighter than {limit_kg:.0f} kg, are left out: their "
-        f"{mass_kg / 1e3:.1f} t are on members of the kind {braced[0][1].kind}, which are {100.0 * (share - 1.0):.1f} % denser"
+        f"{mass_kg / 1e3:.1f} t are on members of the kind {braced[0][1].kind}, which are "
+        f"{100.0 * (share - 1.0):.1f} % denser"
     )
 
 
