@@ -18,6 +18,7 @@ ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT))
 
 ROWS = ROOT / "docs" / "data" / "foreign_files.csv"
+DAMAGED = ROOT / "docs" / "data" / "damaged_files.csv"
 PAGE = ROOT / "docs" / "foreign.md"
 
 COLUMNS = (
@@ -166,10 +167,28 @@ def page() -> str:
         "Where a file has no reinforcement, that which the import assumes holds the cracks; a bridge of which",
         "much is lost, such as the abutments of an OpenBrIM file, stands on supports that were added.",
         "",
+        *_damaged(),
         "Two of the files are in [tests/foreign/files](../tests/foreign/files), with their licences; the others may be",
         "used for tests, but not passed on. `python scripts/foreign_files.py` measures and writes this page.",
     ]
     return "\n".join(lines) + "\n"
+
+
+def _damaged() -> list[str]:
+    """Return the paragraph on damaged files, as `scripts/fuzz_foreign.py --keep` has counted them."""
+    if not DAMAGED.exists():
+        return []
+    with DAMAGED.open(encoding="utf-8", newline="") as file:
+        counts = {row["result"]: int(row["files"]) for row in csv.DictReader(file)}
+    faults = sum(count for result, count in counts.items() if "FAULT" in result)
+    texts = [f"{counts.get(f'{kind} {what}', 0)} {what}" for kind in ("ifc", "terrain") for what in ("read", "refused")]
+    return [
+        f"**Damaged files.** Of {sum(counts.values())} files that were damaged at random, IFC and terrain as grids,",
+        f"LandXML, GeoTIFF, points and meshes, {texts[0]} and {texts[1]} of IFC, {texts[2]} and {texts[3]} of terrain;",
+        f"{faults or 'none'} ended a process that the user sees, or showed a traceback",
+        "(`python scripts/fuzz_foreign.py --keep`, [data](data/damaged_files.csv)).",
+        "",
+    ]
 
 
 def main() -> None:

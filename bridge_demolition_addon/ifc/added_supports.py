@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -27,11 +28,10 @@ CLEARANCE_M = 5.0
 
 @dataclass(frozen=True, slots=True)
 class AddedSupport:
-    """A support that never moves, and the member that lies on it; `is_first` of each that carries one."""
+    """A support that never moves, and the member that lies on it."""
 
     solid: TriangleMesh
     above: str
-    is_first: bool
 
 
 def under_bearing(solid: TriangleMesh) -> TriangleMesh | None:
@@ -44,14 +44,14 @@ def under_bearing(solid: TriangleMesh) -> TriangleMesh | None:
 
 
 def under_ends(member: Member) -> list[AddedSupport]:
-    """Return supports under both ends of a member that carries the road, from the ground to its underside."""
+    """Return supports under the first and the other end of a member that carries the road, from the ground to it."""
     points = member.solid.vertices
     middle, along = _along(points[:, :2])
     arms = points[:, :2] - middle
     way = dot(arms, along)
     across = np.array((-along[1], along[0]))
     supports = []
-    for side, is_first in ((-1.0, True), (1.0, False)):
+    for side in (-1.0, 1.0):
         end = float((side * way).max())
         near = side * way >= end - WIDEST_M
         low = float(points[near, 2].min())
@@ -68,8 +68,19 @@ def under_ends(member: Member) -> list[AddedSupport]:
         column = box((WIDEST_M, width, top), (0.0, 0.0, top / 2.0))
         turn = turn_in_plane(-float(np.arctan2(along[1], along[0])))
         vertices = np.column_stack((transformed_back(turn, column.vertices[:, :2]) + centre, column.vertices[:, 2]))
-        supports.append((TriangleMesh(vertices, column.triangles), is_first))
-    return [AddedSupport(_below(solid, member.solid), member.name, is_first) for solid, is_first in supports]
+        supports.append(TriangleMesh(vertices, column.triangles))
+    return [AddedSupport(_below(solid, member.solid), member.name) for solid in supports]
+
+
+def with_one_pinned(supports: Sequence[AddedSupport]) -> list[tuple[AddedSupport, bool]]:
+    """Return the supports of what hangs together, and whether each is pinned: those at its beginning alone.
+
+    With others pinned too, such as at the first end of each span, the bridge would be an arch between them.
+    """
+    middles = [float(support.solid.bounds[:, 0].mean()) for support in supports]
+    spans = [abs(end - begin) for begin, end in zip(middles[::2], middles[1::2], strict=True)]
+    first = min(middles) + 0.5 * min(spans)
+    return [(support, middle < first) for support, middle in zip(supports, middles, strict=True)]
 
 
 def _below(column: TriangleMesh, solid: TriangleMesh) -> TriangleMesh:

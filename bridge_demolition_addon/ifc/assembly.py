@@ -11,21 +11,21 @@ from manifold3d import Manifold
 
 from ..engineering.geometry.level_contacts import level_contacts
 from ..engineering.geometry.mesh import TriangleMesh
-from ..engineering.geometry.repair import repaired_solid
 from ..engineering.geometry.solids import from_manifold, to_manifold
 from ..engineering.units import mass_text
-from ..errors import GeometryError
 from ..model.bridge.member import Member
 from ..model.scenario.bearings import PINNED, ROCKER, Bearing
 from ..model.scenario.connections import GROUND_NAME
 from ..model.schema import LINE_BREAKING_CATEGORIES, given
-from .added_supports import KIND, AddedSupport, under_bearing, under_ends
+from .added_supports import KIND, under_bearing, under_ends, with_one_pinned
 from .bearings import BearingElement, BearingTables, bearing_of, bearing_tables, seated, with_one_fixed
 from .bodies import Bodies
 from .contacts import TOUCHING_M, NearbyMembers
 from .element_materials import Substance
 from .elements import Element
-from .gaps import WAYS, brought_near, closed_gaps, cuts_well
+from .file_digits import is_sound, writable
+from .gaps import WAYS, brought_near, closed_gaps
+from .haunches import with_haunches
 from .kinds import ElementFacts
 from .materials import MaterialTable
 from .outcome import ADDED, CONNECTION, LEFT_OUT, MEMBER, Outcome
@@ -50,12 +50,6 @@ _NUDGE_M = 5e-4
 """How far a member is moved into what it is to touch: what they have in common is cut off."""
 
 _SMALLEST_M3 = 1e-6
-
-_DIGITS = 8
-"""Of coordinates in m, that OBJ files have."""
-
-_SIMPLER_M = (0.0, 1e-6, 1e-5, 1e-4, 1e-3)
-"""By how much a surface may move where it is no solid with these digits."""
 
 
 @dataclass(slots=True)
@@ -216,9 +210,9 @@ class Assembly:
         for number, outcome in list(self.outcomes.items()):
             if outcome.member is None:
                 continue
-            solid = _writable(outcome.mesh or outcome.member.solid)
-            if number in self._before and (solid is None or not _is_sound(solid)):
-                solid = _writable(self._before[number])
+            solid = writable(outcome.mesh or outcome.member.solid)
+            if number in self._before and (solid is None or not is_sound(solid)):
+                solid = writable(self._before[number])
                 self.notes.append(f"{outcome.member.name} is left as it was: made longer it would be no sound solid")
             if solid is None:
                 self._lose(number, "with the digits that a file holds its surface crosses itself")
@@ -244,13 +238,14 @@ class Assembly:
     def close_gaps(self, gap_m: float) -> None:
         """Bring members that end just above others down onto them."""
         members = self.members()
-        done, notes = closed_gaps([member for _, member in members], gap_m)
+        done, haunches = with_haunches([member for _, member in members])
+        done, notes = closed_gaps(done, gap_m)
         done, more = brought_near(done, gap_m)
         for (number, before), after in zip(members, done, strict=True):
             if after is not before:
                 self._before[number] = before.solid
                 self.outcomes[number] = replace(self.outcomes[number], member=after)
-        self.notes += [*notes, *more]
+        self.notes += [*haunches, *notes, *more]
 
     def add_bearings(
         self,
@@ -316,7 +311,7 @@ class Assembly:
             names = ", ".join(self._unheld[:3]) + (" and more" if len(self._unheld) > 3 else "")
             self.notes.append(
                 f"nothing holds {names}: {2 * len(self._unheld)} supports, which never move, are put under their ends, "
-                "pinned at the first end and free to move along the road at the other"
+                "pinned at the beginning of what hangs together and free to move along the road at all others"
             )
         self._lose_loose()
 
@@ -395,10 +390,9 @@ class Assembly:
                 break
         else:
             return
-        supports: list[AddedSupport] = [support for member in chosen for support in under_ends(member)]
-        for support in supports:
+        for support, is_pinned in with_one_pinned([support for member in chosen for support in under_ends(member)]):
             added, _ = self._add_support(support.solid, f"Support of {support.above}", table)
-            kind = PINNED if support.is_first else ROCKER
+            kind = PINNED if is_pinned else ROCKER
             self._more_bearings.append(Bearing(members=(support.above, added.name), kind=kind))
         self._unheld += [member.name for member in chosen]
 
@@ -435,25 +429,6 @@ def _above_ground(solid: TriangleMesh) -> TriangleMesh | None:
     if kept.is_empty() or kept.bounding_box()[5] < _BELOW_GROUND_M:
         return None
     return from_manifold(kept)
-
-
-def _writable(solid: TriangleMesh) -> TriangleMesh | None:
-    """Return a solid as a file holds it and can be read again; None where it cannot."""
-    for tolerance_m in _SIMPLER_M:
-        simpler = solid if tolerance_m == 0.0 else from_manifold(to_manifold(solid).simplify(tolerance_m))
-        rounded = TriangleMesh(simpler.vertices.round(_DIGITS), simpler.triangles)
-        try:
-            sound = repaired_solid(rounded, "").solid
-        except GeometryError:
-            continue
-        return solid if tolerance_m == 0.0 else sound
-    return None
-
-
-def _is_sound(solid: TriangleMesh) -> bool:
-    """Return whether a solid needs no repair with the digits that a file holds, and can be cut."""
-    rounded = TriangleMesh(solid.vertices.round(_DIGITS), solid.triangles)
-    return not repaired_solid(rounded, "").repairs and cuts_well(rounded)
 
 
 def _boxes_meet(one: TriangleMesh, other: TriangleMesh) -> bool:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -30,6 +30,8 @@ class Bodies:
     repairs: dict[int, tuple[str, ...]]
     missing: dict[int, str]
     origin: np.ndarray
+    unsound: dict[int, TriangleMesh] = field(default_factory=dict)
+    """Meshes of those that have a shape, but no body."""
 
 
 def bodies_of(
@@ -43,7 +45,9 @@ def bodies_of(
     if strict:
         _check_shapes(source, elements, kept)
     if not shapes:
-        raise IfcError(f"{source.path}: no element has a shape that can be worked out; export it again")
+        why = f", as later schemas have no {', '.join(source.lost_classes)}" if source.lost_classes else ""
+        how = "export it as IFC4X3" if source.lost_classes else "export it again"
+        raise IfcError(f"{source.path}: no element has a shape that can be worked out{why}; {how}")
     origin = np.floor(np.mean([mesh.bounds.mean(axis=0) for mesh in shapes.values()], axis=0))
     bodies = Bodies({}, {}, dict(kept.failed), origin)
     for done, element in enumerate(elements):
@@ -59,6 +63,7 @@ def bodies_of(
                 repaired = sound_solid(mesh, element.facts.name, volumes.get(number))
         except GeometryError as error:
             bodies.missing[number] = str(error).removeprefix(f"{element.facts.name}: ")
+            bodies.unsound[number] = mesh
             continue
         bodies.solids[number], bodies.repairs[number] = repaired.solid, repaired.repairs
     kept.begins(len(elements), len(elements), None)

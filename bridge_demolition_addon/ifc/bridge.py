@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from itertools import groupby
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import chain, count, groupby
 from pathlib import Path
 
 from ..engineering.geometry.mesh import TriangleMesh
 from ..errors import IfcError
+from ..model.bridge.member import Member
 from ..model.materials.bar_layers import BarLayer
 from ..model.scenario import (
     ConnectionBetween,
@@ -28,11 +29,15 @@ from .bodies import Bodies, bodies_of
 from .contacts import NearbyMembers
 from .element_materials import substances
 from .elements import Element, elements_of
-from .map_place import site_of
+from .fineness import fracture_of
+from .kinds_by_shape import with_kinds_by_shape
+from .light_bracing import leave_out_light_bracing
+from .map_place import ground_of, site_of
 from .materials import MaterialTable, material_table
-from .outcome import CONNECTION, Outcome
+from .outcome import CONNECTION, LEFT_OUT, Outcome
 from .placement import Placement, placement_of
 from .quantities import quantities_of, units_of
+from .rule_bars import SHARE, notes_on_bars
 from .settings import ImportSettings
 from .several_bridges import CARRYING, chosen_elements
 from .shapes import KeptShapes
@@ -66,6 +71,8 @@ class ImportedBridge:
     ground_source: str
     site_source: str
     notes: tuple[str, ...]
+    left_out: dict[str, TriangleMesh] = field(default_factory=dict)
+    """Elements that have a shape, but are no members, where they stand, by different names."""
 
 
 def read_bridge(path: Path, settings: ImportSettings, kept: KeptShapes | None = None) -> ImportedBridge:
@@ -77,7 +84,11 @@ def read_bridge(path: Path, settings: ImportSettings, kept: KeptShapes | None = 
 
 def _bridge(path: Path, table: MaterialTable, settings: ImportSettings, kept: KeptShapes) -> ImportedBridge:
     source = open_source(path, settings)
-    chosen = chosen_elements(source, elements_of(source, settings), settings)
+    found = elements_of(source, settings)
+    by_shape: tuple[str, ...] = ()
+    if not settings.strict:
+        found, by_shape = with_kinds_by_shape(source, found, kept)
+    chosen = chosen_elements(source, found, settings)
     elements = chosen.elements
     _check_kinds(path, elements, settings)
     wanted = [element for element in elements if element.is_member]
@@ -89,6 +100,7 @@ def _bridge(path: Path, table: MaterialTable, settings: ImportSettings, kept: Ke
     ground_m, ground_source = _ground(wanted, bodies, settings)
     placement, solids = _placed(path, wanted, bodies, ground_m)
     site, site_source = site_of(source, placement)
+    ground, of_ground = ground_of(source, placement)
     result = Assembly(elements, made_of, quantities, bodies)
     result.add_members(solids)
     bearings = [element for element in wanted if element.kind == "bearing" and element.entity.id() in solids]
@@ -96,6 +108,7 @@ def _bridge(path: Path, table: MaterialTable, settings: ImportSettings, kept: Ke
     if settings.strict:
         result.add_bearings(bearings, solids, placement, gap_m, table)
     else:
+        leave_out_light_bracing(result, settings.shards)
         result.fit_together()
         result.close_gaps(gap_m)
         result.add_bearings(bearings, solids, placement, gap_m, table)
@@ -107,15 +120,41 @@ def _bridge(path: Path, table: MaterialTable, settings: ImportSettings, kept: Ke
         bars, said = bar_layers(source, elements, dict(result.members()), placement)
         result.notes += said
     scenario, meshes, held = _scenario(source, settings, result, site, chosen.title or _title(source))
+    if ground:
+        scenario = replace(scenario, ground=ground)
+    if bars:
+        scenario = replace(scenario, reinforcement=tuple(bars))
+    if not settings.strict:
+        added = {member.name for member in result.added}
+        result.notes += notes_on_bars(scenario, [one for _, one in result.members() if one.name not in added])
     return ImportedBridge(
-        scenario=replace(scenario, reinforcement=tuple(bars)) if bars else scenario,
+        scenario=scenario,
         meshes=meshes,
         outcomes=tuple(result.outcomes.values()),
         ground_m=ground_m,
         ground_source=ground_source,
         site_source=site_source,
-        notes=(*source.notes, *chosen.notes, *result.notes, *held),
+        notes=(*source.notes, *chosen.notes, *by_shape, *of_ground, *result.notes, *held),
+        left_out=_left_out(result, bodies, placement, solids),
     )
+
+
+def _left_out(
+    result: Assembly, bodies: Bodies, placement: Placement, solids: Mapping[int, TriangleMesh]
+) -> dict[str, TriangleMesh]:
+    """Return the meshes of elements that have a shape and are left out, by different names."""
+    near = replace(placement, origin_m=placement.origin_m - bodies.origin)
+    meshes: dict[str, TriangleMesh] = {}
+    for number, outcome in result.outcomes.items():
+        if outcome.became != LEFT_OUT:
+            continue
+        mesh = solids.get(number)
+        if mesh is None and number in bodies.unsound:
+            mesh = near.placed(bodies.unsound[number])
+        if mesh is not None:
+            name = plain_text(outcome.facts.name) or outcome.facts.classes[0]
+            meshes[next(text for text in chain([name], (f"{name} {n}" for n in count(2))) if text not in meshes)] = mesh
+    return meshes
 
 
 def _check_kinds(path: Path, elements: Sequence[Element], settings: ImportSettings) -> None:
@@ -202,7 +241,7 @@ def _scenario(
         title=title,
         time=TimeSettings(duration_s=_DURATION_S),
         geometry=geometry,
-        fracture=FractureSettings(shards=max(settings.shards, len(members))),
+        fracture=_fracture(settings, members, [member.name for member in result.added]),
         materials=tuple({own.name: own for outcome in kept if (own := outcome.part[1].row.own)}.values()),
         connections=_connections(main, between, strict=settings.strict),
         shards=ShardSettings(start_deactivated=settings.strict),
@@ -213,6 +252,12 @@ def _scenario(
     return scenario, meshes, [*tables.notes, *held, *loose]
 
 
+def _fracture(settings: ImportSettings, members: Sequence[Member], added: Sequence[str]) -> FractureSettings:
+    if settings.strict:
+        return FractureSettings(shards=max(settings.shards, len(members)))
+    return fracture_of(members, added, settings.shards)
+
+
 def _connections(main: str, between: Sequence[ConnectionBetween], *, strict: bool) -> ConnectionSettings:
     """Return connections by the strength of a material; elastic ones that crack, so that the bridge stands awake."""
     rigid = ConnectionSettings(type="FIXED", method="face", material=main, between=tuple(between))
@@ -221,7 +266,7 @@ def _connections(main: str, between: Sequence[ConnectionBetween], *, strict: boo
     return replace(
         rigid,
         stiffness="elastic",
-        ductile_share=1.0,
+        ductile_share=SHARE,
         ductile_elongation_m=_ELONGATION_M,
         warm_up_s=_WARM_UP_S,
         warm_up_damping=_WARM_UP_DAMPING,

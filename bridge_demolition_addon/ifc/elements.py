@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from ..errors import IfcError
-from .kinds import ElementFacts, LeftOut, is_french, kind_of
+from .kinds import OTHER, ElementFacts, LeftOut, is_french, kind_of
 from .library import library
 from .quantities import PropertySets, words_of
 from .settings import ImportSettings, matches
@@ -75,7 +75,8 @@ def elements_of(source: IfcSource, settings: ImportSettings) -> tuple[Element, .
                 f"GlobalId of one; it has {known}{' and more' if len(elements) > _LISTED else ''}"
             )
     elements = tuple(_without(element, settings.without) for element in elements)
-    if not any(element.is_member for element in elements):
+    is_known = settings.strict or not any(element.kind == LeftOut(OTHER) for element in elements)
+    if is_known and not any(element.is_member for element in elements):
         classes = sorted({element.facts.classes[0] for element in elements})
         present = f"{', '.join(classes)} only" if classes else "no elements"
         raise IfcError(

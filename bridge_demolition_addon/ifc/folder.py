@@ -11,11 +11,13 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
+from ..engineering.geometry.mesh import TriangleMesh
 from ..engineering.units import mass_text, volume_text
 from ..errors import GeometryError, IfcError, OutputError, ScenarioError
 from ..model.bridge.member import Member
 from ..model.bridge.mesh_files import exported
 from ..model.bridge.preparation import prepared_members
+from ..model.mesh_reading import read_mesh
 from ..model.scenario.file import read_scenario
 from ..model.toml_tables import tables_text
 from ..system.disk import write_whole_text, writing
@@ -25,6 +27,10 @@ from .outcome import ADDED, CONNECTION, LEFT_OUT, MEMBER, Outcome
 SCENARIO_FILE = "scenario.toml"
 ELEMENTS_FILE = "elements.csv"
 REPORT_FILE = "import.txt"
+LEFT_OUT_FOLDER = "left_out"
+
+_NAME = "# "
+"""What begins the line of a mesh that names its element."""
 
 _SMALL_M3 = 0.1
 _CUT_OFF = re.compile(r": ([0-9.e+-]+) m³ cut off,")
@@ -58,6 +64,7 @@ def write_bridge(bridge: ImportedBridge, folder: Path) -> list[str]:
         (whole / MESH_FOLDER).mkdir(parents=True)
         for file, mesh in bridge.meshes.items():
             (whole / file).write_bytes(exported(mesh, ".obj"))
+        _write_left_out(bridge.left_out, whole / LEFT_OUT_FOLDER)
         (whole / SCENARIO_FILE).write_text(tables_text(bridge.scenario, defaults=False), encoding="utf-8")
         lines = list(_report(bridge, _cut_off(whole)))
         write_whole_text(whole / ELEMENTS_FILE, _table(bridge), newline="")
@@ -67,6 +74,25 @@ def write_bridge(bridge: ImportedBridge, folder: Path) -> list[str]:
             folder.rmdir()  # Windows moves nothing onto a folder
         os.replace(whole, folder)
     return lines
+
+
+def _write_left_out(meshes: Mapping[str, TriangleMesh], folder: Path) -> None:
+    """Write the meshes of elements that are left out, each with its name as a comment, if there are any."""
+    if meshes:
+        folder.mkdir()
+    for number, (name, mesh) in enumerate(meshes.items(), start=1):
+        content = f"{_NAME}{name}\n".encode() + exported(mesh, ".obj")
+        (folder / f"{number:03d}.obj").write_bytes(content)
+
+
+def read_left_out(folder: Path) -> dict[str, TriangleMesh]:
+    """Return the meshes of the elements that an import into a folder left out, by their names."""
+    meshes = {}
+    for path in sorted((folder / LEFT_OUT_FOLDER).glob("*.obj")):
+        with path.open(encoding="utf-8") as lines:
+            name = next(lines).removeprefix(_NAME).strip()
+        meshes[name] = read_mesh(path)
+    return meshes
 
 
 def _existing(folder: Path) -> Path:

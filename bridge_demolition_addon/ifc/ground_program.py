@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -12,12 +10,10 @@ import numpy as np
 from ..engineering.geometry.mesh import TriangleMesh, joined_meshes
 from ..system.isolated import answer
 from .library import library
+from .map_place import is_ground, on_map
 from .settings import ImportSettings, matches
 from .shapes import single_shape
 from .source import IfcSource, naming_contradictions, open_source
-
-_GROUND = ("IfcGeographicElement", "IfcGeotechnicalStratum", "IfcGeomodel", "IfcSite", "IfcEarthworksElement")
-"""Classes that are ground; a site where it has a shape of its own."""
 
 
 def main() -> None:
@@ -35,7 +31,9 @@ def _ground(request: dict[str, Any]) -> dict[str, Any]:
         if not meshes:
             return {"surfaces": 0, "others": [product.Name or product.is_a() for product in products], "notes": []}
         whole = joined_meshes(meshes)
-        vertices, notes = _on_map(source, whole.vertices)
+        mapped = on_map(source, whole.vertices)
+        vertices = whole.vertices if mapped is None else mapped
+        notes = [] if mapped is None else ["its heights are those of its map"]
     np.savez(request["kept"], vertices=vertices, triangles=whole.triangles)
     return {"surfaces": len(meshes), "others": [], "notes": [*source.notes, *notes]}
 
@@ -43,16 +41,7 @@ def _ground(request: dict[str, Any]) -> dict[str, Any]:
 def _is_wanted(product: Any, name: str | None) -> bool:
     if name is not None:
         return matches(name, (product.Name or "", product.GlobalId))
-    return any(product.is_a(kind) for kind in _kinds(product))
-
-
-def _kinds(product: Any) -> Iterator[str]:
-    for kind in _GROUND:
-        try:
-            product.is_a(kind)
-        except RuntimeError:  # a class that the schema does not have
-            continue
-        yield kind
+    return is_ground(product)
 
 
 def _surface(source: IfcSource, product: Any) -> TriangleMesh | None:
@@ -73,15 +62,3 @@ def _surface(source: IfcSource, product: Any) -> TriangleMesh | None:
         placed = points @ placing[:3, :3].T + placing[:3, 3]
         meshes.append(TriangleMesh(placed * source.unit_m, rows))
     return joined_meshes(meshes)
-
-
-def _on_map(source: IfcSource, vertices: np.ndarray) -> tuple[np.ndarray, list[str]]:
-    """Return positions (n, 3) in the map of a file with a map conversion, m, and a note on it."""
-    conversion = library("util.geolocation").get_helmert_transformation_parameters(source.model)
-    if conversion is None:
-        return vertices, []
-    turn = math.atan2(conversion.xao, conversion.xaa)
-    x, y = vertices[:, 0], vertices[:, 1]
-    east = conversion.e + math.cos(turn) * x - math.sin(turn) * y
-    north = conversion.n + math.sin(turn) * x + math.cos(turn) * y
-    return np.column_stack((east, north, vertices[:, 2] + conversion.h)), ["its heights are those of its map"]

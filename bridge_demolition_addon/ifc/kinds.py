@@ -180,7 +180,7 @@ _PARTS = {
 }
 """Words in the names and types of parts of a bridge."""
 
-_OTHER = "neither its class nor its name says what it is: give its kind by --kind, as in --kind 'NAME=deck'"
+OTHER = "neither its class nor its name says what it is: give its kind by --kind, as in --kind 'NAME=deck'"
 
 
 def kind_of(facts: ElementFacts, own: Sequence[tuple[str, str]] = (), *, is_french: bool = False) -> str | LeftOut:
@@ -216,7 +216,7 @@ def _of_class(facts: ElementFacts, *, is_french: bool) -> str | LeftOut:
     by_properties = "" if known else _named_kind(facts.properties)
     if by_properties and by_properties != "left out":
         return "girder" if by_properties == "cross girder" else by_properties
-    return _BY_PART[known].get(part) or _ELSEWHERE.get(known) or LeftOut(_OTHER)
+    return _BY_PART[known].get(part) or _ELSEWHERE.get(known) or LeftOut(OTHER)
 
 
 def _by_name(facts: ElementFacts, known: str, *, is_french: bool) -> str:

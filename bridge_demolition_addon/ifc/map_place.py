@@ -1,15 +1,16 @@
-"""Site of a bridge on earth: by the map conversion of its file, or else by latitude and longitude of its IfcSite."""
+"""Where a bridge lies on its map and on earth: by its map conversion, or by latitude and longitude of its IfcSite."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 from pymap3d import enu2geodetic, geodetic2enu
 
 from ..engineering.map_grids import grid_of_epsg
-from ..model.scenario import Site
+from ..model.scenario import Ground, Site
 from .library import library
 from .placement import Placement
 from .source import IfcSource
@@ -17,8 +18,71 @@ from .source import IfcSource
 _STEP_M = 10.0
 """Distance along the road over which its bearing is measured."""
 
+_MOST_SCALE = 0.01
+"""How far the scale of a map may be from 1: that of a grid is within a thousandth."""
+
+_GROUND = ("IfcGeographicElement", "IfcGeotechnicalStratum", "IfcGeomodel", "IfcSite", "IfcEarthworksElement")
+"""Classes that are ground."""
+
 _HALF_ZONE_M, _POLE_M = 400_000.0, 10_000_000.0
 """How far a UTM zone reaches from its middle, and to the north, with room to spare."""
+
+
+def on_map(source: IfcSource, points_m: np.ndarray) -> np.ndarray | None:
+    """Return positions (n, 3) of a file in its map, m; None where it has no map conversion.
+
+    A scale that is far from that of the units, as some programs write it, does not count.
+    """
+    conversion = library("util.geolocation").get_helmert_transformation_parameters(source.model)
+    if conversion is None:
+        return None
+    map_unit_m = _map_unit(source)
+    factor = conversion.scale * map_unit_m / source.unit_m
+    if abs(factor - 1.0) > _MOST_SCALE:
+        factor = 1.0
+    turn = math.atan2(conversion.xao, conversion.xaa)
+    x, y = factor * points_m[:, 0], factor * points_m[:, 1]
+    east = conversion.e * map_unit_m + math.cos(turn) * x - math.sin(turn) * y
+    north = conversion.n * map_unit_m + math.sin(turn) * x + math.cos(turn) * y
+    return np.column_stack((east, north, points_m[:, 2] + conversion.h * map_unit_m))
+
+
+def ground_of(source: IfcSource, placement: Placement) -> tuple[Ground | None, list[str]]:
+    """Return where a scenario lies in its file's ground and map, and a note; None where the file has neither.
+
+    `ground.file` may then be the IFC file itself, or another terrain in the same map.
+    """
+    along = np.array((math.cos(placement.angle_rad), math.sin(placement.angle_rad), 0.0))
+    points = np.array([placement.origin_m, placement.origin_m + _STEP_M * along])
+    mapped = on_map(source, points)
+    has_ground = any(is_ground(product) for product in source.model.by_type("IfcProduct") if product.Representation)
+    if mapped is None and not has_ground:
+        return None, []
+    origin, ahead = points if mapped is None else mapped
+    east, north = (ahead - origin)[:2]
+    ground = Ground(
+        origin=tuple(round(float(value), 4) for value in origin),
+        bearing_deg=round(math.degrees(math.atan2(east, north)) % 360.0, 6),
+    )
+    if not has_ground:
+        return ground, []
+    by = "of the file" if mapped is None else "of its map"
+    note = f'the file has ground: ground.file = "{source.path.name}" puts it under the bridge, in the coordinates {by}'
+    return ground, [note]
+
+
+def is_ground(product: Any) -> bool:
+    """Return whether a product is ground: a site where it has a shape of its own."""
+    return any(product.is_a(kind) for kind in _kinds(product))
+
+
+def _kinds(product: Any) -> Iterator[str]:
+    for kind in _GROUND:
+        try:
+            product.is_a(kind)
+        except RuntimeError:  # a class that the schema does not have
+            continue
+        yield kind
 
 
 def site_of(source: IfcSource, placement: Placement) -> tuple[Site | None, str]:

@@ -27,6 +27,8 @@ _STRATUM = re.compile(rb"IFC(?:SOLID|VOID|WATER)STRATUM\s*\((.*?)\)\s*;", flags=
 _NEWEST = "IFC4X3_ADD2"
 """Schemas that came before IFC4X3, whose elements it has too, and what they are read as."""
 
+_CLASS = re.compile(rb"=\s*(IFC[A-Z0-9_]+)\s*\(")
+
 _BEGINNING, _END = b"ISO-10303-21;", b"END-ISO-10303-21;"
 _HEAD = 100_000
 """Bytes in which the header of a file ends."""
@@ -34,6 +36,9 @@ _HEAD = 100_000
 _SCHEMA = re.compile(rb"FILE_SCHEMA\s*\(\s*\(\s*'([^']*)'", flags=re.IGNORECASE)
 _AMERICAN = re.compile(rb"(IFCSIUNIT\s*\([^;]*?\.(?:SQUARE_|CUBIC_)?)METER(\.\s*\)\s*;)", flags=re.IGNORECASE)
 """A unit as some programs spell it; the standard's metre is METRE."""
+
+_MOST, _LARGEST_IN_METRES = 0.75, 200.0
+"""Part of all coordinates, and what it does not exceed in metres: parts of bridges are smaller, and placements few."""
 
 _BEYOND_ASCII = re.compile(r"[^\x00-\x7f]+")
 
@@ -50,6 +55,8 @@ class IfcSource:
     scale: float
     unit_m: float
     notes: tuple[str, ...] = ()
+    lost_classes: tuple[str, ...] = ()
+    """Classes of an older schema that the one that the file is read as does not have."""
 
 
 @contextmanager
@@ -80,10 +87,16 @@ def open_source(path: Path, settings: ImportSettings) -> IfcSource:
     if not model.by_type("IfcProject"):
         raise IfcError(f"{path}: has no IfcProject, so no units and no bridge; export the whole project")
     notes = ("METER is taken for METRE, as the standard spells it",) if count else ()
+    lost = _lost_classes(content) if schema else ()
     if schema:
         notes = (*notes, f"the schema {schema} is read as {_NEWEST}, which came after it")
+    if lost:
+        notes = (*notes, f"{_NEWEST} has no {', '.join(lost)}: what is placed along these has no shape")
     own_m = _unit_of_file(model)
     unit_m = own_m if settings.unit is None else UNITS[settings.unit]
+    if unit_m is None and not settings.strict and (guessed := _guessed_unit(model)):
+        unit_m = UNITS[guessed]
+        notes = (*notes, f"the file has no unit of length that is known: taken for {guessed}; --unit says it better")
     if unit_m is None:
         raise IfcError(
             f"{path}: has no unit of length that is known; say which it is, one of {', '.join(UNITS)}, by --unit"
@@ -91,7 +104,7 @@ def open_source(path: Path, settings: ImportSettings) -> IfcSource:
     if own_m is not None and unit_m != own_m:
         notes = (*notes, f"lengths are taken for {settings.unit}, though the file says that its unit is {own_m:g} m")
     taken_m = library("util.unit").calculate_unit_scale(model)
-    return IfcSource(path, model, unit_m / taken_m, unit_m, notes)
+    return IfcSource(path, model, unit_m / taken_m, unit_m, notes, lost)
 
 
 def _content(path: Path) -> bytes:
@@ -129,6 +142,18 @@ def _relabelled(content: bytes) -> tuple[bytes, str]:
     return _STRATUM.sub(rb"IFCGEOTECHNICALSTRATUM(\1,$);", relabelled), name
 
 
+def _lost_classes(content: bytes) -> tuple[str, ...]:
+    """Return the classes of a file that the newest schema does not have, as their names are written there."""
+    schema = library().ifcopenshell_wrapper.schema_by_name(_NEWEST)
+    lost = []
+    for name in sorted({match.group(1).decode("ascii") for match in _CLASS.finditer(content)}):
+        try:
+            schema.declaration_by_name(name)
+        except RuntimeError:
+            lost.append(name)
+    return tuple(lost)
+
+
 def _text(content: bytes) -> str:
     """Return a file as text, with letters beyond ASCII spelt as in the standard, ISO 10303-21."""
     try:
@@ -136,6 +161,15 @@ def _text(content: bytes) -> str:
     except UnicodeDecodeError:  # against the standard, but what programs of some countries write
         text = content.decode("latin-1")
     return _BEYOND_ASCII.sub(lambda match: f"\\X4\\{match.group().encode('utf-32-be').hex().upper()}\\X0\\", text)
+
+
+def _guessed_unit(model: Any) -> str:
+    """Return the unit that most coordinates of a file can be in, m or mm; empty where it has none."""
+    points = (point.Coordinates for point in model.by_type("IfcCartesianPoint"))
+    sizes = sorted(abs(float(value)) for values in points for value in values or () if value)
+    if not sizes:
+        return ""
+    return "mm" if sizes[int(_MOST * (len(sizes) - 1))] > _LARGEST_IN_METRES else "m"
 
 
 def _unit_of_file(model: Any) -> float | None:

@@ -1,7 +1,8 @@
-"""Meshes in files."""
+"""Meshes in files: binary ones are read in a process of their own, so that a damaged one ends no other."""
 
 from __future__ import annotations
 
+import tempfile
 from pathlib import Path
 from typing import Any
 
@@ -9,7 +10,8 @@ import numpy as np
 
 from ..engineering.geometry.mesh import TriangleMesh
 from ..engineering.geometry.vectors import transformed
-from ..errors import GeometryError
+from ..errors import GeometryError, UnreadableError
+from ..system.isolated import isolated
 from ..system.reading import MEGABYTE, check_file
 
 MESH_FILES = (".stl", ".obj", ".ply", ".glb")
@@ -17,6 +19,10 @@ MESH_FILES = (".stl", ".obj", ".ply", ".glb")
 MOST_BYTES = 1000 * MEGABYTE
 """Size up to which a mesh is read: tens of millions of triangles."""
 
+_TEXT_FILES = (".obj",)
+"""Files that are read here: Python reads their text, and an imported bridge has hundreds of them."""
+
+_LIMIT_S = 600.0
 _FROM_Y_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 
 
@@ -27,28 +33,52 @@ def from_y_up(vertices: np.ndarray) -> np.ndarray:
 
 def read_mesh(path: Path) -> TriangleMesh:
     """Return the mesh in a file that ends in one of `MESH_FILES`, as it is."""
-    check_file(path, MOST_BYTES)
-    import trimesh  # loading it takes half of what all else takes, and most scenarios have no mesh
-
-    try:
-        mesh = trimesh.load(path, force="mesh", process=False)
-    except Exception as error:  # each reader has its own errors
-        raise GeometryError(f"{path}: cannot be read as {path.suffix[1:].upper()}: {error}") from error
-    if not isinstance(mesh, trimesh.Trimesh) or not len(mesh.faces):
-        raise GeometryError(f"{path}: has no faces; export a closed surface.")
-    return TriangleMesh(_vertices(mesh, path), np.asarray(mesh.faces, dtype=np.int64))
+    return TriangleMesh(*_read(path, is_cloud=False))
 
 
 def read_points_of_mesh(path: Path) -> np.ndarray:
     """Return the vertices (n, 3) in a file that ends in one of `MESH_FILES`, which may be a cloud without faces."""
+    return _read(path, is_cloud=True)[0]
+
+
+def _read(path: Path, *, is_cloud: bool) -> tuple[np.ndarray, np.ndarray]:
     check_file(path, MOST_BYTES)
-    import trimesh
+    if path.suffix.lower() in _TEXT_FILES:
+        return loaded(path, is_cloud=is_cloud)
+    with tempfile.TemporaryDirectory(prefix="bda-mesh-") as folder:
+        kept = Path(folder) / "mesh.npz"
+        request = {"path": str(path.absolute()), "kept": str(kept), "is_cloud": is_cloud}
+        try:
+            isolated("model.mesh_program", request, _LIMIT_S)
+        except UnreadableError as error:
+            raise GeometryError(f"{path}: {str(error).removeprefix(f'{path.absolute()}: ')}") from error
+        with np.load(kept) as arrays:
+            return arrays["vertices"], arrays["triangles"]
+
+
+def loaded(path: Path, *, is_cloud: bool) -> tuple[np.ndarray, np.ndarray]:
+    """Return vertices (v, 3) and triangles (t, 3) of a file, read in this process; of a cloud its points alone."""
+    import trimesh  # loading it takes half of what all else takes, and most scenarios have no mesh
 
     try:
-        loaded = trimesh.load(path, process=False)
-        parts = loaded.dump() if isinstance(loaded, trimesh.Scene) else [loaded]
-        points = np.concatenate([_vertices(part, path) for part in parts])
+        whole = trimesh.load(path, process=False) if is_cloud else trimesh.load(path, force="mesh", process=False)
     except Exception as error:  # each reader has its own errors
+        raise GeometryError(f"{path}: cannot be read as {path.suffix[1:].upper()}: {error}") from error
+    if is_cloud:
+        return _points(whole, path), np.empty((0, 3), np.int64)
+    if not isinstance(whole, trimesh.Trimesh) or not len(whole.faces):
+        raise GeometryError(f"{path}: has no faces; export a closed surface.")
+    vertices, triangles = _vertices(whole, path), np.asarray(whole.faces, dtype=np.int64)
+    if triangles.min() < 0 or triangles.max() >= len(vertices):
+        raise GeometryError(f"{path}: has faces with vertices that it does not have: it is damaged; export it again.")
+    return vertices, triangles
+
+
+def _points(whole: Any, path: Path) -> np.ndarray:
+    try:
+        parts = whole.dump() if hasattr(whole, "dump") else [whole]
+        points = np.concatenate([_vertices(part, path) for part in parts])
+    except Exception as error:  # what is neither a mesh nor a cloud
         raise GeometryError(f"{path}: cannot be read as {path.suffix[1:].upper()}: {error}") from error
     points = points[np.isfinite(points).all(axis=1)]
     if not len(points):

@@ -3,7 +3,7 @@
 
 import numpy as np
 import pytest
-from support.ifc_bridges import VOLUMES_M3, IfcBridge, whole_bridge
+from support.ifc_bridges import MASS_KG, VOLUMES_M3, IfcBridge, whole_bridge
 
 from bridge_demolition_addon.engineering.geometry.mesh import TriangleMesh, joined_meshes
 from bridge_demolition_addon.engineering.geometry.solids import box, cylinder, to_manifold
@@ -127,6 +127,50 @@ def test_a_column_within_a_wall_is_cut_out_of_the_wall(tmp_path):
     names = [table.name for table in bridge.scenario.geometry]
     assert names.index("Stiff") < names.index("Abutment 1")
     assert any("Stiff lies within Abutment 1: it is cut out of that" in note for note in bridge.notes)
+
+
+@pytest.mark.parametrize("gap_m, has_haunch", [(0.004, True), (0.12, True), (0.5, False)])
+def test_a_girder_goes_up_to_its_deck_by_a_haunch(gap_m, has_haunch, tmp_path):
+    """Under a deck that lies higher: 0.4 m wide less 5 mm at each side, 21 m long less 2 cm and 5 mm at each end."""
+    made = whole_bridge()
+    (deck,) = (slab for slab in made.file.by_type("IfcSlab") if slab.Name == "Carriageway")
+    deck.Representation.Representations[0].Items[0].Position.Location.Coordinates = (10.0, 0.0, 4.4 + gap_m)
+    bridge = read(made, tmp_path)
+    girder = outcome(bridge, "Girder left").member
+    added = girder.volume_m3 - VOLUMES_M3["girder"] / 2.0
+    assert added == pytest.approx(gap_m * (0.4 - 0.01) * (21.0 - 0.05) if has_haunch else 0.0, abs=1e-4)
+    if has_haunch:
+        top = outcome(bridge, "Carriageway").member.solid
+        assert to_manifold(girder.solid).min_gap(to_manifold(top), 1.0) < 1e-6
+        assert any("Girder left has a haunch" in note for note in bridge.notes)
+    as_it_is = outcome(read(made, tmp_path, strict=True), "Girder left").member
+    assert as_it_is.volume_m3 == pytest.approx(VOLUMES_M3["girder"] / 2.0)
+
+
+def test_light_bracing_is_mass_on_the_girders(tmp_path):
+    """A rod of 5 cm × 5 cm × 1.6 m of steel, 31.4 kg, between two girders that have 105.504 t together."""
+    made = whole_bridge()
+    rod = (0.05, 1.6, 0.05), (5.0, 0.0, 4.0), "SUPERSTRUCTURE"
+    made.box("IfcMember", "Rod", *rod, material=made.material("Steel"))
+    bridge = read(made, tmp_path, kinds=(("Rod", "bracing"),))
+    assert outcome(bridge, "Rod").became == "left out"
+    assert outcome(bridge, "Girder left").member.density_kg_m3 == pytest.approx(7850.0 * (1.0 + 31.4 / 105_504.0))
+    assert sum(o.member.mass_kg for o in bridge.outcomes if o.member) == pytest.approx(MASS_KG + 31.4)
+    assert any("1 parts of bracing" in note for note in bridge.notes)
+
+
+def test_of_several_spans_without_piers_only_the_beginning_is_pinned(tmp_path):
+    """Two spans of 10 m below one deck: with both pinned at their first ends it would be an arch between these."""
+    made = IfcBridge()
+    concrete = made.material("Concrete")
+    for name, along in (("A", 5.0), ("B", 15.1)):
+        made.box("IfcBeam", name, (10.0, 0.4, 0.8), (along, 0.0, 3.6), "SUPERSTRUCTURE", material=concrete)
+    made.box("IfcSlab", "Plate", (20.1, 2.0, 0.2), (10.05, 0.0, 4.4), "DECK", material=concrete)
+    bridge = read(made, tmp_path)
+    by_name = {bearing.members[0]: [] for bearing in bridge.scenario.bearings}
+    for bearing in bridge.scenario.bearings:
+        by_name[bearing.members[0]].append(bearing.kind)
+    assert by_name == {"A": ["pinned", "rocker"], "B": ["rocker", "rocker"]}
 
 
 def test_a_superstructure_without_piers_gets_supports_under_its_ends(tmp_path):
@@ -321,10 +365,65 @@ def test_reinforcing_bars_are_layers_of_their_members(turn_deg, tmp_path):
         bar((1.0 + 3.0 * number, -1.9, 4.43), (1.0 + 3.0 * number, 1.9, 4.43), 0.016)
     bar((0.0, 0.0, 4.45), (1.0, 1.0, 4.45), 0.02)
     bridge = read(made, tmp_path)
-    along, across = bridge.scenario.reinforcement
+    along, across = (layer for layer in bridge.scenario.reinforcement if "Carriageway" in layer.members)
     assert (along.members, along.along, along.side) == (("Carriageway",), "x", "top")
     assert (along.depth_m, along.area_mm2) == pytest.approx((0.05, 3141.6), rel=1e-3)
     assert (across.along, across.side) == ("y", "bottom")
     assert (across.depth_m, across.area_mm2) == pytest.approx((0.03, 1146.1), rel=1e-3)
     assert any("24 reinforcing bars are 2 layers" in note for note in bridge.notes)
     assert any("bent, inclined or in no member" in note for note in bridge.notes)
+
+
+def test_steel_by_rule_is_that_which_yields_as_the_concrete_tears(tmp_path):
+    """Of a slab that tears at 5.2 N/mm², 1.04 % with 500 N/mm²; none is said of girders of steel."""
+    bridge = read(whole_bridge(), tmp_path)
+    (note,) = (note for note in bridge.notes if "the file has no bars" in note)
+    assert "in 5 members of reinforced concrete slab (abutment, pier, pier cap, deck): by rule 1 % of each" in note
+    assert bridge.scenario.connections.ductile_share == 1.0
+    assert not any("no bars" in note for note in read(whole_bridge(), tmp_path, strict=True).notes)
+
+
+def test_a_long_girder_is_cut_by_its_length(tmp_path):
+    """A girder of 21 m × 0.4 m × 0.8 m: at least 21 / (3 × 0.8) = 8.75 shards, though 5 % of 20 are one."""
+    fracture = read(whole_bridge(), tmp_path, shards=20).scenario.fracture
+    counts = {rule.member: rule.shards for rule in fracture.members}
+    assert counts["Girder left"] == counts["Girder right"] == 9
+    assert 20 + len(counts) <= fracture.shards <= 20 + sum(counts.values())
+
+
+# Files that say little ------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("schema", ["IFC2X3", "IFC4X3"])
+def test_proxies_without_names_are_taken_by_their_shape(schema, tmp_path):
+    """Two abutments on footings, girders and a deck, all proxies that are called by numbers, and without materials."""
+    made = IfcBridge(schema=schema)
+    boxes = {
+        "10": ((3.0, 5.0, 0.5), (0.0, 0.0, 0.0), "footing"),
+        "11": ((3.0, 5.0, 0.5), (20.0, 0.0, 0.0), "footing"),
+        "20": ((1.0, 4.0, 3.1), (0.0, 0.0, 0.5), "wall"),
+        "21": ((1.0, 4.0, 3.1), (20.0, 0.0, 0.5), "wall"),
+        "30": ((21.0, 0.4, 0.8), (10.0, 1.0, 3.6), "girder"),
+        "31": ((21.0, 0.4, 0.8), (10.0, -1.0, 3.6), "girder"),
+        "40": ((21.0, 4.0, 0.2), (10.0, 0.0, 4.4), "deck"),
+    }
+    for name, (size, place, _) in boxes.items():
+        made.box("IfcBuildingElementProxy", name, size, place, "NOTDEFINED")
+    bridge = read(made, tmp_path)
+    assert {o.facts.name: o.member.kind for o in bridge.outcomes if o.member} == {
+        name: kind for name, (_, _, kind) in boxes.items()
+    }
+    assert any("nothing says what 7 elements are" in note for note in bridge.notes)
+    assert {support.member for support in bridge.scenario.supports} == {"footing"}
+    with pytest.raises(IfcError, match="has no element that is a member of a bridge"):
+        read(made, tmp_path, strict=True)
+
+
+@pytest.mark.parametrize("unit", ["METRE", "MILLI"])
+def test_a_unit_that_the_file_lacks_is_guessed(unit, tmp_path):
+    made = whole_bridge(unit=unit)
+    (assigned,) = made.file.by_type("IfcUnitAssignment")
+    assigned.Units = [one for one in assigned.Units if one.UnitType != "LENGTHUNIT"]
+    bridge = read(made, tmp_path)
+    assert sum(o.member.volume_m3 for o in bridge.outcomes if o.member) == pytest.approx(sum(VOLUMES_M3.values()))
+    assert any("has no unit of length that is known: taken for m" in note for note in bridge.notes)

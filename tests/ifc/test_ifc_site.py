@@ -2,12 +2,15 @@
 """Where on earth a bridge lies."""
 
 import math
+from dataclasses import replace
 
+import numpy as np
 import pytest
 from support.ifc_bridges import IfcBridge
 
 from bridge_demolition_addon.ifc.bridge import read_bridge
 from bridge_demolition_addon.ifc.settings import ImportSettings
+from bridge_demolition_addon.model.terrain.placed import terrain_of
 
 CN_TOWER_DEG = (43 + 38 / 60 + 33.24 / 3600, -(79 + 23 / 60 + 13.7 / 3600))
 """Published, with 17T 630084 m E, 4833438 m N, each to its last digit: 1e-5° are a metre."""
@@ -73,3 +76,26 @@ def test_a_map_that_is_not_known_gives_no_site(name, easting, why, tmp_path):
     site, source = site_of(plain().map_conversion(name, easting, 463_000.0), tmp_path)
     assert site is None
     assert why in source
+
+
+@pytest.mark.parametrize("unit", ["METRE", "MILLI"])
+@pytest.mark.parametrize("has_map", [True, False])
+def test_ground_in_the_file_of_a_bridge_lies_under_it(has_map, unit, tmp_path):
+    """A plane that rises by 1 in 100 along the road and 1 in 50 across it, from 1 m below the bridge's beginning."""
+    made = IfcBridge(unit=unit, offset_m=(300.0, 200.0, 40.0), turn_deg=30.0).substructure().superstructure()
+    corners = [(x, y, -1.0 + 0.01 * x + 0.02 * y) for x, y in ((-50, -40), (80, -40), (80, 40), (-50, 40))]
+    points = [[value / made.metre for value in corner] for corner in corners]
+    make = made.file.create_entity
+    mesh = make("IfcTriangulatedFaceSet", make("IfcCartesianPointList3D", points))
+    mesh.CoordIndex = [(1, 2, 3), (1, 3, 4)]
+    made.element("IfcGeographicElement", "Terrain", mesh, "DECK", shape_type="Tessellation")
+    if has_map:
+        made.map_conversion("EPSG:32617", 630_084.0, 4_833_438.0, 25.0)
+    path = made.written(tmp_path / "bridge.ifc")
+    bridge = read_bridge(path, ImportSettings())
+    assert any('ground.file = "bridge.ifc"' in note for note in bridge.notes)
+    scenario = replace(bridge.scenario, ground=replace(bridge.scenario.ground, file=str(path)))
+    positions = np.array([[0.5, 0.0], [10.5, 1.5], [20.5, -3.0]])
+    along, across = positions[:, 0] - 0.5, positions[:, 1]  # the bridge begins 0.5 m before its first footing's middle
+    heights = terrain_of(scenario).heights_at(positions)
+    assert heights == pytest.approx(-1.0 + 0.01 * along + 0.02 * across, abs=2e-3)

@@ -57,6 +57,20 @@ def test_a_schema_that_is_not_known(text, tmp_path):
     assert "is of the schema IFC9X3" in refused(path)
 
 
+def test_classes_that_later_schemas_do_not_have_are_named(text, tmp_path):
+    """IfcDistanceExpression is of IFC4X1 alone: what is placed by it has no shape, which is said with its name."""
+    label = text.split("FILE_SCHEMA(('")[1].split("'")[0]
+    older = text.replace(f"'{label}'", "'IFC4X1'").replace(
+        "ENDSEC;\nEND-", "#99999=IFCDISTANCEEXPRESSION(0.,$,$,$,.T.);\nENDSEC;\nEND-"
+    )
+    (tmp_path / "bridge.ifc").write_text(older)
+    notes = read_bridge(tmp_path / "bridge.ifc", ImportSettings()).notes
+    assert "IFC4X3_ADD2 has no IFCDISTANCEEXPRESSION: what is placed along these has no shape" in notes
+    bodiless = older.replace("IFCEXTRUDEDAREASOLID(", "IFCDISTANCEEXPRESSION(")
+    (tmp_path / "bridge.ifc").write_text(bodiless)
+    assert "as later schemas have no IFCDISTANCEEXPRESSION; export it as IFC4X3" in refused(tmp_path / "bridge.ifc")
+
+
 def test_no_project(text, tmp_path):
     path = tmp_path / "bridge.ifc"
     path.write_text("\n".join(line for line in text.splitlines() if "IFCPROJECT(" not in line))
@@ -65,7 +79,9 @@ def test_no_project(text, tmp_path):
 
 def test_no_unit_of_length_until_the_user_says_it(tmp_path):
     path = whole_bridge(unit=None).written(tmp_path / "bridge.ifc")
-    assert "has no unit of length that is known; say which it is, one of m, cm, mm, ft, in, by --unit" in refused(path)
+    assert "has no unit of length that is known; say which it is, one of m, cm, mm, ft, in, by --unit" in refused(
+        path, strict=True
+    )
     bridge = read_bridge(path, ImportSettings(unit="m"))
     assert bridge.scenario.geometry
 

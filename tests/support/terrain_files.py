@@ -81,6 +81,16 @@ def write_obj(path, height=plane):
     return path
 
 
+def write_mesh(path, height=plane):
+    """The lattice as a mesh of the kind that the name ends in."""
+    import trimesh
+
+    x, y = (grid.ravel() for grid in lattice())
+    mesh = trimesh.Trimesh(np.column_stack((x, y, height(x, y))), triangles(), process=False)
+    mesh.export(path)
+    return path
+
+
 def write_tif(path, height=plane, *, kind="float32", keys=(), no_data=None, tags=None, values=None):
     """Write a GeoTIFF; its keys are those of a projected map in metres unless others are given."""
     import tifffile

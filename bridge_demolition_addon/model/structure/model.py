@@ -144,7 +144,7 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
         shards, connections.pairs[:, 0], connections.areas, connections.points, connections.normals
     )
     soil = soil_springs(scenario.foundations, members, fractured.member_of_shard, shards, connections)
-    bars = None
+    bars = within = None
     if layers := all_layers(scenario, members):
         within = within_reinforced(layers, members, fractured.member_of_shard, connections)
         joint_of_connection = joint_of_connection + np.where(within, len(scenario.joints) // 2, 0)
@@ -193,20 +193,26 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
         soil=soil,
         bars=bars,
         bearings=bearings,
-        crack_bars=_crack_bars(scenario, bars, connections, joint_of_connection, bearings) if stiffness else None,
+        crack_bars=_crack_bars(scenario, bars, within, connections, joint_of_connection, bearings)
+        if stiffness
+        else None,
     )
 
 
 def _crack_bars(
     scenario: Scenario,
     bars: FaceBars | None,
+    within: np.ndarray | None,
     connections: Connections,
     joint_of_connection: np.ndarray,
     bearings: ModelBearings | None,
 ) -> CrackBars | None:
+    """Return all bars; even ones are not where connections lie `within` (m,) members that have layers."""
     settings = scenario.connections
     if settings.ductile_share > 0.0:
         even = even_bars_n(settings, scenario.joints, joint_of_connection, connections.areas)
+        if within is not None:
+            even[within] = 0.0
         if bearings:
             even[bearings.springs.rows] = 0.0  # no bars run through a bearing
         bars = bars or FaceBars.none(len(connections))

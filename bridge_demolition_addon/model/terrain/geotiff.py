@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+import tempfile
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from ...engineering.terrain.raster import Raster
-from ...errors import GeometryError
+from ...errors import GeometryError, UnreadableError
+from ...system.isolated import isolated
 from ...system.reading import MEGABYTE, check_file
 from .file_heights import FileHeights
 
 _MOST_BYTES = 1000 * MEGABYTE
+_LIMIT_S = 600.0
 
 MOST_HEIGHTS = 50_000_000
 """Heights that are read; a square of 7 km by 7 km in steps of 1 m."""
@@ -27,17 +30,31 @@ _FEET = {9002: 0.3048, 9003: 0.304800609601}
 
 
 def read_geotiff(path: Path, no_data: float | None, scale: float) -> FileHeights:
-    """Read the heights of a GeoTIFF; `scale` is what the user takes for metres in one unit of the file.
+    """Read the heights of a GeoTIFF, in a process of its own; `scale` is what the user takes for metres in one unit.
 
     A `GeometryError` says what is wrong: no height model, in degrees, or in a unit that is not known.
     """
     check_file(path, _MOST_BYTES)
+    with tempfile.TemporaryDirectory(prefix="bda-heights-") as folder:
+        kept = Path(folder) / "heights.npz"
+        request = {"path": str(path.absolute()), "kept": str(kept), "no_data": no_data, "scale": scale}
+        try:
+            said = isolated("model.terrain.geotiff_program", request | {"most_heights": MOST_HEIGHTS}, _LIMIT_S)
+        except UnreadableError as error:
+            raise GeometryError(str(error)) from error
+        with np.load(kept) as arrays:
+            raster = Raster(arrays["first"], arrays["steps"], arrays["heights"])
+    return FileHeights(raster, said["unit_m"] or 1.0, "feet" if said["unit_m"] else "")
+
+
+def heights_in(path: Path, no_data: float | None, scale: float, most_heights: int) -> tuple[Raster, float | None]:
+    """Return the heights of a GeoTIFF, read in this process, and the metres in its unit where that is not the metre."""
     import tifffile  # no other ground needs it
 
     try:
         with tifffile.TiffFile(path) as file:
             page = file.pages.first
-            _check_kind(page)
+            _check_kind(page, most_heights)
             keys = page.geotiff_tags or {}
             tags = {code: page.tags[code].value for code in _tags_in(page)}
             values = page.asarray()
@@ -56,22 +73,21 @@ def read_geotiff(path: Path, no_data: float | None, scale: float) -> FileHeights
         heights[values.reshape(heights.shape) == _in_kind(unknown, values.dtype)] = np.nan
     rows = len(heights)
     raster = Raster(np.array([first[0], first[1] - steps[1] * (rows - 1)]), steps, heights[::-1])
-    unit_m = _FEET.get(int(keys.get("ProjLinearUnitsGeoKey", _METRE)))
-    return FileHeights(raster, unit_m or 1.0, "feet" if unit_m else "")
+    return raster, _FEET.get(int(keys.get("ProjLinearUnitsGeoKey", _METRE)))
 
 
 def _tags_in(page: Any) -> list[int]:
     return [code for code in (_PIXEL_SCALE, _TIE_POINT, _TRANSFORMATION, _NO_DATA) if code in page.tags]
 
 
-def _check_kind(page: Any) -> None:
+def _check_kind(page: Any, most_heights: int) -> None:
     shape = page.shape
     if len(shape) > 3 or (len(shape) == 3 and 1 not in (shape[0], shape[2])) or page.samplesperpixel != 1:
         raise GeometryError("is no height model: expected one value a pixel, found several, as pictures have")
     if page.dtype is None or page.dtype.kind not in "iuf" or page.dtype.itemsize < 2:
         raise GeometryError(f"is no height model: its values are {page.dtype}, as pictures have")
-    if page.size > MOST_HEIGHTS:
-        raise GeometryError(f"holds {page.size} heights: expected at most {MOST_HEIGHTS}; cut the site out of it first")
+    if page.size > most_heights:
+        raise GeometryError(f"holds {page.size} heights: expected at most {most_heights}; cut the site out of it first")
     if page.size < 4 or min(page.imagelength, page.imagewidth) < 2:
         raise GeometryError("is no height model: expected at least 2 rows of 2 heights")
 

@@ -1,5 +1,6 @@
 """The button that makes a scenario of a bridge in an IFC file."""
 
+import json
 from pathlib import Path
 
 import bpy
@@ -7,11 +8,12 @@ from bpy.props import BoolProperty, EnumProperty, FloatProperty, IntProperty, St
 from bpy_extras.io_utils import ImportHelper
 
 from ...errors import IfcError
-from ...ifc.folder import REPORT_FILE, SCENARIO_FILE, folder_beside
+from ...ifc.folder import REPORT_FILE, SCENARIO_FILE, folder_beside, read_left_out
 from ...ifc.import_process import Imported, import_bridge, list_elements
 from ...ifc.library import missing_reason
 from ...ifc.settings import UNITS, ImportSettings
 from ...model.scenario.file import read_scenario
+from ...scene.left_out import show_left_out
 from ..modal_task import ModalTask, Work
 from ..operators import Action, UndoableAction, absolute
 from ..scenario.values import show_scenario
@@ -57,6 +59,7 @@ class BDA_OT_import_ifc(UndoableAction, ImportHelper, bpy.types.Operator):
     without: StringProperty(
         name="Without", description="Elements to leave out, by name, class or kind, with * for anything and ; between"
     )
+    _is_in_window = False
     kinds: StringProperty(
         name="Kinds", description="What elements are, as in Proxy*=deck;IfcPlate=girder, where the file does not say it"
     )
@@ -73,12 +76,20 @@ class BDA_OT_import_ifc(UndoableAction, ImportHelper, bpy.types.Operator):
         for name in ("shards", "without", "kinds"):
             layout.prop(self, name)
 
-    def act(self, context: bpy.types.Context) -> str:
+    def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
+        self._is_in_window = True
+        return super().invoke(context, event)
+
+    def act(self, context: bpy.types.Context) -> str | None:
         if not self.filepath:
             raise IfcError("no IFC file was given: choose one")
         path = absolute(self.filepath)
+        settings = self._settings()
+        if self._is_in_window:  # Blender goes on drawing meanwhile, and Esc stops it
+            bpy.ops.bda.import_ifc_file("INVOKE_DEFAULT", path=str(path), settings=json.dumps(settings.as_json()))
+            return None
         folder = folder_beside(path)
-        return _shown(context, import_bridge(path, folder, self._settings()), folder)
+        return _shown(context, import_bridge(path, folder, settings), folder)
 
     def _settings(self) -> ImportSettings:
         return ImportSettings(
@@ -138,25 +149,22 @@ class BDA_OT_ifc_alike(UndoableAction, bpy.types.Operator):
         return f"{len(alike)} elements are {chosen.kind} now"
 
 
-class BDA_OT_import_ifc_elements(ModalTask, bpy.types.Operator):
-    """Make a scenario of the listed elements as they are corrected here, and show it in the panels"""
+class _ImportTask(ModalTask):
+    """Base of imports that go on while Blender draws, with progress, until they are done or Esc stops them."""
 
-    bl_label = "Import These Elements"
     task, unit = "Importing", "elements"
     changes_objects = True
-    blocked_by = (
-        *_NO_LIBRARY,
-        lambda context: None if context.scene.bda.ifc_elements else "Look into an IFC file first",
-    )
+
+    def chosen(self, context: bpy.types.Context) -> tuple[Path, ImportSettings]:
+        """Return the file, and what the user adds to it."""
+        raise NotImplementedError
 
     def work(self, context: bpy.types.Context) -> Work:
-        settings = context.scene.bda
-        path = absolute(settings.ifc_path)
+        path, settings = self.chosen(context)
         self._folder = folder_beside(path)
-        chosen = corrected(settings)
 
         def imported(progress: SteppedThread) -> None:
-            self._imported = import_bridge(path, self._folder, chosen, progress)
+            self._imported = import_bridge(path, self._folder, settings, progress)
 
         return imported
 
@@ -164,6 +172,34 @@ class BDA_OT_import_ifc_elements(ModalTask, bpy.types.Operator):
         super().finish(context)
         self.report({"INFO"}, _shown(context, self._imported, self._folder))
         return {"FINISHED"}
+
+
+class BDA_OT_import_ifc_file(_ImportTask, bpy.types.Operator):
+    """Make a scenario of the bridge in an IFC file that was chosen, and show it in the panels"""
+
+    bl_label = "Import IFC File"
+    bl_options = {"REGISTER", "UNDO", "INTERNAL"}
+    blocked_by = _NO_LIBRARY
+
+    path: StringProperty(name="Path", options={"HIDDEN"}, description="IFC file of a bridge")
+    settings: StringProperty(name="Settings", options={"HIDDEN"}, description="What the user adds to it, as JSON")
+
+    def chosen(self, _context: bpy.types.Context) -> tuple[Path, ImportSettings]:
+        return Path(self.path), ImportSettings.from_json(json.loads(self.settings))
+
+
+class BDA_OT_import_ifc_elements(_ImportTask, bpy.types.Operator):
+    """Make a scenario of the listed elements as they are corrected here, and show it in the panels"""
+
+    bl_label = "Import These Elements"
+    blocked_by = (
+        *_NO_LIBRARY,
+        lambda context: None if context.scene.bda.ifc_elements else "Look into an IFC file first",
+    )
+
+    def chosen(self, context: bpy.types.Context) -> tuple[Path, ImportSettings]:
+        settings = context.scene.bda
+        return absolute(settings.ifc_path), corrected(settings)
 
 
 def corrected(settings: bpy.types.PropertyGroup) -> ImportSettings:
@@ -186,6 +222,7 @@ def _shown(context: bpy.types.Context, imported: Imported, folder: Path) -> str:
     settings = context.scene.bda
     show_scenario(settings, read_scenario(folder / SCENARIO_FILE))
     settings.scenario_path = settings.loaded_path = str(folder / SCENARIO_FILE)
+    show_left_out(context.scene, read_left_out(folder))
     return _done(imported, folder)
 
 

@@ -17,6 +17,7 @@ from beams import Beam
 from bridge_demolition_addon.engineering.elasticity.steel_bars import USUAL_STEEL
 from bridge_demolition_addon.engineering.geometry.vectors import transformed
 from bridge_demolition_addon.engineering.mechanics.section_forces import section_axes
+from bridge_demolition_addon.engineering.mechanics.strength import MATERIALS
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.bridge.mesh_files import exported
 from bridge_demolition_addon.model.scenario import BarLayer, ConnectionSettings
@@ -109,3 +110,20 @@ def test_straight_bars_have_less_near_their_ends(tmp_path, half_m, share):
         path.write_text(f'[scenario]\ntitle = "beam"\n[time]\nduration_s = 1.0\n{text}', encoding="utf-8")
         pulls.append(build_model(read_scenario(path)).bars.yield_n.sum())
     assert pulls[1] / pulls[0] == pytest.approx(share, rel=0.002)
+
+
+def test_bars_of_a_member_count_in_place_of_even_ones():
+    """Within the deck its links alone; elsewhere the whole tensile strength, by the area of a face."""
+    settings = {"stiffness": "elastic", "ductile_share": 1.0, "ductile_elongation_m": 0.05}
+    connections = ConnectionSettings(type="FIXED", method="face", material="concrete", **settings)
+    fracture = replace(I235.fracture, shards=60)
+    model = build_model(replace(I235, fracture=fracture, connections=connections, reinforcement=(LINKS,)))
+    name = [member.kind for member in model.members]
+    of_pair = np.append(model.member_of_shard, -1)[model.connections.pairs]
+    within = (of_pair[:, 0] == of_pair[:, 1]) & (of_pair[:, 0] == name.index("deck"))
+    whole = model.crack_bars.bars.yield_n
+    np.testing.assert_allclose(whole[within], model.bars.yield_n[within], rtol=1e-12)
+    tension_pa = MATERIALS["concrete"].tension_pa
+    elsewhere = ~within & (model.connections.areas > 0.0)
+    assert elsewhere.any()
+    np.testing.assert_allclose(whole[elsewhere], tension_pa * model.connections.areas[elsewhere], rtol=1e-12)

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """*Import IFC*: from the file to a bridge that is built and stands."""
 
+import json
 import sys
 
 import pytest
 from support.ifc_bridges import MASS_KG, whole_bridge
 
+from bridge_demolition_addon.ifc.settings import ImportSettings
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.ui.scenario.prop import default_scenario
 from bridge_demolition_addon.ui.scenario.values import scenario_of
@@ -33,6 +35,23 @@ def test_an_imported_bridge_is_shown_built_and_stands(extension, settings, tmp_p
         scene.frame_set(frame)
     moved = [(shard.matrix_world.translation - start[shard.name]).length for shard in shards]
     assert max(moved) < 0.01  # 5 frames of free fall are 0.21 m
+
+
+def test_what_is_left_out_is_shown_as_wire(extension, tmp_path):
+    """A block of 1 m³ that touches nothing, 4 m over the deck; it takes no part in the simulation."""
+    made = whole_bridge()
+    made.box("IfcBeam", "Stray", (1, 1, 1), (10.0, 0.0, 8.0), "DECK", material=made.material("Steel"))
+    path = made.written(tmp_path / "stray.ifc")
+    settings = json.dumps(ImportSettings(shards=20, kinds=(("Stray", "bracing"),)).as_json())
+    for _ in range(2):  # the second import takes the place of the first
+        assert extension.ops.bda.import_ifc_file(path=str(path), settings=settings) == {"FINISHED"}
+    wires = [found for found in extension.context.scene.objects if found.display_type == "WIRE"]
+    assert [wire.name.split(".")[0] for wire in wires] == ["Stray"]
+    (wire,) = wires
+    heights = [vertex.co.z for vertex in wire.data.vertices]
+    assert (min(heights), max(heights)) == pytest.approx((8.0, 9.0))
+    assert wire.hide_render and wire.rigid_body is None
+    assert extension.ops.bda.build_scenario() == {"FINISHED"}
 
 
 def test_importing_again_takes_another_folder(extension, settings, tmp_path):
