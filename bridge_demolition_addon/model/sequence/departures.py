@@ -27,6 +27,13 @@ _SPREAD = 0.5
 
 _ON_AXIS_M = 1e-6
 
+_WITH_ROOM = 4.0
+"""Room beside a section, by its width, up to which nothing may stand where shards leave to: what leaves another column
+needs as much as they do.
+"""
+
+_NOTHING = np.zeros((0, 2, 3))
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Departure:
@@ -37,18 +44,22 @@ class Departure:
     after_m_s: np.ndarray
 
 
-def departure_of(zone: ZoneFiring, centres_m: np.ndarray, boxes_m: np.ndarray) -> Departure:
+def departure_of(
+    zone: ZoneFiring, centres_m: np.ndarray, boxes_m: np.ndarray, others_m: np.ndarray = _NOTHING
+) -> Departure:
     """Return how bodies leave a zone, by their centres of mass (b, 3) and the boxes around them (b, 2, 3).
 
     Each moves across its member, away from the middle of the section, those that are farther out no slower: so no two
-    of them come closer on the way. Rubble of a level member falls straight down.
+    of them come closer on the way. Where one of `others_m`, the boxes (k, 2, 3) around what is not of this member, is
+    beside it, they leave to the other side: columns of a pier would throw their concrete into each other. Rubble of a
+    level member falls straight down.
     """
     section = np.array((given(zone.lowest_corner_m), given(zone.highest_corner_m)))
     from_axis = centres_m - section.mean(axis=0)
     from_axis[:, AXES.index(zone.along)] = 0.0
     is_thrown = zone.speed_m_s > 0.0
     if is_thrown or zone.along == "z":
-        directions = _outwards(from_axis, AXES.index(zone.along))
+        directions = _outwards(_turned_from(others_m, from_axis, section), AXES.index(zone.along))
     else:
         directions = np.tile((0.0, 0.0, -1.0), (len(centres_m), 1))
     after_m_s = zone.speed_m_s * _by_rank(length(from_axis)) if is_thrown else np.full(len(centres_m), FALLING_M_S)
@@ -63,6 +74,21 @@ def _outwards(from_axis: np.ndarray, along: int) -> np.ndarray:
     lies_on_it = length(from_axis) < _ON_AXIS_M
     moved = np.where(lies_on_it[:, None], np.eye(3)[(along + 1) % 3], from_axis)
     return unit(moved)
+
+
+def _turned_from(others_m: np.ndarray, from_axis: np.ndarray, section: np.ndarray) -> np.ndarray:
+    """Return vectors (b, 3) from the axis that point to no side where another thing stands, and between two to none."""
+    turned, widths = from_axis.copy(), section[1] - section[0]
+    for axis in (0, 1):
+        rest = [other for other in range(3) if other != axis]
+        level = (others_m[:, 0, rest] < section[1, rest]).all(axis=1) & (others_m[:, 1, rest] > section[0, rest]).all(
+            axis=1
+        )
+        beyond = others_m[level, 0, axis] - section[1, axis], section[0, axis] - others_m[level, 1, axis]
+        above, below = (bool(((gap > -_ON_AXIS_M) & (gap < _WITH_ROOM * widths[axis])).any()) for gap in beyond)
+        if above or below:
+            turned[:, axis] = (below - above) * np.abs(from_axis[:, axis])
+    return turned
 
 
 def _by_rank(distances_m: np.ndarray) -> np.ndarray:

@@ -105,7 +105,10 @@ def _event(change: Change, structure: Structure) -> Event:
             bodies, connections = _of_zone(change, structure)
             factor = change.left
             if change.takes_away:
-                departure = departure_of(change, structure.centres_m[bodies], structure.boxes_m[bodies])
+                beside = ~of_members(change, structure) & (structure.is_shard | structure.held)
+                departure = departure_of(
+                    change, structure.centres_m[bodies], structure.boxes_m[bodies], structure.boxes_m[beside]
+                )
     if not len(bodies if isinstance(change, Removal | ZoneFiring) else connections):
         raise ScenarioError(f"{change.table} at {change.time_s:g} s: {_why_nothing(change, structure)}")
     if isinstance(change, ZoneFiring):

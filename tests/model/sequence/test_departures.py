@@ -76,3 +76,32 @@ def test_a_shard_on_the_axis_leaves_as_well():
     departure = departure_of(firing(), middle, SECTION[None])
     assert departure.duration_s == pytest.approx(0.7 / LEAVING_M_S)
     assert np.linalg.norm(departure.leaving_m_s) == pytest.approx(LEAVING_M_S)
+
+
+@pytest.mark.parametrize("side", [(0.0, 1.8), (0.0, -1.8), (1.8, 0.0)])
+@pytest.mark.parametrize("whole", [True, False])
+def test_none_goes_where_a_column_stands_beside_or_its_concrete_comes_from(side, whole):
+    """Columns of 0.7 m, 1.8 m apart, which fire together: what leaves them does not meet."""
+    centres, boxes = (SECTION.mean(axis=0)[None], SECTION[None]) if whole else (CENTRES_M, BOXES_M)
+    beside = np.array((*side, 0.0))
+    departures = [departure_of(firing(), centres, boxes, (SECTION + shift)[None]) for shift in (beside, -beside)]
+    ends = [boxes + departure.duration_s * departure.leaving_m_s[:, None] for departure in departures]
+    ends[1] = ends[1] + beside  # the other column
+    lowest = np.maximum(ends[0][:, None, 0], ends[1][None, :, 0])
+    highest = np.minimum(ends[0][:, None, 1], ends[1][None, :, 1])
+    assert not (highest > lowest + 1e-9).all(axis=2).any()
+    alone = departure_of(firing(), centres, boxes)
+    assert np.linalg.norm(departures[0].leaving_m_s, axis=1) == pytest.approx(np.linalg.norm(alone.leaving_m_s, axis=1))
+
+
+def test_between_two_columns_they_leave_along_the_road():
+    others = np.stack([np.add(SECTION, (0.0, 1.8, 0.0)), np.subtract(SECTION, (0.0, 1.8, 0.0))])
+    departure = departure_of(firing(), CENTRES_M, BOXES_M, others)
+    assert not departure.leaving_m_s[:, 1:].any()
+    np.testing.assert_array_equal(np.sign(departure.leaving_m_s[:, 0]), np.sign(CENTRES_M[:, 0]))
+
+
+def test_what_stands_farther_away_or_lies_below_does_not_matter():
+    others = np.stack([np.add(SECTION, (0.0, 4.0, 0.0)), np.subtract(SECTION, (0.0, 0.0, 1.6))])
+    found, alone = (departure_of(firing(), CENTRES_M, BOXES_M, *beside) for beside in ((others,), ()))
+    np.testing.assert_array_equal(found.leaving_m_s, alone.leaving_m_s)
