@@ -71,12 +71,12 @@ STUDY = """\
 93 runs of the first of these examples, each with other shards, another height and place of the ball, another strength
 and another mass. Shaded is where the probability of debris may be above 5 % and 50 %. Its runs are of an earlier
 version, before friction was that of pairs of surfaces and saw torques. What it says stands in
-[studies](studies.md#a-plan-is-a-study), all its runs are in [a table](data/studies/i235_one_span.csv), and
-`scripts/pictures/study_picture.py` draws the picture from its folder.
+[studies](studies.md#a-plan-is-a-study), all its runs are in [a table](data/ensembles/i235_one_span.csv), and
+`scripts/ensembles` makes it again.
 
 Study: [i235_one_span.toml](../examples/studies/i235_one_span.toml).
 """
-"""Section on the example of a study, whose picture `scripts/pictures/study_picture.py` makes."""
+"""Section on the example of a study, whose picture `scripts/ensembles` makes."""
 
 
 def main(names: list[str]) -> int:

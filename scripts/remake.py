@@ -18,6 +18,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from ensembles import ENSEMBLES, answer, picture, runs_table
+
 ROOT = Path(__file__).resolve().parent.parent
 EXAMPLES, RANGES = ROOT / "examples", ROOT / "docs" / "data" / "seeds"
 NOTES = ROOT / "docs" / "data" / "remade.json"
@@ -90,6 +92,12 @@ def products() -> Iterator[Product]:
     for name, words in (("growth", ("measure",)), ("elastic_beam", ("measure",)), ("reinforced_deck", ("12",))):
         script = f"scripts/experiments/{name}.py"
         yield Product(f"experiments/{name}", (script, *words), (f"docs/data/{name}.csv",), (script,))
+    for name, ensemble in ENSEMBLES.items():
+        example = f"examples/{ensemble.folder}/{name}.toml"
+        outputs = tuple(path.relative_to(ROOT).as_posix() for path in (runs_table(name), answer(name), picture(name)))
+        yield Product(
+            f"{ensemble.command}/{name}", ("scripts/ensembles.py", name), outputs, (example, "scripts/ensembles.py")
+        )
     yield Product("gallery", ("scripts/gallery.py",), ("docs/gallery.md",), ("examples", "scripts/gallery.py"))
 
 
