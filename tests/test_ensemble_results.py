@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The README and the page on studies say of the study that they show what the study says."""
+"""What documents say of studies, searches and optimisations is what their kept results say."""
 
 import json
 
@@ -46,3 +46,24 @@ def test_the_limit_is_that_of_the_runs(told, runs):
 def test_the_criteria_are_those_of_the_runs(told, runs):
     first, second = (runs.met(f'criteria."the {span} span comes down"') for span in ("first", "second"))
     assert f"{(first & second).sum()} of {len(first)} runs bring both spans down" in told
+
+
+def test_the_page_on_searches_says_what_the_search_says():
+    found = json.loads(ensembles.answer("lightest_ball").read_text(encoding="utf-8"))
+    shown = page("docs", "search.md")
+    median, likely, sure = (rounded(found[key] / 1000.0) for key in ("median", "value", "limit"))
+    said = f"with a ball of {median} t, most likely, 90 % with {likely} t, and with 95 % confidence with {sure} t"
+    assert said in shown
+    assert (found["probability"], found["confidence"]) == (0.9, 0.95)
+    runs = [row for row in read_runs(ensembles.runs_table("lightest_ball")).rows if row.status == "done"]
+    down, left = ([row for row in runs if row.outputs["success"] is success] for success in (True, False))
+    lightest = min(row.inputs["ball.mass_kg"] for row in down)
+    heaviest = max(row.inputs["ball.mass_kg"] for row in left)
+    assert f"All balls lighter than {rounded(lightest / 1000.0)} t left dents" in shown
+    assert f"all heavier than {rounded(heaviest / 1000.0)} t brought the span down" in shown
+    dents_cm = [100.0 * row.outputs["spans.1.drop_m"] for row in left if row.inputs["ball.mass_kg"] < lightest]
+    assert f"of {min(dents_cm):.0f} to {max(dents_cm):.0f} cm" in shown
+
+
+def rounded(value):
+    return f"{value:.1f}"
