@@ -13,6 +13,7 @@ from bridge_demolition_addon.model.study.runs_table import REACH, read_runs
 from bridge_demolition_addon.report.wording.study import limit_sentence
 
 NAME = "drilled_two_spans"
+CHARGE_G, DELAY_MS = 'blast_zones."P2.1".charge_g', 'blast_zones."P2.1".delay_ms'
 
 
 def page(*path):
@@ -63,6 +64,20 @@ def test_the_page_on_searches_says_what_the_search_says():
     assert f"all heavier than {rounded(heaviest / 1000.0)} t brought the span down" in shown
     dents_cm = [100.0 * row.outputs["spans.1.drop_m"] for row in left if row.inputs["ball.mass_kg"] < lightest]
     assert f"of {min(dents_cm):.0f} to {max(dents_cm):.0f} cm" in shown
+
+
+def test_the_page_on_optimisation_says_what_the_optimisation_says():
+    found = json.loads(ensembles.answer("least_charge").read_text(encoding="utf-8"))
+    shown, fresh = page("docs", "optimise.md"), found["confirmed"]
+    for text in (
+        f"brought both spans down in {fresh['successes']} of {fresh['runs']}",
+        f"at least {100.0 * fresh['least_probability']:.0f} % of such runs succeed",
+        f"Two candidates need {rounded(fresh['value'])} kg",
+        f"has {found['values'][CHARGE_G]:.0f} g in each hole of the middle pier, which goes at "
+        f"{found['values'][DELAY_MS]:.0f} ms",
+    ):
+        assert text in shown
+    assert not fresh["meets_the_probability"]
 
 
 def rounded(value):
