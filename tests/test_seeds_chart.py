@@ -71,7 +71,7 @@ def test_the_example_says_how_often_the_span_that_starts_awake_falls():
     falls = (runs["span_1_median_fall_m"] > 4.0).sum()
     assert falls > 0.5 * len(runs)
     assert f"With {falls} of {len(runs)} seeds the piers fail" in words(DEMOLITIONS["single_span_awake"])
-    assert f"Awake, it falls by itself in {falls} of {len(runs)} runs" in words(ROOT / "README.md")
+    assert f"its own weight in {falls} of {len(runs)} seeds" in words(ROOT / "docs" / "accuracy.md")
 
 
 def test_the_example_says_how_often_a_span_between_charges_of_a_ton_is_falling():
