@@ -58,6 +58,63 @@ def _share_left(less: Any, size: Any) -> Any:
 
 
 @compiled
+def _tried_and_left(stiffness: Any, stretch: Any, slip: Any, limit: Any, resists: Any) -> Any:
+    """Force of a bar as if it had not yielded, its size, how far it flows, and the part of the force that is left."""
+    trial, size = _tried(stiffness, stretch, slip)
+    flow = max(size - limit[0] - limit[1], 0.0) / resists
+    return trial, size, flow, _share_left(stiffness * flow, size)
+
+
+@compiled
+def _scaled(factor: Any, of: Any) -> Any:
+    """Multiple of a vector."""
+    return factor * of[0], factor * of[1], factor * of[2]
+
+
+@compiled
+def _unit(of: Any, size: Any) -> Any:
+    """Direction of a vector of this size; none where it is 0."""
+    return (of[0] / size, of[1] / size, of[2] / size) if size > 0.0 else (0.0, 0.0, 0.0)
+
+
+@compiled
+def _answers(
+    row: int,
+    bars: Any,
+    slips: Any,
+    flows: Any,
+    normals: Any,
+    directions: Any,
+    pressed: Any,
+    rubbing: Any,
+    rests: Any,
+    gaps: Any,
+    dowel: float,
+) -> Any:
+    """What a bar does across a gap, what its sides do that rub, and how far these are open."""
+    yields, stiffness, modulus, resists = bars
+    grips, sliding, sliding_resists = rubbing
+    gap, normal = _vector(gaps, row), _vector(normals, row)
+    opened = _across(normal, gap)
+    stretch, limit = _stretched(gap, _vector(directions, row), dowel), (yields[row], modulus[row] * flows[row])
+    bar = _tried_and_left(stiffness[row], stretch, _vector(slips, row), limit, resists[row])
+    slid = gap[0] - opened * normal[0], gap[1] - opened * normal[1], gap[2] - opened * normal[2]
+    rub = _tried_and_left(sliding[row], slid, _vector(rests, row), (grips[row], 0.0), sliding_resists[row])
+    return bar, rub, opened
+
+
+@compiled
+def _write_force(
+    result: Any, row: int, bar: Any, rub: Any, opened: Any, normal: Any, direction: Any, pressed: Any, dowel: float
+) -> None:
+    """Force across a gap, of bar, rubbing and pressing together."""
+    pull = _stretched(_scaled(bar[3], bar[0]), direction, dowel)
+    pressing = pressed * min(opened, 0.0)
+    for axis in range(3):
+        result[axis, row] = pull[axis] + rub[3] * rub[0][axis] + pressing * normal[axis]
+
+
+@compiled
 def forces(
     bars: Any,
     slips: Any,
@@ -71,22 +128,11 @@ def forces(
     dowel: float,
 ) -> Any:
     """`CrackLaw.forces`."""
-    yields, stiffness, modulus, resists = bars
-    grips, sliding, sliding_resists = rubbing
     result = np.empty_like(gaps)
     for row in range(gaps.shape[1]):
-        gap, normal, direction = _vector(gaps, row), _vector(normals, row), _vector(directions, row)
-        opened = _across(normal, gap)
-        trial, size = _tried(stiffness[row], _stretched(gap, direction, dowel), _vector(slips, row))
-        flow = max(size - yields[row] - modulus[row] * flows[row], 0.0) / resists[row]
-        left = _share_left(stiffness[row] * flow, size)
-        pull = _stretched((left * trial[0], left * trial[1], left * trial[2]), direction, dowel)
-        slid = gap[0] - opened * normal[0], gap[1] - opened * normal[1], gap[2] - opened * normal[2]
-        rub, rub_size = _tried(sliding[row], slid, _vector(rests, row))
-        rub_left = _share_left(sliding[row] * (max(rub_size - grips[row], 0.0) / sliding_resists[row]), rub_size)
-        pressing = pressed[row] * min(opened, 0.0)
-        for axis in range(3):
-            result[axis, row] = pull[axis] + rub_left * rub[axis] + pressing * normal[axis]
+        bar, rub, opened = _answers(row, bars, slips, flows, normals, directions, pressed, rubbing, rests, gaps, dowel)
+        normal, direction = _vector(normals, row), _vector(directions, row)
+        _write_force(result, row, bar, rub, opened, normal, direction, pressed[row], dowel)
     return result
 
 
@@ -104,33 +150,21 @@ def linear(
     dowel: float,
 ) -> Any:
     """`CrackLaw.linear`."""
-    yields, stiffness, modulus, resists = bars
-    grips, sliding, sliding_resists = rubbing
+    _, stiffness, modulus, resists = bars
+    _, sliding, sliding_resists = rubbing
     count = gaps.shape[1]
     result, tangents = np.empty_like(gaps), np.empty((3, 3, count))
     even = dowel * dowel
     for row in range(count):
-        gap, normal, direction = _vector(gaps, row), _vector(normals, row), _vector(directions, row)
-        opened = _across(normal, gap)
-        trial, size = _tried(stiffness[row], _stretched(gap, direction, dowel), _vector(slips, row))
-        flow = max(size - yields[row] - modulus[row] * flows[row], 0.0) / resists[row]
-        left = _share_left(stiffness[row] * flow, size)
-        bars_across = stiffness[row] * left
-        bars_along = stiffness[row] * (modulus[row] / resists[row] if flow > 0.0 else 1.0)
-        pull = _stretched((left * trial[0], left * trial[1], left * trial[2]), direction, dowel)
-        unit = (trial[0] / size, trial[1] / size, trial[2] / size) if size > 0.0 else (0.0, 0.0, 0.0)
-        along = _stretched(unit, direction, dowel)
-        slid = gap[0] - opened * normal[0], gap[1] - opened * normal[1], gap[2] - opened * normal[2]
-        rub, rub_size = _tried(sliding[row], slid, _vector(rests, row))
-        rub_flow = max(rub_size - grips[row], 0.0) / sliding_resists[row]
-        rub_left = _share_left(sliding[row] * rub_flow, rub_size)
-        rubs_across = sliding[row] * rub_left
-        rubs_along = sliding[row] * (0.0 / sliding_resists[row] if rub_flow > 0.0 else 1.0)
-        turn = (rub[0] / rub_size, rub[1] / rub_size, rub[2] / rub_size) if rub_size > 0.0 else (0.0, 0.0, 0.0)
-        pressing = pressed[row] * min(opened, 0.0)
+        bar, rub, opened = _answers(row, bars, slips, flows, normals, directions, pressed, rubbing, rests, gaps, dowel)
+        normal, direction = _vector(normals, row), _vector(directions, row)
+        _write_force(result, row, bar, rub, opened, normal, direction, pressed[row], dowel)
+        bars_across, rubs_across = stiffness[row] * bar[3], sliding[row] * rub[3]
+        bars_along = stiffness[row] * (modulus[row] / resists[row] if bar[2] > 0.0 else 1.0)
+        rubs_along = sliding[row] * (0.0 / sliding_resists[row] if rub[2] > 0.0 else 1.0)
+        along, turn = _stretched(_unit(bar[0], bar[1]), direction, dowel), _unit(rub[0], rub[1])
         presses = pressed[row] if opened < 0.0 else 0.0
         for axis in range(3):
-            result[axis, row] = pull[axis] + rub_left * rub[axis] + pressing * normal[axis]
             for other in range(3):
                 total = (presses - rubs_across) * (normal[axis] * normal[other])
                 total += (1.0 - even) * bars_across * (direction[axis] * direction[other])
