@@ -21,6 +21,7 @@ from ...engineering.fracture.seeds import random_points
 from ...engineering.fracture.shards import Fracture, fracture, joined_fractures, voronoi_cells
 from ...engineering.fracture.shared_faces import SharedFaces, joined_faces, touching_faces
 from ...engineering.fracture.slabs import slabs
+from ...engineering.geometry.convex_parts import convex_parts
 from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.sides import AXES
 from ...engineering.geometry.solids import contains
@@ -35,6 +36,9 @@ from .point_files import paint_from_file, points_from_file
 _DENSITY_SAMPLES = 4000
 """Points that the mean density of a member is taken over: it is off by some percent at most, and so is a number of
 shards."""
+
+_MOST_CONVEX_PARTS = 12
+"""Parts into which a member is cut that has fewer shards, so that these are convex."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,9 +78,10 @@ def fractured_members(scenario: Scenario, members: Sequence[Member]) -> Fracture
         )
         zones = [zone for zone in scenario.blast_zones if zone.member == member.name]
         cuts = [cut for cut in scenario.cuts if cut.member == member.name]
-        cut = _cut_for_blasting(member, zones, cuts, own_points[index]) if zones or cuts else member
-        # Each part takes one shard at least.
-        count = max(int(counts[index]), len(cut.parts)) if zones or cuts else int(counts[index])
+        whole = member if len(own_points[index]) else _in_convex_parts(member, int(counts[index]))
+        cut = _cut_for_blasting(whole, zones, cuts, own_points[index]) if zones or cuts else whole
+        # Each part takes one shard at least, but of those that a bridge is made of by rule.
+        count = int(counts[index]) if cut is member else max(int(counts[index]), len(cut.parts))
         parts.append(_fractured(cut, count, own_points[index], int(seeds[index]), options))
     shards = tuple(shard for part in parts for shard in part.shards)
     member_of_shard = np.repeat(np.arange(len(members)), [len(part) for part in parts])
@@ -125,6 +130,14 @@ def _density(settings: FractureSettings) -> PointDensity | None:
     if settings.painted_file is not None:
         densities.append(painted_density(*paint_from_file(Path(settings.painted_file)), settings.painted_factor))
     return densest(densities) if densities else None
+
+
+def _in_convex_parts(member: Member, shards: int) -> Member:
+    """Return a member that is to be so many shards with parts that are convex, as few of a user's own files are."""
+    if member.parts:
+        return member
+    parts = convex_parts(member.solid, max(shards, _MOST_CONVEX_PARTS))
+    return replace(member, parts=parts) if len(parts) > 1 else member
 
 
 def _fractured(member: Member, count: int, points: np.ndarray, seed: int, options: FractureOptions) -> Fracture:
