@@ -66,11 +66,15 @@ def test_members_around_hollows_are_cut_into_convex_shards(tmp_path):
     text = f"""
 [scenario]
 title = "A trough"
+[time]
+duration_s = 1
 [[geometry]]
 name = "trough"
+place_m = [0.0, 0.0, 0.2]
 file = "{(tmp_path / "trough.stl").as_posix()}"
 density_kg_m3 = 2400
 [connections]
+method = "face"
 breaking_force_n = 1000
 [fracture]
 shards = 30"""
