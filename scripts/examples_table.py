@@ -48,7 +48,8 @@ those of `scripts/seeds`; each row of [their tables](data/seeds) is one. All of 
   may become.
 - **Carries**: the least collapse load factor under 1.35 G + 1.5 Q, the loads for which its bars are designed; 1 and
   more carries them.
-- **At rest**: in how many runs everything rested before the end. The distances of the others are not final.
+- **At rest**: in how many runs all together rested before the end, by their [energy](glossary.md); single shards may
+  still tremble. The distances of the others are not final.
 - **Down**: in how many runs each span came down, by more than 2 m of at least half of its deck.
 - **Throws**: how far debris went on plan from where it was: 95 % of the shards, and the farthest one; least to largest
   of all runs. No distance here is a limit for a plan: that is [of a study](studies.md#a-plan-is-a-study).

@@ -110,6 +110,15 @@ CLAIMS: dict[str, dict[str, tuple[float, float]]] = {
         "abutments_moved_m": (0.0, 0.0),
         "made_share": (0.0, 0.05),  # 0.003 to 0.027
     },
+    "drilled_viaduct_pier": {  # over 20 seeds
+        # It stands by its bars until the first zone fires.
+        "moved_before_m": (0.0, 0.05),  # 0.02
+        "span_1_share_fallen_2_m": (0.9, 1.0),  # 1.00
+        "span_2_share_fallen_2_m": (0.9, 1.0),  # 1.00
+        # Debris ends no farther than the bridge is high, 17.5 m.
+        "throw_95_percent_m": (2.0, 17.5),  # 6.5 to 10.3
+        "made_share": (0.0, 0.03),  # 0.002 to 0.013
+    },
     "two_spans_13m_ball": {  # over 20 seeds
         # The decks crack by their own weight, and rest on their bars.
         "moved_before_m": (0.0, 0.03),  # 0.012 to 0.014
