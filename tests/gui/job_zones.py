@@ -27,7 +27,7 @@ MIDDLE_M, HEIGHT_M = 1.5, 1.5
 """Of all zones as they are loaded."""
 
 BETWEEN_FRAME, BETWEEN = 23, {"P3.1: 600 ms", "P3.2: 600 ms"}
-"""A frame between the zones of the first pier, 0.8 s after the start, and those of the third, 1.1 s; what is left then."""
+"""A frame between the zones of the first pier, at 0.8 s, and those of the third, at 1.1 s; what is left then."""
 
 
 def steps(person: Person) -> Steps:
@@ -68,7 +68,7 @@ def see_zones(person: Person) -> Steps:
 
 
 def drag_middle(person: Person) -> Steps:
-    """By the ring: up, and back by Ctrl-Z; again, and back by Esc; with Ctrl in steps of 0.1 m is a matter of a test."""
+    """By the ring: up, and back by Ctrl-Z; again, and back by Esc."""
     before = handle_of(person, "ZONE").position_m
     end = on_screen(person, (*before[:2], before[2] + HIGHER_M))
     yield from hold(person, on_screen(person, before), end, partial(person.illustrate, "zone", person.view))
