@@ -127,7 +127,7 @@ def change_after_building(person: Person) -> Steps:
     yield from hold(person, on_screen(person, before), end, partial(person.picture, "dragged_when_built"))
     yield 0.5
     changed = [change.key for change in module("ui.scenario.built").changes(person.scene.bda)]
-    person.expect("the panels say what has changed", changed, ["blast_zones.middle_m"])
+    person.expect("the panels say what has changed", changed, ["blast_zones.middle_m (number 1)"])
     yield from undo(person)
     expect_zone(person, "Ctrl-Z makes it as it was built", MIDDLE_M, HEIGHT_M, off_m=1e-6)
     person.expect("nothing has changed then", module("ui.scenario.built").changes(person.scene.bda), [])
@@ -148,6 +148,8 @@ def see_them_fire(person: Person, panels: Panels) -> Steps:
     person.expect("none is drawn any more", {part.text for part in drawn(person) if part.text}, set())
     person.scene.frame_set(BETWEEN_FRAME)
     yield from person.illustrate("firing", person.view)
+    found = module("ui.preview.handles").handles(person.scene)
+    person.expect("nothing is left to be dragged in them", [handle.name for handle in found], [])
     person.expect("those that fire last are left", {part.text for part in drawn(person) if part.text}, BETWEEN)
     yield from go_to_start(person)
     yield 0.5
