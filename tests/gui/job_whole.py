@@ -45,6 +45,11 @@ VOLUME_M3 = 2 * 13.48 * 3.7 * 0.6 + 3 * 1.2 * 3.7 * 0.6 + 6 * 0.7 * 0.7 * 4.9
 CORNERS = tuple(product((-0.5, 26.5), (-1.85, 1.85), (0.0, 6.1)))
 """Of the bridge, by hand."""
 
+WIDER_PX = 60
+"""By how much the sidebar is made wider, so that its sentences have less lines."""
+TURN_PX, CLOSER = 100, 2
+"""By how much the view is turned, so that the bridge lies across it, and brought closer."""
+
 ZONE_M, HIGHER_M, OFF_M = 1.5, 0.5, 0.2
 """The middle of the first zone as it is loaded, by how much it is dragged, and what few pixels of the screen are."""
 
@@ -82,8 +87,8 @@ def empty_scene(person: Person, panels: Panels) -> Steps:
     yield from delete_all(person)
     person.expect("A and Delete empty the scene", [obj.name for obj in person.scene.objects], [])
     width = person.sidebar.width
-    yield from panels.widen(160)
-    person.expect("dragging its edge makes the sidebar wider", person.sidebar.width >= width + 120)
+    yield from panels.widen(WIDER_PX)
+    person.expect("dragging its edge makes the sidebar wider", person.sidebar.width >= width + WIDER_PX // 2)
     yield from panels.show_only("Scenario")
     yield from person.illustrate("sidebar", person.view)
 
@@ -127,7 +132,6 @@ def build_bridge(person: Person, panels: Panels) -> Steps:
     yield from person.click("bda.build_scenario")
     yield from person.wait_for("it is built", lambda: person.scene.rigidbody_world is not None, 60.0)
     yield 1.0
-    yield from person.illustrate("built", person.view)
     world = person.scene.rigidbody_world
     shards = list(world.collection.objects)
     person.expect("shards and ground are in the world", len(shards), SHARDS + 1)
@@ -138,12 +142,23 @@ def build_bridge(person: Person, panels: Panels) -> Steps:
         "they weigh what the bridge does by hand", math.isclose(mass, VOLUME_M3 * DENSITY_KG_M3, rel_tol=1e-4)
     )
     person.expect_reports("nothing but the building is reported", f"{SHARDS} shards")
+    yield from turn_view(person)
+    yield from person.illustrate("built", person.view)
     yield from person.click("bda.does_it_stand")
     yield 1.0
     person.expect_reports("it stands, and how much more it carries is reported", "load factor")
     yield from person.illustrate("stands", person.sidebar)
     kept = module("scene.stability").kept_stability(person.scene)
     person.expect("its verdict is kept with the scene", kept["verdict"], "stands")
+
+
+def turn_view(person: Person) -> Steps:
+    """With the middle button and the wheel."""
+    x, y = person.view.x + 300, person.view.y + 150
+    yield from person.drag((x, y), (x + TURN_PX, y), button="MIDDLEMOUSE")
+    for _ in range(CLOSER):
+        yield from person.press("WHEELUPMOUSE")
+    yield 0.5
 
 
 def out_of_sight(person: Person) -> list[tuple[float, ...]]:
