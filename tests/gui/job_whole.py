@@ -55,8 +55,8 @@ ZONE_M, HIGHER_M, OFF_M = 1.5, 0.5, 0.2
 
 SHOWN_FRAMES = (20, 30, 45)
 """In which contours are looked at while it runs: all zones have fired in the last but one."""
-DOWN_M = 3.5
-"""Above the centres of all shards at the end: those of the decks were 5.8 m above the ground, those of caps 5.2 m."""
+DOWN_M = 4.5
+"""Above the centres of all shards at the end: of decks on what is left of the piers, which were 5.8 m above ground."""
 RUN_S = 1200.0
 """That a run may take on a machine with other work."""
 COLOUR_NOISE = 0.02
@@ -224,7 +224,7 @@ def check_results(person: Person) -> None:
     folder = person.folder / "results"
     summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
     person.expect("the run is complete", summary["completed"])
-    person.expect("it stands before", (summary["stability"]["verdict"], summary["fell_by_itself"]), ("stands", False))
+    person.expect("it stands before", (summary["stability"]["verdict"], summary["fell_by_itself"]), ("stands", None))
     person.expect("and comes to rest", summary["came_to_rest_s"] is not None)
     person.note(f"it rests from {summary['came_to_rest_s']} s on, and ends after {summary['simulated_s']} s")
     debris = rows(folder / "debris_log.csv")
