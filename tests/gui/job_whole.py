@@ -56,7 +56,7 @@ ZONE_M, HIGHER_M, OFF_M = 1.5, 0.5, 0.2
 SHOWN_FRAMES = (20, 30, 45)
 """In which contours are looked at while it runs: all zones have fired in the last but one."""
 DOWN_M = 4.5
-"""Above the centres of all shards at the end: of decks on what is left of the piers, which were 5.8 m above ground."""
+"""Above the centres of all shards at the end, of which those of the decks lie on what is left of the piers."""
 RUN_S = 1200.0
 """That a run may take on a machine with other work."""
 COLOUR_NOISE = 0.02
