@@ -47,8 +47,8 @@ CORNERS = tuple(product((-0.5, 26.5), (-1.85, 1.85), (0.0, 6.1)))
 
 WIDER_PX = 60
 """By how much the sidebar is made wider, so that its sentences have less lines."""
-TURN_PX, SHIFT_PX = 100, 80
-"""By how much the view is turned, so that the bridge lies across it, and shifted away from the colour bar."""
+TURN_PX, NOTCHES_BACK = 100, 2
+"""By how much the view is turned, so that the bridge lies across it, and how far back it is taken then."""
 
 ZONE_M, HIGHER_M, OFF_M = 1.5, 0.5, 0.2
 """The middle of the first zone as it is loaded, by how much it is dragged, and what few pixels of the screen are."""
@@ -153,10 +153,11 @@ def build_bridge(person: Person, panels: Panels) -> Steps:
 
 
 def turn_view(person: Person) -> Steps:
-    """With the middle button, and with Shift."""
+    """With the middle button and the wheel."""
     x, y = person.view.x + 300, person.view.y + 150
     yield from person.drag((x, y), (x + TURN_PX, y), button="MIDDLEMOUSE")
-    yield from person.drag((x, y), (x + SHIFT_PX, y), button="MIDDLEMOUSE", shift=True)
+    for _ in range(NOTCHES_BACK):
+        yield from person.press("WHEELDOWNMOUSE")
     yield 0.5
 
 
