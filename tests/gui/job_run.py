@@ -39,7 +39,7 @@ def run(person: Person, name: str) -> Steps:
 def stop_with_escape(person: Person) -> Steps:
     yield from run(person, "stopped")
     yield from person.wait_for("it runs up to frame 20", lambda: person.scene.frame_current >= 20, 60.0)
-    yield from person.illustrate("running", person.view, person.status_bar)
+    yield from person.picture("running")
     person.expect("Esc alone stops it", person.refusal("bda.unregister_handler"), "Run is at work: Esc stops it")
     yield from person.move_to_view()
     yield from person.press("ESC")
