@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
-from case import MEASURED, Case, Comparison, Found
+from case import VALIDATION, Case, Comparison, Found
 from matplotlib.figure import Figure
 
 from bridge_demolition_addon.model.results.arrays import Results
@@ -71,7 +71,7 @@ def fallen_shares(results: Results) -> list[float]:
 CASE = Case(
     name="i235_decks",
     title="Decks of the I-235 bridge under a wrecking ball",
-    group=MEASURED,
+    group=VALIDATION,
     asked="As the bridge was taken down, its last deck came down under the ball; of the last two, the one that was "
     "hit came down, and the other stayed on its piers. Each is an example, run with 20 seeds.",
     left_out="How often the ball hit, from which height, and how large members were: the source does not say. The "

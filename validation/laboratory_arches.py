@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 from arches import Arch, G, first_crack_n, limit_load_n, loaded
-from case import MEASURED, Case, Comparison, Found
+from case import VALIDATION, Case, Comparison, Found
 from matplotlib.figure import Figure
 
 SPAN_M = 3.3
@@ -84,7 +84,7 @@ def _course(folder: Path, name: str, limit_n: float, connections: str = ""):
 CASE = Case(
     name="laboratory_arches",
     title="Arches of a laboratory, loaded to collapse",
-    group=MEASURED,
+    group=VALIDATION,
     asked="Two brick arches of 3.3 m, built with mortar, came down under a line load at 0.56 m from their springing, "
     "as mechanisms of four hinges. Their rings have 20 voussoirs here: blocks that only touch, and with a mortar of "
     "0.1 N/mm² that breaks as a whole once the edge of a joint reaches that.",

@@ -3,7 +3,7 @@
 
 from pathlib import Path
 
-from case import PUBLISHED, Case, Comparison, Found
+from case import VALIDATION, Case, Comparison, Found
 from loaded_beams import LoadedBeam, collapse_loads_n, courses, draw_courses
 from matplotlib.figure import Figure
 
@@ -37,7 +37,7 @@ def run(folder: Path) -> Found:
 CASE = Case(
     name="sheared_beam",
     title="Reinforced beam without links",
-    group=PUBLISHED,
+    group=VALIDATION,
     asked=f"A beam of {BEAM.span_m:g} m ({BEAM.width_m:g} m × {BEAM.height_m:g} m) with {BEAM.area_mm2:g} mm² near "
     f"its bottom and no links lies on two bearings, cut into {BEAM.shards} irregular shards. A load in its "
     "middle grows. It is strong in bending. At which load does it come down?",
