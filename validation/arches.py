@@ -118,7 +118,7 @@ _STRIPS = 41
 
 
 def load_shares(arch: Arch, load_x_m: float, spread_m: float = 0.0) -> list[tuple[int, np.ndarray, float]]:
-    """Return on which voussoirs a load acts that spreads along the road: row, where on its back (x, z), and its part."""
+    """Return what a load acts on that spreads along the road: voussoirs, where on their backs (x, z), and parts."""
     lines = np.linspace(load_x_m - spread_m / 2.0, load_x_m + spread_m / 2.0, _STRIPS) if spread_m else [load_x_m]
     shares = []
     for row, corners in enumerate(arch.outlines()):

@@ -17,7 +17,7 @@ from bridge_demolition_addon.model.scenario.file import read_scenario
 
 VERIFICATION, VALIDATION = "Verification", "Validation"
 GROUPS = (VERIFICATION, VALIDATION)
-"""Cases that are held against theory of the same model alone, and those that are held against what was measured, too."""
+"""Cases held against theory of the same model alone, and those held against what was measured, too."""
 
 
 class Against(StrEnum):

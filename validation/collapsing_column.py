@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Columns of loose blocks that collapse: how far they run out and how high they lie, against the laws of experiments."""
+"""Columns of loose blocks that collapse: how far they run out and how high they lie, by the laws of experiments."""
 
 from __future__ import annotations
 
@@ -118,7 +118,7 @@ def positions_m(radius_m: float, apart_m: float) -> np.ndarray:
         shift = np.array([0.0, apart_m / math.sqrt(3.0)]) if len(found) % 2 else np.zeros(2)
         level = layer + shift
         level = level[np.hypot(*level.T) <= radius_m - apart_m / 2.0]
-        height = apart_m * (0.5 + math.sqrt(2.0 / 3.0) * len(found))
+        height = apart_m * (0.75 + math.sqrt(2.0 / 3.0) * len(found))
         found.append(np.column_stack([level, np.full(len(level), height)]))
     return np.concatenate(found)[:COUNT]
 
@@ -159,14 +159,14 @@ shards = {shards}
 [connections]
 type = "FIXED"
 method = "face"
-breaking_force_n = 1e3
-foundation = false
+breaking_force_n = 1e12
+
+[[connections.between]]
+members = ["block", "ground"]
+none = true
 
 [shards]
 start_deactivated = false
-
-[[supports]]
-member = "panel"
 
 [[removals]]
 members = ["panel"]
@@ -273,3 +273,23 @@ def run(folder: Path) -> Found:
         axes.legend(fontsize=8)
 
     return Found(comparisons, draw)
+
+
+CASE = Case(
+    name="collapsing_column",
+    title="Columns of loose blocks that collapse",
+    group=VALIDATION,
+    asked="320 loose blocks of concrete are dropped within twelve panels and settle; then the panels are gone. How "
+    "far do they run out, and how high do they lie? The blocks are cubes of 0.3 m, or irregular splinters of the "
+    "same volume, and columns have four heights. Contacts, damping and steps are the program's own, as in a scenario "
+    "that gives none.",
+    left_out="The number of grains: experiments had thousands, or hundreds of thousands. These columns have 3 to 7 "
+    "blocks from the middle to the edge, and the front lies uncertain by half a block. Dust, and blocks that break.",
+    source="(r - r₀) / r₀ = 1.24 a below a height over radius a of 1.7, and 1.6 √a above; h / r₀ = a below 1, and "
+    "0.88 a^(1/6) above 1.7, whatever the grains: G. Lube, H. E. Huppert, R. S. J. Sparks and M. A. Hallworth, *J. "
+    "Fluid Mech.* 508 (2004) 175, as it is quoted; in between the smaller of both is taken. E. Lajeunesse and others "
+    "(2005) have the same form. J. M. Warnett and others, *Granular Matter* 16 (2014) 115: the runout also depends "
+    "on radius over grain size.",
+    reason="REASON",
+    run=run,
+)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 from beams import Beam, middle_m
-from case import RIGID_BODIES, VALIDATION, Case, Comparison, Found, simulated
+from case import RIGID_BODIES, VALIDATION, Against, Case, Comparison, Found, simulated
 from matplotlib.figure import Figure
 
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2 as G
@@ -35,7 +35,7 @@ def run(folder: Path) -> Found:
         for (mass, speed), found in deflections.items()
     ]
     comparisons += [
-        Comparison(f"mean of δ P / E, {what}, against tests", "", line, _slope(points), 0.4)
+        Comparison(f"mean of δ P / E, {what}, against tests", "", line, _slope(points), 0.4, Against.MEASURED)
         for what, line, points in (("largest δ", 0.63, deflections), ("δ in the end", 0.42, stays))
     ]
 

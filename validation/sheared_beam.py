@@ -3,7 +3,7 @@
 
 from pathlib import Path
 
-from case import VALIDATION, Case, Comparison, Found
+from case import VALIDATION, Against, Case, Comparison, Found
 from loaded_beams import LoadedBeam, collapse_loads_n, courses, draw_courses
 from matplotlib.figure import Figure
 
@@ -16,7 +16,7 @@ def run(folder: Path) -> Found:
     found = courses(folder, BEAM, MOST_N)
     loads = collapse_loads_n(found)
     comparisons = [
-        Comparison(f"load as it comes down, {name}", "kN", 1e-3 * BEAM.shears_at_n, 1e-3 * load, 0.3)
+        Comparison(f"load as it comes down, {name}", "kN", 1e-3 * BEAM.shears_at_n, 1e-3 * load, 0.3, Against.MEASURED)
         for name, load in loads.items()
     ]
     comparisons.append(
