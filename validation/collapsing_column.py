@@ -202,7 +202,7 @@ def deposit(results: Results, column: Column, released_s: float) -> Deposit:
     """Return how a column lay in the end.
 
     Its height at first is twice that of its centre of mass; its front is the mean over sectors of the farthest block
-    that is connected with the middle by blocks that are near each other.
+    that is connected with the middle by blocks no more than about the side of one apart.
     """
     frames, radius = results.frames, column.mean_radius_m
     rows = np.flatnonzero(np.asarray(results.inventory.body_member_kinds) == "block")
@@ -217,7 +217,7 @@ def deposit(results: Results, column: Column, released_s: float) -> Deposit:
 
 def front_m(positions_m: np.ndarray) -> float:
     """Return the mean over sectors of the distance of the farthest block (b, 3) that is connected with the middle."""
-    near = cKDTree(positions_m).query_pairs(1.6 * SIDE_M, output_type="ndarray")
+    near = cKDTree(positions_m).query_pairs(2.0 * SIDE_M, output_type="ndarray")
     graph = coo_array((np.ones(len(near)), (near[:, 0], near[:, 1])), shape=(len(positions_m),) * 2)
     _, parts = connected_components(graph, directed=False)
     pile = positions_m[parts == np.bincount(parts).argmax()]
