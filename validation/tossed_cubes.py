@@ -106,9 +106,7 @@ class Contact:
 
     friction: float = FRICTION
     restitution: float = RESTITUTION
-    collision_margin_m: float = 0.0
     use_deactivation: bool = False
-    substeps: int = SUBSTEPS
 
 
 def tossed(folder: Path, tosses: Tosses, contact: Contact | None = None) -> Ends:
@@ -127,7 +125,7 @@ title = "tossed cubes"
 [time]
 duration_s = {DURATION_S}
 frames_per_second = {FRAMES_PER_SECOND}
-substeps_per_frame = {contact.substeps}
+substeps_per_frame = {SUBSTEPS}
 
 [fracture]
 shards = {count}
@@ -141,7 +139,7 @@ foundation = false
 [shards]
 linear_damping = 0.0
 angular_damping = 0.0
-collision_margin_m = {contact.collision_margin_m}
+collision_margin_m = 0.0
 use_deactivation = {str(contact.use_deactivation).lower()}
 start_deactivated = false
 
