@@ -99,6 +99,12 @@ CASE = Case(
     "spreads from 0.3 m by 1 in 2 to both sides are assumed: none is fitted. Passive pressure: W. J. M. Rankine "
     "(1857), tan²(45° + 37° / 2) of the weight above. Limit loads: linear program of R. K. Livesley, *Int. J. Numer. "
     "Methods Eng.* 12 (1978) 1853, with friction of 0.6, worked out in `validation/arches.py` without the add-on.",
-    reason="REASON",
+    reason="10 % of limit analysis: contacts sink by some millimetres, as if the ring were so much thinner. With "
+    "fill as weight it carries 0.93 of the limit with these sub-steps of 65 µs, and 0.81 with 130 µs as the load "
+    "grows half as fast. 20 % of the test were wished for: without the pressure of the fill it is missed by more "
+    "than half, with half of it by a little, and with all of it met. By limit analysis alone the two are at 0.84 and "
+    "1.04 of the test; under a load on a line at 0.72 and 0.89. Of fill as weight, limit analysis gives 0.42 to 0.54 "
+    "of the test, by ring and fill of 18 to 20 kN/m³ and a load that spreads or does not. So pressure of fill "
+    "explains what was missed here. Scenarios have it by `[[loads]]` alone, as this case does.",
     run=run,
 )

@@ -4,9 +4,9 @@
 Usage: tosses.py measure | mujoco
 
 `measure` tosses every tenth of the measured cubes of the case `tossed_cubes` and writes docs/data/tosses.csv; `mujoco`
-tosses every second one there and writes docs/data/tosses_by_mujoco.csv. It needs the extra `measured`: E. Todorov, T. Erez
-and Y. Tassa, MuJoCo, IROS 2012, with a cube and friction as in the case. It has no restitution; its contacts are soft,
-by default with a time constant of 20 ms, and sub-steps of 2 ms. Stiff ones have 2 ms, elliptic cones and 0.5 ms.
+tosses every second one there and writes docs/data/tosses_by_mujoco.csv. It needs the extra `measured`: E. Todorov, T.
+Erez and Y. Tassa, MuJoCo, IROS 2012, with a cube and friction as in the case. It has no restitution; its contacts are
+soft, by default with a time constant of 20 ms, and sub-steps of 2 ms. Stiff ones have 2 ms, elliptic cones and 0.5 ms.
 """
 
 from __future__ import annotations
