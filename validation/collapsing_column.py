@@ -18,10 +18,9 @@ from solids import block
 from bridge_demolition_addon.engineering.geometry.mesh import TriangleMesh
 from bridge_demolition_addon.model.results.arrays import Results
 
-ASPECTS = (0.5, 2.0, 4.0)
-"""Height over radius that columns are meant to have; what they have once they have settled counts."""
+COLUMNS = (("cubes", 0.5), ("cubes", 2.0), ("cubes", 4.0), ("splinters", 0.5), ("splinters", 2.0))
+"""Shape of blocks, and height over radius that a column is meant to have; what it has once it has settled counts."""
 
-SHAPES = ("cubes", "splinters")
 COUNT, SIDE_M, PACKED = 320, 0.3, 0.55
 """Blocks of a column, the side of a cube of the same volume, and which part of a column is blocks, about."""
 
@@ -230,8 +229,7 @@ def run(folder: Path) -> Found:
     """Let all columns collapse."""
     deposits = {
         (shape, aspect): collapsed(folder, f"{shape}_{aspect:g}".replace(".", "_"), Column.of(shape, aspect))
-        for shape in SHAPES
-        for aspect in ASPECTS
+        for shape, aspect in COLUMNS
     }
     comparisons = []
     for quantity, law, found_of in (
@@ -260,7 +258,7 @@ def run(folder: Path) -> Found:
             strict=True,
         ):
             axes.loglog(curve, [law(aspect) for aspect in curve], color="0.6", label="law of experiments")
-            for shape, marker in zip(SHAPES, ("s", "^"), strict=True):
+            for shape, marker in (("cubes", "s"), ("splinters", "^")):
                 of_shape = [deposit for (name, _), deposit in deposits.items() if name == shape]
                 axes.loglog(
                     [deposit.aspect for deposit in of_shape],
@@ -283,8 +281,9 @@ CASE = Case(
     "far do they run out, and how high do they lie? The blocks are cubes of 0.3 m, or irregular splinters of the "
     "same volume, and columns have three heights. Contacts, damping and steps are the program's own, as in a "
     "scenario that gives none.",
-    left_out="The number of grains: experiments had thousands, or hundreds of thousands. These columns have 3 to 7 "
-    "blocks from the middle to the edge, and the front lies uncertain by half a block. Dust, and blocks that break.",
+    left_out="The number of grains: experiments had thousands, or hundreds of thousands. These columns have 4 to 7 "
+    "blocks from the middle to the edge, and the front lies uncertain by half a block. By the law a tall one would "
+    "lie thinner than one block. Dust, and blocks that break.",
     source="(r - r₀) / r₀ = 1.24 a below a height over radius a of 1.7, and 1.6 √a above; h / r₀ = a below 1, and "
     "0.88 a^(1/6) above 1.7, whatever the grains: G. Lube, H. E. Huppert, R. S. J. Sparks and M. A. Hallworth, *J. "
     "Fluid Mech.* 508 (2004) 175, as it is quoted; in between the smaller of both is taken. E. Lajeunesse and others "

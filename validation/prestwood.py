@@ -105,6 +105,6 @@ CASE = Case(
     "than half, with half of it by a little, and with all of it met. By limit analysis alone the two are at 0.84 and "
     "1.04 of the test; under a load on a line at 0.72 and 0.89. Of fill as weight, limit analysis gives 0.42 to 0.54 "
     "of the test, by ring and fill of 18 to 20 kN/m³ and a load that spreads or does not. So pressure of fill "
-    "explains what was missed here. Scenarios have it by `[[loads]]` alone, as this case does.",
+    "explains most of what was missed here. Scenarios have it by `[[loads]]` alone, as this case does.",
     run=run,
 )
