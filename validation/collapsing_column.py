@@ -249,7 +249,7 @@ def run(folder: Path) -> Found:
         ]
 
     def draw(figure: Figure) -> None:
-        curve = np.geomspace(0.3, 6.0, 60)
+        curve = np.linspace(0.0, 5.0, 101)
         for axes, quantity, law, found_of in zip(
             figure.subplots(1, 2),
             ("runout", "height in the end"),
@@ -257,10 +257,10 @@ def run(folder: Path) -> Found:
             (lambda deposit: deposit.runout, lambda deposit: deposit.height),
             strict=True,
         ):
-            axes.loglog(curve, [law(aspect) for aspect in curve], color="0.6", label="law of experiments")
+            axes.plot(curve, [law(aspect) for aspect in curve], color="0.6", label="law of experiments")
             for shape, marker in (("cubes", "s"), ("splinters", "^")):
                 of_shape = [deposit for (name, _), deposit in deposits.items() if name == shape]
-                axes.loglog(
+                axes.plot(
                     [deposit.aspect for deposit in of_shape],
                     [found_of(deposit) for deposit in of_shape],
                     marker,
