@@ -291,8 +291,8 @@ CASE = Case(
     "on radius over grain size.",
     reason="20 % was wished for. Heights are met, and every runout is missed: 0.55 to 0.73 of the law. Few and "
     "coarse blocks interlock, and a front of single blocks is cut off where they lie further apart than their side; "
-    "more friction and contacts that do not bounce may add to it. How much each does is not told apart here. The "
-    "farthest single blocks lie at 0.9 to 1.2 of the radius that the law has. So a pile of debris covers less ground "
-    "here than loose grains would, while single pieces go as far.",
+    "more friction and contacts that do not bounce may add to it. How much each does is not known. The farthest "
+    "single blocks lie at 0.9 to 1.2 of the radius that the law has. So a pile of debris covers less ground here "
+    "than loose grains would, while single pieces go as far.",
     run=run,
 )
