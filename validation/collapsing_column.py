@@ -18,10 +18,7 @@ from solids import block
 from bridge_demolition_addon.engineering.geometry.mesh import TriangleMesh
 from bridge_demolition_addon.model.results.arrays import Results
 
-COLUMNS = (
-    *(("cubes", aspect) for aspect in (0.5, 0.9, 2.0, 4.0)),
-    *(("splinters", aspect) for aspect in (0.5, 0.9, 2.0)),
-)
+COLUMNS = tuple((shape, aspect) for shape in ("cubes", "splinters") for aspect in (0.5, 0.9, 2.0, 4.0))
 """Shape of blocks, and height over radius that a column is meant to have; what it has once it has settled counts."""
 
 COUNT, SIDE_M, PACKED = 320, 0.3, 0.55
