@@ -89,7 +89,12 @@ def products() -> Iterator[Product]:
         command = ("scripts/validate.py", "--keep", path.stem)
         output = path.relative_to(ROOT).as_posix()
         yield Product(f"validation/{path.stem}", command, (output,), (f"validation/{path.stem}.py",))
-    for name, words in (("growth", ("measure",)), ("elastic_beam", ("measure",)), ("reinforced_deck", ("12",))):
+    for name, words in (
+        ("growth", ("measure",)),
+        ("elastic_beam", ("measure",)),
+        ("reinforced_deck", ("12",)),
+        ("tosses", ("measure",)),
+    ):
         script = f"scripts/experiments/{name}.py"
         yield Product(f"experiments/{name}", (script, *words), (f"docs/data/{name}.csv",), (script,))
     for name, ensemble in ENSEMBLES.items():
