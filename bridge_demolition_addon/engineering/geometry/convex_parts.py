@@ -17,7 +17,7 @@ from .mesh import TriangleMesh, triangle_areas_and_normals
 from .solids import bodies, from_manifold, to_manifold
 from .vectors import dot, length
 
-EMPTY = 0.02
+EMPTY = 0.005
 """Part of a convex hull that may lie outside the solid: chords of a slightly curved side do."""
 
 _MOST_PLANES = 12

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -38,7 +39,17 @@ _DENSITY_SAMPLES = 4000
 shards."""
 
 _MOST_CONVEX_PARTS = 12
-"""Parts into which a member is cut that has fewer shards, so that these are convex."""
+_MOST_CONVEX_IN_PIECE = 8
+"""Parts into which a member that has fewer shards is cut, and a piece of a slender one, so that these are convex."""
+
+_MOST_ATTEMPTS = 8
+
+_SPANNING = ("deck", "girder", "arch", "parapet", "pier cap")
+_SLENDER, _LONGEST_PIECE = 4.0, 3.0
+"""Length by the size of the section of a member that is cut across it first, and of its pieces."""
+
+_SHARDS_OF_PIECE, _MOST_PIECES = 6, 12
+"""Shards of a piece of a member with many, and number of pieces of wide ones: what is cambered is straight in each."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,8 +147,42 @@ def _in_convex_parts(member: Member, shards: int) -> Member:
     """Return a member that is to be so many shards with parts that are convex, as few of a user's own files are."""
     if member.parts:
         return member
-    parts = convex_parts(member.solid, max(shards, _MOST_CONVEX_PARTS))
+    parts = _convex_parts(member.solid, max(shards, _MOST_CONVEX_PARTS))
+    if len(parts) > 1 and member.kind in _SPANNING and (pieces := _pieces_of_slender(member.solid, shards)):
+        most = max(shards // len(pieces), _MOST_CONVEX_IN_PIECE)
+        parts = tuple(part for piece in pieces for part in _convex_parts(piece, most))
     return replace(member, parts=parts) if len(parts) > 1 else member
+
+
+def _convex_parts(solid: TriangleMesh, most: int) -> tuple[TriangleMesh, ...]:
+    """Return a solid in convex parts; whole where one of them could not be cut, as its surface crosses itself."""
+    parts = convex_parts(solid, most)
+    return parts if all(_can_be_cut(part) for part in parts) else (solid,)
+
+
+def _can_be_cut(part: TriangleMesh) -> bool:
+    try:
+        fracture(part, 1)
+    except GeometryError:
+        return False
+    return True
+
+
+def _pieces_of_slender(solid: TriangleMesh, shards: int) -> tuple[TriangleMesh, ...]:
+    """Return a slender solid in pieces across its length, before these become convex; none of any other.
+
+    Convex parts of a long edge beam are as long as it is. As rigid as shards are, they would stiffen the deck.
+    """
+    lengths = np.ptp(solid.vertices, axis=0)
+    axis = int(lengths.argmax())
+    longest, middle, _ = sorted(lengths.tolist(), reverse=True)
+    if longest < _SLENDER * middle:
+        return ()
+    count = max(math.ceil(longest / (_LONGEST_PIECE * middle)), min(shards // _SHARDS_OF_PIECE, _MOST_PIECES))
+    count = min(count, shards)
+    begin = float(solid.vertices[:, axis].min())
+    pieces = slabs(solid, axis, [begin + longest * number / count for number in range(1, count)])
+    return pieces if all(_can_be_cut(piece) for piece in pieces) else ()
 
 
 def _fractured(member: Member, count: int, points: np.ndarray, seed: int, options: FractureOptions) -> Fracture:
@@ -179,7 +224,17 @@ def _fractured_in_parts(member: Member, count: int, seed: int, options: Fracture
     seeds = np.random.SeedSequence(seed).generate_state(len(member.parts))
     counts = shards_per_member(amounts, count)
     columns = zip(member.parts, counts.tolist(), seeds.tolist(), strict=True)
-    return joined_fractures([fracture(part, number, part_seed, options) for part, number, part_seed in columns])
+    return joined_fractures([_fractured_part(part, number, part_seed, options) for part, number, part_seed in columns])
+
+
+def _fractured_part(part: TriangleMesh, count: int, seed: int, options: FractureOptions) -> Fracture:
+    """Cut a convex part; at other points where those of its seed meet what is left of a warped face."""
+    for attempt in range(_MOST_ATTEMPTS - 1):
+        try:
+            return fracture(part, count, seed + attempt, options)
+        except GeometryError:
+            continue
+    return fracture(part, count, seed + _MOST_ATTEMPTS - 1, options)
 
 
 def _masses(member: Member, part: Fracture, mass: str) -> np.ndarray:
