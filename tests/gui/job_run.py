@@ -79,7 +79,8 @@ def run_to_the_end(person: Person) -> Steps:
         person.expect("results have every frame", arrays["frames"].tolist(), list(range(2, person.scene.frame_end + 1)))
     person.expect("no recording runs", recording_runs(), False)
     person.expect_reports(
-        "what creeps and the results are reported",
+        "what moves, what creeps and the results are reported",
+        "still move at the end",
         "creep at the end",
         "Results are in",
         "Pictures of the run are in",
