@@ -33,7 +33,7 @@ from ..system.native_output import without_noise
 from ..system.progress import Progress
 from ..system.signals import Interrupted, interrupted_afterwards, signals_noted
 from .display.film import FilmRendering, FilmSettings
-from .display.pictures import check_camera, rendered_pictures, show_blast_zones, show_charges
+from .display.pictures import check_camera, rendered_pictures, show_blast_zones, show_charges, stage_of_pictures
 from .kept_run import keep_recording
 from .playback import Playing
 from .recording.recorder import Recording
@@ -119,7 +119,7 @@ def run_scenario(
         if signals:
             raise Interrupted(signals[0])
         if pictures:
-            progress.stage("rendering pictures")
+            progress.stage(stage_of_pictures(scenario.pictures))
             key_frame = summary["key_frame"]["frame"]
             list(rendered_pictures(scene, lock.folder, scenario.pictures, key_frame, scene.frame_end))
             times["pictures"] = lap_s()
@@ -184,7 +184,7 @@ def _empty_scene(title: str) -> bpy.types.Scene:
 
 
 def _prepare_view(scene: bpy.types.Scene, scenario: Scenario, model: Model, shards: Sequence[bpy.types.Object]) -> None:
-    prepare_pictures(scene, scenario.pictures.width_px, scenario.pictures.height_px)
+    prepare_pictures(scene, scenario.pictures)
     stage(scene, shards, model, points_to_see(scenario, model.members), scenario.pictures)
     show_charges(scene, scenario)
     show_blast_zones(scene, scenario)

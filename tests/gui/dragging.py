@@ -29,13 +29,6 @@ def hold(person: Person, start: Pixels, end: Pixels, show: Callable[[], Steps], 
     yield 0.2
 
 
-def undo(person: Person) -> Steps:
-    """Press Ctrl-Z over the 3D view."""
-    yield from person.move_to_view()
-    yield from person.press("Z", ctrl=True)
-    yield 0.5
-
-
 def handle_of(person: Person, kind: str, index: int = 0, is_upright: bool = False) -> Any:
     """The handle of that kind, and what is dragged by it."""
     found = module("ui.preview.handles").handles(person.scene)

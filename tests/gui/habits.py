@@ -54,6 +54,26 @@ def play_until(person: Person, frame: int) -> Steps:
     yield from person.wait_for(f"the timeline plays up to frame {frame}", lambda: person.scene.frame_current >= frame)
 
 
+def undo(person: Person) -> Steps:
+    """Press Ctrl-Z over the 3D view."""
+    yield from person.move_to_view()
+    yield from person.press("Z", ctrl=True)
+    yield 0.5
+
+
+def undo_and_redo(person: Person, bodies: int) -> Steps:
+    """Press Ctrl-Z and Ctrl-Shift-Z after a run: contours and so many bodies are there."""
+    yield from undo(person)
+    yield 0.5
+    yield from person.picture("undone")
+    person.expect("contours are still shown after Ctrl-Z", person.scene.bda.contours)
+    yield from person.press("Z", ctrl=True, shift=True)
+    yield 1.0
+    person.expect("and after Ctrl-Shift-Z", person.scene.bda.contours)
+    person.expect("the bridge is there", len(person.scene.rigidbody_world.collection.objects), bodies)
+    person.expect_reports("nothing is reported of it")
+
+
 def render_still(person: Person, path: Path) -> Steps:
     """Press F12 with the renderer that is chosen, and keep a small picture of what comes of it."""
     scene = person.scene

@@ -14,7 +14,7 @@ import bpy
 import numpy as np
 from bpy_extras.view3d_utils import location_3d_to_region_2d
 from file_browser import choose_file
-from habits import delete_all, load, play_or_pause, register
+from habits import delete_all, load, play_or_pause, register, undo_and_redo
 from panels import Panels
 from person import Person, Steps, region_of
 from traces import PRESETS, charges, colours, recording_runs, rows, scenario_in
@@ -51,7 +51,7 @@ def steps(person: Person) -> Steps:
     yield from hide_and_undo(person, panels)
     yield from record(person, panels)
     check_logs(person)
-    yield from undo(person)
+    yield from undo_and_redo(person, SHARDS + 1)
     yield from save_what_was_changed(person, panels)
 
 
@@ -329,20 +329,6 @@ def hidden_symbols(person: Person) -> set[str]:
     """Names of the connections and force fields that are not seen."""
     empties = [obj for obj in person.scene.objects if obj.type == "EMPTY" and obj.name not in (WEST, EAST)]
     return {empty.name for empty in empties if not empty.visible_get(view_layer=person.window.view_layer)}
-
-
-def undo(person: Person) -> Steps:
-    """Ctrl-Z, after all, and Ctrl-Shift-Z."""
-    yield from person.move_to_view()
-    yield from person.press("Z", ctrl=True)
-    yield 1.0
-    yield from person.picture("undone")
-    person.expect("contours are still shown after Ctrl-Z", person.scene.bda.contours)
-    yield from person.press("Z", ctrl=True, shift=True)
-    yield 1.0
-    person.expect("and after Ctrl-Shift-Z", person.scene.bda.contours)
-    person.expect("the bridge is there", len(person.scene.rigidbody_world.collection.objects), SHARDS + 1)
-    person.expect_reports("nothing is reported of it")
 
 
 def save_what_was_changed(person: Person, panels: Panels) -> Steps:

@@ -5,8 +5,8 @@ from functools import partial
 
 import bpy
 import numpy as np
-from dragging import handle_of, hold, look_at, on_screen, undo
-from habits import delete_all, load
+from dragging import handle_of, hold, look_at, on_screen
+from habits import delete_all, load, undo
 from panels import Panels
 from person import Person, Steps
 from traces import module, pixels_of

@@ -15,9 +15,9 @@ from typing import Any
 
 import numpy as np
 from bpy_extras.view3d_utils import location_3d_to_region_2d
-from dragging import handle_of, hold, on_screen, undo
+from dragging import handle_of, hold, on_screen
 from file_browser import choose_file
-from habits import delete_all
+from habits import delete_all, undo, undo_and_redo
 from panels import Panels
 from person import Person, Steps, region_of
 from timeline import drag_to_frame, timeline
@@ -78,7 +78,7 @@ def steps(person: Person) -> Steps:
     yield from scrub(person)
     yield from look_at_results(person, panels)
     yield from make_report(person, panels)
-    yield from undo_and_redo(person)
+    yield from undo_and_redo(person, SHARDS + 1)
     yield from save_what_was_changed(person, panels)
 
 
@@ -320,17 +320,6 @@ def make_report(person: Person, panels: Panels) -> Steps:
     )
     person.expect_reports("nothing but the report is reported", "Report: ")
     yield from person.picture("report")
-
-
-def undo_and_redo(person: Person) -> Steps:
-    """Ctrl-Z, after all, and Ctrl-Shift-Z."""
-    yield from undo(person)
-    person.expect("contours are still shown after Ctrl-Z", person.scene.bda.contours)
-    yield from person.press("Z", ctrl=True, shift=True)
-    yield 1.0
-    person.expect("and after Ctrl-Shift-Z", person.scene.bda.contours)
-    person.expect("the bridge is there", len(person.scene.rigidbody_world.collection.objects), SHARDS + 1)
-    person.expect_reports("nothing is reported of it")
 
 
 def save_what_was_changed(person: Person, panels: Panels) -> Steps:

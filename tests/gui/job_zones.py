@@ -4,8 +4,8 @@
 from functools import partial
 from typing import Any
 
-from dragging import handle_of, hold, look_at, on_screen, undo
-from habits import delete_all, go_to_start, load
+from dragging import handle_of, hold, look_at, on_screen
+from habits import delete_all, go_to_start, load, undo
 from panels import Panels
 from person import Person, Steps
 from traces import PRESETS, module, pixels_of, recording_runs

@@ -39,14 +39,31 @@ class CameraKind(StrEnum):
     """From a position of the user's own, or by the camera that the scene has."""
 
 
+class Renderer(StrEnum):
+    """What of Blender draws pictures."""
+
+    WORKBENCH = "workbench"
+    """In plain colours, in a second."""
+
+    CYCLES = "cycles"
+    """With the light of sun and sky and the patterns of materials, in some ten seconds."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PictureSettings(Table):
-    """Size of the pictures of a run, and the camera that takes them and its films."""
+    """Size of the pictures of a run, what draws them, and the camera that takes them and its films."""
 
     table: ClassVar[str] = "pictures"
 
     width_px: int = key("Width.", default=1280, unit="px", at_least=16, at_most=8192)
     height_px: int = key("Height.", default=720, unit="px", at_least=16, at_most=8192)
+    renderer: str = key(
+        "What draws the pictures of a run: `workbench` in plain colours, in a second each; `cycles` in the light of "
+        "sun and sky, with materials, in half a minute each for 1280 × 720 px on two cores. Films of contours are "
+        "always by Workbench.",
+        default=Renderer.WORKBENCH.value,
+        choices=tuple(renderer.value for renderer in Renderer),
+    )
     camera: str = key(
         "Camera of pictures and films: `framed` stands beside the road and sees the whole bridge, `orbiting` goes "
         "round it during the run, `own` stands at `pictures.camera_m`, or is the scene's own camera in Blender's "

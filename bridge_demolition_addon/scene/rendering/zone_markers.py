@@ -17,6 +17,7 @@ from ...engineering.geometry.mesh import TriangleMesh
 from ...model.structure.blast_zones import PlacedZone
 from ..bodies import mesh_of
 from ..collections import ROLE, collection_for, remove_marked
+from .materials import new_nodes
 
 _ZONES = "Blast zones"
 _FLASH_COLOUR = (1.0, 0.75, 0.1)
@@ -58,12 +59,21 @@ def _object(
 ) -> bpy.types.Object:
     made = bpy.data.objects.new(name, mesh_of(name, solid))
     made[ROLE] = _ZONES
-    material = bpy.data.materials.new(name)
-    made.data.materials.append(material)
-    made.color = material.diffuse_color = (*(float(part) for part in colour), 1.0)
+    made.color = (*(float(part) for part in colour), 1.0)
+    made.data.materials.append(_material(name, tuple(made.color)))
     made.hide_viewport = made.hide_select = True
     collection.objects.link(made)
     return made
+
+
+def _material(name: str, colour: tuple[float, ...]) -> bpy.types.Material:
+    """Return a material that has its colour in the shade as well."""
+    material = bpy.data.materials.new(name)
+    material.diffuse_color = colour
+    emission, output = new_nodes(material, "ShaderNodeEmission", "ShaderNodeOutputMaterial")
+    emission.inputs["Color"].default_value = colour
+    material.node_tree.links.new(emission.outputs[0], output.inputs["Surface"])
+    return material
 
 
 def _hide(made: bpy.types.Object, frames: Iterable[tuple[int, bool]]) -> None:

@@ -11,7 +11,7 @@ from ...errors import GeometryError, OutputError, ScenarioError
 from ...model.bridge.preparation import prepared_members
 from ...model.run_folder.files import AFTER, BEFORE, IMPACT, PICTURE_FOLDER
 from ...model.scenario import Scenario
-from ...model.scenario.recording import PictureSettings
+from ...model.scenario.recording import PictureSettings, Renderer
 from ...model.structure.blast_zones import PlacedZone, placed_zones
 from ...scene.blast.charges import charge_objects, show_never, show_until
 from ...scene.demolition import first_frame_after
@@ -27,6 +27,13 @@ def check_camera(view: PictureSettings) -> None:
     """Check that pictures of a scene that is built next can be rendered."""
     if reason := view.why_not_without_window:
         raise OutputError(reason)
+
+
+def stage_of_pictures(view: PictureSettings) -> str:
+    """Return what a run says before it renders its pictures: how long they take where that is not a moment."""
+    if view.renderer == Renderer.CYCLES:
+        return "rendering 3 pictures by Cycles, which takes a minute or two"
+    return "rendering pictures"
 
 
 def show_charges(scene: bpy.types.Scene, scenario: Scenario) -> None:

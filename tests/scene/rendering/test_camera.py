@@ -9,6 +9,7 @@ import pytest
 from matplotlib.image import imread
 from support.scenarios import I235
 
+from bridge_demolition_addon.model.scenario.recording import PictureSettings
 from bridge_demolition_addon.model.structure.model import build_model
 
 BRIDGE = np.array(list(product((-0.5, 13.5), (-4.25, 4.25), (0.0, 5.55))))
@@ -29,7 +30,7 @@ def test_camera_sees_everything_and_wastes_little(blender, points, size):
     from bridge_demolition_addon.scene.rendering.stills import prepare_pictures
 
     scene = blender.context.scene
-    prepare_pictures(scene, *size)
+    prepare_pictures(scene, PictureSettings(width_px=size[0], height_px=size[1]))
     aim_camera(scene, points, size[0] / size[1])
     scene.view_layers[0].update()
     seen = np.array([world_to_camera_view(scene, scene.camera, Vector(point)) for point in points])
@@ -59,7 +60,7 @@ def test_a_picture_shows_the_bridge_and_the_ball(blender, tmp_path):
     scenario = replace(I235, fracture=replace(I235.fracture, shards=20))
     scene, model = blender.context.scene, build_model(scenario)
     shards = build_demolition(scene, scenario, model)
-    prepare_pictures(scene, 640, 360)
+    prepare_pictures(scene, PictureSettings(width_px=640, height_px=360))
     stage(scene, shards, model, np.vstack((BRIDGE, (6.5, 0.0, 11.9))))
     render_picture(scene, 1, tmp_path / "before.png")
     picture = imread(tmp_path / "before.png")[:, :, :3]
@@ -95,7 +96,7 @@ def test_a_picture_shows_a_charge_until_it_goes_off(blender, tmp_path):
         Charge(name=name, place_m=position, mass_kg=1.0) for name, position in (("a", (-1, 0, 0)), ("b", (1, 0, 0)))
     ]
     first, second = create_charges(scene, charges)
-    prepare_pictures(scene, 160, 90)
+    prepare_pictures(scene, PictureSettings(width_px=160, height_px=90))
     aim_camera(scene, np.array(list(product((-1.5, 1.5), (-0.5, 0.5), (-0.5, 0.5)))), 160 / 90)
     show_until(first, 5)
     show_until(second, 99)

@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Draw the animated picture at the top of the README: a run of the gallery, from its scene, by Cycles.
+
+Usage: animation.py [NAME [SECONDS]] takes runs/gallery/NAME/scene.blend, which `scripts/gallery NAME` leaves, and
+writes docs/pictures/NAME.webp: the first so many seconds of the run (all of them), in real time. It takes ten minutes.
+"""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+from dataclasses import replace
+from pathlib import Path
+
+import bpy
+from PIL import Image
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
+
+from bridge_demolition_addon.model.scenario.file import read_scenario
+from bridge_demolition_addon.model.scenario.recording import Renderer
+from bridge_demolition_addon.scene.rendering.stills import prepared_for_pictures, render_picture
+from bridge_demolition_addon.scene.world import START_FRAME
+
+ROOT = Path(__file__).resolve().parents[2]
+SIZE_PX = 640, 360
+PICTURES_PER_SECOND = 8
+STAYS_MS = 2000
+"""How long the last picture is shown before all begins again."""
+QUALITY = 70
+
+
+def main(name: str = "drilled_two_spans", seconds: str = "inf") -> int:
+    """Render the run and write its animated picture; the exit status."""
+    run = ROOT / "runs" / "gallery" / name
+    view = read_scenario(run / "scenario_as_run.toml").pictures
+    view = replace(view, renderer=Renderer.CYCLES.value, width_px=SIZE_PX[0], height_px=SIZE_PX[1])
+    bpy.ops.wm.open_mainfile(filepath=str(run / "scene.blend"))
+    scene = bpy.context.scene
+    step = round(scene.render.fps / PICTURES_PER_SECOND)
+    last = min(scene.frame_end, START_FRAME + int(min(float(seconds), 1e6) * scene.render.fps))
+    with tempfile.TemporaryDirectory(prefix="bda_") as folder, prepared_for_pictures(scene, view):
+        paths = []
+        for frame in range(START_FRAME, last + 1, step):
+            paths.append(Path(folder) / f"{frame:06d}.png")
+            render_picture(scene, frame, paths[-1])
+        write(paths, ROOT / "docs" / "pictures" / f"{name}.webp", 1000 * step // scene.render.fps)
+    return 0
+
+
+def write(paths: list[Path], target: Path, each_ms: int) -> None:
+    """Write pictures as an animated one that goes on for ever."""
+    pictures = []
+    for path in paths:
+        with Image.open(path) as picture:
+            pictures.append(picture.convert("RGB"))
+    durations_ms = [each_ms] * (len(pictures) - 1) + [STAYS_MS]
+    first, *others = pictures
+    first.save(target, save_all=True, append_images=others, duration=durations_ms, loop=0, quality=QUALITY, method=6)
+
+
+if __name__ == "__main__":
+    raise SystemExit(main(*sys.argv[1:]))
