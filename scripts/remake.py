@@ -99,6 +99,9 @@ def products() -> Iterator[Product]:
     ):
         script = f"scripts/experiments/{name}.py"
         yield Product(f"experiments/{name}", (script, *words), (f"docs/data/{name}.csv",), (script,))
+    of_shards = "scripts/experiments/drilled_shards.py"
+    by_shards = tuple(f"docs/data/shards/{shards}/drilled_two_spans.csv" for shards in (100, 400))
+    yield Product("experiments/drilled_shards", (of_shards,), by_shards, ("examples/drilled/two_spans.toml", of_shards))
     for name, ensemble in ENSEMBLES.items():
         example = f"examples/{ensemble.folder}/{name}.toml"
         outputs = tuple(path.relative_to(ROOT).as_posix() for path in (runs_table(name), answer(name), picture(name)))

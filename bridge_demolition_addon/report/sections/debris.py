@@ -13,6 +13,7 @@ from ...engineering.geometry.plan_areas import outlines
 from ...engineering.geometry.vectors import length
 from ...engineering.units import mass_text, volume_text
 from ...model.debris.exclusion import ExclusionZone, exclusion_zone
+from ...model.debris.measured_piles import PILES_NOTE
 from ...model.debris.on_ground import bodies_under_ground, debris_on_surfaces
 from ...model.debris.throws import PERCENTS, Debris, HeightMap, height_map, percentiles_by_mass
 from ...model.debris.zones import watch_zone
@@ -46,6 +47,7 @@ def debris_section(run: ReportedRun, debris: Debris, *, trajectories: bool) -> S
         blocks.append(Paragraph(f"{moving}.", is_notice=True))
     if len(debris.bodies):
         heights = height_map(results, debris.bodies)
+        blocks.append(Paragraph(f"{PILES_NOTE}.", is_notice=True))
         blocks += _debris_blocks(results, debris, heights, zones, trajectories)
     else:
         blocks.append(Paragraph("No shard moved that far: there is no debris.", is_notice=True))

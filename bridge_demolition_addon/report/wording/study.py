@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 
 from ...engineering.statistics.order_limits import least_runs
+from ...model.debris.measured_piles import PILES_NOTE
 from ...model.study.conclusions import Conclusions, DebrisLimit, DoubtfulThrows, Proportion
 from ...model.study.file import Ensemble, Study
 from ...model.study.fragments import FragmentLimits
@@ -30,6 +31,7 @@ def study_sentences(study: Study, conclusions: Conclusions) -> Iterator[str]:
         yield moving_sentence(conclusions.still_moving, conclusions.reach.runs)
     if conclusions.reach.is_known:
         yield repeat_sentence(conclusions.reach)
+        yield f"{PILES_NOTE}; the buffer has to cover that."
     if conclusions.doubtful and conclusions.doubtful.throws:
         yield doubtful_sentence(conclusions.doubtful)
     if conclusions.fragments:

@@ -1,0 +1,38 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the page on drilled charges says of 100, 200 and 400 shards is what their runs gave."""
+
+import json
+import sys
+
+from support.checkout import ROOT
+
+sys.path.insert(0, str(ROOT / "scripts" / "experiments"))
+
+import drilled_shards
+
+SEEDS = {100: 20, 200: 20, 400: 12}
+
+
+def throws_m(shards):
+    return [float(row["throw_95_percent_m"]) for row in drilled_shards.rows(shards)]
+
+
+def test_the_page_has_the_table():
+    text = (ROOT / "docs" / "drilled_charges.md").read_text(encoding="utf-8")
+    assert [line for line in drilled_shards.table() if line not in text] == []
+    assert {shards: len(drilled_shards.rows(shards)) for shards in SEEDS} == SEEDS
+
+
+def test_the_verdict_does_not_hang_on_the_number_of_shards():
+    for shards in SEEDS:
+        assert all(drilled_shards.are_down(row) for row in drilled_shards.rows(shards)), shards
+
+
+def test_debris_of_a_finer_cut_goes_as_far_within_the_ranges_over_seeds():
+    ranges = [(min(found), max(found)) for found in map(throws_m, SEEDS)]
+    assert max(low for low, _ in ranges) < min(high for _, high in ranges)
+
+
+def test_runs_are_of_bridges_that_were_cut_into_so_many():
+    versions = [json.loads((drilled_shards.FOLDERS[shards] / "versions.json").read_text()) for shards in SEEDS]
+    assert len({version[drilled_shards.NAME] for version in versions}) == len(SEEDS)
