@@ -35,9 +35,9 @@ class ReleaseError(Exception):
 def main(arguments: Sequence[str] | None = None) -> int:
     """Build what is asked for; the exit status."""
     options = parse(arguments)
-    folder = options.output / (f"{VERSION}-trial" if options.trial else VERSION)
+    folder = options.output / (f"{VERSION}-draft" if options.draft else VERSION)
     try:
-        if not options.trial:
+        if not options.draft:
             refuse_what_is_not_tagged(ROOT, VERSION)
         elif folder.exists():
             shutil.rmtree(folder)
@@ -52,18 +52,18 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def parse(arguments: Sequence[str] | None) -> argparse.Namespace:
     """What the command line says."""
     parser = argparse.ArgumentParser(prog="release", description=__doc__.splitlines()[0])
-    parser.add_argument("--trial", action="store_true", help="build the files as they are, into VERSION-trial")
+    parser.add_argument("--draft", action="store_true", help="build the files as they are, into VERSION-draft")
     parser.add_argument("--output", type=Path, default=ROOT / "dist", metavar="DIR", help="folder of releases (dist)")
     parser.add_argument(
         "--platform",
         action="append",
         default=[],
         metavar="NAME",
-        help="in a trial: only for this system, such as linux-x64; may be repeated",
+        help="in a draft: only for this system, such as linux-x64; may be repeated",
     )
     options = parser.parse_args(arguments)
-    if options.platform and not options.trial:
-        parser.error("--platform is for a trial: a release has the zips of all systems")
+    if options.platform and not options.draft:
+        parser.error("--platform is for a draft: a release has the zips of all systems")
     return options
 
 
@@ -74,7 +74,7 @@ def refuse_what_is_not_tagged(root: Path, version: str) -> None:
         names = ", ".join(line[3:] for line in changed[:SHOWN])
         more = f" and {len(changed) - SHOWN} more" if len(changed) > SHOWN else ""
         raise ReleaseError(
-            f"{names}{more} {'is' if len(changed) == 1 else 'are'} not committed: commit, or use --trial"
+            f"{names}{more} {'is' if len(changed) == 1 else 'are'} not committed: commit, or use --draft"
         )
     head = git(root, "rev-parse", "HEAD")
     tagged = git(
@@ -84,9 +84,9 @@ def refuse_what_is_not_tagged(root: Path, version: str) -> None:
         f"refs/tags/{tag}",
     )
     if not tagged:
-        raise ReleaseError(f"no commit has the tag {tag}: use git tag --annotate {tag}, or --trial")
+        raise ReleaseError(f"no commit has the tag {tag}: use git tag --annotate {tag}, or --draft")
     if tagged != head:
-        raise ReleaseError(f"{tag} is commit {tagged[:8]}, and this is {head[:8]}: use git checkout {tag}, or --trial")
+        raise ReleaseError(f"{tag} is commit {tagged[:8]}, and this is {head[:8]}: use git checkout {tag}, or --draft")
     if f"\n## {version} " not in (root / "CHANGELOG.md").read_text(encoding="utf-8"):
         raise ReleaseError(f"CHANGELOG.md has no section {version}: expected a line such as ## {version} - 2026-01-31")
 
@@ -96,7 +96,7 @@ def git(root: Path, *arguments: str) -> str:
     try:
         done = subprocess.run(["git", "-C", root, *arguments], capture_output=True, text=True, check=True)
     except FileNotFoundError:
-        raise ReleaseError("git is not installed: install it, or use --trial") from None
+        raise ReleaseError("git is not installed: install it, or use --draft") from None
     except subprocess.CalledProcessError as error:
         raise ReleaseError(f"git {arguments[0]} says: {error.stderr.strip()}") from error
     return done.stdout.rstrip()

@@ -27,9 +27,9 @@ COPIED = ("bridge_demolition_addon", "examples", "scripts", "docs/pictures/walkt
 COPIED_FILES = ("blender_manifest.toml", "pyproject.toml", "README.md", "LICENSE", "docs/walkthrough.md")
 
 
-def trial(checkout: Path, output: Path) -> Path:
+def draft(checkout: Path, output: Path) -> Path:
     """Build the files of a checkout as they are, for this system, and return the folder of the release."""
-    command = [sys.executable, checkout / "scripts" / "release.py", "--trial", "--output", output]
+    command = [sys.executable, checkout / "scripts" / "release.py", "--draft", "--output", output]
     subprocess.run([*command, "--platform", PLATFORM], check=True)
     (folder,) = output.iterdir()
     return folder
@@ -37,7 +37,7 @@ def trial(checkout: Path, output: Path) -> Path:
 
 @pytest.fixture(scope="module")
 def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return trial(ROOT, tmp_path_factory.mktemp("releases"))
+    return draft(ROOT, tmp_path_factory.mktemp("releases"))
 
 
 @pytest.fixture(scope="module")
@@ -60,7 +60,7 @@ def next_built(tmp_path_factory: pytest.TempPathFactory) -> Path:
     # Wheels that are here already are not downloaded again.
     (ROOT / "build" / "wheels").mkdir(parents=True, exist_ok=True)
     (checkout / "build").symlink_to(ROOT / "build", target_is_directory=True)
-    return trial(checkout, tmp_path_factory.mktemp("releases"))
+    return draft(checkout, tmp_path_factory.mktemp("releases"))
 
 
 def test_checksums_are_those_of_all_files(built: Path) -> None:
@@ -130,7 +130,6 @@ def test_blender_installs_and_updates_from_the_folder(built: Path, next_built: P
     packages.mkdir()
     run_bare(program, tmp_path / "user", packages, tmp_path / "served", built, next_built, result)
     record = json.loads(result.read_text(encoding="utf-8"))
-    assert not record["online"]
     assert record["installed"] == {"version": VERSION, "enabled": True, "runs": VERSION}
     assert record["updated"] == {"version": NEXT, "enabled": True, "runs": NEXT}
 
@@ -185,20 +184,20 @@ def test_a_tag_with_a_message_is_as_good(repository: Path) -> None:
 
 def test_what_is_not_committed_is_named(repository: Path) -> None:
     (repository / "notes").touch()
-    assert refusal(repository, "1.2.0") == "notes is not committed: commit, or use --trial"
+    assert refusal(repository, "1.2.0") == "notes is not committed: commit, or use --draft"
     for name in ("a", "b", "c"):
         (repository / name).touch()
-    assert refusal(repository, "1.2.0") == "a, b, c and 1 more are not committed: commit, or use --trial"
+    assert refusal(repository, "1.2.0") == "a, b, c and 1 more are not committed: commit, or use --draft"
 
 
 def test_a_missing_tag_is_named(repository: Path) -> None:
-    assert refusal(repository, "1.3.0") == "no commit has the tag v1.3.0: use git tag --annotate v1.3.0, or --trial"
+    assert refusal(repository, "1.3.0") == "no commit has the tag v1.3.0: use git tag --annotate v1.3.0, or --draft"
 
 
 def test_a_tag_of_another_commit_is_named(repository: Path) -> None:
     commit(repository, "second")
     said = re.fullmatch(
-        r"v1\.2\.0 is commit (\w{8}), and this is (\w{8}): use git checkout v1\.2\.0, or --trial",
+        r"v1\.2\.0 is commit (\w{8}), and this is (\w{8}): use git checkout v1\.2\.0, or --draft",
         refusal(repository, "1.2.0"),
     )
     assert said and said[1] != said[2]
@@ -216,4 +215,4 @@ def test_a_folder_without_git_is_refused(tmp_path: Path) -> None:
 def test_part_of_the_systems_is_no_release(capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(SystemExit):
         release.main(["--platform", "linux-x64"])
-    assert "--platform is for a trial" in capsys.readouterr().err
+    assert "--platform is for a draft" in capsys.readouterr().err
