@@ -2,16 +2,14 @@
 """The extension as a person gets it: built, installed into an empty Blender, switched off, removed."""
 
 import json
-import os
 import subprocess
 import sys
 import zipfile
-from importlib.metadata import distribution
 from pathlib import Path
 from typing import Any
 
 import pytest
-from packaging.requirements import Requirement
+from support.bare_blender import run_bare
 from support.checkout import ROOT
 
 MODULE = "bl_ext.user_default.bridge_demolition_addon"
@@ -41,27 +39,9 @@ def record(archive: Path, user_folder: Path, tmp_path_factory: pytest.TempPathFa
     Packages in the environment would hide the wheels of the extension, and so a missing one.
     """
     folder = tmp_path_factory.mktemp("packages")
-    link_with_requirements("bpy", folder)
     result = folder / "record.json"
-    script = Path(__file__).with_name("install_and_remove.py")
-    subprocess.run(
-        [sys.executable, "-I", "-S", script, folder, archive, MODULE, result],
-        env={"PATH": os.environ["PATH"], "BLENDER_USER_RESOURCES": str(user_folder)},
-        check=True,
-        timeout=300,
-    )
+    run_bare(Path(__file__).with_name("install_and_remove.py"), user_folder, folder, archive, MODULE, result)
     return json.loads(result.read_text(encoding="utf-8"))
-
-
-def link_with_requirements(name: str, folder: Path) -> None:
-    """Link an installed distribution and all it requires into a folder."""
-    installed = distribution(name)
-    for top in {file.parts[0] for file in installed.files or () if file.parts[0] not in ("..", "__pycache__")}:
-        if not (folder / top).exists():
-            (folder / top).symlink_to(installed.locate_file(top))
-    for requirement in map(Requirement, installed.requires or ()):
-        if requirement.marker is None or requirement.marker.evaluate({"extra": ""}):
-            link_with_requirements(requirement.name, folder)
 
 
 def test_zip_has_the_package_and_its_licence(archive: Path) -> None:
