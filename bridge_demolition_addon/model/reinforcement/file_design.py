@@ -38,9 +38,9 @@ def file_bars(
         rows += file_deck_bars(basis, line)
     for part in parts:
         if not part.supports:
-            names = ", ".join(basis.members[index].name for index in (*part.decks, *part.girders))
-            basis.notes.append(f"{names} rests on no other member: it has least bars")
+            for index in (*part.decks, *part.girders):
+                basis.note(basis.members[index].name, "rests on no other member, and has least bars")
     with_bars = {name for row in rows for name in row.members}
     rest = [index for index in sorted(of_concrete) if basis.members[index].name not in with_bars]
     rows += file_substructure_bars(basis, rest, loads_of_carriers(basis, lines))
-    return rows, list(dict.fromkeys(basis.notes))
+    return rows, basis.sentences

@@ -21,6 +21,8 @@ Rows = Iterator[ScheduledBars | ScheduledLinks]
 
 ADVICE = "say what it was built for"
 _HALVINGS = 24
+_TWENTIETH = 0.05
+_KILO = 1e3
 _PER_SQUARE_METRE = 1e6
 _MM = 1e3
 _AS_SLAB = 0.6
@@ -37,7 +39,7 @@ class FileDesign:
     members: tuple[Member, ...]
     contacts: tuple[Contact, ...]
     concrete: frozenset[int]
-    notes: list[str] = field(default_factory=list)
+    notes: dict[str, list[str]] = field(default_factory=dict)
 
     def weight_n(self, indices: Sequence[int]) -> float:
         """Return the weight of members together."""
@@ -59,11 +61,24 @@ class FileDesign:
                 found, low = design(share * wanted), share
             except ScenarioError:
                 high = share
-        self.notes.append(
-            f"{name} carries {low:.0%} of {what} in its design, {wanted / 1e3:.0f} kN{'·m' if 'moment' in what else ''}"
-            ", with as many bars as it can have: it may be prestressed, or built for less"
+        unit = "kN·m" if "moment" in what else "kN"
+        self.note(
+            name,
+            f"with as many bars as there is room for, about {_TWENTIETH * round(low / _TWENTIETH):.0%} of {what}, "
+            f"{wanted / _KILO:.0f} {unit}, is carried: prestressed, or built for less",
         )
         return found
+
+    def note(self, name: str, text: str) -> None:
+        """Note something of a member, together with others of which the same is to be said."""
+        names = self.notes.setdefault(text, [])
+        if name not in names:
+            names.append(name)
+
+    @property
+    def sentences(self) -> list[str]:
+        """Return all notes, each with the members that it is on."""
+        return [f"{', '.join(names)}: {text}" for text, names in self.notes.items()]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -144,7 +144,7 @@ def _wall(basis: FileDesign, index: int, load: Load) -> Rows:
         needed = shape.bars_m2(axial, moment)
         if not np.isfinite(needed):
             needed = LARGEST_SHARE * section_m2
-            basis.notes.append(f"{member.name} does not carry its axial force of {axial / 1e3:.0f} kN in its design")
+            basis.note(member.name, f"does not carry an axial force of {axial / 1e3:.0f} kN with any bars")
         if needed > upright:
             upright, reason = needed, f"N_Ed = {axial / 1e3:.0f} kN, M_Ed = {moment / 1e3:.0f} kN·m"
     level = level_of_wall_m2(upright / section_m2 * thickness, thickness) / thickness
