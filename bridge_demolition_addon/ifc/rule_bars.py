@@ -26,9 +26,7 @@ def with_bars_by_rule(scenario: Scenario) -> Scenario:
     built = [table for table in scenario.geometry if table.kind not in _NOT_BUILT]
     concrete = [table for table in built if is_concrete(scenario, table)]
     if len(concrete) < len(built):
-        connections = replace(
-            scenario.connections, ductile_share=OTHER_SHARE, ductile_elongation_m=OTHER_ELONGATION_M
-        )
+        connections = replace(scenario.connections, ductile_share=OTHER_SHARE, ductile_elongation_m=OTHER_ELONGATION_M)
         scenario = replace(scenario, connections=connections)
     if not concrete:
         return scenario

@@ -221,10 +221,7 @@ def _followed(corners: FloatArray, line: FloatArray) -> OwnAxes:
     ends_at, undersides = _to_the_ends(at, undersides, 0.0, total)
     _, slopes = _to_the_ends(at, slopes, 0.0, total)
     _, tops = _to_the_ends(at, tops, 0.0, total)
-    if len(ends_at) == len(stations):
-        points = line
-    else:
-        points = np.array([line[0], line[-1]])
+    points = line if len(ends_at) == len(stations) else np.array([line[0], line[-1]])
     depths = tops - undersides[:, None] - slopes[:, None] * across
     height = float(np.median(depths[:, 1:-1]))
     axes = OwnAxes(ends_at, points, total, width, 0.0, height, undersides, slopes, across, tops, ())
@@ -259,17 +256,18 @@ def _surfaces(section: FloatArray, across: FloatArray) -> tuple[float, float, Fl
         low, high = float(section[..., 1].min()), float(section[..., 1].max())
         return low, 0.0, np.full(len(across), high)
     at = across[crossed]
-    low = np.array([min(found) for found in heights if len(found)])
-    high = np.array([max(found) for found in heights if len(found)])
-    slope = _slope(at, high)
+    lows = np.array([min(found) for found in heights if len(found)])
+    highs = np.array([max(found) for found in heights if len(found)])
+    slope = _slope(at, highs)
     for _ in range(2):
-        level = low - slope * at
-        near = level - level.min() <= _NEAR_UNDERSIDE * float(np.median(high - low))
-        slope = _slope(at[near], low[near])
+        level = lows - slope * at
+        near = level - level.min() <= _NEAR_UNDERSIDE * float(np.median(highs - lows))
+        slope = _slope(at[near], lows[near])
     # Between two points the underside may be lower yet.
     underside = float((section[..., 1] - slope * section[..., 0]).min())
-    usual, depth = float(np.median(high - slope * at)), float(np.median(high - slope * at)) - underside
-    limited = np.clip(high - slope * at, usual - _STEPPED * depth, usual + _STEPPED * depth) + slope * at
+    usual = float(np.median(highs - slope * at))
+    depth = usual - underside
+    limited = np.clip(highs - slope * at, usual - _STEPPED * depth, usual + _STEPPED * depth) + slope * at
     return underside, slope, np.interp(across, at, limited)
 
 

@@ -66,7 +66,9 @@ def _of_bridge_by_rule(scenario: Scenario, members: Sequence[Member]) -> Schedul
     basis = DesignBasis(
         rule,
         _concrete(scenario, rule, scenario.connections.material),
-        bridge, _of_bridge(scenario, members), rule.traffic(bridge.deck.width_m)
+        bridge,
+        _of_bridge(scenario, members),
+        rule.traffic(bridge.deck.width_m),
     )
     rows = list(ratio_bars(basis) if rule.ratios else _designed(basis))
     bars = _merged([row for row in rows if isinstance(row, ScheduledBars)])

@@ -189,9 +189,7 @@ def _top_bars(
     covered = sum(min(end, length) - max(begin, 0.0) for begin, end in parts)
     is_least = found.reason == LEAST or not parts or covered > MOST_COVERED * length
     if is_least or len(line.part.decks) > 1 or len(line.supports_m) < 3 or choice.number < 4:
-        yield basis.design.scheduled(
-            [member.name], member.kind, "top", "x", found, section_m2=area_m2, length_m=length
-        )
+        yield basis.design.scheduled([member.name], member.kind, "top", "x", found, section_m2=area_m2, length_m=length)
         return
     room = (choice.number - 1) * choice.spacing_m
     for number, stretches in ((through, [None]), (choice.number - through, parts)):
@@ -243,9 +241,7 @@ def _whole(across_m: np.ndarray) -> np.ndarray:
     return np.ones(np.shape(across_m))
 
 
-def _abreast(
-    basis: FileDesign, line: FileDeckLine, index: int, girders: Sequence[int]
-) -> list[tuple[float, int]]:
+def _abreast(basis: FileDesign, line: FileDeckLine, index: int, girders: Sequence[int]) -> list[tuple[float, int]]:
     """Return the girders beside one in its middle, with their positions across the road, from right to left."""
     axes = line.part.axes
     middle = axes.from_world(basis.members[index].solid.bounds.mean(axis=0)[None])[0]
@@ -289,9 +285,7 @@ def beam_rows(
 
     def along(shape: PressedShape, width_m: float) -> object:
         def needed(moment_nm: float) -> Tension:
-            return design.tension(
-                name, moment_nm, shape, bars_width_m=width_m, outside_m=outside, advice=ADVICE
-            )
+            return design.tension(name, moment_nm, shape, bars_width_m=width_m, outside_m=outside, advice=ADVICE)
 
         return needed
 

@@ -93,7 +93,7 @@ def file_substructure_bars(basis: FileDesign, indices: Sequence[int], loads: dic
 
 
 def _cap(basis: FileDesign, index: int, load: Load) -> Rows:
-    """Yield the bars of a beam over columns: loads of the decks are spread evenly over it, traffic where it is worst."""
+    """Yield the bars of a beam over columns: loads of decks are spread evenly over it, traffic where it is worst."""
     member = basis.members[index]
     axes = own_axes(member)
     points = [contact.point_m for contact in carriers_of(index, basis.contacts)]

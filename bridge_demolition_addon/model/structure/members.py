@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -38,7 +39,11 @@ _DENSITY_SAMPLES = 4000
 shards."""
 
 _MOST_CONVEX_PARTS = 12
-"""Parts into which a member is cut that has fewer shards, so that these are convex."""
+_MOST_CONVEX_IN_PIECE = 4
+"""Parts into which a member that has fewer shards is cut, and a piece of a slender one, so that these are convex."""
+
+_SLENDER, _LONGEST_PIECE = 6.0, 3.0
+"""Length by the size of the section of a member that is cut across it first, and of its pieces."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,7 +142,25 @@ def _in_convex_parts(member: Member, shards: int) -> Member:
     if member.parts:
         return member
     parts = convex_parts(member.solid, max(shards, _MOST_CONVEX_PARTS))
+    if len(parts) > 1 and (pieces := _pieces_of_slender(member.solid, shards)):
+        most = max(shards // len(pieces), _MOST_CONVEX_IN_PIECE)
+        parts = tuple(part for piece in pieces for part in convex_parts(piece, most))
     return replace(member, parts=parts) if len(parts) > 1 else member
+
+
+def _pieces_of_slender(solid: TriangleMesh, shards: int) -> tuple[TriangleMesh, ...]:
+    """Return a slender solid in pieces across its length, before these become convex; none of any other.
+
+    Convex parts of a long edge beam are as long as it is. As rigid as shards are, they would stiffen the deck.
+    """
+    lengths = np.ptp(solid.vertices, axis=0)
+    axis = int(lengths.argmax())
+    longest, middle, _ = sorted(lengths.tolist(), reverse=True)
+    if longest < _SLENDER * middle:
+        return ()
+    count = min(max(shards, 2), math.ceil(longest / (_LONGEST_PIECE * middle)))
+    begin = float(solid.vertices[:, axis].min())
+    return slabs(solid, axis, [begin + longest * number / count for number in range(1, count)])
 
 
 def _fractured(member: Member, count: int, points: np.ndarray, seed: int, options: FractureOptions) -> Fracture:

@@ -99,9 +99,7 @@ def _ratios(layers: Sequence[BarLayer], member: Member) -> dict[tuple[bool, int]
     return ratios
 
 
-def _crossing(
-    ratios: dict[tuple[bool, int], float], member: Member, point_m: np.ndarray, normal: np.ndarray
-) -> float:
+def _crossing(ratios: dict[tuple[bool, int], float], member: Member, point_m: np.ndarray, normal: np.ndarray) -> float:
     """Return the bars of a member across a plane, by its area."""
     total = 0.0
     for (is_own, axis), ratio in ratios.items():
