@@ -17,7 +17,7 @@ from .mesh import TriangleMesh, triangle_areas_and_normals
 from .solids import bodies, from_manifold, to_manifold
 from .vectors import dot, length
 
-EMPTY = 0.02
+EMPTY = 0.005
 """Part of a convex hull that may lie outside the solid: chords of a slightly curved side do."""
 
 _MOST_PLANES = 12
@@ -114,7 +114,7 @@ def _have_joined(first: _Part, second: _Part, whole: _Part) -> bool:
     """Return whether two pieces had a face in common, of which their union has lost both sides."""
     area_m2 = second.body.surface_area()
     lost_m2 = first.body.surface_area() + area_m2 - whole.body.surface_area()
-    return lost_m2 > _COMMON * area_m2
+    return bool(lost_m2 > _COMMON * area_m2)
 
 
 def _planes_at_inward_edges(mesh: TriangleMesh) -> Iterator[tuple[FloatArray, float]]:

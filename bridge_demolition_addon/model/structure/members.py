@@ -39,11 +39,17 @@ _DENSITY_SAMPLES = 4000
 shards."""
 
 _MOST_CONVEX_PARTS = 12
-_MOST_CONVEX_IN_PIECE = 4
+_MOST_CONVEX_IN_PIECE = 8
 """Parts into which a member that has fewer shards is cut, and a piece of a slender one, so that these are convex."""
 
-_SLENDER, _LONGEST_PIECE = 6.0, 3.0
+_MOST_ATTEMPTS = 8
+
+_SPANNING = ("deck", "girder", "arch", "parapet", "pier cap")
+_SLENDER, _LONGEST_PIECE = 4.0, 3.0
 """Length by the size of the section of a member that is cut across it first, and of its pieces."""
+
+_SHARDS_OF_PIECE, _MOST_PIECES = 6, 12
+"""Shards of a piece of a member with many, and number of pieces of wide ones: what is cambered is straight in each."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,7 +148,7 @@ def _in_convex_parts(member: Member, shards: int) -> Member:
     if member.parts:
         return member
     parts = convex_parts(member.solid, max(shards, _MOST_CONVEX_PARTS))
-    if len(parts) > 1 and (pieces := _pieces_of_slender(member.solid, shards)):
+    if len(parts) > 1 and member.kind in _SPANNING and (pieces := _pieces_of_slender(member.solid, shards)):
         most = max(shards // len(pieces), _MOST_CONVEX_IN_PIECE)
         parts = tuple(part for piece in pieces for part in convex_parts(piece, most))
     return replace(member, parts=parts) if len(parts) > 1 else member
@@ -158,7 +164,8 @@ def _pieces_of_slender(solid: TriangleMesh, shards: int) -> tuple[TriangleMesh, 
     longest, middle, _ = sorted(lengths.tolist(), reverse=True)
     if longest < _SLENDER * middle:
         return ()
-    count = min(max(shards, 2), math.ceil(longest / (_LONGEST_PIECE * middle)))
+    count = max(math.ceil(longest / (_LONGEST_PIECE * middle)), min(shards // _SHARDS_OF_PIECE, _MOST_PIECES))
+    count = min(count, shards)
     begin = float(solid.vertices[:, axis].min())
     return slabs(solid, axis, [begin + longest * number / count for number in range(1, count)])
 
@@ -202,7 +209,17 @@ def _fractured_in_parts(member: Member, count: int, seed: int, options: Fracture
     seeds = np.random.SeedSequence(seed).generate_state(len(member.parts))
     counts = shards_per_member(amounts, count)
     columns = zip(member.parts, counts.tolist(), seeds.tolist(), strict=True)
-    return joined_fractures([fracture(part, number, part_seed, options) for part, number, part_seed in columns])
+    return joined_fractures([_fractured_part(part, number, part_seed, options) for part, number, part_seed in columns])
+
+
+def _fractured_part(part: TriangleMesh, count: int, seed: int, options: FractureOptions) -> Fracture:
+    """Cut a convex part; at other points where those of its seed meet what its own cutting has left of a warped face."""
+    for attempt in range(_MOST_ATTEMPTS - 1):
+        try:
+            return fracture(part, count, seed + attempt, options)
+        except GeometryError:
+            continue
+    return fracture(part, count, seed + _MOST_ATTEMPTS - 1, options)
 
 
 def _masses(member: Member, part: Fracture, mass: str) -> np.ndarray:
