@@ -40,7 +40,9 @@ def supports_of(
         if on_something and member.kind != _IN_SOIL:
             continue
         held.append(Support(member=member.name, face="bottom"))
-        where = "is held by soil that no file has" if on_something else f"ends {height_m:.2f} m above the ground on nothing"
+        where = (
+            "is held by soil that no file has" if on_something else f"ends {height_m:.2f} m above the ground on nothing"
+        )
         notes.append(f"{member.name} {where}: its underside is held")
     return held, notes
 

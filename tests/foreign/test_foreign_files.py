@@ -82,7 +82,7 @@ def test_volumes_and_masses_are_those_of_tekla(imported):
 
 
 def test_a_norwegian_slab_bridge_is_what_it_is(imported):
-    """28 elements: 3 columns, 8 bearings of which the file says no material, 4 wings; approach slabs are left out."""
+    """28 elements: 3 columns, 8 bearings of which the file says no material, 4 wings; approach slabs are out."""
     rows = elements(imported(HERE / "v440_tekla_modell.ifc"))
     kinds = {kind: sum(row["kind"] == kind for row in rows if row["became"] == "member") for kind in KINDS}
     assert kinds == KINDS
@@ -94,7 +94,7 @@ KINDS = {"deck": 2, "pier": 3, "abutment": 3, "footing": 3, "wing wall": 4, "par
 
 
 def test_the_example_is_that_bridge_with_a_valley_under_it():
-    """Its mass is that of Tekla's weights without approach slabs, and the valley is dug away under its footings alone."""
+    """Its mass is by Tekla's weights, without approach slabs; the valley is dug away under its footings alone."""
     scenario = read_scenario(ROOT / "examples" / "imported" / "lillebruen.toml")
     model = build_model(scenario)
     masses = sum(member.mass_kg for member in model.members)
