@@ -213,7 +213,7 @@ def _fractured_in_parts(member: Member, count: int, seed: int, options: Fracture
 
 
 def _fractured_part(part: TriangleMesh, count: int, seed: int, options: FractureOptions) -> Fracture:
-    """Cut a convex part; at other points where those of its seed meet what its own cutting has left of a warped face."""
+    """Cut a convex part; at other points where those of its seed meet what is left of a warped face."""
     for attempt in range(_MOST_ATTEMPTS - 1):
         try:
             return fracture(part, count, seed + attempt, options)
