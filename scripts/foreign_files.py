@@ -173,8 +173,10 @@ def page() -> str:
     lines += [
         "",
         "Each bridge was run once, [one of many](accuracy.md#one-run-is-one-possible-outcome).",
-        "Where a file has no reinforcement, that which the import assumes holds the cracks; a bridge of which",
-        "much is lost, such as the abutments of an OpenBrIM file, stands on supports that were added.",
+        "All were imported before [bars were designed by rule](ifc.md#bars-by-rule): where a file has no reinforcement,",
+        "bars as strong as the concrete in tension held the cracks, and approach slabs were members. They are to be",
+        "measured again. A bridge of which much is lost, such as the abutments of an OpenBrIM file, stands on supports",
+        "that were added.",
         "",
         *_damaged(),
         "Two of the files are in [tests/foreign/files](../tests/foreign/files), with their licences; the others may be",
