@@ -173,8 +173,8 @@ def page() -> str:
     lines += [
         "",
         "Each bridge was run once, [one of many](accuracy.md#one-run-is-one-possible-outcome).",
-        "All were imported before [bars were designed by rule](ifc.md#bars-by-rule): where a file has no reinforcement,",
-        "bars as strong as the concrete in tension held the cracks, and approach slabs were members. They are to be",
+        "All were imported before [bars were designed by rule](ifc.md#bars-by-rule): where a file has no",
+        "reinforcement, bars as strong as the concrete in tension held the cracks, and approach slabs were members. They are to be",
         "measured again. A bridge of which much is lost, such as the abutments of an OpenBrIM file, stands on supports",
         "that were added.",
         "",
