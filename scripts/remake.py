@@ -98,6 +98,8 @@ def products() -> Iterator[Product]:
         yield Product(
             f"{ensemble.command}/{name}", ("scripts/ensembles.py", name), outputs, (example, "scripts/ensembles.py")
         )
+    table = ("scripts/examples_table.py",)
+    yield Product("examples", table, ("docs/data/examples.csv", "docs/examples.md"), ("examples", *table))
     yield Product("gallery", ("scripts/gallery.py",), ("docs/gallery.md",), ("examples", "scripts/gallery.py"))
 
 

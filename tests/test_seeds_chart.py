@@ -19,7 +19,15 @@ def runs():
 
 def spread(values):
     """A range as the documents write it."""
+    if values.max() < 0.1:
+        return f"{100.0 * values.min():.1f} to {100.0 * values.max():.1f} cm"
     return f"{values.min():.1f} to {values.max():.1f} m"
+
+
+def percent(shares):
+    """A range of shares as the documents write it: with a digit after the point where they are small."""
+    digits = 1 if shares.max() < 0.02 else 0
+    return f"{100.0 * shares.min():.{digits}f} to {100.0 * shares.max():.{digits}f} %"
 
 
 def words(path):
@@ -48,12 +56,12 @@ def test_the_page_gives_the_ranges_that_were_measured(runs):
 @pytest.mark.parametrize("path", MEASURED, ids=lambda path: path.stem)
 def test_the_example_gives_the_ranges_that_were_measured(path):
     runs, text = seeds_chart.read_throws(path), words(SEEDED[path.stem])
-    broken, made = runs["broken_connections"], 100.0 * runs["made_share"]
+    broken = runs["broken_connections"]
     claims = (
         f"Over {len(runs)} seeds 95 % of the shards stay within {spread(runs['throw_95_percent_m'])}",
         f"the largest throw is {spread(runs['largest_throw_m'])}",
         f"{broken.min():.0f} to {broken.max():.0f} connections break.",
-        f"Bullet's solver made {made.min():.0f} to {made.max():.0f} % of the dissipated energy in these runs",
+        f"Bullet's solver made {percent(runs['made_share'])} of the dissipated energy in these runs",
     )
     assert [claim for claim in claims if claim not in text] == []
 

@@ -92,7 +92,6 @@ MEASURED_S = {
     "i235_three_spans_neighbouring_deck": 3.0,
     "jackhammer_dismantling": 3.2,
     "single_span_explosives": 1.5,
-    "three_span_box_girder": 2.3,
     "two_spans_13m_explosives": 3.0,
     "two_spans_20m_at_once": 1.5,
     "two_spans_20m_delays": 1.5,

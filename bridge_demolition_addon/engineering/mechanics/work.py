@@ -6,7 +6,8 @@ stretched, or pushes apart hulls that overlap, it does work that no real connect
 A constant force changes the kinetic energy of a body by the force times the mean of its velocities before and after,
 times the step. So the work of an impulse is the impulse times that mean velocity where it acts, and all works together
 are the change of kinetic energy. Between two bodies only their relative velocity counts: an impulse that slows it takes
-energy away, as impacts, friction and breaking do. One that speeds it up makes energy. All points where two bodies touch
+energy away, as impacts, friction and breaking do. One that speeds it up gives back what was taken before, by elastic
+connections and by bodies since they touch (`touches`), and makes energy beyond that. All points where two bodies touch
 count together.
 """
 
@@ -23,6 +24,7 @@ from ..arithmetic import power
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..geometry.vectors import cross_by_component, dot
 from .forces import PairSums
+from .touches import Touches
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -110,6 +112,7 @@ class WorkAccumulator:
         self._left: dict[float, FloatArray] = {}
         self._before = start
         self._stored_j: FloatArray | None = None
+        self._touches = Touches()
         self._begin()
 
     def _begin(self) -> None:
@@ -147,6 +150,7 @@ class WorkAccumulator:
 
     def pass_over(self, after: Motion) -> None:
         """Leave out sub-steps at whose ends there is a motion."""
+        self._touches.pass_over(len(after.centres_m))
         self._before = after
 
     def add(
@@ -166,6 +170,7 @@ class WorkAccumulator:
         whole, masses = after.from_(self._before), np.where(free, self._masses, 0.0)
         self._before = after
         if whole.rests():
+            self._touches.pass_over(len(free))
             return
         before = whole.velocities_m_s[:-1]
         # Bullet damps velocities first, then adds gravity, loads and the solver's impulses.
@@ -183,6 +188,8 @@ class WorkAccumulator:
         by_gravity = masses * dot(mean.velocities_m_s, self._gravity)
         by_damping = masses * (dot(before, before) - dot(damped, damped))
         works = [self._of_pairs(impulses, mean, free) for impulses in (of_connections, of_contacts)]
+        if not len(of_contacts.pairs):
+            self._touches.pass_over(len(free))
         lifting = self._of_lifting(whole, masses, steps)
         for substep, substep_s in enumerate(substeps_s.tolist()):
             self._loads_j += float(by_loads[substep][free[substep]].sum())
@@ -227,14 +234,20 @@ class WorkAccumulator:
         is_free = free.ravel()
         first_free, second_free = is_free[first], is_free[second]
         total[~(first_free | second_free)] = 0.0
+        bodies = free.shape[1]
+        ends = np.searchsorted(first // bodies, np.arange(len(free) + 1))  # of sub-steps
+        taken = np.minimum(total, 0.0)
+        if between.substeps is not None:
+            lower, upper = np.minimum(first, second) % bodies, np.maximum(first, second) % bodies
+            returned_j = self._touches.returned(bodies * lower + upper, total, ends)
+            total, taken = total - returned_j, taken + returned_j
         rows = np.flatnonzero(total > 0.0)
         gains = [
             np.maximum(gain.take(rows), 0.0) * are_free.take(rows)
             for gain, are_free in ((on_first, first_free), (-on_second, second_free))
         ]
-        both, made, taken = gains[0] + gains[1], total.take(rows), np.minimum(total, 0.0)
+        both, made = gains[0] + gains[1], total.take(rows)
         share = np.divide(made, both, out=np.zeros_like(both), where=both > 0.0)
-        ends = np.searchsorted(first // free.shape[1], np.arange(len(free) + 1))  # of sub-steps
         starts = np.searchsorted(rows, ends)
         return PairWork(
             taken_j=[float(taken[start:end].sum()) for start, end in itertools.pairwise(ends.tolist())],
@@ -271,7 +284,7 @@ class WorkAccumulator:
 class PairWork:
     """Work between bodies in each of s sub-steps, J. First and second bodies of the pairs are apart."""
 
-    taken_j: list[float]  # energy that is taken away, as a negative number
+    taken_j: list[float]  # energy that is taken away, less what comes back of it, as a negative number
     made_j: list[float]
     made_by_body_j: list[FloatArray]  # (s, n) each
     tools_j: list[list[float]]  # work of bodies that are led

@@ -99,6 +99,27 @@ def test_bodies_that_are_pushed_apart_from_rest_got_their_energy_from_the_solver
     assert (frame.made_by_connections_j, frame.made_by_lifting_j) == (0.0, pytest.approx(0.0, abs=1e-12))
 
 
+@pytest.mark.parametrize(("apart", "made"), [(0, 0.75), (2, 0.75), (3, 3.0)])
+def test_bodies_that_touch_give_back_what_they_took_and_all_above_that_is_made(apart, made):
+    """2 kg stops on what never moves, which takes 2.25 J of it; later it leaves with 3 J, of which 0.75 J are made."""
+    free = np.array([False, True])
+
+    def speeds(velocity):
+        return motion(along_x([0.0, velocity]))
+
+    work = accumulator([0.0, 2.0], speeds(-1.5))
+    add(work, speeds(0.0), free, NONE, contacts([[-3.0, 0.0, 0.0]]))
+    assert work.finish().dissipated_j == pytest.approx(2.25)
+    for _ in range(apart):
+        add(work, speeds(0.0), free, NONE, NONE)
+    leaves = np.sqrt(3.0)
+    add(work, speeds(leaves), free, NONE, contacts([[-2.0 * leaves, 0.0, 0.0]]))
+    frame = work.finish()
+    assert frame.made_by_contacts_j == pytest.approx(made)
+    assert frame.made_j[1] == pytest.approx(made)
+    assert frame.dissipated_j == pytest.approx(made - 3.0)  # what comes back is not dissipated after all
+
+
 def test_a_plate_that_rocks_from_one_edge_to_the_other_makes_no_energy():
     """It turns about y by ω: at the edge that comes down it loses J ω b / 2, at the other it gains less."""
     spins = np.array([[0.0, 0.0, 0.0], [0.0, 2.0, 0.0]])

@@ -5,9 +5,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import trimesh
 from support.scenarios import I235
 
 from bridge_demolition_addon.engineering.geometry.mesh import volumes_and_centres
+from bridge_demolition_addon.engineering.geometry.solids import box, hull, union
 from bridge_demolition_addon.errors import GeometryError, ScenarioError
 from bridge_demolition_addon.model.bridge.preparation import prepared_members
 from bridge_demolition_addon.model.scenario import Finer, FracturePoint, FractureSettings, MemberFracture
@@ -55,6 +57,34 @@ def test_masses_of_members_stay():
         finer=[Finer(place_m=[6.5, 0, 5.4], radius_m=3, factor=10)],
     )
     np.testing.assert_allclose(np.bincount(parts.member_of_shard, parts.masses_kg), MASSES, rtol=VOLUME)
+
+
+def test_members_around_hollows_are_cut_into_convex_shards(tmp_path):
+    """A trough of the user's own: hulls of shards around its corners would reach into its inside."""
+    trough = union([box([12, 4, 0.4]), box([12, 0.4, 2], [0, 1.8, 1.2]), box([12, 0.4, 2], [0, -1.8, 1.2])])
+    trimesh.Trimesh(trough.vertices, trough.triangles).export(tmp_path / "trough.stl")
+    text = f"""
+[scenario]
+title = "A trough"
+[time]
+duration_s = 1
+[[geometry]]
+name = "trough"
+place_m = [0.0, 0.0, 0.2]
+file = "{(tmp_path / "trough.stl").as_posix()}"
+density_kg_m3 = 2400
+[connections]
+method = "face"
+breaking_force_n = 1000
+[fracture]
+shards = 30"""
+    scenario = scenario_from_text(text)
+    parts = fractured_members(scenario, prepared_members(scenario).members)
+    hulls_m3 = [hull(shard.vertices).volume() for shard in parts.shards]
+    volumes, _ = volumes_and_centres(parts.shards)
+    assert len(parts.shards) == 30
+    assert volumes.sum() == pytest.approx(trough.volume, rel=1e-6)
+    np.testing.assert_allclose(hulls_m3, volumes, rtol=1e-6)
 
 
 def test_uniform_masses():

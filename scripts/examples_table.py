@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Say of every example how it stands, what it carries, and what its runs came to, in docs/examples.md.
+
+How a bridge stands is worked out by statics and kept in docs/data/examples.csv. What runs came to is in
+docs/data/seeds, which `scripts/seeds` makes. With names of examples only their statics are worked out again; with
+`page` the page is written of what there is.
+"""
+
+import csv
+import math
+import statistics
+import sys
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+sys.path.insert(1, str(Path(__file__).resolve().parent.parent / "tests"))
+
+from support.checkout import REPORT_2019, ROOT, SEEDED
+from support.example_runs import MEASURED_S
+
+from bridge_demolition_addon.model.scenario.file import read_scenario
+from bridge_demolition_addon.model.sequence.checked_model import checked_model
+from bridge_demolition_addon.model.stages.design_loads import design_loads
+from bridge_demolition_addon.model.stages.stability_by_statics import stability_of
+from bridge_demolition_addon.model.stages.standing import StandingBridge
+
+PAGE, STATICS, RANGES = (
+    ROOT / "docs" / "examples.md",
+    ROOT / "docs" / "data" / "examples.csv",
+    ROOT / "docs" / "data" / "seeds",
+)
+COLUMNS = ("example", "verdict", "utilisation", "member", "load_factor", "traffic", "traffic_factor")
+DOWN = 0.5
+"""Part of a span's deck that has to be more than 2 m lower for the span to count as down."""
+
+HEADER = """\
+# All examples, held against what a plan needs
+
+<!-- Made by `scripts/examples_table.py`, which `scripts/remake` calls. -->
+
+Does the bridge of an example stand, what does it carry, and what do runs come to that differ in nothing but their seed?
+How it stands is worked out by statics, as `bda check --stand` and `bda stages` do, for the example's own seed. Runs are
+those of `scripts/seeds`; each row of [their tables](data/seeds) is one. All of it is of the version that
+[remade.json](data/remade.json) names, which `scripts/remake` makes again.
+
+- **Stands**: largest utilisation under its own weight, and the collapse load factor: how many times as heavy everything
+  may become.
+- **Carries**: the least collapse load factor under 1.35 G + 1.5 Q, the loads for which its bars are designed; 1 and
+  more carries them.
+- **At rest**: in how many runs all together rested before the end, by their [energy](glossary.md); single shards may
+  still tremble. The distances of the others are not final.
+- **Down**: in how many runs each span came down, by more than 2 m of at least half of its deck.
+- **Throws**: how far debris went on plan from where it was: 95 % of the shards, and the farthest one; least to largest
+  of all runs. No distance here is a limit for a plan: that is [of a study](studies.md#a-plan-is-a-study).
+- **Made**: energy that the solver made, as a share of what was dissipated: median, least to largest.
+"""
+
+NOW, OF_2019 = (
+    "\n## Bridges as they are\n",
+    """
+## The demolitions of 2019
+
+With the settings or the bare charges of the [2019 report](from_2019.md). Where such a bridge does not stand by statics,
+it stands in a run as long as it sleeps, which is how it was in 2019. Runs are cut short where a time is given.
+""",
+)
+
+
+def main(names: list[str]) -> int:
+    """Work out the statics of examples, write the page, and return the exit status."""
+    if unknown := [name for name in names if name not in (*SEEDED, "page")]:
+        print(f"examples_table: there is no example {', '.join(unknown)}", file=sys.stderr)
+        return 2
+    kept = {row["example"]: row for row in rows(STATICS)}
+    for name in [name for name in names if name != "page"] or ([] if names else SEEDED):
+        kept[name] = statics(name)
+        print(f"{name}: {kept[name]['verdict']}", flush=True)
+        with STATICS.open("w", newline="", encoding="utf-8") as file:
+            writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
+            writer.writeheader()
+            writer.writerows(kept[example] for example in SEEDED if example in kept)
+    PAGE.write_text(page(), encoding="utf-8", newline="\n")
+    return 0
+
+
+def rows(path: Path) -> list[dict[str, str]]:
+    """Return the rows of a table; none where it does not exist."""
+    if not path.exists():
+        return []
+    with path.open(newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def statics(name: str) -> dict[str, str]:
+    """Return how the bridge of an example stands, and what it carries of the loads of its design."""
+    scenario = read_scenario(SEEDED[name])
+    model = checked_model(scenario)
+    stability = stability_of(scenario, model, with_factor=True)
+    found = {
+        "example": name,
+        "verdict": stability.verdict,
+        "utilisation": number(stability.utilisation),
+        "member": stability.used_most or "",
+        "load_factor": number(stability.load_factor),
+    }
+    if model.crack_bars is None:
+        return found
+    loads = design_loads(scenario, StandingBridge(model, scenario.joints))
+    least = min(loads, key=lambda load: load.factor, default=None)
+    return found | ({"traffic": least.name, "traffic_factor": number(least.factor)} if least else {})
+
+
+def number(value: float | None) -> str:
+    """Return a value with three digits; nothing where there is none."""
+    return "" if value is None or not math.isfinite(value) else f"{value:.3g}"
+
+
+def page() -> str:
+    """Return the page."""
+    kept = {row["example"]: row for row in rows(STATICS)}
+    of_2019 = [name for name, path in SEEDED.items() if path.parent == REPORT_2019]
+    now = [name for name in SEEDED if name not in of_2019]
+    return "\n".join([HEADER, NOW, *table(now, kept), OF_2019, *table(of_2019, kept)]) + "\n"
+
+
+def table(names: Iterable[str], kept: dict[str, dict[str, str]]) -> Iterator[str]:
+    """Yield the lines of a table of examples."""
+    yield "| example | stands | carries | runs | at rest | down | throw of 95 % | farthest | made |"
+    yield "| --- | --- | --- | --- | --- | --- | --- | --- | --- |"
+    for name in names:
+        link = f"[{name}](../{SEEDED[name].relative_to(ROOT).as_posix()})"
+        yield f"| {link} | {standing(kept.get(name))} | {carrying(kept.get(name))} | {of_runs(name)} |"
+
+
+def standing(row: dict[str, str] | None) -> str:
+    """Return how a bridge stands."""
+    if row is None:
+        return "not worked out"
+    if not row["utilisation"]:
+        return row["verdict"]
+    factor = f", {row['load_factor']} times its weight" if row["load_factor"] else ""
+    return f"{row['verdict']}: {100.0 * float(row['utilisation']):.0f} % used{factor}"
+
+
+def carrying(row: dict[str, str] | None) -> str:
+    """Return what a bridge carries of the loads of its design."""
+    if row is None or not row["traffic"]:
+        return "no bars" if row is not None else ""
+    return f"{row['traffic_factor']}, {row['traffic']}" if row["traffic_factor"] else f"above 40, {row['traffic']}"
+
+
+def of_runs(name: str) -> str:
+    """Return the columns of a table on the runs of an example."""
+    found = rows(RANGES / f"{name}.csv")
+    if not found:
+        return "none |  |  |  |  | "
+    count = len(found)
+    cut = f", {MEASURED_S[name]:g} s" if name in MEASURED_S else ""
+    resting = sum(
+        row.get("came_to_rest_s", "") != "" and not float(row.get("still_moving_shards") or 0) for row in found
+    )
+    return " | ".join(
+        (
+            f"{count}{cut}",
+            f"{resting} of {count}",
+            spans_down(found),
+            span_of(found, "throw_95_percent_m", "{:.1f} to {:.1f} m"),
+            span_of(found, "largest_throw_m", "{:.1f} to {:.1f} m"),
+            made(found),
+        )
+    )
+
+
+def spans_down(found: list[dict[str, str]]) -> str:
+    """Return in how many runs each span came down."""
+    shares = [column for column in found[0] if column.startswith("span_") and column.endswith("_share_fallen_2_m")]
+    downs = [sum(float(row[share] or 0) > DOWN for row in found) for share in shares]
+    return "; ".join(f"span {index}: {down}" for index, down in enumerate(downs, 1)) or "-"
+
+
+def span_of(found: list[dict[str, str]], column: str, text: str) -> str:
+    """Return least and largest of a quantity."""
+    values = [float(row[column]) for row in found if row.get(column)]
+    return text.format(min(values), max(values)) if values else "-"
+
+
+def made(found: list[dict[str, str]]) -> str:
+    """Return the median and the range of the energy that the solver made."""
+    shares = [100.0 * float(row["made_share"]) for row in found if row.get("made_share")]
+    if not shares:
+        return "-"
+    return f"{statistics.median(shares):.1f} % ({min(shares):.1f} to {max(shares):.1f})"
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

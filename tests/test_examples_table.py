@@ -1,0 +1,43 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The table of all examples says what was worked out and measured, and bridges as they are stand and carry traffic."""
+
+import sys
+
+import pytest
+from support.checkout import REPORT_2019, ROOT, SEEDED
+
+sys.path.insert(0, str(ROOT / "scripts"))
+
+import examples_table
+
+STATICS = {row["example"]: row for row in examples_table.rows(examples_table.STATICS)}
+NOW = [name for name, path in SEEDED.items() if path.parent != REPORT_2019]
+
+
+def test_the_page_is_what_its_script_makes():
+    assert examples_table.PAGE.read_text(encoding="utf-8") == examples_table.page()
+
+
+def test_all_examples_are_in_it():
+    assert list(STATICS) == list(SEEDED)
+    text = examples_table.page()
+    assert [name for name in SEEDED if f"| [{name}](" not in text] == []
+
+
+@pytest.mark.parametrize("name", NOW)
+def test_bridges_as_they_are_stand_and_carry_what_they_are_designed_for(name):
+    row = STATICS[name]
+    assert row["verdict"] == "stands"
+    assert float(row["load_factor"]) > 1.0
+    assert float(row["traffic_factor"]) >= 1.0
+
+
+def test_a_row_counts_runs_that_rest_and_spans_that_are_down(monkeypatch, tmp_path):
+    monkeypatch.setattr(examples_table, "RANGES", tmp_path)
+    (tmp_path / "two_spans_13m_ball.csv").write_text(
+        "seed,largest_throw_m,throw_95_percent_m,span_1_share_fallen_2_m,span_2_share_fallen_2_m,came_to_rest_s,made_share\n"
+        "1,3.0,1.0,1.0,0.0,4.2,0.01\n"
+        "2,5.0,2.0,0.6,0.1,,0.03\n"
+    )
+    of_runs = examples_table.of_runs("two_spans_13m_ball").split(" | ")
+    assert of_runs == ["2", "1 of 2", "span 1: 2; span 2: 0", "1.0 to 2.0 m", "3.0 to 5.0 m", "2.0 % (1.0 to 3.0)"]
