@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
+from ...engineering.arrays import FloatArray
 from ...engineering.reinforced_concrete.bar_choice import BarChoice
 from ...engineering.reinforced_concrete.bending import PressedShape, flange_width_m
 from ...engineering.reinforced_concrete.influence_lines import InfluenceLines, MovingLoad, influence_lines
@@ -17,6 +18,7 @@ from .beam_effects import BeamEffects, beam_effects
 from .design_basis import LEAST, Tension
 from .file_members import ADVICE, FileDesign, LyingSection, Rows, in_own_axes
 from .load_paths import Superstructure, carriers_of
+from .schedule import ScheduledLinks
 from .superstructure import AT_SIMPLE_END, MOST_COVERED, where_above
 
 _KILO = 1e3
@@ -111,7 +113,7 @@ def _slab(basis: FileDesign, line: FileDeckLine, index: int, effects: BeamEffect
     depth = height - bottom.depth_m
     shear = effects.shear_beyond_n(line.supports_m, depth)
 
-    def links(shear_n: float) -> object:
+    def links(shear_n: float) -> ScheduledLinks | None:
         return design.links_for(
             [name],
             kind,
@@ -215,7 +217,7 @@ def _girder(basis: FileDesign, line: FileDeckLine, index: int, girders: Sequence
     """Yield the bars of a girder: a beam between its own supports, with its part of the deck and of the traffic."""
     design, member = basis.design, basis.members[index]
     slab, beside = _slab_thickness_m(basis, line), _abreast(basis, line, index, girders)
-    middles = np.array([at for at, _ in beside])
+    middles: FloatArray = np.array([at for at, _ in beside])
     number = [other for _, other in beside].index(index)
     width = line.part.axes.width_m
     spacing = float(np.diff(middles).min()) if len(middles) > 1 else width
@@ -283,7 +285,7 @@ def beam_rows(
     area, length = member.volume_m3 / axes.length_m, axes.length_m
     own = PressedShape.rectangle(axes.height_m, section.bottom_m)
 
-    def along(shape: PressedShape, width_m: float) -> object:
+    def along(shape: PressedShape, width_m: float) -> Callable[[float], Tension]:
         def needed(moment_nm: float) -> Tension:
             return design.tension(name, moment_nm, shape, bars_width_m=width_m, outside_m=outside, advice=ADVICE)
 
@@ -299,7 +301,7 @@ def beam_rows(
         yield design.scheduled([name], kind, side, "x", found, section_m2=area, length_m=length)
     depth = section.sagging.height_m - bottom.depth_m
 
-    def links(shear_n: float) -> object:
+    def links(shear_n: float) -> ScheduledLinks | None:
         return design.links_for(
             [name],
             kind,

@@ -147,11 +147,25 @@ def _in_convex_parts(member: Member, shards: int) -> Member:
     """Return a member that is to be so many shards with parts that are convex, as few of a user's own files are."""
     if member.parts:
         return member
-    parts = convex_parts(member.solid, max(shards, _MOST_CONVEX_PARTS))
+    parts = _convex_parts(member.solid, max(shards, _MOST_CONVEX_PARTS))
     if len(parts) > 1 and member.kind in _SPANNING and (pieces := _pieces_of_slender(member.solid, shards)):
         most = max(shards // len(pieces), _MOST_CONVEX_IN_PIECE)
-        parts = tuple(part for piece in pieces for part in convex_parts(piece, most))
+        parts = tuple(part for piece in pieces for part in _convex_parts(piece, most))
     return replace(member, parts=parts) if len(parts) > 1 else member
+
+
+def _convex_parts(solid: TriangleMesh, most: int) -> tuple[TriangleMesh, ...]:
+    """Return a solid in convex parts; whole where one of them could not be cut, as its surface crosses itself."""
+    parts = convex_parts(solid, most)
+    return parts if all(_can_be_cut(part) for part in parts) else (solid,)
+
+
+def _can_be_cut(part: TriangleMesh) -> bool:
+    try:
+        fracture(part, 1)
+    except GeometryError:
+        return False
+    return True
 
 
 def _pieces_of_slender(solid: TriangleMesh, shards: int) -> tuple[TriangleMesh, ...]:
@@ -167,7 +181,8 @@ def _pieces_of_slender(solid: TriangleMesh, shards: int) -> tuple[TriangleMesh, 
     count = max(math.ceil(longest / (_LONGEST_PIECE * middle)), min(shards // _SHARDS_OF_PIECE, _MOST_PIECES))
     count = min(count, shards)
     begin = float(solid.vertices[:, axis].min())
-    return slabs(solid, axis, [begin + longest * number / count for number in range(1, count)])
+    pieces = slabs(solid, axis, [begin + longest * number / count for number in range(1, count)])
+    return pieces if all(_can_be_cut(piece) for piece in pieces) else ()
 
 
 def _fractured(member: Member, count: int, points: np.ndarray, seed: int, options: FractureOptions) -> Fracture:
