@@ -233,7 +233,7 @@ def _girder(basis: FileDesign, line: FileDeckLine, index: int, girders: Sequence
     others = [other for other in line.part.all if other not in girders]
     by_area = basis.weight_n(others) / line.part.axes.length_m / width + _KILO * design.rule.permanent_kn_m2
     strip = width / _STRIPS
-    across: FloatArray = strip * (np.arange(_STRIPS) + 0.5) - 0.5 * width
+    across: FloatArray = strip * (np.arange(_STRIPS, dtype=float) + 0.5) - 0.5 * width
     permanent = design.weight_n(member) / axes.length_m + by_area * float(share(across).sum()) * strip
     effects = beam_effects(lines, permanent, line.traffic.on_part(share) if line.traffic else ())
     yield from beam_rows(basis, index, section, effects, at)
