@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Blocks at rest on a bearing, one of them tied to the other far more stiffly than the bearing is, far from the origin."""
+"""Blocks at rest on a bearing, far from the origin, tied to each other far more stiffly than the bearing is."""
 
 import numpy as np
 import pytest
