@@ -18,10 +18,12 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from ensembles import ENSEMBLES, answer, picture, runs_table
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests"))
 
-ROOT = Path(__file__).resolve().parent.parent
-EXAMPLES, RANGES = ROOT / "examples", ROOT / "docs" / "data" / "seeds"
+from ensembles import ENSEMBLES, answer, picture, runs_table
+from support.checkout import ROOT, SEEDED
+
+RANGES = ROOT / "docs" / "data" / "seeds"
 NOTES = ROOT / "docs" / "data" / "remade.json"
 DECIDES_RUNS = tuple(
     f"bridge_demolition_addon/{folder}" for folder in ("bullet", "engineering", "model", "scene", "simulation")
@@ -83,13 +85,18 @@ def products() -> Iterator[Product]:
     """Yield all that is made from runs."""
     for path in sorted(RANGES.glob("*.csv")):
         command = ("scripts/seeds.py", path.stem, "--seeds", str(SEEDS), "--csv", "docs/data/seeds")
-        example = next(EXAMPLES.rglob(f"{path.stem}.toml")).relative_to(ROOT).as_posix()
+        example = SEEDED[path.stem].relative_to(ROOT).as_posix()
         yield Product(path.stem, command, (path.relative_to(ROOT).as_posix(),), (example, "scripts/seeds.py"))
     for path in sorted((ROOT / "docs" / "data" / "validation").glob("*.json")):
         command = ("scripts/validate.py", "--keep", path.stem)
         output = path.relative_to(ROOT).as_posix()
         yield Product(f"validation/{path.stem}", command, (output,), (f"validation/{path.stem}.py",))
-    for name, words in (("growth", ("measure",)), ("elastic_beam", ("measure",)), ("reinforced_deck", ("12",))):
+    for name, words in (
+        ("growth", ("measure",)),
+        ("elastic_beam", ("measure",)),
+        ("reinforced_deck", ("12",)),
+        ("tosses", ("measure",)),
+    ):
         script = f"scripts/experiments/{name}.py"
         yield Product(f"experiments/{name}", (script, *words), (f"docs/data/{name}.csv",), (script,))
     for name, ensemble in ENSEMBLES.items():

@@ -6,8 +6,9 @@ import math
 import i235_decks
 import laboratory_arches
 import numpy as np
+import prestwood
 import pytest
-from arches import Arch, course_of, first_crack_n, limit_load_n
+from arches import Arch, course_of, first_crack_n, limit_load_n, load_shares
 from support.moving_boxes import moving_boxes
 
 
@@ -57,6 +58,30 @@ def test_fill_weighs_what_lies_between_ring_and_road():
     assert sum(weight for _, weight in arch.fill()) == pytest.approx(expected, rel=1e-3)
 
 
+def test_fill_pushes_with_the_pressure_of_rankine_on_the_height_of_the_back():
+    """On one side K γ (d₂² - d₁²) / 2 by width, between the depths of crown and springing; K = 4.02 for 37°."""
+    arch = Arch(8.0, 2.0, 0.4, 3.0, 2000.0, 400, fill_n_m3=20e3, cover_m=0.3, pressure=prestwood.PASSIVE)
+    springing = arch.on_arc(arch.inner_m + 0.4, arch.angles[-1])[1]
+    depth = 2.4 + 0.3 - springing
+    expected = 4.02 * 20e3 * (depth**2 - 0.3**2) / 2.0 * 3.0
+    assert sum(push for position, push in arch.pushes() if position[0] > 0.0) == pytest.approx(expected, rel=2e-3)
+
+
+def test_fill_that_resists_lets_prestwood_carry_what_others_calculate_with_soil():
+    """Simoncello and others 2020: 245 kN with their model of the soil. Only voussoirs beyond the crown lean on it."""
+    limit = prestwood.LOADINGS["all of its passive pressure"].limit
+    assert limit.load_n == pytest.approx(245e3, rel=0.1)
+    assert limit.pushes_n[:10].sum() == 0.0 and limit.pushes_n[10:].sum() > 100e3
+
+
+def test_a_load_that_spreads_is_divided_among_voussoirs():
+    arch = prestwood.LOADINGS["fill as weight"].arch
+    shares = load_shares(arch, prestwood.LOAD_X_M, 0.8)
+    assert sum(share for _, _, share in shares) == pytest.approx(1.0)
+    assert sum(share * point[0] for _, point, share in shares) == pytest.approx(prestwood.LOAD_X_M, abs=1e-6)
+    assert len(load_shares(arch, prestwood.LOAD_X_M)) == 1
+
+
 def test_what_is_borne_is_the_load_less_what_speeds_up_the_blocks():
     """A block of 2 t that goes down with 3 m/s² under 10 kN bears 4 kN of it."""
     times = np.arange(25) / 24.0
@@ -66,7 +91,7 @@ def test_what_is_borne_is_the_load_less_what_speeds_up_the_blocks():
     speeds[:, 0, 2] = -3.0 * times
     results = moving_boxes(times, np.array([[1.0, 1.0, 1.0]]), positions, velocities_m_s=speeds)
     mass = float(results.inventory.masses_kg[0])
-    course = course_of(results, 0, np.full(25, 5.0 * mass))
+    course = course_of(results, {0: 1.0}, np.full(25, 5.0 * mass))
     assert course.resistance_n == pytest.approx(2.0 * mass, rel=1e-4)
     assert course.borne_n(1.0) == pytest.approx(2.0 * mass, rel=1e-4)
 

@@ -3,9 +3,11 @@
 
 import math
 
+import numpy as np
 import pytest
 import validate
-from case import GROUPS, Comparison
+from case import GROUPS, VALIDATION, Against, Comparison
+from scipy.spatial.transform import Rotation
 from support.checkout import ROOT
 
 
@@ -33,6 +35,23 @@ def test_a_quantity_is_held_against_its_tolerance():
     assert not Comparison("way", "m", 2.0, 1.95, 0.02).is_met
     assert Comparison("place", "", (0.3, 0.4), 0.3).is_met
     assert not Comparison("place", "", (0.3, 0.4), 0.41).is_met
+    assert Comparison("way", "m", 2.0, 1.5).ratio == 0.75 and Comparison("place", "", (0.3, 0.4), 0.3).ratio is None
+
+
+def test_verification_and_validation_are_told_apart():
+    """What is held against a measurement is in a case of that group, with its ratio; what misses has a line first."""
+    outcomes = [validate.kept(name) for name in validate.CASES]
+    for outcome in outcomes:
+        assert bool(outcome.held_against(Against.MEASURED)) == (outcome.case.group == VALIDATION), outcome.case.name
+    text = validate.DOCUMENT.read_text(encoding="utf-8")
+    first, misses, rest = text.split("## What misses")[0], *text.split("## What misses")[1].split("## Verification", 1)
+    missed = [row for outcome in outcomes for row in outcome.comparisons if not row.is_met]
+    assert misses.count(f"| {missed[0].quantity} |") == 1
+    assert misses.count("\n| [") == len(missed)
+    assert first.count("](#") == len(outcomes)
+    prestwood = next(outcome for outcome in outcomes if outcome.case.name == "prestwood")
+    line = next(row for row in prestwood.comparisons if row.quantity == "fill as weight, against the test")
+    assert f"| 228 kN | {line.found:.4g} kN | {line.found / 228.0:.2f} | **beyond its tolerance** of 20 % |" in rest
 
 
 def test_one_case_runs_and_is_met(blender, tmp_path):
@@ -64,11 +83,93 @@ def test_cubes_that_were_tossed_go_as_far_as_was_measured(blender, tmp_path):
     """57 of the tosses of Pfrommer, Halm and Posa (CoRL 2020), with friction and restitution as they give them."""
     import tossed_cubes
 
+    tosses = tossed_cubes.measured(every=10)
+    found = tossed_cubes.tossed(tmp_path, tosses)
+    assert found.travels_m.mean() == pytest.approx(tosses.ends.travels_m.mean(), rel=0.03)
+    assert found.travels_m.std() == pytest.approx(tosses.ends.travels_m.std(), rel=0.25)
+    assert found.rest_s.mean() == pytest.approx(tosses.ends.rest_s.mean(), rel=0.1)
+    assert np.median(tossed_cubes.off_by_shares(found, tosses)) < 0.15
+    assert np.mean(found.faces == tosses.ends.faces) > 0.5
+
+
+def test_the_measured_tosses_are_those_of_their_authors():
+    """570 of them; 0.405 m and 0.62 s in the middle, and a cube whose centre is half of 0.1048 m up at the end."""
+    import tossed_cubes
+
     tosses = tossed_cubes.measured()
-    travels, rests = tossed_cubes.tossed(tmp_path, tosses)
-    assert travels.mean() == pytest.approx(tosses.travels_m.mean(), rel=0.03)
-    assert travels.std() == pytest.approx(tosses.travels_m.std(), rel=0.25)
-    assert rests.mean() == pytest.approx(tosses.rest_s.mean(), rel=0.1)
+    assert len(tosses) == 570
+    assert tosses.ends.travels_m.mean() == pytest.approx(0.405, abs=1e-3)
+    assert np.median(tosses.ends.rest_s) == pytest.approx(0.62, abs=5e-3)
+    heights = np.loadtxt(tossed_cubes.DATA, delimiter=",", skiprows=1)[:, 16]
+    assert heights == pytest.approx(np.full(570, tossed_cubes.SIDE_M / 2.0), abs=3e-3)
+    assert abs(tosses.ends.axes[:, 2]).max(axis=1).min() > 0.999  # they lie flat
+
+
+def test_faces_on_top_and_attitudes_are_those_of_scipy():
+    import tossed_cubes
+
+    turns = Rotation.from_euler("xyz", [[0, 0, 30], [90, 0, 10], [180, 0, 0], [0, 90, 5], [0, -90, 0]], degrees=True)
+    axes = tossed_cubes.axes_of(turns.as_quat(scalar_first=True))
+    np.testing.assert_allclose(axes, turns.as_matrix(), atol=1e-12)
+    assert tossed_cubes.faces_on_top(axes).tolist() == [2, 1, 5, 3, 0]
+
+
+def test_a_toss_rests_once_it_is_slow_for_good():
+    import tossed_cubes
+
+    speeds = np.array([[1.0, 1.0], [0.04, 0.5], [0.06, 0.02], [0.01, 0.0]])
+    assert tossed_cubes.rest_s(np.array([0.0, 0.1, 0.2, 0.3]), speeds).tolist() == [0.3, 0.2]
+
+
+def test_what_changes_tosses_is_on_the_page_as_it_was_measured():
+    """docs/contacts.md has the tables that `scripts/experiments/tosses.py` wrote."""
+    page = (ROOT / "docs" / "contacts.md").read_text(encoding="utf-8")
+    for name, keys in (("tosses", 2), ("tosses_by_mujoco", 1)):
+        rows = (ROOT / "docs" / "data" / f"{name}.csv").read_text(encoding="utf-8").splitlines()[1:]
+        for row in rows:
+            numbers = [f"{float(value):.2f}" for value in row.split(",")[keys:-1]]
+            assert f"| {' | '.join(numbers)} |" in page, row
+
+
+def test_laws_of_columns_are_those_of_experiments():
+    """Lube and others 2004: 1.24 a and 1.6 √a, which meet at 1.7 about; 0.88 a^(1/6), and no higher than at first."""
+    import collapsing_column as case
+
+    assert case.law_of_runout(1.0) == pytest.approx(1.24) and case.law_of_runout(4.0) == pytest.approx(3.2)
+    assert case.law_of_runout(1.7) == pytest.approx(1.24 * 1.7, rel=0.02)
+    assert case.law_of_height(64.0) == pytest.approx(1.76) and case.law_of_height(0.5) == 0.5
+
+
+@pytest.mark.parametrize("shape", ["cubes", "splinters"])
+def test_blocks_of_columns_are_closed_solids_of_one_volume(shape):
+    import collapsing_column as case
+
+    solid = case.block_of(shape, np.random.default_rng(3))
+    corners = solid.vertices[solid.triangles]
+    volumes = np.einsum("ti,ti->t", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6.0
+    assert volumes.sum() == pytest.approx(case.SIDE_M**3, rel=1e-6)
+    edges = [
+        (a, b) for triangle in solid.triangles.tolist() for a, b in zip(triangle, np.roll(triangle, -1), strict=True)
+    ]
+    assert len(set(edges)) == len(edges) and {(b, a) for a, b in edges} == set(edges)
+
+
+def test_blocks_of_a_column_lie_within_its_radius_and_apart():
+    import collapsing_column as case
+
+    positions = case.positions_m(1.0, 0.4)
+    between = np.sqrt(np.sum((positions[:, None] - positions[None]) ** 2, axis=2)) + np.eye(len(positions))
+    assert len(positions) == case.COUNT and np.hypot(*positions[:, :2].T).max() <= 0.8
+    assert between.min() == pytest.approx(0.4)
+
+
+def test_the_front_of_a_pile_leaves_out_blocks_that_lie_alone():
+    """A disc of 2 m, and a block 5 m away."""
+    import collapsing_column as case
+
+    grid = np.arange(-2.0, 2.01, case.SIDE_M)
+    points = np.array([(x, y, 0.15) for x in grid for y in grid if x * x + y * y <= 4.0] + [(5.0, 0.0, 0.15)])
+    assert case.front_m(points) == pytest.approx(2.0, abs=0.12)
 
 
 @pytest.mark.parametrize(("share", "holds"), [(0.85, False), (1.15, True)])

@@ -2,7 +2,7 @@
 """Segmental arches of voussoirs: as meshes, as scenarios, and as a linear program that gives their limit load."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import Path
@@ -33,6 +33,9 @@ class Arch:
     voussoirs : int
     fill_n_m3, cover_m : float
         Weight of the fill, and its depth over the crown; 0 where there is none.
+    pressure : float
+        Horizontal pressure with which fill resists a back that moves towards it, over its weight above; 0 where it does
+        not resist.
     """
 
     span_m: float
@@ -43,6 +46,7 @@ class Arch:
     voussoirs: int
     fill_n_m3: float = 0.0
     cover_m: float = 0.0
+    pressure: float = 0.0
 
     @property
     def inner_m(self) -> float:
@@ -81,6 +85,17 @@ class Arch:
             weights.append((position, self.fill_n_m3 * self.width_m * area))
         return weights
 
+    def pushes(self) -> list[tuple[np.ndarray, float]]:
+        """Where on its back the fill pushes each voussoir (x, z) towards the middle, and with how much at most, N."""
+        top = self.rise_m + self.ring_m + self.cover_m
+        pushes = []
+        for corners in self.outlines():
+            position = (corners[2] + corners[3]) / 2.0
+            height = abs(corners[2, 1] - corners[3, 1])
+            pressure = self.pressure * self.fill_n_m3 * (top - position[1])
+            pushes.append((position, pressure * height * self.width_m))
+        return pushes
+
     def back_at(self, x_m: float) -> np.ndarray:
         """Place (x, z) on the back of the ring."""
         for corners in self.outlines():
@@ -90,28 +105,60 @@ class Arch:
         raise ValueError(f"{x_m} m is beside the arch")
 
 
-def limit_load_n(arch: Arch, load_x_m: float, bond_pa: float = 0.0) -> float:
-    """Return the load at which an arch of rigid blocks comes down by limit analysis (Livesley 1978), N.
+@dataclass(frozen=True, slots=True, eq=False)
+class Limit:
+    """The limit load of an arch, N, and with how much fill then pushes each voussoir (n,) towards the middle, N."""
+
+    load_n: float
+    pushes_n: np.ndarray
+
+
+_STRIPS = 41
+"""Lines that a load which spreads is divided into."""
+
+
+def load_shares(arch: Arch, load_x_m: float, spread_m: float = 0.0) -> list[tuple[int, np.ndarray, float]]:
+    """Return what a load acts on that spreads along the road: voussoirs, where on their backs (x, z), and parts."""
+    lines = np.linspace(load_x_m - spread_m / 2.0, load_x_m + spread_m / 2.0, _STRIPS) if spread_m else [load_x_m]
+    shares = []
+    for row, corners in enumerate(arch.outlines()):
+        on_it = [x for x in lines if corners[3, 0] <= x < corners[2, 0]]
+        if on_it:
+            shares.append((row, arch.back_at(float(np.mean(on_it))), len(on_it) / len(lines)))
+    return shares
+
+
+def limit_load_n(arch: Arch, load_x_m: float, bond_pa: float = 0.0, spread_m: float = 0.0) -> float:
+    """Return the load at which an arch comes down by limit analysis, N: that of `limit_of`."""
+    return limit_of(arch, load_x_m, bond_pa, spread_m).load_n
+
+
+def limit_of(arch: Arch, load_x_m: float, bond_pa: float = 0.0, spread_m: float = 0.0) -> Limit:
+    """Return the limit load of an arch of rigid blocks by limit analysis (Livesley 1978).
 
     The largest for which forces at the edges of all joints exist that press, hold by friction and balance each block.
     Mortar that holds on with a constant stress however far it opens lets each edge pull with half of that on the joint.
+    Fill pushes each voussoir with any force up to its most: all of it on those that move towards it as the arch comes
+    down, and nothing on those that move away from it, as the largest load is found (complementary slackness).
     """
     pull = bond_pa * arch.ring_m * arch.width_m / 2.0
     outlines, angles = arch.outlines(), arch.angles
     inner, outer = arch.inner_m, arch.inner_m + arch.ring_m
     count = arch.voussoirs
-    balance = np.zeros((3 * count, 3 * (count + 1) + 1))
+    of_load = 3 * (count + 1)
+    balance = np.zeros((3 * count, of_load + 1 + count))
     given = np.zeros(3 * count)
-    point = arch.back_at(load_x_m)
-    fill = arch.fill()
+    fill, pushes = arch.fill(), arch.pushes()
+    for row, point, share in load_shares(arch, load_x_m, spread_m):
+        balance[3 * row : 3 * row + 3, of_load] = _wrench(point, np.array([0.0, -share]))
     for row, corners in enumerate(outlines):
         area, centre = _area_and_centre(corners)
         forces = [(centre, -area * arch.width_m * arch.density_kg_m3 * G)]
         forces += [(position, -weight) for position, weight in fill[row : row + 1]]
         for position, upwards in forces:
             given[3 * row : 3 * row + 3] -= _wrench(position, np.array([0.0, upwards]))
-        if corners[3, 0] <= load_x_m < corners[2, 0]:
-            balance[3 * row : 3 * row + 3, -1] = _wrench(point, np.array([0.0, -1.0]))
+        push_at = pushes[row][0]
+        balance[3 * row : 3 * row + 3, of_load + 1 + row] = _wrench(push_at, np.array([-np.sign(push_at[0]), 0.0]))
         for joint, sign in ((row, 1.0), (row + 1, -1.0)):
             angle = angles[joint]
             along, across = np.array([math.cos(angle), -math.sin(angle)]), np.array([math.sin(angle), math.cos(angle)])
@@ -129,8 +176,9 @@ def limit_load_n(arch: Arch, load_x_m: float, bond_pa: float = 0.0) -> float:
     holds = np.full(len(slides), 2.0 * FRICTION * pull)
     scale = abs(given).max()
     bounds = [(-pull / scale, None), (-pull / scale, None), (None, None)] * (count + 1) + [(0.0, None)]
+    bounds += [(0.0, most / scale) for _, most in pushes]
     cost = np.zeros(balance.shape[1])
-    cost[-1] = -1.0
+    cost[of_load] = -1.0
     found = linprog(
         cost,
         A_ub=slides,
@@ -140,7 +188,9 @@ def limit_load_n(arch: Arch, load_x_m: float, bond_pa: float = 0.0) -> float:
         bounds=bounds,
         method="highs",
     )
-    return float(found.x[-1]) * scale if found.status == 0 else 0.0
+    if found.status != 0:
+        return Limit(0.0, np.zeros(count))
+    return Limit(float(found.x[of_load]) * scale, found.x[of_load + 1 :] * scale)
 
 
 _PARTS = 10
@@ -238,11 +288,11 @@ _FRAMES = 4
 """Over which work and motion are compared: a joint that opens with a jerk is no change of what is borne."""
 
 
-def course_of(results: Results, body: int, load_n: np.ndarray) -> Course:
-    """Return how an arch came down, under a load (k,) on one of its bodies."""
+def course_of(results: Results, bodies: Mapping[int, float], load_n: np.ndarray) -> Course:
+    """Return how an arch came down, under a load (k,) of which bodies have their parts."""
     broken = np.flatnonzero((~results.frames.intact).any(axis=1))
     cracked = (load_n[broken[0] - 1] + load_n[broken[0]]) / 2.0 if len(broken) else math.inf
-    heights = results.frames.positions_m[:, body, 2].astype(float)
+    heights = results.frames.positions_m[:, list(bodies), 2].astype(float) @ np.array(list(bodies.values()))
     sag = heights[0] - heights
     kinetic = energy_of(results).kinetic_j
     start = int(np.argmax(load_n > 0.0))  # while it settles, what little moves says nothing
@@ -262,22 +312,28 @@ def loaded(
     load_x_m: float,
     course: Sequence[tuple[float, float]],
     *,
+    spread_m: float = 0.0,
+    limit: Limit | None = None,
     connections: str = "",
     substeps_per_frame: int = 320,
     iterations: int = 60,
 ) -> Course:
-    """Load an arch as a course of (time, N) says, in a run that ends with it."""
+    """Load an arch as a course of (time, N) says, in a run that ends with it.
+
+    Fill pushes voussoirs as at the limit. Until the load is there it does so in proportion to the load: as arches stand
+    without both and with both, they stand in between, by the theorem of the safe state.
+    """
     depth = arch.width_m / 2.0
     base_m = 1.0
-    meshes = {f"voussoir_{row:02d}": prism(outline, -depth, depth) for row, outline in enumerate(arch.outlines())}
+    meshes = {f"voussoir_{row:02d}.obj": prism(outline, -depth, depth) for row, outline in enumerate(arch.outlines())}
     for side, corners in _springers(arch).items():
-        meshes[f"springer_{side}"] = prism(corners, -depth, depth)
+        meshes[f"springer_{side}.obj"] = prism(corners, -depth, depth)
     members = "".join(
         f"""
 [[geometry]]
-name = "{mesh.replace("_", " ")}"
+name = "{mesh.replace("_", " ").removesuffix(".obj")}"
 kind = "{mesh.split("_")[0]}"
-file = "{mesh}.stl"
+file = "{mesh}"
 place_m = [0.0, 0.0, {base_m}]
 density_kg_m3 = {arch.density_kg_m3}
 """
@@ -287,8 +343,13 @@ density_kg_m3 = {arch.density_kg_m3}
         _load(f"voussoir {row:02d}", position, base_m, ((0.0, weight),))
         for row, (position, weight) in enumerate(arch.fill())
     )
-    rows = [row for row, outline in enumerate(arch.outlines()) if outline[3, 0] <= load_x_m < outline[2, 0]]
-    loads += _load(f"voussoir {rows[0]:02d}", arch.back_at(load_x_m), base_m, course)
+    shares = load_shares(arch, load_x_m, spread_m)
+    loads += "".join(
+        _load(f"voussoir {row:02d}", point, base_m, [(time_s, share * force) for time_s, force in course])
+        for row, point, share in shares
+    )
+    if limit:
+        loads += _pushes(arch, limit, course, base_m)
     scenario = f"""
 [scenario]
 title = "{name.replace("_", " ")}"
@@ -307,9 +368,10 @@ shards = {arch.voussoirs + 2}
 {connections or LOOSE_JOINTS}
 {RIGID_BODIES.format(shards=FRICTION, ground=FRICTION)}"""
     results = simulated(folder, name, scenario, meshes)
-    body = int(np.flatnonzero(results.inventory.body_members == f"voussoir {rows[0]:02d}")[0])
+    members = results.inventory.body_members
+    bodies = {int(np.flatnonzero(members == f"voussoir {row:02d}")[0]): share for row, _, share in shares}
     times, forces = zip(*course, strict=True)
-    return course_of(results, body, np.interp(results.frames.time_s, times, forces, left=0.0))
+    return course_of(results, bodies, np.interp(results.frames.time_s, times, forces, left=0.0))
 
 
 LOOSE_JOINTS = """
@@ -342,12 +404,36 @@ def _springers(arch: Arch) -> dict[str, np.ndarray]:
     return found
 
 
-def _load(member: str, position: np.ndarray, base_m: float, course: Sequence[tuple[float, float]]) -> str:
+def _pushes(arch: Arch, limit: Limit, course: Sequence[tuple[float, float]], base_m: float) -> str:
+    """Fill that pushes in proportion to the load up to the limit, and no more than that."""
+    (begins_s, _), (ends_s, most_n) = course
+    at_limit_s = begins_s + (ends_s - begins_s) * limit.load_n / most_n
+    return "".join(
+        _load(
+            f"voussoir {row:02d}",
+            position,
+            base_m,
+            ((begins_s, 0.0), (at_limit_s, push)),
+            (-float(np.sign(position[0])), 0.0, 0.0),
+        )
+        for row, ((position, _), push) in enumerate(zip(arch.pushes(), limit.pushes_n.tolist(), strict=True))
+        if push > 0.0
+    )
+
+
+def _load(
+    member: str,
+    position: np.ndarray,
+    base_m: float,
+    course: Sequence[tuple[float, float]],
+    direction: tuple[float, float, float] = (0.0, 0.0, -1.0),
+) -> str:
     times, forces = ([float(value) for value in values] for values in zip(*course, strict=True))
     return f"""
 [[loads]]
 members = ["{member}"]
 point_m = [{position[0]:.6f}, 0.0, {position[1] + base_m:.6f}]
+direction = {list(direction)}
 times_s = {times}
 forces_n = {forces}
 """

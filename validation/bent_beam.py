@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import TypeVar
 
 import numpy as np
-from case import EXACT, Case, Comparison, Found
+from case import VERIFICATION, Case, Comparison, Found
 from loaded_beams import LoadedBeam, collapse_loads_n, courses, draw_courses
 from matplotlib.figure import Figure
 
@@ -48,7 +48,7 @@ def expected_m(load_n: Numbers) -> Numbers:
 CASE = Case(
     name="bent_beam",
     title="Reinforced beam in bending",
-    group=EXACT,
+    group=VERIFICATION,
     asked=f"A beam of {BEAM.span_m:g} m ({BEAM.width_m:g} m × {BEAM.height_m:g} m) with {BEAM.area_mm2:g} mm² near its "
     f"bottom and links of {BEAM.links_mm2_m2:g} mm²/m² lies on two bearings, cut into {BEAM.shards} irregular shards. "
     "A load in its middle grows. At which does it come down, and how far does it bend before?",

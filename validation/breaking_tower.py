@@ -6,7 +6,7 @@ import math
 from pathlib import Path
 
 import numpy as np
-from case import EXACT, RIGID_BODIES, Case, Comparison, Found, simulated
+from case import RIGID_BODIES, VERIFICATION, Case, Comparison, Found, simulated
 from matplotlib.figure import Figure
 from solids import block
 
@@ -117,7 +117,7 @@ free = ["turn y"]
 CASE = Case(
     name="breaking_tower",
     title="Tower that breaks in the air",
-    group=EXACT,
+    group=VERIFICATION,
     asked=f"A slender tower in {COUNT} slices falls about a hinge at its foot, from {LEAN_DEG:g}°. It breaks where "
     "the stress at its edge, by bending and its own weight, first reaches its strength.",
     left_out="Shear, which breaks real ones near the foot, and cracks between the joints of the slices.",

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from enum import StrEnum
 from pathlib import Path
 
 from matplotlib.figure import Figure
@@ -14,8 +15,18 @@ from bridge_demolition_addon.engineering.geometry.mesh import TriangleMesh
 from bridge_demolition_addon.model.results.arrays import Results, load_results
 from bridge_demolition_addon.model.scenario.file import read_scenario
 
-EXACT, PUBLISHED, MEASURED = "Exact answers", "Published formulas", "Measurements"
-GROUPS = (EXACT, PUBLISHED, MEASURED)
+VERIFICATION, VALIDATION = "Verification", "Validation"
+GROUPS = (VERIFICATION, VALIDATION)
+"""Cases held against theory of the same model alone, and those held against what was measured, too."""
+
+
+class Against(StrEnum):
+    """What a quantity is held against."""
+
+    THEORY = "theory"
+    """Of the same model: an exact answer, or another program that calculates the same."""
+    MEASURED = "measured"
+    """What was measured, or a formula that was fitted to tests."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,6 +41,7 @@ class Comparison:
     found : float
     tolerance : float
         By how much of the expected number it may be off; of a range, 0.
+    against : Against
     """
 
     quantity: str
@@ -37,6 +49,7 @@ class Comparison:
     expected: float | tuple[float, float]
     found: float
     tolerance: float = 0.0
+    against: Against = Against.THEORY
 
     @property
     def is_met(self) -> bool:
@@ -44,6 +57,11 @@ class Comparison:
         if isinstance(self.expected, tuple):
             return self.expected[0] <= self.found <= self.expected[1]
         return abs(self.found - self.expected) <= self.tolerance * abs(self.expected)
+
+    @property
+    def ratio(self) -> float | None:
+        """What was found over what is expected; None where that is a range."""
+        return None if isinstance(self.expected, tuple) else self.found / self.expected
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,7 +98,8 @@ class Case:
 def simulated(folder: Path, name: str, scenario: str, meshes: Mapping[str, TriangleMesh]) -> Results:
     """Write a scenario and its meshes into a folder, so that anyone can run it, run it, and return the results.
 
-    It runs for all of its time, also where everything rests before.
+    It runs for all of its time, also where everything rests before. Meshes are named with or without the suffix of
+    their files, which is .stl by default; many are read faster as .obj.
     """
     from bridge_demolition_addon.model.bridge.mesh_files import exported
     from bridge_demolition_addon.simulation.run import run_scenario
@@ -88,7 +107,8 @@ def simulated(folder: Path, name: str, scenario: str, meshes: Mapping[str, Trian
     position = folder / name
     position.mkdir(parents=True, exist_ok=True)
     for mesh, solid in meshes.items():
-        (position / f"{mesh}.stl").write_bytes(exported(solid, ".stl"))
+        file = position / (mesh if Path(mesh).suffix else f"{mesh}.stl")
+        file.write_bytes(exported(solid, file.suffix))
     (position / "scenario.toml").write_text(scenario, encoding="utf-8")
     planned = read_scenario(position / "scenario.toml")
     whole = replace(planned, time=replace(planned.time, stop_at_rest=False))

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from case import EXACT, RIGID_BODIES, Case, Comparison, Found, simulated
+from case import RIGID_BODIES, VERIFICATION, Case, Comparison, Found, simulated
 from matplotlib.figure import Figure
 from slabs import Slab, sunk_m
 
@@ -126,7 +126,7 @@ friction = 0.25
 CASE = Case(
     name="drop_on_shards",
     title="Weight that drops on a reinforced strip in irregular shards",
-    group=EXACT,
+    group=VERIFICATION,
     asked="Weights drop on the middle of strips of 4 m (1 m × 0.2 m): 800 kg with 3.5 m/s where 600 mm² of steel "
     f"are near the bottom, and 2000 kg with 3 m/s where there are 1200. Strips are cut into {SHARDS} irregular "
     "shards, and whole before. Which deflection stays, with seeds 1 to 5?",

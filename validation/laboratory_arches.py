@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 from arches import Arch, G, first_crack_n, limit_load_n, loaded
-from case import MEASURED, Case, Comparison, Found
+from case import VALIDATION, Against, Case, Comparison, Found
 from matplotlib.figure import Figure
 
 SPAN_M = 3.3
@@ -45,7 +45,7 @@ def run(folder: Path) -> Found:
         for name, course in courses.items()
     ]
     comparisons += [
-        Comparison(f"{name}, over what was measured", "", (0.3, 0.7), course.borne_n(FALLEN_M) / MEASURED_N[name])
+        Comparison(f"{name}, against the test", "N", MEASURED_N[name], course.borne_n(FALLEN_M), 0.2, Against.MEASURED)
         for name, course in courses.items()
     ]
     thin = "ring of 60 mm"
@@ -84,21 +84,23 @@ def _course(folder: Path, name: str, limit_n: float, connections: str = ""):
 CASE = Case(
     name="laboratory_arches",
     title="Arches of a laboratory, loaded to collapse",
-    group=MEASURED,
+    group=VALIDATION,
     asked="Two brick arches of 3.3 m, built with mortar, came down under a line load at 0.56 m from their springing, "
     "as mechanisms of four hinges. Their rings have 20 voussoirs here: blocks that only touch, and with a mortar of "
     "0.1 N/mm² that breaks as a whole once the edge of a joint reaches that.",
-    left_out="Bond that goes on holding beside a crack: a joint is whole or broken here. The walls beside the thicker "
-    "arch, with which its authors' own model carries 1725 N without any bond. Bricks within a voussoir.",
-    source="2080 N and 390 N: F. G. Carozzi, C. Poggi, E. Bertolesi and G. Milani (2018), and the numerical companion "
-    "of E. Bertolesi and others (2018), as a public repository quotes them; 18 kN/m³ is its assumption. Bertolesi's "
-    "own limit analysis gives 261 N without bond for the thinner one, and 919 N with 0.1 N/mm² that holds on. Limit "
-    "loads here: as for Prestwood; mortar that holds on as it opens adds a constant pull.",
-    reason="10 % of limit analysis, as contacts sink. 20 % of the first crack, by beam theory of a whole elastic ring "
-    "(`first_crack_n` there): its own weight uses half of that bond already, so that 5 % of stress are 11 % of load; "
-    "and a frame is 7 N. This case showed that joints of whole members deformed unevenly, which is mended. "
-    "What was measured is 1.5 to 3 times what blocks carry that only touch, by mortar and walls. Brittle mortar cracks "
-    "long before blocks come down, and adds little: between nine tenths of their limit and that of a mortar that holds "
-    "on is expected. By beam theory the first crack would be at the 390 N that were measured with 0.27 N/mm².",
+    left_out="Bond that goes on holding beside a crack: a joint is whole or broken here. The walls beside the "
+    "thicker arch, with which its authors' own model carries 1725 N without any bond. Bricks within a voussoir. "
+    "There is no fill, so that its pressure explains nothing here.",
+    source="2080 N and 390 N: F. G. Carozzi, C. Poggi, E. Bertolesi and G. Milani (2018), and the numerical "
+    "companion of E. Bertolesi and others (2018), as a public repository quotes them; 18 kN/m³ is its assumption. "
+    "Bertolesi's own limit analysis gives 261 N without bond for the thinner one, and 919 N with 0.1 N/mm² that "
+    "holds on. Limit loads here: as for Prestwood; mortar that holds on as it opens adds a constant pull.",
+    reason="10 % of limit analysis, as contacts sink. 20 % of the first crack, by beam theory of a whole elastic "
+    "ring (`first_crack_n` there): its own weight uses half of that bond already, so that 5 % of stress are 11 % of "
+    "load; and a frame is 7 N. This case showed that joints of whole members deformed unevenly, which is mended. The "
+    "tests are missed by half, 20 % was wished for: they carried 2.4 and 1.7 times what blocks do that only touch, "
+    "by mortar and walls. Brittle mortar cracks long before blocks come down, and adds little: between nine tenths "
+    "of their limit and that of a mortar that holds on is expected. By beam theory the first crack would be at the "
+    "390 N that were measured with 0.27 N/mm².",
     run=run,
 )

@@ -4,7 +4,7 @@
 from pathlib import Path
 
 import numpy as np
-from case import EXACT, RIGID_BODIES, Case, Comparison, Found, simulated
+from case import RIGID_BODIES, VERIFICATION, Case, Comparison, Found, simulated
 from matplotlib.figure import Figure
 from slabs import Slab, sunk_m
 
@@ -83,7 +83,7 @@ forces_n = {forces}
 CASE = Case(
     name="reinforced_slab",
     title="Reinforced slab in irregular shards",
-    group=EXACT,
+    group=VERIFICATION,
     asked=f"A slab of {SLAB.span_m:g} m ({SLAB.width_m:g} m × {SLAB.height_m:g} m) with {SLAB.area_mm2:g} mm² of steel "
     "near its bottom lies on two bearings, of which one moves. An even load grows. At which does it come down, in 40 "
     "and 100 irregular shards, with seeds 1 to 3?",

@@ -5,7 +5,7 @@ import math
 from pathlib import Path
 
 import numpy as np
-from case import EXACT, LOOSE, RIGID_BODIES, Case, Comparison, Found, simulated
+from case import LOOSE, RIGID_BODIES, VERIFICATION, Case, Comparison, Found, simulated
 from matplotlib.figure import Figure
 from solids import block
 
@@ -97,7 +97,7 @@ shards = 1
 CASE = Case(
     name="rocking_block",
     title="Rocking block",
-    group=EXACT,
+    group=VERIFICATION,
     asked=f"A block {WIDTH_M:g} m wide and {HEIGHT_M:g} m high leans by half the angle at which it topples, and is "
     "let go; another stands, and begins to turn about its edge.",
     left_out="What is elastic: measured blocks lose less or more at each impact, by the evenness of their faces.",

@@ -4,7 +4,7 @@
 from pathlib import Path
 
 import numpy as np
-from case import EXACT, LOOSE, RIGID_BODIES, Case, Comparison, Found, simulated
+from case import LOOSE, RIGID_BODIES, VERIFICATION, Case, Comparison, Found, simulated
 from matplotlib.figure import Figure
 from solids import block
 
@@ -60,7 +60,7 @@ shards = 1
 CASE = Case(
     name="sliding_block",
     title="Sliding block",
-    group=EXACT,
+    group=VERIFICATION,
     asked=f"A flat block of concrete slides on level ground with {SPEED_M_S:g} m/s until it stops, after v² / (2 μ g).",
     left_out="Friction that depends on speed, and the difference between static and sliding friction.",
     source="Coulomb's law of friction.",

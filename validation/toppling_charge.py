@@ -5,7 +5,7 @@ import math
 from pathlib import Path
 
 import numpy as np
-from case import EXACT, LOOSE, RIGID_BODIES, Case, Comparison, Found, simulated
+from case import LOOSE, RIGID_BODIES, VERIFICATION, Case, Comparison, Found, simulated
 from matplotlib.figure import Figure
 from solids import block
 
@@ -98,7 +98,7 @@ mass_kg = {charge_kg(share)}
 CASE = Case(
     name="toppling_charge",
     title="Pier that a charge topples",
-    group=EXACT,
+    group=VERIFICATION,
     asked=f"A charge goes off {STAND_OFF_M:g} m beside the middle of a loose pier, {WIDTH_M:g} m thick and "
     f"{HEIGHT_M:g} m high. From which impulse on does it topple?",
     left_out="Feet that slip: to turn a pier about its edge at once takes friction of 1.7, and it has 4 here. "

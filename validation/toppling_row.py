@@ -5,7 +5,7 @@ import math
 from pathlib import Path
 
 import numpy as np
-from case import EXACT, LOOSE, RIGID_BODIES, Case, Comparison, Found, simulated
+from case import LOOSE, RIGID_BODIES, VERIFICATION, Case, Comparison, Found, simulated
 from matplotlib.figure import Figure
 from solids import block
 
@@ -130,7 +130,7 @@ shards = {count}
 CASE = Case(
     name="toppling_row",
     title="Row of toppling piers",
-    group=EXACT,
+    group=VERIFICATION,
     asked=f"{COUNT} piers, {HEIGHT_M:g} m high, stand in a row. The first is pushed, and they topple into each other. "
     "How fast does that go along the row, once it is steady?",
     left_out="Friction between piers, which slows a row down, and feet that slip: friction is 0.0025 between piers and "

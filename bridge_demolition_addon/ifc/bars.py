@@ -146,14 +146,14 @@ def _side(middle: np.ndarray, low: np.ndarray, high: np.ndarray, along: int) -> 
 
 
 def _grouped(member: Member, along: int, side: str, rows: Sequence[tuple[float, float]]) -> Iterator[BarLayer]:
-    total = sum(area for _, area in rows)
+    total = math.fsum(area for _, area in rows)
     first = 0
     for row in range(1, len(rows) + 1):
         if row < len(rows) and rows[row][0] - rows[first][0] <= _ONE_LAYER_M:
             continue
         group = rows[first:row]
-        area = sum(share for _, share in group)
-        depth = sum(depth * share for depth, share in group) / area
+        area = math.fsum(share for _, share in group)
+        depth = math.fsum(depth * share for depth, share in group) / area
         first = row
         if area >= _SMALLEST_SHARE * total and depth > 0.0:
             yield BarLayer(

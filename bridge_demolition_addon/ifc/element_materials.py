@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -157,7 +158,8 @@ class _Reader:
         if len(known) < len(parts) or len(parts) == 1 or len(shares) < len(parts):
             more = f"made of {len(parts)} materials, of which {known[0].name} counts" if len(parts) > 1 else ""
             return replace(known[0], note="; ".join(note for note in (known[0].note, more) if note))
-        density = sum(part.density_kg_m3 * share for part, share in zip(known, shares, strict=True)) / sum(shares)
+        by_thickness = math.fsum(part.density_kg_m3 * share for part, share in zip(known, shares, strict=True))
+        density = by_thickness / math.fsum(shares)
         main = known[shares.index(max(shares))]
         return Substance(main.name, density, main.row, f"the density is the mean of {len(known)} layers by thickness")
 

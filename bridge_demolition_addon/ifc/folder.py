@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
+import math
 import os
 import re
 import tempfile
@@ -172,8 +173,8 @@ def _by_file(outcomes: Sequence[Outcome]) -> Iterator[str]:
     ):
         said = [outcome for outcome in known if getattr(outcome, of_file)]
         if said:
-            total = sum(getattr(outcome, of_file) for outcome in said)
-            ours = sum(getattr(outcome.part[0], of_member) for outcome in said)
+            total = math.fsum(getattr(outcome, of_file) for outcome in said)
+            ours = math.fsum(getattr(outcome.part[0], of_member) for outcome in said)
             yield (
                 f"  {word:<24}{text(total).strip()} by the file for {len(said)} elements, {text(ours).strip()} here, "
                 f"{100.0 * (ours / total - 1.0):+.2f} %"
@@ -189,7 +190,8 @@ def _where(bridge: ImportedBridge) -> str:
 
 
 def _row(name: str, members: Sequence[Member]) -> str:
-    volume_m3, mass_kg = sum(member.volume_m3 for member in members), sum(member.mass_kg for member in members)
+    volume_m3 = math.fsum(member.volume_m3 for member in members)
+    mass_kg = math.fsum(member.mass_kg for member in members)
     return f"  {name:<23} {volume_text(volume_m3, width=9)} {mass_text(mass_kg, width=10)}"
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
@@ -114,12 +115,12 @@ def brought_near(members: Sequence[Member], gap_m: float) -> tuple[list[Member],
         others = [other.solid for row, other in enumerate(done) if row != index]
         contacts = NearbyMembers(others)
         already = contacts.reached(member.solid, 0.0)
-        if sum(already.values()) > _LITTLE * member.solid.volume:
+        if math.fsum(already.values()) > _LITTLE * member.solid.volume:
             continue
         near = [_faces(contacts, member.solid, way, already, TOUCHING_M) for way in WAYS]
         far = [_faces(contacts, member.solid, way, already, gap_m) for way in WAYS]
         best = int(np.argmax(far))
-        if far[best] < _LEAST_FACE_M2 or sum(near) >= _HARDLY * far[best]:
+        if far[best] < _LEAST_FACE_M2 or math.fsum(near) >= _HARDLY * far[best]:
             continue
         shift_m = next(
             (
@@ -141,7 +142,7 @@ def _faces(
     """Return the area, m², with which a solid meets others when it is moved by so much."""
     moved = TriangleMesh(solid.vertices + way * shift_m, solid.triangles)
     reached = contacts.reached(moved, 0.0)
-    return sum(max(volume - already.get(other, 0.0), 0.0) for other, volume in reached.items()) / shift_m
+    return math.fsum(max(volume - already.get(other, 0.0), 0.0) for other, volume in reached.items()) / shift_m
 
 
 def _nearly_under(members: Sequence[Member], upper: int, gap_m: float) -> list[int]:
@@ -167,7 +168,7 @@ def cuts_well(solid: TriangleMesh) -> bool:
         for share in _CUTS:
             level = float(levels.min() + share * np.ptp(levels))
             pieces = [piece for part in whole.split_by_plane(normal, level) for piece in part.decompose()]
-            if abs(sum(piece.volume() for piece in pieces) - whole.volume()) > _LOST * whole.volume():
+            if abs(math.fsum(piece.volume() for piece in pieces) - whole.volume()) > _LOST * whole.volume():
                 return False
             if any(piece.volume() < 0.0 for piece in pieces):
                 return False

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 
 from ..model.bridge.member import Member
@@ -20,14 +21,14 @@ def leave_out_light_bracing(assembly: Assembly, shards: int) -> None:
     Between shards a hundred times as heavy it would say nothing of the bridge, and throw its pieces about.
     """
     members, outcomes = assembly.members(), assembly.outcomes
-    limit_kg = _LIGHT * sum(member.mass_kg for _, member in members) / shards
+    limit_kg = _LIGHT * math.fsum(member.mass_kg for _, member in members) / shards
     light = [(number, member) for number, member in members if _is_light_bracing(member, limit_kg)]
     of_kinds = ([one for one in members if one[1].kind == kind] for kind in _BRACED)
     braced = next(filter(None, of_kinds), [])
     if not light or not braced:
         return
-    mass_kg = sum(member.mass_kg for _, member in light)
-    share = 1.0 + mass_kg / sum(member.mass_kg for _, member in braced)
+    mass_kg = math.fsum(member.mass_kg for _, member in light)
+    share = 1.0 + mass_kg / math.fsum(member.mass_kg for _, member in braced)
     for number, member in braced:
         heavier = replace(member, density_kg_m3=share * member.mass_kg / member.volume_m3)
         outcomes[number] = replace(outcomes[number], member=heavier)

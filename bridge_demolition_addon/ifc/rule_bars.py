@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
@@ -47,8 +48,8 @@ def notes_on_bars(scenario: Scenario, members: Sequence[Member], added: Sequence
     moving = [member for member in found if member.kind not in _HELD]
     if not found:
         return
-    steel_kg = sum(schedule.mass_of_kg(kind) for kind in {member.kind for member in moving})
-    volume_m3 = sum(member.volume_m3 for member in moving)
+    steel_kg = math.fsum(schedule.mass_of_kg(kind) for kind in {member.kind for member in moving})
+    volume_m3 = math.fsum(member.volume_m3 for member in moving)
     kinds = ", ".join(dict.fromkeys(member.kind for member in found))
     amount = f", {steel_kg / volume_m3:.0f} kg/m³ beside footings and approach slabs" if volume_m3 else ""
     yield (

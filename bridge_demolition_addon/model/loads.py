@@ -1,5 +1,6 @@
 """Loads: forces on parts of the bridge that grow with time, as a scenario gives them."""
 
+import math
 from bisect import bisect_right
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -85,7 +86,7 @@ class Load(Part):
     def unit_direction(self) -> tuple[float, float, float]:
         """Unit vector of the direction."""
         x, y, z = self.direction
-        size = sqrt(sum(component * component for component in self.direction))
+        size = sqrt(math.fsum(component * component for component in self.direction))
         return x / size, y / size, z / size
 
     def begins_s(self, plan: Plan) -> float:

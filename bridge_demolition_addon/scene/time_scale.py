@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -118,7 +119,7 @@ def simulated_time_s(scene: bpy.types.Scene, first_frame: int) -> float:
     frames = range(first_frame, scene.frame_current + 1)
     if not time_is_animated(scene):
         return len(frames) * scene_time_step(scene).frame_s
-    return sum(time_step_at(scene, frame).frame_s for frame in frames)
+    return math.fsum(time_step_at(scene, frame).frame_s for frame in frames)
 
 
 def _curve(scene: bpy.types.Scene) -> bpy.types.FCurve | None:

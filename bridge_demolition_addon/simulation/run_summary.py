@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import platform
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
@@ -196,7 +197,8 @@ def _charges(scenario: Scenario, recording: Recording) -> dict[str, Any] | None:
     if not scenario.blast.explosion or not charges:
         return None
     times = [scenario.blast.start_s + charge.delay_s for charge in charges]
-    at_once = [sum(charge.mass_kg for charge, other in zip(charges, times, strict=True) if other == t) for t in times]
+    timed = list(zip(charges, times, strict=True))
+    at_once = [math.fsum(charge.mass_kg for charge, time in timed if time == together) for together in times]
     return {
         "charges": [
             {
@@ -207,9 +209,9 @@ def _charges(scenario: Scenario, recording: Recording) -> dict[str, Any] | None:
                 "tnt_kg": charge.tnt_kg,
                 "detonation_s": time,
             }
-            for charge, time in zip(charges, times, strict=True)
+            for charge, time in timed
         ],
-        "mass_kg": sum(charge.mass_kg for charge in charges),
+        "mass_kg": math.fsum(charge.mass_kg for charge in charges),
         "largest_mass_at_once_kg": max(at_once),
         "applied_by": scenario.blast.apply,
         "loads_cut_short": recording.lost_blast_loads,

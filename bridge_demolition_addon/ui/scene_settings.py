@@ -10,12 +10,12 @@ from .ensemble.prop import EnsembleProperties, read_earlier_files
 from .ground.prop import GroundProperties
 from .ifc.prop import BDA_PG_ifc_element, IfcProperties
 from .scenario import prop as scenario_properties
-from .scenario.earlier import read_earlier_bodies
+from .scenario.earlier import mark_defaults, read_earlier_bodies, read_earlier_defaults
 from .sidebar import path_property, tooltip
 from .stages.shown import StageProperties
 from .viewport import redraw_views
 
-_READERS = (read_earlier_files, read_earlier_bodies)
+_READERS = (read_earlier_files, read_earlier_bodies, read_earlier_defaults)
 """What reads values of files of earlier versions."""
 
 
@@ -36,6 +36,9 @@ class BDA_PG_settings(
     loaded_path: StringProperty(options={"HIDDEN"}, description="Scenario file that was loaded or saved last")
     built_scenario: StringProperty(options={"HIDDEN"}, description="The scenario that the scene was built from")
     built_values: StringProperty(options={"HIDDEN"}, description="What the panels showed when the scene was built")
+    defaults_of: StringProperty(
+        options={"HIDDEN"}, description="Preset that the values are of which the file does not hold"
+    )
     output_directory: path_property(
         "Results",
         "Folder for the logs and results of the recording. Without one, each run makes a folder beside the saved file, "
@@ -81,12 +84,14 @@ def register() -> None:
     bpy.types.Scene.bda = PointerProperty(type=BDA_PG_settings)
     for read in _READERS:
         bpy.app.handlers.load_post.append(read)
+    bpy.app.handlers.save_pre.append(mark_defaults)
 
 
 def unregister() -> None:
     """Take the settings from all scenes."""
     for read in _READERS:
         bpy.app.handlers.load_post.remove(read)
+    bpy.app.handlers.save_pre.remove(mark_defaults)
     del bpy.types.Scene.bda
     bpy.utils.unregister_class(BDA_PG_settings)
     bpy.utils.unregister_class(BDA_PG_ifc_element)

@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Type a size and see the bridge before it is built; drag the ball's target, its height and a charge; undo."""
 
+from functools import partial
+
 import bpy
 import numpy as np
-from bpy_extras.view3d_utils import location_3d_to_region_2d
+from dragging import handle_of, hold, look_at, on_screen, undo
 from habits import delete_all, load
 from panels import Panels
-from person import Person, Steps, region_of
+from person import Person, Steps
 from traces import module, pixels_of
 
 FEW_PX = 6
@@ -14,6 +16,9 @@ FEW_PX = 6
 
 ARROW_PX = 40
 """From a place to the middle of the arrow above it."""
+
+MIDDLE_M, FROM_M = (7.0, 0.0, 2.0), 24.0
+"""What the view looks at, left of the sidebar, and from how far."""
 
 
 def steps(person: Person) -> Steps:
@@ -23,7 +28,7 @@ def steps(person: Person) -> Steps:
     person.take_reports()
     yield from load(person)
     yield 0.5
-    look(person)
+    look_at(person, MIDDLE_M, FROM_M)
     settings = person.scene.bda
     person.expect("nothing is built", len(person.scene.objects), 0)
     yield from person.picture("loaded")
@@ -55,27 +60,29 @@ def steps(person: Person) -> Steps:
 def drag_target(person: Person) -> Steps:
     ball = person.scene.bda.scenario.ball
     before, goal = tuple(ball.target_m), (ball.target_m[0] - 3.0, ball.target_m[1] - 0.8)
-    start = place_of(person, "TARGET", is_upright=False)
+    start = handle_of(person, "TARGET", is_upright=False).position_m
     end = on_screen(person, (*goal, start[2]))
-    yield from hold(person, on_screen(person, start), end, "target_dragged")
+    yield from hold(person, on_screen(person, start), end, partial(person.picture, "target_dragged"))
     yield 0.5
-    dropped = on_screen(person, place_of(person, "TARGET", is_upright=False))
+    dropped = on_screen(person, handle_of(person, "TARGET", is_upright=False).position_m)
     person.expect("the target is under the mouse", np.abs(np.subtract(dropped, end)).max() <= FEW_PX)
     person.expect("the panel shows it", np.abs(np.subtract(ball.target_m, goal)).max() < 0.3)
     yield from undo(person)
     ball = person.scene.bda.scenario.ball
     person.expect("undo puts the target back", np.allclose(ball.target_m, before))
-    yield from hold(person, on_screen(person, start), end, "target_dragged_and_left", leave_with="ESC")
+    yield from hold(
+        person, on_screen(person, start), end, partial(person.picture, "target_dragged_and_left"), leave_with="ESC"
+    )
     yield 0.3
     person.expect("Esc puts the target back", np.allclose(person.scene.bda.scenario.ball.target_m, before, atol=0.01))
 
 
 def drag_height(person: Person) -> Steps:
     before = person.scene.bda.scenario.ball.drop_height_m
-    x, y, z = place_of(person, "DROP", is_upright=True)
+    x, y, z = handle_of(person, "DROP", is_upright=True).position_m
     start, end = (on_screen(person, (x, y, height)) for height in (z, z + 1.0))
     start, end = ((position[0], position[1] + ARROW_PX) for position in (start, end))
-    yield from hold(person, start, end, "height_dragged")
+    yield from hold(person, start, end, partial(person.picture, "height_dragged"))
     yield 0.3
     risen = person.scene.bda.scenario.ball.drop_height_m - before
     person.note("the ball hangs 1 m higher", "" if 0.8 < risen < 1.2 else f"it hangs {risen} m higher")
@@ -92,7 +99,9 @@ def drag_charge(person: Person) -> Steps:
     charge = bpy.data.objects["Charge 1"]
     charge.select_set(False)
     start, goal = (1.0, -1.0, 1.0), (3.0, -1.5, 1.0)
-    yield from hold(person, on_screen(person, start), on_screen(person, goal), "charge_dragged")
+    yield from hold(
+        person, on_screen(person, start), on_screen(person, goal), partial(person.picture, "charge_dragged")
+    )
     yield 0.3
     position = tuple(bpy.data.objects["Charge 1"].location)
     person.note(
@@ -109,51 +118,20 @@ def after_building(person: Person) -> Steps:
     yield 1.0
     person.expect_reports("nothing but the building is reported", "30 shards")
     person.expect("the preview has gone", len(preview(person)), 0)
-    look(person)
+    look_at(person, MIDDLE_M, FROM_M)
     yield from person.picture("built")
-    x, y, z = place_of(person, "TARGET", is_upright=False)
-    yield from hold(person, on_screen(person, (x, y, z)), on_screen(person, (x - 2.0, y, z)), "dragged_when_built")
+    x, y, z = handle_of(person, "TARGET", is_upright=False).position_m
+    yield from hold(
+        person,
+        on_screen(person, (x, y, z)),
+        on_screen(person, (x - 2.0, y, z)),
+        partial(person.picture, "dragged_when_built"),
+    )
     yield 0.5
     changed = module("ui.scenario.built").changes(person.scene.bda)
     person.expect("the panels say what was built", [change.key for change in changed], ["ball.target_m"])
     person.expect("the preview shows what would be built now", len(preview(person)) > 0)
     yield from person.picture("changed_since")
-
-
-def hold(person: Person, start: tuple, end: tuple, name: str, leave_with: str = "") -> Steps:
-    """Drag from one place on the screen to another; a picture shows it while the mouse is still down."""
-    yield from person.move(start[0] - 2, start[1])
-    yield from person.move(*start)
-    yield 0.2
-    person.hand.event_simulate(type="LEFTMOUSE", value="PRESS", x=start[0], y=start[1])
-    yield 0.1
-    for share in np.linspace(0.1, 1.0, 10):
-        yield from person.move(*(round(a + share * (b - a)) for a, b in zip(start, end, strict=True)))
-    if name == "target_dragged":
-        yield from person.illustrate("preview", person.view)
-    else:
-        yield from person.picture(name)
-    if leave_with:
-        yield from person.press(leave_with)
-    person.hand.event_simulate(type="LEFTMOUSE", value="RELEASE", x=end[0], y=end[1])
-    yield 0.2
-
-
-def undo(person: Person) -> Steps:
-    yield from person.move_to_view()
-    yield from person.press("Z", ctrl=True)
-    yield 0.5
-
-
-def place_of(person: Person, kind: str, is_upright: bool) -> tuple[float, float, float]:
-    found = module("ui.preview.handles").handles(person.scene)
-    return next(handle.position_m for handle in found if (handle.kind, handle.is_upright) == (kind, is_upright))
-
-
-def on_screen(person: Person, place: tuple[float, float, float]) -> tuple[int, int]:
-    region = region_of(person.view, "WINDOW")
-    where = location_3d_to_region_2d(region, person.view.spaces.active.region_3d, place)
-    return round(region.x + where.x), round(region.y + where.y)
 
 
 def preview(person: Person) -> np.ndarray:
@@ -163,12 +141,3 @@ def preview(person: Person) -> np.ndarray:
 def screen(person: Person) -> np.ndarray:
     """The pixels (n, 3) of the last screenshot."""
     return pixels_of(sorted(person.folder.glob("*.png"))[-1])
-
-
-def look(person: Person) -> None:
-    """Look at the bridge from beside it and above, left of the sidebar."""
-    space = person.view.spaces.active.region_3d
-    space.view_perspective = "PERSP"
-    space.view_rotation = (0.8001, 0.4619, 0.1913, 0.3314)
-    space.view_location, space.view_distance = (7.0, 0.0, 2.0), 24.0
-    space.update()

@@ -39,7 +39,7 @@ def run(person: Person, name: str) -> Steps:
 def stop_with_escape(person: Person) -> Steps:
     yield from run(person, "stopped")
     yield from person.wait_for("it runs up to frame 20", lambda: person.scene.frame_current >= 20, 60.0)
-    yield from person.illustrate("running", person.view, person.status_bar)
+    yield from person.picture("running")
     person.expect("Esc alone stops it", person.refusal("bda.unregister_handler"), "Run is at work: Esc stops it")
     yield from person.move_to_view()
     yield from person.press("ESC")
@@ -79,7 +79,8 @@ def run_to_the_end(person: Person) -> Steps:
         person.expect("results have every frame", arrays["frames"].tolist(), list(range(2, person.scene.frame_end + 1)))
     person.expect("no recording runs", recording_runs(), False)
     person.expect_reports(
-        "what creeps and the results are reported",
+        "what moves, what creeps and the results are reported",
+        "still move at the end",
         "creep at the end",
         "Results are in",
         "Pictures of the run are in",

@@ -6,7 +6,7 @@ from pathlib import Path
 from person import Person, Steps
 from traces import PRESETS, recording_runs, scenario_in, scenario_shown
 
-PRESET = "reinforced_spans_pier_removed"
+PRESET = "reinforced_span_ball"
 FRAMES = 12
 ABOVE_PX = 30
 """From Build Scenario to Presets."""
@@ -16,7 +16,7 @@ SECOND_PRESET_PX = (545, 464)
 
 def steps(person: Person) -> Steps:
     yield from person.open_sidebar()
-    yield from person.illustrate("first_look", person.sidebar)
+    yield from person.picture("first_look")
     yield from choose(person)
     yield from person.click("bda.build_scenario")
     yield from person.wait_for("it is built", lambda: person.scene.rigidbody_world is not None)

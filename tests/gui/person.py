@@ -42,6 +42,8 @@ PICTURE_COLOURS = 128
 
 PROBE_PX = 10
 """Between two places where the mouse looks for a button: half of a button's height."""
+FOOT_PX = 2 * PROBE_PX
+"""At the foot of a region, where a button is cut off and the mouse would move the edge between two areas instead."""
 PROBE_COLUMNS = (0.7, 0.3, 0.5, 0.9, 0.78)
 """Where across the sidebar the mouse looks for buttons."""
 
@@ -367,7 +369,7 @@ class Person:
 def _probes(region: bpy.types.Region, top: int | None) -> Iterator[tuple[int, int]]:
     """Places where the mouse looks for a button, from top to bottom, in one column after the other."""
     for column in PROBE_COLUMNS:
-        for y in range(top or region.y + region.height - PROBE_PX // 2, region.y, -PROBE_PX):
+        for y in range(top or region.y + region.height - PROBE_PX // 2, region.y + FOOT_PX, -PROBE_PX):
             yield region.x + int(column * region.width), y
 
 

@@ -34,7 +34,8 @@ JOBS = tuple(
 )
 REPEATED = (*JOBS, *(upheaval_job(upheaval, ALONE) for upheaval in UPHEAVALS))
 """Those that may crash for Blender's own sake are not part of a run of all."""
-JOB_SECONDS = 1800
+JOB_SECONDS = 3600
+"""On a machine that has other work: the longest takes some minutes alone."""
 
 PICTURES = "pictures"
 """Folder of a job's pictures for the walk-through."""

@@ -108,7 +108,13 @@ CLAIMS: dict[str, dict[str, tuple[float, float]]] = {
         "first_span_moved_m": (0.0, 0.1),  # 0.00 to 0.02
         "piers_moved_m": (0.0, 0.05),  # 0.001 to 0.003
         "abutments_moved_m": (0.0, 0.0),
-        "made_share": (0.0, 0.05),  # 0.003 to 0.027
+        "made_share": (0.0, 0.05),  # 0.003 to 0.030
+    },
+    "drilled_misfire": {  # over 20 seeds, of which 6 come down
+        # It stands by its bars until the first zone fires.
+        "moved_before_m": (0.0, 0.05),  # 0.012 to 0.014
+        "largest_throw_m": (0.5, 20.0),  # 1.5 to 12.1
+        "made_share": (0.0, 0.05),  # 0.000 to 0.027
     },
     "drilled_two_spans": {  # over 20 seeds
         # It stands by its bars until the first zone fires.

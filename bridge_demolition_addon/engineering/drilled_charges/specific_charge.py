@@ -7,6 +7,7 @@ what columns took in recorded jobs for throwing it out of its reinforcement.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -99,7 +100,7 @@ def breaking_range_kg_m3(element: DrilledElement, burden_m: float) -> tuple[floa
 
 def thresholds_of(element: DrilledElement, burden_m: float, throw_kg_m3: float = THROW_KG_M3) -> Thresholds:
     """Return the thresholds of an element; it breaks at the middle of the table's range."""
-    return Thresholds(sum(breaking_range_kg_m3(element, burden_m)) / 2.0, throw_kg_m3)
+    return Thresholds(math.fsum(breaking_range_kg_m3(element, burden_m)) / 2.0, throw_kg_m3)
 
 
 def specific_charge_kg_m3(mass_kg: ArrayLike, volume_m3: ArrayLike, relative_strength: ArrayLike = 100.0) -> FloatArray:

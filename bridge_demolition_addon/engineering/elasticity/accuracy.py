@@ -6,6 +6,10 @@ seeds (docs/elastic.md). What decides is by how many shards the members that spa
 
 from __future__ import annotations
 
+import math
+
+from ..arithmetic import cube_root
+
 _MEASURED = ((5.0, 0.30), (11.0, 0.25), (17.0, 0.10), (float("inf"), 0.07))
 """Shards along members that span, up to these, and the largest deviation of reactions, moments, deflections and
 frequencies then. At acute corners of skewed slabs, where little arrives, reactions are off by more."""
@@ -21,10 +25,10 @@ def spacing_m(volume_m3: float, count: int, thickness_m: float, width_m: float) 
     Where shards are larger than it is thick, they lie side by side in one layer; where larger than its width, in a row.
     """
     each = volume_m3 / count
-    cube = float(each ** (1.0 / 3.0))
+    cube = float(cube_root(each))
     if cube <= thickness_m:
         return cube
-    square = float((each / thickness_m) ** 0.5)
+    square = math.sqrt(each / thickness_m)
     return square if square <= width_m else each / (thickness_m * width_m)
 
 

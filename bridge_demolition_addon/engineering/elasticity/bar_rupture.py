@@ -7,6 +7,7 @@ concrete, Structural Engineering International 8 (4), 287-298.
 
 from __future__ import annotations
 
+from ..arithmetic import power
 from .steel_bars import MODULUS_PA, Steel
 
 _BOND_ELASTIC, _BOND_YIELDING = 2.0, 1.0
@@ -24,7 +25,7 @@ _EFFECTIVE_BY_DEPTH_OF_BARS = 2.5
 
 def tensile_strength_pa(compressive_pa: float) -> float:
     """Return the mean tensile strength of concrete up to C50/60: EN 1992-1-1:2004, table 3.1."""
-    return float(0.30e6 * (1e-6 * compressive_pa) ** (2.0 / 3.0))
+    return float(0.30e6 * power(1e-6 * compressive_pa, 2.0 / 3.0))
 
 
 def crack_spacing_m(diameter_m: float, area_m2: float, width_m: float, below_edge_m: float, depth_m: float) -> float:

@@ -7,6 +7,7 @@ leaves least of the parts' convex hulls empty cuts first.
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -85,7 +86,7 @@ class _Part:
             halves = self.body.split_by_plane(normal.tolist(), float(offset))
             pieces = [_Part.of(shells) for half in halves for shells in bodies(half, _RUBBISH * self.volume_m3)]
             pieces = _without_slivers(pieces, _LEAST_PIECE * whole_m3)
-            excess_m3 = sum(piece.excess_m3 for piece in pieces)
+            excess_m3 = math.fsum(piece.excess_m3 for piece in pieces)
             if len(pieces) > 1 and excess_m3 < left_m3:
                 best, left_m3 = pieces, excess_m3
         return best

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import deque
 from dataclasses import dataclass
 
@@ -205,7 +206,7 @@ def _united(mesh: TriangleMesh, repairs: list[str], name: str) -> TriangleMesh:
     if len(separate) < 2:
         return mesh
     whole = union(separate)
-    if whole.volume >= sum(body.volume for body in separate) * (1.0 - OVERLAP_TOLERANCE):
+    if whole.volume >= math.fsum(body.volume for body in separate) * (1.0 - OVERLAP_TOLERANCE):
         return mesh
     repairs.append(f"united {len(separate)} overlapping bodies")
     return whole

@@ -1,5 +1,6 @@
 """Solids: closed triangle meshes, checked on the way in and handed to the boolean engine in double precision."""
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -142,7 +143,7 @@ def bodies(manifold: Manifold, smallest_volume: float = 0.0, name: str = "The so
 
 def is_film(shells: Sequence[Manifold]) -> bool:
     """Whether a body, given as its outer shell and cavities, is nowhere near as thick as anything that is built."""
-    volume, area = sum(shell.volume() for shell in shells), sum(shell.surface_area() for shell in shells)
+    volume, area = math.fsum(shell.volume() for shell in shells), math.fsum(shell.surface_area() for shell in shells)
     return bool(2.0 * volume < _THINNEST_M * area)
 
 
@@ -190,7 +191,7 @@ def _check_bodies(separate: list[list[Manifold]], name: str) -> None:
     if len(separate) < 2:
         return
     solids = [to_manifold(from_manifold(*shells), name) for shells in separate]
-    total = sum(solid.volume() for solid in solids)
+    total = math.fsum(solid.volume() for solid in solids)
     if Manifold.batch_boolean(solids, OpType.Add).volume() < total * (1 - OVERLAP_TOLERANCE):
         raise GeometryError(f"{name}: its {len(solids)} separate bodies overlap; unite them into one first.")
 

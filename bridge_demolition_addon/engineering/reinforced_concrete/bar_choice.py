@@ -26,7 +26,7 @@ class BarChoice:
 
 
 def bar_area_m2(diameter_m: float) -> float:
-    return math.pi * diameter_m**2 / 4.0
+    return math.pi * (diameter_m * diameter_m) / 4.0
 
 
 def clear_m(diameter_m: float) -> float:

@@ -62,4 +62,4 @@ def flange_width_m(web_m: float, beside_m: tuple[float, float], between_zeros_m:
     distance between points where the moment is 0.
     """
     parts = [min(0.2 * b + 0.1 * between_zeros_m, 0.2 * between_zeros_m, b) for b in beside_m]
-    return web_m + sum(parts)
+    return web_m + math.fsum(parts)

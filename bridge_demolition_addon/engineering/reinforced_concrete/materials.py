@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
+from ..arithmetic import logarithm, power
 from ..elasticity.steel_bars import Steel
 
 PERMANENT_FACTOR = 1.35
@@ -57,7 +57,9 @@ class Concrete:
     def tension_pa(self) -> float:
         """f_ctm: table 3.1."""
         f_ck = self.strength_pa / _MEGA
-        return _MEGA * (0.3 * f_ck ** (2.0 / 3.0) if f_ck <= _ORDINARY_N_MM2 else 2.12 * math.log(1.8 + 0.1 * f_ck))
+        if f_ck <= _ORDINARY_N_MM2:
+            return float(_MEGA * 0.3 * power(f_ck, 2.0 / 3.0))
+        return float(_MEGA * 2.12 * logarithm(1.8 + 0.1 * f_ck))
 
     @property
     def block_depth(self) -> float:

@@ -74,8 +74,10 @@ class Traffic:
 
     def _of_lanes(self, axles: Sequence[float], uniform: Sequence[float], rest_m: float) -> tuple[MovingLoad, ...]:
         presence = self.presence_of(len(axles))
-        axle = presence * sum(share * factor for share, factor in zip(axles, self.axle_factors, strict=False))
-        even = presence * sum(share * factor for share, factor in zip(uniform, self.uniform_factors, strict=False))
+        axle = presence * math.fsum(share * factor for share, factor in zip(axles, self.axle_factors, strict=False))
+        even = presence * math.fsum(
+            share * factor for share, factor in zip(uniform, self.uniform_factors, strict=False)
+        )
         return tuple(
             replace(
                 load,
@@ -116,14 +118,14 @@ def _mean(line: Callable[[FloatArray], FloatArray], begin: float, end: float) ->
 
 def _weight(loads: Sequence[MovingLoad]) -> float:
     """Measure of loads that differ by factors alone: the sum of the axles, or the uniform load where there are none."""
-    return max(sum(load.axles_n) + 10.0 * load.uniform_n_m for load in loads)
+    return max(math.fsum(load.axles_n) + 10.0 * load.uniform_n_m for load in loads)
 
 
 def _by_length(load: MovingLoad, strip_m: float) -> float:
     """Largest load of axles by length along the road, each spread over a strip: of one axle, of two and so on."""
     forces, offsets = load.axles_n, load.offsets_m
     groups = [
-        sum(forces[first : last + 1]) / (strip_m + offsets[last] - offsets[first])
+        math.fsum(forces[first : last + 1]) / (strip_m + offsets[last] - offsets[first])
         for first in range(len(forces))
         for last in range(first, len(forces))
     ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -37,8 +38,8 @@ class Pace:
     def left_s(self, work: float) -> float | None:
         """Return how long the work that is left takes, s; None before a step is done."""
         earlier = len(self.work) // 2
-        done = sum(self.work[earlier:])
-        return sum(self.took_s[earlier:]) / done * max(work, 0.0) if done else None
+        done = math.fsum(self.work[earlier:])
+        return math.fsum(self.took_s[earlier:]) / done * max(work, 0.0) if done else None
 
 
 def speeds_to_come(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -112,6 +113,6 @@ def _peak_velocity(place_m: Sequence[float], charges: Sequence[Charge]) -> float
     velocities = []
     for group in charges_per_delay(charges):
         nearest = distance(np.array(place_m), np.array([charge.place_m for charge in group])).min()
-        mass = sum(charge.mass_kg for charge in group)
+        mass = math.fsum(charge.mass_kg for charge in group)
         velocities.append(float(vibration.peak_particle_velocity(max(nearest, _NEAREST_M), mass)))
     return max(velocities)

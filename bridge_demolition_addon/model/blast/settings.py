@@ -80,7 +80,7 @@ class BlastSettings(Table):
 
     def facts(self, charges: Sequence[Charge], shards: int) -> Iterator[Fact]:
         """Yield the total of the charges, and how their blast acts on so many shards."""
-        yield "all", f"{sum(charge.mass_kg for charge in charges):g} kg"
+        yield "all", f"{math.fsum(charge.mass_kg for charge in charges):g} kg"
         if not self.explosion:
             yield "explosion", "not ticked: nothing goes off"
         yield "model", f"{self.model}, {self.loading} pressure{', with shielding' if self.shielding else ''}"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -78,7 +79,7 @@ def mean_density(members: Sequence[Member]) -> float:
     densities = {member.density_kg_m3 for member in members}
     if len(densities) == 1:
         return given(densities.pop())
-    return sum(member.mass_kg for member in members) / sum(member.volume_m3 for member in members)
+    return math.fsum(member.mass_kg for member in members) / math.fsum(member.volume_m3 for member in members)
 
 
 def member_facts(members: Sequence[Member]) -> Iterator[Fact]:
@@ -87,7 +88,7 @@ def member_facts(members: Sequence[Member]) -> Iterator[Fact]:
     for member in members:
         own = "" if alike else f", {member.density_kg_m3:.0f} kg/m³"
         yield member.name, _volume_and_mass(member.volume_m3, member.mass_kg) + own
-    volume, mass = (sum(getattr(member, name) for member in members) for name in ("volume_m3", "mass_kg"))
+    volume, mass = (math.fsum(getattr(member, name) for member in members) for name in ("volume_m3", "mass_kg"))
     yield "all", _volume_and_mass(volume, mass)
     yield "density" if alike else "mean density", f"{mean_density(members):.0f} kg/m³"
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -38,8 +39,8 @@ def bridge_density(bridge: Bridge, members: Sequence[Member]) -> float:
         return bridge.density_kg_m3
     own = [_own_density(bridge, member.kind) for member in members]
     pairs = list(zip(members, own, strict=True))
-    known_kg = sum(member.volume_m3 * density for member, density in pairs if density is not None)
-    rest = sum(member.volume_m3 for member, density in pairs if density is None)
+    known_kg = math.fsum(member.volume_m3 * density for member, density in pairs if density is not None)
+    rest = math.fsum(member.volume_m3 for member, density in pairs if density is None)
     if not rest:
         raise ScenarioError(
             f"bridge.mass_kg is {bridge.mass_kg}: expected bridge.density_kg_m3 instead, as every member has a density "

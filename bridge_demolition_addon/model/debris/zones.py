@@ -66,7 +66,7 @@ def watch_zone(results: Results, zone: Zone, bodies: Rows) -> ZoneWatch:
         elif (time_s := _first_entry(results, prism, body)) is not None:
             entries.append(Entry(int(body), time_s, prism.meets(after[row])))
     entries.sort(key=lambda entry: entry.time_s)
-    mass = sum(float(results.inventory.masses_kg[entry.body]) for entry in entries if entry.stays)
+    mass = math.fsum(float(results.inventory.masses_kg[entry.body]) for entry in entries if entry.stays)
     return ZoneWatch(zone, tuple(entries), tuple(there_before), mass)
 
 

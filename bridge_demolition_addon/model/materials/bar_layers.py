@@ -224,7 +224,7 @@ class ReinforcedSection:
 
     def _resultant(self, pulls: Sequence[float], chosen: Sequence[bool]) -> tuple[float, float]:
         rows = [(pull, depth) for pull, depth, counts in zip(pulls, self.depths_m, chosen, strict=True) if counts]
-        return sum(pull for pull, _ in rows), sum(pull * depth for pull, depth in rows)
+        return math.fsum(pull for pull, _ in rows), math.fsum(pull * depth for pull, depth in rows)
 
     def _moment(self, depths_m: Sequence[float]) -> float:
         """Return the plastic moment with the edge pressed that depths count from."""
@@ -233,11 +233,11 @@ class ReinforcedSection:
             neutral = 0.5 * (low + high)
             low, high = (neutral, high) if self._axial_n(neutral, depths_m) > 0.0 else (low, neutral)
         neutral = 0.5 * (low + high)
-        pulled = sum(pull * depth for pull, depth in zip(self._pulls(neutral, depths_m), depths_m, strict=True))
+        pulled = math.fsum(pull * depth for pull, depth in zip(self._pulls(neutral, depths_m), depths_m, strict=True))
         return pulled - self._pressed_n(neutral) * 0.5 * _BLOCK * neutral
 
     def _axial_n(self, neutral_m: float, depths_m: Sequence[float]) -> float:
-        return sum(self._pulls(neutral_m, depths_m)) - self._pressed_n(neutral_m)
+        return math.fsum(self._pulls(neutral_m, depths_m)) - self._pressed_n(neutral_m)
 
     def _pressed_n(self, neutral_m: float) -> float:
         return _BLOCK * neutral_m * self.width_m * self.compressive_pa

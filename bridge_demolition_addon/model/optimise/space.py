@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import accumulate
@@ -228,5 +229,5 @@ def total_charge_kg(scenario: Scenario) -> float:
     """Return the mass of all charges of a scenario, wherever they are; 0 where it blasts nothing."""
     if not scenario.blast.explosion:
         return 0.0
-    masses = [sum(charge.mass_kg for charge in scenario.charges), sum(zone.mass_kg for zone in scenario.blast_zones)]
-    return float(sum(masses) + sum(cut.mass_kg for cut in scenario.cuts))
+    charged = (scenario.charges, scenario.blast_zones, scenario.cuts)
+    return math.fsum(part.mass_kg for parts in charged for part in parts)

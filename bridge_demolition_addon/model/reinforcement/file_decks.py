@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
@@ -188,7 +189,7 @@ def _top_bars(
     through = -(-choice.number // 2)
     share, shift = through / choice.number, 0.5 * 0.9 * 2.5 * (own_axes(member).height_m - found.depth_m)
     parts = where_above(effects.lines.points_m, -effects.least_nm, share * effects.hogging_nm, shift)
-    covered = sum(min(end, length) - max(begin, 0.0) for begin, end in parts)
+    covered = math.fsum(min(end, length) - max(begin, 0.0) for begin, end in parts)
     is_least = found.reason == LEAST or not parts or covered > MOST_COVERED * length
     if is_least or len(line.part.decks) > 1 or len(line.supports_m) < 3 or choice.number < 4:
         yield basis.design.scheduled([member.name], member.kind, "top", "x", found, section_m2=area_m2, length_m=length)
@@ -271,8 +272,8 @@ def _stations_of_girder(basis: FileDesign, index: int) -> list[float]:
 def _slab_thickness_m(basis: FileDesign, line: FileDeckLine) -> float:
     """Return the mean thickness of the decks of concrete on girders; 0 without one."""
     decks = [basis.members[index] for index in line.part.decks if index in basis.concrete]
-    plan = sum(own_axes(deck).length_m * own_axes(deck).width_m for deck in decks)
-    return sum(deck.volume_m3 for deck in decks) / plan if decks else 0.0
+    plan = math.fsum(own_axes(deck).length_m * own_axes(deck).width_m for deck in decks)
+    return math.fsum(deck.volume_m3 for deck in decks) / plan if decks else 0.0
 
 
 def beam_rows(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TypeVar
@@ -43,7 +44,7 @@ class FileDesign:
 
     def weight_n(self, indices: Sequence[int]) -> float:
         """Return the weight of members together."""
-        return sum(self.design.weight_n(self.members[index]) for index in indices)
+        return math.fsum(self.design.weight_n(self.members[index]) for index in indices)
 
     def as_much_as_fits(self, name: str, what: str, wanted: float, design: Callable[[float], _Found]) -> _Found:
         """Return the bars for a moment or force, or those for the most that the section carries, with a note."""

@@ -143,7 +143,7 @@ class Schedule:
 
     @property
     def mass_kg(self) -> float:
-        return sum(row.mass_kg for row in self.rows)
+        return math.fsum(row.mass_kg for row in self.rows)
 
     def without(self, names: set[str]) -> Schedule:
         """Return the schedule without some members."""
@@ -151,15 +151,15 @@ class Schedule:
 
     def link_area_mm2_per_m(self, member: str) -> float:
         """Return A_sw / s of a member; 0 without links."""
-        return sum(row.link_area_mm2_per_m for row in self.links if member in row.members)
+        return math.fsum(row.link_area_mm2_per_m for row in self.links if member in row.members)
 
     def mass_of_kg(self, kind: str) -> float:
-        return sum(row.mass_kg for row in self.rows if row.kind == kind)
+        return math.fsum(row.mass_kg for row in self.rows if row.kind == kind)
 
     def masses(self, members: Sequence[Member]) -> list[tuple[str, float, float]]:
         """Return kinds of members with bars, their steel, kg, and their concrete, m³."""
         kinds = dict.fromkeys(row.kind for row in self.rows)
-        volumes = {kind: sum(member.volume_m3 for member in members if member.kind == kind) for kind in kinds}
+        volumes = {kind: math.fsum(member.volume_m3 for member in members if member.kind == kind) for kind in kinds}
         return [(kind, self.mass_of_kg(kind), volumes[kind]) for kind in kinds]
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -75,7 +76,7 @@ def deck_lines(basis: DesignBasis) -> list[DeckLine]:
 
 def deck_weight_n_m(basis: DesignBasis, line: DeckLine) -> float:
     """Return the permanent load of a deck and its girders by length."""
-    weight = sum(basis.weight_n(member) for member in (line.deck, *line.girders))
+    weight = math.fsum(basis.weight_n(member) for member in (line.deck, *line.girders))
     return weight / line.length_m + _KILO * basis.rule.permanent_kn_m2 * basis.bridge.deck.width_m
 
 
@@ -129,7 +130,7 @@ def _top_bars(
     share = through / choice.number
     parts = where_above(effects.lines.points_m, -effects.least_nm, share * effects.hogging_nm, shift)
     ends = line.lines.points_m[0], line.lines.points_m[-1]
-    covered = sum(min(end, ends[1]) - max(begin, ends[0]) for begin, end in parts)
+    covered = math.fsum(min(end, ends[1]) - max(begin, ends[0]) for begin, end in parts)
     is_least = found.reason == LEAST or not parts or covered > MOST_COVERED * line.length_m
     if is_least or len(line.supports_m) < 3 or choice.number < 4:
         yield basis.scheduled(
@@ -367,7 +368,7 @@ def _box_girder(basis: DesignBasis, line: DeckLine) -> Rows:
     height, webs = box.depth_m + slab, box.cells + 1
     web = webs * box.web_thickness_m
     zeros, cell, overhang = line.between_zeros_m, 0.5 * box.cell_width_m, 0.5 * (width - box.width_m)
-    inner = sum(flange_width_m(0.0, (cell, cell), zeros) for _ in range(box.cells))
+    inner = math.fsum(flange_width_m(0.0, (cell, cell), zeros) for _ in range(box.cells))
     flange = min(web + inner + flange_width_m(0.0, (overhang, overhang), zeros), width)
     advice = "take a larger bridge.box_girder.depth_m or web_thickness_m, or a lighter load"
     effects = beam_effects(line.lines, deck_weight_n_m(basis, line), whole_traffic(basis))

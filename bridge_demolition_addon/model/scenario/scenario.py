@@ -147,10 +147,10 @@ class Scenario(Table):
             return steel
         at_depths = [layer for layer in layers if not layer.is_spread]
         if not at_depths:
-            return replace(steel, yield_pa=sum(layer.yield_pa for layer in layers) / len(layers))
+            return replace(steel, yield_pa=math.fsum(layer.yield_pa for layer in layers) / len(layers))
         areas_m2 = [layer.area_m2 for layer in at_depths]
-        yields_n = sum(area * layer.yield_pa for area, layer in zip(areas_m2, at_depths, strict=True))
-        return replace(steel, yield_pa=yields_n / sum(areas_m2))
+        yields_n = math.fsum(area * layer.yield_pa for area, layer in zip(areas_m2, at_depths, strict=True))
+        return replace(steel, yield_pa=yields_n / math.fsum(areas_m2))
 
     @property
     def warm_up_s(self) -> float:
@@ -294,7 +294,7 @@ class Scenario(Table):
 
     def _check_slow_motion(self) -> None:
         blast = self.blast
-        slow_s = sum(motion.duration_s for motion in blast.slow_motions(self.charges, self.time.step.frame_s))
+        slow_s = math.fsum(motion.duration_s for motion in blast.slow_motions(self.charges, self.time.step.frame_s))
         if slow_s and slow_s / given(blast.slow_frame_ms) * 1000.0 + self.time.frames > MOST_FRAMES:
             raise ScenarioError(
                 f"blast.slow_frame_ms is {blast.slow_frame_ms:g}: expected at most {MOST_FRAMES} frames together"

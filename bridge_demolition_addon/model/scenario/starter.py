@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -65,7 +66,7 @@ members = ["pier {1 + len(answers.spans_m) // 2}"]
 
 
 def _ball(answers: Answers) -> str:
-    middle = sum(answers.spans_m[: len(answers.spans_m) // 2]) + answers.spans_m[len(answers.spans_m) // 2] / 2.0
+    middle = math.fsum(answers.spans_m[: len(answers.spans_m) // 2]) + answers.spans_m[len(answers.spans_m) // 2] / 2.0
     return f"""\
 # What is done: a crane drops a steel ball. A slab with bars may carry that: a search, as in docs/search.md, says how
 # heavy it has to be.
@@ -80,7 +81,7 @@ release_time_s = 0.1
 
 def _charges(answers: Answers) -> str:
     number = len(answers.spans_m) // 2
-    along = sum(answers.spans_m[:number]) - 0.8
+    along = math.fsum(answers.spans_m[:number]) - 0.8
     return f"""\
 # What is done: a charge detonates beside a pier. It is bare and in air, so that it takes far more than charges in
 # drill holes, which [[blast_zones]] have: see docs/drilled_charges.md.

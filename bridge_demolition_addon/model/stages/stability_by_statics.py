@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any
@@ -188,5 +189,5 @@ def _named(shares: Sequence[MemberShare]) -> str:
     """Return shards with the members that most of them are of."""
     names = ", ".join(share.member for share in shares[:_MOST_NAMED])
     more = " and more" if len(shares) > _MOST_NAMED else ""
-    count, mass_kg = sum(share.shards for share in shares), sum(share.mass_kg for share in shares)
+    count, mass_kg = sum(share.shards for share in shares), math.fsum(share.mass_kg for share in shares)
     return f"{count} shards of {names}{more} ({mass_text(mass_kg).strip()})"

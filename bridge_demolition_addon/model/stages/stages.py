@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
@@ -76,7 +77,7 @@ def stages_of(scenario: Scenario, bridge: StandingBridge, progress: Callable[[in
                 removed=changed.removed,
                 loose=~standing.held & ~changed.removed & ~model.fixed,
                 equipment=tuple(machine.name for machine in machines),
-                equipment_n=STANDARD_GRAVITY_M_S2 * sum(machine.mass_kg for machine in machines),
+                equipment_n=STANDARD_GRAVITY_M_S2 * math.fsum(machine.mass_kg for machine in machines),
                 collapse_factor=bridge.collapse_factor(*state, changed.bare),
                 bars=changed.pressed_bars(standing.bare_n),
             )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -87,7 +88,7 @@ class PlacedZone:
     def thresholds(self) -> Thresholds:
         """Specific charges that break its concrete and throw it out."""
         zone = self.zone
-        broken = sum(self.table_kg_m3) / 2.0 if zone.break_kg_m3 is None else zone.break_kg_m3
+        broken = math.fsum(self.table_kg_m3) / 2.0 if zone.break_kg_m3 is None else zone.break_kg_m3
         if not broken < zone.throw_kg_m3:
             raise zone.unexpected("throw_kg_m3", f"more than what breaks {zone.member}, {broken:.3g} (kg/m³)")
         return Thresholds(broken, zone.throw_kg_m3)
@@ -269,15 +270,15 @@ def zone_firings(scenario: Scenario, members: Sequence[Member]) -> tuple[ZoneFir
 
 def grams_per_tonne(explosive_kg: float, members: Sequence[Member]) -> float:
     """Return explosive by the mass of the structure, g/t."""
-    mass_t = sum(member.mass_kg for member in members) / _KILO
+    mass_t = math.fsum(member.mass_kg for member in members) / _KILO
     return _KILO * explosive_kg / mass_t
 
 
 def zone_totals(zones: Sequence[PlacedZone], members: Sequence[Member]) -> Iterator[Fact]:
     """Yield totals of all zones, beside what is recorded of other jobs."""
-    mass_kg = sum(placed.zone.mass_kg for placed in zones)
-    volume_m3 = sum(placed.volume_m3 for placed in zones)
-    holes, drilled_m = (sum(getattr(placed.zone, name) for placed in zones) for name in ("holes", "drilled_m"))
+    mass_kg = math.fsum(placed.zone.mass_kg for placed in zones)
+    volume_m3 = math.fsum(placed.volume_m3 for placed in zones)
+    holes, drilled_m = sum(placed.zone.holes for placed in zones), math.fsum(placed.zone.drilled_m for placed in zones)
     specific, rate = mass_kg / volume_m3, grams_per_tonne(mass_kg, members)
     yield "all zones", f"{mass_kg:.3g} kg in {holes} holes, {drilled_m:.1f} m drilled, {specific:.2f} kg/m³"
     (least, most), (lowest, highest) = RECORDED_G_T, POSSIBLE_G_T

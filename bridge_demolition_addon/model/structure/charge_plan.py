@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
@@ -194,14 +195,14 @@ def _totals(
     scenario: Scenario, zones: Sequence[PlacedZone], rows: Sequence[FiredRow], members: Sequence[Member]
 ) -> Totals:
     times, masses, spreads = ([getattr(row, name) for row in rows] for name in ("time_s", "mass_kg", "spread_s"))
-    in_holes_kg = sum(placed.zone.mass_kg for placed in zones)
-    mass_kg = in_holes_kg + sum(cut.mass_kg for cut in scenario.cuts)
+    in_holes_kg = math.fsum(placed.zone.mass_kg for placed in zones)
+    mass_kg = in_holes_kg + math.fsum(cut.mass_kg for cut in scenario.cuts)
     return Totals(
         mass_kg=mass_kg,
         mass_in_holes_kg=in_holes_kg,
         holes=sum(placed.zone.holes for placed in zones),
-        drilled_m=sum(placed.zone.drilled_m for placed in zones),
-        volume_m3=sum(placed.volume_m3 for placed in zones),
+        drilled_m=math.fsum(placed.zone.drilled_m for placed in zones),
+        volume_m3=math.fsum(placed.volume_m3 for placed in zones),
         grams_per_tonne=grams_per_tonne(mass_kg, members),
         together_kg=largest_mass_together_kg(times, masses, spreads),
         lasts_s=max(times, default=0.0) - min(times, default=0.0),

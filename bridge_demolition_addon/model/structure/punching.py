@@ -39,7 +39,7 @@ def punching_of_decks(
         if member.kind != "deck" or not all(ways):
             continue
         fewest = [min(bars, key=lambda lower: lower.ratio) for bars in ways]
-        depth_m = 0.5 * sum(lower.depth_m for lower in fewest)
+        depth_m = 0.5 * math.fsum(lower.depth_m for lower in fewest)
         ratio = math.sqrt(fewest[0].ratio * fewest[1].ratio)
         on_point_n, on_ball_n = (punching_n(depth_m, loaded_m, ratio, strength_pa) for loaded_m in (0.0, ball_m))
         yield Punching(member.name, depth_m, ratio, on_point_n, on_ball_n)
@@ -62,6 +62,6 @@ def _lower_bars(group: LayersOfMember) -> _LowerBars | None:
     ]
     if not lower:
         return None
-    area_m = sum(area for area, _ in lower)
-    depth_m = sum(area * depth for area, depth in lower) / area_m
+    area_m = math.fsum(area for area, _ in lower)
+    depth_m = math.fsum(area * depth for area, depth in lower) / area_m
     return _LowerBars(group.axes[0], depth_m, area_m / depth_m)

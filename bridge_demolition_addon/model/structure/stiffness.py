@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -227,7 +228,7 @@ def _interfaces(
     between = deforms.all(axis=0) & (of_members[:, 0] != of_members[:, 1])
     for pair in np.unique(of_members[between], axis=0):
         rows = np.flatnonzero(between & (of_members == pair).all(axis=1))
-        thickness = sum(cut.members[index].thickness_m for index in pair.tolist())
+        thickness = math.fsum(cut.members[index].thickness_m for index in pair.tolist())
         shares[rows] = shares_of_length(connections.points[rows], in_plane[rows], sides[rows], thickness)
         lengths = np.array([_common_sides(cut, connections.pairs[row], in_plane[row]) for row in rows])
         slips[rows] = slips_by_stretching(

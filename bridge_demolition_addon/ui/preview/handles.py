@@ -12,6 +12,8 @@ import bpy
 from ...errors import GeometryError
 from ...model.bridge import deck_top
 from ...scene.blast.charges import charge_objects
+from ...scene.time_scale import simulated_time_s
+from ...scene.world import FIRST_STEP_FRAME
 from .decorator import sizes_shown
 from .zone_handles import drag_zone, ends_of, zones_shown
 
@@ -123,7 +125,9 @@ def _of_charges(scene: bpy.types.Scene) -> Iterator[Handle]:
 
 
 def _of_zones(scene: bpy.types.Scene) -> Iterator[Handle]:
-    """Give those of zones of the panels that lie in their members."""
+    """Give those of zones of the panels that lie in their members, until time begins: then these move away."""
+    if scene.rigidbody_world and simulated_time_s(scene, FIRST_STEP_FRAME) > 0.0:
+        return
     try:
         zones = zones_shown(scene.bda)
     except GeometryError:  # building says what is wrong

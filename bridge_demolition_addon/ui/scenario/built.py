@@ -13,7 +13,7 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ...engineering.single_precision import shortest
+from ...engineering.single_precision import as_given, shortest
 from ...errors import ScenarioError
 from ...model.scenario import Scenario, TimeSettings
 from ...model.scenario.file import scenario_from_text, scenario_text
@@ -167,7 +167,7 @@ def changed_in_blender(scene: bpy.types.Scene) -> list[ChangedValue]:
             f"with {_value_text(fields[name], kept['time'][name])}",
         )
         for name, value in time_settings(scene).items()
-        if value != kept["time"][name]
+        if as_given(value, kept["time"][name]) != kept["time"][name]  # which were in single precision
     ]
 
 

@@ -1,4 +1,4 @@
-"""Files of versions in which bodies had friction and restitution of their own, without a check box beside them."""
+"""Files of earlier versions: bodies had friction and restitution of their own, and a new scene had other values."""
 
 from __future__ import annotations
 
@@ -10,8 +10,10 @@ import bpy
 from ...errors import ScenarioError
 from ...model.scenario import Ball, ContactSettings, Ground, GroundSurface, Jackhammer, Scenario, ShardSettings
 from ...model.scenario.contacts import BodyInContact
-from ...model.scenario.file import scenario_from_text
-from .prop import USE
+from ...model.scenario.file import read_scenario, scenario_from_text
+from ...model.schema import Table, holds_many, is_optional, subtable_class
+from ...model.toml_tables import toml_value
+from .prop import DEFAULT_PRESET, EARLIER_DEFAULT, USE, default_value, is_written_out, shown_keys, shown_tables
 
 _CONSOLE = logging.getLogger(__name__)
 
@@ -22,6 +24,53 @@ def read_earlier_bodies(*_arguments: object) -> None:
     for scene in bpy.data.scenes:
         if tick_own_values(scene.bda):
             _CONSOLE.warning("%s: friction and restitution are those of single bodies, as saved", scene.name)
+
+
+@bpy.app.handlers.persistent
+def mark_defaults(*_arguments: object) -> None:
+    """Called by Blender before a file is saved: keep whose values those are that the file does not hold."""
+    for scene in bpy.data.scenes:
+        if not scene.library:
+            scene.bda.defaults_of = DEFAULT_PRESET.stem
+
+
+@bpy.app.handlers.persistent
+def read_earlier_defaults(*_arguments: object) -> None:
+    """Called by Blender when a file is loaded."""
+    for scene in bpy.data.scenes:
+        settings = scene.bda
+        is_used = bool(settings.built_scenario) or _is_set(settings.scenario, Scenario)
+        if is_used and not settings.defaults_of and not scene.library:
+            _set_missing(settings.scenario, Scenario, read_scenario(EARLIER_DEFAULT))
+
+
+def _is_set(group: bpy.types.PropertyGroup, table_class: type[Table]) -> bool:
+    """Return whether any value of a table, or of a table in it, was ever set."""
+    tables = shown_tables(table_class)
+    names = [item.name for item in shown_keys(table_class)]
+    names += [USE + item.name for item in (*shown_keys(table_class), *tables) if is_optional(item)]
+    return any(map(group.is_property_set, names)) or any(
+        len(inner) > 0 if holds_many(item) else _is_set(inner, subtable_class(item))
+        for item in tables
+        for inner in [getattr(group, item.name)]
+    )
+
+
+def _set_missing(group: bpy.types.PropertyGroup, table_class: type[Table], defaults: Table | None) -> None:
+    """Set all values that were never set to those of a table, or to those of its class without a table."""
+    for item in shown_keys(table_class):
+        value = default_value(item, defaults)
+        if is_optional(item) and not group.is_property_set(USE + item.name):
+            setattr(group, USE + item.name, value is not None)
+        if value is not None and not group.is_property_set(item.name):
+            setattr(group, item.name, toml_value(value) if is_written_out(item) else value)
+    for item in shown_tables(table_class):
+        if holds_many(item):
+            continue
+        inner = getattr(defaults, item.name, None)
+        if is_optional(item) and not group.is_property_set(USE + item.name):
+            setattr(group, USE + item.name, inner is not None)
+        _set_missing(getattr(group, item.name), subtable_class(item), inner)
 
 
 def tick_own_values(settings: bpy.types.PropertyGroup) -> bool:

@@ -54,7 +54,9 @@ from .number_rows import row_properties
 from .typical_values import typical_words
 
 PRESETS = Path(__file__).parent / "presets"
-DEFAULT_PRESET = PRESETS / "span_of_2019_ball.toml"
+DEFAULT_PRESET = PRESETS / "reinforced_span_ball.toml"
+EARLIER_DEFAULT = PRESETS / "span_of_2019_ball.toml"
+"""What a new scene showed before, and what files of then do not hold, as Blender saves only what was set."""
 
 ENSEMBLES = {"study": StudySettings, "search": SearchSettings, "optimise": OptimiseSettings}
 """Groups of the scene in addition to that of the scenario."""
@@ -211,7 +213,7 @@ def _group(
 ) -> type[bpy.types.PropertyGroup]:
     properties: dict[str, Any] = {GIVEN: StringProperty(options={"HIDDEN"})}
     for item in shown_keys(table_class):
-        properties.update(_key_properties(table_class, item, _default(item, defaults)))
+        properties.update(_key_properties(table_class, item, default_value(item, defaults)))
     for item in shown_tables(table_class):
         properties.update(_table_properties(item, defaults, groups[subtable_class(item)]))
     contents = {"__doc__": table_class.__doc__, "__annotations__": properties}
@@ -325,7 +327,7 @@ def _least(rule: Key) -> float:
     return 1.0 if rule.holds(1.0) else rule.at_most
 
 
-def _default(item: Field, defaults: Table | None) -> Any:
+def default_value(item: Field, defaults: Table | None) -> Any:
     """Return the value of a key in the table of defaults, else its own default, else None."""
     if defaults is not None:
         return getattr(defaults, item.name)

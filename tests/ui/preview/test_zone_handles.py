@@ -113,6 +113,17 @@ def test_what_was_dragged_is_built(shown, extension):
     assert (fired.lowest_corner_m[2], fired.highest_corner_m[2]) == pytest.approx((0.75, 2.8))
 
 
+def test_handles_are_gone_once_time_has_begun(shown, extension):
+    """What they would be at moves away from there; at the start frame they are back."""
+    shown.bda.scenario.fracture.shards = 30
+    assert extension.ops.bda.build_scenario() == {"FINISHED"}
+    zones = {key for key in handles_of(shown) if key[0].startswith("ZONE")}
+    shown.frame_set(5)
+    assert not {key for key in handles_of(shown) if key[0].startswith("ZONE")}
+    shown.frame_set(shown.frame_start)
+    assert {key for key in handles_of(shown) if key[0].startswith("ZONE")} == zones and len(zones) == 18
+
+
 def test_undo_takes_the_numbers_and_the_box_back(shown, extension):
     ops = extension.ops
     ops.ed.undo_push(message="before")

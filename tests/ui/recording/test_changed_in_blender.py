@@ -220,3 +220,13 @@ def test_frames_of_another_length_are_refused_where_slow_motion_is_animated(exte
     told = summary_in(tmp_path / "results")["made_by_hand"]
     assert len(told) == 2 and "slow motion was animated for frames of another length" in told[0]
     assert told[1] == "the speed of the simulation, which is animated"
+
+
+def test_values_that_single_precision_rounds_are_as_they_were_built(extension):
+    """0.02 m is 0.0199999996 m in a panel, and all digits of it in the scene."""
+    extension.ops.bda.load_preset(preset="drilled_spans")
+    extension.context.scene.bda.scenario.fracture.shards = 30
+    assert extension.ops.bda.build_scenario() == {"FINISHED"}
+    assert changed_in_blender(extension.context.scene) == []
+    extension.context.scene["bda_farthest_per_substep_m"] = 0.03
+    assert [change.shown for change in changed_in_blender(extension.context.scene)] == ["0.03 m"]

@@ -5,14 +5,15 @@ import json
 from dataclasses import replace
 
 import pytest
-from support.checkout import SMALL
+from support.checkout import PRESETS, SMALL
 
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.scene.bodies import bodies_of, kind_of
 from bridge_demolition_addon.ui.scenario.built import changes, scenario_to_run
-from bridge_demolition_addon.ui.scenario.earlier import tick_own_values
+from bridge_demolition_addon.ui.scenario.earlier import mark_defaults, tick_own_values
 from bridge_demolition_addon.ui.scenario.hints import contact_note
 from bridge_demolition_addon.ui.scenario.operator import build_and_show
+from bridge_demolition_addon.ui.scenario.prop import default_scenario
 from bridge_demolition_addon.ui.scenario.values import scenario_of
 
 NAMES = ("friction", "restitution")
@@ -78,3 +79,37 @@ def test_a_script_that_sets_the_value_of_a_body_has_it(settings):
         scenario_of(settings)
     settings.scenario.shards.use_friction = False
     assert scenario_of(settings).contacts.ground.friction == 0.3
+
+
+def test_a_file_of_when_a_new_scene_had_other_values_keeps_them(extension, tmp_path):
+    """Blender saves what was set alone: all else of such a file is a deck of 0.25 m without bars."""
+    scene = extension.context.scene
+    scene.bda.scenario.bridge.deck.width_m = 7.0
+    scene.bda.scenario.use_ball = False
+    extension.app.handlers.save_pre.remove(mark_defaults)
+    extension.ops.wm.save_as_mainfile(filepath=str(tmp_path / "earlier.blend"))
+    extension.app.handlers.save_pre.append(mark_defaults)
+    extension.ops.wm.open_mainfile(filepath=str(tmp_path / "earlier.blend"))
+    scenario = scenario_of(extension.context.scene.bda)
+    of_2019 = read_scenario(PRESETS / "span_of_2019_ball.toml")
+    bridge = replace(of_2019.bridge, deck=replace(of_2019.bridge.deck, width_m=7.0))
+    assert scenario == replace(of_2019, bridge=bridge, ball=None)
+
+
+@pytest.mark.parametrize("width_m", [None, 7.0])
+def test_a_new_file_of_today_has_bars_also_when_it_is_opened_again(extension, tmp_path, width_m):
+    scene = extension.context.scene
+    if width_m:
+        scene.bda.scenario.bridge.deck.width_m = width_m
+    extension.ops.wm.save_as_mainfile(filepath=str(tmp_path / "today.blend"))
+    extension.ops.wm.open_mainfile(filepath=str(tmp_path / "today.blend"))
+    bridge = scenario_of(extension.context.scene.bda).bridge
+    assert bridge.reinforcement.has_bars and bridge.deck.width_m == (width_m or default_scenario().bridge.deck.width_m)
+
+
+def test_an_earlier_file_without_any_of_our_values_has_those_of_today(extension, tmp_path):
+    extension.app.handlers.save_pre.remove(mark_defaults)
+    extension.ops.wm.save_as_mainfile(filepath=str(tmp_path / "earlier.blend"))
+    extension.app.handlers.save_pre.append(mark_defaults)
+    extension.ops.wm.open_mainfile(filepath=str(tmp_path / "earlier.blend"))
+    assert scenario_of(extension.context.scene.bda) == default_scenario()

@@ -22,7 +22,7 @@ def presets(extension):
 def test_it_holds_all_examples(presets):
     files = presets.preset_files()
     assert set(DEMOLITIONS) < set(files)
-    assert len(files) == len(DEMOLITIONS) + 4
+    assert len(files) == len(DEMOLITIONS) + 5
 
 
 def test_each_has_a_picture_that_shows_something(presets):

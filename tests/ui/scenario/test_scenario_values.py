@@ -129,6 +129,7 @@ def test_a_charge_with_a_wrong_property_is_refused(settings):
 
 
 def test_the_panel_says_what_breaks_the_connections_of_a_large_model(settings):
+    show_scenario(settings, read_scenario(PRESETS / "span_of_2019_ball.toml"))
     scenario, connections = settings.scenario, settings.scenario.connections
     assert breaking_note(scenario) == ""
     scenario.fracture.shards = LARGE_MODEL
