@@ -9,6 +9,7 @@ from bridge_demolition_addon.engineering.geometry.mesh import TriangleMesh, join
 from bridge_demolition_addon.engineering.geometry.solids import box, cylinder, to_manifold
 from bridge_demolition_addon.errors import GeometryError, IfcError
 from bridge_demolition_addon.ifc.alignments import curve_of
+from bridge_demolition_addon.ifc.bearings import on_plinth
 from bridge_demolition_addon.ifc.bridge import read_bridge
 from bridge_demolition_addon.ifc.folder import write_bridge
 from bridge_demolition_addon.ifc.gaps import lengthened
@@ -205,6 +206,18 @@ def test_a_bearing_on_nothing_gets_a_support_or_a_plinth(tmp_path):
     assert [member.name for member in added] == ["Support under Bearing 1 right", "Support under Bearing 1 left"]
     plinth = outcome(bridge, "Bearing 2 left").member
     assert plinth.volume_m3 == pytest.approx(0.4 * 0.4 * (0.1 + 0.2 + 0.001), rel=1e-3)
+
+
+def test_a_plinth_stands_with_its_whole_face_on_a_cap_with_crossfall():
+    """A bearing of 1 m × 1 m over a top that falls by 5 %: 0.2 m to its highest edge, 0.225 m on average."""
+    below = box((3.0, 3.0, 1.0), (0.5, 0.5, 0.5))
+    heights = below.vertices[:, 2] * (1.0 - 0.05 * (below.vertices[:, 1] + 0.5))  # 1 m high at y = -0.5
+    sloping = TriangleMesh(np.column_stack((below.vertices[:, :2], heights)), below.triangles)
+    bearing = box((1.0, 1.0, 0.1), (0.0, 0.0, 1.25))
+    solid = on_plinth(bearing, sloping)
+    assert solid.volume == pytest.approx(0.1 + 0.2 + 0.5 * 0.05 + 0.001, abs=1e-4)
+    touching = to_manifold(TriangleMesh(solid.vertices - (0.0, 0.0, 0.001), solid.triangles)) ^ to_manifold(sloping)
+    assert touching.volume() == pytest.approx(0.002, rel=0.02)  # let in by 1 mm, and moved by another
 
 
 def test_a_member_that_others_cut_through_becomes_two(tmp_path):
