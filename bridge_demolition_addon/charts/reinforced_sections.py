@@ -44,8 +44,11 @@ class MemberSection:
 
 
 def sections_to_draw(members: Sequence[Member], schedule: Schedule) -> list[MemberSection]:
-    """Return a section of the first deck with its girders, of the first pier cap and of the first pier with bars."""
-    with_bars = {name for row in schedule.bars for name in row.members}
+    """Return a section of the first deck with its girders, of the first pier cap and of the first pier with bars.
+
+    None is drawn of members whose bars follow them.
+    """
+    with_bars = {name for row in schedule.bars if not row.layer.own_axes for name in row.members}
     sections = []
     for kind in ("deck", "pier cap", "pier"):
         first = next((member for member in members if member.kind == kind and member.name in with_bars), None)

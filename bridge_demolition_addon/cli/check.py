@@ -13,7 +13,7 @@ from ..model.results.moving import moving_text
 from ..model.scenario import BlastZone, Charge, Scenario
 from ..model.scenario.contact_facts import contact_facts
 from ..model.scenario.file import read_scenario
-from ..model.scenario.scenario import bars_by_rule
+from ..model.scenario.scenario import rules_of_bars
 from ..model.sequence.checked_model import ModelWorksite, checked_model
 from ..model.sequence.undisturbed import AWAKE_S, self_collapse_text
 from ..model.stages.stability_by_statics import stability_of
@@ -73,7 +73,7 @@ def scenario_facts(scenario: Scenario, *, stand: bool = False) -> Iterator[str]:
     yield from _section("Members", member_facts(prepared.members))
     if prepared.notes:
         yield from _section("Repaired", (note.partition(": ")[::2] for note in prepared.notes))
-    if bars_by_rule(scenario):
+    if rules_of_bars(scenario):
         schedule = bar_schedule(scenario, prepared.members)
         yield from _section("Reinforcement", schedule_facts(scenario, prepared.members, schedule))
     yield from _section("Time", (*scenario.time.facts(scenario.timeline), *_cost_facts(scenario, model)))

@@ -6,16 +6,19 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from ..engineering.geometry.plane_cuts import plane_cuts
 from ..model.bridge.member import Member
+from ..model.bridge.own_axes import own_axes
 from ..model.materials.bar_layers import BarLayer
 from ..model.schema import given
-from ..model.structure.face_bars import plane_cuts
 
 _BAR_MM2 = 314.0
 """Area of a bar of 20 mm: a layer has as many lines as it would have of these."""
 
 _MOST_LINES = 40
 _FEWEST_LINES = 2
+_PARTS = 8
+"""Straight parts of a bar that follows a curved member."""
 
 
 def bar_lines(layers: Sequence[BarLayer], members: Sequence[Member]) -> np.ndarray:
@@ -24,7 +27,7 @@ def bar_lines(layers: Sequence[BarLayer], members: Sequence[Member]) -> np.ndarr
     for member in members:
         for layer in layers:
             if not layer.is_spread and layer.is_in(member.name, member.kind):
-                parts += _of_layer(layer, member)
+                parts += _in_own_axes(layer, member) if layer.own_axes else _of_layer(layer, member)
     return np.concatenate(parts)
 
 
@@ -45,6 +48,26 @@ def _of_layer(layer: BarLayer, member: Member) -> Iterator[np.ndarray]:
             line = np.zeros((2, 3))
             line[:, along], line[:, across], line[:, beside] = (begin, end), level, position
             yield member.with_skew(line)
+
+
+def _in_own_axes(layer: BarLayer, member: Member) -> Iterator[np.ndarray]:
+    """Yield the lines of a layer that follows its member, in straight parts."""
+    along, across, beside = layer.axes
+    axes = own_axes(member)
+    level = layer.level_m(*axes.ends_m(across))
+    low, high = axes.ends_m(beside)
+    if across == 2 and beside == 1:
+        inside = 0.5 * ((high - low) - axes.width_at_m(level))
+        low, high = low + inside, high - inside
+    ends = axes.ends_m(along)
+    begin, end = max(ends[0], layer.ends_m[0]), min(ends[1], layer.ends_m[1])
+    number = int(np.clip(round(given(layer.area_mm2) / _BAR_MM2), _FEWEST_LINES, _MOST_LINES))
+    for position in low + (high - low) * (np.arange(number) + 0.5) / number:
+        points = np.zeros((_PARTS + 1, 3))
+        points[:, along] = np.linspace(begin, end, _PARTS + 1)
+        points[:, across], points[:, beside] = level, position
+        line = axes.to_world(points)
+        yield np.repeat(line, 2, axis=0)[1:-1]
 
 
 def _ends_at(cuts: np.ndarray, along: int, beside: int, position: float) -> list[float]:

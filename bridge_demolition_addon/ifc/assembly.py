@@ -125,7 +125,7 @@ class Assembly:
             why += f"; {mass_text(mass).strip()} are missing" if mass else "; its mass is not known, and missing"
         self.outcomes[number] = Outcome(element.facts, None, None, LEFT_OUT, why, None, known.volume_m3, known.mass_kg)
 
-    def _lose(self, number: int, why: str) -> None:
+    def leave_out(self, number: int, why: str) -> None:
         """Leave out what was a member; its mass is said."""
         outcome = self.outcomes[number]
         mass = mass_text(given(outcome.member).mass_kg).strip()
@@ -156,7 +156,7 @@ class Assembly:
                 others = solids[other].volume()
                 if volume > _SAME * max(own, others) and other < row:
                     gone.add(row)
-                    self._lose(number, f"{members[other][1].name} takes all of its room")
+                    self.leave_out(number, f"{members[other][1].name} takes all of its room")
                 elif volume > _WITHIN * own and own < others:
                     inner.append(number)
                     self.notes.append(f"{member.name} lies within {members[other][1].name}: it is cut out of that")
@@ -183,7 +183,7 @@ class Assembly:
                 if _boxes_meet(other, solid):
                     rest -= to_manifold(other)
             if rest.volume() <= max(_SMALLEST_M3, 1e-4 * solid.volume):
-                self._lose(numbers[id(outcome)], "members before it take all of its room")
+                self.leave_out(numbers[id(outcome)], "members before it take all of its room")
             else:
                 taken.append(solid)
                 self._part(numbers[id(outcome)], rest)
@@ -215,7 +215,7 @@ class Assembly:
                 solid = writable(self._before[number])
                 self.notes.append(f"{outcome.member.name} is left as it was: made longer it would be no sound solid")
             if solid is None:
-                self._lose(number, "with the digits that a file holds its surface crosses itself")
+                self.leave_out(number, "with the digits that a file holds its surface crosses itself")
             elif outcome.mesh is not None:
                 self.outcomes[number] = replace(outcome, mesh=solid)
             else:
@@ -319,7 +319,7 @@ class Assembly:
         """Leave out what touches nothing that is held."""
         for group in self._loose_groups():
             for number in group:
-                self._lose(number, "it touches no other member that is held, and would fall at once")
+                self.leave_out(number, "it touches no other member that is held, and would fall at once")
 
     def _loose_groups(self) -> list[list[int]]:
         """Return numbers of members that touch each other and nothing that is held, group by group."""

@@ -8,14 +8,14 @@ from typing import Any
 
 import numpy as np
 
-from ..engineering.geometry.mesh import TriangleMesh
-from ..engineering.geometry.solids import to_manifold, union
+from ..engineering.geometry.mesh import TriangleMesh, triangle_areas_and_normals
+from ..engineering.geometry.solids import from_manifold, to_manifold, union
 from ..engineering.geometry.vectors import transformed
 from ..model.scenario import ConnectionBetween
 from ..model.scenario.bearings import FIXED, PINNED, ROCKER, SLIDING, Bearing
 from .contacts import TOUCHING_M, NearbyMembers
 from .elements import Element
-from .gaps import STEEPEST, cut_by, lengthened
+from .gaps import STEEPEST, cut_by, largest_body, lengthened
 from .library import library
 from .placement import Placement
 
@@ -24,6 +24,9 @@ SEAT_M = 0.001
 
 HIGHEST_PLINTH_M = 0.5
 """Height up to which what a bearing stands on is taken for a plinth that the file lacks."""
+
+_LOOKS_UP = 0.9
+"""Least vertical part of the normal of a face that a plinth stands on."""
 
 _ALL_TURNS = ("turn x", "turn y", "turn z")
 _FREE_OF_TYPE = {
@@ -97,8 +100,7 @@ def bearing_of(
             under = contacts.reached(lengthened(solid, -HIGHEST_PLINTH_M), 0.0)
             below = sorted(under.keys() - set(up), key=lambda index: -under[index])[:1]
             if below:
-                top = _top_under(solid, contacts.solid(below[0]))
-                solid = lengthened(solid, top - float(solid.bounds[0, 2]) - SEAT_M)
+                solid = on_plinth(solid, contacts.solid(below[0]))
                 plinth = f"a plinth down to {names[below[0]]} is added under it"
     if not above and gap_m > 0.0:
         over = contacts.reached(lengthened(solid, gap_m), 0.0)
@@ -137,11 +139,27 @@ def with_one_fixed(
     ]
 
 
-def _top_under(solid: TriangleMesh, below: TriangleMesh) -> float:
-    """Return the height of the highest part of what lies below a solid, in its plan, m."""
+def on_plinth(solid: TriangleMesh, below: TriangleMesh) -> TriangleMesh:
+    """Return a bearing that goes down to what lies below it, with its whole face where that slopes.
+
+    On a pier cap with a crossfall, a plinth down to its highest part alone would stand on an edge.
+    """
+    size_m = float(np.ptp(solid.vertices[:, :2], axis=0).max())
+    lowest = float(solid.bounds[0, 2])
+    highest, falls_m = _top_under(solid, below)
+    down_m = min(highest, lowest) - lowest - min(falls_m, STEEPEST * size_m) - SEAT_M
+    lowered = TriangleMesh(below.vertices - (0.0, 0.0, SEAT_M), below.triangles)
+    return largest_body(cut_by(lengthened(solid, down_m), [lowered]))
+
+
+def _top_under(solid: TriangleMesh, below: TriangleMesh) -> tuple[float, float]:
+    """Return the height of the highest part of what lies below a solid, in its plan, and how far that falls, m."""
     column = lengthened(solid, -HIGHEST_PLINTH_M)
-    common = to_manifold(column) ^ to_manifold(below)
-    return float(min(common.bounding_box()[5], solid.bounds[0, 2]))
+    common = from_manifold(to_manifold(column) ^ to_manifold(below))
+    highest = float(common.bounds[1, 2])
+    _, normals = triangle_areas_and_normals(common.corners)
+    tops = common.corners[normals[:, 2] > _LOOKS_UP]
+    return highest, highest - float(tops[..., 2].min(initial=highest))
 
 
 def seated(solid: TriangleMesh) -> TriangleMesh:

@@ -23,6 +23,7 @@ from ..model.scenario import (
     TimeSettings,
 )
 from .added_supports import CLEARANCE_M
+from .approach_slabs import leave_out_clamping_slabs
 from .assembly import Assembly, plain_text
 from .bars import bar_layers
 from .bodies import Bodies, bodies_of
@@ -37,7 +38,7 @@ from .materials import MaterialTable, material_table
 from .outcome import CONNECTION, LEFT_OUT, Outcome
 from .placement import Placement, placement_of
 from .quantities import quantities_of, units_of
-from .rule_bars import SHARE, notes_on_bars
+from .rule_bars import with_bars_by_rule
 from .settings import ImportSettings
 from .several_bridges import CARRYING, chosen_elements
 from .shapes import KeptShapes
@@ -49,9 +50,6 @@ MESH_FOLDER = "members"
 _DURATION_S = 3.0
 _WARM_UP_S, _WARM_UP_DAMPING = 0.5, 0.99
 """Time in which the bridge settles under its own weight, and by how much it is damped then."""
-
-_ELONGATION_M = 0.05
-"""How far cracks open before their reinforcement ruptures, which no file is known to say."""
 
 _STANDING = (*STANDING, "footing")
 
@@ -112,6 +110,7 @@ def _bridge(path: Path, table: MaterialTable, settings: ImportSettings, kept: Ke
         result.fit_together()
         result.close_gaps(gap_m)
         result.add_bearings(bearings, solids, placement, gap_m, table)
+        leave_out_clamping_slabs(result)
         result.hold(gap_m, table)
         result.drop_consumed()
         result.make_writable()
@@ -125,8 +124,7 @@ def _bridge(path: Path, table: MaterialTable, settings: ImportSettings, kept: Ke
     if bars:
         scenario = replace(scenario, reinforcement=tuple(bars))
     if not settings.strict:
-        added = {member.name for member in result.added}
-        result.notes += notes_on_bars(scenario, [one for _, one in result.members() if one.name not in added])
+        scenario = with_bars_by_rule(scenario)
     return ImportedBridge(
         scenario=scenario,
         meshes=meshes,
@@ -266,8 +264,6 @@ def _connections(main: str, between: Sequence[ConnectionBetween], *, strict: boo
     return replace(
         rigid,
         stiffness="elastic",
-        ductile_share=SHARE,
-        ductile_elongation_m=_ELONGATION_M,
         warm_up_s=_WARM_UP_S,
         warm_up_damping=_WARM_UP_DAMPING,
     )

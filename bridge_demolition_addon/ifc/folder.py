@@ -24,6 +24,7 @@ from ..model.toml_tables import tables_text
 from ..system.disk import write_whole_text, writing
 from .bridge import MESH_FOLDER, ImportedBridge
 from .outcome import ADDED, CONNECTION, LEFT_OUT, MEMBER, Outcome
+from .rule_bars import notes_on_bars
 
 SCENARIO_FILE = "scenario.toml"
 ELEMENTS_FILE = "elements.csv"
@@ -67,7 +68,7 @@ def write_bridge(bridge: ImportedBridge, folder: Path) -> list[str]:
             (whole / file).write_bytes(exported(mesh, ".obj"))
         _write_left_out(bridge.left_out, whole / LEFT_OUT_FOLDER)
         (whole / SCENARIO_FILE).write_text(tables_text(bridge.scenario, defaults=False), encoding="utf-8")
-        lines = list(_report(bridge, _cut_off(whole)))
+        lines = list(_report(bridge, *_as_read(whole, bridge)))
         write_whole_text(whole / ELEMENTS_FILE, _table(bridge), newline="")
         write_whole_text(whole / REPORT_FILE, "\n".join(lines) + "\n")
         folder.parent.mkdir(parents=True, exist_ok=True)
@@ -100,16 +101,19 @@ def _existing(folder: Path) -> Path:
     return next(parent for parent in folder.absolute().parents if parent.is_dir())
 
 
-def _cut_off(whole: Path) -> tuple[str, ...]:
-    """Return notes on what is cut off where members overlap; refuses what `bda check` would refuse."""
+def _as_read(whole: Path, bridge: ImportedBridge) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Return notes on what is cut off where members overlap, and on bars; refuses what `bda check` would refuse."""
+    added = [outcome.part[0].name for outcome in bridge.outcomes if outcome.became == ADDED]
     try:
-        return prepared_members(read_scenario(whole / SCENARIO_FILE)).notes
+        scenario = read_scenario(whole / SCENARIO_FILE)
+        prepared = prepared_members(scenario)
+        return prepared.notes, tuple(notes_on_bars(scenario, prepared.members, added))
     except (GeometryError, ScenarioError) as error:
         text = str(error).removeprefix(f"{whole / SCENARIO_FILE}: ")
         raise IfcError(f"{text} Or leave it out by --without NAME") from error
 
 
-def _report(bridge: ImportedBridge, cut_off: tuple[str, ...]) -> Iterator[str]:
+def _report(bridge: ImportedBridge, cut_off: tuple[str, ...], on_bars: tuple[str, ...]) -> Iterator[str]:
     members = [outcome.member for outcome in bridge.outcomes if outcome.member]
     yield bridge.scenario.title
     yield ""
@@ -140,7 +144,7 @@ def _report(bridge: ImportedBridge, cut_off: tuple[str, ...]) -> Iterator[str]:
     yield f"  {'ground':<24}at {bridge.ground_m:.3f} m in the file: {bridge.ground_source}"
     yield f"  {'site':<24}{_where(bridge)}"
     yield from _left_out(bridge.outcomes)
-    notes = dict.fromkeys((*bridge.notes, *_reasons(bridge.outcomes), *_of_cutting(cut_off)))
+    notes = dict.fromkeys((*bridge.notes, *on_bars, *_reasons(bridge.outcomes), *_of_cutting(cut_off)))
     if notes:
         yield ""
         yield "To know"

@@ -94,7 +94,7 @@ def closed_gaps(members: Sequence[Member], gap_m: float) -> tuple[list[Member], 
             solid, reach_m = done[longer].solid, gap_m
             if done[longer].kind in _STANDING:
                 reach_m += min(STEEPEST * float(np.ptp(solid.vertices[:, :2], axis=0).max()), 2.0 * gap_m)
-            made = _largest(cut_by(lengthened(solid, way * reach_m), [done[other].solid]))
+            made = largest_body(cut_by(lengthened(solid, way * reach_m), [done[other].solid]))
             done[longer] = replace(done[longer], solid=made)
             verb = "carry" if way > 0.0 else "stand on"
             notes.append(
@@ -175,7 +175,7 @@ def cuts_well(solid: TriangleMesh) -> bool:
     return True
 
 
-def _largest(solid: TriangleMesh) -> TriangleMesh:
+def largest_body(solid: TriangleMesh) -> TriangleMesh:
     """Return the largest body of a solid: what is cut off it is a lip beside what it was brought to."""
     pieces = to_manifold(solid).decompose()
     return solid if len(pieces) < 2 else from_manifold(max(pieces, key=lambda piece: piece.volume()))

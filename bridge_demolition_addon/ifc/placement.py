@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from manifold3d import CrossSection
 
 from ..engineering.geometry.mesh import TriangleMesh
 from ..engineering.geometry.rotations import turn_in_plane
+from ..engineering.geometry.smallest_rectangle import longer_side
 from ..engineering.geometry.vectors import transformed
 
 _ON_AXIS_RAD = 1e-7
@@ -18,8 +18,6 @@ _ON_AXIS_RAD = 1e-7
 
 _QUARTERS = {0: ((1.0, 0.0), (0.0, 1.0)), 1: ((0.0, 1.0), (-1.0, 0.0)), -1: ((0.0, -1.0), (1.0, 0.0))}
 """Rotations back by a quarter, exact to the last digit."""
-
-_ALIKE = 1.0 - 1e-9
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,17 +61,7 @@ def placement_of(along_road: Sequence[TriangleMesh], ground_m: float) -> Placeme
 
 
 def _longer_side(points: np.ndarray) -> float:
-    """Return the direction of the longer side of the smallest rectangle around points (n, 2), in rad.
-
-    A side of it lies along a side of the hull: H. Freeman, R. Shapira (1975), Communications of the ACM 18, 409-413.
-    """
-    middle = points.mean(axis=0)
-    (corners,) = CrossSection.hull_points(points - middle).to_polygons()
-    sides = np.roll(corners, -1, axis=0) - corners
-    best_area, best_angle = math.inf, 0.0
-    for angle in np.arctan2(sides[:, 1], sides[:, 0]):
-        length, width = np.ptp(transformed(turn_in_plane(-float(angle)), corners), axis=0)
-        if length * width < best_area * _ALIKE:
-            along = float(angle) if length >= width * _ALIKE else float(angle) + math.pi / 2.0
-            best_area, best_angle = length * width, along
-    return -(((math.pi / 2.0 - best_angle) % math.pi) - math.pi / 2.0)
+    """Return the direction of the longer side of the smallest rectangle around points (n, 2), in rad."""
+    along = longer_side(points)
+    angle = float(np.arctan2(along[1], along[0]))
+    return -(((math.pi / 2.0 - angle) % math.pi) - math.pi / 2.0)

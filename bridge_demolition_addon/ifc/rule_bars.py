@@ -1,46 +1,59 @@
-"""Bars by rule: steel that members of concrete are taken to have where a file has no bars in them."""
+"""Bars by rule: those that members of concrete are designed with where a file has no bars in them."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
-from ..engineering.elasticity.steel_bars import YIELD_PA
 from ..model.bridge.member import Member
-from ..model.materials.materials import strengths
 from ..model.reinforcement.concrete_members import is_concrete
-from ..model.scenario import Scenario
+from ..model.reinforcement.design import bar_schedule
+from ..model.scenario import GeometryReinforcement, Scenario
+from ..model.scenario.reinforcement import LOAD_MODEL_1
 
-SHARE = 1.0
-"""Yield force of the steel across a face by the tensile strength of its concrete: `connections.ductile_share`."""
+OTHER_SHARE = 1.0
+"""Strength that members of other materials keep where they break, as steel does: `connections.ductile_share`."""
 
+OTHER_ELONGATION_M = 0.05
+"""How far these deform until they rupture, which no file is known to say."""
+
+_NOT_BUILT = ("fill",)
 _HELD = ("footing", "approach slab")
 
 
-def notes_on_bars(scenario: Scenario, members: Sequence[Member]) -> Iterator[str]:
-    """Yield a note for each material of members of concrete without bars in the file: how much steel these are to have.
+def with_bars_by_rule(scenario: Scenario) -> Scenario:
+    """Return a scenario whose members of concrete have bars by rule; members of other materials yield."""
+    built = [table for table in scenario.geometry if table.kind not in _NOT_BUILT]
+    concrete = [table for table in built if is_concrete(scenario, table)]
+    if len(concrete) < len(built):
+        connections = replace(scenario.connections, ductile_share=OTHER_SHARE, ductile_elongation_m=OTHER_ELONGATION_M)
+        scenario = replace(scenario, connections=connections)
+    if not concrete:
+        return scenario
+    return replace(scenario, geometry_reinforcement=GeometryReinforcement(designed_for=LOAD_MODEL_1))
 
-    Steel that yields as its concrete tears is the least with which a section that cracks still carries (EN 1992-1-1,
-    7.3.2 and 9.2.1.1), spread over each face and across it. Layers lie level, and imported members are inclined.
+
+def notes_on_bars(scenario: Scenario, members: Sequence[Member], added: Sequence[str]) -> Iterator[str]:
+    """Yield notes on bars by rule: which members have them, how much steel that is, and what the design says.
+
+    Supports that are `added` are no part of the file.
     """
-    given = {name for layer in scenario.reinforcement for name in layer.members}
-    by_material: dict[str, list[Member]] = {}
-    for member in members:
-        if member.kind in _HELD or {member.name, member.kind} & given or not is_concrete(scenario, member):
-            continue
-        by_material.setdefault(_material(scenario, member), []).append(member)
-    known = strengths(scenario.materials)
-    for name, found in by_material.items():
-        percent = 100.0 * SHARE * float(known[name].tension_pa) / YIELD_PA
-        kinds = ", ".join(dict.fromkeys(member.kind for member in found))
-        yield (
-            f"the file has no bars in {len(found)} members of {name} ({kinds}): by rule {percent:.2g} % of each "
-            "section is steel, across every crack, with the force at which the concrete tears; [[reinforcement]] "
-            "says it better"
-        )
-
-
-def _material(scenario: Scenario, member: Member) -> str:
-    for rule in scenario.connections.between:
-        if rule.material and all(name in (member.name, member.kind) for name in rule.members):
-            return rule.material
-    return scenario.connections.material or ""
+    rule = scenario.geometry_reinforcement
+    if rule is None:
+        return
+    schedule = bar_schedule(scenario, members)
+    by_rule = {name for row in schedule.rows for name in row.members}
+    found = [member for member in members if member.name in by_rule and member.name not in added]
+    moving = [member for member in found if member.kind not in _HELD]
+    if not found:
+        return
+    steel_kg = math.fsum(schedule.mass_of_kg(kind) for kind in {member.kind for member in moving})
+    volume_m3 = math.fsum(member.volume_m3 for member in moving)
+    kinds = ", ".join(dict.fromkeys(member.kind for member in found))
+    amount = f", {steel_kg / volume_m3:.0f} kg/m³ beside footings and approach slabs" if volume_m3 else ""
+    yield (
+        f"the file has no bars in {len(found)} members of concrete ({kinds}): by rule they have bars for "
+        f"{rule.described}{amount}; bda check lists them, and [[reinforcement]] says it better"
+    )
+    yield from schedule.notes

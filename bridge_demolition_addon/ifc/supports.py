@@ -14,6 +14,9 @@ _ON_GROUND_M = 1e-3
 STANDING = ("pier", "abutment", "wall", "wing wall")
 """Kinds of members that stand on something; where that is missing, their undersides are held."""
 
+_IN_SOIL = "wing wall"
+"""Kind of members that soil holds, though they hardly touch the abutment that they belong to."""
+
 HELD_KINDS = ("footing", "approach slab")
 """Kinds of members that never move: what lies on the soil or in it."""
 
@@ -33,10 +36,14 @@ def supports_of(
         height_m = float(member.solid.bounds[0, 2])
         if member.kind not in STANDING or height_m <= _ON_GROUND_M or member.name in added:
             continue
-        if contacts.reached(member.solid, -_ON_GROUND_M).keys() - {index}:
+        on_something = bool(contacts.reached(member.solid, -_ON_GROUND_M).keys() - {index})
+        if on_something and member.kind != _IN_SOIL:
             continue
         held.append(Support(member=member.name, face="bottom"))
-        notes.append(f"{member.name} ends {height_m:.2f} m above the ground on nothing: its underside is held")
+        where = (
+            "is held by soil that no file has" if on_something else f"ends {height_m:.2f} m above the ground on nothing"
+        )
+        notes.append(f"{member.name} {where}: its underside is held")
     return held, notes
 
 

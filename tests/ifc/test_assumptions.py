@@ -9,10 +9,16 @@ from bridge_demolition_addon.engineering.geometry.mesh import TriangleMesh, join
 from bridge_demolition_addon.engineering.geometry.solids import box, cylinder, to_manifold
 from bridge_demolition_addon.errors import GeometryError, IfcError
 from bridge_demolition_addon.ifc.alignments import curve_of
+from bridge_demolition_addon.ifc.bearings import on_plinth
 from bridge_demolition_addon.ifc.bridge import read_bridge
+from bridge_demolition_addon.ifc.folder import write_bridge
 from bridge_demolition_addon.ifc.gaps import lengthened
 from bridge_demolition_addon.ifc.settings import ImportSettings
 from bridge_demolition_addon.ifc.substitutes import box_around, slab_between_heights, sound_solid
+from bridge_demolition_addon.model.bridge.preparation import prepared_members
+from bridge_demolition_addon.model.reinforcement.design import bar_schedule
+from bridge_demolition_addon.model.scenario import GeometryReinforcement
+from bridge_demolition_addon.model.scenario.file import read_scenario
 
 
 def read(made, tmp_path, **settings):
@@ -202,6 +208,18 @@ def test_a_bearing_on_nothing_gets_a_support_or_a_plinth(tmp_path):
     assert plinth.volume_m3 == pytest.approx(0.4 * 0.4 * (0.1 + 0.2 + 0.001), rel=1e-3)
 
 
+def test_a_plinth_stands_with_its_whole_face_on_a_cap_with_crossfall():
+    """A bearing of 1 m × 1 m over a top that falls by 5 %: 0.2 m to its highest edge, 0.225 m on average."""
+    below = box((3.0, 3.0, 1.0), (0.5, 0.5, 0.5))
+    heights = below.vertices[:, 2] * (1.0 - 0.05 * (below.vertices[:, 1] + 0.5))  # 1 m high at y = -0.5
+    sloping = TriangleMesh(np.column_stack((below.vertices[:, :2], heights)), below.triangles)
+    bearing = box((1.0, 1.0, 0.1), (0.0, 0.0, 1.25))
+    solid = on_plinth(bearing, sloping)
+    assert solid.volume == pytest.approx(0.1 + 0.2 + 0.5 * 0.05 + 0.001, abs=1e-4)
+    touching = to_manifold(TriangleMesh(solid.vertices - (0.0, 0.0, 0.001), solid.triangles)) ^ to_manifold(sloping)
+    assert touching.volume() == pytest.approx(0.002, rel=0.02)  # let in by 1 mm, and moved by another
+
+
 def test_a_member_that_others_cut_through_becomes_two(tmp_path):
     """A brace of 3 m across both girders, which take 2 × 0.4 m of it: 1.6 m between them, and 0.3 m at either side."""
     made = whole_bridge()
@@ -374,13 +392,37 @@ def test_reinforcing_bars_are_layers_of_their_members(turn_deg, tmp_path):
     assert any("bent, inclined or in no member" in note for note in bridge.notes)
 
 
-def test_steel_by_rule_is_that_which_yields_as_the_concrete_tears(tmp_path):
-    """Of a slab that tears at 5.2 N/mm², 1.04 % with 500 N/mm²; none is said of girders of steel."""
-    bridge = read(whole_bridge(), tmp_path)
-    (note,) = (note for note in bridge.notes if "the file has no bars" in note)
-    assert "in 5 members of reinforced concrete slab (abutment, pier, pier cap, deck): by rule 1 % of each" in note
-    assert bridge.scenario.connections.ductile_share == 1.0
-    assert not any("no bars" in note for note in read(whole_bridge(), tmp_path, strict=True).notes)
+def test_members_of_concrete_have_bars_by_rule(tmp_path):
+    """Of a bridge of concrete on steel girders: a rule for load model 1, and steel that keeps its strength."""
+    path, folder = whole_bridge().written(tmp_path / "bridge.ifc"), tmp_path / "folder"
+    lines = write_bridge(read_bridge(path, ImportSettings()), folder)
+    scenario = read_scenario(folder / "scenario.toml")
+    assert scenario.geometry_reinforcement == GeometryReinforcement(designed_for="LM1")
+    assert scenario.connections.ductile_share == 1.0  # of the girders
+    (note,) = (line for line in lines if "the file has no bars" in line)
+    assert "members of concrete (" in note and "own weight and LM1" in note and "kg/m³" in note
+    schedule = bar_schedule(scenario, prepared_members(scenario).members)
+    kinds = {row.kind for row in schedule.rows}
+    assert {"deck", "pier", "abutment"} <= kinds and "girder" not in kinds
+
+
+def test_a_strict_import_has_no_bars_by_rule(tmp_path):
+    bridge = read(whole_bridge(), tmp_path, strict=True)
+    assert bridge.scenario.geometry_reinforcement is None
+    assert not any("no bars" in note for note in bridge.notes)
+
+
+def approached(made):
+    """The bridge with a slab of 4 m behind its beginning, that ends on the deck."""
+    made.box("IfcSlab", "Approach slab", (4.0, 4.0, 0.3), (-2.0, 0.0, 4.6), "DECK", material=made.material("Concrete"))
+    return made
+
+
+def test_an_approach_slab_on_a_deck_that_moves_is_left_out(tmp_path):
+    """It would hold the end of the deck down, as it never moves."""
+    slab = outcome(read(approached(whole_bridge()), tmp_path), "Approach slab")
+    assert slab.became == "left out"
+    assert "would hold down as it never moves" in slab.why and slab.why.endswith("t are missing")
 
 
 def test_a_long_girder_is_cut_by_its_length(tmp_path):

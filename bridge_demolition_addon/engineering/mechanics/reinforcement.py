@@ -19,10 +19,10 @@ class FaceBars:
     directions: FloatArray  # (m, 3), of it, along the section's axes; the first is not below 0
     openings_m: FloatArray  # (m,), opening along it at which they rupture
 
-    def with_even(self, even_n: FloatArray, opening_m: float) -> FaceBars:
+    def with_even(self, even_n: FloatArray, opening_m: float | FloatArray) -> FaceBars:
         """Return them together with bars (m,) that are spread evenly over the faces, and pull across these.
 
-        Those rupture at an opening of their own.
+        Those rupture at an opening of their own, or at one (m,) each.
         """
         forces = self.yield_n[:, None] * self.directions
         forces[:, 0] += even_n

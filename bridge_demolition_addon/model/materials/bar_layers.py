@@ -25,6 +25,7 @@ _OF_LAYERS = (
     ("from_m", None),
     ("to_m", None),
     ("anchored", True),
+    ("own_axes", False),
 )
 """Keys that say nothing of bars that are spread over a member, with the values by default."""
 
@@ -93,6 +94,11 @@ class BarLayer(Table):
         "Whether bars resist their yield force up to the ends of their member, by hooks, bends, laps or in the next "
         "member. Straight ones, `false`, have less by bond alone near these ends.",
         default=True,
+    )
+    own_axes: bool = key(
+        "Whether the bars follow a member that is curved or inclined: x runs along it from its beginning, y across it "
+        "to the left and z up from its underside, for `along`, `side`, `depth_m`, `from_m` and `to_m`.",
+        default=False,
     )
 
     @property

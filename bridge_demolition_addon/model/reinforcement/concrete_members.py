@@ -30,7 +30,7 @@ class Named(Protocol):
 
 def is_concrete(scenario: Scenario, member: Named) -> bool:
     """Return whether a member breaks by the strength of a concrete, or by one force, which any material can have."""
-    material = _material(scenario, member)
+    material = material_of(scenario, member)
     if material is None:
         return True
     return material not in _OTHERS and _is_weak_in_tension(strengths(scenario.materials)[material])
@@ -40,7 +40,7 @@ def _is_weak_in_tension(strength: Strength) -> bool:
     return float(strength.tension_pa) < _TORN_BY_CRUSHED * float(strength.compression_pa)
 
 
-def _material(scenario: Scenario, member: Named) -> str | None:
+def material_of(scenario: Scenario, member: Named) -> str | None:
     """Return the material within a member: of the first rule that names it twice, or of all connections."""
     for rule in scenario.connections.between:
         if all(name in (member.name, member.kind) for name in rule.members):
@@ -66,13 +66,15 @@ def named_members(scenario: Scenario) -> list[Named]:
 def plain_concrete_text(scenario: Scenario) -> str:
     """Return a sentence, without a full stop, on members of concrete without bars; empty where there are none, or where
     the scenario says that the bridge has no bars."""
-    rule = scenario.bridge.reinforcement if scenario.bridge else None
-    is_meant = rule is not None and not rule.has_bars
+    of_bridge = scenario.bridge.reinforcement if scenario.bridge else None
+    rules = (rule for rule in (of_bridge, scenario.geometry_reinforcement) if rule)
+    is_meant = any(not rule.has_bars for rule in rules)
     if is_meant or not (plain := plain_concrete(scenario)):
         return ""
+    table = "bridge.reinforcement" if scenario.bridge else "geometry_reinforcement"
     return (
         f"no reinforcing bars in {', '.join(plain)}: what cracks there falls apart, as concrete with bars does not; "
-        "[bridge.reinforcement] or [[reinforcement]] gives them"
+        f"[{table}] or [[reinforcement]] gives them"
     )
 
 
@@ -100,4 +102,6 @@ def names_with_bars(scenario: Scenario) -> set[str]:
     named = {name for layer in scenario.reinforcement for name in layer.members}
     if rule := bars_by_rule(scenario):
         named |= {table.member for table in rule.ratios} or names_of_bridge(scenario)
+    if scenario.geometry_reinforcement and scenario.geometry_reinforcement.has_bars:
+        named |= {table.name for table in scenario.geometry if is_concrete(scenario, table)}
     return named

@@ -13,18 +13,22 @@ from ..bridge.member import Member
 from ..materials.bar_layers import BarLayer
 from ..materials.materials import strengths
 from ..scenario import Bridge, Scenario
-from ..scenario.reinforcement import BridgeReinforcement
-from ..scenario.scenario import bars_by_rule
+from ..scenario.reinforcement import BarRule, BridgeReinforcement
+from ..scenario.scenario import bars_by_rule, rules_of_bars
 from ..schema import given
-from .concrete_members import is_concrete, names_of_bridge
+from .concrete_members import is_concrete, material_of, names_of_bridge
 from .design_basis import DesignBasis
+from .file_design import file_bars
 from .link_layers import link_layers
+from .load_paths import contacts_of
 from .ratios import ratio_bars
 from .schedule import Schedule, ScheduledBars, ScheduledLinks, row_text
 from .substructure import pier_bars, support_loads
 from .superstructure import deck_bars, deck_lines
 
 _Row = TypeVar("_Row", ScheduledBars, ScheduledLinks)
+
+_PARTS = "bars", "links", "notes"
 
 _STRONGEST_N_MM2 = 90.0
 """Strongest concrete of EN 1992-1-1:2004, table 3.1."""
@@ -41,25 +45,69 @@ def all_layers(scenario: Scenario, members: Sequence[Member]) -> tuple[BarLayer,
 
 def bar_schedule(scenario: Scenario, members: Sequence[Member]) -> Schedule:
     """Return the bars of a bridge by its rule; of no member that `[[reinforcement]]` names, nor one not of concrete."""
+    schedules = [_of_bridge_by_rule(scenario, members), _of_files_by_rule(scenario, members)]
+    bars, links, notes = ([row for schedule in schedules for row in getattr(schedule, name)] for name in _PARTS)
+    by_hand = {name for layer in scenario.reinforcement for name in layer.members}
+    left_out = {member.name for member in members if {member.name, member.kind} & by_hand}
+    other = {member.name for member in members if not is_concrete(scenario, member)}
+    if rules_of_bars(scenario):
+        if left_out:
+            notes.append(f"[[reinforcement]] replaces the rule for {', '.join(sorted(left_out))}")
+        if other:
+            notes.append(f"not of concrete, and without bars: {', '.join(sorted(other))}")
+    return Schedule(tuple(bars), tuple(links), tuple(notes)).without(left_out | other)
+
+
+def _of_bridge_by_rule(scenario: Scenario, members: Sequence[Member]) -> Schedule:
     rule = bars_by_rule(scenario)
     if rule is None:
         return Schedule()
     bridge = given(scenario.weighed_bridge)
     basis = DesignBasis(
-        bridge, rule, _of_bridge(scenario, members), _concrete(scenario, rule), rule.traffic(bridge.deck.width_m)
+        rule,
+        _concrete(scenario, rule, scenario.connections.material),
+        bridge,
+        _of_bridge(scenario, members),
+        rule.traffic(bridge.deck.width_m),
     )
     rows = list(ratio_bars(basis) if rule.ratios else _designed(basis))
     bars = _merged([row for row in rows if isinstance(row, ScheduledBars)])
     links = _merged([row for row in rows if isinstance(row, ScheduledLinks)])
-    by_hand = {name for layer in scenario.reinforcement for name in layer.members}
-    left_out = {member.name for member in members if {member.name, member.kind} & by_hand}
-    other = {member.name for member in members if not is_concrete(scenario, member)}
-    notes = list(_notes(bridge, rule, bars))
-    if left_out:
-        notes.append(f"[[reinforcement]] replaces the rule for {', '.join(sorted(left_out))}")
-    if other:
-        notes.append(f"not of concrete, and without bars: {', '.join(sorted(other))}")
-    return Schedule(tuple(bars), tuple(links), tuple(notes)).without(left_out | other)
+    return Schedule(tuple(bars), tuple(links), tuple(_notes(bridge, rule, bars)))
+
+
+def _of_files_by_rule(scenario: Scenario, members: Sequence[Member]) -> Schedule:
+    rule = scenario.geometry_reinforcement
+    if rule is None or not rule.has_bars:
+        return Schedule()
+    names = {table.name for table in scenario.geometry}
+    of_concrete = [
+        index for index, member in enumerate(members) if member.name in names and is_concrete(scenario, member)
+    ]
+    if not of_concrete:
+        raise ScenarioError(
+            f"{rule.table} is given: expected a member of [[geometry]] of concrete, by connections.material or "
+            "[[connections.between]]"
+        )
+    rows, notes = file_bars(
+        rule,
+        _concrete_of(scenario, rule, [members[index] for index in of_concrete]),
+        members,
+        contacts_of(scenario, members),
+        frozenset(of_concrete),
+    )
+    bars = _merged([row for row in rows if isinstance(row, ScheduledBars)])
+    links = _merged([row for row in rows if isinstance(row, ScheduledLinks)])
+    return Schedule(tuple(bars), tuple(links), (*notes, *_dense(bars)))
+
+
+def _concrete_of(scenario: Scenario, rule: BarRule, members: Sequence[Member]) -> Concrete:
+    """Return the concrete of most of these members by volume."""
+    volumes: dict[str | None, float] = {}
+    for member in members:
+        name = material_of(scenario, member)
+        volumes[name] = volumes.get(name, 0.0) + member.volume_m3
+    return _concrete(scenario, rule, max(volumes, key=lambda name: volumes[name]))
 
 
 def _of_bridge(scenario: Scenario, members: Sequence[Member]) -> tuple[Member, ...]:
@@ -68,11 +116,11 @@ def _of_bridge(scenario: Scenario, members: Sequence[Member]) -> tuple[Member, .
     return tuple(member for member in members if member.name in names)
 
 
-def _concrete(scenario: Scenario, rule: BridgeReinforcement) -> Concrete:
+def _concrete(scenario: Scenario, rule: BarRule, material: str | None) -> Concrete:
     """Return the concrete that the bridge is designed with."""
     if rule.concrete_n_mm2 is not None:
         return Concrete(rule.concrete_n_mm2 * NEWTON_PER_SQUARE_MILLIMETRE)
-    name = given(scenario.connections.material)
+    name = given(material)
     compression_pa = float(strengths(scenario.materials)[name].compression_pa)
     if compression_pa > _STRONGEST_N_MM2 * NEWTON_PER_SQUARE_MILLIMETRE:
         raise ScenarioError(
@@ -95,6 +143,11 @@ def _notes(bridge: Bridge, rule: BridgeReinforcement, bars: Sequence[ScheduledBa
             f"skew of {bridge.skew_deg:g}°: strips along the road are designed; bars for twisting and for the obtuse "
             "corners are not covered"
         )
+    yield from _dense(bars)
+
+
+def _dense(bars: Sequence[ScheduledBars]) -> Iterator[str]:
+    """Yield notes on sections with more bars than is usual."""
     for row in bars:
         if row.ratio > USUAL_LARGEST_SHARE:
             yield (

@@ -25,7 +25,7 @@ from ...errors import ScenarioError
 from ..bridge.member import Member
 from ..materials.bar_layers import BarLayer
 from ..scenario import Bridge
-from ..scenario.reinforcement import BridgeReinforcement
+from ..scenario.reinforcement import BarRule, BridgeReinforcement
 from .schedule import ScheduledBars, ScheduledLinks
 
 _MM2 = 1e6
@@ -57,14 +57,11 @@ class Tension:
 
 
 @dataclass(frozen=True, slots=True)
-class DesignBasis:
-    """A bridge, its members, and what its bars are designed by."""
+class BarDesign:
+    """Rule and materials that bars are designed by, and the bars that they choose."""
 
-    bridge: Bridge
-    rule: BridgeReinforcement
-    members: tuple[Member, ...]
+    rule: BarRule
     concrete: Concrete
-    traffic: Traffic | None
 
     @property
     def yield_pa(self) -> float:
@@ -87,9 +84,6 @@ class DesignBasis:
     @property
     def link_m(self) -> float:
         return _LINK_DIAMETERS_M[0]
-
-    def of_kind(self, kind: str) -> list[Member]:
-        return [member for member in self.members if member.kind == kind]
 
     def weight_n(self, member: Member) -> float:
         return member.mass_kg * STANDARD_GRAVITY_M_S2
@@ -291,3 +285,16 @@ class DesignBasis:
                 break
         stepped = np.floor(spacing * 100.0 + 1e-9) / 100.0
         return diameter, float(stepped if stepped > 0.0 else spacing)
+
+
+@dataclass(frozen=True, slots=True)
+class DesignBasis(BarDesign):
+    """A parametric bridge, its members, and what its bars are designed by."""
+
+    rule: BridgeReinforcement
+    bridge: Bridge
+    members: tuple[Member, ...]
+    traffic: Traffic | None
+
+    def of_kind(self, kind: str) -> list[Member]:
+        return [member for member in self.members if member.kind == kind]

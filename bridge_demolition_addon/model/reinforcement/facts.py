@@ -7,16 +7,17 @@ from collections.abc import Iterator, Sequence
 from ..actions import Fact
 from ..bridge.member import Member
 from ..scenario import Scenario
-from ..scenario.scenario import bars_by_rule
+from ..scenario.scenario import rules_of_bars
 from .schedule import USUAL_KG_M3, Schedule, named_text, row_text
 
 
 def schedule_facts(scenario: Scenario, members: Sequence[Member], schedule: Schedule) -> Iterator[Fact]:
     """Yield the schedule of bars, line by line, with the steel by the concrete."""
-    rule = bars_by_rule(scenario)
-    if rule is None:
+    rules = rules_of_bars(scenario)
+    if not rules:
         return
-    yield "by", f"{rule.described}; {rule.steel}, cover {1e3 * rule.cover_m:g} mm"
+    for rule in rules:
+        yield "by", f"{rule.described}; {rule.steel}, cover {1e3 * rule.cover_m:g} mm"
     for row in schedule.rows:
         yield named_text(row), row_text(row)
     yield from steel_facts(members, schedule)

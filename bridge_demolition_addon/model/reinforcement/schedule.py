@@ -36,26 +36,35 @@ class ScheduledBars:
     length_m: float  # of a bar in one member
 
     @property
+    def area_m2(self) -> float:
+        """Area of all bars in one section of one member."""
+        return self.layer.ratio * self.section_m2 if self.layer.is_spread else self.layer.area_m2
+
+    @property
     def ratio(self) -> float:
-        return self.layer.area_m2 / self.section_m2
+        return self.area_m2 / self.section_m2
 
     @property
     def utilisation(self) -> float:
         """Required area by that of the bars."""
-        return self.required_m2 / self.layer.area_m2
+        return self.required_m2 / self.area_m2
 
     @property
     def mass_kg(self) -> float:
         """Mass in all members together."""
-        return len(self.layer.members) * self.layer.area_m2 * self.length_m * STEEL_DENSITY_KG_M3
+        return len(self.layer.members) * self.area_m2 * self.length_m * STEEL_DENSITY_KG_M3
 
     @property
     def where(self) -> str:
+        if self.layer.is_spread:
+            return f"spread along {self.layer.along}"
         between = "" if self.layer.from_m is None else f", {self.layer.from_m:.1f} to {self.layer.to_m:.1f} m"
         return f"{self.layer.side} at {_MM * given(self.layer.depth_m):.0f} mm, along {self.layer.along}{between}"
 
     @property
     def bars_text(self) -> str:
+        if self.layer.is_spread:
+            return "both faces"
         if self.choice is None:
             return "by ratio"
         bars = f"{self.choice.number} Ø{_MM * self.choice.diameter_m:g}"
@@ -170,7 +179,7 @@ def named_text(row: ScheduledBars | ScheduledLinks) -> str:
 
 def row_area(row: ScheduledBars | ScheduledLinks) -> float:
     """Return the area of a layer, mm², or of links by length, mm²/m."""
-    return given(row.layer.area_mm2) if isinstance(row, ScheduledBars) else row.link_area_mm2_per_m
+    return _MM2 * row.area_m2 if isinstance(row, ScheduledBars) else row.link_area_mm2_per_m
 
 
 def row_text(row: ScheduledBars | ScheduledLinks) -> str:

@@ -24,7 +24,7 @@ from ..bridge.member import Member
 from ..scenario.bridge import PierCaps, Piers
 from ..schema import given
 from .beam_effects import BeamEffects, beam_effects
-from .design_basis import DesignBasis, Tension
+from .design_basis import BarDesign, DesignBasis, Tension
 from .schedule import ScheduledBars, ScheduledLinks
 from .superstructure import DeckLine, deck_weight_n_m, whole_traffic
 
@@ -39,6 +39,15 @@ _LINK_USUAL_M = 0.010
 _LEGS_APART_M = 0.3
 _WALL_SPACING_M = 0.25
 _COLUMN_SPACING_M = 0.25
+
+
+@dataclass(frozen=True, slots=True)
+class ColumnSize:
+    """Sizes of a column along and across the road, and its height."""
+
+    length_m: float
+    width_m: float
+    height_m: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,7 +117,10 @@ def _pier(basis: DesignBasis, name: str, load: SupportLoad) -> Rows:
         return
     highest = max(range(len(columns)), key=lambda index: (_height_m(columns[index]), axial[index]))
     is_frame = len(columns) > 1 and basis.bridge.pier_caps is not None
-    yield from _columns(basis, columns, piers, max(axial), _height_m(columns[highest]), is_frame=is_frame)
+    size = ColumnSize(piers.column_length_m, piers.column_width_m, _height_m(columns[highest]))
+    across = size.height_m if is_frame else _FREE_TOP * size.height_m
+    names = [column.name for column in columns]
+    yield from column_bars(basis, names, size, max(axial), (_FREE_TOP * size.height_m, across))
 
 
 def _height_m(member: Member) -> float:
@@ -163,13 +175,16 @@ def _cap_bars(basis: DesignBasis, cap: Member, caps: PierCaps, piers: Piers, eff
         yield row
 
 
-def _columns(
-    basis: DesignBasis, columns: Sequence[Member], piers: Piers, axial_n: float, height_m: float, *, is_frame: bool
+def column_bars(
+    basis: BarDesign, names: Sequence[str], size: ColumnSize, axial_n: float, buckling_m: tuple[float, float]
 ) -> Rows:
-    """Yield the bars of equal columns at all four sides, and their links."""
-    length, width, names = piers.column_length_m, piers.column_width_m, [column.name for column in columns]
+    """Yield the bars of equal columns at all four sides, and their links.
+
+    `buckling_m` are the buckling lengths along and across the road.
+    """
+    length, width, height_m = size.length_m, size.width_m, size.height_m
     outside = basis.rule.cover_m + _LINK_USUAL_M
-    diameter, pairs = _column_bars(basis, names[0], piers, axial_n, height_m, is_frame=is_frame)
+    diameter, pairs = _bars_of_column(basis, names[0], size, axial_n, buckling_m)
     axis = outside + 0.5 * diameter
     for sides, (required, reason), room in (
         (("start", "end"), pairs[0], width - 2.0 * outside),
@@ -181,14 +196,14 @@ def _columns(
         found = Tension(given(choice), axis, 0.5 * required, reason)
         for side in sides:
             yield basis.scheduled(names, "pier", side, "z", found, section_m2=length * width, length_m=height_m)
-    yield _column_links(basis, names, piers, diameter, height_m)
+    yield _column_links(basis, names, size, diameter)
 
 
-def _column_bars(
-    basis: DesignBasis, name: str, piers: Piers, axial_n: float, height_m: float, *, is_frame: bool
+def _bars_of_column(
+    basis: BarDesign, name: str, size: ColumnSize, axial_n: float, buckling_m: tuple[float, float]
 ) -> tuple[float, tuple[tuple[float, str], tuple[float, str]]]:
     """Return the diameter of a column's bars, and their areas at both faces along the road and at both across it."""
-    length, width = piers.column_length_m, piers.column_width_m
+    length, width = size.length_m, size.width_m
     outside, section_m2 = basis.rule.cover_m + _LINK_USUAL_M, length * width
     least = of_column_m2(axial_n, section_m2, basis.design_yield_pa)
     shares = width / (length + width), length / (length + width)
@@ -198,10 +213,10 @@ def _column_bars(
             raise basis.rule.unexpected("cover_m", f"less: the bars of {name} would lie in its middle or beyond")
         pairs, fits = [], True
         for (high, wide), buckling, share, room in (
-            ((length, width), _FREE_TOP * height_m, shares[0], width - 2.0 * outside),
+            ((length, width), buckling_m[0], shares[0], width - 2.0 * outside),
             (
                 (width, length),
-                height_m if is_frame else _FREE_TOP * height_m,
+                buckling_m[1],
                 shares[1],
                 length - 2.0 * outside - 2.0 * (diameter + clear_m(diameter)),
             ),
@@ -225,10 +240,8 @@ def _column_bars(
     raise basis.refused(f"{name} needs more bars than fit along its sides; take thicker or more columns")
 
 
-def _column_links(
-    basis: DesignBasis, names: Sequence[str], piers: Piers, bar_m: float, height_m: float
-) -> ScheduledLinks:
-    length, width, cover = piers.column_length_m, piers.column_width_m, basis.rule.cover_m
+def _column_links(basis: BarDesign, names: Sequence[str], size: ColumnSize, bar_m: float) -> ScheduledLinks:
+    length, width, cover = size.length_m, size.width_m, basis.rule.cover_m
     diameter = max(_LINK_USUAL_M, column_link_bar_m(bar_m))
     spacing = np.floor(100.0 * column_link_spacing_m(bar_m, min(length, width)) + 1e-9) / 100.0
     legs = 2 + max(int(np.ceil((width - 2.0 * cover) / _LEGS_APART_M)) - 1, 0)
@@ -244,7 +257,7 @@ def _column_links(
         spacing_m=float(spacing),
         width_m=width,
         loop_m=legs * (length - 2.0 * cover) + 2.0 * (width - 2.0 * cover),
-        length_m=height_m,
+        length_m=size.height_m,
     )
 
 

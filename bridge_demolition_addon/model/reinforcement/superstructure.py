@@ -27,7 +27,7 @@ from .schedule import ScheduledBars, ScheduledLinks
 Rows = Iterator[ScheduledBars | ScheduledLinks]
 
 _KILO = 1e3
-_AT_SIMPLE_END = {True: 0.25, False: 0.15}
+AT_SIMPLE_END = {True: 0.25, False: 0.15}
 """Moment at an end that is free to turn in design, by that in the span, of slabs and beams: EN 1992-1-1:2004, 9.3.1.2
 (2) and 9.2.1.2 (1)."""
 
@@ -35,7 +35,7 @@ _AT_SIMPLE_END = {True: 0.25, False: 0.15}
 _STRIPS = 400
 """Strips of a deck whose weights are shared out to the girders."""
 
-_MOST_COVERED = 0.8
+MOST_COVERED = 0.8
 """Part of a deck from which on bars over its supports may as well run all along it."""
 
 
@@ -113,7 +113,7 @@ def _slab(basis: DesignBasis, line: DeckLine) -> Rows:
 
 def _top_moment_nm(effects: BeamEffects, *, is_slab: bool) -> float:
     """Return the moment that bars along the top are for: over supports, or at ends that turn less than thought."""
-    return max(effects.hogging_nm, _AT_SIMPLE_END[is_slab] * effects.sagging_nm)
+    return max(effects.hogging_nm, AT_SIMPLE_END[is_slab] * effects.sagging_nm)
 
 
 def _top_bars(
@@ -128,10 +128,10 @@ def _top_bars(
     through = -(-choice.number // 2)
     shift = 0.5 * 0.9 * 2.5 * (height_m - found.depth_m)
     share = through / choice.number
-    parts = _where_above(effects.lines.points_m, -effects.least_nm, share * effects.hogging_nm, shift)
+    parts = where_above(effects.lines.points_m, -effects.least_nm, share * effects.hogging_nm, shift)
     ends = line.lines.points_m[0], line.lines.points_m[-1]
     covered = math.fsum(min(end, ends[1]) - max(begin, ends[0]) for begin, end in parts)
-    is_least = found.reason == LEAST or not parts or covered > _MOST_COVERED * line.length_m
+    is_least = found.reason == LEAST or not parts or covered > MOST_COVERED * line.length_m
     if is_least or len(line.supports_m) < 3 or choice.number < 4:
         yield basis.scheduled(
             [line.deck.name], "deck", "top", "x", found, section_m2=slab_m * width, length_m=line.length_m
@@ -154,7 +154,7 @@ def _top_bars(
             )
 
 
-def _where_above(points_m: np.ndarray, values: np.ndarray, limit: float, shift_m: float) -> list[tuple[float, float]]:
+def where_above(points_m: np.ndarray, values: np.ndarray, limit: float, shift_m: float) -> list[tuple[float, float]]:
     """Return from where to where values are above a limit, each longer by a shift at both ends; what meets is one."""
     parts: list[tuple[float, float]] = []
     above = np.flatnonzero(values > limit)
@@ -297,7 +297,7 @@ def _slab_across(basis: DesignBasis, line: DeckLine, beams_m: np.ndarray, web_m:
         for strip in strips
     )
     shape = PressedShape.rectangle(slab, length)
-    hogging = max(hog.hogging_beyond_nm(beams_m.tolist(), 0.5 * web_m), _AT_SIMPLE_END[True] * sag.sagging_nm)
+    hogging = max(hog.hogging_beyond_nm(beams_m.tolist(), 0.5 * web_m), AT_SIMPLE_END[True] * sag.sagging_nm)
 
     def bars(moment_nm: float) -> Tension:
         return basis.tension(

@@ -21,7 +21,7 @@ from .fracture import Finer, FracturePoint, FractureSettings, MemberFracture
 from .geometry import Geometry
 from .jackhammer import Jackhammer
 from .recording import PictureSettings, RecordingSettings
-from .reinforcement import BridgeReinforcement, RatiosOfMember
+from .reinforcement import BarRule, BridgeReinforcement, GeometryReinforcement, RatiosOfMember
 from .scenario import Scenario
 from .site import Exclusion, Neighbour, Site, Zone
 from .structural_changes import Change, Removal, SawCut, Severing, Weakening, ZoneFiring
@@ -33,6 +33,7 @@ __all__ = [
     "BallCable",
     "BallHit",
     "BarLayer",
+    "BarRule",
     "BlastSettings",
     "BlastZone",
     "BoxGirder",
@@ -50,6 +51,7 @@ __all__ = [
     "FracturePoint",
     "FractureSettings",
     "Geometry",
+    "GeometryReinforcement",
     "Girders",
     "Ground",
     "GroundSurface",

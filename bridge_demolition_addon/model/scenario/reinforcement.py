@@ -1,4 +1,4 @@
-"""Bars of a parametric bridge by a rule: designed for traffic, or by ratios of steel."""
+"""Bars by a rule: designed for traffic, or by ratios of steel, of a parametric bridge or of members from files."""
 
 from dataclasses import dataclass
 from typing import ClassVar
@@ -15,6 +15,7 @@ OWN_WEIGHT = "own weight"
 NONE = "none"
 
 _KILO = 1e3
+_OWN = "traffic of your own (traffic_kn_m2, axles_kn)"
 _PERCENT = {"default": None, "unit": "%", "at_least": 0, "at_most": 8}
 
 
@@ -53,12 +54,8 @@ RATIOS = (
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class BridgeReinforcement(Table):
-    """Bars by a rule, for a bridge without drawings: designed by EN 1992-1-1 for its own weight and traffic, or by
-    ratios. Give one of `designed_for`, traffic of your own and `ratios`. `[[reinforcement]]` of a member replaces what
-    this gives it. Needs what `[[reinforcement]]` needs. `bda check` prints the schedule of bars."""
-
-    table: ClassVar[str] = "bridge.reinforcement"
+class BarRule(Table):
+    """A rule for bars: what they are designed for, and what of."""
 
     designed_for: str | None = key(
         "Traffic that the bridge was designed for beside its own weight: load model 1 of EN 1991-2 with α = 1 (`LM1`), "
@@ -116,7 +113,6 @@ class BridgeReinforcement(Table):
         at_least=6,
         at_most=40,
     )
-    ratios: tuple[RatiosOfMember, ...] = ()
 
     @property
     def has_bars(self) -> bool:
@@ -129,8 +125,6 @@ class BridgeReinforcement(Table):
     @property
     def described(self) -> str:
         """What the bars follow from, for a heading."""
-        if self.ratios:
-            return "ratios of steel"
         if self.designed_for is not None:
             return "own weight" if self.designed_for == OWN_WEIGHT else f"own weight and {self.designed_for}"
         parts = [] if self.traffic_kn_m2 is None else [f"{self.traffic_kn_m2:g} kN/m²"]
@@ -150,11 +144,6 @@ class BridgeReinforcement(Table):
         axles = [_KILO * axle for axle in self.axles_kn or ()]
         return own_traffic(width, _KILO * (self.traffic_kn_m2 or 0.0), axles, self.axle_spacing_m or ())
 
-    def check_deck(self, width_m: float) -> None:
-        """Check that the carriageway is on the deck."""
-        if self.carriageway_m is not None and self.carriageway_m > width_m:
-            raise self.unexpected("carriageway_m", f"at most bridge.deck.width_m, {width_m:g} (m)")
-
     def refused(self, why: str) -> ScenarioError:
         """Return the error of a load that the bridge cannot be designed for."""
         name = next(
@@ -166,14 +155,51 @@ class BridgeReinforcement(Table):
 
     def _check_together(self) -> None:
         own = self.traffic_kn_m2 is not None or self.axles_kn is not None
-        routes = [self.designed_for is not None, own, bool(self.ratios)]
-        if sum(routes) != 1:
-            state = "given together" if any(routes) else "all missing"
-            raise ScenarioError(
-                f"{self.table} has designed_for, traffic of your own (traffic_kn_m2, axles_kn) and ratios {state}: "
-                "expected exactly one of these"
-            )
+        self._check_one_route({"designed_for": self.designed_for is not None, _OWN: own})
         needed = max(len(self.axles_kn or ()) - 1, 0)
         if len(self.axle_spacing_m or ()) != needed:
             wanted = f"{needed} numbers (m), from each axle to the next" if needed else "none with fewer than two axles"
             raise self.unexpected("axle_spacing_m", wanted)
+
+    def _check_one_route(self, routes: dict[str, bool]) -> None:
+        """Check that exactly one of what bars may follow from is given."""
+        if sum(routes.values()) != 1:
+            state = "given together" if any(routes.values()) else "all missing"
+            *first, last = routes
+            raise ScenarioError(
+                f"{self.table} has {', '.join(first)} and {last} {state}: expected exactly one of these"
+            )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class BridgeReinforcement(BarRule):
+    """Bars by a rule, for a bridge without drawings: designed by EN 1992-1-1 for its own weight and traffic, or by
+    ratios. Give one of `designed_for`, traffic of your own and `ratios`. `[[reinforcement]]` of a member replaces what
+    this gives it. Needs what `[[reinforcement]]` needs. `bda check` prints the schedule of bars."""
+
+    table: ClassVar[str] = "bridge.reinforcement"
+
+    ratios: tuple[RatiosOfMember, ...] = ()
+
+    @property
+    def described(self) -> str:
+        """What the bars follow from, for a heading."""
+        return "ratios of steel" if self.ratios else BarRule.described.__get__(self)
+
+    def check_deck(self, width_m: float) -> None:
+        """Check that the carriageway is on the deck."""
+        if self.carriageway_m is not None and self.carriageway_m > width_m:
+            raise self.unexpected("carriageway_m", f"at most bridge.deck.width_m, {width_m:g} (m)")
+
+    def _check_one_route(self, routes: dict[str, bool]) -> None:
+        BarRule._check_one_route(self, {**routes, "ratios": bool(self.ratios)})
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GeometryReinforcement(BarRule):
+    """Bars by a rule of the members of `[[geometry]]` that are of concrete, as of a bridge from IFC: designed by EN
+    1992-1-1 for their own weight and traffic, by the kind, sizes and supports of each. Give `designed_for` or traffic
+    of your own. `[[reinforcement]]` of a member replaces what this gives it. Needs what `[[reinforcement]]` needs.
+    `bda check` prints the schedule of bars."""
+
+    table: ClassVar[str] = "geometry_reinforcement"

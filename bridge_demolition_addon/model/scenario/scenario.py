@@ -42,7 +42,7 @@ from .fracture import FractureSettings
 from .geometry import Geometry
 from .jackhammer import Jackhammer
 from .recording import PictureSettings, RecordingSettings
-from .reinforcement import BridgeReinforcement
+from .reinforcement import BarRule, BridgeReinforcement, GeometryReinforcement
 from .site import Exclusion, Neighbour, Site, Zone
 from .structural_changes import Change, Removal, SawCut, Weakening, severing
 from .time import MOST_FRAMES, TimeSettings
@@ -71,6 +71,7 @@ class Scenario(Table):
     fracture: FractureSettings
     materials: tuple[Material, ...] = ()
     reinforcement: tuple[BarLayer, ...] = ()
+    geometry_reinforcement: GeometryReinforcement | None = None
     connections: ConnectionSettings
     bearings: tuple[Bearing, ...] = ()
     supports: tuple[Support, ...] = ()
@@ -111,14 +112,14 @@ class Scenario(Table):
         own, *others = self.connections.joints(self.materials)
         factor, is_elastic = self.connections.strength_factor, self.connections.is_elastic
         pads = [table.joint(own, factor, is_elastic=is_elastic) for table in bearing_tables(self)]
-        if not self.reinforcement and not bars_by_rule(self):
+        if not self.reinforcement and not rules_of_bars(self):
             return (own, *others, *pads)
         return (own, *others, *pads, *self.connections.joints(self.materials, have_bars=True), *pads)
 
     @property
     def is_reinforced(self) -> bool:
         """Return whether bars hold where connections break."""
-        return bool(self.reinforcement or bars_by_rule(self)) or self.connections.ductile_share > 0.0
+        return bool(self.reinforcement or rules_of_bars(self)) or self.connections.ductile_share > 0.0
 
     @property
     def weighed_bridge(self) -> Bridge | None:
@@ -140,8 +141,8 @@ class Scenario(Table):
     @property
     def steel(self) -> Steel:
         steel, layers = self.connections.steel, self.reinforcement
-        if rule := bars_by_rule(self):
-            return self.connections.steel_or(rule.grade)
+        if rules := rules_of_bars(self):
+            return self.connections.steel_or(rules[0].grade)
         if self.connections.ductile_yield_n_mm2 is not None or not layers:
             return steel
         at_depths = [layer for layer in layers if not layer.is_spread]
@@ -268,9 +269,14 @@ class Scenario(Table):
 
     def _check_reinforcement(self) -> None:
         connections = self.connections
-        table = "[[reinforcement]]" if self.reinforcement else "[bridge.reinforcement]"
-        if not self.reinforcement and not bars_by_rule(self):
-            says_none = self.bridge is not None and self.bridge.reinforcement is not None
+        rules = rules_of_bars(self)
+        if self.geometry_reinforcement and not self.geometry:
+            raise ScenarioError("geometry_reinforcement is given: expected none without [[geometry]]")
+        table = f"[{rules[0].table}]" if rules and not self.reinforcement else "[[reinforcement]]"
+        if not self.reinforcement and not rules:
+            says_none = self.geometry_reinforcement is not None or (
+                self.bridge is not None and self.bridge.reinforcement is not None
+            )
             if connections.ductile_elongation_m is not None and connections.ductile_share == 0.0 and not says_none:
                 wanted = "none where connections.ductile_share is 0 and there is no [[reinforcement]]"
                 raise connections.unexpected("ductile_elongation_m", wanted)
@@ -321,6 +327,13 @@ def action_fields(scenario_class: type[Table]) -> tuple[str, ...]:
 def bearing_tables(scenario: Scenario) -> tuple[Bearing, ...]:
     """Return all bearings, first those that count before others: the scenario's own, then those of its bridge."""
     return (*scenario.bearings, *(scenario.bridge.bearing_tables if scenario.bridge else ()))
+
+
+def rules_of_bars(scenario: Scenario) -> tuple[BarRule, ...]:
+    """Return the rules that members have bars by: of the bridge, and of members from files."""
+    of_files = scenario.geometry_reinforcement
+    rules: tuple[BarRule | None, ...] = bars_by_rule(scenario), of_files
+    return tuple(rule for rule in rules if rule and rule.has_bars)
 
 
 def bars_by_rule(scenario: Scenario) -> BridgeReinforcement | None:

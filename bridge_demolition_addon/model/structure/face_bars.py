@@ -18,6 +18,8 @@ from ...engineering.elasticity.bar_rupture import (
 )
 from ...engineering.elasticity.steel_bars import Steel
 from ...engineering.geometry.mesh import TriangleMesh
+from ...engineering.geometry.own_axes import OwnAxes
+from ...engineering.geometry.plane_cuts import plane_cuts
 from ...engineering.geometry.sides import AXES
 from ...engineering.geometry.vectors import dot, length, transformed, transformed_back, unit
 from ...engineering.mechanics.joint import Joint
@@ -27,6 +29,7 @@ from ...engineering.structure.connections import Connections
 from ...engineering.structure.face_sections import triangles_in_faces
 from ...errors import ScenarioError
 from ..bridge.member import Member
+from ..bridge.own_axes import is_standing, own_axes
 from ..materials.bar_layers import BarLayer, ReinforcedSection
 from .spread_bars import spread_bars
 
@@ -51,6 +54,7 @@ class LayersOfMember:
     levels_m: tuple[float, ...]
     widths_m: tuple[float, ...]
     between_m: tuple[float, float] = (-math.inf, math.inf)  # along the bars: part of the member with these layers
+    own: OwnAxes | None = None  # axes of the member that these layers count in; None for those of the bridge
 
     @property
     def axes(self) -> tuple[int, int, int]:
@@ -91,8 +95,9 @@ def layers_of_members(layers: Sequence[BarLayer], members: Sequence[Member]) -> 
                 raise layer.unexpected("members", f"names or kinds of members, such as {', '.join(known)}")
     for index, member in enumerate(members):
         own = [layer for layer in layers if not layer.is_spread and layer.is_in(member.name, member.kind)]
-        for axes in sorted({layer.axes for layer in own}):
-            yield from _stretches(index, member, [layer for layer in own if layer.axes == axes], axes)
+        for is_own, axes in sorted({(layer.own_axes, layer.axes) for layer in own}):
+            alike = [layer for layer in own if (layer.own_axes, layer.axes) == (is_own, axes)]
+            yield from _stretches(index, member, alike, axes)
 
 
 def _stretches(
@@ -102,6 +107,8 @@ def _stretches(
     corners = member.without_skew(member.solid.corners)
     along = corners[..., axes[0]]
     first, last = float(along.min()), float(along.max())
+    if layers[0].own_axes:
+        first, last = own_axes(member).ends_m(axes[0])
     for layer in layers:
         begin, end = layer.ends_m
         if begin >= last or end <= first:
@@ -111,7 +118,8 @@ def _stretches(
     for begin, end in pairwise(ends):
         own = tuple(layer for layer in layers if max(layer.ends_m[0], begin) < min(layer.ends_m[1], end))
         if own:
-            yield _together(index, member, corners, own, axes, (begin, end))
+            together = _in_own_axes if own[0].own_axes else _together
+            yield together(index, member, corners, own, axes, (begin, end))
 
 
 def _together(
@@ -126,40 +134,49 @@ def _together(
     lowest, highest = (getattr(corners, which)(axis=(0, 1)) for which in ("min", "max"))
     levels = tuple(float(layer.level_m(lowest[across], highest[across])) for layer in layers)
     widths = [_width(corners, across, beside, level) for level in levels]
-    for layer, width in zip(layers, widths, strict=True):
-        if width <= 0.0:
-            thickness = highest[across] - lowest[across]
-            raise ScenarioError(
-                f"reinforcement.depth_m is {layer.depth_m:g}: expected less than the size of {member.name!r} along "
-                f"{AXES[across]}, {thickness:g} (m)"
-            )
+    _check_widths(member, layers, widths, across, float(highest[across] - lowest[across]))
     width_m = float(highest[beside] - lowest[beside])
     return LayersOfMember(
         index, layers, float(lowest[across]), float(highest[across]), width_m, levels, tuple(widths), between_m
     )
 
 
+def _in_own_axes(
+    index: int,
+    member: Member,
+    corners: np.ndarray,
+    layers: tuple[BarLayer, ...],
+    axes: tuple[int, int, int],
+    between_m: tuple[float, float],
+) -> LayersOfMember:
+    """Return the same of layers that count in the axes of their member."""
+    own, (_, across, beside) = own_axes(member), axes
+    lowest, highest = own.ends_m(across)
+    levels = tuple(float(layer.level_m(lowest, highest)) for layer in layers)
+    first, last = own.ends_m(beside)
+    if is_standing(member):
+        placed = own.from_world(corners)
+        widths = tuple(_width(placed, across, beside, level) for level in levels)
+    else:
+        widths = tuple(own.width_at_m(level) if beside == 1 else last - first for level in levels)
+    _check_widths(member, layers, widths, across, highest - lowest)
+    return LayersOfMember(index, layers, lowest, highest, last - first, levels, widths, between_m, own)
+
+
+def _check_widths(
+    member: Member, layers: Sequence[BarLayer], widths: Sequence[float], across: int, thickness_m: float
+) -> None:
+    for layer, width in zip(layers, widths, strict=True):
+        if width <= 0.0:
+            raise ScenarioError(
+                f"reinforcement.depth_m is {layer.depth_m:g}: expected less than the size of {member.name!r} along "
+                f"{AXES[across]}, {thickness_m:g} (m)"
+            )
+
+
 def _width(corners: np.ndarray, across: int, beside: int, level: float) -> float:
     _, points = plane_cuts(corners, across, level)
     return float(np.ptp(points[..., beside])) if len(points) else 0.0
-
-
-def plane_cuts(corners: np.ndarray, across: int, level: float) -> tuple[np.ndarray, np.ndarray]:
-    """Return which triangles (t, 3, 3) a plane across an axis parts (c,), and the ends of the cuts (c, 2, 3)."""
-    heights = corners[..., across] - level
-    parted = np.flatnonzero((heights > 0.0).any(axis=1) & (heights <= 0.0).any(axis=1))
-    corners, heights = corners[parted], heights[parted]
-    # The corner that is alone on its side comes first: both edges from it are cut.
-    above = heights > 0.0
-    alone = np.where(above.sum(axis=1) == 1, above.argmax(axis=1), above.argmin(axis=1))
-    rows = np.arange(len(corners))
-    first, height = corners[rows, alone], heights[rows, alone]
-    ends = []
-    for step in (1, 2):
-        other = (alone + step) % 3
-        share = height / (height - heights[rows, other])
-        ends.append(first + share[:, None] * (corners[rows, other] - first))
-    return parted, np.stack(ends, axis=1) if len(ends[0]) else np.zeros((0, 2, 3))
 
 
 def _between(ends: np.ndarray, along: int, between_m: tuple[float, float]) -> np.ndarray:
@@ -210,18 +227,22 @@ def face_bars(
             openings = group.openings_m(strength.compression_pa, steel)
             member = members[group.member]
             face, corners = _corners(shards, connections.only(rows))
-            corners = member.without_skew(corners)
-            along = unit(member.with_skew(np.eye(3)[group.axes[0]]))
+            if group.own is None:
+                corners = member.without_skew(corners)
+                along = unit(member.with_skew(np.eye(3)[group.axes[0]]))
+            else:
+                corners = group.own.from_world(corners)
+                along = group.own.directions(group.own.from_world(connections.points[rows]), group.axes[0])
             signs = np.where(dot(connections.normals[rows], along) < 0.0, -1.0, 1.0)
             columns = zip(group.layers, layer_forces, openings, group.levels_m, group.widths_m, strict=True)
             for layer, force, opening, level, width in columns:
                 pulls, positions = _pulls(face, corners, group, level, force / width, len(rows))
-                if not layer.anchored:
+                if not layer.anchored and group.own is None:
                     held = _anchored(layer, member, tensile_strength_pa(strength.compression_pa), pulls, positions)
                     pulls, positions = held * pulls, held[:, None] * positions
                 pulled_n[rows] += pulls
                 forces[rows] += (signs * pulls)[:, None] * along
-                by_position[rows] += member.with_skew(positions)
+                by_position[rows] += member.with_skew(positions) if group.own is None else positions
                 by_opening[rows] += (opening if opening_m is None else opening_m) * pulls
     for spread in spread_bars(layers, members):
         own = is_within & (of_pair[:, 0] == spread.member)
@@ -292,12 +313,15 @@ def _corners(shards: Sequence[TriangleMesh], connections: Connections) -> tuple[
 def _pulls(
     face: np.ndarray, corners: np.ndarray, group: LayersOfMember, level: float, force_n_m: float, count: int
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Force (k,) of a layer in each of k faces, and that by its position (k, 3)."""
+    """Force (k,) of a layer in each of k faces, and that by its position (k, 3), of the world in own axes."""
     along, across, beside = group.axes
     parted, ends = plane_cuts(corners, across, level)
     ends = _between(ends, along, group.between_m)
     lengths = abs(ends[:, 1, beside] - ends[:, 0, beside])
     pulls, positions = np.zeros(count), np.zeros((count, 3))
     np.add.at(pulls, face[parted], force_n_m * lengths)
-    np.add.at(positions, face[parted], (force_n_m * lengths)[:, None] * ends.mean(axis=1))
+    middles = ends.mean(axis=1)
+    if group.own is not None:
+        middles = group.own.to_world(middles)
+    np.add.at(positions, face[parted], (force_n_m * lengths)[:, None] * middles)
     return pulls, positions

@@ -31,6 +31,7 @@ from .crack_bars import CrackBars, even_bars_n
 from .face_bars import face_bars, within_reinforced
 from .footings import on_footings, second_moments_of, soil_springs, with_soil
 from .members import FracturedMembers, fractured_members, shards_with_gaps
+from .starter_bars import starter_bars
 from .stiffness import CutMembers, connection_stiffness
 from .supports import HeldPart, held_parts
 
@@ -147,6 +148,12 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
     bars = within = None
     if layers := all_layers(scenario, members):
         within = within_reinforced(layers, members, fractured.member_of_shard, connections)
+        of_bearings = bearings.springs.rows if bearings else np.zeros(0, int)
+        starters = starter_bars(
+            scenario, layers, members, fractured.member_of_shard, connections, joint_of_connection, of_bearings
+        )
+        if starters:
+            within |= starters.yield_n > 0.0
         joint_of_connection = joint_of_connection + np.where(within, len(scenario.joints) // 2, 0)
         bars = face_bars(
             layers,
@@ -160,6 +167,8 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
             scenario.steel,
             scenario.connections.ductile_elongation_m,
         )
+        if starters:
+            bars = bars.with_even(starters.yield_n, starters.openings_m)
     stiffness = None
     if scenario.connections.is_elastic:
         stiffness = connection_stiffness(

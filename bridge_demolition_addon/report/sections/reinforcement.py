@@ -19,9 +19,8 @@ from ...model.reinforcement.concrete_members import plain_concrete_text
 from ...model.reinforcement.design import bar_schedule
 from ...model.reinforcement.facts import steel_facts
 from ...model.reinforcement.schedule import Schedule, ScheduledBars, ScheduledLinks, named_text, row_area
-from ...model.scenario import Scenario
-from ...model.scenario.scenario import bars_by_rule
-from ...model.schema import given
+from ...model.scenario import BridgeReinforcement, Scenario
+from ...model.scenario.scenario import rules_of_bars
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section, facts
 
 _HEIGHT_MM = 130.0
@@ -51,7 +50,7 @@ def reinforcement_section(scenario: Scenario) -> Section | None:
     """Return the section; None where all members have bars by hand, are no concrete, or have none on purpose."""
     plain = plain_concrete_text(scenario)
     blocks: list[Block] = [Paragraph(f"{plain[0].upper()}{plain[1:]}.", is_notice=True)] if plain else []
-    if bars_by_rule(scenario):
+    if rules_of_bars(scenario):
         try:
             members = prepared_members(scenario).members
             blocks += _schedule_blocks(scenario, members, bar_schedule(scenario, members))
@@ -61,14 +60,14 @@ def reinforcement_section(scenario: Scenario) -> Section | None:
 
 
 def _schedule_blocks(scenario: Scenario, members: Sequence[Member], schedule: Schedule) -> Iterator[Block]:
-    rule = given(bars_by_rule(scenario))
-    design = (
-        ""
-        if rule.ratios
-        else f" Designed by EN 1992-1-1 with {PERMANENT_FACTOR:g} G + {VARIABLE_FACTOR:g} Q, "
-        f"γ_c = {CONCRETE_FACTOR:g}, γ_s = {STEEL_FACTOR:g}; elastic moments, traffic at its worst."
-    )
-    yield Paragraph(f"Bars by {rule.described}, of {rule.steel} with {1e3 * rule.cover_m:g} mm of cover.{design}")
+    for rule in rules_of_bars(scenario):
+        design = (
+            ""
+            if isinstance(rule, BridgeReinforcement) and rule.ratios
+            else f" Designed by EN 1992-1-1 with {PERMANENT_FACTOR:g} G + {VARIABLE_FACTOR:g} Q, "
+            f"γ_c = {CONCRETE_FACTOR:g}, γ_s = {STEEL_FACTOR:g}; elastic moments, traffic at its worst."
+        )
+        yield Paragraph(f"Bars by {rule.described}, of {rule.steel} with {1e3 * rule.cover_m:g} mm of cover.{design}")
     yield DataTable("reinforcement", "Schedule of bars", _COLUMNS, [_row(row) for row in schedule.rows])
     yield facts("Steel", list(steel_facts(members, schedule)))
     yield Paragraph(_NOTES)
@@ -84,5 +83,7 @@ def _row(row: ScheduledBars | ScheduledLinks) -> tuple[str | float | None, ...]:
     shown: tuple[str | float | None, ...] = "links", "", None, None, None, row_area(row)
     if isinstance(row, ScheduledBars):
         layer = row.layer
-        shown = layer.side, layer.along, layer.from_m, layer.to_m, 1e3 * given(layer.depth_m), row_area(row)
+        depth = None if layer.depth_m is None else 1e3 * layer.depth_m
+        side = "spread" if layer.is_spread else layer.side
+        shown = side, layer.along, layer.from_m, layer.to_m, depth, row_area(row)
     return named_text(row), *shown, row.bars_text, *numbers, row.reason

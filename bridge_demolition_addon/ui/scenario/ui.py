@@ -33,6 +33,7 @@ _PARENTS = {
     "supports": "BDA_PT_bridge",
     "materials": "BDA_PT_connections",
     "reinforcement": "BDA_PT_connections",
+    "geometry_reinforcement": "BDA_PT_bridge",
     "ground": "BDA_PT_shards",
     "contacts": "BDA_PT_shards",
     "blast": "BDA_PT_explosion",

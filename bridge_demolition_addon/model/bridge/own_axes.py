@@ -1,0 +1,41 @@
+"""The axes of a member that bars count in which follow it: along it, across it and up from its underside."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+
+from ...engineering.geometry.mesh import TriangleMesh
+from ...engineering.geometry.own_axes import OwnAxes, lying_axes, standing_axes
+from .member import Member
+
+_LYING = ("deck", "girder", "pier cap", "parapet", "bracing", "footing", "approach slab")
+_STANDING = ("pier",)
+
+_ROAD = (1.0, 0.0)
+_MOST_WIDE = 3.0
+"""Width of a deck by its length up to which its own line is along the road."""
+
+
+def own_axes(member: Member) -> OwnAxes:
+    """Return the axes of a member: along the road of a deck, else along its longer side on plan."""
+    return _axes(member.solid, is_standing(member), member.kind == "deck")
+
+
+def is_standing(member: Member) -> bool:
+    """Return whether a member stands: a pier, or what is higher than long and of no kind that lies."""
+    if member.kind in (*_LYING, *_STANDING):
+        return member.kind in _STANDING
+    sizes = np.ptp(member.solid.vertices, axis=0)
+    return bool(sizes[2] >= sizes[:2].max())
+
+
+@lru_cache(maxsize=64)
+def _axes(solid: TriangleMesh, is_upright: bool, is_deck: bool) -> OwnAxes:
+    if is_upright:
+        return standing_axes(solid)
+    axes = lying_axes(solid, np.array(_ROAD)) if is_deck else lying_axes(solid)
+    if is_deck and axes.width_m > _MOST_WIDE * axes.length_m:
+        return lying_axes(solid)
+    return axes
