@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draw the animated picture at the top of the README: a run of the gallery, from its scene, by Cycles.
+"""Draw the animated picture at the top of the README: a run of the gallery, from its scene.
 
-Usage: animation.py [NAME [SECONDS]] takes runs/gallery/NAME/scene.blend, which `scripts/gallery NAME` leaves, and
-writes docs/pictures/NAME.webp: the first so many seconds of the run (all of them), in real time. It takes ten minutes.
+Usage: animation.py [NAME [SECONDS [RENDERER]]] takes runs/gallery/NAME/scene.blend, which `scripts/gallery NAME`
+leaves, and writes docs/pictures/NAME.webp: the first so many seconds of the run (all), in real time, by Workbench.
 """
 
 from __future__ import annotations
@@ -24,17 +24,17 @@ from bridge_demolition_addon.scene.world import START_FRAME
 
 ROOT = Path(__file__).resolve().parents[2]
 SIZE_PX = 640, 360
-PICTURES_PER_SECOND = 8
+PICTURES_PER_SECOND = 6
 STAYS_MS = 2000
 """How long the last picture is shown before all begins again."""
 QUALITY = 70
 
 
-def main(name: str = "drilled_two_spans", seconds: str = "inf") -> int:
+def main(name: str = "drilled_two_spans", seconds: str = "inf", renderer: str = Renderer.WORKBENCH.value) -> int:
     """Render the run and write its animated picture; the exit status."""
     run = ROOT / "runs" / "gallery" / name
     view = read_scenario(run / "scenario_as_run.toml").pictures
-    view = replace(view, renderer=Renderer.CYCLES.value, width_px=SIZE_PX[0], height_px=SIZE_PX[1])
+    view = replace(view, renderer=renderer, width_px=SIZE_PX[0], height_px=SIZE_PX[1])
     bpy.ops.wm.open_mainfile(filepath=str(run / "scene.blend"))
     scene = bpy.context.scene
     step = round(scene.render.fps / PICTURES_PER_SECOND)
