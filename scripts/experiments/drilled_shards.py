@@ -18,7 +18,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 NAME, DATA = "drilled_two_spans", ROOT / "docs" / "data"
-SEEDS = {100: 20, 400: 12}
+SEEDS = {100: 20, 400: 6}
 FOLDERS = {100: DATA / "shards" / "100", 200: DATA / "seeds", 400: DATA / "shards" / "400"}
 DOWN = 0.5
 """Part of a span's deck that has to be more than 2 m lower for the span to count as down."""
