@@ -9,11 +9,11 @@ RUNOUT = 0.55, 0.73
 """Runout by that of the law, smallest and largest of eight columns, rounded down and up."""
 
 HEIGHT = 0.89, 1.12
-"""The same of the height of the heap."""
+"""The same of the height of the pile."""
 
 PILES_NOTE = (
     f"Columns of loose blocks run out {RUNOUT[0]:g} to {RUNOUT[1]:g} times as far in this model as measured ones of "
-    f"grains, and their heaps are {HEIGHT[0]:g} to {HEIGHT[1]:g} times as high: loose rubble may spread farther than "
+    f"grains, and their piles are {HEIGHT[0]:g} to {HEIGHT[1]:g} times as high: loose rubble may spread farther than "
     "is shown here"
 )
 """What a report says of it."""
