@@ -98,7 +98,7 @@ class SitePages:
             return NOT_SEARCHED + self._list_of(source)
         text = source.read_text(encoding="utf-8")
         if source.suffix == ".md":
-            return self.led(text, source)
+            return ("" if self._name(source) in OWN_PAGES else NOT_SEARCHED) + self.led(text, source)
         if source.suffix == ".ipynb":
             return self.led(text_of_notebook(text), source)
         fence = "`" * 6
