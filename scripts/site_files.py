@@ -102,7 +102,9 @@ class SitePages:
         if source.suffix == ".ipynb":
             return self.led(text_of_notebook(text), source)
         fence = "`" * 6
-        return f"{NOT_SEARCHED}# {self._name(source)}\n\n{fence} {LANGUAGES.get(source.suffix, 'text')}\n{text}\n{fence}\n"
+        return (
+            f"{NOT_SEARCHED}# {self._name(source)}\n\n{fence} {LANGUAGES.get(source.suffix, 'text')}\n{text}\n{fence}\n"
+        )
 
     def _list_of(self, folder: Path) -> str:
         """Return the page of a folder, with links to what the site has of it."""

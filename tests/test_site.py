@@ -47,7 +47,9 @@ class PageReader(HTMLParser):
         self.ids |= {values[name] for name in ("id", "name") if values.get(name)}
         self.loads += [value for name, value in attributes if (tag, name) in LOADED]
         self.leads_to += [value for name, value in attributes if name in ("href", "src") and value]
-        self.has_source |= values.get("data-md-component") == "source" or "mermaid" in (values.get("class") or "").split()
+        self.has_source |= (
+            values.get("data-md-component") == "source" or "mermaid" in (values.get("class") or "").split()
+        )
 
 
 @pytest.fixture(scope="module")
@@ -83,7 +85,9 @@ def broken_links(pages):
 
 
 def test_no_link_leads_nowhere(pages):
-    ours = {path: page for path, page in pages.items() if path.name != "404.html"}  # whose links begin at a server's root
+    ours = {
+        path: page for path, page in pages.items() if path.name != "404.html"
+    }  # whose links begin at a server's root
     assert len(ours) > len(DOCS)
     assert [*broken_links(ours)] == []
 

@@ -48,7 +48,9 @@ def make_smaller(folder):
 
 
 def commands(name):
-    lines = [line for block in re.findall(r"^```sh\n(.*?)^```", page(name), flags=re.S | re.M) for line in block.splitlines()]
+    lines = [
+        line for block in re.findall(r"^```sh\n(.*?)^```", page(name), flags=re.S | re.M) for line in block.splitlines()
+    ]
     return [shlex.split(line) for line in lines]
 
 
@@ -91,6 +93,7 @@ def test_the_bridge_from_drawings_is_that_of_the_sums_by_hand(checked):
     load_kn_m = deck_t * GRAVITY_M_S2 / 24.8
     outer_kn = 3 / 8 * load_kn_m * 12 + load_kn_m * 0.4 + 1.5 * load_kn_m * 0.4**2 / 2 / 12
     assert re.search(r"430 kN\. The program says 431 kN", page("from_drawings")) and round(outer_kn) == 430
+    assert all(f"{load_kn_m:.1f} kN in each metre" in " ".join(page(name).split()) for name in PAGES[:2])
     reactions = [float(kn) for kn in re.findall(r"deck on abutment \d +([\d.]+) kN up", said)]
     assert [round(kn) for kn in reactions] == [431, 431]
     assert "The bridge stands under its own weight" in said
