@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Pages of the site for files of the project outside of the documents, and links that lead to them.
 
-A document says ``../examples/two_spans_13m_ball.toml``, so that its links work where it lies. The site has no files beside
-the documents: each that a link leads to becomes a page with its text, and each folder one with its list.
+A document says ``../examples/two_spans_13m_ball.toml``, so that its links work where it lies. The site has no files
+beside the documents: each that a link leads to becomes a page with its text, and each folder one with its list.
 """
 
 import json

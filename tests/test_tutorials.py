@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The tutorials by file are done by their own words: files, commands and sums; with few shards and runs, to be quick."""
+"""The tutorials by file are done by their own words: files, commands, sums; with few shards and runs, to be quick."""
 
 import re
 import shlex
@@ -88,8 +88,8 @@ def test_the_bridge_from_drawings_is_that_of_the_sums_by_hand(checked):
     rest_t = 2.5 * (2 * 0.8 * 5.5 * 5.5 + 1.0 * 5.0 * 0.7 + 2 * 0.7 * 0.7 * 4.8)
     masses = {name: float(mass) for name, mass in re.findall(r"^  (deck|all) .* ([\d.]+) t$", said, flags=re.M)}
     assert masses == {"deck": pytest.approx(deck_t, abs=5e-4), "all": pytest.approx(deck_t + rest_t, abs=5e-4)}
-    # A beam of two equal spans l with overhangs o: clamped in the middle by symmetry, so 3/8 of a span, w o, and what the
-    # moment of the overhang adds, 3/2 of it over l.
+    # A beam of two equal spans l with overhangs o, clamped in the middle by symmetry: 3/8 w l, w o, and what the moment
+    # of the overhang adds, 3/2 of it over l.
     load_kn_m = deck_t * GRAVITY_M_S2 / 24.8
     outer_kn = 3 / 8 * load_kn_m * 12 + load_kn_m * 0.4 + 1.5 * load_kn_m * 0.4**2 / 2 / 12
     assert re.search(r"430 kN\. The program says 431 kN", page("from_drawings")) and round(outer_kn) == 430
