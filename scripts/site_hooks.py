@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What MkDocs calls as it makes the site (mkdocs.yml): the version, and files of the project that documents link to."""
 
+from site_commands import options
 from site_files import ROOT, SitePages
 
 from bridge_demolition_addon.version import VERSION
@@ -28,6 +29,8 @@ def on_files(files, config):
 
 
 def on_page_markdown(markdown, page, config, files):
-    """Lead links out of the documents to the pages made for them."""
+    """Lead links out of the documents to the pages made for them, and give the page of the commands their options."""
+    if page.file.src_uri == "commands.md":
+        markdown += options()
     source = ROOT / "docs" / page.file.src_uri
     return PAGES.led(markdown, source) if source.is_file() else markdown

@@ -14,6 +14,7 @@ from site_files import SitePages
 from support.checkout import ROOT
 
 import bridge_demolition_addon as interface
+from bridge_demolition_addon.cli.main import COMMANDS
 from bridge_demolition_addon.version import VERSION
 
 PROGRAM = ROOT / "scripts" / "site_build.py"
@@ -132,6 +133,12 @@ def test_every_function_is_in_the_reference_with_its_arguments(site):
     page = PageReader((site / "python_reference.html").read_text(encoding="utf-8"))
     functions = [name for name in interface.__all__ if inspect.isfunction(getattr(interface, name))]
     assert {f"bridge_demolition_addon.{name}" for name in functions} <= page.ids
+
+
+def test_the_page_of_the_commands_has_their_options(site):
+    text = (site / "commands.html").read_text(encoding="utf-8")
+    assert {f"bda-{name}" for name in COMMANDS} <= PageReader(text).ids
+    assert "--no-pictures" in text and "--verify" in text
 
 
 def test_a_folder_with_other_files_is_left_alone(tmp_path):
