@@ -3,6 +3,8 @@
 
 import re
 import shlex
+from contextlib import redirect_stdout
+from io import StringIO
 from pathlib import Path
 
 import pytest
@@ -74,9 +76,6 @@ def checked(folder):
 
 
 def output_of(words):
-    from contextlib import redirect_stdout
-    from io import StringIO
-
     with redirect_stdout(StringIO()) as out:
         assert main(words) == 0
     return out.getvalue()
