@@ -51,8 +51,6 @@ __all__ = [
 
 __version__ = VERSION
 
-_Path = str | PathLike[str]
-
 
 def read_scenario(path: str | PathLike[str]) -> Scenario:
     """Read a scenario from its TOML file, and check it.
@@ -72,7 +70,7 @@ def read_scenario(path: str | PathLike[str]) -> Scenario:
     return read(path)
 
 
-def write_scenario(scenario: Scenario, path: _Path) -> None:
+def write_scenario(scenario: Scenario, path: str | PathLike[str]) -> None:
     """Write a scenario with all its values to a TOML file, in place of what is there; reading it gives an equal one.
 
     Examples
@@ -169,7 +167,9 @@ def debris_plan(results: Results, scenario: Scenario | None = None) -> Figure:
     return debris_figure(results, debris(results), () if scenario is None else scenario.zones)
 
 
-def write_report(folder: _Path | Sequence[_Path], output: _Path | None = None) -> list[Path]:
+def write_report(
+    folder: str | PathLike[str] | Sequence[str | PathLike[str]], output: str | PathLike[str] | None = None
+) -> list[Path]:
     """Write the report of a run, study, search, optimisation or stages from its folder, and return the files.
 
     The first file is the page. Several folders of runs are compared, in the folder `output`. By default the report goes
@@ -188,7 +188,7 @@ def write_report(folder: _Path | Sequence[_Path], output: _Path | None = None) -
     return write([Path(one) for one in folders], target, progress=Silence())
 
 
-def export(folder: _Path, to: str, output: _Path | None = None) -> Path:
+def export(folder: str | PathLike[str], to: str, output: str | PathLike[str] | None = None) -> Path:
     """Write a run for another program, and return the file or folder, which must be new.
 
     `to` is one of ``paraview``, ``xlsx``, ``gltf``, ``usd``, ``alembic`` and ``mat``, as ``bda export --to``. By
@@ -211,7 +211,7 @@ def export(folder: _Path, to: str, output: _Path | None = None) -> Path:
     return target
 
 
-def run_study(file: _Path, output: _Path, *, jobs: int | None = None) -> EnsembleResult:
+def run_study(file: str | PathLike[str], output: str | PathLike[str], *, jobs: int | None = None) -> EnsembleResult:
     """Make all runs of a study, a search or an optimisation, each in a process of its own, and return their result.
 
     `jobs` run at a time, by default as many as there are cores. A folder that holds some of the runs is gone on with.
@@ -233,7 +233,7 @@ def run_study(file: _Path, output: _Path, *, jobs: int | None = None) -> Ensembl
     return EnsembleSession(ensemble, Path(output), engine).complete()
 
 
-def load_study(folder: _Path) -> EnsembleRuns:
+def load_study(folder: str | PathLike[str]) -> EnsembleRuns:
     """Read a study, a search or an optimisation with its runs so far; `EnsembleRuns.result` gives what they state.
 
     Examples
