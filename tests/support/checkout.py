@@ -17,6 +17,13 @@ DRILLED = {f"drilled_{path.stem}": path for path in sorted((EXAMPLES / "drilled"
 SEEDED = DEMOLITIONS | DRILLED
 """Files of all demolitions that `scripts/seeds` runs."""
 
+SHOWN_ONCE = {
+    "span_in_an_earthquake": EXAMPLES / "ground_motion" / "span_in_an_earthquake.toml",
+    "excavator_on_the_deck": EXAMPLES / "stages" / "excavator_on_the_deck.toml",
+    "lillebruen": EXAMPLES / "imported" / "lillebruen.toml",
+}
+"""Files of other examples, of which there are no ranges over seeds."""
+
 PRESETS = ROOT / "bridge_demolition_addon" / "ui" / "scenario" / "presets"
 I235_FILE = REPORT_2019 / "i235_one_span.toml"
 TESTS = ROOT / "tests"
