@@ -25,7 +25,7 @@ from ..model.stages.stability_by_statics import stability_of
 from ..model.structure.model import Model
 from ..scene.demolition import build_demolition
 from ..scene.rendering.staging import stage
-from ..scene.rendering.stills import prepare_pictures
+from ..scene.rendering.stills import prepare_scene_for_pictures
 from ..scene.stability import keep_stability
 from ..scene.tools.ground_motion import ground_motion_of
 from ..scene.world import keep_played_frames
@@ -184,7 +184,7 @@ def _empty_scene(title: str) -> bpy.types.Scene:
 
 
 def _prepare_view(scene: bpy.types.Scene, scenario: Scenario, model: Model, shards: Sequence[bpy.types.Object]) -> None:
-    prepare_pictures(scene, scenario.pictures)
+    prepare_scene_for_pictures(scene, scenario.pictures)
     stage(scene, shards, model, points_to_see(scenario, model.members), scenario.pictures)
     show_charges(scene, scenario)
     show_blast_zones(scene, scenario)

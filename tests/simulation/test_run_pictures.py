@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from matplotlib.image import imread
 from support.checkout import REPORT_2019
+from support.scenarios import I235
 
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.errors import OutputError, ScenarioError
@@ -37,13 +38,16 @@ def run(scenario, folder):
     return pictures(folder)
 
 
-def test_a_run_in_the_window_writes_the_same_pictures(extension, tmp_path):
-    without = run(SHORT, tmp_path / "without")
+@pytest.mark.parametrize("renderer", ["workbench", "cycles"])
+def test_a_run_in_the_window_writes_the_same_pictures(extension, tmp_path, renderer):
+    scenario = replace(SHORT, pictures=replace(SHORT.pictures, renderer=renderer))
+    without = run(scenario, tmp_path / "without")
     extension.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)
     scene = extension.context.scene
-    (tmp_path / "scenario.toml").write_text(scenario_text(SHORT), encoding="utf-8")
+    (tmp_path / "scenario.toml").write_text(scenario_text(scenario), encoding="utf-8")
     scene.bda.scenario_path, scene.bda.output_directory = str(tmp_path / "scenario.toml"), str(tmp_path / "window")
     assert extension.ops.bda.build_scenario() == {"FINISHED"}
+    scene.cycles.samples = 16
     before = (scene.render.engine, scene.render.resolution_x, scene.camera.name, set(scene.objects.keys()))
     assert extension.ops.bda.run(pictures=True) == {"FINISHED"}
     found = pictures(tmp_path / "window")
@@ -56,6 +60,21 @@ def test_a_run_in_the_window_writes_the_same_pictures(extension, tmp_path):
         assert abs(picture - without[name]).mean() < ALIKE, name
     assert (scene.render.engine, scene.render.resolution_x, scene.camera.name, set(scene.objects.keys())) == before
     assert extension.ops.bda.bake() == {"FINISHED"}  # Blender still knows the frames that it played
+
+
+def test_both_renderers_show_the_same_moment(extension, tmp_path):
+    """What has moved since the start is at the same places of both pictures."""
+    time, fracture = replace(I235.time, duration_s=2.5), replace(I235.fracture, shards=20)
+    falling = replace(I235, time=time, fracture=fracture, pictures=SHORT.pictures)
+    of_cycles = run(replace(falling, pictures=replace(SHORT.pictures, renderer="cycles")), tmp_path / "cycles")
+    first, second = (has_changed(found) for found in (of_cycles, run(falling, tmp_path / "workbench")))
+    assert first.sum() > 100 and second.sum() > 100
+    assert (first & second).sum() > 0.5 * min(first.sum(), second.sum())  # shadows are drawn otherwise
+
+
+def has_changed(found):
+    """Where the last picture differs from the first."""
+    return abs(found["after"] - found["before"]).max(axis=2) > 0.1
 
 
 @pytest.mark.parametrize("engine", ["BLENDER_WORKBENCH", "CYCLES"])

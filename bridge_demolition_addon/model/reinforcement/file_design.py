@@ -11,7 +11,7 @@ from .design_basis import BarDesign
 from .file_decks import file_deck_bars, file_deck_line
 from .file_members import FileDesign
 from .file_substructure import file_substructure_bars, loads_of_carriers
-from .load_paths import Contact, superstructures
+from .load_paths import Seat, superstructures
 from .schedule import ScheduledBars, ScheduledLinks
 
 
@@ -19,7 +19,7 @@ def file_bars(
     rule: GeometryReinforcement,
     concrete: Concrete,
     members: Sequence[Member],
-    contacts: Sequence[Contact],
+    contacts: Sequence[Seat],
     of_concrete: frozenset[int],
 ) -> tuple[list[ScheduledBars | ScheduledLinks], list[str]]:
     """Return the bars of members from files, and notes.

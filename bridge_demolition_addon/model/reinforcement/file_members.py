@@ -15,7 +15,7 @@ from ..bridge.member import Member
 from ..bridge.own_axes import own_axes
 from ..materials.bar_layers import BarLayer
 from .design_basis import LEAST, BarDesign
-from .load_paths import Contact
+from .load_paths import Seat
 from .schedule import ScheduledBars, ScheduledLinks
 
 Rows = Iterator[ScheduledBars | ScheduledLinks]
@@ -38,7 +38,7 @@ class FileDesign:
 
     design: BarDesign
     members: tuple[Member, ...]
-    contacts: tuple[Contact, ...]
+    contacts: tuple[Seat, ...]
     concrete: frozenset[int]
     notes: dict[str, list[str]] = field(default_factory=dict)
 

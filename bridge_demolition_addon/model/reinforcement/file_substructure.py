@@ -33,20 +33,20 @@ NOT_REINFORCED = ("fill",)
 
 
 @dataclass(slots=True)
-class Load:
+class CarriedLoad:
     """Vertical loads on a member, without factors."""
 
     permanent_n: float = 0.0
     traffic_n: float = 0.0
 
 
-def loads_of_carriers(basis: FileDesign, lines: Sequence[FileDeckLine]) -> dict[int, Load]:
+def loads_of_carriers(basis: FileDesign, lines: Sequence[FileDeckLine]) -> dict[int, CarriedLoad]:
     """Return the loads on what carries decks, and on what carries that, down to footings and abutments.
 
     What several members carry together they share evenly; of the traffic each has twice that, as it may stand beside
     the axis of the road.
     """
-    loads: dict[int, Load] = {}
+    loads: dict[int, CarriedLoad] = {}
     for line in lines:
         own = beam_effects(line.lines, line.permanent_n_m, ()).permanent_reactions_n
         _, traffic = extreme_effects(line.lines.points_m, line.lines.reactions, line.moving)
@@ -67,32 +67,32 @@ def loads_of_carriers(basis: FileDesign, lines: Sequence[FileDeckLine]) -> dict[
     return loads
 
 
-def _add(loads: dict[int, Load], carriers: Sequence[int], permanent_n: float, traffic_n: float) -> None:
+def _add(loads: dict[int, CarriedLoad], carriers: Sequence[int], permanent_n: float, traffic_n: float) -> None:
     for carrier in carriers:
-        load = loads.setdefault(carrier, Load())
+        load = loads.setdefault(carrier, CarriedLoad())
         load.permanent_n += permanent_n / len(carriers)
         load.traffic_n += traffic_n * min(1.0, 2.0 / len(carriers))
 
 
-def file_substructure_bars(basis: FileDesign, indices: Sequence[int], loads: dict[int, Load]) -> Rows:
+def file_substructure_bars(basis: FileDesign, indices: Sequence[int], loads: dict[int, CarriedLoad]) -> Rows:
     """Yield the bars of members that span nothing."""
     for index in indices:
         member = basis.members[index]
         if member.kind in NOT_REINFORCED:
             continue
         if member.kind == "pier cap" or (spans(member) and index in loads):
-            yield from in_own_axes(_cap(basis, index, loads.get(index, Load())))
+            yield from in_own_axes(_cap(basis, index, loads.get(index, CarriedLoad())))
         elif member.kind == "footing":
             yield from _footing(basis, index)
         elif member.kind == "pier" and not _is_wall(basis, index):
-            yield from in_own_axes(_column(basis, index, loads.get(index, Load())))
+            yield from in_own_axes(_column(basis, index, loads.get(index, CarriedLoad())))
         elif member.kind in ("pier", "wall", "abutment", "wing wall"):
-            yield from _wall(basis, index, loads.get(index, Load()))
+            yield from _wall(basis, index, loads.get(index, CarriedLoad()))
         else:
             yield from spread_rows(basis.design, member, dict.fromkeys("xyz", _LEAST_RATIO))
 
 
-def _cap(basis: FileDesign, index: int, load: Load) -> Rows:
+def _cap(basis: FileDesign, index: int, load: CarriedLoad) -> Rows:
     """Yield the bars of a beam over columns: loads of decks are spread evenly over it, traffic where it is worst."""
     member = basis.members[index]
     axes = own_axes(member)
@@ -110,7 +110,7 @@ def _is_wall(basis: FileDesign, index: int) -> bool:
     return axes.length_m > _WALL * axes.width_m
 
 
-def _column(basis: FileDesign, index: int, load: Load) -> Rows:
+def _column(basis: FileDesign, index: int, load: CarriedLoad) -> Rows:
     """Yield the bars of a column, as of a rectangle of its area with the sides of its plan."""
     design, member = basis.design, basis.members[index]
     axes = own_axes(member)
@@ -127,7 +127,7 @@ def _column(basis: FileDesign, index: int, load: Load) -> Rows:
     yield from rows
 
 
-def _wall(basis: FileDesign, index: int, load: Load) -> Rows:
+def _wall(basis: FileDesign, index: int, load: CarriedLoad) -> Rows:
     """Yield the bars of a wall, both faces together: upright, and level both ways."""
     design, member = basis.design, basis.members[index]
     axes = own_axes(member)

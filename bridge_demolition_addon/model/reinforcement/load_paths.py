@@ -32,7 +32,7 @@ _ONE_SUPPORT = 0.04
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Contact:
+class Seat:
     """Where a member lies on another or, through an upright face, beside it."""
 
     above: int
@@ -66,7 +66,7 @@ class Superstructure:
         return (*self.decks, *self.girders, *self.carried)
 
 
-def contacts_of(scenario: Scenario, members: Sequence[Member]) -> list[Contact]:
+def contacts_of(scenario: Scenario, members: Sequence[Member]) -> list[Seat]:
     """Return where members touch."""
     faces = touching_faces([member.solid for member in members], member=np.arange(len(members)))
     tables = bearing_tables(scenario)
@@ -79,7 +79,7 @@ def contacts_of(scenario: Scenario, members: Sequence[Member]) -> list[Contact]:
             above, below = bearing
         is_level = abs(float(normal[2])) >= _LEVEL or bearing is not None
         if area >= _SMALLEST_M2:
-            found.append(Contact(above, below, centre, float(area), is_level, bearing is not None))
+            found.append(Seat(above, below, centre, float(area), is_level, bearing is not None))
     return found
 
 
@@ -98,7 +98,7 @@ def spans(member: Member) -> bool:
     return member.kind in _SPANNING
 
 
-def superstructures(members: Sequence[Member], contacts: Sequence[Contact]) -> list[Superstructure]:
+def superstructures(members: Sequence[Member], contacts: Sequence[Seat]) -> list[Superstructure]:
     """Return what spans between supports, part by part. What carries others on bearings is a support itself."""
     carrying = {contact.below for contact in contacts if contact.is_bearing}
     mains = [index for index, member in enumerate(members) if spans(member) and index not in carrying]
@@ -115,7 +115,7 @@ def superstructures(members: Sequence[Member], contacts: Sequence[Contact]) -> l
     return found
 
 
-def _groups(indices: Sequence[int], contacts: Sequence[Contact]) -> Iterator[list[int]]:
+def _groups(indices: Sequence[int], contacts: Sequence[Seat]) -> Iterator[list[int]]:
     """Yield members that hang together without bearings."""
     left = list(indices)
     while left:
@@ -124,7 +124,7 @@ def _groups(indices: Sequence[int], contacts: Sequence[Contact]) -> Iterator[lis
         yield group
 
 
-def _reached(begin: Sequence[int], among: Sequence[int], contacts: Sequence[Contact]) -> list[int]:
+def _reached(begin: Sequence[int], among: Sequence[int], contacts: Sequence[Seat]) -> list[int]:
     found, allowed = set(begin), set(among)
     grown = True
     while grown:
@@ -144,7 +144,7 @@ def _axes(mains: Sequence[Member]) -> OwnAxes:
 
 
 def _supports(
-    group: Sequence[int], members: Sequence[Member], contacts: Sequence[Contact], axes: OwnAxes
+    group: Sequence[int], members: Sequence[Member], contacts: Sequence[Seat], axes: OwnAxes
 ) -> Iterator[DeckSupport]:
     """Yield the supports of decks and girders along their line, from its beginning."""
     resting = [
@@ -169,6 +169,6 @@ def _supports(
             row.append(index)
 
 
-def carriers_of(index: int, contacts: Sequence[Contact]) -> list[Contact]:
+def carriers_of(index: int, contacts: Sequence[Seat]) -> list[Seat]:
     """Return where a member rests on others."""
     return [contact for contact in contacts if contact.above == index and contact.is_level]

@@ -59,8 +59,8 @@ class PictureSettings(Table):
     height_px: int = key("Height.", default=720, unit="px", at_least=16, at_most=8192)
     renderer: str = key(
         "What draws the pictures of a run: `workbench` in plain colours, in a second each; `cycles` in the light of "
-        "sun and sky, with materials, in half a minute each for 1280 × 720 px on two cores. Films of contours are "
-        "always by Workbench.",
+        "sun and sky, with materials, in half a minute each for 1280 × 720 px on two cores. In Blender's window the "
+        "scene's own settings of Cycles count, such as its samples. Films of contours are always by Workbench.",
         default=Renderer.WORKBENCH.value,
         choices=tuple(renderer.value for renderer in Renderer),
     )

@@ -42,18 +42,27 @@ _KEPT = {
     ),
     "view_settings": ("view_transform", "exposure"),
 }
-_KEPT_OF_CYCLES = {"cycles": ("device", "samples", "use_adaptive_sampling", "use_denoising", "max_bounces")}
 """Settings of a scene that `prepare_pictures` changes, and those that Blender changes with them."""
 
 
+def prepare_scene_for_pictures(scene: bpy.types.Scene, view: PictureSettings) -> None:
+    """Set a scene up, before anything is simulated in it, for the pictures that are rendered afterwards."""
+    prepare_pictures(scene, view)
+    if view.renderer == Renderer.CYCLES:
+        _use_few_samples(scene)
+
+
 def prepare_pictures(scene: bpy.types.Scene, view: PictureSettings) -> None:
-    """Set up the renderer that a view names."""
+    """Choose the renderer that a view names, and its light.
+
+    Settings of Cycles stay as they are: Blender forgets its played frames with any of them.
+    """
     render = scene.render
     render.resolution_x, render.resolution_y, render.resolution_percentage = view.width_px, view.height_px, 100
     render.image_settings.file_format = "PNG"
     scene.view_settings.view_transform = "Standard"
     if view.renderer == Renderer.CYCLES:
-        _prepare_cycles(scene)
+        _choose_cycles(scene)
     else:
         _prepare_workbench(scene)
 
@@ -71,8 +80,8 @@ def _prepare_workbench(scene: bpy.types.Scene) -> None:
     scene.view_settings.exposure = _EXPOSURE
 
 
-def _prepare_cycles(scene: bpy.types.Scene) -> None:
-    """Follow light on the processor, which every computer has, and remove the noise of few samples.
+def _choose_cycles(scene: bpy.types.Scene) -> None:
+    """Follow light.
 
     Raises
     ------
@@ -85,11 +94,15 @@ def _prepare_cycles(scene: bpy.types.Scene) -> None:
             'Preferences, Add-ons, or choose "workbench"'
         )
     scene.render.engine = "CYCLES"
+    scene.view_settings.exposure = 0.0
+
+
+def _use_few_samples(scene: bpy.types.Scene) -> None:
+    """Have Cycles take few samples on the processor, which every computer has, and remove their noise."""
     cycles = scene.cycles
     cycles.device = "CPU"
     cycles.samples, cycles.use_adaptive_sampling, cycles.max_bounces = _SAMPLES, False, _BOUNCES
     cycles.use_denoising = True
-    scene.view_settings.exposure = 0.0
 
 
 def render_picture(scene: bpy.types.Scene, frame: int, path: Path) -> None:
@@ -116,8 +129,7 @@ def rendered_to(path: Path) -> Iterator[str]:
 @contextmanager
 def prepared_for_pictures(scene: bpy.types.Scene, view: PictureSettings) -> Iterator[None]:
     """Render pictures within this context; afterwards the scene is as it was, at its frame."""
-    kept = _KEPT | (_KEPT_OF_CYCLES if hasattr(scene, "cycles") else {})
-    with seen_from(scene, view, view.width_px / view.height_px), put_back_afterwards(scene, kept):
+    with seen_from(scene, view, view.width_px / view.height_px), put_back_afterwards(scene, _KEPT):
         prepare_pictures(scene, view)
         yield
 
