@@ -9,7 +9,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...engineering.arrays import FloatArray
-from ...engineering.reinforced_concrete.bar_choice import BarChoice
 from ...engineering.reinforced_concrete.bending import PressedShape, flange_width_m
 from ...engineering.reinforced_concrete.influence_lines import InfluenceLines, MovingLoad, influence_lines
 from ...engineering.reinforced_concrete.least_areas import SECONDARY_SHARE
@@ -20,7 +19,7 @@ from .design_basis import LEAST, Tension
 from .file_members import ADVICE, FileDesign, LyingSection, Rows, in_own_axes
 from .load_paths import Superstructure, carriers_of
 from .schedule import ScheduledLinks
-from .superstructure import AT_SIMPLE_END, MOST_COVERED, where_above
+from .superstructure import AT_SIMPLE_END, MOST_COVERED, through_and_over_supports, where_above
 
 _KILO = 1e3
 _STRIPS = 200
@@ -113,23 +112,38 @@ def _slab(basis: FileDesign, line: FileDeckLine, index: int, effects: BeamEffect
         yield design.scheduled([name], kind, side, "y", found, section_m2=height * length, length_m=width)
     depth = height - bottom.depth_m
     shear = effects.shear_beyond_n(line.supports_m, depth)
+    yield from _links(basis, index, section, shear, bottom, depth, is_slab=section.is_slab)
 
-    def links(shear_n: float) -> ScheduledLinks | None:
-        return design.links_for(
-            [name],
-            kind,
-            shear_n,
+
+def _links(
+    basis: FileDesign,
+    index: int,
+    section: LyingSection,
+    shear_n: float,
+    bottom: Tension,
+    depth_m: float,
+    *,
+    is_slab: bool,
+) -> Rows:
+    """Yield the links of a deck or girder, if it needs any."""
+    member = basis.members[index]
+
+    def needed(of_shear_n: float) -> ScheduledLinks | None:
+        return basis.design.links_for(
+            [member.name],
+            member.kind,
+            of_shear_n,
             width_m=section.sagging.web_m,
             webs=1,
-            height_m=height,
-            depth_m=depth,
+            height_m=section.axes.height_m,
+            depth_m=depth_m,
             bars_m2=bottom.choice.area_m2,
-            length_m=length,
+            length_m=section.axes.length_m,
             advice=ADVICE,
-            is_slab=section.is_slab,
+            is_slab=is_slab,
         )
 
-    if row := basis.as_much_as_fits(name, "the shear force", shear, links):
+    if row := basis.as_much_as_fits(member.name, "the shear force", shear_n, needed):
         yield row
 
 
@@ -194,21 +208,17 @@ def _top_bars(
     if is_least or len(line.part.decks) > 1 or len(line.supports_m) < 3 or choice.number < 4:
         yield basis.design.scheduled([member.name], member.kind, "top", "x", found, section_m2=area_m2, length_m=length)
         return
-    room = (choice.number - 1) * choice.spacing_m
-    for number, stretches in ((through, [None]), (choice.number - through, parts)):
-        own = BarChoice(number, choice.diameter_m, 1, room / max(number - 1, 1))
-        part = Tension(own, found.depth_m, found.required_m2 * number / choice.number, found.reason)
-        for between in stretches:
-            yield basis.design.scheduled(
-                [member.name],
-                member.kind,
-                "top",
-                "x",
-                part,
-                section_m2=area_m2,
-                length_m=length if between is None else min(between[1], length) - max(between[0], 0.0),
-                between_m=between,
-            )
+    for part, between in through_and_over_supports(found, through, parts):
+        yield basis.design.scheduled(
+            [member.name],
+            member.kind,
+            "top",
+            "x",
+            part,
+            section_m2=area_m2,
+            length_m=length if between is None else min(between[1], length) - max(between[0], 0.0),
+            between_m=between,
+        )
 
 
 # Girders --------------------------------------------------------------------------------------------------------------
@@ -302,23 +312,7 @@ def beam_rows(
         yield design.scheduled([name], kind, side, "x", found, section_m2=area, length_m=length)
     depth = section.sagging.height_m - bottom.depth_m
 
-    def links(shear_n: float) -> ScheduledLinks | None:
-        return design.links_for(
-            [name],
-            kind,
-            shear_n,
-            width_m=section.sagging.web_m,
-            webs=1,
-            height_m=axes.height_m,
-            depth_m=depth,
-            bars_m2=bottom.choice.area_m2,
-            length_m=length,
-            advice=ADVICE,
-        )
-
-    shear = effects.shear_beyond_n(supports_m, depth)
-    if row := basis.as_much_as_fits(name, "the shear force", shear, links):
-        yield row
+    yield from _links(basis, index, section, effects.shear_beyond_n(supports_m, depth), bottom, depth, is_slab=False)
 
 
 def _slab_on_girders(

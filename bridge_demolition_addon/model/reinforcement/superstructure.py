@@ -137,21 +137,31 @@ def _top_bars(
             [line.deck.name], "deck", "top", "x", found, section_m2=slab_m * width, length_m=line.length_m
         )
         return
+    for part, between in through_and_over_supports(found, through, parts):
+        yield basis.scheduled(
+            [line.deck.name],
+            "deck",
+            "top",
+            "x",
+            part,
+            section_m2=slab_m * width,
+            length_m=_length_m(between, ends, line.length_m),
+            between_m=between,
+        )
+
+
+def through_and_over_supports(
+    found: Tension, through: int, parts: Sequence[tuple[float, float]]
+) -> Iterator[tuple[Tension, tuple[float, float] | None]]:
+    """Yield so many of the bars that go all along a deck, and the others for each part in which they lie."""
+    choice = found.choice
     room = (choice.number - 1) * choice.spacing_m
+    stretches: Sequence[tuple[float, float] | None]
     for number, stretches in ((through, [None]), (choice.number - through, parts)):
         own = BarChoice(number, choice.diameter_m, 1, room / max(number - 1, 1))
         part = Tension(own, found.depth_m, found.required_m2 * number / choice.number, found.reason)
         for between in stretches:
-            yield basis.scheduled(
-                [line.deck.name],
-                "deck",
-                "top",
-                "x",
-                part,
-                section_m2=slab_m * width,
-                length_m=_length_m(between, ends, line.length_m),
-                between_m=between,
-            )
+            yield part, between
 
 
 def where_above(points_m: np.ndarray, values: np.ndarray, limit: float, shift_m: float) -> list[tuple[float, float]]:
