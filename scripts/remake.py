@@ -4,7 +4,8 @@
 Without names all that is of another version is made, the quickest first: overnight, if much has changed. What is made
 is noted at once in docs/data/remade.json, so that a call that was stopped goes on with what is left. A version is the
 last commit that changed what decides runs, or a script that makes the product. After a change that should decide no
-run, `--check` runs the first seed of ranges again, and notes the version where all of its digits are the same.
+run, `--check` makes the first seed of ranges and one run of each study again, and notes the version where they are the
+same.
 """
 
 import argparse
@@ -20,7 +21,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests"))
 
-from ensembles import ENSEMBLES, answer, picture, runs_table
+from ensembles import ENSEMBLES, answer, outputs_that_differ, picture, runs_table
 from support.checkout import ROOT, SEEDED
 
 RANGES = ROOT / "docs" / "data" / "seeds"
@@ -77,7 +78,7 @@ def arguments(known: Iterable[str]) -> argparse.Namespace:
     # No name at all is checked against the choices as an empty list.
     parser.add_argument("names", nargs="*", choices=[*known, []], metavar="NAME", help="products; see --list")
     parser.add_argument("--list", action="store_true", help="print what would be made and how long that takes")
-    parser.add_argument("--check", action="store_true", help="note the version of ranges whose first seed is the same")
+    parser.add_argument("--check", action="store_true", help="note the version of what is the same when run again")
     return parser.parse_args()
 
 
@@ -114,10 +115,20 @@ def products() -> Iterator[Product]:
 
 
 def check(product: Product) -> None:
+    """Make a run of a product again, and note the version where it is as it was; only ranges and studies have one."""
+    if (RANGES / f"{product.name}.csv").exists():
+        check_ranges(product)
+    elif product.command[0] == "scripts/ensembles.py":
+        if differ := outputs_that_differ(product.command[1]):
+            print(f"    the run is another one: {', '.join(differ)}", flush=True)
+        else:
+            note(product)
+            print("    the run is the same", flush=True)
+
+
+def check_ranges(product: Product) -> None:
     """Run the first seed of ranges and that of the example, and note the version where the first is as it was."""
     kept = RANGES / f"{product.name}.csv"
-    if not kept.exists():
-        return
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         command = [sys.executable, "scripts/seeds.py", product.name, "--seeds", "1", "--csv", name]

@@ -108,7 +108,8 @@ class Conclusions:
     success: Proportion | None  # all criteria at once; None without criteria
     at_once: SimultaneousLimits | None  # None where there are too few runs
     doubtful: DoubtfulThrows | None  # None where no run knows of any, as in studies of earlier versions
-    still_moving: int = 0  # runs at whose end shards still moved: their distances are not final
+    still_moving: int = 0  # runs that ended before everything rested: their distances are not final
+    single_moving: int = 0  # runs that rested as a whole, while single shards still moved
     fragments: FragmentLimits | None = None  # None without blast zones
 
     def as_json(self) -> dict[str, Any]:
@@ -121,6 +122,7 @@ class Conclusions:
             "at_once": self.at_once and as_json(self.at_once),
             "doubtful_throws": self.doubtful and as_json(self.doubtful),
             "still_moving": self.still_moving,
+            "single_moving": self.single_moving,
             **({"fragments": as_json(self.fragments)} if self.fragments else {}),
         }
 
@@ -147,6 +149,7 @@ def conclusions(study: Study, table: RunsTable) -> Conclusions:
         ),
         doubtful=_doubtful_throws(study, table),
         still_moving=table.still_moving,
+        single_moving=table.single_moving,
         fragments=fragment_limits(table, settings.quantile, confidence, settings.rank),
     )
 

@@ -90,14 +90,20 @@ class RunsTable:
         """Which runs (n,) finished."""
         return np.array([row.status == DONE for row in self.rows], bool)
 
-    @cached_property
+    @property
     def still_moving(self) -> int:
-        """Number of runs that finished while shards still moved; not all in tables of runs that did not say it."""
-        known = [row.outputs for row in self.rows if row.status == DONE]
-        return sum(
-            bool(outputs[MOVING]) if MOVING in outputs else RESTED in outputs and outputs[RESTED] is None
-            for outputs in known
-        )
+        """Number of runs that finished before everything rested: their distances are not final."""
+        return sum(outputs[RESTED] is None and bool(outputs.get(MOVING, True)) for outputs in self._told_of_rest)
+
+    @property
+    def single_moving(self) -> int:
+        """Number of runs in which everything rested as a whole, while single shards still moved."""
+        return sum(outputs[RESTED] is not None and bool(outputs.get(MOVING)) for outputs in self._told_of_rest)
+
+    @property
+    def _told_of_rest(self) -> list[Mapping[str, Any]]:
+        """Outputs of runs that finished and say since when everything rested."""
+        return [row.outputs for row in self.rows if row.status == DONE and RESTED in row.outputs]
 
     @cached_property
     def median_row(self) -> int | None:

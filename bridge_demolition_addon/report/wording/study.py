@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from ...engineering.statistics.order_limits import least_runs
 from ...model.debris.measured_piles import PILES_NOTE
+from ...model.sequence.rest import FASTEST
 from ...model.study.conclusions import Conclusions, DebrisLimit, DoubtfulThrows, Proportion
 from ...model.study.file import Ensemble, Study
 from ...model.study.fragments import FragmentLimits
@@ -29,10 +30,18 @@ def study_sentences(study: Study, conclusions: Conclusions) -> Iterator[str]:
     yield limit_sentence(conclusions.reach, input_names(study), study.settings.least_mass_kg, buffer_m)
     if conclusions.still_moving:
         yield moving_sentence(conclusions.still_moving, conclusions.reach.runs)
+    if conclusions.single_moving:
+        fastest_m_s = FASTEST * study.scenario.time.rest_speed_m_s
+        yield single_moving_sentence(conclusions.single_moving, conclusions.reach.runs, fastest_m_s)
     if conclusions.reach.is_known:
         yield repeat_sentence(conclusions.reach)
         yield f"{PILES_NOTE}; the buffer has to cover that."
-    if conclusions.doubtful and conclusions.doubtful.throws:
+    if conclusions.doubtful is None:
+        yield (
+            "Throws that nothing explains but energy of the solver were not counted, as these runs recorded none: "
+            'study.keep = "logs" does.'
+        )
+    elif conclusions.doubtful.throws:
         yield doubtful_sentence(conclusions.doubtful)
     if conclusions.fragments:
         yield fragments_sentence(conclusions.fragments, exclusion.cordon_m if exclusion else None)
@@ -66,6 +75,14 @@ def moving_sentence(moving: int, runs: int) -> str:
     return (
         f"In {moving} of {runs} runs shards still moved at the end: their distances are not final, and a limit from "
         "them may be too small. Give the scenario a longer time.duration_s."
+    )
+
+
+def single_moving_sentence(moving: int, runs: int, fastest_m_s: float) -> str:
+    """Return that some runs rested as a whole, but not each shard of them."""
+    return (
+        f"In {moving} of {runs} runs everything rested as a whole, while single shards still moved, at less than "
+        f"{fastest_m_s:g} m/s: these may lie a little farther in the end."
     )
 
 

@@ -96,3 +96,16 @@ def test_the_median_and_the_worst_row_are_of_runs_that_finished():
     table = RunsTable(tuple(rows))
     assert (table.median_row, table.worst_row) == (0, 1)
     assert (RunsTable(tuple(rows[2:3])).median_row, RunsTable(()).worst_row) == (None, None)
+
+
+def test_runs_that_did_not_rest_are_told_from_those_where_single_shards_move():
+    outputs = (
+        {"came_to_rest_s": 4.5, "moving_at_end": 0},
+        {"came_to_rest_s": 5.5, "moving_at_end": 2},
+        {"came_to_rest_s": None, "moving_at_end": 40},
+        {"came_to_rest_s": None, "moving_at_end": 0},  # rested for less than it has to
+    )
+    table = RunsTable(tuple(RunRow(number, "done", {}, found) for number, found in enumerate(outputs, 1)))
+    assert (table.still_moving, table.single_moving) == (1, 1)
+    older = RunsTable((RunRow(1, "done", {}, {"came_to_rest_s": None}), RunRow(2, "done", {}, {"reach_m": 1.0})))
+    assert (older.still_moving, older.single_moving) == (1, 0)
