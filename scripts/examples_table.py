@@ -10,20 +10,24 @@ import csv
 import math
 import statistics
 import sys
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
+from typing import Any
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 sys.path.insert(1, str(Path(__file__).resolve().parent.parent / "tests"))
 
+from ensembles import runs_table
 from support.checkout import REPORT_2019, ROOT, SEEDED, SHOWN_ONCE
 from support.example_runs import MEASURED_S
 
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
 from bridge_demolition_addon.model.stages.design_loads import carries_design_loads
+from bridge_demolition_addon.model.stages.stability import UNKNOWN
 from bridge_demolition_addon.model.stages.stability_by_statics import stability_of
 from bridge_demolition_addon.model.stages.standing import StandingBridge
+from bridge_demolition_addon.model.study.runs_table import RESTED, read_runs
 
 PAGE, STATICS, RANGES = (
     ROOT / "docs" / "examples.md",
@@ -31,7 +35,9 @@ PAGE, STATICS, RANGES = (
     ROOT / "docs" / "data" / "seeds",
 )
 FILES = SEEDED | SHOWN_ONCE
-COLUMNS = ("example", "verdict", "utilisation", "member", "load_factor", "positions", "carried")
+COLUMNS = ("example", "verdict", "reason", "utilisation", "member", "load_factor", "positions", "carried")
+STUDIED = {"drilled_two_spans_longer_zones": "drilled_two_spans"}
+"""Examples of which a study tells instead, in which more than the seed differs, by its name."""
 DOWN = 0.5
 """Part of a span's deck that has to be more than 2 m lower for the span to count as down."""
 
@@ -102,6 +108,7 @@ def statics(name: str) -> dict[str, str]:
     found = {
         "example": name,
         "verdict": stability.verdict,
+        "reason": stability.reason if stability.verdict == UNKNOWN else "",
         "utilisation": number(stability.utilisation),
         "member": stability.used_most or "",
         "load_factor": number(stability.load_factor),
@@ -139,7 +146,7 @@ def standing(row: dict[str, str] | None) -> str:
     if row is None:
         return "not worked out"
     if not row["utilisation"]:
-        return row["verdict"]
+        return f"{row['verdict']}: {row['reason']}" if row["reason"] else row["verdict"]
     factor = f", {row['load_factor']} times its weight" if row["load_factor"] else ""
     return f"{row['verdict']}: {100.0 * float(row['utilisation']):.0f} % used{factor}"
 
@@ -155,6 +162,8 @@ def carrying(row: dict[str, str] | None) -> str:
 
 def of_runs(name: str) -> str:
     """Return the columns of a table on the runs of an example."""
+    if name in STUDIED:
+        return of_study(STUDIED[name])
     found = rows(RANGES / f"{name}.csv")
     if not found:
         return "none |  |  |  |  | "
@@ -173,6 +182,26 @@ def of_runs(name: str) -> str:
     )
 
 
+def of_study(name: str) -> str:
+    """Return the columns of a table on the runs of a study, which keeps the farthest throw alone."""
+    outputs = [row.outputs for row in read_runs(runs_table(name)).rows]
+    down = [key for key in outputs[0] if key.startswith("criteria.") and "comes down" in key]
+    downs = "; ".join(f"span {span}: {sum(run[key] is True for run in outputs)}" for span, key in enumerate(down, 1))
+    throws_m = [run["largest_throw_m"] for run in outputs]
+    resting = sum(run[RESTED] is not None for run in outputs)
+    shares = [{"made_share": run["made_by_solver_share"]} for run in outputs]
+    return " | ".join(
+        (
+            f"{len(outputs)} of [a study](studies.md#a-plan-is-a-study)",
+            f"{resting} of {len(outputs)}",
+            downs,
+            "",
+            f"{min(throws_m):.2f} to {max(throws_m):.2f} m",
+            made(shares),
+        )
+    )
+
+
 def spans_down(found: list[dict[str, str]]) -> str:
     """Return in how many runs each span came down."""
     shares = [column for column in found[0] if column.startswith("span_") and column.endswith("_share_fallen_2_m")]
@@ -186,7 +215,7 @@ def span_of(found: list[dict[str, str]], column: str, text: str) -> str:
     return text.format(min(values), max(values)) if values else "-"
 
 
-def made(found: list[dict[str, str]]) -> str:
+def made(found: Iterable[Mapping[str, Any]]) -> str:
     """Return the median and the range of the energy that the solver made."""
     shares = [100.0 * float(row["made_share"]) for row in found if row.get("made_share")]
     if not shares:

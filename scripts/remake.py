@@ -21,14 +21,12 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests"))
 
+from deciding_version import deciding_version
 from ensembles import ENSEMBLES, answer, outputs_that_differ, picture, runs_table
 from support.checkout import ROOT, SEEDED
 
 RANGES = ROOT / "docs" / "data" / "seeds"
 NOTES = ROOT / "docs" / "data" / "remade.json"
-DECIDES_RUNS = tuple(
-    f"bridge_demolition_addon/{folder}" for folder in ("bullet", "engineering", "model", "scene", "simulation")
-)
 SEEDS = 20
 UNKNOWN_S = 1800.0
 """What a product is taken to need that was never made here."""
@@ -45,7 +43,7 @@ class Product:
 
     def version(self) -> str:
         """The last commit that changed what decides it."""
-        return git("log", "-1", "--format=%h", "--", *DECIDES_RUNS, *self.sources)
+        return deciding_version(*self.sources)
 
     def make(self) -> float:
         """Run its command and return the seconds that this took."""
@@ -172,11 +170,6 @@ def note(product: Product, seconds: float | None = None) -> None:
 def notes() -> dict[str, dict[str, str | float]]:
     """Version and seconds of all that was made, by name."""
     return json.loads(NOTES.read_text(encoding="utf-8")) if NOTES.exists() else {}
-
-
-def git(*words: str) -> str:
-    """What git answers."""
-    return subprocess.run(["git", *words], cwd=ROOT, capture_output=True, text=True, check=True).stdout.strip()
 
 
 if __name__ == "__main__":

@@ -19,6 +19,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 sys.path.insert(1, str(Path(__file__).resolve().parent.parent / "validation"))
 
 from case import GROUPS, Against, Case, Comparison, Found
+from deciding_version import deciding_version
 from matplotlib.figure import Figure
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -61,6 +62,7 @@ class Outcome:
     case: Case
     comparisons: Sequence[Comparison]
     seconds: float
+    version: str  # that made it
 
     @property
     def is_met(self) -> bool:
@@ -103,7 +105,8 @@ def _run(case: Case, folder: Path, *, is_kept: bool) -> Outcome:
     """Run a case and print what it came to; keep that and its picture."""
     began = time.process_time()
     found = case.run(folder / case.name)
-    outcome = Outcome(case, found.comparisons, time.process_time() - began)
+    seconds, version = time.process_time() - began, deciding_version(f"validation/{case.name}.py")
+    outcome = Outcome(case, found.comparisons, seconds, version)
     print(f"{case.title} ({outcome.seconds:.0f} s)")
     for comparison in found.comparisons:
         print("  " + "  ".join(_cells(comparison)), flush=True)
@@ -115,7 +118,8 @@ def _run(case: Case, folder: Path, *, is_kept: bool) -> Outcome:
 
 def _keep(outcome: Outcome) -> None:
     rows = [asdict(comparison) for comparison in outcome.comparisons]
-    text = json.dumps({"seconds": round(outcome.seconds, 1), "comparisons": rows}, indent=1, ensure_ascii=False)
+    kept = {"seconds": round(outcome.seconds, 1), "version": outcome.version, "comparisons": rows}
+    text = json.dumps(kept, indent=1, ensure_ascii=False)
     KEPT.mkdir(parents=True, exist_ok=True)
     (KEPT / f"{outcome.case.name}.json").write_text(text + "\n", encoding="utf-8")
 
@@ -127,7 +131,7 @@ def kept(name: str) -> Outcome:
         Comparison(**{**row, "expected": _expected(row["expected"]), "against": Against(row["against"])})
         for row in data["comparisons"]
     ]
-    return Outcome(case_named(name), comparisons, data["seconds"])
+    return Outcome(case_named(name), comparisons, data["seconds"], data["version"])
 
 
 def _expected(value: float | list[float]) -> float | tuple[float, ...]:
@@ -215,7 +219,8 @@ def _section(outcome: Outcome) -> list[str]:
         "",
         f"    scripts/validate {case.name} --output DIR",
         "",
-        f"repeats it in {max(5, 5 * round(seconds / 5)):.0f} s, and leaves its scenarios in `DIR`.",
+        f"repeats it in {max(5, 5 * round(seconds / 5)):.0f} s, and leaves its scenarios in `DIR`. These numbers are "
+        f"of version `{outcome.version}`.",
         "",
     ]
 
