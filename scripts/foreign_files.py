@@ -161,17 +161,17 @@ def page() -> str:
         "# Files of other programs",
         "",
         "What `bda import FILE` makes of them, with no option but `--only` where a bridge is named. *Lost* is what had",
-        "no geometry that can be used, beside what carries nothing anyway; *approach slabs* are left out where they lie on",
-        "what moves on bearings, and members elsewhere; *assumed* counts the lines of `import.txt` on what was assumed and",
-        "mended; *bars* are those [by rule](ifc.md#bars-by-rule), in members of concrete beside footings and approach",
-        "slabs; the mass is compared with that which the file gives its elements.",
+        "no geometry that can be used, beside what carries nothing anyway; *approach slabs* are left out where they",
+        "lie on what moves on bearings, and members elsewhere; *assumed* counts the lines of `import.txt` on what was",
+        "assumed and mended; *bars* are those [by rule](ifc.md#bars-by-rule), in members of concrete beside footings and",
+        "approach slabs; the mass is compared with that which the file gives its elements.",
         "",
         "*By statics* is the largest utilisation under the bridge's own weight, of forces once what is overloaded has",
-        "cracked, and how many connections that are; their bars hold them. *Awake* is the largest displacement of any shard",
-        "in a run of 1.5 s, of which the bridge settles for half a second, and how many connections crack in it.",
+        "cracked, and how many connections that are; their bars hold them. *Awake* is the largest displacement of any",
+        "shard in a run of 1.5 s, of which the bridge settles for half a second, and how many connections crack in it.",
         "",
-        "| file | written by | elements | members, bearings | approach slabs | left out, lost | supports added | assumed | "
-        "bars | mass | against the file | by statics | awake |",
+        "| file | written by | elements | members, bearings | approach slabs | left out, lost | supports added | "
+        "assumed | bars | mass | against the file | by statics | awake |",
         "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |",
     ]
     for row in rows():
@@ -182,13 +182,13 @@ def page() -> str:
         bars = f"{row['bars_kg_m3']} kg/m³" if row["bars_kg_m3"] else "-"
         lines.append(
             f"| {name} | {row['written_by']} | {row['elements']} | {row['members']}, {row['bearings']} | "
-            f"{row['approach_slabs']} | {row['left_out']}, {row['lost']} | {row['added']} | {row['assumed']} | {bars} | "
-            f"{row['mass_t']} t | {row['file_mass_share'] or '-'} | {_by_statics(row)} | {_awake(row)} |"
+            f"{row['approach_slabs']} | {row['left_out']}, {row['lost']} | {row['added']} | {row['assumed']} | "
+            f"{bars} | {row['mass_t']} t | {row['file_mass_share'] or '-'} | {_by_statics(row)} | {_awake(row)} |"
         )
     lines += [
         "",
         "Each bridge was run once, [one of many](accuracy.md#one-run-is-one-possible-outcome).",
-        "A bridge of which much is lost, such as the abutments of an OpenBrIM file, stands on supports that were added.",
+        "A bridge of which much is lost, such as the abutments of an OpenBrIM file, stands on supports that are added.",
         "",
         *_damaged(),
         "Two of the files are in [tests/foreign/files](../tests/foreign/files), with their licences; the others may be",

@@ -4,8 +4,9 @@
 Usage: python scripts/fuzz_foreign.py [--ifc 250] [--terrain 250] [--seed 0] [--keep [--again]]
 
 What it finds is printed with its seed, and the status is 1 then. Files are made by `tests/support`, or are those in
-`tests/foreign/files`. With `--keep` each result goes to docs/data/damaged_files.csv, from which `scripts/foreign_files.py
-page` counts them; the same command goes on behind what is there, and `--again` begins from the first.
+`tests/foreign/files`. With `--keep` each result goes to docs/data/damaged_files.csv, from which
+`scripts/foreign_files.py page` counts them; the same command goes on behind what is there, and `--again` begins from
+the first.
 """
 
 import argparse

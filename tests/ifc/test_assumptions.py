@@ -194,6 +194,23 @@ def test_a_superstructure_without_piers_gets_supports_under_its_ends(tmp_path):
     assert {support.member for support in bridge.scenario.supports} == {member.name for member in added}
 
 
+def test_girders_that_end_just_above_what_they_lie_on_get_pads(tmp_path):
+    """The bridge without its bearings of 0.1 m: girders of 0.4 m over two abutments and a pier cap, all 1 m long."""
+    bridge = read(IfcBridge().substructure().superstructure(), tmp_path)
+    pads = [outcome.member for outcome in bridge.outcomes if outcome.became == "connection"]
+    assert sorted(pad.name for pad in pads) == ["Abutment 1"] * 2 + ["Abutment 2"] * 2 + ["Crosshead"] * 2
+    for pad in pads:
+        assert np.ptp(pad.solid.bounds, axis=0) == pytest.approx((0.4, 0.36, 0.1), abs=0.002)  # 0.9 of the girder
+        assert pad.solid.bounds[1, 2] == pytest.approx(3.6)
+    kinds = {bearing.members: bearing.kind for bearing in bridge.scenario.bearings}
+    assert len(kinds) == 6
+    assert {below for (_, below), kind in kinds.items() if kind == "pinned"} == {"Abutment 1"}
+    assert not [outcome for outcome in bridge.outcomes if outcome.became == "added"]
+    assert any("the file has no bearings: 6 pads, up to 101 mm high" in note for note in bridge.notes)
+    with_bearings = read(whole_bridge(), tmp_path)
+    assert not any("pads" in note for note in with_bearings.notes)
+
+
 def test_a_bearing_on_nothing_gets_a_support_or_a_plinth(tmp_path):
     made = IfcBridge().substructure().bearings().superstructure()
     for name in ("Abutment 1", "Footing 1"):
