@@ -49,22 +49,24 @@ _RUBBISH = 1e-9
 def convex_parts(solid: TriangleMesh, most: int, least_m3: float = 0.0) -> tuple[TriangleMesh, ...]:
     """Return a solid as at most `most` touching parts without overlap that are convex; alone where it is itself.
 
-    Fewer remain convex the fewer are allowed: the parts with most in excess are cut first. What is smaller than
-    `least_m3` stays with the part beside it.
+    Fewer remain convex the fewer are allowed: the parts with most in excess are cut first. A solid stays whole where
+    all parts but one are smaller than `least_m3`.
     """
     volume = solid.volume
-    least_m3 = max(least_m3, _LEAST_PIECE * volume)
     waiting = [_Part.of(shells) for shells in bodies(to_manifold(solid), _RUBBISH * volume)]
     done: list[_Part] = []
     while waiting and len(waiting) + len(done) < most:
         part = max(waiting, key=lambda part: part.excess_m3)
         waiting.remove(part)
-        pieces = part.cut(volume, least_m3) if part.excess_m3 > EMPTY * part.volume_m3 else []
+        pieces = part.cut(volume) if part.excess_m3 > EMPTY * part.volume_m3 else []
         if 0 < len(pieces) <= most - len(waiting) - len(done):
             waiting += pieces
         else:
             done.append(part)
-    return tuple(_without_films(part.body, _RUBBISH * volume) for part in [*done, *waiting])
+    parts = [*done, *waiting]
+    if sum(part.volume_m3 >= least_m3 for part in parts) == 1:
+        return (solid,)
+    return tuple(_without_films(part.body, _RUBBISH * volume) for part in parts)
 
 
 class _Part:
@@ -80,14 +82,14 @@ class _Part:
         """Return the piece of an outer shell and the cavities in it."""
         return cls(shells[0] if len(shells) == 1 else Manifold.compose(shells))
 
-    def cut(self, whole_m3: float, least_m3: float) -> list[_Part]:
+    def cut(self, whole_m3: float) -> list[_Part]:
         """Return the pieces of the best cut through a part of a solid; none where no cut gains enough."""
         best: list[_Part] = []
         left_m3 = self.excess_m3 - _LEAST_GAIN * whole_m3
         for normal, offset in _planes_at_inward_edges(from_manifold(self.body)):
             halves = self.body.split_by_plane(normal.tolist(), float(offset))
             pieces = [_Part.of(shells) for half in halves for shells in bodies(half, _RUBBISH * self.volume_m3)]
-            pieces = _without_slivers(pieces, least_m3)
+            pieces = _without_slivers(pieces, _LEAST_PIECE * whole_m3)
             excess_m3 = math.fsum(piece.excess_m3 for piece in pieces)
             if len(pieces) > 1 and excess_m3 < left_m3:
                 best, left_m3 = pieces, excess_m3

@@ -11,9 +11,8 @@ from support.scenarios import I235
 from bridge_demolition_addon.engineering.geometry.mesh import volumes_and_centres
 from bridge_demolition_addon.engineering.geometry.solids import box, hull, union
 from bridge_demolition_addon.errors import GeometryError, ScenarioError
-from bridge_demolition_addon.model.bridge.mesh_files import exported
 from bridge_demolition_addon.model.bridge.preparation import prepared_members
-from bridge_demolition_addon.model.scenario import Finer, FracturePoint, FractureSettings, Geometry, MemberFracture
+from bridge_demolition_addon.model.scenario import Finer, FracturePoint, FractureSettings, MemberFracture
 from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_from_text, scenario_text
 from bridge_demolition_addon.model.structure.members import fractured_members
 from bridge_demolition_addon.model.structure.model import build_model
@@ -86,18 +85,6 @@ shards = 30"""
     assert len(parts.shards) == 30
     assert volumes.sum() == pytest.approx(trough.volume, rel=1e-6)
     np.testing.assert_allclose(hulls_m3, volumes, rtol=1e-6)
-
-
-def test_pads_on_a_pier_cap_stay_with_it(tmp_path):
-    """A cap of 2.4 m³ and two pads of 0.04 m³, 1.5 %, are one shard; with two columns of 1 m³ there are three."""
-    cap = box((1.0, 4.0, 0.6), (0.0, 0.0, 0.3))
-    for height_m, count in ((0.1, 1), (3.0, 3)):
-        pads = [box((0.6, 0.6, height_m), (0.0, y, 0.599 + height_m / 2.0)) for y in (-1.4, 1.4)]
-        (tmp_path / "cap.stl").write_bytes(exported(union([cap, *pads]), ".stl"))
-        shape = Geometry(name="cap", file=str(tmp_path / "cap.stl"), kind="pier cap", density_kg_m3=2400.0)
-        alone = replace(I235, bridge=None, ball=None, geometry=(shape,), fracture=FractureSettings(shards=1))
-        parts = fractured_members(alone, prepared_members(alone).members)
-        assert len(parts.shards) == count
 
 
 def test_uniform_masses():
