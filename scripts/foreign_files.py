@@ -94,7 +94,7 @@ def _from_folder(folder: Path, lines: tuple[str, ...]) -> dict[str, str]:
         "members": str(became.count("member")),
         "bearings": str(became.count("connection")),
         "approach_slabs": str(sum(row["kind"] == "approach slab" for row in elements) + len(slabs)),
-        "left_out": str(len(left) - len(lost)),
+        "left_out": str(len(left) - len(lost) - len(slabs)),
         "lost": str(len(lost)),
         "added": str(became.count("added")),
         "assumed": str(max(len(lines) - at - 1, 0)),

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What an import assumes and mends where a file is incomplete or damaged: volumes by hand, and all that stands held."""
 
+import re
+
 import numpy as np
 import pytest
 from support.ifc_bridges import MASS_KG, VOLUMES_M3, IfcBridge, whole_bridge
@@ -486,3 +488,15 @@ def test_a_unit_that_the_file_lacks_is_guessed(unit, tmp_path):
     bridge = read(made, tmp_path)
     assert sum(o.member.volume_m3 for o in bridge.outcomes if o.member) == pytest.approx(sum(VOLUMES_M3.values()))
     assert any("has no unit of length that is known: taken for m" in note for note in bridge.notes)
+
+
+@pytest.mark.parametrize("unit, label, meant", [("METRE", ".MILLI.", "m"), ("MILLI", "$", "mm")])
+def test_a_unit_that_is_a_thousand_times_off_is_mended(unit, label, meant, tmp_path):
+    """The bridge of 21 m in a file whose unit is exchanged for another: 21 mm or 21 km long by that."""
+    path = whole_bridge(unit=unit).written(tmp_path / "bridge.ifc")
+    text, count = re.subn(r"(IFCSIUNIT\(\*,\.LENGTHUNIT\.,)[^,]*,", rf"\g<1>{label},", path.read_text())
+    path.write_text(text)
+    bridge = read_bridge(path, ImportSettings())
+    assert count >= 1
+    assert sum(o.member.volume_m3 for o in bridge.outcomes if o.member) == pytest.approx(sum(VOLUMES_M3.values()))
+    assert any(f"taken for {meant}; --unit says it better" in note for note in bridge.notes)
