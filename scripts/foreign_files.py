@@ -187,7 +187,7 @@ def page() -> str:
         )
     lines += [
         "",
-        "Each bridge was run once, [one of many](accuracy.md#one-run-is-one-possible-outcome), or not at all where a dash",
+        "Each bridge was run once, [one of many](accuracy.md#one-run-is-one-possible-outcome), or not where a dash",
         "stands: its statics alone were worked out.",
         "A bridge of which much is lost, such as the abutments of an OpenBrIM file, stands on supports that are added.",
         "",
