@@ -9,6 +9,7 @@ to docs/data/foreign_files.csv. `page` writes the document from these rows.
 
 import csv
 import json
+import re
 import subprocess
 import sys
 import tempfile
@@ -25,8 +26,9 @@ DAMAGED = ROOT / "docs" / "data" / "damaged_files.csv"
 PAGE = ROOT / "docs" / "foreign.md"
 
 COLUMNS = (
-    *("file", "bridge", "written_by", "elements", "members", "bearings", "left_out", "lost", "added", "assumed"),
-    *("mass_t", "file_mass_share", "said", "moved_m", "cracked", "connections", "import_s"),
+    *("file", "bridge", "written_by", "elements", "members", "bearings", "approach_slabs", "left_out", "lost", "added"),
+    *("assumed", "bars_kg_m3", "mass_t", "file_mass_share", "said", "utilisation", "cracked_at_rest", "moved_m"),
+    *("cracked", "connections", "import_s"),
 )
 
 WRITTEN_BY = {
@@ -37,6 +39,12 @@ WRITTEN_BY = {
     "rickbrice_aashto_idm_template.ifc": "OpenBrIM v3, IFC4X3",
     "ifc2mct_bridge_test.ifc": "Xbim, IFC4X1",
 }
+
+CLAMPING = "which it would hold down"
+"""Of why an approach slab is left out that lies on what moves on bearings."""
+
+BY_RULE = re.compile(r"by rule they have bars .*?, (\d+) kg/m³")
+"""Of the line of `import.txt` on bars by rule."""
 
 AWAKE = """
 [scenario]
@@ -74,18 +82,23 @@ def _from_folder(folder: Path, lines: tuple[str, ...]) -> dict[str, str]:
     with (folder / "elements.csv").open(encoding="utf-8", newline="") as file:
         elements = list(csv.DictReader(file))
     became = [row["became"] for row in elements]
-    lost = [row for row in elements if row["became"] == "left out" and "missing" in row["why"]]
+    left = [row for row in elements if row["became"] == "left out"]
+    slabs = [row for row in left if CLAMPING in row["why"]]
+    lost = [row for row in left if "missing" in row["why"] and row not in slabs]
     mass = sum(float(row["mass_kg"]) for row in elements if row["mass_kg"])
     by_file = [line.rsplit(", ", 1)[1] for line in lines if " by the file for " in line]
+    by_rule = [found.group(1) for line in lines if (found := BY_RULE.search(line))]
     at = lines.index("To know") if "To know" in lines else len(lines)
     return {
         "elements": str(len({row["global_id"] for row in elements if row["became"] != "added"})),
         "members": str(became.count("member")),
         "bearings": str(became.count("connection")),
-        "left_out": str(became.count("left out") - len(lost)),
+        "approach_slabs": str(sum(row["kind"] == "approach slab" for row in elements) + len(slabs)),
+        "left_out": str(len(left) - len(lost) - len(slabs)),
         "lost": str(len(lost)),
         "added": str(became.count("added")),
         "assumed": str(max(len(lines) - at - 1, 0)),
+        "bars_kg_m3": by_rule[0] if by_rule else "",
         "mass_t": f"{mass / 1000.0:.0f}",
         "file_mass_share": by_file[-1] if by_file else "",
     }
@@ -105,8 +118,11 @@ def _run(folder: Path) -> dict[str, str]:
         return {"said": done.stderr.strip().splitlines()[-1].replace(f"{folder}/", "")}
     summary = json.loads((folder / "run" / "summary.json").read_text(encoding="utf-8"))
     fell, connections = summary["fell_by_itself"], summary["connections"]
+    stability = summary["stability"]
     moved = _largest_move_m(folder / "run") if fell is None else fell["largest_move_m"]
     return {
+        "utilisation": f"{stability['utilisation']:.2f}",
+        "cracked_at_rest": str(stability["cracked"]),
         "moved_m": f"{moved:.3f}",
         "cracked": str(connections["broken"]),
         "connections": str(connections["count"]),
@@ -145,41 +161,35 @@ def page() -> str:
         "# Files of other programs",
         "",
         "What `bda import FILE` makes of them, with no option but `--only` where a bridge is named. *Lost* is what had",
-        "no geometry that can be used, beside what carries nothing anyway; *assumed* counts the lines of `import.txt`",
-        "on what was assumed and mended; the mass is compared with that which the file gives its elements. *Moves* is",
-        "the largest displacement of any shard in 1.5 s awake, of which the bridge settles for half a second; cracked",
-        "connections are held by reinforcement.",
+        "no geometry that can be used, beside what carries nothing anyway; *approach slabs* are left out where they",
+        "lie on what moves on bearings, and members elsewhere; *assumed* counts the lines of `import.txt` on what was",
+        "assumed and mended; *bars* are those [by rule](ifc.md#bars-by-rule), in members of concrete beside footings",
+        "and approach slabs; the mass is compared with that which the file gives its elements.",
         "",
-        "| file | written by | elements | members, bearings | left out, lost | supports added | assumed | mass | "
-        "against the file | result |",
-        "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |",
+        "*By statics* is the largest utilisation under the bridge's own weight, of forces once what is overloaded has",
+        "cracked, and how many connections that are; their bars hold them. *Awake* is the largest displacement of any",
+        "shard in a run of 1.5 s, of which the bridge settles for half a second, and how many connections crack in it.",
+        "",
+        "| file | written by | elements | members, bearings | approach slabs | left out, lost | supports added | "
+        "assumed | bars | mass | against the file | by statics | awake |",
+        "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |",
     ]
     for row in rows():
         name = f"`{row['file']}`" + (f", {row['bridge']}" if row["bridge"] else "")
         if not row["members"]:
-            lines.append(f"| {name} | {row['written_by']} | | | | | | | | refused: {row['said']} |")
+            lines.append(f"| {name} | {row['written_by']} |{' |' * 9} | refused: {row['said']} |")
             continue
-        result = row["said"]
-        if row["said"] == "falls":
-            result = f"does not stand, {row['cracked']} of {row['connections']} connections broken or cracked"
-        elif row["moved_m"]:
-            moves = f"moves {100.0 * float(row['moved_m']):.1f} cm, {row['cracked']} of {row['connections']} cracked"
-            result = f"{result}: {moves}"
+        bars = f"{row['bars_kg_m3']} kg/m³" if row["bars_kg_m3"] else "-"
         lines.append(
             f"| {name} | {row['written_by']} | {row['elements']} | {row['members']}, {row['bearings']} | "
-            f"{row['left_out']}, {row['lost']} | {row['added']} | {row['assumed']} | {row['mass_t']} t | "
-            f"{row['file_mass_share'] or '-'} | {result} |"
+            f"{row['approach_slabs']} | {row['left_out']}, {row['lost']} | {row['added']} | {row['assumed']} | "
+            f"{bars} | {row['mass_t']} t | {row['file_mass_share'] or '-'} | {_by_statics(row)} | {_awake(row)} |"
         )
     lines += [
         "",
-        "Each bridge was run once, [one of many](accuracy.md#one-run-is-one-possible-outcome).",
-        "All were imported before [bars were designed by rule](ifc.md#bars-by-rule), and not measured again since:",
-        "where a file has no reinforcement, bars as strong as the concrete in tension held the cracks, and approach",
-        "slabs were members. A bridge of which much is lost, such as the abutments of an OpenBrIM file, stands on",
-        "supports that were added.",
-        "",
-        "With bars by rule all of these stand by statics (`bda check`), `rickbrice_aashto_idm_template.ifc` with 127",
-        "of 895 connections cracked.",
+        "Each bridge was run once, [one of many](accuracy.md#one-run-is-one-possible-outcome), or not where a dash",
+        "stands: its statics alone were worked out.",
+        "A bridge of which much is lost, such as the abutments of an OpenBrIM file, stands on supports that are added.",
         "",
         *_damaged(),
         "Two of the files are in [tests/foreign/files](../tests/foreign/files), with their licences; the others may be",
@@ -188,17 +198,30 @@ def page() -> str:
     return "\n".join(lines) + "\n"
 
 
+def _by_statics(row: dict[str, str]) -> str:
+    if not row["utilisation"]:
+        return row["said"]
+    return f"{100.0 * float(row['utilisation']):.0f} %, {row['cracked_at_rest']} of {row['connections']} cracked"
+
+
+def _awake(row: dict[str, str]) -> str:
+    if not row["moved_m"]:
+        return "-"
+    moves = f"{100.0 * float(row['moved_m']):.1f} cm, {row['cracked']} cracked"
+    return f"stands: {moves}" if row["said"] == "stands" else f"does not stand: {moves}"
+
+
 def _damaged() -> list[str]:
     """Return the paragraph on damaged files, as `scripts/fuzz_foreign.py --keep` has counted them."""
     if not DAMAGED.exists():
         return []
     with DAMAGED.open(encoding="utf-8", newline="") as file:
-        counts = {row["result"]: int(row["files"]) for row in csv.DictReader(file)}
-    faults = sum(count for result, count in counts.items() if "FAULT" in result)
-    texts = [f"{counts.get(f'{kind} {what}', 0)} {what}" for kind in ("ifc", "terrain") for what in ("read", "refused")]
+        results = [(row["kind"], row["result"]) for row in csv.DictReader(file)]
+    faults = sum("FAULT" in result for _, result in results)
+    texts = [f"{results.count((kind, what))} {what}" for kind in ("ifc", "terrain") for what in ("read", "refused")]
     return [
-        f"**Damaged files.** Of {sum(counts.values())} files that were damaged at random, IFC and terrain as grids,",
-        f"LandXML, GeoTIFF, points and meshes, {texts[0]} and {texts[1]} of IFC, {texts[2]} and {texts[3]} of terrain;",
+        f"**Damaged files.** Of {len(results)} files that were damaged at random, IFC and terrain as grids, LandXML,",
+        f"GeoTIFF, points, clouds and meshes, {texts[0]} and {texts[1]} of IFC, {texts[2]} and {texts[3]} of terrain;",
         f"{faults or 'none'} ended a process that the user sees, or showed a traceback",
         "(`python scripts/fuzz_foreign.py --keep`, [data](data/damaged_files.csv)).",
         "",

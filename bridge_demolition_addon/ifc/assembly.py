@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from itertools import chain, count
 from unicodedata import category
 
+import numpy as np
 from manifold3d import Manifold
 
 from ..engineering.geometry.level_contacts import level_contacts
@@ -28,6 +29,7 @@ from .gaps import WAYS, brought_near, closed_gaps
 from .haunches import with_haunches
 from .kinds import ElementFacts
 from .materials import MaterialTable
+from .missing_bearings import pads_under, with_one_support_pinned
 from .outcome import ADDED, CONNECTION, LEFT_OUT, MEMBER, Outcome
 from .placement import Placement
 from .quantities import Quantities
@@ -75,6 +77,7 @@ class Assembly:
     added: list[Member] = field(default_factory=list)
     _bearings: list[tuple[BearingElement, str]] = field(default_factory=list)
     _more_bearings: list[Bearing] = field(default_factory=list)
+    _on_pads: list[Bearing] = field(default_factory=list)
     _before: dict[int, TriangleMesh] = field(default_factory=dict)
     _unheld: list[str] = field(default_factory=list)
     _first: list[int] = field(default_factory=list)
@@ -195,7 +198,8 @@ class Assembly:
         member = given(outcome.member)
         bodies = sorted(rest.decompose(), key=lambda body: -body.volume())
         large = [body for body in bodies if body.volume() >= _SCRAP * rest.volume()]
-        if len(bodies) < 2 or any(below == member.name for _, below in self._bearings):
+        below = {name for _, name in self._bearings} | {bearing.members[1] for bearing in self._on_pads}
+        if len(bodies) < 2 or member.name in below:
             return
         self.outcomes[number] = replace(outcome, member=replace(member, solid=from_manifold(large[0])))
         for row, body in enumerate(large[1:], start=2):
@@ -305,7 +309,7 @@ class Assembly:
         for _ in range(2):
             loose = self._loose_groups()
             for group in loose:
-                if not self._move(group, gap_m):
+                if not self._move(group, gap_m) and not self._put_on_pads(group):
                     self._put_on_supports(group, table)
         if self._unheld:
             names = ", ".join(self._unheld[:3]) + (" and more" if len(self._unheld) > 3 else "")
@@ -381,14 +385,35 @@ class Assembly:
                     return True
         return False
 
+    def _put_on_pads(self, group: list[int]) -> bool:
+        """Put what carries the road in a group of members on pads on what it ends just above, and return whether."""
+        within = set(group)
+        members = self.members()
+        chosen = _carrying([member for number, member in members if number in within])
+        pads = pads_under(chosen, [member for number, member in members if number not in within])
+        if {pad.above for pad in pads} != {member.name for member in chosen}:
+            return False
+        outcomes = {member.name: self.outcomes[number] for number, member in members}
+        for pad in pads:
+            below, substance = outcomes[pad.below].part
+            part = Member(below.name, below.kind, pad.solid, below.density_kg_m3)
+            facts = ElementFacts(name=f"Pad under {pad.above}", global_id="", classes=("",))
+            why = f"between {pad.above} and {pad.below}, of which it is part; the file has nothing there"
+            self.outcomes[min(0, *self.outcomes) - 1] = Outcome(facts, part, substance, CONNECTION, why)
+        self._on_pads += with_one_support_pinned(pads)
+        names = ", ".join(member.name for member in chosen[:3]) + (" and more" if len(chosen) > 3 else "")
+        highest_m = max(float(np.ptp(pad.solid.vertices[:, 2])) for pad in pads)
+        self.notes.append(
+            f"{names} end just above what they lie on, and the file has no bearings: {len(pads)} pads, up to "
+            f"{1e3 * highest_m:.0f} mm high, are put there, pinned at the beginning and free to move along the road at "
+            "all others"
+        )
+        return True
+
     def _put_on_supports(self, group: list[int], table: MaterialTable) -> None:
         """Put what carries the road in a group of members on supports at its ends."""
-        members = [given(self.outcomes[number].member) for number in group]
-        for kind in ("girder", "deck", "arch"):
-            chosen = [member for member in members if member.kind == kind]
-            if chosen:
-                break
-        else:
+        chosen = _carrying([given(self.outcomes[number].member) for number in group])
+        if not chosen:
             return
         for support, is_pinned in with_one_pinned([support for member in chosen for support in under_ends(member)]):
             added, _ = self._add_support(support.solid, f"Support of {support.above}", table)
@@ -400,9 +425,16 @@ class Assembly:
         """Return the tables of all bearings."""
         tables = bearing_tables(self._bearings, self._names_above)
         present = {member.name for _, member in self.members()}
-        bearings = [table for table in (*tables.bearings, *self._more_bearings) if present.issuperset(table.members)]
+        more = (*self._more_bearings, *self._on_pads)
+        bearings = [table for table in (*tables.bearings, *more) if present.issuperset(table.members)]
         connections = [table for table in tables.connections if present.issuperset(table.members)]
         return BearingTables(tuple(bearings), tuple(connections), tables.notes)
+
+
+def _carrying(members: Sequence[Member]) -> list[Member]:
+    """Return the members that carry the road down to supports: girders, and else decks or arches."""
+    of_kinds = ([member for member in members if member.kind == kind] for kind in ("girder", "deck", "arch"))
+    return next(filter(None, of_kinds), [])
 
 
 def plain_text(text: str) -> str:

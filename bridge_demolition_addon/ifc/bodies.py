@@ -11,7 +11,7 @@ from ..engineering.geometry.mesh import TriangleMesh
 from ..engineering.geometry.repair import repaired_solid
 from ..errors import GeometryError, IfcError
 from .elements import Element
-from .shapes import FAILED, KeptShapes, shapes_of
+from .shapes import FAILED, KeptShapes
 from .source import IfcSource
 from .substitutes import sound_solid
 
@@ -35,13 +35,20 @@ class Bodies:
 
 
 def bodies_of(
-    source: IfcSource, elements: Sequence[Element], kept: KeptShapes, volumes: Mapping[int, float], *, strict: bool
+    source: IfcSource,
+    elements: Sequence[Element],
+    shapes: Mapping[int, TriangleMesh],
+    kept: KeptShapes,
+    volumes: Mapping[int, float],
+    *,
+    strict: bool,
 ) -> Bodies:
-    """Return the bodies of elements, maybe with volumes that the file gives them, m³, by their numbers in the file.
+    """Return the bodies of elements with shapes, maybe with volumes that the file gives them, m³.
+
+    Shapes, volumes and bodies go by the elements' numbers in the file.
 
     Where this is `strict`, those that fail are refused; otherwise a solid of about the same volume may stand for them.
     """
-    shapes = shapes_of(source, elements, kept)
     if strict:
         _check_shapes(source, elements, kept)
     if not shapes:

@@ -33,6 +33,7 @@ from .elements import Element, elements_of
 from .fineness import fracture_of
 from .kinds_by_shape import with_kinds_by_shape
 from .light_bracing import leave_out_light_bracing
+from .likely_units import with_likely_unit
 from .map_place import ground_of, site_of
 from .materials import MaterialTable, material_table
 from .outcome import CONNECTION, LEFT_OUT, Outcome
@@ -41,7 +42,7 @@ from .quantities import quantities_of, units_of
 from .rule_bars import with_bars_by_rule
 from .settings import ImportSettings
 from .several_bridges import CARRYING, chosen_elements
-from .shapes import KeptShapes
+from .shapes import KeptShapes, shapes_of
 from .source import IfcSource, naming_contradictions, open_source
 from .supports import STANDING, loose_members, supports_of
 
@@ -90,11 +91,12 @@ def _bridge(path: Path, table: MaterialTable, settings: ImportSettings, kept: Ke
     elements = chosen.elements
     _check_kinds(path, elements, settings)
     wanted = [element for element in elements if element.is_member]
+    source, shapes = with_likely_unit(source, wanted, shapes_of(source, wanted, kept), settings)
     made_of = substances(source, wanted, table, settings)
     units = units_of(source.model)
     quantities = {element.entity.id(): quantities_of(element.psets, units) for element in elements}
     volumes = {number: known.volume_m3 for number, known in quantities.items() if known.volume_m3}
-    bodies = bodies_of(source, wanted, kept, volumes, strict=settings.strict)
+    bodies = bodies_of(source, wanted, shapes, kept, volumes, strict=settings.strict)
     ground_m, ground_source = _ground(wanted, bodies, settings)
     placement, solids = _placed(path, wanted, bodies, ground_m)
     site, site_source = site_of(source, placement)

@@ -52,6 +52,8 @@ class LeftOut:
 
 _CARRIES_NOTHING = "it carries nothing"
 
+_SURFACING = "surfacing carries nothing; where its mass counts, raise the density of the deck"
+
 _OF_CLASS = {
     "it is counted in the strength of reinforced concrete": ("IfcReinforcingElement",),
     "it lies in the ground, which holds the footings": ("IfcPile",),
@@ -60,7 +62,7 @@ _OF_CLASS = {
         *("IfcTransportElement", "IfcTransportationDevice", "IfcDoor", "IfcWindow", "IfcFastener"),
         *("IfcMechanicalFastener", "IfcDiscreteAccessory", "IfcVibrationDamper", "IfcVibrationIsolator"),
     ),
-    "surfacing carries nothing; where its mass counts, raise the density of the deck": (
+    _SURFACING: (
         "IfcCovering",
         "IfcCourse",
         "IfcPavement",
@@ -166,6 +168,13 @@ _WORDS = {
 }
 """Words in names, in English, Norwegian, German, French, Spanish, Italian, Dutch and Swedish; the first kind counts."""
 
+_SURFACING_WORDS = (
+    r"asphalt|surfacing|wearing (course|surface)|road ?surface|waterproof|membrane|slitelag|slidlager|belegning"
+    r"|(fahrbahn|brücken|asphalt|straßen)belag|\bbelag|deckschicht|abdichtung|enrobé|étanchéité|couche de roulement"
+    r"|asfalt|beläggning|tätskikt|mezcla bituminosa|capa de rodadura|conglomerato bituminoso|usura|deklaag"
+)
+"""Words in the name of what lies on a deck, whatever its class: programs have it as slabs."""
+
 _PILE = r"\bpiles?\b"
 _FRENCH = r"cul[eé]e|tablier|chevêtre|semelle|appui|poutre"
 """Words of a file in which a *pile* is a pier; in English it lies in the ground."""
@@ -191,6 +200,8 @@ def kind_of(facts: ElementFacts, own: Sequence[tuple[str, str]] = (), *, is_fren
     for why, classes in _OF_CLASS.items():
         if not set(classes).isdisjoint(facts.classes):
             return LeftOut(why)
+    if re.search(_SURFACING_WORDS, _plain(facts.words)):
+        return LeftOut(_SURFACING)
     if _named_kind(facts.words) == "cross girder":
         return "girder"  # some programs give it the type of a pier cap, which it lies on
     for kind, types in _OF_TYPE.items():

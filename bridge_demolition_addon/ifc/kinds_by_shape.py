@@ -18,6 +18,9 @@ _FLAT, _LONG, _HIGH = 0.5, 4.0, 1.2
 """Height by the smaller size in plan up to which a body is flat, length by width from which on it is long, and height
 by the larger size in plan from which on it is high."""
 
+_WALL = 4.0
+"""Length by height up to which what is higher than thick is a wall; a girder is longer."""
+
 _LARGE = 0.3
 """Plan by the largest one from which on a flat body is a deck."""
 
@@ -60,6 +63,8 @@ def _kind(size: np.ndarray, largest_m2: float, *, is_low: bool) -> str:
         return "deck"
     if height > _HIGH * length:
         return "pier"
+    if height > _HIGH * width and length < _WALL * height:
+        return "wall"
     if is_low:
         return "footing" if height <= width else "wall"
     return "girder" if length >= _LONG * width else "pier cap"

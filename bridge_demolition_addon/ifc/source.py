@@ -87,7 +87,7 @@ def open_source(path: Path, settings: ImportSettings) -> IfcSource:
     if not model.by_type("IfcProject"):
         raise IfcError(f"{path}: has no IfcProject, so no units and no bridge; export the whole project")
     notes = ("METER is taken for METRE, as the standard spells it",) if count else ()
-    lost = _lost_classes(content) if schema else ()
+    lost = _lost_classes(mended) if schema else ()
     if schema:
         notes = (*notes, f"the schema {schema} is read as {_NEWEST}, which came after it")
     if lost:

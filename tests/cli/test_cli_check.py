@@ -27,6 +27,7 @@ from bridge_demolition_addon.model.scenario import (
     FractureSettings,
     Geometry,
     Load,
+    Support,
 )
 from bridge_demolition_addon.model.scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
 from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_text
@@ -484,6 +485,9 @@ def test_a_bridge_in_pieces_is_said():
     apart = replace(I235, connections=connections)
     # The deck, and two piers of a cap on two columns each.
     assert facts(apart)["pieces"].startswith("3, which no connection holds together")
+    # Shards of a cap that never moves have no connections among each other: they are one piece all the same.
+    held = replace(apart, supports=(Support(member="pier cap"),))
+    assert facts(held)["pieces"].startswith("3, which no connection holds together")
 
 
 def test_a_bridge_that_nothing_holds_is_not_said_to_stand(tmp_path):

@@ -145,4 +145,4 @@ def test_damaged_files_are_read_or_refused(tmp_path):
 
     said = [read_damaged_terrain(tmp_path, seed) for seed in range(40)]
     said += [read_damaged_ifc(tmp_path, seed) for seed in range(3)]
-    assert set(said) <= {"ifc read", "ifc refused", "terrain read", "terrain refused"}
+    assert set(said) <= {"read", "refused"}

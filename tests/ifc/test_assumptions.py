@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What an import assumes and mends where a file is incomplete or damaged: volumes by hand, and all that stands held."""
 
+import re
+
 import numpy as np
 import pytest
 from support.ifc_bridges import MASS_KG, VOLUMES_M3, IfcBridge, whole_bridge
@@ -192,6 +194,23 @@ def test_a_superstructure_without_piers_gets_supports_under_its_ends(tmp_path):
     kinds = sorted(bearing.kind for bearing in bridge.scenario.bearings)
     assert kinds == ["pinned", "pinned", "rocker", "rocker"]
     assert {support.member for support in bridge.scenario.supports} == {member.name for member in added}
+
+
+def test_girders_that_end_just_above_what_they_lie_on_get_pads(tmp_path):
+    """The bridge without its bearings of 0.1 m: girders of 0.4 m over two abutments and a pier cap, all 1 m long."""
+    bridge = read(IfcBridge().substructure().superstructure(), tmp_path)
+    pads = [outcome.member for outcome in bridge.outcomes if outcome.became == "connection"]
+    assert sorted(pad.name for pad in pads) == ["Abutment 1"] * 2 + ["Abutment 2"] * 2 + ["Crosshead"] * 2
+    for pad in pads:
+        assert np.ptp(pad.solid.bounds, axis=0) == pytest.approx((0.4, 0.36, 0.1), abs=0.002)  # 0.9 of the girder
+        assert pad.solid.bounds[1, 2] == pytest.approx(3.6)
+    kinds = {bearing.members: bearing.kind for bearing in bridge.scenario.bearings}
+    assert len(kinds) == 6
+    assert {below for (_, below), kind in kinds.items() if kind == "pinned"} == {"Abutment 1"}
+    assert not [outcome for outcome in bridge.outcomes if outcome.became == "added"]
+    assert any("the file has no bearings: 6 pads, up to 101 mm high" in note for note in bridge.notes)
+    with_bearings = read(whole_bridge(), tmp_path)
+    assert not any("pads" in note for note in with_bearings.notes)
 
 
 def test_a_bearing_on_nothing_gets_a_support_or_a_plinth(tmp_path):
@@ -469,3 +488,15 @@ def test_a_unit_that_the_file_lacks_is_guessed(unit, tmp_path):
     bridge = read(made, tmp_path)
     assert sum(o.member.volume_m3 for o in bridge.outcomes if o.member) == pytest.approx(sum(VOLUMES_M3.values()))
     assert any("has no unit of length that is known: taken for m" in note for note in bridge.notes)
+
+
+@pytest.mark.parametrize("unit, label, meant", [("METRE", ".MILLI.", "m"), ("MILLI", "$", "mm")])
+def test_a_unit_that_is_a_thousand_times_off_is_mended(unit, label, meant, tmp_path):
+    """The bridge of 21 m in a file whose unit is exchanged for another: 21 mm or 21 km long by that."""
+    path = whole_bridge(unit=unit).written(tmp_path / "bridge.ifc")
+    text, count = re.subn(r"(IFCSIUNIT\(\*,\.LENGTHUNIT\.,)[^,]*,", rf"\g<1>{label},", path.read_text())
+    path.write_text(text)
+    bridge = read_bridge(path, ImportSettings())
+    assert count >= 1
+    assert sum(o.member.volume_m3 for o in bridge.outcomes if o.member) == pytest.approx(sum(VOLUMES_M3.values()))
+    assert any(f"taken for {meant}; --unit says it better" in note for note in bridge.notes)

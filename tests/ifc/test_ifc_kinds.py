@@ -3,8 +3,10 @@
 
 import pytest
 
+from bridge_demolition_addon.engineering.geometry.solids import box
 from bridge_demolition_addon.errors import IfcError
 from bridge_demolition_addon.ifc.kinds import ElementFacts, LeftOut, is_french, kind_of
+from bridge_demolition_addon.ifc.kinds_by_shape import kinds_of_shapes
 from bridge_demolition_addon.ifc.settings import ImportSettings
 
 
@@ -55,6 +57,8 @@ def test_kinds(said, kind):
         (facts("IfcRailing"), "carries nothing"),
         (facts("IfcPile"), "in the ground"),
         (facts("IfcPavement"), "surfacing"),
+        (facts("IfcSlab", "Floor:Asphalt 80mm:1234"), "surfacing"),
+        (facts("IfcBuildingElementProxy", "Fahrbahnbelag"), "surfacing"),
         (facts("IfcMember", predefined="STAY_CABLE"), "cables"),
         (facts("IfcBuildingElementProxy", "Handrail"), "carries nothing"),
         (facts("IfcBuildingElementProxy", "Object 7"), "--kind"),
@@ -65,6 +69,19 @@ def test_what_is_left_out_says_why(said, why):
     found = kind_of(said)
     assert isinstance(found, LeftOut)
     assert why in found.why
+
+
+def test_a_wall_without_a_name_is_no_girder_however_high_it_ends():
+    """Two abutments of 8 m × 1 m × 4 m on footings of 1 m, a deck over them, and a girder of 18 m × 0.5 m × 1 m."""
+    sizes = [
+        ((3.0, 8.0, 1.0), (0.0, 0.0, 0.5), "footing"),
+        ((1.0, 8.0, 4.0), (0.0, 0.0, 3.0), "wall"),
+        ((1.0, 8.0, 4.0), (18.0, 0.0, 4.0), "wall"),
+        ((18.0, 0.5, 1.0), (9.0, 0.0, 4.5), "girder"),
+        ((19.0, 8.0, 0.9), (9.0, 0.0, 5.45), "deck"),
+    ]
+    shapes = {number: box(size, middle) for number, (size, middle, _) in enumerate(sizes)}
+    assert list(kinds_of_shapes(shapes).values()) == [kind for _, _, kind in sizes]
 
 
 def test_the_user_says_what_an_element_is():

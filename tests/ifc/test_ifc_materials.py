@@ -24,6 +24,8 @@ def read(made, tmp_path, **settings):
         ("STRUCTURAL STEEL", 7850.0, "steel"),
         ("S355J2+N", 7850.0, "steel"),
         ("Brick, common", 1850.0, "masonry"),
+        ("Naturstein", 2750.0, "masonry"),
+        ("Maçonnerie de pierre", 2750.0, "masonry"),
     ],
 )
 def test_the_table(name, density, strength):

@@ -112,3 +112,16 @@ def write_tif(path, height=plane, *, kind="float32", keys=(), no_data=None, tags
     extra = extra if tags is None else tags
     tifffile.imwrite(path, heights.astype(kind), extratags=[(*tag, True) for tag in extra], metadata=None)
     return path
+
+
+def write_las(path, height=plane):
+    """Write a cloud of points in LAS, or in LAZ by the ending of the path, all of the class of ground."""
+    import laspy
+
+    x, y = (grid.ravel() for grid in lattice())
+    cloud = laspy.LasData(laspy.LasHeader(point_format=1, version="1.2"))
+    cloud.header.offsets, cloud.header.scales = (EASTING, NORTHING, HEIGHT), (0.001, 0.001, 0.001)
+    cloud.x, cloud.y, cloud.z = x, y, height(x, y)
+    cloud.classification = np.full(len(x), 2, dtype=np.uint8)
+    cloud.write(path)
+    return path

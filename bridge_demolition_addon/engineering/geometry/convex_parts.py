@@ -46,10 +46,11 @@ _RUBBISH = 1e-9
 """Part of the solid's volume below which a piece is rounding."""
 
 
-def convex_parts(solid: TriangleMesh, most: int) -> tuple[TriangleMesh, ...]:
+def convex_parts(solid: TriangleMesh, most: int, least_m3: float = 0.0) -> tuple[TriangleMesh, ...]:
     """Return a solid as at most `most` touching parts without overlap that are convex; alone where it is itself.
 
-    Fewer remain convex the fewer are allowed: the parts with most in excess are cut first.
+    Fewer remain convex the fewer are allowed: the parts with most in excess are cut first. A solid stays whole where
+    all parts but one are smaller than `least_m3`.
     """
     volume = solid.volume
     waiting = [_Part.of(shells) for shells in bodies(to_manifold(solid), _RUBBISH * volume)]
@@ -62,7 +63,10 @@ def convex_parts(solid: TriangleMesh, most: int) -> tuple[TriangleMesh, ...]:
             waiting += pieces
         else:
             done.append(part)
-    return tuple(_without_films(part.body, _RUBBISH * volume) for part in [*done, *waiting])
+    parts = [*done, *waiting]
+    if sum(part.volume_m3 >= least_m3 for part in parts) == 1:
+        return (solid,)
+    return tuple(_without_films(part.body, _RUBBISH * volume) for part in parts)
 
 
 class _Part:

@@ -100,12 +100,37 @@ def connection_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
 
 def _piece_facts(model: Model) -> Iterator[Fact]:
     """Yield in how many pieces the bridge is that no connection holds together, if in more than one."""
-    pairs = model.connections.pairs[(model.connections.pairs >= 0).all(axis=1)]
-    pairs = pairs[(pairs < len(model.shards)).all(axis=1)]
-    label = connected_parts(np.ones(len(model.shards), bool), pairs[:, 0], pairs[:, 1])
-    pieces = len(np.unique(label))
-    if pieces > 1:
-        yield "pieces", f"{pieces}, which no connection holds together: they lie on each other by contact alone"
+    pieces = _pieces(model)
+    if len(pieces) > 1:
+        yield "pieces", f"{len(pieces)}, which no connection holds together: they lie on each other by contact alone"
+        for names in pieces[:MOST_PAIRS_NAMED]:
+            yield "", _listed(names)
+        if len(pieces) > MOST_PAIRS_NAMED:
+            yield "", f"and {len(pieces) - MOST_PAIRS_NAMED} more, each of fewer members"
+
+
+def _pieces(model: Model) -> list[list[str]]:
+    """Return the names of the members in each piece that connections hold together, the largest piece first.
+
+    No connection lies between two shards that never move: those of one member belong together by that.
+    """
+    count = len(model.shards)
+    pairs = model.connections.pairs
+    pairs = pairs[((pairs >= 0) & (pairs < count)).all(axis=1)]
+    held = np.flatnonzero(model.fixed)
+    held = held[np.argsort(model.member_of_shard[held], kind="stable")]
+    beside = np.column_stack((held[:-1], held[1:]))
+    beside = beside[model.member_of_shard[beside[:, 0]] == model.member_of_shard[beside[:, 1]]]
+    first, second = np.concatenate((pairs, beside)).T
+    label = connected_parts(np.ones(count, bool), first, second)
+    members = (dict.fromkeys(model.member_of_shard[label == piece].tolist()) for piece in np.unique(label))
+    named = [[model.members[member].name for member in piece] for piece in members]
+    return sorted(named, key=len, reverse=True)
+
+
+def _listed(names: Sequence[str]) -> str:
+    more = len(names) - MOST_MEMBERS_NAMED
+    return ", ".join(names[:MOST_MEMBERS_NAMED]) + (f" and {more} more" if more > 0 else "")
 
 
 def _bar_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:

@@ -42,6 +42,11 @@ _MOST_CONVEX_PARTS = 12
 _MOST_CONVEX_IN_PIECE = 8
 """Parts into which a member that has fewer shards is cut, and a piece of a slender one, so that these are convex."""
 
+_LEAST_PART = 0.05
+"""Part of a mean shard's volume that a convex part has to have. The pads of bearings stay with the pier cap that they
+are on: a shard of 60 kg that is pressed between two a hundred times as heavy is pushed away by Bullet, with energy that
+is not there."""
+
 _MOST_ATTEMPTS = 8
 
 _SPANNING = ("deck", "girder", "arch", "parapet", "pier cap")
@@ -147,16 +152,17 @@ def _in_convex_parts(member: Member, shards: int) -> Member:
     """Return a member that is to be so many shards with parts that are convex, as few of a user's own files are."""
     if member.parts:
         return member
-    parts = _convex_parts(member.solid, max(shards, _MOST_CONVEX_PARTS))
+    least_m3 = _LEAST_PART * member.volume_m3 / shards
+    parts = _convex_parts(member.solid, max(shards, _MOST_CONVEX_PARTS), least_m3)
     if len(parts) > 1 and member.kind in _SPANNING and (pieces := _pieces_of_slender(member.solid, shards)):
         most = max(shards // len(pieces), _MOST_CONVEX_IN_PIECE)
-        parts = tuple(part for piece in pieces for part in _convex_parts(piece, most))
+        parts = tuple(part for piece in pieces for part in _convex_parts(piece, most, least_m3))
     return replace(member, parts=parts) if len(parts) > 1 else member
 
 
-def _convex_parts(solid: TriangleMesh, most: int) -> tuple[TriangleMesh, ...]:
+def _convex_parts(solid: TriangleMesh, most: int, least_m3: float) -> tuple[TriangleMesh, ...]:
     """Return a solid in convex parts; whole where one of them could not be cut, as its surface crosses itself."""
-    parts = convex_parts(solid, most)
+    parts = convex_parts(solid, most, least_m3)
     return parts if all(_can_be_cut(part) for part in parts) else (solid,)
 
 

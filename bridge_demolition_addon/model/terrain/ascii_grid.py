@@ -15,6 +15,9 @@ _MOST_BYTES = 500 * MEGABYTE
 _NO_DATA = -9999.0
 """What stands for no data where the header does not say (ESRI, *ArcGIS*, ASCII raster format)."""
 
+_FINEST_M, _EAST_DEG, _NORTH_DEG = 0.005, 180.0, 90.0
+"""Steps of a grid below which, between these longitudes and latitudes, it is in degrees: 0.005° are 500 m."""
+
 _NO_NUMBERS = ("nan", "inf", "infinity")
 """Heights that are written with letters, as GDAL does where there are no data."""
 
@@ -28,6 +31,12 @@ def read_ascii_grid(path: Path, no_data: float | None) -> Raster:
     dx, dy = (_number(header, name, "cellsize") for name in ("dx", "dy"))
     if dx <= 0.0 or dy <= 0.0:
         raise GeometryError(f"cellsize is {min(dx, dy):g}: expected more than 0")
+    first = [_first(header, axis, step) for axis, step in (("x", dx), ("y", dy))]
+    if max(dx, dy) < _FINEST_M and abs(first[0]) <= _EAST_DEG and abs(first[1]) <= _NORTH_DEG:
+        raise GeometryError(
+            f"cellsize is {max(dx, dy):g}, at ({first[0]:g}, {first[1]:g}): that is in degrees; project it to a map in "
+            "metres first, such as UTM"
+        )
     try:
         heights = np.array(numbers.split(), dtype=float)
     except ValueError as error:
@@ -36,7 +45,6 @@ def read_ascii_grid(path: Path, no_data: float | None) -> Raster:
         raise GeometryError(f"holds {len(heights)} heights: expected {rows} rows of {columns}")
     unknown = header.get("nodata_value", _NO_DATA) if no_data is None else no_data
     heights = np.where((heights == unknown) | ~np.isfinite(heights), np.nan, heights).reshape(rows, columns)[::-1]
-    first = [_first(header, axis, step) for axis, step in (("x", dx), ("y", dy))]
     return Raster(np.array(first), np.array([dx, dy]), heights)
 
 

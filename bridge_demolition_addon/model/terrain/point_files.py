@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -25,6 +26,15 @@ _CELLS_PER_POINT = 3
 
 
 _FEWEST_COLUMNS = 3
+
+_CALLED = (
+    ("x", "e", "east", "easting", "rechtswert", "ost", "øst", "öst", "este"),
+    ("y", "n", "north", "northing", "hochwert", "nord", "norte"),
+    ("z", "h", "height", "elev", "elevation", "level", "höhe", "hoehe", "høyde", "höjd", "altitude", "cota", "quota"),
+)
+"""What columns of x, y and z are called."""
+
+_NAME_THEM = "name the columns x, y and z in a first line, such as id, x, y, z, code"
 
 
 def read_points(path: Path, no_data: float | None) -> Raster | Surface:
@@ -74,24 +84,60 @@ def triangulated(points: np.ndarray) -> Surface:
 
 def _numbers(text: str) -> np.ndarray:
     text = _with_points(text)
-    for separator in ",;\t":
-        text = text.replace(separator, " ")
     lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
-    if lines and not _are_numbers(lines[0]):
-        lines = lines[1:]  # what the columns are called
-    width = len(lines[0].split()) if lines else 0
-    if width < 3:
-        raise GeometryError("expected lines of x, y and z")
-    try:
-        values = np.array(" ".join(lines).split(), dtype=float)
-    except ValueError as error:
-        raise GeometryError(f"expected lines of x, y and z ({error})") from error
-    if len(values) != width * len(lines):
-        raise GeometryError(f"expected {width} numbers in each line, as in the first")
-    points = values.reshape(-1, width)[:, :3]
+    names: list[str] = []
+    if lines and not _are_numbers(_words(lines[0])):
+        names, lines = _names(lines[0]), lines[1:]
+    columns = _named_columns(names)
+    points = _columns(lines, columns) if columns else _first_columns(lines)
     if not np.isfinite(points[:, :2]).all():
         raise GeometryError("a point has no position: expected numbers for x and y")
     return points[np.isfinite(points[:, 2])]
+
+
+def _first_columns(lines: Sequence[str]) -> np.ndarray:
+    """Return the first three numbers (n, 3) of each line."""
+    width = len(_words(lines[0])) if lines else 0
+    if width < _FEWEST_COLUMNS:
+        raise GeometryError("expected lines of x, y and z")
+    try:
+        values = np.array(_words(" ".join(lines)), dtype=float)
+    except ValueError as error:
+        raise GeometryError(f"expected lines of x, y and z ({error}); {_NAME_THEM}") from error
+    if len(values) != width * len(lines):
+        raise GeometryError(f"expected {width} numbers in each line, as in the first")
+    points = values.reshape(-1, width)
+    if width > _FEWEST_COLUMNS and (points[:, 0] == np.arange(1, len(points) + 1)).all():
+        raise GeometryError(f"its first column counts the points: take it out, or {_NAME_THEM}")
+    return points[:, :_FEWEST_COLUMNS]
+
+
+def _columns(lines: Sequence[str], columns: Sequence[int]) -> np.ndarray:
+    """Return the numbers (n, 3) in some columns of each line, beside which there may be text."""
+    try:
+        rows = [[words[column] for column in columns] for words in map(_names, lines)]
+        return np.array(rows, dtype=float).reshape(-1, _FEWEST_COLUMNS)
+    except (ValueError, IndexError) as error:
+        raise GeometryError(f"expected numbers in the columns of x, y and z ({error})") from error
+
+
+def _words(text: str) -> list[str]:
+    for separator in ",;\t":
+        text = text.replace(separator, " ")
+    return text.split()
+
+
+def _names(line: str) -> list[str]:
+    """Return what stands in the columns of a line, of which some may be empty."""
+    separator = next((sign for sign in ";\t," if sign in line), None)
+    return [word.strip().strip('"') for word in line.split(separator)]
+
+
+def _named_columns(names: Sequence[str]) -> tuple[int, ...]:
+    """Return the columns of x, y and z by what they are called; empty where that does not say all three."""
+    plain = [name.lower().strip() for name in names]
+    found = [next((column for column, name in enumerate(plain) if name in called), None) for called in _CALLED]
+    return tuple(column for column in found if column is not None) if None not in found else ()
 
 
 def _with_points(text: str) -> str:
@@ -102,9 +148,9 @@ def _with_points(text: str) -> str:
     return text.replace(",", ".") if is_apart and "," in last and "." not in last else text
 
 
-def _are_numbers(line: str) -> bool:
+def _are_numbers(words: Sequence[str]) -> bool:
     try:
-        return bool([float(word) for word in line.split()])
+        return bool([float(word) for word in words])
     except ValueError:
         return False
 

@@ -72,3 +72,13 @@ def test_shards_of_convex_parts_are_convex():
     parts = convex_parts(prism(T_SECTION, 20.0), 20)
     shards = [shard for part in parts for shard in fracture(part, 8, seed=4).shards]
     assert max(map(excess, shards)) < 0.001
+
+
+def test_small_parts_alone_do_not_part_a_solid():
+    """Two pads of 0.036 m³ on a cap of 2.1 m³, where the least is 0.1 m³; columns of 1.08 m³ instead are parts."""
+    cap = box((1.0, 3.5, 0.6), (0.0, 0.0, 0.3))
+    for height_m, without, with_least in ((0.1, 3, 1), (3.0, 3, 3)):
+        tops = [box((0.6, 0.6, height_m), (0.0, y, 0.599 + height_m / 2.0)) for y in (-1.2, 1.2)]
+        solid = union([cap, *tops])
+        assert len(convex_parts(solid, 12)) == without
+        assert len(convex_parts(solid, 12, 0.1)) == with_least

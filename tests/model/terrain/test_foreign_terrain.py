@@ -83,6 +83,34 @@ def test_decimal_commas_in_grids_and_points(tmp_path):
     assert read(tmp_path / "b.csv").source.heights.tolist() == [[1.0, 2.0], [3.0, 4.0]]
 
 
+def test_a_grid_in_degrees_is_called_so(tmp_path):
+    """A step of 0.3 seconds of arc at 10° east and 59° north, as national elevation models have it."""
+    for step, place, is_refused in ((0.0000833, (10.1, 59.1), True), (0.001, (448200.0, 4607100.0), False)):
+        (tmp_path / "a.asc").write_text(
+            f"ncols 2\nnrows 2\nxllcorner {place[0]}\nyllcorner {place[1]}\ncellsize {step}\n1 2\n3 4\n"
+        )
+        if is_refused:
+            with pytest.raises(GeometryError, match="that is in degrees; project it"):
+                read(tmp_path / "a.asc")
+        else:
+            assert read(tmp_path / "a.asc").source.heights.tolist() == [[3.0, 4.0], [1.0, 2.0]]
+
+
+def test_points_with_numbers_and_codes_are_read_by_the_names_of_their_columns(tmp_path):
+    """As total stations write them: a number, easting, northing, height and a code; without names it is refused."""
+    rows = ["1,10.0,20.0,1.5,GR", "2,11.0,20.0,2.5,KERB 1", "3,10.0,21.0,3.5,", "4,11.0,21.0,4.5,GR"]
+    (tmp_path / "a.csv").write_text("\n".join(["id,Easting,Northing,Height,code", *rows]))
+    assert read(tmp_path / "a.csv").source.heights.tolist() == [[1.5, 2.5], [3.5, 4.5]]
+    (tmp_path / "b.csv").write_text("\n".join(["Nr;Y;X;H", "1;20,0;10,0;1,5", "2;20,0;11,0;2,5", "3;21,0;10,0;3,5"]))
+    assert read(tmp_path / "b.csv").source.points[0].tolist() == [10.0, 20.0, 1.5]
+    (tmp_path / "c.csv").write_text("\n".join(rows))
+    with pytest.raises(GeometryError, match="name the columns x, y and z in a first line"):
+        read(tmp_path / "c.csv")
+    (tmp_path / "d.xyz").write_text("\n".join(" ".join(row.split(",")[:4]) for row in rows))
+    with pytest.raises(GeometryError, match="its first column counts the points"):
+        read(tmp_path / "d.xyz")
+
+
 def test_a_tiff_in_degrees_or_without_a_place_is_called_so(tmp_path):
     with pytest.raises(GeometryError, match="is in degrees"):
         read(write_tif(tmp_path / "a.tif", tags=[*PLACE, (34735, "H", 8, (1, 1, 0, 1, 2048, 0, 1, 4326))]))
