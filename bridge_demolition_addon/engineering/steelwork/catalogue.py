@@ -1,7 +1,7 @@
 """Sections by name: rolled ones from a table, others by sizes in their name.
 
 The table ``data/rolled_i_sections.csv`` has height, width, thickness of web and flanges, and root radius of the series
-IPE, HEA, HEB and HEM: nominal dimensions of EN 10365:2017, which are facts that nobody owns. All else is worked out
+IPE, HEA, HEB and HEM: nominal dimensions of EN 10365:2017, which are facts under no licence. All else is worked out
 from them. Sizes in names are in mm, with x between them.
 """
 

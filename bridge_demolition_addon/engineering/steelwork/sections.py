@@ -1,4 +1,4 @@
-"""Steel sections: rolled ones by their sizes and root radius, and plates made to an I, a box, a tube, an angle and more.
+"""Steel sections: rolled ones by sizes and root radius, and plates made to an I, a box, a tube, an angle and more.
 
 y is level and z upright in a section that stands as drawings show it, so that bending about y is about the strong axis
 of an I-section. Torsion is that of Saint-Venant; warping, and the distance of the shear centre from the middle of open
@@ -45,6 +45,8 @@ class SteelSection:
         Areas that deform evenly by shear along y and z.
     plastic_shear_areas_m2 : (2,) float
         Areas that yield by shear along y and z: EN 1993-1-1:2005, 6.2.6 (3).
+    torsion_modulus_m3 : float
+        Torsion by the shear stress at which all of it yields: Σ b t² / 2 of open plates, 2 A t of tubes (Bredt).
     thickest_m : float
         Its thickest part, by which the yield strength goes.
     buckling_curves : tuple of str
@@ -56,6 +58,7 @@ class SteelSection:
     torsion_m4: float
     shear_areas_m2: FloatArray
     plastic_shear_areas_m2: FloatArray
+    torsion_modulus_m3: float
     thickest_m: float
     buckling_curves: tuple[str, str]
 
@@ -112,6 +115,7 @@ def rolled_i(name: str, height: float, width: float, web: float, flange: float, 
         plates_m4 + roots_m4,
         _i_shear(width, flange, (height - flange) * web),
         np.array([2.0 * width * flange, of_web]),
+        _plates_modulus([(width, flange)] * 2 + [(height - 2.0 * flange, web)]),
         max(web, flange),
         curves,
     )
@@ -133,12 +137,14 @@ def plate_girder(
     )
     flanges = top_width * top_plate + bottom_width * bottom_plate
     thickest = max(top_plate, bottom_plate)
+    plates = [(top_width, top_plate), (bottom_width, bottom_plate), (clear, web)]
     return SteelSection(
         name,
         about_centre([ring]),
-        _plates_torsion([(top_width, top_plate), (bottom_width, bottom_plate), (clear, web)]),
+        _plates_torsion(plates),
         np.array([5.0 / 6.0 * flanges, web * (height - (top_plate + bottom_plate) / 2.0)]),
         np.array([flanges, web * clear]),
+        _plates_modulus(plates),
         max(web, thickest),
         ("b", "c") if thickest <= _THIN_FLANGE_M else ("c", "d"),
     )
@@ -160,7 +166,16 @@ def hollow_rectangle(name: str, height: float, width: float, plate: float) -> St
     rings = about_centre([ring, hole])
     area = plane_shape(rings).area_m2
     shares = np.array([width, height]) / (width + height)
-    return SteelSection(name, rings, torsion, _webs(width, height, plate, plate), area * shares, plate, ("a", "a"))
+    return SteelSection(
+        name,
+        rings,
+        torsion,
+        _webs(width, height, plate, plate),
+        area * shares,
+        2.0 * enclosed * plate,
+        plate,
+        ("a", "a"),
+    )
 
 
 def welded_box(name: str, height: float, width: float, web: float, flange: float) -> SteelSection:
@@ -176,6 +191,7 @@ def welded_box(name: str, height: float, width: float, web: float, flange: float
         torsion,
         _webs(width, height, web, flange),
         np.array([2.0 * flange * width, 2.0 * web * clear]),
+        2.0 * deep * wide * min(web, flange),
         max(web, flange),
         ("b", "b"),
     )
@@ -194,7 +210,14 @@ def tube(name: str, diameter: float, plate: float) -> SteelSection:
     area = math.pi * (outer * outer - inner * inner)
     torsion = math.pi / 2.0 * (_square(outer * outer) - _square(inner * inner))
     return SteelSection(
-        name, rings, torsion, np.full(2, area / 2.0), np.full(2, 2.0 * area / math.pi), plate, ("a", "a")
+        name,
+        rings,
+        torsion,
+        np.full(2, area / 2.0),
+        np.full(2, 2.0 * area / math.pi),
+        2.0 * math.pi * _square(outer - plate / 2.0) * plate,
+        plate,
+        ("a", "a"),
     )
 
 
@@ -208,12 +231,14 @@ def channel(name: str, height: float, width: float, web: float, flange: float) -
         ]
     )
     of_web = web * (height - flange)
+    plates = [(width - web / 2.0, flange)] * 2 + [(height - flange, web)]
     return SteelSection(
         name,
         about_centre([ring]),
-        _plates_torsion([(width - web / 2.0, flange)] * 2 + [(height - flange, web)]),
+        _plates_torsion(plates),
         _i_shear(width, flange, of_web),
         np.array([2.0 * width * flange, of_web]),
+        _plates_modulus(plates),
         max(web, flange),
         ("c", "c"),
     )
@@ -223,12 +248,14 @@ def angle(name: str, height: float, width: float, plate: float) -> SteelSection:
     """Return an angle with sharp corners, by sizes over all in m."""
     ring = np.array([(0.0, 0.0), (width, 0.0), (width, plate), (plate, plate), (plate, height), (0.0, height)])
     legs = np.array([(width - plate / 2.0) * plate, (height - plate / 2.0) * plate])
+    plates = [(width - plate / 2.0, plate), (height - plate / 2.0, plate)]
     return SteelSection(
         name,
         about_centre([ring]),
-        _plates_torsion([(width - plate / 2.0, plate), (height - plate / 2.0, plate)]),
+        _plates_torsion(plates),
         5.0 / 6.0 * legs,
         legs,
+        _plates_modulus(plates),
         plate,
         ("b", "b"),
     )
@@ -244,12 +271,14 @@ def tee(name: str, height: float, width: float, web: float, flange: float) -> St
         ]
     )
     of_web = web * (height - flange / 2.0)
+    plates = [(width, flange), (height - flange / 2.0, web)]
     return SteelSection(
         name,
         about_centre([ring]),
-        _plates_torsion([(width, flange), (height - flange / 2.0, web)]),
+        _plates_torsion(plates),
         5.0 / 6.0 * np.array([width * flange, of_web]),
         np.array([width * flange, of_web]),
+        _plates_modulus(plates),
         max(web, flange),
         ("c", "c"),
     )
@@ -262,7 +291,14 @@ def solid_bar(name: str, height: float, width: float) -> SteelSection:
     torsion = long * _cube(short) * (1.0 / 3.0 - 0.21 * slender * (1.0 - _square(slender * slender) / 12.0))
     area = height * width
     return SteelSection(
-        name, (rectangle(width, height),), torsion, np.full(2, 5.0 / 6.0 * area), np.full(2, area), short, ("c", "c")
+        name,
+        (rectangle(width, height),),
+        torsion,
+        np.full(2, 5.0 / 6.0 * area),
+        np.full(2, area),
+        short * short * (3.0 * long - short) / 6.0,  # a heap of sand
+        short,
+        ("c", "c"),
     )
 
 
@@ -285,6 +321,11 @@ def _webs(width: float, height: float, web: float, flange: float) -> FloatArray:
 def _plates_torsion(plates: Sequence[tuple[float, float]]) -> float:
     """Torsion constant of open plates, by lengths and thicknesses: Σ b t³ / 3, without free ends for their length."""
     return math.fsum(max(long - 0.63 * thin, 0.0) * _cube(thin) / 3.0 for long, thin in plates)
+
+
+def _plates_modulus(plates: Sequence[tuple[float, float]]) -> float:
+    """Torsion of open plates by the shear stress at which all of them yield: Σ b t² / 2."""
+    return math.fsum(long * thin * thin / 2.0 for long, thin in plates)
 
 
 def _square(value: float) -> float:

@@ -24,6 +24,7 @@ from .recording import PictureSettings, RecordingSettings
 from .reinforcement import BarRule, BridgeReinforcement, GeometryReinforcement, RatiosOfMember
 from .scenario import Scenario
 from .site import Exclusion, Neighbour, Site, Zone
+from .steelwork import SteelMember, SteelNode, Steelwork
 from .structural_changes import Change, Removal, SawCut, Severing, Weakening, ZoneFiring
 from .time import TimeSettings
 
@@ -72,6 +73,9 @@ __all__ = [
     "Severing",
     "ShardSettings",
     "Site",
+    "SteelMember",
+    "SteelNode",
+    "Steelwork",
     "Support",
     "SurfaceValues",
     "TimeSettings",

@@ -44,6 +44,7 @@ from .jackhammer import Jackhammer
 from .recording import PictureSettings, RecordingSettings
 from .reinforcement import BarRule, BridgeReinforcement, GeometryReinforcement
 from .site import Exclusion, Neighbour, Site, Zone
+from .steelwork import Steelwork
 from .structural_changes import Change, Removal, SawCut, Weakening, severing
 from .time import MOST_FRAMES, TimeSettings
 
@@ -66,6 +67,7 @@ class Scenario(Table):
     time: TimeSettings
     bridge: Bridge | None = None
     geometry: tuple[Geometry, ...] = ()
+    steelwork: Steelwork | None = None
     ground: Ground = field(default_factory=Ground)
     ground_motion: GroundMotion | None = None
     fracture: FractureSettings
@@ -107,8 +109,22 @@ class Scenario(Table):
     def joints(self) -> tuple[Joint, ...]:
         """Return the joint of connections that follow no rule, then that of each rule, then that of each bearing.
 
-        Rules are those of `connections.between`. With reinforcement, the same follow for members that have bars.
+        Rules are those of `connections.between`. With reinforcement, the same follow for members that have bars. Those
+        of steelwork come last.
         """
+        return (*self._joints_of_faces, *self._joints_of_steelwork)
+
+    @property
+    def first_steel_joint(self) -> int:
+        """Return the number of joints before those of steelwork."""
+        return len(self._joints_of_faces)
+
+    @property
+    def _joints_of_steelwork(self) -> tuple[Joint, ...]:
+        return self.steelwork.joints(self.connections.strength_factor) if self.steelwork else ()
+
+    @property
+    def _joints_of_faces(self) -> tuple[Joint, ...]:
         own, *others = self.connections.joints(self.materials)
         factor, is_elastic = self.connections.strength_factor, self.connections.is_elastic
         pads = [table.joint(own, factor, is_elastic=is_elastic) for table in bearing_tables(self)]
@@ -217,13 +233,16 @@ class Scenario(Table):
         _ = self.joints  # refuses materials that are unknown, or do not say how they deform
         if self.bridge and self._material_density_kg_m3 is None:
             check_exactly_one(self.bridge, "density_kg_m3", "mass_kg")
-        if self.bridge is None and not self.geometry:
-            raise ScenarioError("bridge is missing: expected a table, or a member of your own under [[geometry]]")
+        if self.bridge is None and not self.geometry and self.steelwork is None:
+            raise ScenarioError(
+                "bridge is missing: expected a table, a member of your own under [[geometry]], or [steelwork]"
+            )
+        self._check_steelwork()
         faults = Faults()
         for action in self.actions:
             with faults.noted():
                 action.check_plan(self)
-                if self.geometry:
+                if self.geometry or self.steelwork:
                     continue  # what lies there is only known once the members are read
                 for name, position in action.targets():
                     _check_on_deck(given(self.bridge), name, position)
@@ -256,6 +275,11 @@ class Scenario(Table):
         }
         for name, value in own.items():
             object.__setattr__(self, name, value)
+
+    def _check_steelwork(self) -> None:
+        if self.steelwork is not None and not self.connections.is_elastic:
+            wanted = '"elastic" with [steelwork], and method "face": bars share a load by their stiffness'
+            raise self.connections.unexpected("stiffness", wanted)
 
     def _check_foundations(self) -> None:
         if not self.foundations:
