@@ -87,7 +87,7 @@ def truss_forces(
     loads: dict[str, tuple[float, float]],
     held: dict[str, str],
 ) -> dict[str, float]:
-    """Return the bar forces of a plane truss by the method of joints, tension positive; `held` says "x", "z" or both."""
+    """Return the forces of bars of a plane truss by the method of joints, tension positive; `held` has axes."""
     rows = [(name, axis) for name in places for axis in "xz"]
     unknown = [*bars, *((name, axis) for name, axes in held.items() for axis in axes)]
     matrix, right = np.zeros((len(rows), len(unknown))), np.zeros(len(rows))

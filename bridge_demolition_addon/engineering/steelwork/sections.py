@@ -296,7 +296,7 @@ def solid_bar(name: str, height: float, width: float) -> SteelSection:
         torsion,
         np.full(2, 5.0 / 6.0 * area),
         np.full(2, area),
-        short * short * (3.0 * long - short) / 6.0,  # a heap of sand
+        short * short * (3.0 * long - short) / 6.0,  # Nadai's analogy of sand
         short,
         ("c", "c"),
     )

@@ -105,7 +105,8 @@ def member_facts(members: Sequence[Member]) -> Iterator[Fact]:
     """Yield what a planner wants to know of members before a run."""
     alike = len({member.density_kg_m3 for member in members}) == 1
     for member in members:
-        own = "" if alike else f", {member.density_kg_m3:.0f} kg/m³"
+        is_node = member.steel is not None and member.steel.bar is None  # it may carry part of a deck
+        own = "" if alike or is_node else f", {member.density_kg_m3:.0f} kg/m³"
         yield member.name, _volume_and_mass(member.volume_m3, member.mass_kg) + own
     volume, mass = (math.fsum(getattr(member, name) for member in members) for name in ("volume_m3", "mass_kg"))
     yield "all", _volume_and_mass(volume, mass)

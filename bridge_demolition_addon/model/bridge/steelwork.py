@@ -61,7 +61,8 @@ def _radius_m(node: SteelNode, ends: Sequence[_End]) -> float:
 def _held_end(node: SteelNode, tables: Sequence[SteelMember]) -> str | None:
     """Return the bar that the node turns with, where all of them turn freely and no support holds it.
 
-    Else the node would spin. Its bar carries no moment for that, as all others are pinned at the node itself.
+    Else nothing would keep the node from turning. Its bar carries no moment for that, as all others are pinned at the
+    node itself.
     """
     at_node = [table for table in tables if node.name in table.nodes]
     is_free = all(table.ends[table.nodes.index(node.name)] != FIXED for table in at_node)

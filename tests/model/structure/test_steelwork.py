@@ -22,6 +22,7 @@ from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.errors import GeometryError, ScenarioError
 from bridge_demolition_addon.model.structure.equilibrium import at_rest, held_motions, inertias_of, model_at_rest
 from bridge_demolition_addon.model.structure.model import build_model
+from bridge_demolition_addon.model.structure.steel_bars import bar_uses
 
 YOUNG_PA, SHEAR_PA = 210e9, 210e9 / 2.6
 
@@ -56,7 +57,8 @@ def test_a_cantilever_bends_as_theory_says():
     deflection = model.centres_m[-1, 2] - rest.positions_m[2, -2]
     by_theory = weight * 10.0**4 / 8.0 / stiffness + weight * 50.0 / SHEAR_PA / section.shear_areas_m2[1]
     assert deflection == pytest.approx(by_theory, rel=0.005)
-    assert rest.frequency_hz == pytest.approx(1.8751**2 / 2.0 / math.pi * math.sqrt(stiffness / mass / 1e4), rel=0.01)
+    sideways = YOUNG_PA * section.shape.second_moments_m4[1, 1]
+    assert rest.frequency_hz == pytest.approx(1.8751**2 / 2.0 / math.pi * math.sqrt(sideways / mass / 1e4), rel=0.01)
 
 
 def test_a_rolled_bar_bends_about_its_other_axis():
@@ -203,3 +205,21 @@ def test_what_cannot_be_built_is_refused():
     )
     with pytest.raises(GeometryError, match="b is 1 m long"):
         build_model(short)
+
+
+def test_bars_are_judged_by_their_sections_and_as_struts(pratt):
+    """By statics: N / A f_y of a pinned bar without moment, and χ A f_y of one that is pressed."""
+    scenario, _, _, by_statics = pratt
+    model = build_model(scenario)
+    uses = {use.name: use for use in bar_uses(scenario, model, model_at_rest(model, scenario.joints))}
+    pulled, pressed = uses["L3-L4"], uses["U3-U4"]
+    plastic_n = 355e6 * section_named("HEB 200").area_m2
+    # The own weight of the chord bends it by 4 m · 4 m / 8 · 613 N / m.
+    moment = 61.3 * STANDARD_GRAVITY_M_S2 * 2.0 / (355e6 * section_named("HEB 200").shape.plastic_moduli_m3[0])
+    assert pulled.section_used == pytest.approx(by_statics["L3-L4"] / plastic_n + moment, rel=0.03)
+    assert pulled.buckling_used == 0.0
+    assert pressed.buckling_used == pytest.approx(-by_statics["U3-U4"] / pressed.buckling.resistance_n, rel=0.01)
+    # HEB 240, 4 m: λ = 400 / 6.08 / 76.4 = 0.861, curve c: χ = 0.62.
+    assert (pressed.buckling.axis, pressed.buckling.curve) == ("z", "c")
+    assert pressed.buckling.slenderness == pytest.approx(0.861, rel=0.005)
+    assert pressed.buckling.reduction == pytest.approx(0.623, rel=0.01)
