@@ -11,8 +11,6 @@ from bridge_demolition_addon.model.scenario.file import scenario_from_text
 from bridge_demolition_addon.model.structure.equilibrium import at_rest, held_motions, inertias_of
 from bridge_demolition_addon.model.structure.model import Model
 
-ALL_MOTIONS = ["move x", "move y", "move z", "turn x", "turn y", "turn z"]
-
 _HEAD = """
 [scenario]
 title = "Steelwork"
@@ -62,6 +60,7 @@ def rest_under(model: Model, scenario: Scenario, loads_n: dict[str, tuple[float,
         held_motions(model, scenario.joints),
         (0.0, 0.0, -STANDARD_GRAVITY_M_S2 if weight else 0.0),
         loads,
+        model.bearings.springs if model.bearings else None,
     )
 
 

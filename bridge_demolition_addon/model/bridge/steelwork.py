@@ -11,13 +11,12 @@ from ...engineering.geometry.solids import from_manifold, hull
 from ...engineering.geometry.vectors import transformed, unit
 from ...engineering.steelwork.bars import SteelBar, bar_axes, extruded, node_points, node_radius_m
 from ...errors import GeometryError
-from ..scenario.steelwork import FIXED, NODE_KIND, TURNS, SteelMember, SteelNode, Steelwork
+from ..scenario.bearings import FIXED
+from ..scenario.steelwork import NODE_KIND, TURNS, SteelMember, SteelNode, Steelwork
 from .member import Member, SteelPart
 
 _MOST_WITHIN = 0.45
 """Part of a bar that may lie within the plates of one node."""
-
-_TURNING = ("turn x", "turn y", "turn z")
 
 
 def steelwork_members(steelwork: Steelwork | None) -> tuple[Member, ...]:
@@ -66,8 +65,7 @@ def _held_end(node: SteelNode, tables: Sequence[SteelMember]) -> str | None:
     """
     at_node = [table for table in tables if node.name in table.nodes]
     is_free = all(table.ends[table.nodes.index(node.name)] != FIXED for table in at_node)
-    is_held = node.held is not None and all(motion in node.held for motion in _TURNING)
-    return at_node[0].name if is_free and not is_held else None
+    return at_node[0].name if is_free and node.support != FIXED else None
 
 
 def _bar(

@@ -6,7 +6,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from ...engineering.mechanics.joint import MOTIONS, Joint
+from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.strength import Strength
 from ...engineering.steelwork.catalogue import section_named
 from ...engineering.steelwork.grades import DENSITY_KG_M3, GRADES, STEEL_MODULI, strengths_pa
@@ -14,14 +14,17 @@ from ...engineering.steelwork.resistance import plastic_strength
 from ...engineering.steelwork.sections import SteelSection
 from ...errors import Faults, ScenarioError
 from ..schema import SHORTEST_LENGTH_M, SIZE, Table, given, key, shown
+from .bearings import FIXED, PINNED, ROCKER
 from .connections import GROUND_NAME
 
 NODE_KIND = "node"
 
-FIXED, PINNED, HINGED = "fixed", "pinned", "hinged"
+HINGED = "hinged"
 
 TURNS = {FIXED: (False, False), HINGED: (True, False), PINNED: (True, True)}
 """Whether a bar turns freely about y and z at an end."""
+
+SUPPORTS = (FIXED, PINNED, ROCKER)
 
 _MOST_PIECES = 200
 
@@ -35,11 +38,11 @@ class SteelNode(Table):
 
     name: str = key("Name of the node.")
     place_m: tuple[float, float, float] = key("Along the road, across it, above the ground.", unit="m")
-    held: tuple[str, ...] | None = key(
-        "Motions that a support at the node holds, along and about the axes of the bridge: "
-        '`["move x", "move y", "move z"]` for one that turns freely. None by default.',
+    support: str | None = key(
+        "Support of the node: `fixed` holds displacements and rotations, `pinned` turns freely about an axis across "
+        "the road, `rocker` also moves along it. All hold uplift. None by default.",
         default=None,
-        choices=MOTIONS,
+        choices=SUPPORTS,
     )
     held_by: str = key(
         "What the support stands on: the name or kind of a member, of which the nearest shard holds it, or `ground`.",
@@ -56,11 +59,6 @@ class SteelNode(Table):
         default=None,
         **SIZE,
     )
-
-    @property
-    def free(self) -> tuple[str, ...]:
-        """Motions that its support leaves free."""
-        return tuple(motion for motion in MOTIONS if motion not in (self.held or ()))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -148,8 +146,8 @@ class Steelwork(Table):
     def joints(self, strength_factor: float) -> tuple[Joint, ...]:
         """Return the joints of bars that are alike, by `joint_keys`."""
         return tuple(
-            Joint("GENERIC" if free else "FIXED", free, strength=_times(strength, strength_factor), moduli=STEEL_MODULI)
-            for strength, free in self._kinds().values()
+            Joint(kind, strength=_times(strength, strength_factor), moduli=STEEL_MODULI)
+            for strength, kind in self._kinds().values()
         )
 
     def joint_rows(self) -> dict[tuple[str, ...], int]:
@@ -162,20 +160,21 @@ class Steelwork(Table):
         return (self.grade_of(member), member.steel_section.name, repr(share))
 
     def support_key(self, node: SteelNode) -> tuple[str, ...]:
-        """Return what supports that leave the same motions free have in common."""
-        return ("support", *node.free)
+        """Return what supports that are alike have in common."""
+        return ("support", "FIXED" if node.support == FIXED else "GENERIC")
 
-    def _kinds(self) -> dict[tuple[str, ...], tuple[Strength | None, tuple[str, ...]]]:
-        kinds: dict[tuple[str, ...], tuple[Strength | None, tuple[str, ...]]] = {}
+    def _kinds(self) -> dict[tuple[str, ...], tuple[Strength | None, str]]:
+        kinds: dict[tuple[str, ...], tuple[Strength | None, str]] = {}
         for member in self.members:
             for end in (None, 0, 1):
                 yield_pa, _ = self.yield_and_ultimate_pa(member)
                 share = 1.0 if end is None else member.end_strengths[end]
                 strength = plastic_strength(member.steel_section, yield_pa).times(share)
-                kinds.setdefault(self.bar_key(member, end), (strength, ()))
+                kinds.setdefault(self.bar_key(member, end), (strength, "FIXED"))
         for node in self.nodes:
-            if node.held is not None:
-                kinds.setdefault(self.support_key(node), (None, node.free))
+            if node.support is not None:
+                key_of_support = self.support_key(node)
+                kinds.setdefault(key_of_support, (None, key_of_support[1]))
         return kinds
 
     def _check_together(self) -> None:

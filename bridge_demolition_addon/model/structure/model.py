@@ -37,6 +37,7 @@ from .steelwork import (
     SteelConnections,
     joint_rows,
     node_supports,
+    pins_of_supports,
     resisting_moments,
     steel_connections,
     steel_stiffness,
@@ -154,6 +155,11 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
         steel = steel_connections(fractured.bar_joints, connections, first_support, nodes)
         joint_of_connection = np.concatenate((joint_of_connection, np.zeros(len(nodes), int)))
         joint_of_connection[steel.rows] = joint_rows(steel, scenario, members)
+        pins, names = pins_of_supports(
+            scenario.steelwork, members, nodes, first_support, len(bearings.names) if bearings else 0
+        )
+        if names:
+            bearings = bearings.followed_by(pins, names) if bearings else ModelBearings(names, pins)
     held = held_parts(scenario.supports, members, shards, fractured.member_of_shard)
     fixed = np.zeros(len(shards), dtype=bool)
     for part in held:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...engineering.elasticity.bearings import PadSprings
 from ...engineering.elasticity.section_stiffness import SectionStiffness
 from ...engineering.fracture.shards import Fracture
 from ...engineering.fracture.shared_faces import NO_FACES, SharedFaces
@@ -19,9 +20,13 @@ from ...engineering.steelwork.resistance import plastic_second_moments
 from ...engineering.structure.connections import GROUND, Connections
 from ..bridge.member import Member, members_named
 from ..scenario import Scenario
+from ..scenario.bearings import FIXED, ROCKER, UNYIELDING_MN_M
 from ..scenario.connections import GROUND_NAME
 from ..scenario.steelwork import Steelwork
 from ..schema import given
+
+_TRAVEL_M = 0.2
+"""Displacement at which a node has left a support that turns or moves."""
 
 _SUPPORT = 1e4
 """Stiffness of a support over that of the stoutest bar at its node."""
@@ -146,7 +151,7 @@ def node_supports(
 ) -> tuple[Connections, np.ndarray]:
     """Return the connections between nodes and what holds them, and the index of the member of each node (s,)."""
     index_of = {member.name: index for index, member in enumerate(members)}
-    held = [node for node in steelwork.nodes if node.held is not None]
+    held = [node for node in steelwork.nodes if node.support is not None]
     nodes = np.array([index_of[node.name] for node in held], int)
     pairs = np.zeros((len(held), 2), int)
     for row, node in enumerate(held):
@@ -165,6 +170,38 @@ def node_supports(
         ),
         nodes,
     )
+
+
+def pins_of_supports(
+    steelwork: Steelwork, members: Sequence[Member], nodes: np.ndarray, first_row: int, first_bearing: int
+) -> tuple[PadSprings, tuple[str, ...]]:
+    """Return the springs of supports of nodes (s,) that turn freely, as of bearings that hold uplift, and their names.
+
+    The rows of their connections count from `first_row`, bearings from `first_bearing`. A pin across the road is two
+    springs as far from the node as its bars begin: they hold it upright.
+    """
+    tables = {node.name: node for node in steelwork.nodes}
+    rows = [row for row, index in enumerate(nodes.tolist()) if tables[members[index].name].support != FIXED]
+    pins = [tables[members[int(nodes[row])].name] for row in rows]
+    arms = [max(_within_m(members, pin.name)) for pin in pins]
+    places = [
+        np.add(pin.place_m, (0.0, side * arm, 0.0)) for pin, arm in zip(pins, arms, strict=True) for side in (-1, 1)
+    ]
+    count, half = len(pins), 0.5e6 * UNYIELDING_MN_M
+    sideways = [(0.0 if pin.support == ROCKER else half, half) for pin in pins for _ in range(2)]
+    springs = PadSprings(
+        rows=first_row + np.array(rows, int),
+        parts=np.repeat(np.arange(count), 2),
+        places_m=np.array(places).reshape(-1, 3),
+        vertical_n_m=np.full(2 * count, half),
+        sideways_n_m=np.array(sideways).reshape(-1, 2),
+        friction=np.full(count, np.inf),
+        pulls=np.ones(count, bool),
+        travel_m=np.full(count, _TRAVEL_M),
+        bearings=first_bearing + np.arange(count),
+        breaking_n=np.full(count, np.inf),
+    )
+    return springs, tuple(f"{pin.name} on {pin.held_by}" for pin in pins)
 
 
 def joint_rows(steel: SteelConnections, scenario: Scenario, members: Sequence[Member]) -> np.ndarray:
@@ -247,6 +284,15 @@ def _holding_shard(
         outside = np.maximum(np.maximum(lower - place_m, place_m - upper), 0.0)
         beyond.append(float(dot(outside, outside)))
     return int(rows[int(np.argmin(beyond))])
+
+
+def _within_m(members: Sequence[Member], node: str) -> list[float]:
+    """How far from a node each of its bars begins."""
+    return [
+        float(_bar(member).within_m[member.steel.nodes.index(node)])
+        for member in members
+        if member.steel and node in member.steel.nodes
+    ]
 
 
 def _bar(member: Member) -> SteelBar:

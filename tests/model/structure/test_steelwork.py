@@ -6,7 +6,6 @@ import math
 import numpy as np
 import pytest
 from support.steelwork import (
-    ALL_MOTIONS,
     bar,
     bar_loads,
     node,
@@ -31,7 +30,7 @@ LOAD_KG = 1000.0
 
 
 def cantilever(**keys):
-    nodes = [node("wall", 0.0, 5.0, held=ALL_MOTIONS), node("tip", 10.0, 5.0)]
+    nodes = [node("wall", 0.0, 5.0, support="fixed"), node("tip", 10.0, 5.0)]
     return steel_scenario(nodes, [bar("beam", "wall", "tip", "IPE 300", **keys)], pieces=20)
 
 
@@ -90,10 +89,10 @@ def test_a_portal_that_sways_has_the_moments_of_the_textbook():
     """
     high, wide, force = 5.0, 8.0, 1e4
     nodes = [
-        node("A", 0.0, 0.0, held=ALL_MOTIONS),
+        node("A", 0.0, 0.0, support="fixed"),
         node("B", 0.0, high),
         node("C", wide, high),
-        node("D", wide, 0.0, held=ALL_MOTIONS),
+        node("D", wide, 0.0, support="fixed"),
     ]
     members = [
         bar("left", "A", "B", "HEB 200"),
@@ -118,7 +117,7 @@ def test_a_portal_that_sways_has_the_moments_of_the_textbook():
 
 
 def truss_scenario(ends, places, bars, load_kg):
-    held = {"L0": ["move x", "move y", "move z", "turn x", "turn z"], "L8": ["move y", "move z", "turn x"]}
+    held = {"L0": "pinned", "L8": "rocker"}
     nodes = [
         node(name, x, 10.0 + z, mass_kg=load_kg if name[0] == "L" else 0.0, **_held(held, name))
         for name, (x, z) in places.items()
@@ -132,7 +131,7 @@ def truss_scenario(ends, places, bars, load_kg):
 
 
 def _held(held, name):
-    return {"held": held[name]} if name in held else {}
+    return {"support": held[name]} if name in held else {}
 
 
 @pytest.fixture(scope="module")
