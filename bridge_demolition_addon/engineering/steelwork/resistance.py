@@ -24,6 +24,34 @@ _NO_BUCKLING = 0.2
 
 _ROUNDING = 1e-9
 
+RUPTURE_STRAIN = 0.15
+"""Strain of steel as it ruptures: the least elongation of EN 1993-1-1:2005, 3.2.2 (1)."""
+
+_PLATEAU = 1e-4
+"""Slope of the stress after yield, by the modulus of elasticity: EN 1993-1-5:2006, C.6 (2), a nominal slope."""
+
+_HINGE_BY_DEPTH = 1.0
+"""Length in which a hinge yields, by the depth of the section."""
+
+
+@dataclass(frozen=True, slots=True)
+class SectionHinge:
+    """How a section of steel yields as a whole, and ruptures."""
+
+    yield_n: float  # axial force
+    yield_strain: float
+    hardening: float  # force at rupture over that at yield
+    rupture_strain: float
+    opening_m: float  # by which it has opened as it ruptures
+
+
+def section_hinge(section: SteelSection, yield_pa: float) -> SectionHinge:
+    """Return how a section yields: on a plateau, until a length as long as it is deep has stretched too far."""
+    yield_strain = yield_pa / STEEL_MODULI.young_pa
+    hardening = 1.0 + _PLATEAU * (RUPTURE_STRAIN - yield_strain) / yield_strain
+    opening = RUPTURE_STRAIN * _HINGE_BY_DEPTH * float(section.size_m.max())
+    return SectionHinge(section.area_m2 * yield_pa, yield_strain, hardening, RUPTURE_STRAIN, opening)
+
 
 def plastic_second_moments(section: SteelSection) -> FloatArray:
     """Return second moments (2, 2) of the rectangle that stands for a section in what breaks it.

@@ -223,7 +223,7 @@ class Scenario(Table):
         self._check_slow_motion()
         object.__setattr__(self, "connections", self.connections.with_strength(self.fracture.shards))
         object.__setattr__(self, "connections", self.connections.with_stiffness(self.materials))
-        if self.is_reinforced and self.connections.is_elastic:
+        if (self.is_reinforced or self.steelwork) and self.connections.is_elastic:
             object.__setattr__(self, "time", self.time.with_bars())
         check_materials(self.materials)
         self._check_reinforcement()

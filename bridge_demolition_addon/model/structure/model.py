@@ -41,6 +41,7 @@ from .steelwork import (
     resisting_moments,
     steel_connections,
     steel_stiffness,
+    with_steel_hinges,
 )
 from .stiffness import CutMembers, connection_stiffness
 from .supports import HeldPart, held_parts
@@ -199,6 +200,8 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
         )
         if starters:
             bars = bars.with_even(starters.yield_n, starters.openings_m)
+    if steel:
+        bars = with_steel_hinges(bars, steel, scenario, members, len(connections))
     stiffness = None
     if scenario.connections.is_elastic:
         cut = CutMembers(members, fractured.member_of_shard, shards, _middles(fractured), fixed)
@@ -271,6 +274,7 @@ def _crack_bars(
         if bearings:
             even[bearings.springs.rows] = 0.0  # no bars run through a bearing
         bars = bars or FaceBars.none(len(connections))
+        even[bars.are_hinges] = 0.0
         bars = bars.with_even(even, float(given(settings.ductile_elongation_m)))
     return CrackBars(bars, scenario.steel) if bars else None
 

@@ -13,10 +13,11 @@ from ...engineering.fracture.shards import Fracture
 from ...engineering.fracture.shared_faces import NO_FACES, SharedFaces
 from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.vectors import dot, product
+from ...engineering.mechanics.reinforcement import FaceBars
 from ...engineering.mechanics.section_forces import section_axes
 from ...engineering.steelwork.bars import SteelBar, extruded, in_other_axes, joint_stiffness
 from ...engineering.steelwork.grades import STEEL_MODULI
-from ...engineering.steelwork.resistance import plastic_second_moments
+from ...engineering.steelwork.resistance import plastic_second_moments, section_hinge
 from ...engineering.structure.connections import GROUND, Connections
 from ..bridge.member import Member, members_named
 from ..scenario import Scenario
@@ -245,6 +246,26 @@ def steel_stiffness(steel: SteelConnections, connections: Connections, members: 
     for row, node in enumerate(steel.support_nodes.tolist(), start=count):
         matrices[row] = _support(members[node].name, members)
     return SectionStiffness(matrices)
+
+
+def with_steel_hinges(
+    bars: FaceBars | None, steel: SteelConnections, scenario: Scenario, members: Sequence[Member], count: int
+) -> FaceBars:
+    """Return bars across the faces of connections (m,), and sections of steel bars, which yield where they break."""
+    steelwork, factor = given(scenario.steelwork), scenario.connections.strength_factor
+    tables = {table.name: table for table in steelwork.members}
+    yields, openings, hinges = [], [], []
+    for index, number in zip(steel.joints.members.tolist(), steel.joints.numbers.tolist(), strict=True):
+        table, bar = tables[members[index].name], _bar(members[index])
+        hinge = section_hinge(bar.section, steelwork.yield_and_ultimate_pa(table)[0])
+        end = {0: 0, bar.pieces: 1}.get(number)
+        share = factor if end is None else factor * table.end_strengths[end]
+        yields.append(share * hinge.yield_n)
+        openings.append(hinge.opening_m)
+        hinges.append((hinge.yield_strain, hinge.hardening, hinge.rupture_strain))
+    rows = steel.rows[: len(yields)]
+    all_bars = bars or FaceBars.none(count)
+    return all_bars.with_hinges(rows, np.array(yields), np.array(openings), np.array(hinges).reshape(-1, 3))
 
 
 def _turns(steel: SteelConnections, connections: Connections, members: Sequence[Member]) -> np.ndarray:
