@@ -23,16 +23,16 @@ def steelwork_members(steelwork: Steelwork | None) -> tuple[Member, ...]:
     """Return all bars, and then all nodes."""
     if steelwork is None:
         return ()
-    places = {node.name: np.array(node.place_m) for node in steelwork.nodes}
+    places = {node.name: np.array(node.place_m) for node in steelwork.all_nodes}
     axes = {
         table.name: bar_axes(places[table.nodes[0]], places[table.nodes[1]], math.radians(table.roll_deg))
-        for table in steelwork.members
+        for table in steelwork.all_members
     }
-    ends = {node.name: _ends_at(node, steelwork.members, axes) for node in steelwork.nodes}
-    radii = {node.name: _radius_m(node, ends[node.name]) for node in steelwork.nodes}
-    fixed = {node.name: _held_end(node, steelwork.members) for node in steelwork.nodes}
-    bars = [_bar(steelwork, table, places, axes[table.name], radii, fixed) for table in steelwork.members]
-    nodes = [_node(steelwork, node, ends[node.name], radii[node.name]) for node in steelwork.nodes]
+    ends = {node.name: _ends_at(node, steelwork.all_members, axes) for node in steelwork.all_nodes}
+    radii = {node.name: _radius_m(node, ends[node.name]) for node in steelwork.all_nodes}
+    fixed = {node.name: _held_end(node, steelwork.all_members) for node in steelwork.all_nodes}
+    bars = [_bar(steelwork, table, places, axes[table.name], radii, fixed) for table in steelwork.all_members]
+    nodes = [_node(steelwork, node, ends[node.name], radii[node.name]) for node in steelwork.all_nodes]
     return (*bars, *nodes)
 
 

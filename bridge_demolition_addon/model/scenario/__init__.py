@@ -27,6 +27,7 @@ from .site import Exclusion, Neighbour, Site, Zone
 from .steelwork import SteelMember, SteelNode, Steelwork
 from .structural_changes import Change, Removal, SawCut, Severing, Weakening, ZoneFiring
 from .time import TimeSettings
+from .trusses import TrussSpan
 
 __all__ = [
     "Abutments",
@@ -79,6 +80,7 @@ __all__ = [
     "Support",
     "SurfaceValues",
     "TimeSettings",
+    "TrussSpan",
     "Weakening",
     "Zone",
     "ZoneFiring",

@@ -13,9 +13,10 @@ from ...engineering.steelwork.grades import DENSITY_KG_M3, GRADES, STEEL_MODULI,
 from ...engineering.steelwork.resistance import plastic_strength
 from ...engineering.steelwork.sections import SteelSection
 from ...errors import Faults, ScenarioError
-from ..schema import SHORTEST_LENGTH_M, SIZE, Table, given, key, shown
+from ..schema import SHORTEST_LENGTH_M, SIZE, Table, key, shown
 from .bearings import FIXED, PINNED, ROCKER
 from .connections import GROUND_NAME
+from .trusses import TrussSpan
 
 NODE_KIND = "node"
 
@@ -133,6 +134,17 @@ class Steelwork(Table):
     density_kg_m3: float = key("Density of the steel.", default=DENSITY_KG_M3, unit="kg/m³", above=0)
     nodes: tuple[SteelNode, ...] = ()
     members: tuple[SteelMember, ...] = ()
+    trusses: tuple[TrussSpan, ...] = ()
+
+    @property
+    def all_nodes(self) -> tuple[SteelNode, ...]:
+        """Its own nodes, and those of its trusses."""
+        return (*self.nodes, *(SteelNode(**keys) for truss in self.trusses for keys in truss.nodes()))
+
+    @property
+    def all_members(self) -> tuple[SteelMember, ...]:
+        """Its own bars, and those of its trusses."""
+        return (*self.members, *(SteelMember(**keys) for truss in self.trusses for keys in truss.members()))
 
     def grade_of(self, member: SteelMember) -> str:
         return member.grade or self.grade
@@ -165,13 +177,13 @@ class Steelwork(Table):
 
     def _kinds(self) -> dict[tuple[str, ...], tuple[Strength | None, str]]:
         kinds: dict[tuple[str, ...], tuple[Strength | None, str]] = {}
-        for member in self.members:
+        for member in self.all_members:
             for end in (None, 0, 1):
                 yield_pa, _ = self.yield_and_ultimate_pa(member)
                 share = 1.0 if end is None else member.end_strengths[end]
                 strength = plastic_strength(member.steel_section, yield_pa).times(share)
                 kinds.setdefault(self.bar_key(member, end), (strength, "FIXED"))
-        for node in self.nodes:
+        for node in self.all_nodes:
             if node.support is not None:
                 key_of_support = self.support_key(node)
                 kinds.setdefault(key_of_support, (None, key_of_support[1]))
@@ -185,39 +197,36 @@ class Steelwork(Table):
         faults.check()
 
     def _check_names(self) -> None:
-        if not self.members:
-            raise ScenarioError("steelwork.members is missing: expected bars under [[steelwork.members]]")
-        names = [*(member.name for member in self.members), *(node.name for node in self.nodes)]
+        if not self.members and not self.trusses:
+            raise ScenarioError(
+                "steelwork.members is missing: expected bars under [[steelwork.members]] or [[steelwork.trusses]]"
+            )
+        names = [*(member.name for member in self.all_members), *(node.name for node in self.all_nodes)]
         if twice := _first_twice(names):
             raise ScenarioError(f"steelwork has {shown(twice)} twice: expected a name of its own for each bar and node")
 
     def _check_ends(self) -> None:
-        known = {node.name for node in self.nodes}
-        for member in self.members:
+        known = {node.name for node in self.all_nodes}
+        for member in self.all_members:
             for name in member.nodes:
                 if name not in known:
                     raise ScenarioError(
                         f"steelwork.members {shown(member.name)}: nodes has {shown(name)}: expected the name of one of "
                         "[[steelwork.nodes]]"
                     )
-        used = {name for member in self.members for name in member.nodes}
-        if unused := [node.name for node in self.nodes if node.name not in used]:
+        used = {name for member in self.all_members for name in member.nodes}
+        if unused := [node.name for node in self.all_nodes if node.name not in used]:
             raise ScenarioError(f"steelwork.nodes {shown(unused[0])}: expected a bar that ends in it")
 
     def _check_lengths(self) -> None:
-        places = {node.name: np.array(node.place_m) for node in self.nodes}
-        for member in self.members:
+        places = {node.name: np.array(node.place_m) for node in self.all_nodes}
+        for member in self.all_members:
             first, second = (places.get(name) for name in member.nodes)
             if first is not None and second is not None and not np.abs(second - first).max() > SHORTEST_LENGTH_M:
                 raise ScenarioError(
                     f"steelwork.members {shown(member.name)}: expected nodes that are more than {SHORTEST_LENGTH_M} m "
                     "apart"
                 )
-
-
-def nodes_by_name(steelwork: Steelwork | None) -> dict[str, SteelNode]:
-    """Return the nodes of a scenario by name."""
-    return {node.name: node for node in given(steelwork).nodes} if steelwork else {}
 
 
 def _first_twice(names: Iterable[str]) -> str | None:

@@ -58,7 +58,7 @@ def bar_uses(scenario: Scenario, model: Model, rest: Equilibrium) -> list[BarUse
     whole = np.ones(len(model.connections))
     alone, _ = judged.of(loads, whole > 0.0, whole, judged.parts(whole > 0.0), every_section=False)
     forces = section_forces(judged.axes, loads.forces_n, loads.moments_nm)
-    tables = {table.name: table for table in steelwork.members}
+    tables = {table.name: table for table in steelwork.all_members}
     uses = []
     rows_of_joints = steel.rows[: len(steel.joints.members)]
     for index in np.unique(steel.joints.members).tolist():

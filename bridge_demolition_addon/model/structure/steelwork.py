@@ -152,7 +152,7 @@ def node_supports(
 ) -> tuple[Connections, np.ndarray]:
     """Return the connections between nodes and what holds them, and the index of the member of each node (s,)."""
     index_of = {member.name: index for index, member in enumerate(members)}
-    held = [node for node in steelwork.nodes if node.support is not None]
+    held = [node for node in steelwork.all_nodes if node.support is not None]
     nodes = np.array([index_of[node.name] for node in held], int)
     pairs = np.zeros((len(held), 2), int)
     for row, node in enumerate(held):
@@ -181,7 +181,7 @@ def pins_of_supports(
     The rows of their connections count from `first_row`, bearings from `first_bearing`. A pin across the road is two
     springs as far from the node as its bars begin: they hold it upright.
     """
-    tables = {node.name: node for node in steelwork.nodes}
+    tables = {node.name: node for node in steelwork.all_nodes}
     rows = [row for row, index in enumerate(nodes.tolist()) if tables[members[index].name].support != FIXED]
     pins = [tables[members[int(nodes[row])].name] for row in rows]
     arms = [max(_within_m(members, pin.name)) for pin in pins]
@@ -209,8 +209,8 @@ def joint_rows(steel: SteelConnections, scenario: Scenario, members: Sequence[Me
     """Return which of the scenario's joints each connection of steelwork (s,) has."""
     steelwork = given(scenario.steelwork)
     rows, first = steelwork.joint_rows(), scenario.first_steel_joint
-    tables = {table.name: table for table in steelwork.members}
-    nodes = {node.name: node for node in steelwork.nodes}
+    tables = {table.name: table for table in steelwork.all_members}
+    nodes = {node.name: node for node in steelwork.all_nodes}
     keys = []
     for index, number in zip(steel.joints.members.tolist(), steel.joints.numbers.tolist(), strict=True):
         last = _bar(members[index]).pieces
@@ -253,7 +253,7 @@ def with_steel_hinges(
 ) -> FaceBars:
     """Return bars across the faces of connections (m,), and sections of steel bars, which yield where they break."""
     steelwork, factor = given(scenario.steelwork), scenario.connections.strength_factor
-    tables = {table.name: table for table in steelwork.members}
+    tables = {table.name: table for table in steelwork.all_members}
     yields, openings, hinges = [], [], []
     for index, number in zip(steel.joints.members.tolist(), steel.joints.numbers.tolist(), strict=True):
         table, bar = tables[members[index].name], _bar(members[index])
