@@ -112,25 +112,8 @@ class Scenario(Table):
         Rules are those of `connections.between`. With reinforcement, the same follow for members that have bars. Those
         of steelwork come last.
         """
-        return (*self._joints_of_faces, *self._joints_of_steelwork)
-
-    @property
-    def first_steel_joint(self) -> int:
-        """Return the number of joints before those of steelwork."""
-        return len(self._joints_of_faces)
-
-    @property
-    def _joints_of_steelwork(self) -> tuple[Joint, ...]:
-        return self.steelwork.joints(self.connections.strength_factor) if self.steelwork else ()
-
-    @property
-    def _joints_of_faces(self) -> tuple[Joint, ...]:
-        own, *others = self.connections.joints(self.materials)
-        factor, is_elastic = self.connections.strength_factor, self.connections.is_elastic
-        pads = [table.joint(own, factor, is_elastic=is_elastic) for table in bearing_tables(self)]
-        if not self.reinforcement and not rules_of_bars(self):
-            return (own, *others, *pads)
-        return (own, *others, *pads, *self.connections.joints(self.materials, have_bars=True), *pads)
+        of_steel = self.steelwork.joints(self.connections.strength_factor) if self.steelwork else ()
+        return (*joints_of_faces(self), *of_steel)
 
     @property
     def is_reinforced(self) -> bool:
@@ -237,7 +220,9 @@ class Scenario(Table):
             raise ScenarioError(
                 "bridge is missing: expected a table, a member of your own under [[geometry]], or [steelwork]"
             )
-        self._check_steelwork()
+        if self.steelwork is not None and not self.connections.is_elastic:
+            wanted = '"elastic" with [steelwork], and method "face": bars share a load by their stiffness'
+            raise self.connections.unexpected("stiffness", wanted)
         faults = Faults()
         for action in self.actions:
             with faults.noted():
@@ -275,11 +260,6 @@ class Scenario(Table):
         }
         for name, value in own.items():
             object.__setattr__(self, name, value)
-
-    def _check_steelwork(self) -> None:
-        if self.steelwork is not None and not self.connections.is_elastic:
-            wanted = '"elastic" with [steelwork], and method "face": bars share a load by their stiffness'
-            raise self.connections.unexpected("stiffness", wanted)
 
     def _check_foundations(self) -> None:
         if not self.foundations:
@@ -346,6 +326,17 @@ def action_fields(scenario_class: type[Table]) -> tuple[str, ...]:
         for item in subtable_fields(scenario_class)
         if issubclass(subtable_class(item) or Table, PlannedAction)
     )
+
+
+def joints_of_faces(scenario: Scenario) -> tuple[Joint, ...]:
+    """Return the joints of a scenario that are not those of steelwork, and stand before these."""
+    connections = scenario.connections
+    own, *others = connections.joints(scenario.materials)
+    factor, is_elastic = connections.strength_factor, connections.is_elastic
+    pads = [table.joint(own, factor, is_elastic=is_elastic) for table in bearing_tables(scenario)]
+    if not scenario.reinforcement and not rules_of_bars(scenario):
+        return (own, *others, *pads)
+    return (own, *others, *pads, *connections.joints(scenario.materials, have_bars=True), *pads)
 
 
 def bearing_tables(scenario: Scenario) -> tuple[Bearing, ...]:

@@ -23,7 +23,7 @@ from ..bridge.member import Member, mean_density
 from ..bridge.preparation import prepared_members
 from ..reinforcement.design import all_layers
 from ..scenario import ConnectionSettings, Geometry, Scenario
-from ..scenario.scenario import bearing_tables
+from ..scenario.scenario import bearing_tables, joints_of_faces
 from ..schema import given
 from ..terrain.built import BuiltGround, built_ground
 from .bearings import ModelBearings, bearing_connections, have_bearing, placed_bearings, raised_shards
@@ -185,7 +185,7 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
         )
         if starters:
             within |= starters.yield_n > 0.0
-        joint_of_connection = joint_of_connection + np.where(within, scenario.first_steel_joint // 2, 0)
+        joint_of_connection = joint_of_connection + np.where(within, len(joints_of_faces(scenario)) // 2, 0)
         bars = face_bars(
             layers,
             members,

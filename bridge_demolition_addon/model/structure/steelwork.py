@@ -23,6 +23,7 @@ from ..bridge.member import Member, members_named
 from ..scenario import Scenario
 from ..scenario.bearings import FIXED, ROCKER, UNYIELDING_MN_M
 from ..scenario.connections import GROUND_NAME
+from ..scenario.scenario import joints_of_faces
 from ..scenario.steelwork import Steelwork
 from ..schema import given
 
@@ -208,7 +209,7 @@ def pins_of_supports(
 def joint_rows(steel: SteelConnections, scenario: Scenario, members: Sequence[Member]) -> np.ndarray:
     """Return which of the scenario's joints each connection of steelwork (s,) has."""
     steelwork = given(scenario.steelwork)
-    rows, first = steelwork.joint_rows(), scenario.first_steel_joint
+    rows, first = steelwork.joint_rows(), len(joints_of_faces(scenario))
     tables = {table.name: table for table in steelwork.all_members}
     nodes = {node.name: node for node in steelwork.all_nodes}
     keys = []
