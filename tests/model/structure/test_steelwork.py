@@ -2,6 +2,7 @@
 """Steelwork against statics: beams, a frame that sways, and a truss by the method of joints and virtual work."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -19,7 +20,13 @@ from bridge_demolition_addon.engineering.steelwork.catalogue import section_name
 from bridge_demolition_addon.engineering.steelwork.grades import DENSITY_KG_M3
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.errors import GeometryError, ScenarioError
-from bridge_demolition_addon.model.structure.equilibrium import at_rest, held_motions, inertias_of, model_at_rest
+from bridge_demolition_addon.model.structure.equilibrium import (
+    at_rest,
+    held_motions,
+    inertias_of,
+    loads_of,
+    model_at_rest,
+)
 from bridge_demolition_addon.model.structure.model import build_model
 from bridge_demolition_addon.model.structure.steel_bars import bar_uses
 
@@ -222,3 +229,43 @@ def test_bars_are_judged_by_their_sections_and_as_struts(pratt):
     assert (pressed.buckling.axis, pressed.buckling.curve) == ("z", "c")
     assert pressed.buckling.slenderness == pytest.approx(0.861, rel=0.005)
     assert pressed.buckling.reduction == pytest.approx(0.623, rel=0.01)
+
+
+def test_concrete_beside_steelwork_is_as_it_was_and_may_hold_it():
+    concrete = """
+[bridge]
+span_lengths_m = [8.0]
+density_kg_m3 = 2500.0
+
+[bridge.deck]
+width_m = 3.0
+thickness_m = 0.5
+
+[bridge.piers]
+kind = "wall"
+column_length_m = 0.6
+column_width_m = 3.0
+height_m = 4.0
+"""
+    nodes = [
+        node("A", 0.0, 2.0, y=2.0, support="pinned", held_by="pier 1"),
+        node("B", 6.0, 2.0, y=2.0, support="rocker"),
+    ]
+    members = [bar("strut", "A", "B", "SHS 100x5")]
+    scenario = steel_scenario(nodes, members, concrete, pieces=4)
+    scenario = replace(scenario, fracture=replace(scenario.fracture, shards=24))
+    with_steel, alone = build_model(scenario), build_model(replace(scenario, steelwork=None))
+    count = len(alone.shards)
+    np.testing.assert_array_equal(with_steel.masses_kg[:count], alone.masses_kg)
+    others = np.setdiff1d(np.arange(len(with_steel.connections)), with_steel.steel.rows)
+    np.testing.assert_array_equal(with_steel.connections.pairs[others], alone.connections.pairs)
+    np.testing.assert_array_equal(with_steel.stiffness.matrices[others], alone.stiffness.matrices)
+    support = with_steel.connections.pairs[with_steel.bearings.springs.rows[0]]
+    assert with_steel.members[with_steel.member_of_shard[support[1]]].name == "pier 1"
+    rest = model_at_rest(with_steel, scenario.joints)
+    assert rest.held[:-1].all()
+    by_bearing = {
+        bearing.name: bearing.force_n[2] for bearing in with_steel.bearings.forces(loads_of(with_steel, rest))
+    }
+    half = 0.5 * STANDARD_GRAVITY_M_S2 * DENSITY_KG_M3 * section_named("SHS 100x5").area_m2 * 6.0
+    assert by_bearing == pytest.approx({"A on pier 1": half, "B on ground": half}, rel=0.01)
