@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The truss span of steel stands, and comes down once its chords are severed."""
+"""The truss span of steel stands before its chords are severed."""
 
 from support.checkout import EXAMPLES
 
