@@ -20,8 +20,10 @@ from ..model.stages.stability_by_statics import stability_of
 from ..model.stages.stages import equipment_facts
 from ..model.stages.standing import made_elastic
 from ..model.structure.blast_zones import placed_zones, zone_totals
+from ..model.structure.equilibrium import model_at_rest
 from ..model.structure.facts import accuracy_facts, connection_facts, foundation_facts, overlap_facts, rest_facts
 from ..model.structure.model import Model
+from ..model.structure.steel_bars import steel_facts
 from ..model.structure.usual_sizes import size_facts
 from ..model.terrain.built import terrain_facts
 from ..studies.estimate import FACTOR, disk_megabytes, duration_text, megabytes_by_size, seconds_by_size
@@ -88,6 +90,8 @@ def scenario_facts(scenario: Scenario, *, stand: bool = False) -> Iterator[str]:
     elif model.stiffness is not None:
         yield from _section("At rest", rest_facts(scenario, model))
         yield from _section("Fineness", accuracy_facts(scenario, model))
+    if model.steel:
+        yield from _section("Steelwork", steel_facts(scenario, model, model_at_rest(model, scenario.joints)))
     yield from _section("Overlap at the start", overlap_facts(model))
     if model.soil:
         yield from _section("Foundations", foundation_facts(scenario, model))

@@ -106,7 +106,8 @@ def _breaking_parts(setup: RunSetup) -> Parts:
     bars = breaking.bars
     if not bars:
         return parts
-    return parts | {"bars": np.column_stack((bars.yield_n, bars.offsets_m, bars.directions, bars.openings_m))}
+    parts |= {"bars": np.column_stack((bars.yield_n, bars.offsets_m, bars.directions, bars.openings_m))}
+    return parts if bars.hinges is None else parts | {"hinges": np.nan_to_num(bars.hinges)}
 
 
 def _load_parts(setup: RunSetup) -> Parts:

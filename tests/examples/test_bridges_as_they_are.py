@@ -16,11 +16,16 @@ from bridge_demolition_addon.model.stages.standing import StandingBridge
 IMPORTED = EXAMPLES / "imported"
 """Bridges from files that have no bars."""
 
+STEEL = EXAMPLES / "steel"
+"""Bridges of steel, which have no bars either."""
+
 
 def is_as_it_is(path):
-    """Whether a file is a scenario of a bridge as it is; others are of 2019, imported, or of many runs."""
+    """Whether a file is a scenario of a bridge as it is; others are of 2019, imported, of steel, or of many runs."""
     heading = tomllib.loads(path.read_text(encoding="utf-8"))
-    elsewhere = REPORT_2019 in path.parents or IMPORTED in path.parents or "of_2019" in path.stem
+    elsewhere = (
+        REPORT_2019 in path.parents or IMPORTED in path.parents or STEEL in path.parents or "of_2019" in path.stem
+    )
     return "scenario" in heading and not elsewhere
 
 

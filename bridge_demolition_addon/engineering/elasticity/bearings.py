@@ -15,7 +15,7 @@ All arrays have their components first, except places.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
@@ -30,6 +30,11 @@ _LIFTED_M = 0.02
 _LARGEST_TURN = 0.05
 """Angle, rad, between what lies above and below, from which on edges carry and no pads. Bearings are made for up to
 0.02 (EN 1337-3, -5); the springs have the positions of small angles."""
+
+
+_OVERTURNED = 2.0
+"""1 + 2 cos of the angle, 60°, from which on a bearing that holds uplift has been wrung off: from 90° on, angles of
+Bullet's own constraint are not defined."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -85,6 +90,12 @@ class PadSprings:
         counts = np.bincount(self.parts, minlength=len(self.rows))
         sums = [np.bincount(self.parts, values, len(self.rows)) for values in self.places_m.T]
         return np.stack([values / counts for values in sums], axis=1)
+
+    def followed_by(self, other: PadSprings) -> PadSprings:
+        """Return these springs with others, in connections that come after theirs."""
+        columns = {item.name: [getattr(self, item.name), getattr(other, item.name)] for item in fields(self)}
+        columns["parts"][1] = columns["parts"][1] + len(self.rows)
+        return PadSprings(**{name: np.concatenate(pair) for name, pair in columns.items()})
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -147,7 +158,7 @@ class Bearings:
         far = np.sqrt((apart * apart).sum(axis=0)) > self._springs.travel_m
         turns = (self._built_turns * self._turns(rotations)).sum(axis=(0, 1))  # 1 + 2 cos of the angle
         unseated = (apart[2] > _LIFTED_M) | (turns < 3.0 - _LARGEST_TURN * _LARGEST_TURN)
-        self._gone = far | (unseated & ~self._springs.pulls)
+        self._gone = far | (unseated & ~self._springs.pulls) | (turns < _OVERTURNED)
 
     def failed(self, intact: BoolArray, left: FloatArray) -> IntArray:
         """Return which connections (k,) of those (m,) that are intact break, as it settled last.

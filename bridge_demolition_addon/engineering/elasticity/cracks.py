@@ -19,7 +19,7 @@ import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
 from .compiled_cracks import quickest, stiffness_of_corners, summed
-from .crack_law import FRICTION, CrackLaw, rubbing_bars, sliding, stretches_of_bars
+from .crack_law import DOWEL_SHARE, FRICTION, CrackLaw, rubbing_bars, sliding, stretches_of_bars
 from .crack_state import CornerState, CrackState
 from .equations import summed_on_bodies
 from .gaps import Gaps, SolvedTangents
@@ -32,7 +32,7 @@ from .joint_rows import (
     turned,
     turned_back,
 )
-from .steel_bars import Bars, Steel, bar_response
+from .steel_bars import Bars, Steel, SteelOfBars, bar_response
 
 Numbers = TypeVar("Numbers", FloatArray, IntArray, BoolArray)
 
@@ -61,18 +61,20 @@ class Cracks:
 
     `yield_n` (4, m): forces at which the bars in each corner yield. `openings_m` (m,): how far they stretch until they
     rupture. `shares` (m,): part of the bars that is left, which the caller keeps up to date. `pressed_n_m` (m,):
-    stiffness along the normals, with which the sides of a closed crack press on each other.
+    stiffness along the normals, with which the sides of a closed crack press on each other. The steel is that of all
+    bars, or of those of each connection.
     """
 
     def __init__(
         self,
-        steel: Steel,
+        steel: Steel | SteelOfBars,
         openings_m: FloatArray,
         yield_n: FloatArray,
         shares: FloatArray,
         pressed_n_m: FloatArray,
     ):
-        self._steel, self._yield_n, self._shares = steel, yield_n, shares
+        self._yield_n, self._shares = yield_n, shares
+        self._steel = SteelOfBars.alike(steel, len(openings_m)) if isinstance(steel, Steel) else steel
         self.have_bars = (yield_n > 0.0).any(axis=0)  # (m,)
         self._openings_m = np.where(self.have_bars, openings_m, _PARTED_M)
         self._pressed_n_m = pressed_n_m / _COUNT
@@ -98,11 +100,13 @@ class Cracks:
         directions: FloatArray,
         positions_m: FloatArray,
         rotations: FloatArray,
+        pulls_n: FloatArray | None = None,
     ) -> None:
         """Let bars hold in place of connections `rows` (r,), whose bodies are `first` and `second`.
 
         The cracks are still closed: bars cross them at `places_m` (3, 4, r), along `directions` (3, r). These and the
-        `normals` (3, r) point from the first to the second bodies.
+        `normals` (3, r) point from the first to the second bodies. Bars begin without force, or with `pulls_n`
+        (3, 4, r) on the first bodies.
         """
         ends = [np.tile(bodies, _COUNT) for bodies in (first, second)]
         anchors = [turned_back(rotations[..., end], places_m.reshape(3, -1) - positions_m[:, end]) for end in ends]
@@ -116,7 +120,10 @@ class Cracks:
         )
         self._normals = _joined(self._normals, normals)
         self._directions = _joined(self._directions, directions)
-        self._slips, self._flows = _joined(self._slips, np.zeros((3, count))), _joined(self._flows, np.zeros(count))
+        slips = np.zeros((3, count))
+        if pulls_n is not None:
+            slips = self._slips_under(rows, turned_back(rotations[..., ends[0]], pulls_n.reshape(3, -1)), directions)
+        self._slips, self._flows = _joined(self._slips, slips), _joined(self._flows, np.zeros(count))
         self._holds = _joined(self._holds, np.ones(count, bool))
         self._rests = _joined(self._rests, np.zeros((3, count)))
         self._grips_n = _joined(self._grips_n, np.zeros(count))
@@ -187,7 +194,8 @@ class Cracks:
         bars = self._bars()
         gaps = turned_back(rotations[..., self._first], self._gaps(positions_m, rotations))
         forces = bar_response(bars, stretches_of_bars(gaps, self._directions), self._slips, self._flows).forces_n
-        size, most = np.sqrt(dot_products(forces, forces)), self._steel.hardening * bars.yield_n
+        hardening = self._steel.hardening[np.tile(self.rows, _COUNT)]
+        size, most = np.sqrt(dot_products(forces, forces)), hardening * bars.yield_n
         holds = self._holds & (most > _LITTLE_SHARE * np.tile(_summed(most), _COUNT))
         pulled = np.where(dot_products(forces, self._directions) > 0.0, size, 0.0)
         shares = np.divide(pulled, most, out=np.full_like(size, np.nan), where=holds)
@@ -218,8 +226,19 @@ class Cracks:
 
     def _bars(self) -> Bars:
         """Return all bars, with their remaining area."""
-        whole = self._yield_n[:, self.rows] * self._shares[self.rows]
-        return Bars.of(whole.ravel(), self._steel, np.tile(self._openings_m[self.rows], _COUNT))
+        return self._bars_of(self.rows)
+
+    def _bars_of(self, rows: IntArray) -> Bars:
+        """Return the bars of connections (r,), with their remaining area."""
+        whole, of = self._yield_n[:, rows] * self._shares[rows], np.tile(rows, _COUNT)
+        return Bars.of(whole.ravel(), self._steel[of], self._openings_m[of])
+
+    def _slips_under(self, rows: IntArray, pulls_n: FloatArray, directions: FloatArray) -> FloatArray:
+        """Return slips (3, 4 r) of bars across closed cracks with which they pull so (3, 4 r)."""
+        along = dot_products(pulls_n, directions) * directions
+        of_bars = along + (pulls_n - along) / DOWEL_SHARE
+        stiffness = self._bars_of(rows).stiffness_n_m
+        return -np.divide(of_bars, stiffness, out=np.zeros_like(of_bars), where=stiffness > 0.0)
 
     def _gaps(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
         first, second = (

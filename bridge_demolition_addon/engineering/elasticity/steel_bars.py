@@ -55,6 +55,23 @@ USUAL_STEEL = Steel()
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class SteelOfBars:
+    """Steel of b bars that differ."""
+
+    yield_strain: FloatArray  # (b,)
+    hardening: FloatArray  # (b,), as in `Steel`
+    rupture_strain: FloatArray  # (b,)
+
+    @classmethod
+    def alike(cls, steel: Steel, count: int) -> SteelOfBars:
+        """Return that of bars of one steel."""
+        return cls(*(np.full(count, value) for value in (steel.yield_strain, steel.hardening, steel.rupture_strain)))
+
+    def __getitem__(self, which: IntArray) -> SteelOfBars:
+        return SteelOfBars(self.yield_strain[which], self.hardening[which], self.rupture_strain[which])
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class Bars:
     """b bars across cracks."""
 
@@ -63,7 +80,7 @@ class Bars:
     modulus_n_m: FloatArray  # (b,), growth of the yield force with the part of the opening that stays
 
     @classmethod
-    def of(cls, yield_n: FloatArray, steel: Steel, elongation_m: FloatArray | float) -> Bars:
+    def of(cls, yield_n: FloatArray, steel: Steel | SteelOfBars, elongation_m: FloatArray | float) -> Bars:
         """Return bars (b,) that rupture when a crack has opened so far."""
         at_yield_m = elongation_m * steel.yield_strain / steel.rupture_strain
         stiffness = yield_n / at_yield_m

@@ -4,13 +4,18 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from ..arrays import FloatArray, IntArray
 from ..elasticity.cracks import Cracks, corner_positions, corner_shares
-from ..elasticity.joint_rows import components_first, matrix_products
-from ..elasticity.steel_bars import Steel
+from ..elasticity.joint_rows import components_first, cross_products, dot_products, matrix_products
+from ..elasticity.steel_bars import Steel, SteelOfBars
 from ..geometry.vectors import transformed, transformed_back
 from .reinforcement import FaceBars
 from .strength import rectangular_sections
+
+_EDGE_BY_FIBRE = 3.0
+"""How far the edges of a rectangle are from its middle, 3 W / A, by how far the fibres of a hinge are, W / A."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -23,14 +28,21 @@ class TornFaces:
     points_m: FloatArray  # (r, 3), middles of their faces
     axes: FloatArray  # (r, 3, 3), of their sections, the first along the normal
     signs: FloatArray  # (r,), 1 where the normal points to the second body, -1 where to the first
+    forces_n: FloatArray  # (r, 3), that they carried, on the body that the normal points away from
+    moments_nm: FloatArray  # (r, 3), about their middles
 
 
 class CrackFaces:
-    """Rectangles with the areas (m,) and second moments (m, 2, 2) of the faces of m connections, crossed by bars."""
+    """Rectangles with the areas (m,) and second moments (m, 2, 2) of the faces of m connections, crossed by bars.
+
+    A section of steel is four fibres at W_pl / A from its axes. They yield at its plastic axial force and moments, by
+    the linear rule of EN 1993-1-1:2005, 6.2.1 (7), and press as they pull.
+    """
 
     def __init__(self, areas_m2: FloatArray, second_moments_m4: FloatArray, bars: FaceBars):
         sections = rectangular_sections(areas_m2, second_moments_m4)
         self._sides_m = 6.0 * sections.bending_moduli_m3[:, ::-1].T / areas_m2
+        self._sides_m[:, bars.are_hinges] /= _EDGE_BY_FIBRE
         self._across = components_first(sections.directions)
         self._bars = bars
         offsets = components_first(transformed_back(sections.directions, bars.offsets_m))
@@ -38,7 +50,14 @@ class CrackFaces:
 
     def cracks(self, steel: Steel, left: FloatArray, pressed_n_m: FloatArray) -> Cracks:
         """Return the cracks, none at first; `left` (m,) and `pressed_n_m` (m,) are as in `Cracks`."""
-        return Cracks(steel, self._bars.openings_m, self._yield_n, left, pressed_n_m)
+        are_hinges, hinges = self._bars.are_hinges, self._bars.hinges
+        if hinges is None:
+            return Cracks(steel, self._bars.openings_m, self._yield_n, left, pressed_n_m)
+        alike = SteelOfBars.alike(steel, len(left))
+        columns = zip((alike.yield_strain, alike.hardening, alike.rupture_strain), hinges.T, strict=True)
+        of_each = SteelOfBars(*(np.where(are_hinges, own, usual) for usual, own in columns))
+        pressed_n_m = np.where(are_hinges, 0.0, pressed_n_m)
+        return Cracks(of_each, self._bars.openings_m, self._yield_n, left, pressed_n_m)
 
     def tear(self, cracks: Cracks, torn: TornFaces, positions_m: FloatArray, rotations: FloatArray) -> None:
         """Add cracks in place of faces, with bodies at positions (3, n) in rotations (3, 3, n)."""
@@ -47,4 +66,28 @@ class CrackFaces:
         places = corner_positions(components_first(torn.points_m), across, self._sides_m[:, rows])
         outwards = torn.signs * components_first(axes[:, :, 0])
         along = torn.signs * components_first(transformed(axes, self._bars.directions[rows]))
-        cracks.add(rows, torn.first, torn.second, places, outwards, along, positions_m, rotations)
+        ends = torn.first, torn.second
+        pulls_n = self._pulls_n(torn, places) if self._bars.hinges is not None else None
+        cracks.add(rows, *ends, places, outwards, along, positions_m, rotations, pulls_n)
+
+    def _pulls_n(self, torn: TornFaces, places_m: FloatArray) -> FloatArray:
+        """Forces (3, 4, r) at the corners that sections of steel begin with: those they carried; else none."""
+        count = len(torn.rows)
+        forces, moments = (components_first(torn.signs[:, None] * loads) for loads in (torn.forces_n, torn.moments_nm))
+        arms = places_m - places_m.mean(axis=1, keepdims=True)
+        # As forces c × r share a moment, with c by what Σ r × (c × r) is about each axis.
+        about = np.zeros((3, count))
+        normal = components_first(torn.axes[:, :, 0])
+        beside = [arms[:, 3] - arms[:, 1], arms[:, 1] - arms[:, 0]]
+        sides = [np.sqrt(dot_products(side, side)) for side in beside]
+        squares = [side * side for side in sides]
+        for axis, turning in (
+            (normal, squares[0] + squares[1]),
+            (beside[0] / sides[0], squares[1]),
+            (beside[1] / sides[1], squares[0]),
+        ):
+            about += axis * dot_products(axis, moments) / turning
+        pulls = 0.25 * forces[:, None] + np.stack(
+            [cross_products(about, arms[:, corner]) for corner in range(4)], axis=1
+        )
+        return np.where(self._bars.are_hinges[torn.rows], pulls, 0.0)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import FloatArray
+from ..arrays import BoolArray, FloatArray, IntArray
 from ..geometry.vectors import length
 
 
@@ -18,6 +18,9 @@ class FaceBars:
     offsets_m: FloatArray  # (m, 2), where it acts, from the connection's point along the section's y and z
     directions: FloatArray  # (m, 3), of it, along the section's axes; the first is not below 0
     openings_m: FloatArray  # (m,), opening along it at which they rupture
+    hinges: FloatArray | None = None
+    """(m, 3), of sections of steel that yield as a whole: strain at yield, hardening and strain at rupture; nan of the
+    others."""
 
     def with_even(self, even_n: FloatArray, opening_m: float | FloatArray) -> FaceBars:
         """Return them together with bars (m,) that are spread evenly over the faces, and pull across these.
@@ -35,7 +38,23 @@ class FaceBars:
             share[:, None] * self.offsets_m,
             np.divide(forces, whole[:, None], out=along, where=whole[:, None] > 0.0),
             share * self.openings_m + (1.0 - share) * opening_m,
+            self.hinges,
         )
+
+    @property
+    def are_hinges(self) -> BoolArray:
+        """Which of them (m,) are sections of steel."""
+        if self.hinges is None:
+            return np.zeros(len(self.yield_n), bool)
+        return ~np.isnan(self.hinges[:, 0])
+
+    def with_hinges(self, rows: IntArray, yield_n: FloatArray, openings_m: FloatArray, hinges: FloatArray) -> FaceBars:
+        """Return them with sections of steel in place of those in some rows (s,)."""
+        all_yield_n, offsets_m, directions = self.yield_n.copy(), self.offsets_m.copy(), self.directions.copy()
+        openings, all_hinges = self.openings_m.copy(), np.full((len(all_yield_n), 3), np.nan)
+        all_yield_n[rows], openings[rows], all_hinges[rows] = yield_n, openings_m, hinges
+        offsets_m[rows], directions[rows] = 0.0, (1.0, 0.0, 0.0)
+        return FaceBars(all_yield_n, offsets_m, directions, openings, all_hinges)
 
     @classmethod
     def none(cls, count: int) -> FaceBars:

@@ -47,7 +47,7 @@ def surface_height(scenario: Scenario, members: Sequence[Member], place_m: tuple
 
     Of a bridge alone it is that of the deck, which joints do not interrupt.
     """
-    if scenario.bridge and not scenario.geometry:
+    if scenario.bridge and not scenario.geometry and not scenario.steelwork:
         return deck_top(scenario.bridge)
     corners = np.concatenate([member.solid.corners for member in members])
     heights = _heights_above(corners, np.asarray(place_m, dtype=float))

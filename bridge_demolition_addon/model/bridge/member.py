@@ -10,6 +10,7 @@ import numpy as np
 
 from ...engineering.geometry.mesh import TriangleMesh, triangle_areas_and_normals
 from ...engineering.geometry.vectors import transformed
+from ...engineering.steelwork.bars import SteelBar
 from ...engineering.units import mass_text, volume_text
 from ...errors import ScenarioError
 from ..actions import Fact
@@ -20,6 +21,23 @@ Rows = tuple[tuple[float, float], tuple[float, float]]
 
 SQUARE: Rows = ((1.0, 0.0), (0.0, 1.0))
 """Rows that leave positions on plan as they are."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class SteelPart:
+    """What a member of steelwork is beside its solid: a bar between two nodes, or a node, which has no bar.
+
+    Attributes
+    ----------
+    centre_m : (3,) float
+        Position of the node, where its mass is; the middle of a bar.
+    bar, nodes
+        The bar, and the names of the nodes at its ends.
+    """
+
+    centre_m: np.ndarray
+    bar: SteelBar | None = None
+    nodes: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +56,7 @@ class Member:
     density_kg_m3: float | None = None  # None as long as it is not known
     parts: tuple[TriangleMesh, ...] = ()
     unskewed: Rows = SQUARE  # by which positions on plan are as they would be without skew
+    steel: SteelPart | None = None  # of steelwork alone, which is cut and connected by itself
 
     @property
     def volume_m3(self) -> float:
@@ -86,7 +105,8 @@ def member_facts(members: Sequence[Member]) -> Iterator[Fact]:
     """Yield what a planner wants to know of members before a run."""
     alike = len({member.density_kg_m3 for member in members}) == 1
     for member in members:
-        own = "" if alike else f", {member.density_kg_m3:.0f} kg/m³"
+        is_node = member.steel is not None and member.steel.bar is None  # it may carry part of a deck
+        own = "" if alike or is_node else f", {member.density_kg_m3:.0f} kg/m³"
         yield member.name, _volume_and_mass(member.volume_m3, member.mass_kg) + own
     volume, mass = (math.fsum(getattr(member, name) for member in members) for name in ("volume_m3", "mass_kg"))
     yield "all", _volume_and_mass(volume, mass)

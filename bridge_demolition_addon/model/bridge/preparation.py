@@ -17,6 +17,7 @@ from . import bridge_members
 from .extent import surface_height
 from .member import Member
 from .mesh_files import geometry_members
+from .steelwork import steelwork_members
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,16 +29,30 @@ class PreparedMembers:
 
 
 def prepared_members(scenario: Scenario) -> PreparedMembers:
-    """Return all members of a scenario: those of the bridge first, then those from files, cut by all before them."""
+    """Return all members of a scenario: those of the bridge first, then those from files, cut by all before them.
+
+    Steelwork comes last, and nothing is cut off it.
+    """
     terrain = terrain_of(scenario)
     of_bridge = _bridge_on(terrain, scenario) if scenario.bridge else ()
+    of_steel = steelwork_members(scenario.steelwork)
     if not scenario.geometry:
-        return PreparedMembers(of_bridge, ())
+        return PreparedMembers((*of_bridge, *of_steel), ())
     from_files, repairs = geometry_members(scenario.geometry, is_flat=terrain is None)
     prepared = without_overlap([*of_bridge, *from_files])
+    if of_steel:
+        _check_names([*prepared.members, *of_steel])
+        prepared = replace(prepared, members=(*prepared.members, *of_steel))
     for position in (position for action in scenario.actions for position in action.starts_above()):
         surface_height(scenario, prepared.members, position)  # refuses what nothing lies under
     return PreparedMembers(prepared.members, repairs + prepared.notes)
+
+
+def _check_names(members: Sequence[Member]) -> None:
+    names = [member.name for member in members]
+    for name in names:
+        if names.count(name) > 1:
+            raise ScenarioError(f'two members are called "{name}": expected a name of its own for each')
 
 
 def _bridge_on(terrain: Terrain | None, scenario: Scenario) -> tuple[Member, ...]:
@@ -61,10 +76,8 @@ def _bridge_on(terrain: Terrain | None, scenario: Scenario) -> tuple[Member, ...
 
 def without_overlap(members: Sequence[Member]) -> PreparedMembers:
     """Cut off each member what it has in common with those before it."""
+    _check_names(members)
     names = [member.name for member in members]
-    for name in names:
-        if names.count(name) > 1:
-            raise ScenarioError(f'two members are called "{name}": expected a name of its own for each')
     solids, removed = separated([member.solid for member in members], names)
     notes = [
         f"{name}: {volume:.4g} m³ cut off, as members before it take that room"

@@ -24,8 +24,10 @@ from .recording import PictureSettings, RecordingSettings
 from .reinforcement import BarRule, BridgeReinforcement, GeometryReinforcement, RatiosOfMember
 from .scenario import Scenario
 from .site import Exclusion, Neighbour, Site, Zone
+from .steelwork import SteelMember, SteelNode, Steelwork
 from .structural_changes import Change, Removal, SawCut, Severing, Weakening, ZoneFiring
 from .time import TimeSettings
+from .trusses import TrussSpan
 
 __all__ = [
     "Abutments",
@@ -72,9 +74,13 @@ __all__ = [
     "Severing",
     "ShardSettings",
     "Site",
+    "SteelMember",
+    "SteelNode",
+    "Steelwork",
     "Support",
     "SurfaceValues",
     "TimeSettings",
+    "TrussSpan",
     "Weakening",
     "Zone",
     "ZoneFiring",

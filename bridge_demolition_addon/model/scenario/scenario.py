@@ -44,6 +44,7 @@ from .jackhammer import Jackhammer
 from .recording import PictureSettings, RecordingSettings
 from .reinforcement import BarRule, BridgeReinforcement, GeometryReinforcement
 from .site import Exclusion, Neighbour, Site, Zone
+from .steelwork import Steelwork
 from .structural_changes import Change, Removal, SawCut, Weakening, severing
 from .time import MOST_FRAMES, TimeSettings
 
@@ -66,6 +67,7 @@ class Scenario(Table):
     time: TimeSettings
     bridge: Bridge | None = None
     geometry: tuple[Geometry, ...] = ()
+    steelwork: Steelwork | None = None
     ground: Ground = field(default_factory=Ground)
     ground_motion: GroundMotion | None = None
     fracture: FractureSettings
@@ -107,14 +109,11 @@ class Scenario(Table):
     def joints(self) -> tuple[Joint, ...]:
         """Return the joint of connections that follow no rule, then that of each rule, then that of each bearing.
 
-        Rules are those of `connections.between`. With reinforcement, the same follow for members that have bars.
+        Rules are those of `connections.between`. With reinforcement, the same follow for members that have bars. Those
+        of steelwork come last.
         """
-        own, *others = self.connections.joints(self.materials)
-        factor, is_elastic = self.connections.strength_factor, self.connections.is_elastic
-        pads = [table.joint(own, factor, is_elastic=is_elastic) for table in bearing_tables(self)]
-        if not self.reinforcement and not rules_of_bars(self):
-            return (own, *others, *pads)
-        return (own, *others, *pads, *self.connections.joints(self.materials, have_bars=True), *pads)
+        of_steel = self.steelwork.joints(self.connections.strength_factor) if self.steelwork else ()
+        return (*joints_of_faces(self), *of_steel)
 
     @property
     def is_reinforced(self) -> bool:
@@ -207,7 +206,7 @@ class Scenario(Table):
         self._check_slow_motion()
         object.__setattr__(self, "connections", self.connections.with_strength(self.fracture.shards))
         object.__setattr__(self, "connections", self.connections.with_stiffness(self.materials))
-        if self.is_reinforced and self.connections.is_elastic:
+        if (self.is_reinforced or self.steelwork) and self.connections.is_elastic:
             object.__setattr__(self, "time", self.time.with_bars())
         check_materials(self.materials)
         self._check_reinforcement()
@@ -217,13 +216,18 @@ class Scenario(Table):
         _ = self.joints  # refuses materials that are unknown, or do not say how they deform
         if self.bridge and self._material_density_kg_m3 is None:
             check_exactly_one(self.bridge, "density_kg_m3", "mass_kg")
-        if self.bridge is None and not self.geometry:
-            raise ScenarioError("bridge is missing: expected a table, or a member of your own under [[geometry]]")
+        if self.bridge is None and not self.geometry and self.steelwork is None:
+            raise ScenarioError(
+                "bridge is missing: expected a table, a member of your own under [[geometry]], or [steelwork]"
+            )
+        if self.steelwork is not None and not self.connections.is_elastic:
+            wanted = '"elastic" with [steelwork], and method "face": bars share a load by their stiffness'
+            raise self.connections.unexpected("stiffness", wanted)
         faults = Faults()
         for action in self.actions:
             with faults.noted():
                 action.check_plan(self)
-                if self.geometry:
+                if self.geometry or self.steelwork:
                     continue  # what lies there is only known once the members are read
                 for name, position in action.targets():
                     _check_on_deck(given(self.bridge), name, position)
@@ -322,6 +326,17 @@ def action_fields(scenario_class: type[Table]) -> tuple[str, ...]:
         for item in subtable_fields(scenario_class)
         if issubclass(subtable_class(item) or Table, PlannedAction)
     )
+
+
+def joints_of_faces(scenario: Scenario) -> tuple[Joint, ...]:
+    """Return the joints of a scenario that are not those of steelwork, and stand before these."""
+    connections = scenario.connections
+    own, *others = connections.joints(scenario.materials)
+    factor, is_elastic = connections.strength_factor, connections.is_elastic
+    pads = [table.joint(own, factor, is_elastic=is_elastic) for table in bearing_tables(scenario)]
+    if not scenario.reinforcement and not rules_of_bars(scenario):
+        return (own, *others, *pads)
+    return (own, *others, *pads, *connections.joints(scenario.materials, have_bars=True), *pads)
 
 
 def bearing_tables(scenario: Scenario) -> tuple[Bearing, ...]:

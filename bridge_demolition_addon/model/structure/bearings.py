@@ -52,6 +52,10 @@ class ModelBearings:
     names: tuple[str, ...]
     springs: PadSprings
 
+    def followed_by(self, springs: PadSprings, names: tuple[str, ...]) -> ModelBearings:
+        """Return these bearings and others, whose springs count on from theirs."""
+        return ModelBearings((*self.names, *names), self.springs.followed_by(springs))
+
     def rows_of(self, bearing: int) -> np.ndarray:
         """Return the connections (k,) of a bearing."""
         return self.springs.rows[self.springs.bearings == bearing]

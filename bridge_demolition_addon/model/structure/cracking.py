@@ -102,6 +102,7 @@ class CrackedBridge:
         cages = None if bare is None else _standing(bare, len(connections), bodies, rest)
         self._structure = CrackedStructure(built, cracks, of_bars, intact, rest, cages)
         self._held_at_first = self._structure.held.copy()
+        self._judged = np.zeros((6, len(connections)))  # loads of which some were found to overload connections
 
     def copy(self) -> CrackedBridge:
         """Return one in the same state, that goes on by itself."""
@@ -177,6 +178,7 @@ class CrackedBridge:
 
     def _overloaded(self, loads: np.ndarray, intact: np.ndarray) -> np.ndarray:
         """Connections (k,) that break of loads (6, m), each the worst around; in the axes of the shards they are on."""
+        self._judged = loads
         turns = self._structure.rotations[..., self._first]
         forces, moments = (turned_back(turns, vectors).T for vectors in (loads[:3], loads[3:]))
         on_shards = ConnectionLoads(forces, moments, self._model.connections.points)
@@ -193,7 +195,17 @@ class CrackedBridge:
         arms = self._model.connections.points[rows] - self._model.centres_m[first]
         points = positions_m[:, first].T + transformed(turns, arms)
         axes = product(turns, self._utilisations.axes[rows])
-        torn = TornFaces(rows, first, self._second[rows], points, axes, np.ones(len(rows)))
+        loads = self._judged
+        torn = TornFaces(
+            rows,
+            first,
+            self._second[rows],
+            points,
+            axes,
+            np.ones(len(rows)),
+            loads[:3, rows].T,
+            loads[3:, rows].T,
+        )
         self._faces.tear(cracks, torn, positions_m, rotations)
 
 

@@ -288,6 +288,11 @@ def _damping_text(scenario: Scenario, frequency_hz: float) -> str:
 def accuracy_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
     """Yield how many shards members have along their length and depth, and how far elastic results are off for that."""
     moves = np.bincount(model.member_of_shard[~model.fixed], minlength=len(model.members)) > 0
+    moves &= np.array([member.steel is None for member in model.members])
+    if scenario.steelwork:
+        pieces = sorted({scenario.steelwork.pieces_of(table) for table in scenario.steelwork.all_members})
+        ranged = " to ".join(dict.fromkeys(f"{count}" for count in (pieces[0], pieces[-1])))
+        yield "pieces of a steel bar", f"{ranged} along its length: docs/steel.md says how far off bending is with few"
     lengths_m, along, deep = _fineness(model)
     kinds = np.array([member.name if member.kind == _NO_KIND else member.kind for member in model.members])
     for kind in dict.fromkeys(kinds[moves].tolist()):

@@ -33,6 +33,7 @@ from ..scenario import BlastZone, FractureSettings, MemberCut, Scenario
 from ..scenario.fracture import MemberFracture
 from ..schema import SHORTEST_LENGTH_M, given
 from .point_files import paint_from_file, points_from_file
+from .steelwork import BarJoints, bar_joints, joint_faces, steel_fracture
 
 _DENSITY_SAMPLES = 4000
 """Points that the mean density of a member is taken over: it is off by some percent at most, and so is a number of
@@ -62,7 +63,8 @@ class FracturedMembers:
     """The n shards of all members, one member after the other, without gaps.
 
     `member_of_shard` (n,) holds indices of members, `centres_m` (n, 3) centres of mass, and `points_m` (n, 3) the
-    points whose Voronoi cells the shards are. `faces` are those that neighbouring shards share.
+    points whose Voronoi cells the shards are. `faces` are those that neighbouring shards share. `bar_joints` are those
+    of steelwork, whose faces are among them.
     """
 
     shards: tuple[TriangleMesh, ...]
@@ -71,6 +73,7 @@ class FracturedMembers:
     centres_m: np.ndarray
     points_m: np.ndarray
     faces: SharedFaces
+    bar_joints: BarJoints
 
 
 def fractured_members(scenario: Scenario, members: Sequence[Member]) -> FracturedMembers:
@@ -84,6 +87,9 @@ def fractured_members(scenario: Scenario, members: Sequence[Member]) -> Fracture
     seeds = np.random.SeedSequence(scenario.seed).generate_state(len(members))
     parts = []
     for index, member in enumerate(members):
+        if member.steel is not None:
+            parts.append(steel_fracture(member))
+            continue
         rule = rules[index]
         options = FractureOptions(
             density=density,
@@ -101,13 +107,17 @@ def fractured_members(scenario: Scenario, members: Sequence[Member]) -> Fracture
         parts.append(_fractured(cut, count, own_points[index], int(seeds[index]), options))
     shards = tuple(shard for part in parts for shard in part.shards)
     member_of_shard = np.repeat(np.arange(len(members)), [len(part) for part in parts])
+    joints = bar_joints(members, member_of_shard)
     return FracturedMembers(
         shards=shards,
         member_of_shard=member_of_shard,
         masses_kg=np.concatenate([_masses(*pair, settings.mass) for pair in zip(members, parts, strict=True)]),
         centres_m=np.concatenate([part.centres for part in parts]),
         points_m=np.concatenate([part.points for part in parts]),
-        faces=_all_faces([part.faces for part in parts], shards, member_of_shard),
+        faces=_all_faces(
+            [part.faces for part in parts], joint_faces(joints, members), members, shards, member_of_shard
+        ),
+        bar_joints=joints,
     )
 
 
@@ -117,7 +127,9 @@ def shards_with_gaps(fractured: FracturedMembers, members: Sequence[Member], gap
     return tuple(
         shard
         for index, member in enumerate(members)
-        for shard in with_gaps(fractured.shards[bounds[index] : bounds[index + 1]], member.solid, gap_m)
+        for shard in with_gaps(
+            fractured.shards[bounds[index] : bounds[index + 1]], member.solid, 0.0 if member.steel else gap_m
+        )
     )
 
 
@@ -271,11 +283,18 @@ def _counts(
     own_points: Sequence[np.ndarray],
     density: PointDensity | None,
 ) -> np.ndarray:
+    """Return the shards of each member (k,); 0 of steelwork, which is cut into pieces of its own."""
     settings = scenario.fracture
-    amounts = np.array([_amount(member.solid, density, scenario.seed) for member in members])
-    counts = _explicit_counts(rules, own_points)
-    counts = _shared_counts(counts, settings, rules, amounts)
-    return _distribute_rest(counts, amounts, settings.shards)
+    cut = np.array([member.steel is None for member in members])
+    counts = np.zeros(len(members), int)
+    if not cut.any():
+        return counts
+    amounts = np.array([_amount(member.solid, density, scenario.seed) for member in members if member.steel is None])
+    cut_rules = [rules[index] for index in np.flatnonzero(cut).tolist()]
+    own = _explicit_counts(cut_rules, [own_points[index] for index in np.flatnonzero(cut).tolist()])
+    own = _shared_counts(own, settings, cut_rules, amounts)
+    counts[cut] = _distribute_rest(own, amounts, settings.shards)
+    return counts
 
 
 def _explicit_counts(rules: Sequence[MemberFracture | None], own_points: Sequence[np.ndarray]) -> np.ndarray:
@@ -345,7 +364,16 @@ def _points_by_member(settings: FractureSettings, members: Sequence[Member]) -> 
     return [points[first == index] for index in range(len(members))]
 
 
-def _all_faces(within: list[SharedFaces], shards: tuple[TriangleMesh, ...], member_of_shard: np.ndarray) -> SharedFaces:
+def _all_faces(
+    within: list[SharedFaces],
+    of_joints: SharedFaces,
+    members: Sequence[Member],
+    shards: tuple[TriangleMesh, ...],
+    member_of_shard: np.ndarray,
+) -> SharedFaces:
+    """Return the faces within members, of joints of bars, and where members touch; steelwork does only at joints."""
     first_shards = np.searchsorted(member_of_shard, np.arange(len(within)))
     numbered = [replace(faces, pairs=faces.pairs + first) for faces, first in zip(within, first_shards, strict=True)]
-    return joined_faces([*numbered, touching_faces(shards, member=member_of_shard)])
+    is_steel = np.array([member.steel is not None for member in members])
+    groups = np.where(is_steel[member_of_shard], -1, member_of_shard)
+    return joined_faces([*numbered, of_joints, touching_faces(shards, member=groups)])

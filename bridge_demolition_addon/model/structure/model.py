@@ -13,6 +13,7 @@ from ...engineering.foundations.footings import SoilSprings
 from ...engineering.fracture.shared_faces import SharedFaces
 from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.vectors import cross
+from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.reinforcement import FaceBars
 from ...engineering.structure import connections as connecting
 from ...engineering.structure.connections import Connections
@@ -22,7 +23,7 @@ from ..bridge.member import Member, mean_density
 from ..bridge.preparation import prepared_members
 from ..reinforcement.design import all_layers
 from ..scenario import ConnectionSettings, Geometry, Scenario
-from ..scenario.scenario import bearing_tables
+from ..scenario.scenario import bearing_tables, joints_of_faces
 from ..schema import given
 from ..terrain.built import BuiltGround, built_ground
 from .bearings import ModelBearings, bearing_connections, have_bearing, placed_bearings, raised_shards
@@ -32,6 +33,16 @@ from .face_bars import face_bars, within_reinforced
 from .footings import on_footings, second_moments_of, soil_springs, with_soil
 from .members import FracturedMembers, fractured_members, shards_with_gaps
 from .starter_bars import starter_bars
+from .steelwork import (
+    SteelConnections,
+    joint_rows,
+    node_supports,
+    pins_of_supports,
+    resisting_moments,
+    steel_connections,
+    steel_stiffness,
+    with_steel_hinges,
+)
 from .stiffness import CutMembers, connection_stiffness
 from .supports import HeldPart, held_parts
 
@@ -61,6 +72,8 @@ class Model:
         `[[bearings]]`.
     crack_bars : CrackBars or None
         All bars that hold where elastic connections crack, in layers and by `ductile_share`; None without any.
+    steel : SteelConnections or None
+        Which connections are joints of steel bars; None without steelwork.
     """
 
     members: tuple[Member, ...]
@@ -79,6 +92,7 @@ class Model:
     bars: FaceBars | None = None
     bearings: ModelBearings | None = None
     crack_bars: CrackBars | None = None
+    steel: SteelConnections | None = None
 
     def thicknesses_m(self) -> np.ndarray:
         """Return the thickness (m,) of the thinner of the members that each connection is between."""
@@ -118,7 +132,8 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
     def allowed(pairs: np.ndarray) -> np.ndarray:
         return ~excluded[rules_of(pairs)] & ~have_bearing(placed, fractured.member_of_shard, pairs)
 
-    connections = _connections(scenario.connections, shards, centres, faces, allowed, heights_at)
+    is_steel = np.array([member.steel is not None for member in members])[fractured.member_of_shard]
+    connections = _connections(scenario.connections, shards, centres, faces, allowed, heights_at, ~is_steel)
     joint_of_connection = rules_of(connections.pairs)
     bearings = None
     if placed:
@@ -133,6 +148,19 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
         )
         connections = connecting.joined([connections, of_pads])
         joint_of_connection = np.concatenate((joint_of_connection, 1 + len(rules) + tables))
+    steel = None
+    if scenario.steelwork:
+        supports, nodes = node_supports(scenario.steelwork, members, fractured.member_of_shard, shards)
+        first_support = len(connections)
+        connections = connecting.joined([connections, supports])
+        steel = steel_connections(fractured.bar_joints, connections, first_support, nodes)
+        joint_of_connection = np.concatenate((joint_of_connection, np.zeros(len(nodes), int)))
+        joint_of_connection[steel.rows] = joint_rows(steel, scenario, members)
+        pins, names = pins_of_supports(
+            scenario.steelwork, members, nodes, first_support, len(bearings.names) if bearings else 0
+        )
+        if names:
+            bearings = bearings.followed_by(pins, names) if bearings else ModelBearings(names, pins)
     held = held_parts(scenario.supports, members, shards, fractured.member_of_shard)
     fixed = np.zeros(len(shards), dtype=bool)
     for part in held:
@@ -141,9 +169,12 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
     moves = ~np.append(fixed, True)[connections.pairs].all(axis=1)
     connections, joint_of_connection = connections.only(moves), joint_of_connection[moves]
     bearings = replace(bearings, springs=bearings.springs.among(moves)) if bearings else None
+    steel = steel.among(moves) if steel else None
     moments = second_moments(
         shards, connections.pairs[:, 0], connections.areas, connections.points, connections.normals
     )
+    if steel:
+        moments[steel.rows] = resisting_moments(steel, connections, members)
     soil = soil_springs(scenario.foundations, members, fractured.member_of_shard, shards, connections)
     bars = within = None
     if layers := all_layers(scenario, members):
@@ -154,7 +185,7 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
         )
         if starters:
             within |= starters.yield_n > 0.0
-        joint_of_connection = joint_of_connection + np.where(within, len(scenario.joints) // 2, 0)
+        joint_of_connection = joint_of_connection + np.where(within, len(joints_of_faces(scenario)) // 2, 0)
         bars = face_bars(
             layers,
             members,
@@ -169,15 +200,12 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
         )
         if starters:
             bars = bars.with_even(starters.yield_n, starters.openings_m)
+    if steel:
+        bars = with_steel_hinges(bars, steel, scenario, members, len(connections))
     stiffness = None
     if scenario.connections.is_elastic:
-        stiffness = connection_stiffness(
-            connections,
-            moments,
-            scenario.joints,
-            joint_of_connection,
-            CutMembers(members, fractured.member_of_shard, shards, _middles(fractured), fixed),
-        )
+        cut = CutMembers(members, fractured.member_of_shard, shards, _middles(fractured), fixed)
+        stiffness = _stiffness(connections, moments, scenario.joints, joint_of_connection, cut, steel)
     if soil and stiffness:
         connections, stiffness = on_footings(connections, soil), with_soil(stiffness, soil)
         moments[soil.rows] = second_moments_of(soil)
@@ -205,7 +233,28 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
         crack_bars=_crack_bars(scenario, bars, within, connections, joint_of_connection, bearings)
         if stiffness
         else None,
+        steel=steel,
     )
+
+
+def _stiffness(
+    connections: Connections,
+    moments: np.ndarray,
+    joints: Sequence[Joint],
+    joint_of_connection: np.ndarray,
+    cut: CutMembers,
+    steel: SteelConnections | None,
+) -> SectionStiffness:
+    """Return the stiffness of all connections: by faces of shards, and by sections of steel bars."""
+    if steel is None:
+        return connection_stiffness(connections, moments, joints, joint_of_connection, cut)
+    matrices = np.zeros((len(connections), 6, 6))
+    others = np.setdiff1d(np.arange(len(connections)), steel.rows)
+    if len(others):
+        of_faces = connections.only(others), moments[others], joints, joint_of_connection[others]
+        matrices[others] = connection_stiffness(*of_faces, cut).matrices
+    matrices[steel.rows] = steel_stiffness(steel, connections, cut.members).matrices
+    return SectionStiffness(matrices)
 
 
 def _crack_bars(
@@ -225,6 +274,7 @@ def _crack_bars(
         if bearings:
             even[bearings.springs.rows] = 0.0  # no bars run through a bearing
         bars = bars or FaceBars.none(len(connections))
+        even[bars.are_hinges] = 0.0
         bars = bars.with_even(even, float(given(settings.ductile_elongation_m)))
     return CrackBars(bars, scenario.steel) if bars else None
 
@@ -245,8 +295,12 @@ def _connections(
     faces: SharedFaces,
     allowed: Callable[[np.ndarray], np.ndarray],
     heights_at: Callable[[np.ndarray], np.ndarray] | None,
+    may_stand: np.ndarray,
 ) -> Connections:
-    """Return the connections of allowed pairs (k, 2), and to the ground, flat or with such heights."""
+    """Return the connections of allowed pairs (k, 2), and to the ground, flat or with such heights.
+
+    On the ground stand those shards (n,) that may.
+    """
     match settings.method:
         case "face":
             pairs, distances = connecting.neighbours_by_face(faces)
@@ -261,7 +315,8 @@ def _connections(
     if not settings.foundation:
         return between
     standing = connecting.foundations(shards, heights_at)
-    return connecting.joined([between, standing.only(allowed(standing.pairs))])
+    stands = allowed(standing.pairs) & may_stand[standing.pairs[:, 0]]
+    return connecting.joined([between, standing.only(stands)])
 
 
 def start_motions(tables: Sequence[Geometry], model: Model) -> tuple[np.ndarray, np.ndarray]:

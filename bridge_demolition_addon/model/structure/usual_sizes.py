@@ -46,6 +46,8 @@ def _member_sizes(members: Sequence[Member]) -> Iterator[str]:
 def _densities(members: Sequence[Member]) -> Iterator[str]:
     by_density: dict[str, list[str]] = {}
     for member in members:
+        if member.steel and not member.steel.bar:
+            continue  # a node carries what its body is too small for
         density = member.mass_kg / member.volume_m3
         if not _usual(density, USUAL_DENSITY_KG_M3):
             by_density.setdefault(f"{density:.4g} kg/m³", []).append(member.name)

@@ -22,6 +22,7 @@ _DAMPING = "bda_warm_up_damping"
 _DUCTILITY = "bda_ductility"
 _STEEL = "bda_steel"
 _BARS = "bda_bars"
+_HINGE = "bda_hinge"
 _FORCE = "bda_breaking_force_n"
 
 _NO_BARS = (0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
@@ -81,13 +82,22 @@ def keep_bars(connections: Sequence[bpy.types.Object], bars: FaceBars) -> None:
     columns = np.column_stack((bars.yield_n, bars.offsets_m, bars.directions, bars.openings_m))
     for connection, numbers in zip(connections, columns.tolist(), strict=True):
         connection[_BARS] = numbers
+    if bars.hinges is not None:
+        for row in np.flatnonzero(bars.are_hinges).tolist():
+            connections[row][_HINGE] = bars.hinges[row].tolist()
 
 
 def _bars_of(connections: Sequence[bpy.types.Object]) -> FaceBars | None:
     if not any(_BARS in connection for connection in connections):
         return None
     numbers = np.array([kept_numbers(connection, _BARS, _NO_BARS) for connection in connections])
-    return FaceBars(numbers[:, 0], numbers[:, 1:3], numbers[:, 3:6], numbers[:, 6])
+    hinges = None
+    if any(_HINGE in connection for connection in connections):
+        none = (np.nan,) * 3
+        hinges = np.array(
+            [kept_numbers(connection, _HINGE, none) if _HINGE in connection else none for connection in connections]
+        )
+    return FaceBars(numbers[:, 0], numbers[:, 1:3], numbers[:, 3:6], numbers[:, 6], hinges)
 
 
 def breaking_of(scene: bpy.types.Scene, connections: Sequence[bpy.types.Object] = ()) -> Breaking:

@@ -129,7 +129,8 @@ class Breaker:
         self._constraints.break_rows(rows)
         if len(rows) and self._resistance.reinforcement:
             axes = self._meter.section_axes(loads.rotations, rows)
-            self._resistance.reinforcement.tear(rows, loads.connection_points_m[rows], axes)
+            carried = loads.connection_forces_n[rows], loads.connection_moments_nm[rows]
+            self._resistance.reinforcement.tear(rows, loads.connection_points_m[rows], axes, *carried)
 
     def _let_collide(self) -> None:
         """Let bodies collide that no connection holds together, nor reinforcement in place of one."""

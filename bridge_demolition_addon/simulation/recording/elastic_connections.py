@@ -168,20 +168,33 @@ class ElasticConnections:
             even = ductility.strength_share * given(breaking.strength).tension_pa * self._inventory.areas_m2
             if self._bearings:
                 even[self._bearings.rows] = 0.0  # no bars run through a bearing
+            even[bars.are_hinges] = 0.0
             bars = bars.with_even(even, float(ductility.elongation_m))
         self._faces = CrackFaces(self._inventory.areas_m2, self._inventory.second_moments_m4, bars)
         self._cracks = self._faces.cracks(breaking.steel, left, self._axial_n_m)
 
-    def tear(self, rows: np.ndarray, points_m: np.ndarray, axes: np.ndarray) -> None:
-        """Let the reinforcement hold of connections (r,) that broke at points (r, 3), with section axes (r, 3, 3)."""
+    def tear(
+        self,
+        rows: np.ndarray,
+        points_m: np.ndarray,
+        axes: np.ndarray,
+        forces_n: np.ndarray,
+        moments_nm: np.ndarray,
+    ) -> None:
+        """Let the reinforcement hold of connections (r,) that broke at points (r, 3), with section axes (r, 3, 3).
+
+        They carried forces (r, 3), and moments (r, 3) about these points, on their first bodies.
+        """
         if self._bearings:
             crosses = ~np.isin(rows, self._bearings.rows)
             rows, points_m, axes = rows[crosses], points_m[crosses], axes[crosses]
+            forces_n, moments_nm = forces_n[crosses], moments_nm[crosses]
         if self._cracks is None or not len(rows):
             return
         motion = self._reader.read()
         signs = np.where(self._is_first[rows], 1.0, -1.0)
-        torn = TornFaces(rows, self._frames.first[rows], self._frames.second[rows], points_m, axes, signs)
+        ends = self._frames.first[rows], self._frames.second[rows]
+        torn = TornFaces(rows, *ends, points_m, axes, signs, forces_n, moments_nm)
         self._faces.tear(self._cracks, torn, motion.position_components_m, motion.rotation_components)
         self._world.constraints.crack_rows(rows)
 

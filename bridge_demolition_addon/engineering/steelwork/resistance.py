@@ -1,0 +1,117 @@
+"""What steel bars resist: plastic sections under axial force and bending, and buckling (EN 1993-1-1:2005).
+
+No partial factors: γ_M0 = γ_M1 = 1.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..arrays import FloatArray
+from ..elasticity.member_shapes import principal_moments
+from ..mechanics.strength import Strength, rectangular_sections
+from .grades import STEEL_MODULI
+from .sections import SteelSection
+
+IMPERFECTIONS = {"a0": 0.13, "a": 0.21, "b": 0.34, "c": 0.49, "d": 0.76}
+"""Imperfection factor α of each buckling curve: EN 1993-1-1:2005, table 6.1."""
+
+_NO_BUCKLING = 0.2
+"""Slenderness up to which a bar does not buckle: EN 1993-1-1:2005, 6.3.1.2 (4)."""
+
+_ROUNDING = 1e-9
+
+RUPTURE_STRAIN = 0.15
+"""Strain of steel as it ruptures: the least elongation of EN 1993-1-1:2005, 3.2.2 (1)."""
+
+_PLATEAU = 1e-4
+"""Slope of the stress after yield, by the modulus of elasticity: EN 1993-1-5:2006, C.6 (2), a nominal slope."""
+
+_HINGE_BY_DEPTH = 1.0
+"""Length in which a hinge yields, by the depth of the section."""
+
+
+@dataclass(frozen=True, slots=True)
+class SectionHinge:
+    """How a section of steel yields as a whole, and ruptures."""
+
+    yield_n: float  # axial force
+    yield_strain: float
+    hardening: float  # force at rupture over that at yield
+    rupture_strain: float
+    opening_m: float  # by which it has opened as it ruptures
+
+
+def section_hinge(section: SteelSection, yield_pa: float) -> SectionHinge:
+    """Return how a section yields: on a plateau, until a length as long as it is deep has stretched too far."""
+    yield_strain = yield_pa / STEEL_MODULI.young_pa
+    hardening = 1.0 + _PLATEAU * (RUPTURE_STRAIN - yield_strain) / yield_strain
+    opening = RUPTURE_STRAIN * _HINGE_BY_DEPTH * float(section.size_m.max())
+    return SectionHinge(section.area_m2 * yield_pa, yield_strain, hardening, RUPTURE_STRAIN, opening)
+
+
+def plastic_second_moments(section: SteelSection) -> FloatArray:
+    """Return second moments (2, 2) of the rectangle that stands for a section in what breaks it.
+
+    It has the area of the section, and elastic moduli as large as the plastic ones of that: W² = I A / 3 for any
+    rectangle. So axial force and bending about both axes together use N / N_pl + M_y / M_pl,y + M_z / M_pl,z, the
+    linear rule of EN 1993-1-1:2005, 6.2.1 (7).
+    """
+    return np.asarray(np.diag(3.0 * np.square(section.shape.plastic_moduli_m3) / section.area_m2))
+
+
+def plastic_strength(section: SteelSection, yield_pa: float) -> Strength:
+    """Return the strength with which that rectangle resists as the section does, as `mechanics.strength` judges it.
+
+    Shear resists by the smaller of the two areas that yield, torsion by all plates at yield.
+    """
+    shear_pa = yield_pa / math.sqrt(3.0)
+    area = section.area_m2
+    rectangle = rectangular_sections(np.array([area]), plastic_second_moments(section)[None])
+    by_torsion = section.torsion_modulus_m3 / float(rectangle.torsion_moduli_m3[0])
+    return Strength(
+        compression_pa=yield_pa,
+        tension_pa=yield_pa,
+        shear_pa=shear_pa * float(section.plastic_shear_areas_m2.min()) / area,
+        torsion_pa=shear_pa * by_torsion,
+        bending_pa=yield_pa,
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Buckling:
+    """Resistance of a bar in compression, about the axis in which it is least."""
+
+    axis: str  # "y" or "z", or "v" for the weak axis of an angle
+    curve: str
+    slenderness: float  # λ, by that at which Euler's load is the plastic one
+    reduction: float  # χ
+    euler_n: float
+    resistance_n: float
+
+
+def buckling(section: SteelSection, yield_pa: float, lengths_m: tuple[float, float]) -> Buckling:
+    """Return the buckling resistance of a bar with buckling lengths about y and z: EN 1993-1-1:2005, 6.3.1."""
+    plastic_n, moments = section.area_m2 * yield_pa, section.shape.second_moments_m4
+    axes = [(axis, float(moments[row, row]), lengths_m[row], row) for row, axis in enumerate("yz")]
+    if abs(moments[0, 1]) > _ROUNDING * moments[0, 0]:  # an angle, which is weakest about another axis
+        axes.append(("v", float(principal_moments(moments[None])[0][0]), max(lengths_m), 1))
+    about = []
+    for axis, moment, long, row in axes:
+        euler_n = math.pi * math.pi * STEEL_MODULI.young_pa * moment / (long * long)
+        slenderness = math.sqrt(plastic_n / euler_n)
+        curve = section.buckling_curves[row]
+        reduction = reduction_factor(slenderness, curve)
+        about.append(Buckling(axis, curve, slenderness, reduction, euler_n, reduction * plastic_n))
+    return min(about, key=lambda one: one.resistance_n)
+
+
+def reduction_factor(slenderness: float, curve: str) -> float:
+    """Return χ of a buckling curve: EN 1993-1-1:2005, equation 6.49."""
+    if slenderness <= _NO_BUCKLING:
+        return 1.0
+    phi = 0.5 * (1.0 + IMPERFECTIONS[curve] * (slenderness - _NO_BUCKLING) + slenderness * slenderness)
+    return min(1.0, 1.0 / (phi + math.sqrt(phi * phi - slenderness * slenderness)))

@@ -1,0 +1,106 @@
+"""Members of steelwork: a bar for each table, and a node with its plates where bars meet."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+
+from ...engineering.geometry.solids import from_manifold, hull
+from ...engineering.geometry.vectors import transformed, unit
+from ...engineering.steelwork.bars import SteelBar, bar_axes, extruded, node_points, node_radius_m
+from ...errors import GeometryError
+from ..scenario.bearings import FIXED
+from ..scenario.steelwork import NODE_KIND, TURNS, SteelMember, SteelNode, Steelwork
+from .member import Member, SteelPart
+
+_MOST_WITHIN = 0.45
+"""Part of a bar that may lie within the plates of one node."""
+
+
+def steelwork_members(steelwork: Steelwork | None) -> tuple[Member, ...]:
+    """Return all bars, and then all nodes."""
+    if steelwork is None:
+        return ()
+    places = {node.name: np.array(node.place_m) for node in steelwork.all_nodes}
+    axes = {
+        table.name: bar_axes(places[table.nodes[0]], places[table.nodes[1]], math.radians(table.roll_deg))
+        for table in steelwork.all_members
+    }
+    ends = {node.name: _ends_at(node, steelwork.all_members, axes) for node in steelwork.all_nodes}
+    radii = {node.name: _radius_m(node, ends[node.name]) for node in steelwork.all_nodes}
+    fixed = {node.name: _held_end(node, steelwork.all_members) for node in steelwork.all_nodes}
+    bars = [_bar(steelwork, table, places, axes[table.name], radii, fixed) for table in steelwork.all_members]
+    nodes = [_node(steelwork, node, ends[node.name], radii[node.name]) for node in steelwork.all_nodes]
+    return (*bars, *nodes)
+
+
+_End = tuple[SteelMember, np.ndarray, np.ndarray]
+"""A bar at a node, its direction away from that (3,), and the outline of its section about its axis (p, 3)."""
+
+
+def _ends_at(node: SteelNode, tables: Sequence[SteelMember], axes: dict[str, np.ndarray]) -> list[_End]:
+    ends = []
+    for table in tables:
+        own = axes[table.name]
+        for name, sign in zip(table.nodes, (1.0, -1.0), strict=True):
+            if name == node.name:
+                outline = transformed(own[:, 1:], np.concatenate(table.steel_section.rings))
+                ends.append((table, sign * own[:, 0], outline))
+    return ends
+
+
+def _radius_m(node: SteelNode, ends: Sequence[_End]) -> float:
+    if node.radius_m is not None:
+        return node.radius_m
+    return node_radius_m(np.array([direction for _, direction, _ in ends]), [outline for _, _, outline in ends])
+
+
+def _held_end(node: SteelNode, tables: Sequence[SteelMember]) -> str | None:
+    """Return the bar that the node turns with, where all of them turn freely and no support holds it.
+
+    Else nothing would keep the node from turning. Its bar carries no moment for that, as all others are pinned at the
+    node itself.
+    """
+    at_node = [table for table in tables if node.name in table.nodes]
+    is_free = all(table.ends[table.nodes.index(node.name)] != FIXED for table in at_node)
+    return at_node[0].name if is_free and node.support != FIXED else None
+
+
+def _bar(
+    steelwork: Steelwork,
+    table: SteelMember,
+    places: dict[str, np.ndarray],
+    axes: np.ndarray,
+    radii: dict[str, float],
+    fixed: dict[str, str | None],
+) -> Member:
+    begin, end = (places[name] for name in table.nodes)
+    within = np.array([radii[name] for name in table.nodes])
+    turns = np.array(
+        [
+            TURNS[FIXED if fixed[name] == table.name else joined]
+            for name, joined in zip(table.nodes, table.ends, strict=True)
+        ]
+    )
+    bar = SteelBar(table.steel_section, begin, end, axes, within, turns, steelwork.pieces_of(table))
+    for name, inside in zip(table.nodes, within.tolist(), strict=True):
+        if inside > _MOST_WITHIN * bar.length_m:
+            raise GeometryError(
+                f"{table.name} is {bar.length_m:.4g} m long, and would begin {inside:.3g} m from the node {name}, so "
+                "that no bar there lies in another: move the nodes, or give steelwork.nodes.radius_m"
+            )
+    ends = bar.at(bar.cuts_m[[0, -1]])
+    solid = extruded(bar.section, axes, ends[0], ends[1])
+    part = SteelPart(0.5 * (ends[0] + ends[1]), bar, table.nodes)
+    return Member(table.name, table.kind, solid, steelwork.density_kg_m3, steel=part)
+
+
+def _node(steelwork: Steelwork, node: SteelNode, ends: Sequence[_End], radius_m: float) -> Member:
+    points = node_points([(unit(direction), outline) for _, direction, outline in ends], radius_m)
+    place = np.array(node.place_m)
+    solid = from_manifold(hull(place + points))
+    steel_m3 = radius_m * math.fsum(table.steel_section.area_m2 for table, _, _ in ends)
+    mass_kg = steelwork.density_kg_m3 * steel_m3 + node.mass_kg
+    return Member(node.name, NODE_KIND, solid, mass_kg / solid.volume, steel=SteelPart(place))

@@ -1,0 +1,242 @@
+"""Steelwork: bars of steel between nodes, as a scenario gives them."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from ...engineering.mechanics.joint import Joint
+from ...engineering.mechanics.strength import Strength
+from ...engineering.steelwork.catalogue import section_named
+from ...engineering.steelwork.grades import DENSITY_KG_M3, GRADES, STEEL_MODULI, strengths_pa
+from ...engineering.steelwork.resistance import plastic_strength
+from ...engineering.steelwork.sections import SteelSection
+from ...errors import Faults, ScenarioError
+from ..schema import SHORTEST_LENGTH_M, SIZE, Table, key, shown
+from .bearings import FIXED, PINNED, ROCKER
+from .connections import GROUND_NAME
+from .trusses import TrussSpan
+
+NODE_KIND = "node"
+
+HINGED = "hinged"
+
+TURNS = {FIXED: (False, False), HINGED: (True, False), PINNED: (True, True)}
+"""Whether a bar turns freely about y and z at an end."""
+
+SUPPORTS = (FIXED, PINNED, ROCKER)
+
+_MOST_PIECES = 200
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SteelNode(Table):
+    """A point in which bars end and are joined by plates. It is a member of its own, which supports, removals and all
+    else may name, and its body has the plates that bars begin at."""
+
+    table: ClassVar[str] = "steelwork.nodes"
+
+    name: str = key("Name of the node.")
+    place_m: tuple[float, float, float] = key("Along the road, across it, above the ground.", unit="m")
+    support: str | None = key(
+        "Support of the node: `fixed` holds displacements and rotations, `pinned` turns freely about an axis across "
+        "the road, `rocker` also moves along it. All hold uplift. None by default.",
+        default=None,
+        choices=SUPPORTS,
+    )
+    held_by: str = key(
+        "What the support stands on: the name or kind of a member, of which the nearest shard holds it, or `ground`.",
+        default=GROUND_NAME,
+    )
+    mass_kg: float = key(
+        "Mass that the node carries beside its bars, such as its share of a deck; it moves with the node.",
+        default=0.0,
+        unit="kg",
+        at_least=0,
+    )
+    radius_m: float | None = key(
+        "How far from the node its bars begin; by default so far that none of them lies in another.",
+        default=None,
+        **SIZE,
+    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SteelMember(Table):
+    """A bar of steel from one node to another. It is cut across into pieces."""
+
+    table: ClassVar[str] = "steelwork.members"
+
+    name: str = key("Name of the bar.")
+    nodes: tuple[str, str] = key("The nodes at its two ends.")
+    section: str = key(
+        "Name of a rolled section (`IPE 300`, `HEA 200`, `HEB 300`, `HEM 300`), or a shape and its sizes in mm: "
+        "`I 900x300x12x25` (height, width, web, flange), `PG 1200x12x400x25x500x40` (height, web, width and thickness "
+        "of the top flange, of the bottom flange), `BOX 400x300x10x20`, `RHS 200x100x8`, `SHS 100x5`, `CHS 168.3x8`, "
+        "`L 100x100x10`, `U 200x75x8.5x11.5`, `T 200x200x10x15`, `FLAT 100x20`."
+    )
+    kind: str = key("What kind of member it is, such as `top chord` or `diagonal`.", default="steel bar")
+    grade: str | None = key("Grade of its steel; by default that of all.", default=None, choices=GRADES)
+    roll_deg: float = key(
+        "Turn of the section about the bar. At 0 its y axis is level, so that a web stands upright; of an upright bar "
+        "the web lies along the road.",
+        default=0.0,
+        unit="°",
+        at_least=-360,
+        at_most=360,
+    )
+    ends: tuple[str, str] = key(
+        "How it is joined to each node: `fixed`, `pinned`, which turns freely about both axes of its section, or "
+        "`hinged`, which does so about its y axis alone.",
+        default=(FIXED, FIXED),
+        choices=tuple(TURNS),
+    )
+    end_strengths: tuple[float, float] = key(
+        "Strength of its joint to each node, by bolts, welds or plates, as a part of that of the bar.",
+        default=(1.0, 1.0),
+        above=0,
+        at_most=10,
+    )
+    pieces: int | None = key(
+        "Pieces that it is cut into; by default as many as all.", default=None, at_least=1, at_most=_MOST_PIECES
+    )
+    buckling_lengths: tuple[float, float] = key(
+        "Buckling lengths about y and z, by its length between nodes, with which `bda check` judges it.",
+        default=(1.0, 1.0),
+        above=0,
+        at_most=10,
+    )
+
+    @property
+    def steel_section(self) -> SteelSection:
+        return section_named(self.section)
+
+    def _check_together(self) -> None:
+        if self.nodes[0] == self.nodes[1]:
+            raise self.unexpected("nodes", "two different nodes")
+        try:
+            section_named(self.section)
+        except ScenarioError as error:
+            raise ScenarioError(f"{self.table}.section: {error}") from error
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Steelwork(Table):
+    """Bars of steel between nodes: a truss, a frame, bracing. They need elastic connections with method `face`."""
+
+    table: ClassVar[str] = "steelwork"
+
+    grade: str = key("Grade of all bars that have none of their own.", default="S355", choices=GRADES)
+    pieces: int = key(
+        "Pieces that each bar is cut into that says no other number.", default=4, at_least=1, at_most=_MOST_PIECES
+    )
+    density_kg_m3: float = key("Density of the steel.", default=DENSITY_KG_M3, unit="kg/m³", above=0)
+    nodes: tuple[SteelNode, ...] = ()
+    members: tuple[SteelMember, ...] = ()
+    trusses: tuple[TrussSpan, ...] = ()
+
+    @property
+    def all_nodes(self) -> tuple[SteelNode, ...]:
+        """Its own nodes, and those of its trusses."""
+        return (*self.nodes, *(SteelNode(**keys) for truss in self.trusses for keys in truss.nodes()))
+
+    @property
+    def all_members(self) -> tuple[SteelMember, ...]:
+        """Its own bars, and those of its trusses."""
+        return (*self.members, *(SteelMember(**keys) for truss in self.trusses for keys in truss.members()))
+
+    def grade_of(self, member: SteelMember) -> str:
+        return member.grade or self.grade
+
+    def pieces_of(self, member: SteelMember) -> int:
+        return self.pieces if member.pieces is None else member.pieces
+
+    def yield_and_ultimate_pa(self, member: SteelMember) -> tuple[float, float]:
+        return strengths_pa(self.grade_of(member), member.steel_section.thickest_m)
+
+    def joints(self, strength_factor: float) -> tuple[Joint, ...]:
+        """Return the joints of bars that are alike, by `joint_keys`."""
+        return tuple(
+            Joint(kind, strength=_times(strength, strength_factor), moduli=STEEL_MODULI)
+            for strength, kind in self._kinds().values()
+        )
+
+    def joint_rows(self) -> dict[tuple[str, ...], int]:
+        """Return which of the joints each kind of connection has, by what makes it: see `bar_key`, `support_key`."""
+        return {name: row for row, name in enumerate(self._kinds())}
+
+    def bar_key(self, member: SteelMember, end: int | None = None) -> tuple[str, ...]:
+        """Return what the joints of a bar have in common, within it or at one of its ends."""
+        share = 1.0 if end is None else member.end_strengths[end]
+        return (self.grade_of(member), member.steel_section.name, repr(share))
+
+    def support_key(self, node: SteelNode) -> tuple[str, ...]:
+        """Return what supports that are alike have in common."""
+        return ("support", "FIXED" if node.support == FIXED else "GENERIC")
+
+    def _kinds(self) -> dict[tuple[str, ...], tuple[Strength | None, str]]:
+        kinds: dict[tuple[str, ...], tuple[Strength | None, str]] = {}
+        for member in self.all_members:
+            for end in (None, 0, 1):
+                yield_pa, _ = self.yield_and_ultimate_pa(member)
+                share = 1.0 if end is None else member.end_strengths[end]
+                strength = plastic_strength(member.steel_section, yield_pa).times(share)
+                kinds.setdefault(self.bar_key(member, end), (strength, "FIXED"))
+        for node in self.all_nodes:
+            if node.support is not None:
+                key_of_support = self.support_key(node)
+                kinds.setdefault(key_of_support, (None, key_of_support[1]))
+        return kinds
+
+    def _check_together(self) -> None:
+        faults = Faults()
+        for check in (self._check_names, self._check_ends, self._check_lengths):
+            with faults.noted():
+                check()
+        faults.check()
+
+    def _check_names(self) -> None:
+        if not self.members and not self.trusses:
+            raise ScenarioError(
+                "steelwork.members is missing: expected bars under [[steelwork.members]] or [[steelwork.trusses]]"
+            )
+        names = [*(member.name for member in self.all_members), *(node.name for node in self.all_nodes)]
+        if twice := _first_twice(names):
+            raise ScenarioError(f"steelwork has {shown(twice)} twice: expected a name of its own for each bar and node")
+
+    def _check_ends(self) -> None:
+        known = {node.name for node in self.all_nodes}
+        for member in self.all_members:
+            for name in member.nodes:
+                if name not in known:
+                    raise ScenarioError(
+                        f"steelwork.members {shown(member.name)}: nodes has {shown(name)}: expected the name of one of "
+                        "[[steelwork.nodes]]"
+                    )
+        used = {name for member in self.all_members for name in member.nodes}
+        if unused := [node.name for node in self.all_nodes if node.name not in used]:
+            raise ScenarioError(f"steelwork.nodes {shown(unused[0])}: expected a bar that ends in it")
+
+    def _check_lengths(self) -> None:
+        places = {node.name: np.array(node.place_m) for node in self.all_nodes}
+        for member in self.all_members:
+            first, second = (places.get(name) for name in member.nodes)
+            if first is not None and second is not None and not np.abs(second - first).max() > SHORTEST_LENGTH_M:
+                raise ScenarioError(
+                    f"steelwork.members {shown(member.name)}: expected nodes that are more than {SHORTEST_LENGTH_M} m "
+                    "apart"
+                )
+
+
+def _first_twice(names: Iterable[str]) -> str | None:
+    seen: set[str] = set()
+    for name in names:
+        if name in seen:
+            return name
+        seen.add(name)
+    return None
+
+
+def _times(strength: Strength | None, factor: float) -> Strength | None:
+    return strength.times(factor) if strength is not None else None

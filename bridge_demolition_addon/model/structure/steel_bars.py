@@ -1,0 +1,120 @@
+"""Steel bars of a model at rest: what each carries, by what its section resists and by what it resists as a strut."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...engineering.elasticity.equilibrium import Equilibrium
+from ...engineering.mechanics.section_forces import section_forces
+from ...engineering.steelwork.resistance import Buckling, buckling
+from ..actions import Fact
+from ..scenario import Scenario
+from ..schema import given
+from .equilibrium import loads_of
+from .model import Model
+from .utilisation import Utilisations
+
+MOST_BARS_NAMED = 40
+
+
+@dataclass(frozen=True, slots=True)
+class BarUse:
+    """What a bar carries, and the part of its resistance that this is.
+
+    Attributes
+    ----------
+    axial_n : float
+        Axial force of the largest size, above 0 in tension.
+    bending_nm : float
+        Largest moment, about any axis of the section.
+    section_used : float
+        Axial force, bending and shear of a section by what it resists plastically, as a run judges it.
+    buckling_used : float
+        Compression by what the bar resists in buckling; 0 for one that is pulled.
+    """
+
+    name: str
+    section: str
+    grade: str
+    length_m: float
+    axial_n: float
+    bending_nm: float
+    section_used: float
+    buckling_used: float
+    buckling: Buckling
+
+    @property
+    def used(self) -> float:
+        return max(self.section_used, self.buckling_used)
+
+
+def bar_uses(scenario: Scenario, model: Model, rest: Equilibrium) -> list[BarUse]:
+    """Return what each bar of a model at rest carries, the most used first."""
+    steel, steelwork = given(model.steel), given(scenario.steelwork)
+    loads, judged = loads_of(model, rest), Utilisations(model, scenario.joints)
+    whole = np.ones(len(model.connections))
+    alone, _ = judged.of(loads, whole > 0.0, whole, judged.parts(whole > 0.0), every_section=False)
+    forces = section_forces(judged.axes, loads.forces_n, loads.moments_nm)
+    tables = {table.name: table for table in steelwork.all_members}
+    uses = []
+    rows_of_joints = steel.rows[: len(steel.joints.members)]
+    for index in np.unique(steel.joints.members).tolist():
+        rows = rows_of_joints[steel.joints.members == index]
+        table, bar = tables[model.members[index].name], given(given(model.members[index].steel).bar)
+        axial = forces.axial_n[rows]
+        largest = float(axial[np.abs(axial).argmax()])
+        yield_pa, _ = steelwork.yield_and_ultimate_pa(table)
+        about_y, about_z = table.buckling_lengths
+        strut = buckling(bar.section, yield_pa, (about_y * bar.length_m, about_z * bar.length_m))
+        uses.append(
+            BarUse(
+                name=table.name,
+                section=bar.section.name,
+                grade=steelwork.grade_of(table),
+                length_m=bar.length_m,
+                axial_n=largest,
+                bending_nm=float(np.sqrt(np.square(forces.bending_nm[rows]).sum(axis=1)).max()),
+                section_used=float(alone[rows].max()),
+                buckling_used=max(0.0, -float(axial.min())) / strut.resistance_n,
+                buckling=strut,
+            )
+        )
+    return sorted(uses, key=lambda use: -use.used)
+
+
+def steel_facts(scenario: Scenario, model: Model, rest: Equilibrium) -> Iterator[Fact]:
+    """Yield what the bars of a model at rest carry, the most used first, and which would buckle."""
+    uses = bar_uses(scenario, model, rest)
+    mass_kg = float(sum_of_masses(model))
+    yield "bars", f"{len(uses)}, {mass_kg / 1000.0:.1f} t of steel and of what nodes carry"
+    if buckles := [use for use in uses if use.buckling_used > 1.0]:
+        names = ", ".join(use.name for use in buckles[:MOST_BARS_NAMED])
+        yield "buckle", f"{names}: pressed by more than EN 1993-1-1, 6.3.1 lets them resist"
+    for use in uses[:MOST_BARS_NAMED]:
+        yield use.name, _text(use)
+    if len(uses) > MOST_BARS_NAMED:
+        yield "", f"and {len(uses) - MOST_BARS_NAMED} more, used by {uses[MOST_BARS_NAMED].used:.0%} or less"
+
+
+def sum_of_masses(model: Model) -> float:
+    """Return the mass of all bars and nodes."""
+    is_steel = np.array([member.steel is not None for member in model.members])[model.member_of_shard]
+    return float(model.masses_kg[is_steel].sum())
+
+
+def _text(use: BarUse) -> str:
+    pulled = "pulled" if use.axial_n >= 0.0 else "pressed"
+    text = (
+        f"{use.section}, {use.grade}, {use.length_m:.2f} m: {pulled} by {abs(use.axial_n) / 1e3:.1f} kN, "
+        f"{use.bending_nm / 1e3:.1f} kN·m, {use.section_used:.0%} of its section"
+    )
+    if use.buckling_used == 0.0:
+        return text
+    strut = use.buckling
+    return (
+        f"{text}, {use.buckling_used:.0%} of {strut.resistance_n / 1e3:.0f} kN in buckling about {strut.axis}, "
+        f"curve {strut.curve}, χ = {strut.reduction:.2f}"
+    )

@@ -1,0 +1,321 @@
+"""Steelwork in the structural model: pieces of bars and nodes as shards, joints of bars, and supports of nodes."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...engineering.elasticity.bearings import PadSprings
+from ...engineering.elasticity.section_stiffness import SectionStiffness
+from ...engineering.fracture.shards import Fracture
+from ...engineering.fracture.shared_faces import NO_FACES, SharedFaces
+from ...engineering.geometry.mesh import TriangleMesh
+from ...engineering.geometry.vectors import dot, product
+from ...engineering.mechanics.reinforcement import FaceBars
+from ...engineering.mechanics.section_forces import section_axes
+from ...engineering.steelwork.bars import SteelBar, extruded, in_other_axes, joint_stiffness
+from ...engineering.steelwork.grades import STEEL_MODULI
+from ...engineering.steelwork.resistance import plastic_second_moments, section_hinge
+from ...engineering.structure.connections import GROUND, Connections
+from ..bridge.member import Member, members_named
+from ..scenario import Scenario
+from ..scenario.bearings import FIXED, ROCKER, UNYIELDING_MN_M
+from ..scenario.connections import GROUND_NAME
+from ..scenario.scenario import joints_of_faces
+from ..scenario.steelwork import Steelwork
+from ..schema import given
+
+_TRAVEL_M = 0.2
+"""Displacement at which a node has left a support that turns or moves."""
+
+_SUPPORT = 1e4
+"""Stiffness of a support over that of the stoutest bar at its node."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BarJoints:
+    """j joints of bars, in the order of bars and along each.
+
+    Attributes
+    ----------
+    members, numbers : (j,) int
+        Index of the member that each is of, and its number along that, from 0.
+    pairs : (j, 2) int
+        Shards on its two sides, along the bar.
+    """
+
+    members: np.ndarray
+    numbers: np.ndarray
+    pairs: np.ndarray
+
+
+def steel_fracture(member: Member) -> Fracture:
+    """Return the pieces of a bar, or a node, as shards; the mass of a node is at its position."""
+    part = given(member.steel)
+    if part.bar is None:
+        volumes, centres = np.array([member.volume_m3]), part.centre_m[None]
+        return Fracture((member.solid,), volumes, centres, centres, NO_FACES)
+    bar, cuts = part.bar, part.bar.cuts_m
+    ends = bar.at(cuts)
+    shards = tuple(extruded(bar.section, bar.axes, *ends[row : row + 2]) for row in range(bar.pieces))
+    centres = bar.at(0.5 * (cuts[1:] + cuts[:-1]))
+    volumes = bar.section.area_m2 * np.diff(cuts)
+    return Fracture(shards, volumes, centres, centres, NO_FACES)
+
+
+def bar_joints(members: Sequence[Member], member_of_shard: np.ndarray) -> BarJoints:
+    """Return all joints of bars between the shards of members, of each of which the index is given (n,)."""
+    first_shards = np.searchsorted(member_of_shard, np.arange(len(members)))
+    node_shards = {
+        member.name: int(first_shards[index])
+        for index, member in enumerate(members)
+        if member.steel and not member.steel.bar
+    }
+    owners, numbers, pairs = [], [], []
+    for index, member in enumerate(members):
+        if member.steel is None or member.steel.bar is None:
+            continue
+        begin, end = (node_shards[name] for name in member.steel.nodes)
+        pieces = first_shards[index] + np.arange(member.steel.bar.pieces)
+        chain = np.concatenate(([begin], pieces, [end]))
+        pairs.append(np.column_stack((chain[:-1], chain[1:])))
+        numbers.append(np.arange(len(chain) - 1))
+        owners.append(np.full(len(chain) - 1, index))
+    if not pairs:
+        return BarJoints(np.zeros(0, int), np.zeros(0, int), np.zeros((0, 2), int))
+    return BarJoints(np.concatenate(owners), np.concatenate(numbers), np.concatenate(pairs))
+
+
+def joint_faces(joints: BarJoints, members: Sequence[Member]) -> SharedFaces:
+    """Return the joints of bars as faces that shards share: the whole section of the bar, where the joint lies."""
+    bars = [_bar(members[index]) for index in joints.members.tolist()]
+    if not bars:
+        return NO_FACES
+    signs = np.where(joints.pairs[:, 0] < joints.pairs[:, 1], 1.0, -1.0)
+    positions = [bar.at(bar.joints_m[[number]])[0] for bar, number in zip(bars, joints.numbers.tolist(), strict=True)]
+    return SharedFaces(
+        pairs=np.sort(joints.pairs, axis=1),
+        areas=np.array([bar.section.area_m2 for bar in bars]),
+        centres=np.array(positions),
+        normals=signs[:, None] * np.array([bar.axes[:, 0] for bar in bars]),
+    )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class SteelConnections:
+    """Connections of a model that are joints of bars, or supports of nodes.
+
+    Attributes
+    ----------
+    rows : (s,) int
+        Their numbers among all connections, ascending.
+    joints : BarJoints
+        The joints that the first of them are, (j,); the rest are supports.
+    support_nodes : (s - j,) int
+        Indices of the members whose support each of these is.
+    """
+
+    rows: np.ndarray
+    joints: BarJoints
+    support_nodes: np.ndarray
+
+    def among(self, kept: np.ndarray) -> SteelConnections:
+        """Return those that are left where only some connections (m,) are kept."""
+        left, numbers = kept[self.rows], np.cumsum(kept) - 1
+        count = len(self.joints.members)
+        mine = left[:count]
+        joints = BarJoints(self.joints.members[mine], self.joints.numbers[mine], self.joints.pairs[mine])
+        return SteelConnections(numbers[self.rows[left]], joints, self.support_nodes[left[count:]])
+
+
+def steel_connections(
+    joints: BarJoints, connections: Connections, first_support: int, nodes: np.ndarray
+) -> SteelConnections:
+    """Return which connections are joints of bars, and which supports of nodes (s,): those from `first_support` on."""
+    count = 1 + int(connections.pairs.max(initial=0))
+    keys = connections.pairs[:first_support, 0] * count + connections.pairs[:first_support, 1]
+    wanted = np.sort(joints.pairs, axis=1)
+    wanted_keys = wanted[:, 0] * count + wanted[:, 1]
+    order = np.argsort(keys, kind="stable")
+    at = np.searchsorted(keys[order], wanted_keys)
+    found = (at < len(keys)) & (keys[order[np.minimum(at, len(keys) - 1)]] == wanted_keys) if len(keys) else at < 0
+    rows = order[at[found]]
+    by_row = np.argsort(rows, kind="stable")
+    kept = BarJoints(*(getattr(joints, name)[found][by_row] for name in ("members", "numbers", "pairs")))
+    supports = first_support + np.arange(len(nodes))
+    return SteelConnections(np.concatenate((rows[by_row], supports)), kept, nodes)
+
+
+def node_supports(
+    steelwork: Steelwork, members: Sequence[Member], member_of_shard: np.ndarray, shards: Sequence[TriangleMesh]
+) -> tuple[Connections, np.ndarray]:
+    """Return the connections between nodes and what holds them, and the index of the member of each node (s,)."""
+    index_of = {member.name: index for index, member in enumerate(members)}
+    held = [node for node in steelwork.all_nodes if node.support is not None]
+    nodes = np.array([index_of[node.name] for node in held], int)
+    pairs = np.zeros((len(held), 2), int)
+    for row, node in enumerate(held):
+        shard = int(np.searchsorted(member_of_shard, nodes[row]))
+        pairs[row] = shard, _holding_shard(node.held_by, np.array(node.place_m), members, member_of_shard, shards)
+    areas = [
+        max(_bar(member).section.area_m2 for member in members if member.steel and node.name in member.steel.nodes)
+        for node in held
+    ]
+    return (
+        Connections(
+            pairs,
+            np.array([node.place_m for node in held], float).reshape(-1, 3),
+            np.array(areas, float),
+            np.tile((0.0, 0.0, -1.0), (len(held), 1)),
+        ),
+        nodes,
+    )
+
+
+def pins_of_supports(
+    steelwork: Steelwork, members: Sequence[Member], nodes: np.ndarray, first_row: int, first_bearing: int
+) -> tuple[PadSprings, tuple[str, ...]]:
+    """Return the springs of supports of nodes (s,) that turn freely, as of bearings that hold uplift, and their names.
+
+    The rows of their connections count from `first_row`, bearings from `first_bearing`. A pin across the road is two
+    springs as far from the node as its bars begin: they hold it upright.
+    """
+    tables = {node.name: node for node in steelwork.all_nodes}
+    rows = [row for row, index in enumerate(nodes.tolist()) if tables[members[index].name].support != FIXED]
+    pins = [tables[members[int(nodes[row])].name] for row in rows]
+    arms = [max(_within_m(members, pin.name)) for pin in pins]
+    places = [
+        np.add(pin.place_m, (0.0, side * arm, 0.0)) for pin, arm in zip(pins, arms, strict=True) for side in (-1, 1)
+    ]
+    count, half = len(pins), 0.5e6 * UNYIELDING_MN_M
+    sideways = [(0.0 if pin.support == ROCKER else half, half) for pin in pins for _ in range(2)]
+    springs = PadSprings(
+        rows=first_row + np.array(rows, int),
+        parts=np.repeat(np.arange(count), 2),
+        places_m=np.array(places).reshape(-1, 3),
+        vertical_n_m=np.full(2 * count, half),
+        sideways_n_m=np.array(sideways).reshape(-1, 2),
+        friction=np.full(count, np.inf),
+        pulls=np.ones(count, bool),
+        travel_m=np.full(count, _TRAVEL_M),
+        bearings=first_bearing + np.arange(count),
+        breaking_n=np.full(count, np.inf),
+    )
+    return springs, tuple(f"{pin.name} on {pin.held_by}" for pin in pins)
+
+
+def joint_rows(steel: SteelConnections, scenario: Scenario, members: Sequence[Member]) -> np.ndarray:
+    """Return which of the scenario's joints each connection of steelwork (s,) has."""
+    steelwork = given(scenario.steelwork)
+    rows, first = steelwork.joint_rows(), len(joints_of_faces(scenario))
+    tables = {table.name: table for table in steelwork.all_members}
+    nodes = {node.name: node for node in steelwork.all_nodes}
+    keys = []
+    for index, number in zip(steel.joints.members.tolist(), steel.joints.numbers.tolist(), strict=True):
+        last = _bar(members[index]).pieces
+        end = {0: 0, last: 1}.get(number)
+        keys.append(steelwork.bar_key(tables[members[index].name], end))
+    keys += [steelwork.support_key(nodes[members[index].name]) for index in steel.support_nodes.tolist()]
+    return np.array([first + rows[key] for key in keys], int)
+
+
+def resisting_moments(steel: SteelConnections, connections: Connections, members: Sequence[Member]) -> np.ndarray:
+    """Return second moments (s, 2, 2) of the rectangles that stand for sections, in the axes of the connections."""
+    count = len(steel.joints.members)
+    areas = connections.areas[steel.rows]
+    moments = np.square(areas)[:, None, None] / 12.0 * np.eye(2)
+    own = np.array([plastic_second_moments(_bar(members[index]).section) for index in steel.joints.members.tolist()])
+    if count:
+        across = _turns(steel, connections, members)[:, 1:, 1:]
+        moments[:count] = product(np.swapaxes(across, 1, 2), product(own, across))
+    return moments
+
+
+def steel_stiffness(steel: SteelConnections, connections: Connections, members: Sequence[Member]) -> SectionStiffness:
+    """Return the stiffness of connections of steelwork (s,), in the axes of their sections."""
+    count = len(steel.joints.members)
+    matrices = np.zeros((len(steel.rows), 6, 6))
+    of_bars = {
+        index: joint_stiffness(_bar(members[index]), STEEL_MODULI) for index in set(steel.joints.members.tolist())
+    }
+    if count:
+        columns = zip(steel.joints.members.tolist(), steel.joints.numbers.tolist(), strict=True)
+        own = np.array([of_bars[index][number] for index, number in columns])
+        matrices[:count] = in_other_axes(own, _turns(steel, connections, members))
+    for row, node in enumerate(steel.support_nodes.tolist(), start=count):
+        matrices[row] = _support(members[node].name, members)
+    return SectionStiffness(matrices)
+
+
+def with_steel_hinges(
+    bars: FaceBars | None, steel: SteelConnections, scenario: Scenario, members: Sequence[Member], count: int
+) -> FaceBars:
+    """Return bars across the faces of connections (m,), and sections of steel bars, which yield where they break."""
+    steelwork, factor = given(scenario.steelwork), scenario.connections.strength_factor
+    tables = {table.name: table for table in steelwork.all_members}
+    yields, openings, hinges = [], [], []
+    for index, number in zip(steel.joints.members.tolist(), steel.joints.numbers.tolist(), strict=True):
+        table, bar = tables[members[index].name], _bar(members[index])
+        hinge = section_hinge(bar.section, steelwork.yield_and_ultimate_pa(table)[0])
+        end = {0: 0, bar.pieces: 1}.get(number)
+        share = factor if end is None else factor * table.end_strengths[end]
+        yields.append(share * hinge.yield_n)
+        openings.append(hinge.opening_m)
+        hinges.append((hinge.yield_strain, hinge.hardening, hinge.rupture_strain))
+    rows = steel.rows[: len(yields)]
+    all_bars = bars or FaceBars.none(count)
+    return all_bars.with_hinges(rows, np.array(yields), np.array(openings), np.array(hinges).reshape(-1, 3))
+
+
+def _turns(steel: SteelConnections, connections: Connections, members: Sequence[Member]) -> np.ndarray:
+    """Axes of connections (j, 3, 3) that are joints of bars, in those of the bars, as columns."""
+    count = len(steel.joints.members)
+    axes = section_axes(connections.normals[steel.rows[:count]])
+    own = np.array([_bar(members[index]).axes for index in steel.joints.members.tolist()])
+    return product(np.swapaxes(own, 1, 2), axes)
+
+
+def _support(node: str, members: Sequence[Member]) -> np.ndarray:
+    """Stiffness (6, 6) of a support, much more than that of the bars at its node."""
+    bars = [_bar(member) for member in members if member.steel and node in member.steel.nodes]
+    young = STEEL_MODULI.young_pa
+    shifts = _SUPPORT * max(young * bar.section.area_m2 / bar.length_m for bar in bars)
+    turns = _SUPPORT * max(
+        young * float(np.diagonal(bar.section.shape.second_moments_m4).max()) / bar.length_m for bar in bars
+    )
+    return np.diag([shifts] * 3 + [turns] * 3)
+
+
+def _holding_shard(
+    name: str,
+    place_m: np.ndarray,
+    members: Sequence[Member],
+    member_of_shard: np.ndarray,
+    shards: Sequence[TriangleMesh],
+) -> int:
+    """Return the shard of a member, or of all of a kind, that is nearest to a position; or the ground."""
+    if name == GROUND_NAME:
+        return GROUND
+    chosen = members_named(name, members, "steelwork.nodes.held_by")
+    rows = np.flatnonzero(np.isin(member_of_shard, chosen))
+    beyond = []
+    for row in rows.tolist():
+        lower, upper = shards[row].bounds
+        outside = np.maximum(np.maximum(lower - place_m, place_m - upper), 0.0)
+        beyond.append(float(dot(outside, outside)))
+    return int(rows[int(np.argmin(beyond))])
+
+
+def _within_m(members: Sequence[Member], node: str) -> list[float]:
+    """How far from a node each of its bars begins."""
+    return [
+        float(_bar(member).within_m[member.steel.nodes.index(node)])
+        for member in members
+        if member.steel and node in member.steel.nodes
+    ]
+
+
+def _bar(member: Member) -> SteelBar:
+    return given(given(member.steel).bar)
