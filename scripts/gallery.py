@@ -77,9 +77,9 @@ STUDY = """\
 ![Plan of the study with its limit, and how many of its runs reach how far](pictures/study_i235_one_span.png)
 
 93 runs of the first of these examples, each with other shards, another height and place of the ball, another strength
-and another mass. Shaded is where the probability of debris may be above 5 % and 50 %. In 91 of them
-shards still moved at the end, so that the limit of 7.2 m may be too small. All its runs are in [a table](data/ensembles/i235_one_span.csv), and
-`scripts/ensembles` makes it again.
+and another mass. Shaded is where the probability of debris may be above 5 % and 50 %. In 91 of them shards still moved
+at the end, so that the limit of 7.2 m may be too small. All its runs are in
+[a table](data/ensembles/i235_one_span.csv), and `scripts/ensembles` makes it again.
 
 Study: [i235_one_span.toml](../examples/studies/i235_one_span.toml).
 """

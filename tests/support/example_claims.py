@@ -98,8 +98,8 @@ CLAIMS: dict[str, dict[str, tuple[float, float]]] = {
         # It cracks nowhere by its own weight.
         "moved_before_m": (0.0, 0.01),  # 0.001
         "broken_before_share": (0.0, 0.05),  # 0.000 to 0.007
-        # At rest on a whole deck the middle of the ball would be at 8.27 m; in two draws it comes to lie in the box, and
-        # in one it rolls off the deck, to the ground.
+        # At rest on a whole deck the middle of the ball would be at 8.27 m; in two draws it comes to lie in the box,
+        # and in one it rolls off the deck, to the ground.
         "ball_ends_m": (0.7, 8.27),  # 0.72, 7.02 to 8.17
         "deflection_under_ball_m": (0.02, 2.0),  # 0.05 to 1.22, half of them up to 0.10
         "broken_connections": (50, MOST),  # 444 to 596
