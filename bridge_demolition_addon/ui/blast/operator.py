@@ -11,6 +11,7 @@ from ...scene.blast.charges import charge_collection, charge_objects, create_cha
 from ...scene.blast.force_fields import build_force_objects
 from ...scene.bodies import Kind, bodies_of, kind_of
 from ...scene.visibility import hide_symbols, symbols_are_hidden
+from ..languages.words import translated
 from ..operators import UndoableAction, no_world
 from ..scenario.values import table_of
 from .prop import shown_charge
@@ -87,4 +88,4 @@ class BDA_OT_show_total_mass(UndoableAction, bpy.types.Operator):
 
     def act(self, context: bpy.types.Context) -> str:
         context.scene.bda.total_mass = kilograms(total_mass_kg(context.scene))
-        return f"Total mass: {context.scene.bda.total_mass}"
+        return translated("Total mass: {}").format(context.scene.bda.total_mass)

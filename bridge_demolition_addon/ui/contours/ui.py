@@ -5,6 +5,7 @@ import bpy
 from ...display.contour_quantities import ContourQuantity
 from ...scene.visibility import symbols_are_hidden
 from ...simulation.blender_events import shown_results
+from ..languages.words import translated
 from ..sidebar import SidebarPanel, draw_sentence
 from . import decorator as overlay
 from . import view as contour_view
@@ -33,8 +34,8 @@ class BDA_PT_contours(SidebarPanel, bpy.types.Panel):
         if settings.contour_range == "FIXED":
             unit = ContourQuantity[settings.contour_quantity].units.of_range.name
             ends = column.column(align=True)
-            ends.prop(settings, "contour_low", text=f"Lowest, {unit}")
-            ends.prop(settings, "contour_high", text=f"Highest, {unit}")
+            ends.prop(settings, "contour_low", text=f"{translated('Lowest')}, {unit}", translate=False)
+            ends.prop(settings, "contour_high", text=f"{translated('Highest')}, {unit}", translate=False)
         column.prop(settings, "contour_logarithmic")
         if settings.contour_logarithmic and settings.contour_range != "FIXED":
             column.prop(settings, "contour_decades")

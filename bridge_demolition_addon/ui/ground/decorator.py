@@ -19,6 +19,7 @@ from ...scene.blast.charges import blast_of, charges_of
 from ...scene.bodies import Kind, kind_of
 from ...scene.time_scale import simulated_time_s
 from ...scene.world import FIRST_STEP_FRAME
+from ..languages.words import translated
 from ..scenario.built import shown_site
 from ..view_drawing import ViewDrawing, draw_lines, write_at
 from . import areas
@@ -74,7 +75,9 @@ def drawn(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> Iterator[Drawn]
 def _zones(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Drawn]:
     for zone in shown_site(scene.bda)["zones"]:
         lines = zone_lines(zone)
-        yield Drawn(lines, _ZONE_COLOURS[zone.kind], text=f"{zone.name} ({zone.kind})", position_m=tuple(lines[0]))
+        yield Drawn(
+            lines, _ZONE_COLOURS[zone.kind], text=f"{zone.name} ({translated(zone.kind)})", position_m=tuple(lines[0])
+        )
 
 
 def _neighbours(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Drawn]:

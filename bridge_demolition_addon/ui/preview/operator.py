@@ -9,6 +9,7 @@ from bpy_extras.view3d_utils import region_2d_to_origin_3d, region_2d_to_vector_
 
 from ...display.dragging import dragged_along, dragged_level
 from ...errors import ScenarioError
+from ..languages.words import translated
 from ..operators import Action, recording_runs, refused
 from ..viewport import redraw_views
 from .handles import Handle, HandleKind, drag, dragged_values, handles
@@ -88,7 +89,8 @@ class BDA_OT_drag_handle(Action, bpy.types.Operator):
         drag(context.scene, HandleKind(self.kind), self.index, tuple(self.place_m))
         position = ", ".join(f"{coordinate:.2f} m" for coordinate in self.place_m)
         if context.area:
-            context.area.header_text_set(f"{position} | Ctrl: steps of {_SNAP_M:g} m | Let go: done | Esc: back")
+            hint = translated("Ctrl: steps of {} m | Let go: done | Esc: back").format(f"{_SNAP_M:g}")
+            context.area.header_text_set(f"{position} | {hint}")
         redraw_views()
 
     def _leave(self, context: bpy.types.Context, ended: set[str]) -> set[str]:

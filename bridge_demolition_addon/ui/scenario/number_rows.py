@@ -80,7 +80,9 @@ def draw_rows(layout: bpy.types.UILayout, group: bpy.types.PropertyGroup, item: 
     path = group.path_from_id(item.name)
     for number in range(len(rows)):
         line = layout.row(align=True)
-        line.prop(group, row_name(item.name, number), text=f"{number + 1}" if len(rows[number]) == 1 else "")
+        line.prop(
+            group, row_name(item.name, number), text=f"{number + 1}" if len(rows[number]) == 1 else "", translate=False
+        )
         remove = line.operator("bda.remove_row", text="", icon="REMOVE")
         remove.path, remove.length, remove.number = path, len(rows[number]), number
     add = layout.operator("bda.add_row", text="Add", icon="ADD")
