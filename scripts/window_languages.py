@@ -56,7 +56,7 @@ SOURCE = re.compile(r"[\d.]+ kPa, ")
 OF_BLENDER = {"rna_type", "name", "check_existing"}
 """Properties that Blender brings along, with texts of its own."""
 
-SHOWN_CONSTANTS = {"SENTENCES", "_HEADS", "RUNNING", "_STAGES", "_MEMBERS", "text", "task", "unit"}
+SHOWN_CONSTANTS = {"SENTENCES", "_HEADS", "RUNNING", "_STAGES", "_MEMBERS", "text", "words", "task", "unit"}
 """Constants of modules and classes, and local names, whose texts panels show."""
 
 DRAWN = {"text", "placeholder"}
@@ -98,7 +98,7 @@ def window_texts() -> WindowTexts:
         texts.sentences |= set(texts_in(ast.parse(path.read_text(encoding="utf-8"))))
     texts.tooltips |= {IN_FILE, WITH_TYPICAL}
     texts.labels -= SAME
-    texts.sentences -= texts.labels | SAME
+    texts.sentences -= texts.labels | SAME | {""}
     texts.tooltips = {text for text in texts.tooltips if not SOURCE.match(text)}
     return texts
 
