@@ -157,6 +157,19 @@ def texts_in(module: ast.Module) -> Iterator[str]:
             yield from (text for value in drawn for text in constants(value) if text)
 
 
+def put_together(module: ast.Module) -> Iterator[str]:
+    """Give the texts with words in them that a module puts together where it draws them: no table can have them."""
+    for node in ast.walk(module):
+        if not isinstance(node, ast.Call):
+            continue
+        is_sentence_drawn = isinstance(node.func, ast.Name) and node.func.id == "draw_sentence"
+        drawn = [keyword.value for keyword in node.keywords if keyword.arg in DRAWN]
+        for value in (*drawn, *(node.args if is_sentence_drawn else ())):
+            fixed = "".join(constants(ast.Tuple(elts=value.values))) if isinstance(value, ast.JoinedStr) else ""
+            if re.search(r"[a-z]{2}", fixed):
+                yield ast.unparse(value)
+
+
 def constants(node: ast.expr) -> Iterator[str]:
     """Give the texts that an expression may come to; none of those that are put together."""
     match node:

@@ -12,6 +12,8 @@ import bpy
 
 CONTEXT = "bda"
 
+_PACKAGE = __name__.partition(".ui.")[0]
+
 
 def translated(text: str) -> str:
     """Return a text in the user's language; the text itself where the table of the language does not have it.
@@ -25,9 +27,10 @@ def translated(text: str) -> str:
 def in_own_context(cls: type) -> type:
     """Return a class that is about to be registered, with its label and those of its properties in this context."""
     if not issubclass(cls, bpy.types.PropertyGroup):
-        cls.bl_translation_context = CONTEXT  # an operator passes it on to its properties
-        return cls
+        cls.bl_translation_context = CONTEXT
     for base in cls.__mro__:
-        for prop in get_annotations(base).values():
-            prop.keywords["translation_context"] = CONTEXT
+        if base.__module__.startswith(_PACKAGE):  # others are Blender's
+            for annotation in get_annotations(base).values():
+                if hasattr(annotation, "keywords"):  # what bpy.props returns until the class is registered
+                    annotation.keywords["translation_context"] = CONTEXT
     return cls

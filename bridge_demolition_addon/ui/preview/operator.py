@@ -1,7 +1,5 @@
 """Dragging a point of the scenario in the 3D view, called by its handle."""
 
-from __future__ import annotations
-
 import bpy
 import numpy as np
 from bpy.props import BoolProperty, EnumProperty, FloatVectorProperty, IntProperty

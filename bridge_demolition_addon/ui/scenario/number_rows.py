@@ -1,7 +1,5 @@
 """Lists of lengths as rows: each row shows and sets one number, or one point, of the text that a scenario keeps."""
 
-from __future__ import annotations
-
 import math
 import tomllib
 from dataclasses import Field
