@@ -59,8 +59,8 @@ OF_BLENDER = {"rna_type", "name", "check_existing"}
 SHOWN_CONSTANTS = {"SENTENCES", "_HEADS", "RUNNING", "_STAGES", "_MEMBERS", "text", "words", "task", "unit"}
 """Constants of modules and classes, and local names, whose texts panels show."""
 
-DRAWN = {"text", "placeholder"}
-"""Arguments of what draws a part of a panel."""
+DRAWN = {"text"}
+"""Arguments of what draws a part of a panel, which Blender looks up itself."""
 
 
 @dataclass

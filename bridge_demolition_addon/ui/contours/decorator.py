@@ -23,6 +23,7 @@ from ...model.blast.damage import THRESHOLDS, ring_radii
 from ...scene.blast.charges import blast_of, charges_of
 from ...simulation.blender_events import contours_of, shown_results
 from ..languages.words import translated
+from ..scene_units import length_text
 from ..view_drawing import (
     FONT_PX,
     PANEL_COLOUR,
@@ -122,7 +123,7 @@ def _draw_on_screen(context: bpy.types.Context) -> None:
     if scene.bda.show_rings:
         damage = THRESHOLDS[int(scene.bda.ring_damage)].damage
         for lines, radius in ring_lines(scene):
-            write_at(context, lines[0], f"{translated(damage)}: {radius:.1f} m")
+            write_at(context, lines[0], f"{translated(damage)}: {length_text(radius, '.1f')}")
 
 
 @dataclass(frozen=True, slots=True)

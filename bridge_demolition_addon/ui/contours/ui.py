@@ -43,7 +43,7 @@ class BDA_PT_contours(SidebarPanel, bpy.types.Panel):
             column.prop(settings, "contour_percentile")
         for name in ("contour_map", "contour_shaded", "contour_magnification", "colour_bar"):
             column.prop(settings, name)
-        layout.prop(settings, "results_path", text="", placeholder="results.npz of an earlier run")
+        layout.prop(settings, "results_path", text="", placeholder=translated("results.npz of an earlier run"))
         layout.operator("bda.load_results")
         if shown_results(context.scene).are_loaded:
             text = "Shown is what was recorded, until something new is. Blender plays it on its own:"
@@ -82,7 +82,7 @@ class BDA_PT_film(SidebarPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         settings, layout = context.scene.bda, self.layout
-        layout.prop(settings, "film_directory", text="", placeholder="Folder for the film")
+        layout.prop(settings, "film_directory", text="", placeholder=translated("Folder for the film"))
         layout.row().prop(settings, "film_kind", expand=True)
         layout.prop(settings.scenario.pictures, "camera")
         column = layout.column(align=True)

@@ -15,6 +15,7 @@ from ...scene.rendering.ground import lay_site_plan, terrain_under
 from ...simulation.blender_events import recorded_scene
 from ..languages.words import translated
 from ..operators import GuardedOperator, UndoableAction, absolute, recording_runs, refused, unset
+from ..scene_units import length_text
 from ..view_drawing import ViewDrawing, draw_lines
 from ..viewport import redraw_views, region_of
 from . import areas
@@ -117,7 +118,8 @@ class BDA_OT_lay_site_plan(UndoableAction, bpy.types.Operator):
         width, height = lay_site_plan(
             context.scene, path, settings.plan_width_m, settings.plan_bearing_deg, tuple(settings.plan_origin)
         )
-        return f"{path.name}: {width:g} m × {height:g} m on the ground"
+        size = f"{length_text(width, 'g')} × {length_text(height, 'g')}"
+        return translated("{}: {} on the ground").format(path.name, size)
 
 
 def _no_results(context: bpy.types.Context) -> str | None:

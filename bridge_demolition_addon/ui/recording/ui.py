@@ -23,7 +23,7 @@ class BDA_PT_handler(SidebarPanel, bpy.types.Panel):
         settings, recording = context.scene.bda, running_recording()
         column = self.layout.column()
         column.enabled = recording is None
-        column.prop(settings, "output_directory", text="", placeholder="A new folder for each run")
+        column.prop(settings, "output_directory", text="", placeholder=translated("A new folder for each run"))
         column.prop(settings, "overwrite")
         column.prop(settings, "pictures_of_run")
         if changed := [] if recording else changes(settings):
@@ -67,4 +67,4 @@ class BDA_PT_post_processing(SidebarPanel, bpy.types.Panel):
             column = self.layout.column(align=True)
             column.enabled = running_recording() is None
             column.operator(operator.bl_idname)
-            column.prop(settings, operator.setting, text="", placeholder="In the folder of the results")
+            column.prop(settings, operator.setting, text="", placeholder=translated("In the folder of the results"))

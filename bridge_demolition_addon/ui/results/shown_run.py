@@ -9,7 +9,6 @@ from typing import Any, NamedTuple
 
 import bpy
 
-from ...engineering.units import kilograms
 from ...errors import DemolitionError, OutputError, UnreadableError
 from ...model.results.arrays import Results
 from ...model.results.bar_extremes import bars_text, largest_use_text
@@ -21,6 +20,7 @@ from ...model.stages.stability import stability_texts
 from ...simulation.kept_run import digest_of_run, folder_of_run, has_run, results_of_run
 from ..languages.words import translated
 from ..recording.session import last_recording
+from ..scene_units import length_text, mass_text, units_of_texts
 
 _N_PER_KN = 1000.0
 _MS_PER_S = 1000.0
@@ -34,8 +34,8 @@ class LargestValue(NamedTuple):
     frame: int
 
 
-_read: dict[tuple[str, str], ShownRun] = {}
-"""The run that was read last, by its folder and digest: panels are drawn many times a second."""
+_read: dict[tuple[str, ...], ShownRun] = {}
+"""The run read last, by its folder and digest, language and units: panels are drawn many times a second."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -139,8 +139,8 @@ def bearing_rows(bearings: Sequence[Mapping[str, Any]]) -> tuple[tuple[str, ...]
 
 
 def _throw_text(throw_m: float, summary: Mapping[str, Any]) -> str:
-    pattern = translated("{} m, not final") if summary.get("moving_at_end") else "{} m"
-    return pattern.format(f"{throw_m:.2f}")
+    throw = length_text(throw_m, ".2f")
+    return translated("{}, not final").format(throw) if summary.get("moving_at_end") else throw
 
 
 def _kilonewtons(force_n: float | None) -> str:
@@ -163,7 +163,7 @@ def lines_of(summary: Mapping[str, Any]) -> list[str]:
     connections = summary["connections"]
     creeping = summary.get("creeping")
     return [
-        translated("Total mass: {}").format(kilograms(summary["mass_kg"]["shard"])),
+        translated("Total mass: {}").format(mass_text(summary["mass_kg"]["shard"])),
         translated("Broken: {} of {} connections").format(connections["broken"], connections["count"]),
         *([translated("Bars: {}").format(bars)] if (bars := bars_text(summary)) else []),
         *([translated("Most: {}").format(use)] if (use := largest_use_text(summary)) else []),
@@ -174,7 +174,7 @@ def lines_of(summary: Mapping[str, Any]) -> list[str]:
 
 def _of_file(scene: bpy.types.Scene) -> ShownRun:
     folder = folder_of_run(scene)
-    name = (str(folder), digest_of_run(scene))
+    name = (str(folder), digest_of_run(scene), bpy.app.translations.locale, units_of_texts())
     if name not in _read:
         try:
             summary = read_summary(folder)

@@ -39,6 +39,11 @@ def numbers_in_row(item: Field) -> int:
     return len(kinds) if kinds and set(kinds) == {float} else 0
 
 
+def row_unit(item: Field) -> str:
+    """Return Blender's name for the unit that it shows in each row, NONE where it shows none."""
+    return "LENGTH" if key_of(item).unit == "m" else "NONE"
+
+
 def row_name(name: str, number: int) -> str:
     """Return the name of the property of a row, counted from 0."""
     return f"{name}_row_{number}"
@@ -151,8 +156,7 @@ def _row_property(item: Field, number: int, words: dict[str, str]) -> Any:
             setattr(group, item.name, _text(rows))
 
     limits = {name: limit for name, limit in (("min", rule.at_least), ("max", rule.at_most)) if limit is not None}
-    unit = "LENGTH" if rule.unit == "m" else "NONE"
-    settings = words | limits | {"unit": unit, "precision": _DECIMALS, "get": shown, "set": choose}
+    settings = words | limits | {"unit": row_unit(item), "precision": _DECIMALS, "get": shown, "set": choose}
     return FloatVectorProperty(size=length, **settings) if length > 1 else FloatProperty(**settings)
 
 

@@ -19,8 +19,8 @@ from ..sidebar import SidebarPanel, draw_sentence, letters_of, width_of
 from ..task_progress import draw_task_progress, going_on
 from .built import ChangedValue, Kept, built_values, change_of, change_of_use, changes, changes_of_table
 from .hints import breaking_note, contact_note, draw_first_help, next_step
-from .number_rows import draw_rows, numbers_in_row
-from .prop import INDEX, USE, label_of, shown_keys, shown_tables, vector_length
+from .number_rows import draw_rows, numbers_in_row, row_unit
+from .prop import INDEX, USE, label_of, shown_keys, shown_tables, title_of, vector_length
 from .stability import draw_stability
 from .table_list import draw_list
 
@@ -70,11 +70,12 @@ _PANEL = "BDA_PT_"
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """How a key is drawn: its field, name and label, and whether it has a check box or several numbers."""
+    """How a key is drawn: its field, name and labels, and whether it has a check box or several numbers."""
 
     item: Field
     name: str
     label: str
+    label_of_rows: str
     is_optional: bool
     length: int
     is_number: bool
@@ -107,7 +108,7 @@ class BDA_PT_scenario(SidebarPanel, bpy.types.Panel):
         draw_run(column, settings, has_changed=bool(changes(settings)))
         draw_messages(layout, context)
         draw_stability(layout, context)
-        layout.prop(settings, "scenario_path", text="", placeholder="Scenario file")
+        layout.prop(settings, "scenario_path", text="", placeholder=translated("Scenario file"))
         row = layout.row(align=True)
         row.operator("bda.load_scenario", text="Load")
         row.operator("bda.save_scenario", text="Save")
@@ -265,6 +266,7 @@ def rows_of(table_class: type[Table]) -> tuple[Row, ...]:
             item=item,
             name=item.name,
             label=label_of(table_class, item),
+            label_of_rows=title_of(item) if row_unit(item) != "NONE" else label_of(table_class, item),
             is_optional=is_optional(item),
             length=vector_length(item) or 1,
             is_number=value_type(item) in (int, float),
@@ -332,10 +334,12 @@ def _draw_key(layout: UILayout, letters: int, group: PropertyGroup, row: Row) ->
         line = line.row() if fits else layout.row()
         line.enabled = getattr(group, USE + row.name)
     else:
-        if not fits:
-            layout.label(text=label + ":", translate=False)
+        heading = None if fits else layout.row()  # filled in once it is known whether rows have units of their own
         if numbers_in_row(row.item) and draw_rows(layout.column(align=True), group, row.item):
+            heading.label(text=translated(row.label_of_rows) + ":", translate=False)
             return
+        if heading:
+            heading.label(text=label + ":", translate=False)
         line = layout.row(align=row.length > 1)
     line.prop(group, row.name, text=row.label if fits else "")
 

@@ -26,7 +26,7 @@ class BDA_PT_stages(SidebarPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, settings = self.layout, context.scene.bda
-        layout.prop(settings, "stages_directory", text="", placeholder="Folder for tables")
+        layout.prop(settings, "stages_directory", text="", placeholder=translated("Folder for tables"))
         layout.operator("bda.check_stages")
         if progress := going_on(BDA_OT_check_stages.task):
             draw_task_progress(layout, context, progress)

@@ -131,7 +131,7 @@ def test_without_a_table_a_text_stays_english(extension):
     ("code", "found"),
     [
         ('row.operator("bda.run", text="Run it")', ["Run it"]),
-        ('column.prop(settings, "path", text="", placeholder="Scenario file")', ["Scenario file"]),
+        ('column.prop(settings, "path", text="", placeholder=translated("Scenario file"))', ["Scenario file"]),
         ('draw_sentence(layout, context, "Nothing yet", icon="INFO")', ["Nothing yet"]),
         ('text = "Show" if hidden else "Hide"', ["Show", "Hide"]),
         ('translated("{} frames").format(12)', ["{} frames"]),
@@ -139,6 +139,7 @@ def test_without_a_table_a_text_stays_english(extension):
         ('blocked_by = (unset("path", "Choose a file first"),)', ["Choose a file first"]),
         ('class Task:\n    task, unit = "Rendering", "pictures"', ["Rendering", "pictures"]),
         ('layout.prop(settings, "contours")', []),
+        ('layout.prop(settings, "path", placeholder="Scenario file")', []),  # Blender does not look it up
     ],
 )
 def test_texts_are_found_where_panels_show_them(code, found):
