@@ -40,7 +40,7 @@ def test_all_lines_of_a_sentence_begin_below_each_other(blender, icon, below):
     ("text", "letters", "lines"),
     [
         ("Next: Run, and watch it", 12, ["Next: Run,", "and watch it"]),
-        ("下一步：运行并观察", 10, ["下一步：运", "行并观察"]),  # each letter is two Latin ones wide
+        ("运行并观察桥梁", 10, ["运行并观察", "桥梁"]),  # each letter is two Latin ones wide
         ("", 10, []),
     ],
 )
