@@ -17,7 +17,7 @@ from bridge_demolition_addon.ui.languages.words import CONTEXT, translated
 UI = ROOT / "bridge_demolition_addon" / "ui"
 LANGUAGES = [path.stem for path in table_files()]
 PARTS = ("labels", "sentences", "tooltips")
-WITH_ALL_TOOLTIPS = {"de"}
+WITH_ALL_TOOLTIPS = {"de", "es", "fr", "zh_hans"}
 PLACES = re.compile(r"\{[^}]*\}|%\w")
 TOOLTIPS_OF_ALL = "*"
 
