@@ -6,9 +6,8 @@ import bpy
 
 from ..engineering.units import kilograms
 
-_IMPERIAL = "IMPERIAL"
-_DIGITS = 4
-"""Significant digits of imperial units."""
+_FOOT_M, _POUND_KG = 0.3048, 0.45359237
+"""By the agreement of 1959. Blender's own texts would be in stones and square yards, which engineers do not use."""
 
 
 def units_of_texts() -> str:
@@ -18,21 +17,18 @@ def units_of_texts() -> str:
 
 def length_text(length_m: float, spec: str) -> str:
     """Return a length as text; in m with a format such as ``.2f``."""
-    return _imperial("LENGTH", length_m) or f"{length_m:{spec}} m"
+    return f"{length_m / _FOOT_M:.4g} ft" if _is_imperial() else f"{length_m:{spec}} m"
 
 
 def area_text(area_m2: float, spec: str) -> str:
     """Return an area as text; in m² with a format such as ``.0f``."""
-    return _imperial("AREA", area_m2) or f"{area_m2:{spec}} m²"
+    return f"{area_m2 / _FOOT_M**2:.4g} sq ft" if _is_imperial() else f"{area_m2:{spec}} m²"
 
 
 def mass_text(mass_kg: float) -> str:
-    """Return a mass as text; in kg with blanks between thousands."""
-    return _imperial("MASS", mass_kg) or kilograms(mass_kg)
+    """Return a mass as text, with blanks between thousands."""
+    return f"{mass_kg / _POUND_KG:,.0f} lb".replace(",", " ") if _is_imperial() else kilograms(mass_kg)
 
 
-def _imperial(category: str, value: float) -> str:
-    """Return a value as Blender shows it in imperial units; empty where the scene shows others."""
-    if units_of_texts() != _IMPERIAL:
-        return ""
-    return bpy.utils.units.to_string(_IMPERIAL, category, value, precision=_DIGITS)
+def _is_imperial() -> bool:
+    return units_of_texts() == "IMPERIAL"

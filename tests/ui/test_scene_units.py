@@ -23,9 +23,9 @@ def test_texts_are_metric_as_long_as_the_scene_is(extension):
 def test_texts_are_imperial_where_the_scene_is(imperial):
     from bridge_demolition_addon.ui.scene_units import area_text, length_text, mass_text
 
-    assert length_text(10 * FOOT_M, ".2f") == "10'"
-    assert mass_text(20 * POUND_KG) == "20 lb"
-    assert area_text(18 * FOOT_M**2, ".0f") == "2 sq yd"
+    assert length_text(10 * FOOT_M, ".2f") == "10 ft"
+    assert mass_text(240_000 * POUND_KG) == "240 000 lb"
+    assert area_text(18 * FOOT_M**2, ".0f") == "18 sq ft"
 
 
 def test_results_are_in_pounds_where_the_scene_is_imperial(imperial):

@@ -17,7 +17,8 @@ from bridge_demolition_addon.ui.languages.words import CONTEXT, translated
 UI = ROOT / "bridge_demolition_addon" / "ui"
 LANGUAGES = [path.stem for path in table_files()]
 PARTS = ("labels", "sentences", "tooltips")
-WITH_ALL_TOOLTIPS = {"de", "es", "fr", "zh_hans"}
+WITH_ALL_TOOLTIPS = {"de"}
+"""In others a new tooltip may stay English for a while."""
 PLACES = re.compile(r"\{[^}]*\}|%\w")
 TOOLTIPS_OF_ALL = "*"
 
