@@ -268,8 +268,9 @@ def _interface() -> tuple:
     from .ui.contours import decorator
     from .ui.ensemble import study
     from .ui.ground import decorator as ground_decorator
+    from .ui.languages import tables
     from .ui.preview import bars
     from .ui.preview import decorator as preview_decorator
 
     drawings = (module.drawing for module in (decorator, ground_decorator, study, preview_decorator, bars))
-    return (blender_events, scene_settings, registration, *drawings)
+    return (blender_events, tables, scene_settings, registration, *drawings)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import bpy
 
+from .languages.words import translated
 from .sidebar import draw_sentence
 
 _MOST = 6
@@ -69,7 +70,7 @@ class BDA_OT_dismiss_messages(bpy.types.Operator):
     def poll(cls, context: bpy.types.Context) -> bool:
         if messages_of(context.scene):
             return True
-        cls.poll_message_set("There are no messages")
+        cls.poll_message_set(translated("There are no messages"))
         return False
 
     def execute(self, _context: bpy.types.Context) -> set[str]:

@@ -10,6 +10,7 @@ from ..errors import DemolitionError, OutputError
 from ..simulation.blender_events import running_recording
 from ..system.disk import writing
 from . import messages
+from .languages.words import translated
 from .sidebar import path_property
 
 Obstacle = Callable[[bpy.types.Context], str | None]
@@ -52,7 +53,7 @@ class GuardedOperator:
             or cls.disabled_reason(context)
         )
         if reason:
-            cls.poll_message_set(reason)
+            cls.poll_message_set(translated(reason))
         return not reason
 
 
@@ -69,7 +70,7 @@ class Action(GuardedOperator):
         except (DemolitionError, OSError) as error:
             return refused(self, error)
         if done:
-            self.report({"INFO"}, done)
+            self.report({"INFO"}, translated(done))
         return {"FINISHED"}
 
 
@@ -122,7 +123,8 @@ def other_mode(context: bpy.types.Context) -> str | None:
 
 def _linked(context: bpy.types.Context) -> str | None:
     library = context.scene.library
-    return library and f"This scene is linked from {Path(library.filepath).name}: open that file to change it"
+    sentence = translated("This scene is linked from {}: open that file to change it")
+    return library and sentence.format(Path(library.filepath).name)
 
 
 def refused(operator: bpy.types.Operator, error: Exception) -> set[str]:

@@ -19,6 +19,7 @@ from .ground import operator as ground_operator
 from .ground import ui as ground_ui
 from .ifc import operator as ifc_operator
 from .ifc import ui as ifc_ui
+from .languages.words import in_own_context
 from .preview import gizmos
 from .preview import operator as preview_operator
 from .recording import operator as recording_operator
@@ -65,7 +66,7 @@ def classes() -> tuple[type, ...]:
 def register() -> None:
     """Register all classes with Blender."""
     for cls in classes():
-        bpy.utils.register_class(cls)
+        bpy.utils.register_class(in_own_context(cls))
 
 
 def unregister() -> None:

@@ -9,6 +9,7 @@ from .contours.prop import ContourProperties
 from .ensemble.prop import EnsembleProperties, read_earlier_files
 from .ground.prop import GroundProperties
 from .ifc.prop import BDA_PG_ifc_element, IfcProperties
+from .languages.words import in_own_context
 from .scenario import prop as scenario_properties
 from .scenario.earlier import mark_defaults, read_earlier_bodies, read_earlier_defaults
 from .sidebar import path_property, tooltip
@@ -79,8 +80,8 @@ def register() -> None:
     for name, table in {"scenario": Scenario, **scenario_properties.ENSEMBLES}.items():
         group = scenario_properties.registered_group(scenario_properties.group_name(table))
         BDA_PG_settings.__annotations__[name] = PointerProperty(type=group, description=tooltip(table.__doc__))
-    bpy.utils.register_class(BDA_PG_ifc_element)
-    bpy.utils.register_class(BDA_PG_settings)
+    for group in (BDA_PG_ifc_element, BDA_PG_settings):
+        bpy.utils.register_class(in_own_context(group))
     bpy.types.Scene.bda = PointerProperty(type=BDA_PG_settings)
     for read in _READERS:
         bpy.app.handlers.load_post.append(read)

@@ -4,13 +4,19 @@ from __future__ import annotations
 
 import textwrap
 from typing import Any
+from unicodedata import east_asian_width
 
 import bpy
 from bpy.props import StringProperty
 
+from .languages.words import translated
+
 _LETTER_PX = 6.5
 _EDGES_PX = 75
 """Width that a line of text does not have, at 100 %: tabs, the margins of a panel and an icon."""
+
+_LETTERS_OF_WIDE = 2
+"""Width of a letter of Chinese."""
 
 _RELATIVE_PATHS = {"PATH_SUPPORTS_BLEND_RELATIVE"} if bpy.app.version >= (5, 0, 0) else set()
 
@@ -40,10 +46,20 @@ def letters_of(context: bpy.types.Context) -> int:
 
 
 def draw_sentence(layout: bpy.types.UILayout, context: bpy.types.Context, text: str, icon: str = "ERROR") -> None:
-    """Draw a sentence on as many lines as it needs, as Blender cuts off lines that are wider than the sidebar."""
+    """Draw a sentence, translated where it is in the tables, on as many lines as it needs, as Blender cuts them off."""
     column, below = layout.column(align=True), "NONE" if icon == "NONE" else "BLANK1"
-    for number, line in enumerate(textwrap.wrap(text, letters_of(context))):
-        column.label(text=line, icon=below if number else icon)
+    for number, line in enumerate(lines_of(translated(text), letters_of(context))):
+        column.label(text=line, icon=below if number else icon, translate=False)
+
+
+def lines_of(text: str, letters: int) -> list[str]:
+    """Return a text on lines of so many letters; those of Chinese are twice as wide as others."""
+    return textwrap.wrap(text, max(letters * len(text) // max(width_of(text), 1), 1))
+
+
+def width_of(text: str) -> int:
+    """Return how many Latin letters a text is wide."""
+    return sum(_LETTERS_OF_WIDE if east_asian_width(letter) in "WF" else 1 for letter in text)
 
 
 def redraw_sidebars(context: bpy.types.Context) -> None:

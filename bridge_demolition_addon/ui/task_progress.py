@@ -7,7 +7,8 @@ from dataclasses import dataclass, field
 
 import bpy
 
-from ..engineering.timing.time_left import Pace, in_words
+from ..engineering.timing.time_left import Pace, clock
+from .languages.words import translated
 from .sidebar import draw_sentence, redraw_sidebars
 
 
@@ -40,9 +41,10 @@ class TaskProgress:
     @property
     def lines(self) -> list[str]:
         """The progress in short lines."""
-        done = f"{round(self.share * self.total)} of {self.total} {self.unit}"
-        left = [] if self.left_s is None else [in_words(self.left_s)]
-        return [f"{self.task}: {done}", *left, *filter(None, [self.note]), "Esc: stop"]
+        done = translated("{} of {}").format(round(self.share * self.total), self.total)
+        left = [] if self.left_s is None else [time_left_text(self.left_s)]
+        notes = [translated(self.note)] if self.note else []
+        return [f"{translated(self.task)}: {done} {translated(self.unit)}", *left, *notes, translated("Esc: stop")]
 
     def step(self) -> None:
         """Note that one more step is done, of steps that take equally long."""
@@ -61,6 +63,11 @@ class TaskProgress:
 
 _going_on: list[TaskProgress] = []
 """At most one: a task that begins ends the one before."""
+
+
+def time_left_text(seconds: float) -> str:
+    """Return a time left as text."""
+    return translated("about {} min left").format(clock(seconds))
 
 
 def begin(context: bpy.types.Context, task: str, unit: str, total: int) -> TaskProgress:

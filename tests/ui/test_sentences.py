@@ -17,7 +17,8 @@ class Lines:
     def column(self, **_settings):
         return self
 
-    def label(self, *, text, icon):
+    def label(self, *, text, icon, translate):
+        assert not translate  # the whole sentence was looked up before
         self.labels.append((text, icon))
 
 
@@ -33,3 +34,18 @@ def test_all_lines_of_a_sentence_begin_below_each_other(blender, icon, below):
     texts, icons = zip(*layout.labels, strict=True)
     assert " ".join(texts) == SENTENCE and len(texts) > 1
     assert icons == (icon, *[below] * (len(texts) - 1))
+
+
+@pytest.mark.parametrize(
+    ("text", "letters", "lines"),
+    [
+        ("Next: Run, and watch it", 12, ["Next: Run,", "and watch it"]),
+        ("运行并观察桥梁", 10, ["运行并观察", "桥梁"]),  # each letter is two Latin ones wide
+        ("", 10, []),
+    ],
+)
+def test_lines_are_as_wide_as_the_sidebar_in_any_script(text, letters, lines):
+    from bridge_demolition_addon.ui.sidebar import lines_of, width_of
+
+    assert lines_of(text, letters) == lines
+    assert all(width_of(line) <= letters for line in lines)

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import bpy
 
-from ...engineering.units import kilograms
 from ...model.blast.charges import Charge
 from ...model.scenario import BlastSettings
 from ...scene.blast.charges import charge_collection, charge_objects, create_charges, keep_blast
 from ...scene.blast.force_fields import build_force_objects
 from ...scene.bodies import Kind, bodies_of, kind_of
 from ...scene.visibility import hide_symbols, symbols_are_hidden
+from ..languages.words import translated
 from ..operators import UndoableAction, no_world
 from ..scenario.values import table_of
+from ..scene_units import mass_text
 from .prop import shown_charge
 
 _NEW_CHARGE_KG = 10.0
@@ -86,5 +87,5 @@ class BDA_OT_show_total_mass(UndoableAction, bpy.types.Operator):
     blocked_by = (no_world,)
 
     def act(self, context: bpy.types.Context) -> str:
-        context.scene.bda.total_mass = kilograms(total_mass_kg(context.scene))
-        return f"Total mass: {context.scene.bda.total_mass}"
+        context.scene.bda.total_mass = mass_text(total_mass_kg(context.scene))
+        return translated("Total mass: {}").format(context.scene.bda.total_mass)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import bpy
 
 from ...scene.blast.charges import DELAY, EXPLOSIVE, MASS, charge_collection, is_charge
+from ..languages.words import CONTEXT, translated
 from ..sidebar import SidebarPanel, letters_of
 from .prop import shown_charge
 
@@ -25,12 +26,12 @@ class BDA_UL_charges(bpy.types.UIList):
         halves.prop(item, "name", text="", emboss=False, icon="EMPTY_AXIS")
         row = halves.row(align=True)
         if not is_charge(item):
-            row.label(text="no charge")
+            row.label(text=translated("no charge"))
             return
         if letters >= _LETTERS_FOR_POSITIONS:
             for axis in range(3):
                 row.prop(item, "location", index=axis, text="")
-        row.prop(item, f'["{MASS}"]', text="kg")
+        row.prop(item, f'["{MASS}"]', text="kg", translate=False)
         if letters >= _LETTERS_FOR_ALL:
             row.prop(item, f'["{DELAY}"]', text="")
             row.label(text=str(item.get(EXPLOSIVE, "")))
@@ -56,13 +57,13 @@ class BDA_PT_explosion(SidebarPanel, bpy.types.Panel):
         layout.operator("bda.build_force_objects")
         layout.operator("bda.show_total_mass")
         if settings.total_mass:
-            layout.label(text=f"Total mass: {settings.total_mass}")
+            layout.label(text=translated("Total mass: {}").format(settings.total_mass), translate=False)
 
     def _draw_charge(self, settings: bpy.types.PropertyGroup, charge: bpy.types.Object) -> None:
         column = self.layout.column(align=True)
         for axis, name in enumerate("XYZ"):
             column.prop(charge, "location", index=axis, text=name)
-        column.prop(charge, f'["{MASS}"]', text="Mass (kg)")
-        column.prop(charge, f'["{DELAY}"]', text="Delay")
+        column.prop(charge, f'["{MASS}"]', text=translated("Mass") + " (kg)", translate=False)
+        column.prop(charge, f'["{DELAY}"]', text="Delay", text_ctxt=CONTEXT)
         column.prop(settings, "charge_explosive")
         column.prop(settings, "charge_burst")

@@ -22,6 +22,8 @@ from ...model.blast.charges import Charge
 from ...model.blast.damage import THRESHOLDS, ring_radii
 from ...scene.blast.charges import blast_of, charges_of
 from ...simulation.blender_events import contours_of, shown_results
+from ..languages.words import translated
+from ..scene_units import length_text
 from ..view_drawing import (
     FONT_PX,
     PANEL_COLOUR,
@@ -121,7 +123,7 @@ def _draw_on_screen(context: bpy.types.Context) -> None:
     if scene.bda.show_rings:
         damage = THRESHOLDS[int(scene.bda.ring_damage)].damage
         for lines, radius in ring_lines(scene):
-            write_at(context, lines[0], f"{damage}: {radius:.1f} m")
+            write_at(context, lines[0], f"{translated(damage)}: {length_text(radius, '.1f')}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -165,7 +167,7 @@ class _BarLayout:
 def _draw_colour_bar(context: bpy.types.Context, settings: ContourSettings, frame: ContourFrame) -> None:
     scale = context.preferences.system.ui_scale
     bar = colour_bar(settings, frame)
-    heading = [*filter(None, (bar.title, bar.subtitle)), bar.unit]
+    heading = [*filter(None, (translated(bar.title), bar.subtitle)), bar.unit]
     layout = _BarLayout(covered_px(context, "TOOLS") + _MARGIN_PX * scale, _BOTTOM_PX * scale, scale, len(heading))
     left, foot, width, height = layout.bar
     draw_rectangle(*layout.panel, PANEL_COLOUR)

@@ -5,6 +5,7 @@ import bpy
 from ...display.contour_quantities import ContourQuantity
 from ...scene.visibility import symbols_are_hidden
 from ...simulation.blender_events import shown_results
+from ..languages.words import translated
 from ..sidebar import SidebarPanel, draw_sentence
 from . import decorator as overlay
 from . import view as contour_view
@@ -33,8 +34,8 @@ class BDA_PT_contours(SidebarPanel, bpy.types.Panel):
         if settings.contour_range == "FIXED":
             unit = ContourQuantity[settings.contour_quantity].units.of_range.name
             ends = column.column(align=True)
-            ends.prop(settings, "contour_low", text=f"Lowest, {unit}")
-            ends.prop(settings, "contour_high", text=f"Highest, {unit}")
+            ends.prop(settings, "contour_low", text=f"{translated('Lowest')}, {unit}", translate=False)
+            ends.prop(settings, "contour_high", text=f"{translated('Highest')}, {unit}", translate=False)
         column.prop(settings, "contour_logarithmic")
         if settings.contour_logarithmic and settings.contour_range != "FIXED":
             column.prop(settings, "contour_decades")
@@ -42,7 +43,7 @@ class BDA_PT_contours(SidebarPanel, bpy.types.Panel):
             column.prop(settings, "contour_percentile")
         for name in ("contour_map", "contour_shaded", "contour_magnification", "colour_bar"):
             column.prop(settings, name)
-        layout.prop(settings, "results_path", text="", placeholder="results.npz of an earlier run")
+        layout.prop(settings, "results_path", text="", placeholder=translated("results.npz of an earlier run"))
         layout.operator("bda.load_results")
         if shown_results(context.scene).are_loaded:
             text = "Shown is what was recorded, until something new is. Blender plays it on its own:"
@@ -81,7 +82,7 @@ class BDA_PT_film(SidebarPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         settings, layout = context.scene.bda, self.layout
-        layout.prop(settings, "film_directory", text="", placeholder="Folder for the film")
+        layout.prop(settings, "film_directory", text="", placeholder=translated("Folder for the film"))
         layout.row().prop(settings, "film_kind", expand=True)
         layout.prop(settings.scenario.pictures, "camera")
         column = layout.column(align=True)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import bpy
 
+from ..languages.words import translated
 from ..scenario.ui import draw_keys
 from ..sidebar import SidebarPanel, draw_sentence
 from .prop import SPAN_DOWN
@@ -24,10 +25,11 @@ class EnsemblePanel(SidebarPanel):
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, settings, work = self.layout, context.scene.bda, self.work
+        name = translated(work.name)
         row = layout.row(align=True)
-        row.prop(settings, f"{work.key}_path", text="", placeholder=f"{work.name.capitalize()} file")
+        row.prop(settings, f"{work.key}_path", text="", placeholder=translated("{} file").format(name))
         row.operator(f"bda.load_{work.key}", text="Load")
-        layout.prop(settings, f"{work.key}_directory", text="", placeholder=f"Folder of the {work.name}")
+        layout.prop(settings, f"{work.key}_directory", text="", placeholder=translated("Folder of the {}").format(name))
         self.draw_settings(context)
         layout.prop(settings, "study_jobs")
         if work.session:
@@ -47,12 +49,14 @@ class EnsemblePanel(SidebarPanel):
         )
         row = layout.row(align=True)
         if self.can_pause:
-            step = "resume" if work.session.is_paused else "pause"
-            row.operator(f"bda.{step}_{work.key}", text=step.capitalize())
+            if work.session.is_paused:
+                row.operator(f"bda.resume_{work.key}", text="Resume")
+            else:
+                row.operator(f"bda.pause_{work.key}", text="Pause")
         row.operator(f"bda.stop_{work.key}", text="Stop")
         column = layout.column(align=True)
         for line in work.progress:
-            column.label(text=line)
+            column.label(text=line, translate=False)
 
 
 class OneValuePanel(EnsemblePanel):

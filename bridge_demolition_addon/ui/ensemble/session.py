@@ -13,7 +13,6 @@ from typing import Protocol
 
 import bpy
 
-from ...engineering.timing.time_left import in_words
 from ...errors import DemolitionError, text_of
 from ...model.study.file import Ensemble
 from ...model.study.settings import EnsembleSettings
@@ -22,6 +21,8 @@ from ...studies.run_process import RunLimits
 from ...studies.run_program import run_program_command
 from ...studies.session import EnsembleSession
 from ...studies.versions import versions_with
+from ..languages.words import translated
+from ..task_progress import time_left_text
 from ..viewport import redraw_views
 
 _LOOK_EVERY_S = 0.3
@@ -125,11 +126,12 @@ class Work:
     def progress(self) -> list[str]:
         """The progress in short lines."""
         session = self.session
-        lines = [f"{session.planner.done} of {session.planner.total} runs" + (", paused" if session.is_paused else "")]
+        done = translated("{} of {} runs, paused") if session.is_paused else translated("{} of {} runs")
+        lines = [done.format(session.planner.done, session.planner.total)]
         if session.planner.lost:
-            lines.append(f"{session.planner.lost} of them did not finish")
+            lines.append(translated("{} of them did not finish").format(session.planner.lost))
         if not session.is_paused and session.remaining_s:
-            lines.append(in_words(session.remaining_s))
+            lines.append(time_left_text(session.remaining_s))
         return lines
 
 

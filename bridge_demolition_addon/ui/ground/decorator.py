@@ -19,7 +19,9 @@ from ...scene.blast.charges import blast_of, charges_of
 from ...scene.bodies import Kind, kind_of
 from ...scene.time_scale import simulated_time_s
 from ...scene.world import FIRST_STEP_FRAME
+from ..languages.words import translated
 from ..scenario.built import shown_site
+from ..scene_units import area_text, length_text
 from ..view_drawing import ViewDrawing, draw_lines, write_at
 from . import areas
 from .prop import BLAST_ZONES, DEBRIS, EXCLUSION, FLASHES, NAMES, NEIGHBOURS, RINGS, WAY, ZONES
@@ -74,7 +76,9 @@ def drawn(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> Iterator[Drawn]
 def _zones(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Drawn]:
     for zone in shown_site(scene.bda)["zones"]:
         lines = zone_lines(zone)
-        yield Drawn(lines, _ZONE_COLOURS[zone.kind], text=f"{zone.name} ({zone.kind})", position_m=tuple(lines[0]))
+        yield Drawn(
+            lines, _ZONE_COLOURS[zone.kind], text=f"{zone.name} ({translated(zone.kind)})", position_m=tuple(lines[0])
+        )
 
 
 def _neighbours(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Drawn]:
@@ -87,18 +91,19 @@ def _exclusion(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[
     settings = shown_site(scene.bda)["exclusion"]
     zone = areas.zone_of(scene, settings) if settings else None
     if zone is not None:
-        known = "of the last run" if areas.results_of(scene) is not None else "as planned, without debris"
-        yield _outlined(zone.whole, EXCLUSION, f"Exclusion zone {known}")
+        is_run = areas.results_of(scene) is not None
+        text = "Exclusion zone of the last run" if is_run else "Exclusion zone as planned, without debris"
+        yield _outlined(zone.whole, EXCLUSION, translated(text))
 
 
 def _debris(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Drawn]:
     if (area := areas.debris_of(scene)) is not None:
-        yield _outlined(area, DEBRIS, f"Debris: {area.area():.0f} m²")
+        yield _outlined(area, DEBRIS, translated("Debris: {}").format(area_text(area.area(), ".0f")))
 
 
 def _rings(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Drawn]:
     for distance, lines in areas.rings_of(scene, scene.bda.distance_spacing_m, scene.bda.distance_count):
-        yield Drawn(lines, _COLOURS[RINGS], 1.0, f"{distance:g} m", tuple(lines[int(lines[:, 0].argmax())]))
+        yield Drawn(lines, _COLOURS[RINGS], 1.0, length_text(distance, "g"), tuple(lines[int(lines[:, 0].argmax())]))
 
 
 def _path(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterator[Drawn]:
@@ -132,7 +137,7 @@ def _blast_zones(scene: bpy.types.Scene, _layer: bpy.types.ViewLayer) -> Iterato
         top = placed.box_m.mean(axis=0)
         top[2] = placed.box_m[1, 2]
         if not (zone.goes_off and now_s > fires_s):
-            text = f"{zone.name}: {zone.delay_ms:g} ms" if zone.goes_off else f"{zone.name}: misfires"
+            text = f"{zone.name}: {zone.delay_ms:g} ms" if zone.goes_off else f"{zone.name}: {translated('misfires')}"
             yield Drawn(box_lines(placed.box_m), (*colour, 1.0), _WIDTHS_PX[NAMES], text, tuple(top.tolist()))
             yield Drawn(hole_lines(placed), (*colour, 0.8))
         share = flash_share(now_s - fires_s) if zone.goes_off else 0.0

@@ -13,7 +13,9 @@ from ...model.toml_tables import toml_value
 from ...scene.rendering.dust import raise_dust, remove_dust
 from ...scene.rendering.ground import lay_site_plan, terrain_under
 from ...simulation.blender_events import recorded_scene
+from ..languages.words import translated
 from ..operators import GuardedOperator, UndoableAction, absolute, recording_runs, refused, unset
+from ..scene_units import length_text
 from ..view_drawing import ViewDrawing, draw_lines
 from ..viewport import redraw_views, region_of
 from . import areas
@@ -49,7 +51,9 @@ class BDA_OT_draw_zone(GuardedOperator, bpy.types.Operator):
         self._drawing = ViewDrawing(self._draw)
         self._drawing.register()
         _unfinished.append(self._drawing)
-        context.workspace.status_text_set("Zone: click its corners | Enter: done | Backspace: back | Esc: cancel")
+        context.workspace.status_text_set(
+            translated("Zone: click its corners | Enter: done | Backspace: back | Esc: cancel")
+        )
         context.window_manager.modal_handler_add(self)
         return {"RUNNING_MODAL"}
 
@@ -65,7 +69,8 @@ class BDA_OT_draw_zone(GuardedOperator, bpy.types.Operator):
         elif event.type == "LEFTMOUSE":
             corner = ground_under(context, event.mouse_x, event.mouse_y)
             if corner is None:
-                self.report({"WARNING"}, "There is no ground under the mouse: look down on it, click in the 3D view")
+                text = translated("There is no ground under the mouse: look down on it, click in the 3D view")
+                self.report({"WARNING"}, text)
             else:
                 self._corners.append(corner)
         redraw_views()
@@ -113,7 +118,8 @@ class BDA_OT_lay_site_plan(UndoableAction, bpy.types.Operator):
         width, height = lay_site_plan(
             context.scene, path, settings.plan_width_m, settings.plan_bearing_deg, tuple(settings.plan_origin)
         )
-        return f"{path.name}: {width:g} m × {height:g} m on the ground"
+        size = f"{length_text(width, 'g')} × {length_text(height, 'g')}"
+        return translated("{}: {} on the ground").format(path.name, size)
 
 
 def _no_results(context: bpy.types.Context) -> str | None:

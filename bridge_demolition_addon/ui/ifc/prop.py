@@ -9,6 +9,11 @@ from ..sidebar import path_property
 LEFT_OUT = "left out"
 
 
+def _label(kind: str) -> str:
+    """Return a kind as the list shows it; Bearing alone is a direction in other panels, and one word in a language."""
+    return "Bridge Bearing" if kind == "bearing" else kind.title()
+
+
 class BDA_PG_ifc_element(bpy.types.PropertyGroup):
     """An element of the file that was looked into."""
 
@@ -18,7 +23,7 @@ class BDA_PG_ifc_element(bpy.types.PropertyGroup):
     kind: EnumProperty(
         name="Kind",
         description="What the element becomes",
-        items=[(LEFT_OUT, "Left Out", "It becomes no member"), *((kind, kind.title(), "") for kind in KINDS)],
+        items=[(LEFT_OUT, "Left Out", "It becomes no member"), *((kind, _label(kind), "") for kind in KINDS)],
     )
     kind_of_file: StringProperty(options={"HIDDEN"}, description="What the add-on took it for")
     material: StringProperty(

@@ -2,6 +2,7 @@
 
 import bpy
 
+from ..languages.words import translated
 from ..sidebar import SidebarPanel, draw_sentence
 from .prop import LEFT_OUT
 
@@ -14,7 +15,7 @@ class BDA_UL_ifc_elements(bpy.types.UIList):
         row = layout.row(align=True)
         name = row.row()
         name.active = item.kind != LEFT_OUT
-        name.label(text=item.title)
+        name.label(text=item.title, translate=False)
         row.prop(item, "kind", text="", emboss=False)
         material = row.row()
         material.active = item.kind not in (LEFT_OUT, "bearing")
@@ -37,7 +38,8 @@ class BDA_PT_ifc_elements(SidebarPanel, bpy.types.Panel):
         index = settings.ifc_element_index
         if 0 <= index < len(settings.ifc_elements):
             element = settings.ifc_elements[index]
-            draw_sentence(layout, context, f"{element.ifc_class}, {element.why or 'as the file says'}", icon="INFO")
+            why = element.why or translated("as the file says")
+            draw_sentence(layout, context, f"{element.ifc_class}, {why}", icon="INFO")
             layout.operator("bda.ifc_alike", icon="SORTALPHA")
         layout.prop(settings, "ifc_only")
         layout.operator("bda.import_ifc_elements", icon="IMPORT")

@@ -1,7 +1,5 @@
 """Dragging a point of the scenario in the 3D view, called by its handle."""
 
-from __future__ import annotations
-
 import bpy
 import numpy as np
 from bpy.props import BoolProperty, EnumProperty, FloatVectorProperty, IntProperty
@@ -9,7 +7,9 @@ from bpy_extras.view3d_utils import region_2d_to_origin_3d, region_2d_to_vector_
 
 from ...display.dragging import dragged_along, dragged_level
 from ...errors import ScenarioError
+from ..languages.words import translated
 from ..operators import Action, recording_runs, refused
+from ..scene_units import length_text
 from ..viewport import redraw_views
 from .handles import Handle, HandleKind, drag, dragged_values, handles
 
@@ -86,9 +86,10 @@ class BDA_OT_drag_handle(Action, bpy.types.Operator):
         place_m = under - self._held
         self.place_m = np.round(place_m / _SNAP_M) * _SNAP_M if event.ctrl else place_m
         drag(context.scene, HandleKind(self.kind), self.index, tuple(self.place_m))
-        position = ", ".join(f"{coordinate:.2f} m" for coordinate in self.place_m)
+        position = ", ".join(length_text(coordinate, ".2f") for coordinate in self.place_m)
         if context.area:
-            context.area.header_text_set(f"{position} | Ctrl: steps of {_SNAP_M:g} m | Let go: done | Esc: back")
+            hint = translated("Ctrl: steps of {} | Let go: done | Esc: back").format(length_text(_SNAP_M, "g"))
+            context.area.header_text_set(f"{position} | {hint}")
         redraw_views()
 
     def _leave(self, context: bpy.types.Context, ended: set[str]) -> set[str]:

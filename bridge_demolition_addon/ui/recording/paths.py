@@ -1,7 +1,5 @@
 """Where a recording is written to: the files of its logs, and the folder of its results."""
 
-from __future__ import annotations
-
 import os
 import re
 from pathlib import Path

@@ -6,6 +6,7 @@ import bpy
 
 from ...simulation.blender_events import running_recording
 from ...simulation.recording.recorder import Recording
+from ..languages.words import translated
 from ..scenario.built import changed_in_blender, changes
 from ..scenario.ui import draw_changes, draw_run
 from ..sidebar import SidebarPanel, draw_sentence
@@ -22,7 +23,7 @@ class BDA_PT_handler(SidebarPanel, bpy.types.Panel):
         settings, recording = context.scene.bda, running_recording()
         column = self.layout.column()
         column.enabled = recording is None
-        column.prop(settings, "output_directory", text="", placeholder="A new folder for each run")
+        column.prop(settings, "output_directory", text="", placeholder=translated("A new folder for each run"))
         column.prop(settings, "overwrite")
         column.prop(settings, "pictures_of_run")
         if changed := [] if recording else changes(settings):
@@ -43,13 +44,16 @@ class BDA_PT_handler(SidebarPanel, bpy.types.Panel):
 
     def _draw_state(self, context: bpy.types.Context, recording: Recording) -> None:
         if recording.error:
-            draw_sentence(self.layout, context, f"Recording ended early: {recording.error}")
+            draw_sentence(self.layout, context, translated("Recording ended early: {}").format(recording.error))
             return
-        self.layout.label(text=f"{recording.recorded_frames} frames, {recording.broken} connections broken")
+        text = translated("{} frames, {} connections broken").format(recording.recorded_frames, recording.broken)
+        self.layout.label(text=text, translate=False)
         if recording.layout_error:
-            draw_sentence(self.layout, context, f"Forces are estimated from motion: {recording.layout_error}")
+            text = translated("Forces are estimated from motion: {}").format(recording.layout_error)
+            draw_sentence(self.layout, context, text)
         elif recording.rigid_because:
-            draw_sentence(self.layout, context, f"Connections are rigid, not elastic: {recording.rigid_because}")
+            text = translated("Connections are rigid, not elastic: {}").format(recording.rigid_because)
+            draw_sentence(self.layout, context, text)
 
 
 class BDA_PT_post_processing(SidebarPanel, bpy.types.Panel):
@@ -63,4 +67,4 @@ class BDA_PT_post_processing(SidebarPanel, bpy.types.Panel):
             column = self.layout.column(align=True)
             column.enabled = running_recording() is None
             column.operator(operator.bl_idname)
-            column.prop(settings, operator.setting, text="", placeholder="In the folder of the results")
+            column.prop(settings, operator.setting, text="", placeholder=translated("In the folder of the results"))

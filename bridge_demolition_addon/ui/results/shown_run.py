@@ -9,7 +9,6 @@ from typing import Any, NamedTuple
 
 import bpy
 
-from ...engineering.units import kilograms
 from ...errors import DemolitionError, OutputError, UnreadableError
 from ...model.results.arrays import Results
 from ...model.results.bar_extremes import bars_text, largest_use_text
@@ -19,7 +18,9 @@ from ...model.run_folder.summary import RunSummary, read_summary
 from ...model.sequence.undisturbed import self_collapse_text
 from ...model.stages.stability import stability_texts
 from ...simulation.kept_run import digest_of_run, folder_of_run, has_run, results_of_run
+from ..languages.words import translated
 from ..recording.session import last_recording
+from ..scene_units import length_text, mass_text, units_of_texts
 
 _N_PER_KN = 1000.0
 _MS_PER_S = 1000.0
@@ -33,8 +34,8 @@ class LargestValue(NamedTuple):
     frame: int
 
 
-_read: dict[tuple[str, str], ShownRun] = {}
-"""The run that was read last, by its folder and digest: panels are drawn many times a second."""
+_read: dict[tuple[str, ...], ShownRun] = {}
+"""The run read last, by its folder and digest, language and units: panels are drawn many times a second."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,11 +118,14 @@ def forget_shown() -> None:
 def explained_peak(summary: Mapping[str, Any]) -> str:
     """Return in a sentence what the peak force is, and why the contours show another number."""
     longest, shortest = summary["substep_s"], summary.get("shortest_substep_s") or summary["substep_s"]
-    shortened = f"{shortest * _MS_PER_S:.3g} to " if shortest < 0.999 * longest else ""  # frames have more or fewer
-    return (
-        f"The resultant on a shard in its worst sub-step, of {shortened}{longest * _MS_PER_S:.3g} ms. Contours show "
-        "the frame mean, or with Peak So Far this peak"
+    length = f"{longest * _MS_PER_S:.3g}"
+    if shortest < 0.999 * longest:  # frames have more or fewer
+        length = translated("{} to {}").format(f"{shortest * _MS_PER_S:.3g}", length)
+    sentence = translated(
+        "The resultant on a shard in its worst sub-step, of {} ms. Contours show the frame mean, or with Peak So Far "
+        "this peak"
     )
+    return sentence.format(length)
 
 
 def bearing_rows(bearings: Sequence[Mapping[str, Any]]) -> tuple[tuple[str, ...], ...]:
@@ -130,24 +134,28 @@ def bearing_rows(bearings: Sequence[Mapping[str, Any]]) -> tuple[tuple[str, ...]
     rows = [
         (bearing["name"], *(_kilonewtons(bearing[key]) for key in keys), _happened(bearing)) for bearing in bearings
     ]
-    return (("Bearings, kN", "at rest", "least", "most", "sideways", ""), *rows) if rows else ()
+    head = tuple(map(translated, ("Bearings, kN", "at rest", "least", "most", "sideways")))
+    return ((*head, ""), *rows) if rows else ()
 
 
 def _throw_text(throw_m: float, summary: Mapping[str, Any]) -> str:
-    return f"{throw_m:.2f} m, not final" if summary.get("moving_at_end") else f"{throw_m:.2f} m"
+    throw = length_text(throw_m, ".2f")
+    return translated("{}, not final").format(throw) if summary.get("moving_at_end") else throw
 
 
 def _kilonewtons(force_n: float | None) -> str:
-    return "not known" if force_n is None else f"{force_n / _N_PER_KN:.1f}"
+    return translated("not known") if force_n is None else f"{force_n / _N_PER_KN:.1f}"
 
 
 def _happened(bearing: Mapping[str, Any]) -> str:
     """What a bearing did, in few letters."""
     if bearing["gone_s"] is not None:
-        return f"gone at {bearing['gone_s']:.2f} s"
+        return translated("gone at {} s").format(f"{bearing['gone_s']:.2f}")
     percent = round(100.0 * bearing["largest_open_share"])
-    opened = "" if not percent else "opened" if bearing["opened"] else f"opened by {percent} %"
-    return " and ".join(filter(None, (opened, "slid" if bearing["slid"] else "")))
+    how_far = translated("opened") if bearing["opened"] else translated("opened by {} %").format(percent)
+    return translated(" and ").join(
+        filter(None, (how_far if percent else "", translated("slid") if bearing["slid"] else ""))
+    )
 
 
 def lines_of(summary: Mapping[str, Any]) -> list[str]:
@@ -155,18 +163,18 @@ def lines_of(summary: Mapping[str, Any]) -> list[str]:
     connections = summary["connections"]
     creeping = summary.get("creeping")
     return [
-        f"Total mass: {kilograms(summary['mass_kg']['shard'])}",
-        f"Broken: {connections['broken']} of {connections['count']} connections",
-        *([f"Bars: {bars}"] if (bars := bars_text(summary)) else []),
-        *([f"Most: {use}"] if (use := largest_use_text(summary)) else []),
-        f"{summary['frames']} frames, {summary['simulated_s']:.2f} s",
-        *([f"Creeping at the end: {creeping['shards']} shards"] if creeping else []),
+        translated("Total mass: {}").format(mass_text(summary["mass_kg"]["shard"])),
+        translated("Broken: {} of {} connections").format(connections["broken"], connections["count"]),
+        *([translated("Bars: {}").format(bars)] if (bars := bars_text(summary)) else []),
+        *([translated("Most: {}").format(use)] if (use := largest_use_text(summary)) else []),
+        translated("{} frames, {} s").format(summary["frames"], f"{summary['simulated_s']:.2f}"),
+        *([translated("Creeping at the end: {} shards").format(creeping["shards"])] if creeping else []),
     ]
 
 
 def _of_file(scene: bpy.types.Scene) -> ShownRun:
     folder = folder_of_run(scene)
-    name = (str(folder), digest_of_run(scene))
+    name = (str(folder), digest_of_run(scene), bpy.app.translations.locale, units_of_texts())
     if name not in _read:
         try:
             summary = read_summary(folder)

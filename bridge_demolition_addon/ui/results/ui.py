@@ -3,6 +3,7 @@
 import bpy
 
 from ...errors import OutputError
+from ..languages.words import translated
 from ..sidebar import SidebarPanel, draw_sentence
 from .shown_run import LargestValue, shown_run
 
@@ -27,17 +28,17 @@ class BDA_PT_results(SidebarPanel, bpy.types.Panel):
             draw_sentence(layout, context, doubt)
         column = layout.column(align=True)
         for line in run.lines:
-            column.label(text=line)
-        self._draw_largest("Peak force", run.peak_force)
+            column.label(text=line, translate=False)
+        self._draw_largest(translated("Peak force"), run.peak_force)
         if run.peak_force:
             draw_sentence(layout, context, run.explained_peak, icon="INFO")
-        self._draw_largest("Largest throw", run.largest_throw)
+        self._draw_largest(translated("Largest throw"), run.largest_throw)
         if run.bearings:
             grid = layout.column(align=True)
             for cells in run.bearings:
                 line = grid.row(align=True)
                 for text in cells:
-                    line.label(text=text)
+                    line.label(text=text, translate=False)
         layout.operator("bda.look_at_bridge", icon="LOOP_BACK")
         row = layout.row(align=True)
         row.operator("bda.open_results")
@@ -49,8 +50,9 @@ class BDA_PT_results(SidebarPanel, bpy.types.Panel):
         if largest is None:
             return
         column = self.layout.column(align=True)
-        column.label(text=f"{label}: {largest.text}".replace(",", " "))
-        go = column.operator("bda.go_to_body", text=f"{largest.body}, frame {largest.frame}", icon="VIEWZOOM")
+        column.label(text=f"{label}: {largest.text}".replace(",", " "), translate=False)
+        where = translated("{}, frame {}").format(largest.body, largest.frame)
+        go = column.operator("bda.go_to_body", text=where, icon="VIEWZOOM", translate=False)
         go.body, go.frame = largest.body, largest.frame
 
 

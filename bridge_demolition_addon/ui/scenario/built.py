@@ -20,6 +20,7 @@ from ...model.scenario.file import scenario_from_text, scenario_text
 from ...model.scenario.kept import values_from_text, values_text
 from ...model.schema import Table, holds_many, is_optional, key_fields, key_name, key_of, subtable_class
 from ...scene.time_scale import time_settings
+from ..languages.words import translated
 from .prop import USE, is_written_out, shown_tables, vector_length
 from .values import inner_of, list_of, scenario_of, show_inner
 
@@ -110,7 +111,7 @@ def changes_of_table(group: bpy.types.PropertyGroup, item: Field, kept: Kept) ->
     if holds_many(item):
         for number, (inner, values) in enumerate(zip(now, then or [], strict=False), start=1):
             for change in changes_in(inner, inner_class, values):
-                yield replace(change, key=f"{change.key} (number {number})")
+                yield replace(change, key=translated("{} (number {})").format(change.key, number))
     elif then is not None and not change:
         yield from changes_in(now, inner_class, then)
 
@@ -122,11 +123,14 @@ def change_of_use(group: bpy.types.PropertyGroup, item: Field, kept: Kept) -> Ch
     table, then = subtable_class(item).table, (kept or {}).get(item.name)
     if holds_many(item):
         now, built = len(getattr(group, item.name)), len(then or [])
-        return None if now == built else ChangedValue(table, f"a list of {now}", f"with {built} of them")
+        if now == built:
+            return None
+        return ChangedValue(table, translated("a list of {}").format(now), translated("with {} of them").format(built))
     is_used = not is_optional(item) or getattr(group, USE + item.name)
     if is_used == (then is not None):
         return None
-    return ChangedValue(table, *(("used", "without") if is_used else ("not used", "with it")))
+    words = ("used", "without") if is_used else ("not used", "with it")
+    return ChangedValue(table, *map(translated, words))
 
 
 def change_of(group: bpy.types.PropertyGroup, table_class: type[Table], item: Field, kept: Kept) -> ChangedValue | None:
@@ -136,8 +140,9 @@ def change_of(group: bpy.types.PropertyGroup, table_class: type[Table], item: Fi
     now, then = _value(group, item), kept.get(item.name)
     if now == then or (is_written_out(item) and _listed(now, item) == _listed(then, item)):
         return None
-    built = "without" if then is None else f"with {_value_text(item, then)}"
-    return ChangedValue(key_name(table_class, item), "not given" if now is None else _value_text(item, now), built)
+    built = translated("without") if then is None else translated("with {}").format(_value_text(item, then))
+    shown = translated("not given") if now is None else _value_text(item, now)
+    return ChangedValue(key_name(table_class, item), shown, built)
 
 
 @cache
@@ -164,7 +169,7 @@ def changed_in_blender(scene: bpy.types.Scene) -> list[ChangedValue]:
         ChangedValue(
             key_name(TimeSettings, fields[name]),
             _value_text(fields[name], value),
-            f"with {_value_text(fields[name], kept['time'][name])}",
+            translated("with {}").format(_value_text(fields[name], kept["time"][name])),
         )
         for name, value in time_settings(scene).items()
         if as_given(value, kept["time"][name]) != kept["time"][name]  # which were in single precision
@@ -186,13 +191,14 @@ def scenario_to_run(settings: bpy.types.PropertyGroup) -> Scenario | None:
 
 
 def _sentence(changed: list[ChangedValue]) -> str:
-    listed = [f"{change.key} ({change.shown}, built {change.built})" for change in changed[:_LISTED_IN_MESSAGE]]
+    pattern = translated("{} ({}, built {})")
+    listed = [pattern.format(change.key, change.shown, change.built) for change in changed[:_LISTED_IN_MESSAGE]]
     if len(changed) > _LISTED_IN_MESSAGE:
-        listed.append(f"{len(changed) - _LISTED_IN_MESSAGE} more")
-    reason = "the scene was built from other values than the panels show"
+        listed.append(translated("{} more").format(len(changed) - _LISTED_IN_MESSAGE))
+    reason = translated("the scene was built from other values than the panels show")
     if listed:
-        reason = f"values have changed since the scene was built: {', '.join(listed)}"
-    return f"{reason}; build it again, or show the values that it was built with"
+        reason = translated("values have changed since the scene was built: {}").format(", ".join(listed))
+    return translated("{}; build it again, or show the values that it was built with").format(reason)
 
 
 @cache
@@ -256,7 +262,7 @@ def _listed(text: str | None, item: Field) -> Any:
 
 def _value_text(item: Field, value: Any) -> str:
     if isinstance(value, bool):
-        return "on" if value else "off"
+        return translated("on") if value else translated("off")
     if isinstance(value, list):
         text = ", ".join(map(_number, value))
     else:

@@ -10,6 +10,7 @@ from ...model.scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS,
 from ...model.scenario.contacts import QUANTITIES
 from ...simulation.blender_events import running_recording
 from ...simulation.kept_run import has_run
+from ..languages.words import translated
 from ..operators import Action
 from ..results.operator import open_path
 from ..sidebar import draw_sentence
@@ -74,7 +75,8 @@ def breaking_note(scenario: bpy.types.PropertyGroup) -> str:
     strengths = [name for name in STRENGTH_KEYS if getattr(connections, USE + name)]
     if not strengths:
         if is_large and connections.method == "face":
-            return f"With {LARGE_MODEL} shards or more they break by the strength of {MATERIAL_OF_LARGE_MODELS}"
+            sentence = translated("With {} shards or more they break by the strength of {}")
+            return sentence.format(LARGE_MODEL, translated(MATERIAL_OF_LARGE_MODELS))
         return "Choose a breaking force, or a material with method face"
     if is_large and "material" not in strengths:
         return "One force for all: the finer the bridge is cut, the stronger it is. A material does not depend on it"

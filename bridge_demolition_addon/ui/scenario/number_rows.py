@@ -1,7 +1,5 @@
 """Lists of lengths as rows: each row shows and sets one number, or one point, of the text that a scenario keeps."""
 
-from __future__ import annotations
-
 import math
 import tomllib
 from dataclasses import Field
@@ -39,6 +37,11 @@ def numbers_in_row(item: Field) -> int:
         return 1 if key_of(item).unit else 0
     kinds = get_args(kind)
     return len(kinds) if kinds and set(kinds) == {float} else 0
+
+
+def row_unit(item: Field) -> str:
+    """Return Blender's name for the unit that it shows in each row, NONE where it shows none."""
+    return "LENGTH" if key_of(item).unit == "m" else "NONE"
 
 
 def row_name(name: str, number: int) -> str:
@@ -80,7 +83,9 @@ def draw_rows(layout: bpy.types.UILayout, group: bpy.types.PropertyGroup, item: 
     path = group.path_from_id(item.name)
     for number in range(len(rows)):
         line = layout.row(align=True)
-        line.prop(group, row_name(item.name, number), text=f"{number + 1}" if len(rows[number]) == 1 else "")
+        line.prop(
+            group, row_name(item.name, number), text=f"{number + 1}" if len(rows[number]) == 1 else "", translate=False
+        )
         remove = line.operator("bda.remove_row", text="", icon="REMOVE")
         remove.path, remove.length, remove.number = path, len(rows[number]), number
     add = layout.operator("bda.add_row", text="Add", icon="ADD")
@@ -151,8 +156,7 @@ def _row_property(item: Field, number: int, words: dict[str, str]) -> Any:
             setattr(group, item.name, _text(rows))
 
     limits = {name: limit for name, limit in (("min", rule.at_least), ("max", rule.at_most)) if limit is not None}
-    unit = "LENGTH" if rule.unit == "m" else "NONE"
-    settings = words | limits | {"unit": unit, "precision": _DECIMALS, "get": shown, "set": choose}
+    settings = words | limits | {"unit": row_unit(item), "precision": _DECIMALS, "get": shown, "set": choose}
     return FloatVectorProperty(size=length, **settings) if length > 1 else FloatProperty(**settings)
 
 

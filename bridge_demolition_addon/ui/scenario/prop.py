@@ -33,7 +33,6 @@ from ...model.scenario.file import read_scenario
 from ...model.schema import (
     Key,
     Table,
-    expected,
     holds_many,
     is_optional,
     is_required,
@@ -49,9 +48,10 @@ from ...model.study.criteria import Criterion
 from ...model.study.keys import names_to_propose
 from ...model.study.settings import EnsembleSettings, StudySettings
 from ...model.toml_tables import toml_value
+from ..languages.words import in_own_context
 from ..sidebar import tooltip
+from .key_tooltips import tooltip_of
 from .number_rows import row_properties
-from .typical_values import typical_words
 
 PRESETS = Path(__file__).parent / "presets"
 DEFAULT_PRESET = PRESETS / "reinforced_span_ball.toml"
@@ -128,14 +128,21 @@ def _is_of_study(table_class: type[Table], item: Field) -> bool:
     return table_class in (SearchSettings, OptimiseSettings) and item.name in _SHARED
 
 
-def label_of(table_class: type[Table], item: Field) -> str:
-    """Return what a key is called in the sidebar, with its unit where Blender does not show that itself."""
-    if subtable_class(item):
-        return _titled(item.name)
-    unit = key_of(item).unit
-    name = item.name.removesuffix("_" + _in_names(unit)) if unit else item.name
-    text = _titled(name)
-    return f"{text} ({unit})" if unit and unit != _PER_SECOND and unit_of(item) == "NONE" else text
+def label_of(_table_class: type[Table], item: Field) -> str:
+    """Return what a key or table is called in the sidebar, with its unit where Blender does not show that itself."""
+    return title_of(item) + unit_in_label(item)
+
+
+def title_of(item: Field) -> str:
+    """Return what a key or table is called, without a unit."""
+    unit = "" if subtable_class(item) else key_of(item).unit
+    return _titled(item.name.removesuffix("_" + _in_names(unit)) if unit else item.name)
+
+
+def unit_in_label(item: Field) -> str:
+    """Return the unit of a key as its label has it, such as `` (mm²)``; empty where Blender shows it."""
+    unit = "" if subtable_class(item) else key_of(item).unit
+    return f" ({unit})" if unit and unit != _PER_SECOND and unit_of(item) == "NONE" else ""
 
 
 def unit_of(item: Field) -> str:
@@ -180,7 +187,7 @@ def register() -> None:
     groups: dict[type[Table], type[bpy.types.PropertyGroup]] = {}
     for table_class in all_tables():
         groups[table_class] = _group(table_class, defaults.get(table_class), groups)
-        bpy.utils.register_class(groups[table_class])
+        bpy.utils.register_class(in_own_context(groups[table_class]))
 
 
 def unregister() -> None:
@@ -235,12 +242,8 @@ def _table_properties(item: Field, defaults: Table | None, group: type[bpy.types
 
 
 def _key_properties(table_class: type[Table], item: Field, default: Any) -> dict[str, Any]:
-    label = label_of(table_class, item)
-    rule = key_of(item)
-    name = key_name(table_class, item)
-    typical = typical_words(table_class, item)
-    description = f"{rule.description} {typical}." if typical else rule.description
-    meaning = tooltip(f"{description} In a scenario file: {name}, {expected(item)}")
+    label, meaning = label_of(table_class, item), tooltip_of(table_class, item)
+    rule, name = key_of(item), key_name(table_class, item)
     words: dict[str, Any] = {"name": label, "description": meaning}
     if issubclass(table_class, BodyInContact) and item.name in table_class.older_values:
         words["update"] = _use_what_is_set(item.name)

@@ -75,7 +75,7 @@ class BDA_UL_tables(bpy.types.UIList):
 
     def draw_item(self, context, layout, data, item, icon, active_data, active_property, index) -> None:
         """Draw a row: its number and its first value."""
-        layout.label(text=f"{index + 1}  {_summary(item)}")
+        layout.label(text=f"{index + 1}  {_summary(item)}", translate=False)
 
 
 def draw_list(layout: bpy.types.UILayout, group: bpy.types.PropertyGroup, item: Field) -> None:

@@ -203,10 +203,10 @@ def typical_value(table_class: type[Table], item: Field) -> Any:
     return TYPICAL.get(item.name)
 
 
-def typical_words(table_class: type[Table], item: Field) -> str:
-    """Return a typical value with its unit, such as ``Typical: 0.4 m``; empty where there is none."""
+def typical_text(table_class: type[Table], item: Field) -> str:
+    """Return a typical value with its unit, such as ``0.4 m``; empty where there is none."""
     value = typical_value(table_class, item)
     if value is None or isinstance(value, bool | str):
         return ""
     unit = key_of(item).unit
-    return f"Typical: {toml_value(value)}{' ' + unit if unit else ''}"
+    return f"{toml_value(value)}{' ' + unit if unit else ''}"

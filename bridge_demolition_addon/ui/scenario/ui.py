@@ -12,14 +12,15 @@ from bpy.types import Context, PropertyGroup, UILayout
 from ...model.scenario import Scenario
 from ...model.schema import Table, holds_many, is_optional, key_name, subtable_class, value_type
 from ...scene.visibility import has_symbols, symbols_are_hidden
+from ..languages.words import CONTEXT, translated
 from ..messages import draw_messages
 from ..preview.bars import shown_bars
-from ..sidebar import SidebarPanel, draw_sentence, letters_of
+from ..sidebar import SidebarPanel, draw_sentence, letters_of, width_of
 from ..task_progress import draw_task_progress, going_on
 from .built import ChangedValue, Kept, built_values, change_of, change_of_use, changes, changes_of_table
 from .hints import breaking_note, contact_note, draw_first_help, next_step
-from .number_rows import draw_rows, numbers_in_row
-from .prop import INDEX, USE, label_of, shown_keys, shown_tables, vector_length
+from .number_rows import draw_rows, numbers_in_row, row_unit
+from .prop import INDEX, USE, label_of, shown_keys, shown_tables, title_of, vector_length
 from .stability import draw_stability
 from .table_list import draw_list
 
@@ -69,11 +70,12 @@ _PANEL = "BDA_PT_"
 
 @dataclass(frozen=True, slots=True)
 class Row:
-    """How a key is drawn: its field, name and label, and whether it has a check box or several numbers."""
+    """How a key is drawn: its field, name and labels, and whether it has a check box or several numbers."""
 
     item: Field
     name: str
     label: str
+    label_of_rows: str
     is_optional: bool
     length: int
     is_number: bool
@@ -106,7 +108,7 @@ class BDA_PT_scenario(SidebarPanel, bpy.types.Panel):
         draw_run(column, settings, has_changed=bool(changes(settings)))
         draw_messages(layout, context)
         draw_stability(layout, context)
-        layout.prop(settings, "scenario_path", text="", placeholder="Scenario file")
+        layout.prop(settings, "scenario_path", text="", placeholder=translated("Scenario file"))
         row = layout.row(align=True)
         row.operator("bda.load_scenario", text="Load")
         row.operator("bda.save_scenario", text="Save")
@@ -202,9 +204,10 @@ def draw_changes(layout: UILayout, context: Context, changed: Sequence[ChangedVa
     box = layout.box()
     draw_sentence(box, context, "Values have changed since this was built:", icon=CHANGED)
     for change in changed[:_LISTED]:
-        draw_sentence(box, context, f"{change.key}: {change.shown}, built {change.built}", icon="NONE")
+        text = translated("{}: {}, built {}").format(change.key, change.shown, change.built)
+        draw_sentence(box, context, text, icon="NONE")
     if len(changed) > _LISTED:
-        box.label(text=f"and {len(changed) - _LISTED} more")
+        box.label(text=translated("and {} more").format(len(changed) - _LISTED), translate=False)
     row = box.row(align=True)
     row.operator("bda.build_anew")
     row.operator("bda.show_built")
@@ -227,13 +230,13 @@ def draw_keys(
             continue
         _draw_key(column, letters, group, row)
         if change := change_of(group, table_class, row.item, kept):
-            draw_sentence(column, context, f"built {change.built}", icon=CHANGED)
+            draw_sentence(column, context, translated("built {}").format(change.built), icon=CHANGED)
 
 
 def draw_change_of_table(layout: UILayout, context: Context, group: PropertyGroup, item: Field, kept: Kept) -> None:
     """Draw whether a table, or another number of tables, was used when the scene was built."""
     if kept is not None and (change := change_of_use(group, item, kept)):
-        draw_sentence(layout, context, f"built {change.built}", icon=CHANGED)
+        draw_sentence(layout, context, translated("built {}").format(change.built), icon=CHANGED)
 
 
 def draw_tables(layout: UILayout, context: Context, group: PropertyGroup, item: Field, kept: Kept = None) -> None:
@@ -248,7 +251,7 @@ def draw_tables(layout: UILayout, context: Context, group: PropertyGroup, item: 
     draw_keys(layout, context, tables[index], table_class, kept)
     for inner in shown_tables(table_class):
         box = layout.box()
-        box.label(text=label_of(table_class, inner))
+        box.label(text=label_of(table_class, inner), text_ctxt=CONTEXT)
         if holds_many(inner):
             draw_tables(box, context, tables[index], inner, kept)
         else:
@@ -263,6 +266,7 @@ def rows_of(table_class: type[Table]) -> tuple[Row, ...]:
             item=item,
             name=item.name,
             label=label_of(table_class, item),
+            label_of_rows=title_of(item) if row_unit(item) != "NONE" else label_of(table_class, item),
             is_optional=is_optional(item),
             length=vector_length(item) or 1,
             is_number=value_type(item) in (int, float),
@@ -319,19 +323,23 @@ def _draw_key(layout: UILayout, letters: int, group: PropertyGroup, row: Row) ->
     if row.is_check_box and not row.is_optional:
         layout.prop(group, row.name, text=row.label)
         return
-    fits = row.length == 1 and not numbers_in_row(row.item) and len(row.label) + _LETTERS_OF_VALUE <= letters
+    label = translated(row.label)
+    width = width_of(label)
+    fits = row.length == 1 and not numbers_in_row(row.item) and width + _LETTERS_OF_VALUE <= letters
     if not row.is_number:  # Blender gives part of a line to the label of a text or a choice
-        fits = fits and len(row.label) <= letters // (4 if row.is_optional else 2)
+        fits = fits and width <= letters // (4 if row.is_optional else 2)
     if row.is_optional:
         line = layout.row(align=True)
         line.prop(group, USE + row.name, text="" if fits else row.label)
         line = line.row() if fits else layout.row()
         line.enabled = getattr(group, USE + row.name)
     else:
-        if not fits:
-            layout.label(text=row.label + ":")
+        heading = None if fits else layout.row()  # filled in once it is known whether rows have units of their own
         if numbers_in_row(row.item) and draw_rows(layout.column(align=True), group, row.item):
+            heading.label(text=translated(row.label_of_rows) + ":", translate=False)
             return
+        if heading:
+            heading.label(text=label + ":", translate=False)
         line = layout.row(align=row.length > 1)
     line.prop(group, row.name, text=row.label if fits else "")
 

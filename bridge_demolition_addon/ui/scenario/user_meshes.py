@@ -3,8 +3,6 @@
 Both write files that the scenario names, so that it can be saved, sent and run without the objects.
 """
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -6,6 +6,7 @@ import math
 
 import bpy
 
+from ..languages.words import translated
 from ..sidebar import SidebarPanel, draw_sentence
 from ..task_progress import draw_task_progress, going_on
 from .operator import BDA_OT_check_stages
@@ -25,7 +26,7 @@ class BDA_PT_stages(SidebarPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, settings = self.layout, context.scene.bda
-        layout.prop(settings, "stages_directory", text="", placeholder="Folder for tables")
+        layout.prop(settings, "stages_directory", text="", placeholder=translated("Folder for tables"))
         layout.operator("bda.check_stages")
         if progress := going_on(BDA_OT_check_stages.task):
             draw_task_progress(layout, context, progress)
@@ -36,7 +37,7 @@ class BDA_PT_stages(SidebarPanel, bpy.types.Panel):
         for row in [{}, *checked.rows]:
             line = grid.row(align=True)
             for text in cells_of(row):
-                line.label(text=text)
+                line.label(text=text, translate=False)
         layout.operator("bda.show_utilisation")
         layout.prop(settings, "stage_shown")
         shown = min(settings.stage_shown, len(checked.rows)) - 1
@@ -48,24 +49,24 @@ class BDA_PT_stages(SidebarPanel, bpy.types.Panel):
                 for row in [{}, *rows]:
                     line = grid.row(align=True)
                     for text in reaction_cells_of(row, quantity, kind):
-                        line.label(text=text)
+                        line.label(text=text, translate=False)
 
 
 def reaction_cells_of(row: dict, quantity: str, kind: str) -> tuple[str, ...]:
     """Return what the tables say of a support or bearing: its force or moment; the head of the table for no row."""
     if not row:
-        return _HEADS[kind][quantity], "x", "y", "z"
+        return translated(_HEADS[kind][quantity]), "x", "y", "z"
     return row[kind], *(f"{row[f'{quantity}_{axis}_{_UNITS[quantity]}']:.1f}" for axis in "xyz")
 
 
 def cells_of(row: dict) -> tuple[str, ...]:
     """Return what the table says of a stage; its head for no row."""
     if not row:
-        return "Stage", "From", "Used", "Falls at"
+        return tuple(map(translated, ("Stage", "From", "Used", "Falls at")))
     used, factor = row["largest_utilisation"], row["collapse_factor"]
     return (
         str(row["stage"]),
         f"{row['time_s']:g} s",
         "" if used is None else f"{used:.0%}",
-        "not held" if math.isnan(factor) else "> × 64" if math.isinf(factor) else f"× {factor:.2f}",
+        translated("not held") if math.isnan(factor) else "> × 64" if math.isinf(factor) else f"× {factor:.2f}",
     )
