@@ -166,7 +166,7 @@ def test_lines_that_differ_differ_without_colour(report):
             assert len(set(looks)) == len(looks), picture.title
 
 
-@pytest.mark.parametrize("words, scale", [(150, 1.0), (880, 0.9)])
+@pytest.mark.parametrize("words, scale", [(150, 1.0), (660, 0.9)])
 def test_a_drawing_is_on_its_page_and_nowhere_else(tmp_path, words, scale):
     """Also what is drawn as dots: a map of heights, and its colour bar; made smaller where little room is left."""
 
