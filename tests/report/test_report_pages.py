@@ -227,6 +227,21 @@ def test_long_texts_and_tables_go_on_over_lines_and_pages():
         assert all(box[2] <= pdf.LEFT_MM + PAGE_WIDTH_MM + SLACK_MM for box in measured_mm(page.lines))
 
 
+def test_a_table_of_many_columns_stays_between_the_margins():
+    columns = tuple(Column(f"quantity {letter} (kg/m³)", letter, ".2f") for letter in "abcdefghijklmnop")
+    table = DataTable("wide", "A wide table", columns, [tuple(1234.5 + number for number in range(16))] * 3)
+    (page,) = pdf.laid_out(Document("", "", (Section("One", (table,)),)), {})
+    assert max(box[2] for box in measured_mm(page.lines)) <= pdf.LEFT_MM + PAGE_WIDTH_MM + SLACK_MM
+
+
+def test_the_last_row_of_a_table_does_not_stand_alone():
+    columns = (Column("text", "text"),)
+    for rows in range(36, 50):
+        table = DataTable("long", "A long table", columns, [(f"row {row}",) for row in range(rows)])
+        pages = pdf.laid_out(Document("", "", (Section("One", (table,)),)), {})
+        assert all(sum("row" in line.text for line in page.lines) != 1 for page in pages), rows
+
+
 def test_a_table_is_read_and_is_a_file(tmp_path):
     columns = (Column("speed (m/s)", "speed_m_s", ".1f"), Column("who", "who"))
     table = DataTable("speeds", "Speeds", columns, [(1.23456789, 'a, "b"'), (None, None), (float("nan"), "c")])

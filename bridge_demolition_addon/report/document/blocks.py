@@ -119,20 +119,27 @@ class Section:
 
 @dataclass(frozen=True, slots=True)
 class Document:
-    """A whole report."""
+    """A whole report; its summary stands on the first page, before all sections."""
 
     title: str
     subtitle: str
     sections: tuple[Section, ...]
+    summary: tuple[Block, ...] = ()
 
     def blocks(self) -> Iterator[Block]:
-        """Return all blocks of all sections in order."""
+        """Return all blocks of the summary and of all sections in order."""
+        yield from self.summary
         for section in self.sections:
             yield from section.blocks
 
     def named_tables(self) -> list[DataTable]:
         """Return the tables that are also files."""
         return [block for block in self.blocks() if isinstance(block, DataTable) and block.name]
+
+    def number_of(self, title: str) -> int | None:
+        """Return the number of the section of a title; None without one."""
+        titles = [section.title for section in self.sections]
+        return titles.index(title) + 1 if title in titles else None
 
 
 @dataclass(frozen=True, slots=True)

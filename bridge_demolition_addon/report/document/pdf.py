@@ -83,6 +83,7 @@ def laid_out(document: Document, drawings: Drawings) -> list[Page]:
     pages = _Pages(drawings)
     pages.text(document.title, TITLE)
     pages.text(document.subtitle, TEXT)
+    pages.flow(_abreast(document.summary))
     for number, section in enumerate(document.sections, start=1):
         pages.section(f"{number} {section.title}", section.blocks)
     title = _shortened(document.title, PAGE_WIDTH_MM - 40.0, SMALL)
@@ -104,7 +105,7 @@ class _Pages:
 
     def section(self, title: str, blocks: Sequence[Block]) -> None:
         """Write a section. What does not fit on the rest of a page and is no text lets the text after it go first."""
-        shown = list(_abreast(block for block in blocks if not isinstance(block, AnimatedModel)))
+        shown = list(_abreast(blocks))
         self._heading(title, shown)
         self.flow(shown)
 
@@ -199,8 +200,11 @@ class _Pages:
         self._need(rows.least_mm)
         self.text(table.title, STRONG, after_mm=1.0)
         self._headings(rows)
-        for cells in rows.cells:
-            if self._needs(_row_height(cells)):
+        last = len(rows.cells) - 1
+        for number, cells in enumerate(rows.cells):
+            # The last row does not stand alone on the next page.
+            together = rows.cells[number:] if number == last - 1 else [cells]
+            if self._needs(math.fsum(map(_row_height, together))):
                 self._turn()
                 self._headings(rows)
             self._row(cells, rows, SMALL)
@@ -314,15 +318,16 @@ _Drawn = Picture | _Photos
 _Shown = Paragraph | Listing | DataTable | _Drawn
 
 
-def _abreast(blocks: Iterable[Paragraph | Listing | DataTable | Picture | Photo]) -> Iterator[_Shown]:
-    """Yield blocks with photos that follow each other side by side."""
-    for is_photo, run in groupby(blocks, key=lambda block: isinstance(block, Photo)):
+def _abreast(blocks: Iterable[Block]) -> Iterator[_Shown]:
+    """Yield blocks with photos that follow each other side by side, and without what paper does not show."""
+    on_paper = (block for block in blocks if not isinstance(block, AnimatedModel))
+    for is_photo, run in groupby(on_paper, key=lambda block: isinstance(block, Photo)):
         if is_photo:
             photos = [block for block in run if isinstance(block, Photo)]
             for first in range(0, len(photos), _PHOTOS_ABREAST):
                 yield _Photos(tuple(photos[first : first + _PHOTOS_ABREAST]))
         else:
-            yield from (block for block in run if not isinstance(block, Photo))
+            yield from (block for block in run if not isinstance(block, Photo | AnimatedModel))
 
 
 def _caption_mm(block: _Drawn) -> float:
@@ -392,8 +397,9 @@ def _column_widths(rows: Sequence[Sequence[str]]) -> list[float]:
     columns = list(zip(*rows, strict=True))
     widths = [_widest_mm(column) for column in columns]
     words = [_widest_mm(" ".join(column).split()) for column in columns]
-    for least in ([max(SMALLEST_COLUMN_MM, word) for word in words], [SMALLEST_COLUMN_MM] * len(widths)):
-        _narrow(widths, least)
+    evenly_mm = (PAGE_WIDTH_MM - GAP_MM * (len(widths) - 1)) / len(widths)
+    for least_mm in (math.inf, SMALLEST_COLUMN_MM, min(evenly_mm, SMALLEST_COLUMN_MM)):
+        _narrow(widths, [min(word, least_mm) for word in words])
     return widths
 
 
