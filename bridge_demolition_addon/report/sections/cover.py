@@ -17,6 +17,9 @@ from ..findings import IMPACT, findings
 from ..run_folder import ReportedRun
 from ..wording.checks import CHECKS
 
+RUN_TITLE = "The run"
+TRUST_TITLE = "What is modelled, and how far to trust it"
+
 SOURCES = (
     ("Motion, contacts and connections", "Bullet, the rigid-body engine in Blender, stepped as this report says"),
     ("Loads on bodies and connections", "read from Bullet after its steps; in the tests they agree with statics"),
@@ -66,7 +69,7 @@ ONE_RUN = (
 
 def run_section(run: ReportedRun, version: str) -> Section:
     """Return what was run, and with which settings."""
-    return Section("The run", (facts("Settings of the run", list(_run_facts(run, version)), "run"),))
+    return Section(RUN_TITLE, (facts("Settings of the run", list(_run_facts(run, version)), "run"),))
 
 
 def findings_section(run: ReportedRun, debris: Debris, photos: Mapping[str, Path]) -> Section:
@@ -91,7 +94,7 @@ def trust_section(scenario: Scenario | None, *more: str) -> Section:
         facts("What has been checked, against what and how closely it agrees", checks),
         *(Paragraph(text) for text in (*limits_of(scenario), *more)),
     ]
-    return Section("What is modelled, and how far to trust it", tuple(blocks))
+    return Section(TRUST_TITLE, tuple(blocks))
 
 
 def scenario_section(run: ReportedRun, text: str) -> Section:
