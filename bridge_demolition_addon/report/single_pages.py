@@ -17,8 +17,8 @@ CLIENT, AUTHORITY, CREW = AUDIENCES = tuple(SINGLE_PAGES)
 _AROUND = ("neighbours", "charge_neighbours", "touchdown", "neighbours_of_runs", "zones", "fragments")
 """Tables on what is around the bridge, as far as a report has them."""
 
-_MOST_ROWS = 16
-"""Rows of a table that fit on a page beside all else."""
+_MOST_ROWS, _MOST_AROUND = 16, 6
+"""Rows of a table that fit on a page beside all else: of the crew, and of each table on what is around the bridge."""
 
 _BLANK = "________"
 _LINE_FACTOR, _CRANE_FACTOR = 4.0, 2.0
@@ -73,25 +73,34 @@ def _subtitle(document: Document, audience: str) -> str:
 def _for_authority(document: Document, scenario: Scenario | None) -> Iterator[Block]:
     """Yield verdict and limits, what is around, what to doubt, and what the model leaves out."""
     verdict, plan, doubts = _first_words(document)
-    yield from (*verdict, *plan)
+    yield from verdict
+    yield from plan
     around = [table for name in _AROUND if (table := document.table(name))]
-    yield from map(_shortened, around)
+    yield from (_shortened(table, _MOST_AROUND) for table in around)
     if scenario is None or not scenario.neighbours:
         yield Paragraph("The scenario names no neighbours: vibration and pressure at buildings are not stated.")
     if scenario is None or not scenario.zones:
         yield Paragraph("The scenario names no zones, such as a road that has to stay free.")
+    yield DataTable(
+        "", "What this does not say", (Column("", "text"),), [(text,) for text in _caveats(document, scenario, doubts)]
+    )
+
+
+def _caveats(document: Document, scenario: Scenario | None, doubts: Sequence[Paragraph]) -> Iterator[str]:
+    """Yield what is to be doubted, what the model leaves out, and what the report does not answer."""
     if doubts:
-        yield _listed("On these results", [block.text for block in doubts])
-    yield _listed("What is not modelled", limits_of(scenario))
+        yield f"On these results: {' '.join(block.text for block in doubts)}"
+    yield f"Not modelled: {' '.join(limits_of(scenario))}"
     if (contents := document.table("plan_contents")) is not None:
-        open_items = ", ".join(str(row[0]) for row in contents.rows if row[2] is None)
-        yield facts("Not answered by this report", [("Blank in the contents of the plan", open_items)])
+        yield f"Blank in the contents of the plan: {', '.join(str(row[0]) for row in contents.rows if row[2] is None)}."
 
 
 def _for_crew(document: Document, scenario: Scenario | None) -> Iterator[Block]:
     """Yield times, distances, what is done afterwards, and what is to be ticked."""
     verdict, plan, _ = _first_words(document)
-    yield from (*verdict, Paragraph(_PLANNED, is_notice=True), *plan)
+    yield from verdict
+    yield Paragraph(_PLANNED, is_notice=True)
+    yield from plan
     if (sequence := document.table("sequence")) is not None:
         yield _shortened(sequence)
     yield facts("Who stands where, and when", list(_safety(scenario)))
@@ -116,7 +125,8 @@ def _safety(scenario: Scenario | None) -> Iterator[tuple[str, str]]:
     if scenario and scenario.ball:
         yield "Crane and line", _crane_text(scenario.ball)
     if scenario and _has_explosives(scenario):
-        electronic = any(table.detonator == ELECTRONIC for table in (*scenario.blast_zones, *scenario.cuts))
+        kinds = {zone.detonator for zone in scenario.blast_zones} | {cut.detonator for cut in scenario.cuts}
+        electronic = ELECTRONIC in kinds
         minutes = "30" if electronic else "15, or 30 with a fuse or electronic detonators"
         yield (
             "If a charge may not have fired",
@@ -129,10 +139,10 @@ def _safety(scenario: Scenario | None) -> Iterator[tuple[str, str]]:
 
 
 def _crane_text(ball: Ball) -> str:
-    crane, line = mass_text(_CRANE_FACTOR * ball.mass_kg), mass_text(_LINE_FACTOR * ball.mass_kg)
+    own, crane, line = (mass_text(factor * ball.mass_kg, 1) for factor in (1.0, _CRANE_FACTOR, _LINE_FACTOR))
     return (
-        f"ball of {mass_text(ball.mass_kg)}: crane for at least {crane} with the boom as it is used, line that carries at "
-        f"least {line} before it breaks (29 CFR 1926.859(b))"
+        f"ball of {own}: crane for at least {crane} with the boom as it is used, line that carries at least {line} "
+        "before it breaks (29 CFR 1926.859(b))"
     )
 
 
@@ -148,14 +158,11 @@ def _has_explosives(scenario: Scenario) -> bool:
     return bool(scenario.charges or scenario.blast_zones or scenario.cuts)
 
 
-def _listed(title: str, texts: Sequence[str]) -> DataTable:
-    return DataTable("", title, (Column("", "text"),), [(text,) for text in texts])
-
-
-def _shortened(table: DataTable) -> DataTable:
+def _shortened(table: DataTable, most: int = _MOST_ROWS) -> DataTable:
     """Return a table that fits on the page, and says how many of its rows are in the report alone."""
-    left = len(table.rows) - _MOST_ROWS
+    left = len(table.rows) - most
     if left <= 0:
         return table
-    title = f"{table.title}: the first {_MOST_ROWS}; {left} more are in the report"
-    return replace(table, title=title, rows=table.rows[:_MOST_ROWS])
+    return replace(
+        table, title=f"{table.title}: the first {most}; {left} more are in the report", rows=table.rows[:most]
+    )

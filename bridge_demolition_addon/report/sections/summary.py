@@ -21,13 +21,15 @@ from ...model.sequence.undisturbed import asleep_text
 from ...model.stages.stability import stability_texts
 from ..document.blocks import Block, Paragraph, Photo, Picture, facts
 from ..run_folder import ReportedRun
-from ..wording.numbers import listed, rounded_up
+from ..wording.numbers import rounded_up
 from ..wording.sequence import means_text
 from ..wording.verdict import run_limit, run_verdict, verdict_without_frames
 from .cover import photo_caption
 
 FIRST_PHOTOS = ("after", "impact", "before")
 """Names of rendered pictures; the first one that is there stands on the first page."""
+
+_MOST_NAMED = 8
 
 
 def run_summary(run: ReportedRun, debris: Debris | None, zone: ExclusionZone | None) -> tuple[Block, ...]:
@@ -104,7 +106,7 @@ def _means(scenario: Scenario | None) -> list[tuple[str, str]]:
 
 def _outcome(run: ReportedRun, distance_m: float) -> Iterator[tuple[str, str]]:
     """Yield what came down and what stays."""
-    yield "Came down", ", ".join(f"{span.name} by {span.drop_m:.2f} m" for span in _spans(run))
+    yield "Came down by", ", ".join(f"{span.name} {span.drop_m:.2f} m" for span in _spans(run))
     yield "Stays", _staying_text(run.recorded)
     yield "Limit", run_limit(distance_m, still_moving_note(run.recorded))
 
@@ -114,11 +116,13 @@ def _staying_text(results: Results) -> str:
     shards = results.inventory.of_kind("shard")
     moved = travel(results.frames.positions_m[0, shards], results.frames.positions_m[-1, shards]) > MOVED_M
     members = results.inventory.body_members[shards]
-    staying = [str(name) for name in dict.fromkeys(members.tolist()) if name and not moved[members == name].any()]
+    names = [str(name) for name in dict.fromkeys(members.tolist()) if name]
+    staying = [name for name in names if not moved[members == name].any()]
     if not staying:
         return f"no member without a shard that moved by more than {MOVED_M:g} m"
-    names = listed(staying).replace("quantities", "members")
-    return f"{names}, of which no shard moved by more than {MOVED_M:g} m"
+    which = f"{len(staying)} of {len(names)} members"
+    which += f" ({', '.join(staying)})" if len(staying) <= _MOST_NAMED else ""
+    return f"{which}, of which no shard moved by more than {MOVED_M:g} m"
 
 
 def _around(run: ReportedRun, zone: ExclusionZone | None) -> Iterator[tuple[str, str]]:

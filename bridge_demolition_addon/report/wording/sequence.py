@@ -41,7 +41,7 @@ def _means(scenario: Scenario) -> Iterator[str]:
     zones, charges = scenario.blast_zones, [charge for charge in scenario.charges if charge.mass_kg > 0.0]
     if scenario.ball:
         times = max(len(scenario.ball.drops), 1)
-        yield f"ball of {mass_text(scenario.ball.mass_kg)}, let go {'once' if times == 1 else f'{times} times'}"
+        yield f"ball of {mass_text(scenario.ball.mass_kg, 1)}, let go {'once' if times == 1 else f'{times} times'}"
     if zones:
         mass_kg = math.fsum(zone.mass_kg for zone in zones)
         last_ms = 1e3 * max(zone.row_times_s()[-1] for zone in zones)
@@ -78,7 +78,7 @@ def _steps_of(action: PlannedAction, scenario: Scenario) -> Iterator[PlannedStep
 
 
 def _hits(ball: Ball) -> Iterator[PlannedStep]:
-    what = f"ball of {mass_text(ball.mass_kg)} is let go"
+    what = f"ball of {mass_text(ball.mass_kg, 1)} is let go"
     if ball.cable:
         yield PlannedStep(ball.release_time_s, ball.release_time_s, f"{what} on its cable", "")
     for drop in ball.drops:
@@ -113,7 +113,7 @@ def _described(action: PlannedAction) -> tuple[str, str]:
 
 def _standing(machine: Equipment) -> PlannedStep:
     until_s = math.inf if machine.until_s is None else machine.until_s
-    what = f"{machine.name} of {mass_text(machine.mass_kg)} stands on the bridge"
+    what = f"{machine.name} of {mass_text(machine.mass_kg, 1)} stands on the bridge"
     return PlannedStep(machine.from_s, until_s, what, _point(machine.place_m))
 
 

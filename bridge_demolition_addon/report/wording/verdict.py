@@ -41,7 +41,7 @@ def verdict_without_frames(has_results: bool) -> str:
 def run_limit(distance_m: float, note: str = "") -> str:
     """Return how far debris of one run got, and that this is no limit; `note` says why it is not final."""
     final = f" ({note})" if note else ""
-    return f"debris of this one run stayed within {rounded_up(distance_m, '0.1')} m{final}; {NO_LIMIT_OF_ONE_RUN}"
+    return f"{_debris(distance_m)} in this one run{final}; {NO_LIMIT_OF_ONE_RUN}"
 
 
 def study_verdict(limit: DebrisLimit, buffer_m: float | None, *, is_final: bool = True) -> str:
