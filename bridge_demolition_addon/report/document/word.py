@@ -1,7 +1,4 @@
-"""Write a report as a Word file, from the same blocks as page and PDF: its headings, tables and captions have styles.
-
-python-docx is an extra: a report without a Word file does not need it.
-"""
+"""Write a report as a Word file, from the same blocks as page and PDF; headings, tables and captions have styles."""
 
 from __future__ import annotations
 
@@ -9,20 +6,16 @@ import io
 import zipfile
 from collections.abc import Callable, Sequence
 from datetime import datetime
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 from matplotlib.figure import Figure
 
 from ...charts.style import PAGE_WIDTH_MM
-from ...errors import MissingLibraryError
 from ...system.disk import whole_file
 from .blocks import AnimatedModel, Block, DataTable, Document, Listing, Paragraph, Photo, Picture
 from .drawings import Drawings
-
-WORD_LIBRARY = "docx"
-"""Name that python-docx is imported by."""
+from .word_library import check_word
 
 _NO_TIME = datetime(2000, 1, 1)
 """When the file says it was made: the same run gives the same bytes."""
@@ -35,20 +28,6 @@ _HIGHEST_MM = 220.0
 
 _SMALL_PT, _LISTING_PT = 8.0, 7.0
 _TABLE_STYLE, _NOTICE_STYLE, _CAPTION_STYLE = "Table Grid", "Intense Quote", "Caption"
-
-
-def word_is_there() -> bool:
-    """Return whether this Python has the library."""
-    return find_spec(WORD_LIBRARY) is not None
-
-
-def check_word() -> None:
-    """Make sure that the library is there."""
-    if not word_is_there():
-        raise MissingLibraryError(
-            "a Word file is written by python-docx, which this Python does not have: pip install "
-            "'bridge-demolition-addon[word]', or use bda report where that is installed"
-        )
 
 
 def is_as_written(path: Path) -> bool:
