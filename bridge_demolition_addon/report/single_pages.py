@@ -31,8 +31,8 @@ _PLANNED = (
 
 
 @dataclass(frozen=True, slots=True)
-class Check:
-    """What somebody of the crew has to have done, by a public source, with explosives only or always."""
+class CrewCheck:
+    """What the crew has to have done, by a public source, with explosives only or always."""
 
     what: str
     source: str
@@ -40,15 +40,15 @@ class Check:
 
 
 CHECKS = (
-    Check("Service lines are cut off or protected", "29 CFR 1926.850(c)"),
-    Check("Nobody is in the exclusion zone; guards stand at all ways into it", "BS 6187:2011, 13"),
-    Check("Traffic is stopped on roads through the zone", "29 CFR 1926.909", True),
-    Check("Surplus explosives are in a safe place", "29 CFR 1926.909", True),
-    Check("Warning signal was given", "29 CFR 1926.909", True),
-    Check("Firing line is disconnected after the blast", "29 CFR 1926.910(a)", True),
-    Check("Blaster has looked for charges that did not fire", "29 CFR 1926.910(b)", True),
-    Check("All clear was given", "29 CFR 1926.909", True),
-    Check("Debris is at rest, and what still stands was looked at before anyone goes near", "29 CFR 1926.859(g)"),
+    CrewCheck("Service lines are cut off or protected", "29 CFR 1926.850(c)"),
+    CrewCheck("The exclusion zone is clear of people; guards stand at all ways into it", "BS 6187:2011, 13"),
+    CrewCheck("Traffic is stopped on roads through the zone", "29 CFR 1926.909", True),
+    CrewCheck("Surplus explosives are in a safe place", "29 CFR 1926.909", True),
+    CrewCheck("Warning signal was given", "29 CFR 1926.909", True),
+    CrewCheck("Firing line is disconnected after the blast", "29 CFR 1926.910(a)", True),
+    CrewCheck("Blaster has looked for charges that did not fire", "29 CFR 1926.910(b)", True),
+    CrewCheck("All clear was given", "29 CFR 1926.909", True),
+    CrewCheck("Debris is at rest, and what still stands was looked at before anyone goes near", "29 CFR 1926.859(g)"),
 )
 """What the crew ticks, in order of time."""
 
@@ -118,9 +118,9 @@ def _first_words(document: Document) -> tuple[list[Paragraph], list[DataTable], 
 def _safety(scenario: Scenario | None) -> Iterator[tuple[str, str]]:
     exclusion = scenario.exclusion if scenario else None
     if exclusion is not None and exclusion.cordon_m is not None:
-        yield "Nobody within", f"{exclusion.cordon_m:g} m of the bridge's plan, by the scenario"
+        yield "Clear of people within", f"{exclusion.cordon_m:g} m of the bridge's plan, by the scenario"
     else:
-        yield "Nobody within", f"{_BLANK} m of the bridge's plan: to be filled in by the engineer"
+        yield "Clear of people within", f"{_BLANK} m of the bridge's plan: to be filled in by the engineer"
     yield "Guards, and the one who gives the signal", f"{_BLANK}: to be filled in by the one in charge"
     if scenario and scenario.ball:
         yield "Crane and line", _crane_text(scenario.ball)
@@ -135,7 +135,7 @@ def _safety(scenario: Scenario | None) -> Iterator[tuple[str, str]]:
                 "the site may ask for more. Only the blaster goes near (29 CFR 1926.911)"
             ),
         )
-    yield "Nobody goes near before", "debris is at rest, and what still stands was looked at"
+    yield "No one goes near before", "debris is at rest, and what still stands was looked at"
 
 
 def _crane_text(ball: Ball) -> str:

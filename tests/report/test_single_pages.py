@@ -72,7 +72,7 @@ def test_the_authority_sees_the_neighbours(tmp_path):
     assert names >= {"plan", "neighbours", "touchdown", "zones"}
 
 
-def test_the_crew_sees_times_in_order_and_where_nobody_stands(pages):
+def test_the_crew_sees_times_in_order_and_what_is_kept_clear(pages):
     page, scenario = pages[0]["crew"], pages[1]
     sequence = tables(page)["Planned sequence"]
     times = [row[0] for row in sequence.rows if row[0] is not None]
@@ -83,7 +83,7 @@ def test_the_crew_sees_times_in_order_and_where_nobody_stands(pages):
     assert fired == pytest.approx(delays)
     distances = dict(tables(page)["Who stands where, and when"].rows)
     wanted = "300 m" if scenario is not None and scenario.exclusion.cordon_m else "________ m"
-    assert distances["Nobody within"].startswith(wanted)
+    assert distances["Clear of people within"].startswith(wanted)
     assert "30 CFR 56.6310" in distances["If a charge may not have fired"]
     assert all(row[2:] == ("________", "________") for row in tables(page)["To be ticked"].rows)
 

@@ -136,25 +136,12 @@ class _Pages:
     def _heading(self, text: str, blocks: Sequence[_Shown]) -> None:
         """Write a section's heading, never at the foot of a page alone."""
         texts = [block for block in blocks if not isinstance(block, _Drawn)]
-        least_mm = self._least_mm(texts[0] if texts else blocks[0]) if blocks else 0.0
+        least_mm = _least_mm(texts[0] if texts else blocks[0]) if blocks else 0.0
         self._need(_HEADING_MM + least_mm)
         self._y += 6.0
         self.text(text, HEADING, after_mm=0.5)
         self._rule(0.8)
         self._y += 3.0
-
-    def _least_mm(self, block: _Shown) -> float:
-        """Return how much of a page the beginning of a block takes at least."""
-        match block:
-            case Picture() | _Photos():
-                return _SMALLEST_SCALE * self._height_mm(block) + _caption_mm(block)
-            case DataTable():
-                rows = _Rows.of(block)
-                return rows.least_mm
-            case Paragraph() if block.is_notice:
-                return _notice_mm(_notice_lines(block.text))
-            case _:
-                return 3.0 * LINE * TEXT.height_mm
 
     def text(self, text: str, font: Font, *, after_mm: float = 2.5) -> None:
         """Write a paragraph, whose first lines stand together."""
@@ -229,13 +216,8 @@ class _Pages:
     def _scale_of(self, block: _Drawn) -> float:
         """Return how much smaller than drawn a block fits on the rest of the page; 0 where it does not."""
         room_mm = BOTTOM_MM - self._y - _caption_mm(block)
-        scale = min(1.0, room_mm / self._height_mm(block))
+        scale = min(1.0, room_mm / _height_mm(block))
         return scale if scale >= _SMALLEST_SCALE else 0.0
-
-    def _height_mm(self, block: _Drawn) -> float:
-        if isinstance(block, Picture):
-            return block.height_mm
-        return max(_photo_mm(photo, block.width_mm)[1] for photo in block.photos)
 
     def _drawn(self, block: _Drawn) -> None:
         scale = self._scale_of(block)
@@ -257,7 +239,7 @@ class _Pages:
 
     def _photos(self, photos: _Photos, scale: float) -> None:
         """Put photos beside each other, each with its caption."""
-        top_mm, height_mm, width_mm = self._y, scale * self._height_mm(photos), scale * photos.width_mm
+        top_mm, height_mm, width_mm = self._y, scale * _height_mm(photos), scale * photos.width_mm
         left_mm = LEFT_MM + (PAGE_WIDTH_MM - len(photos.photos) * width_mm - photos.gaps_mm) / 2.0
         lowest_mm = top_mm
         for photo in photos.photos:
@@ -328,6 +310,26 @@ def _abreast(blocks: Iterable[Block]) -> Iterator[_Shown]:
                 yield _Photos(tuple(photos[first : first + _PHOTOS_ABREAST]))
         else:
             yield from (block for block in run if not isinstance(block, Photo | AnimatedModel))
+
+
+def _least_mm(block: _Shown) -> float:
+    """Return how much of a page the beginning of a block takes at least."""
+    match block:
+        case Picture() | _Photos():
+            return _SMALLEST_SCALE * _height_mm(block) + _caption_mm(block)
+        case DataTable():
+            return _Rows.of(block).least_mm
+        case Paragraph() if block.is_notice:
+            return _notice_mm(_notice_lines(block.text))
+        case _:
+            return _LINES_TOGETHER * LINE * TEXT.height_mm
+
+
+def _height_mm(block: _Drawn) -> float:
+    """Return how high a block is as it is drawn, without its caption."""
+    if isinstance(block, Picture):
+        return block.height_mm
+    return max(_photo_mm(photo, block.width_mm)[1] for photo in block.photos)
 
 
 def _caption_mm(block: _Drawn) -> float:

@@ -118,7 +118,7 @@ def _run_facts(run: ReportedRun, version: str) -> Iterator[tuple[str, str]]:
     if run.scenario:
         time = run.scenario.time
         farthest_m = time.farthest_per_substep_m
-        more = "" if farthest_m is None else f" or more, so that no body goes farther than {farthest_m:g} m in one"
+        more = "" if farthest_m is None else f" or more, so that no body moves more than {farthest_m:g} m in one"
         yield (
             "Frames, steps, iterations",
             (

@@ -154,7 +154,7 @@ def _nothing_to_report(context: bpy.types.Context) -> str | None:
     return None if is_there else "Run the scene first, or choose the folder with the results"
 
 
-_writes_word_files = cache(word_is_there)
+writes_word_files = cache(word_is_there)
 """Asked once, as buttons are drawn many times a second."""
 
 
@@ -162,7 +162,7 @@ def _no_word_library(context: bpy.types.Context) -> str | None:
     needed = (
         "A Word file needs python-docx, which Blender's Python does not have: bda report --docx writes it elsewhere"
     )
-    return None if _writes_word_files() else needed
+    return None if writes_word_files() else needed
 
 
 class _MakesReport(ModalTask):

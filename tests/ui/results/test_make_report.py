@@ -102,7 +102,7 @@ def test_another_button_makes_it_with_a_word_file(extension, tmp_path):
 
 
 def test_without_the_library_the_button_says_what_is_missing(extension, tmp_path, monkeypatch):
-    monkeypatch.setattr(operator, "_writes_word_files", lambda: False)
+    monkeypatch.setattr(operator, "writes_word_files", lambda: False)
     extension.context.scene.bda.output_directory = str(tmp_path)
     assert extension.ops.bda.make_report.poll() and not extension.ops.bda.make_word_report.poll()
     with pytest.raises(RuntimeError, match="A Word file needs python-docx"):
