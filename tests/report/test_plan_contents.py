@@ -68,6 +68,16 @@ def test_items_lead_to_sections_by_their_numbers_or_are_blanks(documents):
         assert any(section.title == TITLE for section in document.sections)
 
 
+def test_a_section_that_only_says_what_is_missing_answers_nothing(documents):
+    zones = [
+        row[2]
+        for document in documents[:2]
+        for row in document.table("plan_contents").rows
+        if row[0].startswith("Exclusion zone")
+    ]
+    assert "Exclusion zone of one run" in zones[0] and DRILLED.exclusion is None and zones[1] is None
+
+
 def test_every_item_has_a_source_and_one_who_fills_it_in():
     assert all(item.name and item.sources and item.by and item.left for item in PLAN_ITEMS)
     sources = " ".join(source for item in PLAN_ITEMS for source in item.sources)

@@ -6,11 +6,11 @@ sold is not quoted, nor is the checklist of ASCE MOP 157, which was not at hand.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from dataclasses import dataclass, replace
 
 from ...model.scenario import Scenario
-from ..document.blocks import Column, DataTable, Document, Paragraph, Section
+from ..document.blocks import Column, DataTable, Document, Paragraph, Photo, Picture, Section
 
 TITLE = "Contents of a demolition plan"
 
@@ -236,7 +236,7 @@ def with_plan_contents(document: Document, scenario: Scenario | None, before: st
     titles = [section.title for section in document.sections]
     place = titles.index(before) if before in titles else len(titles)
     titles.insert(place, TITLE)
-    section = _section(titles, scenario)
+    section = _section(titles, {section.title for section in document.sections if _says_something(section)}, scenario)
     return replace(document, sections=(*document.sections[:place], section, *document.sections[place:]))
 
 
@@ -252,16 +252,21 @@ def asked_items(scenario: Scenario | None) -> list[PlanItem]:
     return [item for item in PLAN_ITEMS if used[item.means]]
 
 
-def _section(titles: Sequence[str], scenario: Scenario | None) -> Section:
+def _says_something(section: Section) -> bool:
+    """Return whether a section has a table or a picture, and not only words on what is missing."""
+    return any(isinstance(block, DataTable | Picture | Photo) for block in section.blocks)
+
+
+def _section(titles: Sequence[str], telling: Container[str], scenario: Scenario | None) -> Section:
     rows = [
-        (item.name, "; ".join(item.sources), _answered(item, titles), f"{item.by}: {item.left} {_BLANK}")
+        (item.name, "; ".join(item.sources), _answered(item, titles, telling), f"{item.by}: {item.left} {_BLANK}")
         for item in asked_items(scenario)
     ]
     table = DataTable("plan_contents", "Items of the plan", _COLUMNS, rows)
     return Section(TITLE, (Paragraph(_WORDS), table))
 
 
-def _answered(item: PlanItem, titles: Sequence[str]) -> str | None:
+def _answered(item: PlanItem, titles: Sequence[str], telling: Container[str]) -> str | None:
     """Return the numbers and titles of the sections that answer an item; None where there is none."""
-    there = [f"{titles.index(title) + 1} {title}" for title in item.sections if title in titles]
+    there = [f"{titles.index(title) + 1} {title}" for title in item.sections if title in titles and title in telling]
     return "; ".join(there) or None
