@@ -126,7 +126,7 @@ def test_all_sections_are_there(whole):
         r"|The scenario)",
         page.text,
     )
-    assert len(set(numbered)) == 9
+    assert len(set(map(str.strip, numbered))) == 9
 
 
 def test_the_pdf_is_one(whole):
