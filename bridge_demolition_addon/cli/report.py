@@ -4,14 +4,17 @@ import argparse
 import sys
 from pathlib import Path
 
+from ..model.run_folder.files import SINGLE_PAGES
 from .progress import progress_on
+
+_ALL = "all"
 
 
 def add_to(commands: argparse._SubParsersAction) -> None:
     """Add the command to the command line."""
     parser = commands.add_parser(
         "report",
-        help="make a report, as a page and as a PDF, from the folder of a run",
+        help="make a report, as a page, a PDF and a Word file, from the folder of a run",
         description="From one folder: a report beside its results. From several: a comparison, in --output.",
         allow_abbrev=False,
     )
@@ -27,8 +30,27 @@ def add_to(commands: argparse._SubParsersAction) -> None:
     parser.add_argument(
         "--stages", action="store_true", help="work out the stages of the run's scenario first, for a chapter on them"
     )
+    parser.add_argument("--docx", action="store_true", help="also write it as a Word file (needs python-docx)")
+    parser.add_argument(
+        "--pages",
+        metavar="WHO",
+        type=_audiences,
+        default=(),
+        help=f"also write single pages of a run or a study: {', '.join(SINGLE_PAGES)}, with commas between, or all",
+    )
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
     parser.set_defaults(execute=report)
+
+
+def _audiences(text: str) -> tuple[str, ...]:
+    """Return for whom pages are asked."""
+    names = tuple(name.strip() for name in text.split(","))
+    if names == (_ALL,):
+        return tuple(SINGLE_PAGES)
+    for name in names:
+        if name not in SINGLE_PAGES:
+            raise argparse.ArgumentTypeError(f"is {name!r}: expected {', '.join(SINGLE_PAGES)} or {_ALL}")
+    return names
 
 
 def report(arguments: argparse.Namespace) -> None:
@@ -43,6 +65,8 @@ def report(arguments: argparse.Namespace) -> None:
             arguments.output,
             trajectories=arguments.trajectories,
             stages=arguments.stages,
+            word=arguments.docx,
+            pages=arguments.pages,
             progress=progress,
         )
     finally:

@@ -22,18 +22,22 @@ from ..model.stages.tables import write_tables as write_stage_tables
 from ..system.progress import Progress
 from ..version import VERSION
 from .charge_areas import areas_of_fragments, cordon_area
-from .document.blocks import Document, Report
+from .document.blocks import Document, Report, Section
 from .run_folder import ReportedRun
 from .sections.blast import blast_section
 from .sections.charge_plan import charge_plan_section
 from .sections.collapse import collapse_section
-from .sections.cover import ONE_RUN, cover_section, scenario_section, trust_section
+from .sections.cover import ONE_RUN, RUN_TITLE, findings_section, run_section, scenario_section, trust_section
 from .sections.debris import corner_table, debris_section, exclusion_section, terrain_section, zone_of
 from .sections.forces import force_section, logged_section
 from .sections.ground_motion import motion_section, touchdown_section
 from .sections.model import model_section
+from .sections.plan_contents import with_plan_contents
+from .sections.planned_sequence import sequence_section
 from .sections.reinforcement import reinforcement_section
 from .sections.stages import has_stages, stages_section
+from .sections.summary import first_photo, run_summary
+from .single_pages import single_pages
 from .site_plan import write_areas
 
 
@@ -53,7 +57,8 @@ def run_report(
     with_stages = next((folder for folder in (target, run.folder) if has_stages(folder)), None)
     names = [path.name for path in plans]
     document = run_document(run, VERSION, zone, names, trajectories=trajectories, stages=with_stages)
-    return Report(document, () if zone is None else (corner_table(zone),), tuple(plans))
+    tables = () if zone is None else (corner_table(zone),)
+    return Report(document, tables, tuple(plans), single_pages(document, run.scenario))
 
 
 def run_document(
@@ -71,8 +76,12 @@ def run_document(
     any.
     """
     debris = None if run.results is None else debris_of(run.results)
-    sections = [cover_section(run, version, debris), trust_section(run.scenario, ONE_RUN)]
+    sections: list[Section] = []
     if run.results is not None and debris is not None and len(run.results.inventory.of_kind("shard")):
+        others = {name: path for name, path in run.pictures.items() if name != first_photo(run)}
+        sections.append(findings_section(run, debris, others))
+        if run.scenario:
+            sections.append(sequence_section(run.scenario))
         sections.append(model_section(run.results))
         if (terrain := terrain_section(run)) is not None:
             sections.append(terrain)
@@ -94,10 +103,12 @@ def run_document(
         sections.append(stages_section(stages))
     if run.scenario and (reinforcement := reinforcement_section(run.scenario)):
         sections.append(reinforcement)
+    sections += [run_section(run, version), trust_section(run.scenario, ONE_RUN)]
     if run.scenario:
         sections.append(scenario_section(run, scenario_text(run.scenario)))
     subtitle = f"Report of a simulated demolition. Bridge Demolition Add-on {version}"
-    return Document(run.title, subtitle, tuple(sections))
+    document = Document(run.title, subtitle, tuple(sections), run_summary(run, debris, zone))
+    return with_plan_contents(document, run.scenario, RUN_TITLE)
 
 
 def _work_out_stages(run: ReportedRun, target: Path, progress: Progress) -> None:

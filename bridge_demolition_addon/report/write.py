@@ -13,7 +13,16 @@ from ..errors import OutputError, text_of
 from ..exports.sheets import write_workbook
 from ..model.debris.survey import SurveySettings, compared, read_survey
 from ..model.ensemble.folder import holds_ensemble
-from ..model.run_folder.files import CHARGES_DXF, CHARGES_GEOJSON, PLAN_WORKBOOK, REPORT_PAGE, REPORT_PDF, TABLE_FOLDER
+from ..model.run_folder.files import (
+    CHARGES_DXF,
+    CHARGES_GEOJSON,
+    PLAN_WORKBOOK,
+    REPORT_PAGE,
+    REPORT_PDF,
+    REPORT_WORD,
+    SINGLE_PAGES,
+    TABLE_FOLDER,
+)
 from ..model.run_folder.folder import holds_run
 from ..model.scenario import Scenario
 from ..model.study.files import OPTIMISE_FILE, REPORT_FOLDER, SEARCH_FILE, STUDY_FILE
@@ -24,9 +33,11 @@ from ..version import VERSION
 from .charge_areas import charge_areas
 from .comparison import comparison
 from .document.blocks import Document, Report, write_tables
-from .document.drawings import drawings
+from .document.drawings import Drawings, drawings
 from .document.html import write_html
 from .document.pdf import write_pdf
+from .document.word import is_as_written, write_word
+from .document.word_library import check_word
 from .ensemble.optimise import optimise_report, read_candidates
 from .ensemble.search import read_answer, search_report
 from .ensemble.study import study_report
@@ -72,6 +83,19 @@ KINDS = (
 """A folder is of the first kind that recognises it."""
 
 
+_WITH_PAGES = ("run", "study")
+
+
+@dataclass(frozen=True, slots=True)
+class Extras:
+    """What is written beside page and PDF: a Word file, and single pages by whom they are for."""
+
+    word: bool = False
+    pages: tuple[str, ...] = ()
+
+
+NO_EXTRAS = Extras()
+
 SurveyPlace = tuple[Sequence[float] | None, float | None, float | None]
 """Origin of the scenario in a survey, direction of its x axis, and metres in its unit; None for those of the ground."""
 
@@ -87,24 +111,34 @@ def write_report(
     *,
     trajectories: bool = False,
     stages: bool = False,
+    word: bool = False,
+    pages: Sequence[str] = (),
     progress: Progress,
 ) -> list[Path]:
     """Write the report of a folder of any kind, or the comparison of several runs, and return all files written.
 
     The report goes to `output`, or by default into the folder that it is made from. `trajectories` draws the paths of
     the shards on the map of debris; `stages` first works out the stages of the run's scenario, for a chapter on them.
+    `word` also writes it as a Word file; `pages` are for whom single pages of a run or a study are written.
     """
+    if word:
+        check_word()
+    extras = Extras(word, tuple(dict.fromkeys(pages)))
     if len(folders) > 1:
-        return _write_comparison(folders, output, stages=stages, progress=progress)
+        return _write_comparison(folders, output, extras, stages=stages, progress=progress)
     [folder] = folders
     kind = kind_of(folder)
+    if pages and kind.name not in _WITH_PAGES:
+        raise OutputError(
+            f"{folder}: pages are of a run or a study, and this is the folder of a {kind.name}; leave out --pages"
+        )
     if stages and kind is not RUN:
         raise OutputError(f"{folder}: --stages is for the report of a run, and this is the folder of a {kind.name}")
     make = partial(run_report, trajectories=trajectories, stages=stages) if kind is RUN else kind.report
     progress.stage("reading the results")
     content, target = kind.read(folder), folder / kind.subfolder if output is None else output
     with _written_to(target):
-        return _written(make(content, target, progress), target, progress)
+        return _written(make(content, target, progress), target, progress, extras)
 
 
 def write_survey(
@@ -134,9 +168,13 @@ def write_survey(
     return survey_rows(comparison), written
 
 
-def _write_comparison(folders: Sequence[Path], output: Path | None, *, stages: bool, progress: Progress) -> list[Path]:
+def _write_comparison(
+    folders: Sequence[Path], output: Path | None, extras: Extras, *, stages: bool, progress: Progress
+) -> list[Path]:
     if output is None:
         raise OutputError("several runs are compared in a folder of their own: give one with --output")
+    if extras.pages:
+        raise OutputError("--pages is for the report of one run or study: leave it out where several are compared")
     if stages:
         raise OutputError("--stages is for the report of one run: leave it out where several are compared")
     for folder in folders:
@@ -145,7 +183,7 @@ def _write_comparison(folders: Sequence[Path], output: Path | None, *, stages: b
     progress.stage(f"reading the results of {len(folders)} runs")
     runs = [read_run(folder) for folder in folders]
     with _written_to(output):
-        return _written(Report(comparison(runs, VERSION)), output, progress)
+        return _written(Report(comparison(runs, VERSION)), output, progress, extras)
 
 
 def write_charge_plan(scenario: Scenario, target: Path, progress: Progress) -> list[Path]:
@@ -182,15 +220,35 @@ def _written_to(target: Path) -> Iterator[None]:
         ) from error
 
 
-def _written(report: Report, target: Path, progress: Progress) -> list[Path]:
-    document = report.document
+def _written(report: Report, target: Path, progress: Progress, extras: Extras = NO_EXTRAS) -> list[Path]:
+    document, pages = report.document, [report.single_pages[audience] for audience in extras.pages]
     progress.stage("drawing the pictures")
-    drawn = drawings(document, lambda done, total: progress.part(done, total, "pictures drawn"))
+    drawn = drawings((document, *pages), lambda done, total: progress.part(done, total, "pictures drawn"))
     progress.stage(f"writing {REPORT_PAGE}")
     write_html(document, drawn, target / REPORT_PAGE)
     progress.stage(f"writing {REPORT_PDF}")
     write_pdf(document, drawn, target / REPORT_PDF, lambda done, total: progress.part(done, total, "pages written"))
+    files = [target / REPORT_PAGE, target / REPORT_PDF]
+    for audience, page in zip(extras.pages, pages, strict=True):
+        files.append(target / SINGLE_PAGES[audience])
+        write_pdf(page, drawn, files[-1])
+    if extras.word:
+        files += _word_files(report, drawn, target, progress, extras)
     tables = target / TABLE_FOLDER
     tables.mkdir(exist_ok=True)
     written = write_tables([*document.named_tables(), *report.tables], tables)
-    return [target / REPORT_PAGE, target / REPORT_PDF, *written, *report.files]
+    return [*files, *written, *report.files]
+
+
+def _word_files(report: Report, drawn: Drawings, target: Path, progress: Progress, extras: Extras) -> list[Path]:
+    """Write the report and its single pages as Word files, unless one was changed by hand."""
+    documents = {target / REPORT_WORD: report.document}
+    for audience in extras.pages:
+        documents[(target / SINGLE_PAGES[audience]).with_suffix(".docx")] = report.single_pages[audience]
+    for path in documents:
+        if path.exists() and not is_as_written(path):
+            raise OutputError(f"{path}: was changed by hand, and would be lost: save it under another name")
+    for path, document in documents.items():
+        progress.stage(f"writing {path.name}")
+        write_word(document, drawn, path, lambda done, total: progress.part(done, total, "sections written"))
+    return list(documents)

@@ -36,7 +36,7 @@ from bridge_demolition_addon.report.document.blocks import Paragraph
 from bridge_demolition_addon.report.findings import findings
 from bridge_demolition_addon.report.run_folder import read_run
 from bridge_demolition_addon.report.sections.collapse import collapse_section
-from bridge_demolition_addon.report.sections.cover import cover_section
+from bridge_demolition_addon.report.sections.summary import run_summary
 from bridge_demolition_addon.report.write import write_report
 from bridge_demolition_addon.system.folder_lock import FolderLock
 
@@ -89,9 +89,9 @@ def whole(tmp_path_factory):
     return folder, *made(folder, trajectories=True)
 
 
-def notices_on_the_cover(run):
-    cover = cover_section(run, "0", debris_of(run.results))
-    return {block.text for block in cover.blocks if isinstance(block, Paragraph) and block.is_notice}
+def notices_on_the_first_page(run):
+    summary = run_summary(run, debris_of(run.results), None)
+    return {block.text for block in summary if isinstance(block, Paragraph) and block.is_notice}
 
 
 def table(folder, name):
@@ -126,7 +126,7 @@ def test_all_sections_are_there(whole):
         r"|The scenario)",
         page.text,
     )
-    assert len(set(numbered)) == 9
+    assert len(set(map(str.strip, numbered))) == 9
 
 
 def test_the_pdf_is_one(whole):
@@ -226,7 +226,7 @@ def test_a_run_of_one_frame_says_so(tmp_path):
 def test_a_run_that_was_stopped_says_so(tmp_path):
     run = read_run(keep_run(tmp_path / "run", flying_shards(), completed=False))
     assert any("stopped before its time" in text for text in run.shortcomings)
-    assert notices_on_the_cover(run) >= set(run.shortcomings)
+    assert notices_on_the_first_page(run) >= set(run.shortcomings)
 
 
 @pytest.mark.parametrize("last_lines", [[], ["5,1.5,Ground,1,2,3", "5,1.5,Sh"]], ids=["whole", "in mid-line"])
@@ -310,7 +310,7 @@ def test_what_cannot_be_read_is_said(tmp_path, name, content, said):
     run = read_run(folder)
     (shortcoming,) = run.shortcomings
     assert shortcoming.startswith(said)
-    assert shortcoming in notices_on_the_cover(run)
+    assert shortcoming in notices_on_the_first_page(run)
     assert (run.summary is None) is (name == "summary.json")
     assert (run.scenario is None) is (name != "summary.json")
 
@@ -360,7 +360,7 @@ def test_a_recording_without_forces_is_reported_without_them(tmp_path):
     }
     report = told(keep_run(tmp_path / "run", changed(results, **unknown), I235))
     assert any("Forces were not recorded" in text for text in report.notices)
-    assert report.titles[6] == "Collapse"
+    assert "Collapse" in report.titles
 
 
 @pytest.mark.parametrize("what", ["nothing", "a file", "an empty folder", "another folder"])

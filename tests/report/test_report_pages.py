@@ -74,8 +74,9 @@ def measured_mm(lines):
 def boxes_mm(page):
     """Left, top, right and bottom of every line and drawing on a page."""
     yield from measured_mm(page.lines)
-    for drawn, left, top in page.drawings:
-        yield (left, top, *(np.array([left, top]) + 25.4 * drawn.get_size_inches()))
+    for placed in page.drawings:
+        left, top = placed.left_mm, placed.top_mm
+        yield (left, top, *(np.array([left, top]) + 25.4 * placed.scale * placed.drawn.get_size_inches()))
 
 
 def test_nothing_is_beside_the_page_or_over_anything_else(report):
@@ -97,8 +98,28 @@ def test_no_heading_stands_at_the_foot_of_a_page(report):
     for number, page in enumerate(pdf.laid_out(*report), start=1):
         headings = [line.base_mm for line in page.lines if line.font == pdf.HEADING]
         below = [line.base_mm for line in page.lines if line.font != pdf.HEADING and line.base_mm < pdf.BOTTOM_MM + 1.0]
-        below += [top for _, _, top in page.drawings]
+        below += [placed.top_mm for placed in page.drawings]
         assert not headings or max(below, default=0.0) > max(headings), number
+
+
+def test_no_page_stands_half_empty(report):
+    """But for the last one, and before a drawing that is higher than half a page and that no text follows."""
+    middle_mm = (pdf.TOP_MM + pdf.BOTTOM_MM) / 2.0
+    for number, (page, following) in enumerate(itertools.pairwise(pdf.laid_out(*report)), start=1):
+        lowest_mm = max(bottom for _, _, _, bottom in boxes_mm(page) if bottom < pdf.FOOT_MM)
+        highest_mm = max((placed.size_mm[1] for placed in following.drawings), default=0.0)
+        assert lowest_mm > middle_mm or highest_mm > middle_mm - pdf.TOP_MM, number
+
+
+def test_a_picture_that_does_not_fit_lets_the_text_after_it_go_first():
+    def picture(title):
+        return Picture(lambda figure: figure.add_subplot(), title, 150.0)
+
+    blocks = (picture("first"), picture("second"), Paragraph("after both"), picture("third"))
+    document = Document("", "", (Section("One", blocks),))
+    pages = [[line.text for line in page.lines] for page in pdf.laid_out(document, drawings(document))]
+    named = [[text for text in texts if text in ("first", "second", "after both", "third")] for texts in pages]
+    assert named == [["first", "after both"], ["second"], ["third"]]
 
 
 def test_no_picture_is_cut_off(report):
@@ -145,19 +166,23 @@ def test_lines_that_differ_differ_without_colour(report):
             assert len(set(looks)) == len(looks), picture.title
 
 
-def test_a_drawing_is_on_its_page_and_nowhere_else(tmp_path):
-    """Also what is drawn as dots: a map of heights, and its colour bar."""
+@pytest.mark.parametrize("words, scale", [(150, 1.0), (660, 0.9)])
+def test_a_drawing_is_on_its_page_and_nowhere_else(tmp_path, words, scale):
+    """Also what is drawn as dots: a map of heights, and its colour bar; made smaller where little room is left."""
 
     def draw(figure):
         axes = figure.add_subplot()
         figure.colorbar(axes.imshow(np.eye(4)), ax=axes)
 
     picture = Picture(draw, "Dots", 60.0)
-    document = Document("", "", (Section("One", (Paragraph("word " * 150), picture)),))
+    document = Document("", "", (Section("One", (Paragraph("word " * words), picture)),))
     drawn = drawings(document)
     write_pdf(document, drawn, tmp_path / "page.pdf")
-    ((_, left_mm, top_mm),) = pdf.laid_out(document, drawn)[0].drawings
-    frame = [left_mm, PAGE_MM[1] - top_mm - 60.0, left_mm + PAGE_WIDTH_MM, PAGE_MM[1] - top_mm]
+    (placed,) = pdf.laid_out(document, drawn)[0].drawings
+    left_mm, top_mm = placed.left_mm, placed.top_mm
+    assert placed.scale == pytest.approx(scale, abs=0.09 if scale < 1.0 else 0.0)
+    scale = placed.scale
+    frame = [left_mm, PAGE_MM[1] - top_mm - scale * 60.0, left_mm + scale * PAGE_WIDTH_MM, PAGE_MM[1] - top_mm]
     images = list(image_boxes_mm((tmp_path / "page.pdf").read_bytes()))
     assert len(images) == 2
     for box in images:
@@ -200,6 +225,21 @@ def test_long_texts_and_tables_go_on_over_lines_and_pages():
     assert {f"{row:.1f}" for row in range(200)} <= set(texts)
     for page in pages:
         assert all(box[2] <= pdf.LEFT_MM + PAGE_WIDTH_MM + SLACK_MM for box in measured_mm(page.lines))
+
+
+def test_a_table_of_many_columns_stays_between_the_margins():
+    columns = tuple(Column(f"quantity {letter} (kg/m³)", letter, ".2f") for letter in "abcdefghijklmnop")
+    table = DataTable("wide", "A wide table", columns, [tuple(1234.5 + number for number in range(16))] * 3)
+    (page,) = pdf.laid_out(Document("", "", (Section("One", (table,)),)), {})
+    assert max(box[2] for box in measured_mm(page.lines)) <= pdf.LEFT_MM + PAGE_WIDTH_MM + SLACK_MM
+
+
+def test_the_last_row_of_a_table_does_not_stand_alone():
+    columns = (Column("text", "text"),)
+    for rows in range(36, 50):
+        table = DataTable("long", "A long table", columns, [(f"row {row}",) for row in range(rows)])
+        pages = pdf.laid_out(Document("", "", (Section("One", (table,)),)), {})
+        assert all(sum("row" in line.text for line in page.lines) != 1 for page in pages), rows
 
 
 def test_a_table_is_read_and_is_a_file(tmp_path):

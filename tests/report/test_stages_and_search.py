@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from support.run_folders import killed_run
 from support.scenarios import I235
+from support.stage_folders import STAGES, with_stages
 
 from bridge_demolition_addon.cli.main import main
 from bridge_demolition_addon.model.scenario.file import scenario_text
@@ -17,18 +18,6 @@ from bridge_demolition_addon.model.search.settings import SearchSettings
 from bridge_demolition_addon.model.study.criteria import Criterion
 from bridge_demolition_addon.model.study.runs_table import RunRow, RunsTable, write_runs
 
-STAGES = """\
-stage,time_s,step,shards,not_held,not_held_kg,equipment,weight_kN,reaction_x_kN,reaction_y_kN,reaction_z_kN,\
-largest_utilisation,governed_by,between,at_x_m,at_y_m,at_z_m,overloaded,collapse_factor,sag_mm,first_frequency_Hz
-1,0,as it was built,60,0,0,,500,0,0,500,0.42,bending,deck,1,0,5,0,2.31,3.4,5.1
-2,0.5,"removal of pier <1>",55,0,0,excavator,480,0,0,480,1.3,shear,deck and pier,6,0,5,3,0.83,9.1,3.2
-3,1,"saw cut of 4 connections",55,12,21000,,270,0,0,270,0.1,tension,deck,1,0,5,0,inf,1.1,9.0
-"""
-CRITICALITY = """\
-member,stands,falls_kg,share_of_the_bridge
-deck,true,0,0
-pier 1,false,42000,0.55
-"""
 REACTIONS = """\
 stage,time_s,step,support,kind,at_x_m,at_y_m,at_z_m,force_x_kN,force_y_kN,force_z_kN,\
 moment_x_kNm,moment_y_kNm,moment_z_kNm,own_weight_kN
@@ -37,14 +26,6 @@ moment_x_kNm,moment_y_kNm,moment_z_kNm,own_weight_kN
 2,0.5,"removal of pier <1>",west,foundation,0,0,0,-44,1,495.25,2,91,0,0
 2,0.5,"removal of pier <1>",east,support,13,0,0,44,-1,-15.25,1,-8,0,12
 """
-
-
-def with_stages(folder, stages=STAGES, members=CRITICALITY):
-    """A folder with the tables of stages."""
-    folder.mkdir(parents=True, exist_ok=True)
-    (folder / "stages.csv").write_text(stages, encoding="utf-8")
-    (folder / "criticality.csv").write_text(members, encoding="utf-8")
-    return folder
 
 
 def page_of(folder):

@@ -28,7 +28,7 @@ def told(runs):
 
 def test_the_first_section_begins_with_the_statement(runs, told):
     second = np.sort(runs.distances_m)[-2]
-    assert told.notices[0].startswith(
+    assert told.statement.startswith(
         'In 93 independent runs, in which charges.mass_kg, charges."mid pier".delay_ms, shards.friction, '
         "connections.type and the seed of the fracture were sampled from the distributions of this study, debris "
         f"stayed within {np.ceil(10.0 * second) / 10.0:.1f} m of the bridge's plan in all but 1. With 95 % confidence "
@@ -39,20 +39,20 @@ def test_the_first_section_begins_with_the_statement(runs, told):
 
 def test_before_all_runs_are_there_nothing_is_said():
     told = told_of_study(told_runs(there=60))
-    assert told.notices[0].startswith("60 of 93 runs are there: the study states nothing before all that it needs are")
+    assert told.statement.startswith("60 of 93 runs are there: the study states nothing before all that it needs are")
     assert not any(" confidence at least " in text for text in told.paragraphs)
     assert "limit" not in told.column("study_areas", "area")
 
 
 def test_the_first_run_alone_can_be_reported():
     told = told_of_study(told_runs(there=1))
-    assert told.notices[0].startswith("1 of 93 runs")
+    assert told.statement.startswith("1 of 93 runs")
     assert told.column("study_areas", "area")[0] == "bridge"
 
 
 def test_runs_that_did_not_finish_are_named_and_count():
     told = told_of_study(told_runs(ends={17: "crashed", 60: "timed_out"}))
-    assert told.notices[0].startswith("These runs set no limit: 2 of 93 did not finish")
+    assert told.statement.startswith("These runs set no limit: 2 of 93 did not finish")
     assert "2 of 93 runs did not finish: 17 (crashed), 60 (timed out)." in told.notices
     assert "limit" not in told.column("study_areas", "area")
     beginning = "Where the probability is below 5 % cannot be stated: 2 runs"
@@ -125,7 +125,7 @@ def test_a_study_without_criteria_or_variations_says_so():
     told = told_of_study(told_runs(told_study(vary=(), criteria=())))
     assert any(text.startswith("The study names no [[criteria]]") for text in told.paragraphs)
     assert "What matters" not in told.titles
-    assert "in which the seed of the fracture was sampled" in told.notices[0]
+    assert "in which the seed of the fracture was sampled" in told.statement
 
 
 def test_the_median_and_the_worst_draw_are_those_of_the_reach(runs, told):
@@ -143,7 +143,7 @@ def test_a_scenario_without_a_site_has_a_plan():
     bare = replace(TOLD_SCENARIO, zones=(), neighbours=(), exclusion=None, site=None, charges=())
     vary = (replace(told_study().settings.vary[2]),)
     told = told_of_study(told_runs(told_study(scenario=bare, vary=vary, criteria=())))
-    assert told.notices[0].endswith("for which a buffer has to be added.")
+    assert told.statement.endswith("for which a buffer has to be added.")
     assert "limit and buffer" not in told.column("study_areas", "area")
 
 
@@ -152,7 +152,7 @@ def test_runs_that_moved_nothing_have_a_limit_of_nought():
     rows = tuple(replace(row, outputs=dict.fromkeys(row.outputs, 0.0)) for row in runs.table.rows)
     still = replace(runs, table=type(runs.table)(rows), swept=[() for _ in rows])
     told = told_of_study(still)
-    assert "debris stayed within 0.0 m of the bridge's plan in all of them" in told.notices[0]
+    assert "debris stayed within 0.0 m of the bridge's plan in all of them" in told.statement
     assert still.hull_corners == 0
 
 

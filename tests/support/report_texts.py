@@ -18,6 +18,8 @@ class Told:
         paragraphs = [block for block in document.blocks() if isinstance(block, Paragraph)]
         self.paragraphs = [block.text for block in paragraphs]
         self.notices = [block.text for block in paragraphs if block.is_notice]
+        of_first = document.sections[0].blocks if document.sections else ()
+        self.statement = next((block.text for block in of_first if isinstance(block, Paragraph)), "")
         self.tables = {block.name: block for block in document.blocks() if isinstance(block, DataTable)}
 
     def column(self, table, key):

@@ -19,6 +19,7 @@ IN_A_LINKED_SCENE = {
     "export_run": "Nothing was recorded yet",
     "go_to_body": "is not in this scene",
     "make_report": "Run the scene first",
+    "make_word_report": "Run the scene first",
     "open_report": "Run the scene first",
     "open_tradeoff": "No optimisation has ended yet",
     "open_walkthrough": "no xdg-open",

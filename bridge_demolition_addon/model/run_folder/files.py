@@ -19,14 +19,17 @@ PICTURES = BEFORE, IMPACT, AFTER = "before", "impact", "after"
 
 FILM_FILE, SLOW_FILM_FILE = "contours.mp4", "contours_slow_motion.mp4"
 
-REPORT_PAGE, REPORT_PDF = "report.html", "report.pdf"
+REPORT_PAGE, REPORT_PDF, REPORT_WORD = "report.html", "report.pdf", "report.docx"
+SINGLE_PAGES = {audience: f"page_for_{audience}.pdf" for audience in ("client", "authority", "crew")}
+"""Single pages of a report, by whom they are for."""
+
 DXF_FILE, GEOJSON_FILE = "exclusion_zone_of_one_run.dxf", "exclusion_zone_of_one_run.geojson"
 TABLE_FOLDER = "tables"
 PLAN_WORKBOOK = "charge_plan.xlsx"
 CHARGES_DXF, CHARGES_GEOJSON = "charge_plan.dxf", "charge_plan.geojson"
 
-REPORT_FILES = (REPORT_PAGE, REPORT_PDF, DXF_FILE, GEOJSON_FILE)
-"""What a report leaves, without its tables."""
+REPORT_FILES = (REPORT_PAGE, REPORT_PDF, *SINGLE_PAGES.values(), DXF_FILE, GEOJSON_FILE)
+"""What a report leaves, without its tables. Word files stay, as blanks of theirs are filled in by hand."""
 
 RESULT_FILES = (
     SUMMARY_FILE,

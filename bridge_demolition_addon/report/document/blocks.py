@@ -6,8 +6,8 @@ import csv
 import gzip
 import math
 from base64 import b64encode
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Self
 
@@ -119,14 +119,16 @@ class Section:
 
 @dataclass(frozen=True, slots=True)
 class Document:
-    """A whole report."""
+    """A whole report; its summary stands on the first page, before all sections."""
 
     title: str
     subtitle: str
     sections: tuple[Section, ...]
+    summary: tuple[Block, ...] = ()
 
     def blocks(self) -> Iterator[Block]:
-        """Return all blocks of all sections in order."""
+        """Return all blocks of the summary and of all sections in order."""
+        yield from self.summary
         for section in self.sections:
             yield from section.blocks
 
@@ -134,14 +136,22 @@ class Document:
         """Return the tables that are also files."""
         return [block for block in self.blocks() if isinstance(block, DataTable) and block.name]
 
+    def table(self, name: str) -> DataTable | None:
+        """Return the table of a name; None without one."""
+        return next((table for table in self.named_tables() if table.name == name), None)
+
 
 @dataclass(frozen=True, slots=True)
 class Report:
-    """A report that is to be written, with tables that are only files, and files that are written already."""
+    """A report that is to be written, with tables that are only files, and files that are written already.
+
+    Of a run or a study there are single pages, too, by whom they are for.
+    """
 
     document: Document
     tables: tuple[DataTable, ...] = ()
     files: tuple[Path, ...] = ()
+    single_pages: Mapping[str, Document] = field(default_factory=dict)
 
 
 def facts(title: str, rows: Sequence[tuple[str, str]], name: str = "") -> DataTable:

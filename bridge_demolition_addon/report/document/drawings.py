@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 
 import matplotlib
 from matplotlib.backends.backend_svg import FigureCanvasSVG
@@ -19,9 +19,13 @@ IMAGE_DOTS_PER_INCH = 100.0
 """Of images within a drawing, such as a map of heights; all else is drawn as lines."""
 
 
-def drawings(document: Document, finished: Callable[[int, int], None] = lambda *_: None) -> Drawings:
-    """Draw all pictures of a document; `finished` is called with how many are drawn, and how many there are."""
-    pictures = [block for block in document.blocks() if isinstance(block, Picture)]
+def drawings(
+    documents: Document | Iterable[Document], finished: Callable[[int, int], None] = lambda *_: None
+) -> Drawings:
+    """Draw all pictures of documents once; `finished` is called with how many are drawn, and how many there are."""
+    each = [documents] if isinstance(documents, Document) else documents
+    blocks = (block for document in each for block in document.blocks())
+    pictures = list(dict.fromkeys(block for block in blocks if isinstance(block, Picture)))
     drawn = {}
     for number, picture in enumerate(pictures, start=1):
         drawn[picture] = drawing(picture)

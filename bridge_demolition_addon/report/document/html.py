@@ -66,6 +66,8 @@ def _lines(document: Document, drawings: Drawings) -> Iterator[str]:
     yield '<meta name="viewport" content="width=device-width, initial-scale=1">'
     yield f"<style>{STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>"
     yield f'<p class="subtitle">{escape(document.subtitle)}</p>'
+    for block in document.summary:
+        yield _block(block, drawings)
     yield '<ol class="contents">'
     for number, section in enumerate(document.sections, start=1):
         yield f'<li><a href="#section-{number}">{escape(section.title)}</a></li>'

@@ -49,12 +49,28 @@ class Line:
 
 
 @dataclass(frozen=True, eq=False, slots=True)
+class Placed:
+    """A drawing on a page: its left and upper edge, and how much smaller than drawn it stands there."""
+
+    drawn: Figure
+    left_mm: float
+    top_mm: float
+    scale: float = 1.0
+
+    @property
+    def size_mm(self) -> tuple[float, float]:
+        """Width and height on the page."""
+        width_in, height_in = self.drawn.get_size_inches()
+        return self.scale * width_in * MM_PER_INCH, self.scale * height_in * MM_PER_INCH
+
+
+@dataclass(frozen=True, eq=False, slots=True)
 class Page:
-    """A page: lines of text, strokes, and drawings with their left and upper edge in mm."""
+    """A page: lines of text, strokes, and drawings."""
 
     lines: list[Line] = field(default_factory=list)
     strokes: list[tuple[np.ndarray, float]] = field(default_factory=list)  # corners (k, 2) in mm, pen in points
-    drawings: list[tuple[Figure, float, float]] = field(default_factory=list)
+    drawings: list[Placed] = field(default_factory=list)
 
     def write(self, file: PdfFile) -> None:
         """Add the page to a PDF."""
@@ -68,9 +84,10 @@ class Page:
             x, y = _points(np.array([line.left_mm, line.base_mm]))
             renderer.draw_text(pen, x, y, line.text, _properties(line.font), 0.0)
         renderer.finalize()
-        for drawn, left_mm, top_mm in self.drawings:
-            x, y = _points(np.array([left_mm, top_mm + drawn.get_size_inches()[1] * MM_PER_INCH]))
-            file.output(Op.gsave, 1, 0, 0, 1, x, y, Op.concat_matrix)
+        for placed in self.drawings:
+            drawn, scale = placed.drawn, placed.scale
+            x, y = _points(np.array([placed.left_mm, placed.top_mm + placed.size_mm[1]]))
+            file.output(Op.gsave, scale, 0, 0, scale, x, y, Op.concat_matrix)
             on_page = RendererPdf(file, IMAGE_DOTS_PER_INCH, *drawn.get_size_inches()[::-1])
             # What is drawn as dots would leave a renderer of lines alone.
             # Its stub in matplotlib lacks what it takes.

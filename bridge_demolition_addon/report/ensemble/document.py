@@ -28,8 +28,13 @@ def ensemble_document(
     pictures: Iterable[Section],
     tables: Iterable[Section | None],
     statistics: str,
+    asked: Iterable[tuple[str, str]],
+    summary: tuple[Block, ...] = (),
 ) -> Document:
-    """Return a report: statement, pictures of the result, what varied, tables of runs or candidates, statistics."""
+    """Return a report: statement, pictures of the result, what varied, tables of runs or candidates, statistics.
+
+    What was asked and which settings the runs had stand at its end.
+    """
     ensemble = runs.ensemble
     sections = (
         statement,
@@ -39,39 +44,22 @@ def ensemble_document(
         influence_section(runs),
         *tables,
         trust_section(ensemble.scenario, statistics, _AS_SAMPLED),
-        _files_section(runs),
+        _files_section(runs, version, asked),
     )
     article = "an" if ensemble.kind[0] in "aeiou" else "a"
     subtitle = (
         f"Report of {article} {ensemble.kind} with {len(runs.table)} simulated demolitions. Bridge Demolition Add-on "
         f"{version}"
     )
-    return Document(ensemble.scenario.title, subtitle, tuple(filter(None, sections)))
+    return Document(ensemble.scenario.title, subtitle, tuple(filter(None, sections)), summary)
 
 
-def statement_section(
-    runs: ReportedEnsemble,
-    version: str,
-    sentences: Sequence[str],
-    asked: Iterable[tuple[str, str]],
-    warnings: Iterable[str] = (),
-) -> Section:
-    """Return what the runs state, the first sentence set apart; what to doubt; and what was asked."""
+def statement_section(runs: ReportedEnsemble, sentences: Sequence[str], warnings: Iterable[str] = ()) -> Section:
+    """Return what the runs state, the first sentence set apart, and what to doubt."""
     first, *others = sentences
     blocks: list[Block] = [Paragraph(first, is_notice=True), *map(Paragraph, others)]
-    blocks += [Paragraph(text, is_notice=True) for text in (*warnings, *_doubts(runs))]
-    kind = runs.ensemble.kind
-    rows = [
-        ("Scenario", runs.ensemble.scenario.title),
-        ("Folder", runs.name),
-        *asked,
-        ("Varied", ", ".join(input_names(runs.ensemble))),
-        (f"Seed of the {kind}", str(runs.ensemble.settings.seed)),
-        ("Run with", ", ".join(f"{name.replace('_', ' ')} {number}" for name, number in runs.versions.items())),
-        ("Bridge Demolition Add-on", version),
-    ]
-    blocks.append(facts(f"The {kind}", rows, kind))
-    return Section(f"What this {kind} says", tuple(blocks))
+    blocks += [Paragraph(text, is_notice=True) for text in warnings]
+    return Section(f"What this {runs.ensemble.kind} says", tuple(blocks))
 
 
 def unfinished_sentence(runs: ReportedEnsemble, total: int) -> str:
@@ -83,7 +71,8 @@ def unfinished_sentence(runs: ReportedEnsemble, total: int) -> str:
     )
 
 
-def _doubts(runs: ReportedEnsemble) -> Iterator[str]:
+def doubts_of(runs: ReportedEnsemble) -> Iterator[str]:
+    """Yield what to doubt of runs: those that did not finish, and those that had not come to rest."""
     table = runs.table
     lost = [row for row in table.rows if row.status != DONE]
     if lost:
@@ -99,11 +88,21 @@ def _doubts(runs: ReportedEnsemble) -> Iterator[str]:
         )
 
 
-def _files_section(runs: ReportedEnsemble) -> Section:
-    ensemble = runs.ensemble
+def _files_section(runs: ReportedEnsemble, version: str, asked: Iterable[tuple[str, str]]) -> Section:
+    """Return the settings of the runs and their files, so that they can be repeated."""
+    ensemble, kind = runs.ensemble, runs.ensemble.kind
+    rows = [
+        ("Scenario", ensemble.scenario.title),
+        ("Folder", runs.name),
+        *asked,
+        ("Varied", ", ".join(input_names(ensemble))),
+        (f"Seed of the {kind}", str(ensemble.settings.seed)),
+        ("Run with", ", ".join(f"{name.replace('_', ' ')} {number}" for name, number in runs.versions.items())),
+        ("Bridge Demolition Add-on", version),
+    ]
     use = (
-        f"With these two files and the versions above the {ensemble.kind} can be repeated: the same files give the "
-        "same runs, and the same runs the same outcomes."
+        f"With these two files and the versions above the {kind} can be repeated: the same files give the same runs, "
+        "and the same runs the same outcomes."
     )
-    title = f"The {ensemble.kind} and its scenario"
-    return Section(title, (Paragraph(use), Listing(ensemble.text), Listing(ensemble.scenario_text)))
+    files = Listing(ensemble.text), Listing(ensemble.scenario_text)
+    return Section(f"The {kind} and its scenario", (facts(f"The {kind}", rows, kind), Paragraph(use), *files))

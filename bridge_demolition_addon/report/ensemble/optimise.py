@@ -18,7 +18,7 @@ from ...version import VERSION
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Report, Section
 from ..wording.numbers import percent
 from ..wording.optimise import optimise_sentences
-from .document import ensemble_document, statement_section, unfinished_sentence
+from .document import doubts_of, ensemble_document, statement_section, unfinished_sentence
 from .influence import correlation_table
 from .reported_ensemble import ReportedEnsemble, shown
 from .runs import runs_section
@@ -57,10 +57,11 @@ def optimise_report(runs: TriedCandidates, _target: Path, _progress: Progress) -
     """Return the report of an optimisation."""
     version, best, optimisation = VERSION, runs.best, runs.ensemble
     sentences = optimise_sentences(best) if best else [unfinished_sentence(runs, optimisation.settings.runs)]
-    statement = statement_section(runs, version, sentences, _asked(optimisation, runs), _warnings(best))
+    statement = statement_section(runs, sentences, (*_warnings(best), *doubts_of(runs)))
     pictures = [_winner_section(best)] if best else []
     tables = [_candidates_section(runs.tried, best), runs_section(runs, (CANDIDATE, ROUND))]
-    document = ensemble_document(runs, version, statement, pictures, tables, _STATISTICS)
+    asked = _asked(optimisation, runs)
+    document = ensemble_document(runs, version, statement, pictures, tables, _STATISTICS, asked)
     return Report(document, (correlation_table(runs),))
 
 

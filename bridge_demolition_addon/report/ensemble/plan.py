@@ -19,13 +19,16 @@ from ..wording.numbers import percent, rounded_up
 from ..wording.study import shape_sentence, verified_sentence
 from .study_runs import StudyRuns
 
+_HIGHEST_MM = 112.0
+"""Of the plan, so that verdict and limit stand on the same page."""
+
 
 def plan_section(runs: StudyRuns, files: Sequence[str]) -> Section:
     """Return the plan of a study; `files` are names of those that have it for a site plan."""
     if runs.bridge.is_empty():
         return Section("Plan", (Paragraph("No run finished: there is nothing to draw.", is_notice=True),))
     scenario = runs.ensemble.scenario
-    blocks: list[Block] = [_picture(runs)]
+    blocks: list[Block] = [Paragraph("The plan is drawn on the first page.")]
     if scenario.charges:
         warning = "Pressure of the charges is not on this plan: the report of one run says how far people have to be."
         blocks.append(Paragraph(warning, is_notice=True))
@@ -50,7 +53,8 @@ def areas_of_fragments_in(runs: StudyRuns) -> dict[str, CrossSection]:
     return areas_of_fragments(runs.ensemble.scenario, said.ranges if said and said.are_known else None)
 
 
-def _picture(runs: StudyRuns) -> Picture:
+def plan_picture(runs: StudyRuns) -> Picture:
+    """Return the plan of a study of which a run finished."""
     settings, scenario = runs.ensemble.settings, runs.ensemble.scenario
     likely = _likely_by_words(runs)
     limits = {f"{name}, {rounded_up(far_m, '0.01')} m": area for name, (far_m, area) in runs.limits.items()}
@@ -67,7 +71,7 @@ def _picture(runs: StudyRuns) -> Picture:
         ),
         "Where debris was at any time of a run. Shaded: where its probability may be above the one given, with "
         f"{percent(settings.confidence)} confidence for each position by itself.",
-        map_height_mm((*bounds[:, :2].min(axis=0), *bounds[:, 2:].max(axis=0))),
+        min(map_height_mm((*bounds[:, :2].min(axis=0), *bounds[:, 2:].max(axis=0))), _HIGHEST_MM),
     )
 
 

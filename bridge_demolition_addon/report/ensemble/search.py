@@ -14,7 +14,7 @@ from ...version import VERSION
 from ..document.blocks import Column, DataTable, Paragraph, Picture, Report, Section
 from ..wording.numbers import percent
 from ..wording.search import search_sentences
-from .document import ensemble_document, statement_section, unfinished_sentence
+from .document import doubts_of, ensemble_document, statement_section, unfinished_sentence
 from .influence import correlation_table
 from .reported_ensemble import ReportedEnsemble
 
@@ -42,9 +42,9 @@ def search_report(runs: SearchAnswer, _target: Path, _progress: Progress) -> Rep
     sentences = search_sentences(answer)
     if answer.ended_as is None:
         sentences = [unfinished_sentence(runs, answer.search.settings.trials), *sentences]
-    statement = statement_section(runs, version, sentences, _asked(answer))
+    statement = statement_section(runs, sentences, doubts_of(runs))
     document = ensemble_document(
-        runs, version, statement, [_curve_section(answer)], [_runs_section(answer)], _STATISTICS
+        runs, version, statement, [_curve_section(answer)], [_runs_section(answer)], _STATISTICS, _asked(answer)
     )
     return Report(document, (correlation_table(runs),))
 

@@ -4,26 +4,35 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 
 from ...charts.study_charts import limit_over_runs, reach_distribution
 from ...engineering.statistics.order_limits import limits_by_runs
+from ...model.scenario import Scenario
 from ...model.study.conclusions import SimultaneousLimits
 from ...model.study.files import PLAN_DXF, PLAN_GEOJSON
 from ...system.progress import Progress
 from ...version import VERSION
 from ..document.blocks import Block, Column, DataTable, Document, Paragraph, Picture, Report, Section
+from ..sections.charge_plan import charge_plan_section
+from ..sections.cover import TRUST_TITLE
+from ..sections.plan_contents import with_plan_contents
+from ..sections.planned_sequence import sequence_section
+from ..single_pages import single_pages
 from ..site_plan import write_areas
 from ..wording.numbers import ordinal, percent, rounded_up
 from ..wording.study import study_sentences
 from .document import ensemble_document, statement_section, unfinished_sentence
 from .fragments import fragments_section
 from .influence import correlation_table
+from .neighbours import neighbours_section
 from .plan import layers, plan_section
 from .reported_ensemble import shown
 from .runs import extremes_section, runs_section
 from .study_runs import StudyRuns
+from .summary import study_summary
 
 _STATISTICS = (
     "All statements hold for independent runs, whose number and whose rank were fixed beforehand: limits by rank after "
@@ -37,7 +46,8 @@ def study_report(runs: StudyRuns, target: Path, progress: Progress) -> Report:
     progress.stage("evaluating the runs")
     plans = write_areas(layers(runs), runs.ensemble.scenario.site, target / PLAN_DXF, target / PLAN_GEOJSON)
     document = study_document(runs, VERSION, [path.name for path in plans])
-    return Report(document, (correlation_table(runs),), tuple(plans))
+    pages = single_pages(document, runs.ensemble.scenario)
+    return Report(document, (correlation_table(runs),), tuple(plans), pages)
 
 
 def study_document(runs: StudyRuns, version: str, files: Sequence[str] = ()) -> Document:
@@ -53,14 +63,26 @@ def study_document(runs: StudyRuns, version: str, files: Sequence[str] = ()) -> 
     sentences = [unfinished_sentence(runs, runs.ensemble.settings.runs)]
     if runs.conclusions:
         sentences = list(study_sentences(runs.ensemble, runs.conclusions))
-    return ensemble_document(
+    scenario = runs.ensemble.scenario
+    pictures = (
+        plan_section(runs, files),
+        distance_section(runs),
+        fragments_section(runs),
+        neighbours_section(runs),
+        sequence_section(scenario),
+        _charges_section(scenario),
+    )
+    document = ensemble_document(
         runs,
         version,
-        statement_section(runs, version, sentences, _asked(runs)),
-        filter(None, (plan_section(runs, files), distance_section(runs), fragments_section(runs))),
+        statement_section(runs, sentences),
+        filter(None, pictures),
         (extremes_section(runs), runs_section(runs)),
         _STATISTICS,
+        _asked(runs),
+        study_summary(runs),
     )
+    return with_plan_contents(document, scenario, TRUST_TITLE)
 
 
 def _asked(runs: StudyRuns) -> Iterator[tuple[str, str]]:
@@ -88,6 +110,13 @@ def _asked(runs: StudyRuns) -> Iterator[tuple[str, str]]:
         )
     else:
         yield "Runs that a limit needs", str(limit.runs_needed)
+
+
+def _charges_section(scenario: Scenario) -> Section | None:
+    """Return the charge plan of the scenario itself; None without charges in drill holes."""
+    section = charge_plan_section(scenario)
+    words = Paragraph("As the scenario has it: runs differ from it in what varied.")
+    return section and replace(section, blocks=(words, *section.blocks))
 
 
 def distance_section(runs: StudyRuns) -> Section:

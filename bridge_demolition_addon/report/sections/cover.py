@@ -1,26 +1,24 @@
-"""First section of a report: what was run, where its numbers come from, and how far to trust them."""
+"""What a report of any run has: main findings, settings, where its numbers come from, and how far to trust them."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
-import numpy as np
+from collections.abc import Iterator, Mapping
+from pathlib import Path
 
 from ...engineering.units import mass_text
 from ...model.debris.throws import Debris
 from ...model.reinforcement.concrete_members import plain_concrete_text
 from ...model.results.arrays import Results
-from ...model.results.creep import creep_summary, creep_text
-from ...model.results.motion import without_removed
 from ...model.run_folder.summary import RunSummary
 from ...model.scenario import Scenario
 from ...model.scenario.contact_facts import contact_facts
-from ...model.sequence.undisturbed import asleep_text
-from ...model.stages.stability import stability_texts
 from ..document.blocks import Block, Listing, Paragraph, Photo, Section, facts
 from ..findings import IMPACT, findings
 from ..run_folder import ReportedRun
 from ..wording.checks import CHECKS
+
+RUN_TITLE = "The run"
+TRUST_TITLE = "What is modelled, and how far to trust it"
 
 SOURCES = (
     ("Motion, contacts and connections", "Bullet, the rigid-body engine in Blender, stepped as this report says"),
@@ -69,15 +67,15 @@ ONE_RUN = (
 )
 
 
-def cover_section(run: ReportedRun, version: str, debris: Debris | None) -> Section:
-    """Return what was run, and whether all of it is there."""
-    blocks: list[Block] = [Paragraph(text, is_notice=True) for text in run.shortcomings]
-    blocks.append(facts("The run", list(_run_facts(run, version)), "run"))
-    if debris is not None:
-        blocks += [Paragraph(text, is_notice=True) for text in _doubts(run)]
-        blocks.append(facts("Main findings", list(_findings(run, debris)), "findings"))
-    blocks += [Photo(path, _caption(run, name)) for name, path in run.pictures.items()]
-    return Section("The run", tuple(blocks))
+def run_section(run: ReportedRun, version: str) -> Section:
+    """Return what was run, and with which settings."""
+    return Section(RUN_TITLE, (facts("Settings of the run", list(_run_facts(run, version)), "run"),))
+
+
+def findings_section(run: ReportedRun, debris: Debris, photos: Mapping[str, Path]) -> Section:
+    """Return the main findings, and photos that the first page does not show, by name."""
+    table = facts("Main findings", list(_findings(run, debris)), "findings")
+    return Section("Findings", (table, *(Photo(path, photo_caption(run, name)) for name, path in photos.items())))
 
 
 def trust_section(scenario: Scenario | None, *more: str) -> Section:
@@ -96,7 +94,7 @@ def trust_section(scenario: Scenario | None, *more: str) -> Section:
         facts("What has been checked, against what and how closely it agrees", checks),
         *(Paragraph(text) for text in (*limits_of(scenario), *more)),
     ]
-    return Section("What is modelled, and how far to trust it", tuple(blocks))
+    return Section(TRUST_TITLE, tuple(blocks))
 
 
 def scenario_section(run: ReportedRun, text: str) -> Section:
@@ -120,7 +118,7 @@ def _run_facts(run: ReportedRun, version: str) -> Iterator[tuple[str, str]]:
     if run.scenario:
         time = run.scenario.time
         farthest_m = time.farthest_per_substep_m
-        more = "" if farthest_m is None else f" or more, so that no body goes farther than {farthest_m:g} m in one"
+        more = "" if farthest_m is None else f" or more, so that no body moves more than {farthest_m:g} m in one"
         yield (
             "Frames, steps, iterations",
             (
@@ -164,27 +162,6 @@ def _range_text(low: float, high: float, unit: str) -> str:
     return f"{low:.3g} {unit}" if high - low < 1e-3 * high else f"{low:.3g} to {high:.3g} {unit}"
 
 
-def _doubts(run: ReportedRun) -> Iterator[str]:
-    results = run.recorded
-    if len(results.frames) < 2:
-        yield "Only one frame was recorded: nothing has moved yet, and there are no forces."
-    stability = stability_texts(run.summary.values) if run.summary else ()
-    yield from (f"{text}." for text in stability)
-    if not stability and run.scenario and (asleep := asleep_text(run.scenario)):  # of a run of an earlier version
-        yield f"{asleep}."
-    if moving := run.still_moving:
-        yield f"{moving}. Footprint, pile and zones are not final either."
-    if text := creep_text({"creeping": creep_summary(without_removed(results)[0])}):
-        yield f"{text}."
-    if np.isnan(results.frames.loads.body_sums_n[1:]).any():
-        yield (
-            "Forces are not known in every frame, as Blender's memory was not as expected or recording began late: "
-            "what needs them is empty."
-        )
-    if results.load_sampling.startswith("last sub-step"):
-        yield "Loads were read once a frame only: peaks and impulses of impacts are missed for the most part."
-
-
 def _findings(run: ReportedRun, debris: Debris) -> Iterator[tuple[str, str]]:
     has_ball = len(run.recorded.inventory.of_kind("ball")) > 0
     yield from (
@@ -192,7 +169,7 @@ def _findings(run: ReportedRun, debris: Debris) -> Iterator[tuple[str, str]]:
     )
 
 
-def _caption(run: ReportedRun, picture: str) -> str:
+def photo_caption(run: ReportedRun, picture: str) -> str:
     """Return what a picture shows; in summaries of earlier versions there is no key frame."""
     reason = (run.summary and run.summary.key_frame_reason) or "In the course of the run"
     return {"before": "Before", "after": "At the end"}.get(picture, reason)

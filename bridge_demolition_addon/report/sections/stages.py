@@ -28,6 +28,7 @@ from ...system.reading import MEGABYTE, file_text
 from ...version import VERSION
 from ..document.blocks import Block, Column, DataTable, Document, Paragraph, Report, Section
 from ..run_folder import shown_name
+from .plan_contents import with_plan_contents
 
 _MOST_BYTES = 10 * MEGABYTE
 _WORDS = (
@@ -103,7 +104,8 @@ def _tonnes(row: dict[str, str], column: str) -> float | None:
 def stages_report(folder: Path, _target: Path, _progress: Progress) -> Report:
     """Return the report of stages alone."""
     subtitle = f"Report of the stages of a demolition. Bridge Demolition Add-on {VERSION}"
-    return Report(Document(shown_name(folder), subtitle, (stages_section(folder),)))
+    document = Document(shown_name(folder), subtitle, (stages_section(folder),))
+    return Report(with_plan_contents(document, None))
 
 
 def stages_section(folder: Path) -> Section:

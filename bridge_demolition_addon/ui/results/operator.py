@@ -2,7 +2,9 @@
 
 import shutil
 import sys
+from functools import cache
 from pathlib import Path
+from typing import ClassVar
 
 import bpy
 from bpy.props import EnumProperty, IntProperty, StringProperty
@@ -10,8 +12,9 @@ from bpy.props import EnumProperty, IntProperty, StringProperty
 from ...engineering.blast.pulses import BlastModel
 from ...errors import OutputError, SimulationError
 from ...exports.formats import FORMATS, new_export
-from ...model.run_folder.files import FORCE_CHART, REPORT_PAGE, REPORT_PDF
+from ...model.run_folder.files import FORCE_CHART, REPORT_PAGE, REPORT_PDF, REPORT_WORD
 from ...model.run_folder.folder import keep_site
+from ...report.document.word_library import word_is_there
 from ...simulation.kept_run import folder_of_run, has_run, is_run_of
 from ...system.disk import writing
 from ..modal_task import ModalTask, Work
@@ -31,6 +34,7 @@ _SHARES = {
     "drawing": (0.12, 0.32),
     REPORT_PAGE: (0.32, 0.32),
     REPORT_PDF: (0.55, 0.89),
+    REPORT_WORD: (0.89, 1.0),
 }
 """Parts of the time that a report takes at the beginning and at the end of its stages, measured with two runs of one
 and two spans, with pictures. The first page of the PDF takes as long as four others."""
@@ -150,31 +154,58 @@ def _nothing_to_report(context: bpy.types.Context) -> str | None:
     return None if is_there else "Run the scene first, or choose the folder with the results"
 
 
-class BDA_OT_make_report(ModalTask, bpy.types.Operator):
-    """Make a report of the results, as a page and as a PDF, with zones and neighbours as shown here; Esc stops"""
+writes_word_files = cache(word_is_there)
+"""Asked once, as buttons are drawn many times a second."""
 
-    bl_label = "Make Report"
+
+def _no_word_library(context: bpy.types.Context) -> str | None:
+    needed = (
+        "A Word file needs python-docx, which Blender's Python does not have: bda report --docx writes it elsewhere"
+    )
+    return None if writes_word_files() else needed
+
+
+class _MakesReport(ModalTask):
+    """Makes a report of the results, with zones and neighbours as the panels show them."""
+
     changes_scene = False
     task, unit = "Making the report", "parts"
-    blocked_by = (_nothing_to_report, recording_runs)
+    with_word_file: ClassVar[bool]
 
     def work(self, context: bpy.types.Context) -> Work:
         # Loading matplotlib takes a second, which switching the extension on need not wait for.
         from ...report.write import write_report
 
-        scene, folder = context.scene, folder_to_report(context.scene)
+        scene, folder, word = context.scene, folder_to_report(context.scene), self.with_word_file
         if is_run_of(scene, folder):
             keep_site(folder, shown_site(scene.bda))
 
         def write(thread: SteppedThread) -> str:
-            written = write_report([folder], None, progress=thread)
-            return f"Report: {written[0]} and {written[1].name}"
+            written = write_report([folder], None, word=word, progress=thread)
+            names = " and ".join(path.name for path in written[1 : 3 if word else 2])
+            return f"Report: {written[0]} and {names}"
 
         return write
 
     def share_of(self, thread: SteppedThread) -> float:
         begun, ended = next((shares for word, shares in _SHARES.items() if word in thread.stage_text), (0.0, 0.0))
         return begun + (ended - begun) * super().share_of(thread)
+
+
+class BDA_OT_make_report(_MakesReport, bpy.types.Operator):
+    """Make a report of the results, as a page and as a PDF, with zones and neighbours as shown here; Esc stops"""
+
+    bl_label = "Make Report"
+    blocked_by = (_nothing_to_report, recording_runs)
+    with_word_file = False
+
+
+class BDA_OT_make_word_report(_MakesReport, bpy.types.Operator):
+    """Make a report of the results, as a page, as a PDF and as a Word file whose blanks can be filled in; Esc stops"""
+
+    bl_label = "Make Report with Word File"
+    blocked_by = (_nothing_to_report, recording_runs, _no_word_library)
+    with_word_file = True
 
 
 class BDA_OT_open_report(Action, bpy.types.Operator):

@@ -64,4 +64,5 @@ class BDA_PT_report(SidebarPanel, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         column = self.layout.column(align=True)
         column.operator("bda.make_report")
+        column.operator("bda.make_word_report")
         column.operator("bda.open_report")

@@ -10,6 +10,7 @@ from support.run_folders import flying_shards, keep_run
 from support.scenarios import I235
 
 from bridge_demolition_addon.model.scenario.file import read_scenario
+from bridge_demolition_addon.ui.results import operator
 
 
 @pytest.fixture
@@ -89,6 +90,23 @@ def test_the_button_makes_a_report_of_the_folder(extension, tmp_path):
     assert extension.ops.bda.make_report() == {"FINISHED"}
     assert (folder / "report.html").stat().st_size > 0
     assert (folder / "report.pdf").stat().st_size > 0
+
+
+def test_another_button_makes_it_with_a_word_file(extension, tmp_path):
+    docx = pytest.importorskip("docx")
+    folder = keep_run(tmp_path / "run", flying_shards(6, 13), I235)
+    extension.context.scene.bda.output_directory = str(folder)
+    assert extension.ops.bda.make_word_report() == {"FINISHED"}
+    assert (folder / "report.pdf").stat().st_size > 0
+    assert docx.Document(str(folder / "report.docx")).paragraphs[0].text == I235.title
+
+
+def test_without_the_library_the_button_says_what_is_missing(extension, tmp_path, monkeypatch):
+    monkeypatch.setattr(operator, "writes_word_files", lambda: False)
+    extension.context.scene.bda.output_directory = str(tmp_path)
+    assert extension.ops.bda.make_report.poll() and not extension.ops.bda.make_word_report.poll()
+    with pytest.raises(RuntimeError, match="A Word file needs python-docx"):
+        extension.ops.bda.make_word_report()
 
 
 def test_a_folder_without_results_is_refused_with_a_sentence(extension, tmp_path):

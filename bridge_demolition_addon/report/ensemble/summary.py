@@ -1,0 +1,58 @@
+"""First page of the report of a study: its plan, the verdict, the limit and what it rests on, and what to doubt."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from ...model.structure.zone_fragments import NO_SAFETY_DISTANCE
+from ..document.blocks import Block, Paragraph, facts
+from ..wording.numbers import listed, percent, percent_down, rounded_up
+from ..wording.sequence import means_text
+from ..wording.study import input_names
+from ..wording.verdict import study_verdict
+from .document import doubts_of, unfinished_sentence
+from .plan import plan_picture
+from .study_runs import StudyRuns
+
+
+def study_summary(runs: StudyRuns) -> tuple[Block, ...]:
+    """Return what stands on the first page."""
+    picture = () if runs.bridge.is_empty() else (plan_picture(runs),)
+    verdict = unfinished_sentence(runs, runs.ensemble.settings.runs)
+    if runs.conclusions:
+        verdict = study_verdict(runs.conclusions.reach, runs.buffer_m, is_final=not runs.conclusions.still_moving)
+    doubts = (Paragraph(text, is_notice=True) for text in doubts_of(runs))
+    return (*picture, Paragraph(verdict, is_notice=True), facts("The plan", list(_plan(runs)), "plan"), *doubts)
+
+
+def _plan(runs: StudyRuns) -> Iterator[tuple[str, str]]:
+    scenario, conclusions = runs.ensemble.scenario, runs.conclusions
+    yield "Done to the bridge", means_text(scenario)
+    for criterion in conclusions.criteria if conclusions else ():
+        at_least = f"at least {percent_down(criterion.at_least)} of such runs do"
+        yield "Outcome", f"{criterion.count} of {criterion.runs} runs {criterion.what}; {at_least}"
+    yield "Limit", _limit_text(runs)
+    if conclusions and conclusions.fragments and conclusions.fragments.are_known:
+        far_m = rounded_up(conclusions.fragments.nearly_all_m, "1")
+        text = f"99.9 % of their mass within {far_m} m of their blast zone: {NO_SAFETY_DISTANCE}"
+        yield "Fragments smaller than shards", text
+    if scenario.exclusion and scenario.exclusion.cordon_m is not None:
+        yield "Cordon", f"{scenario.exclusion.cordon_m:g} m around the bridge's plan, by the scenario"
+    yield "Rests on", _basis_text(runs)
+
+
+def _limit_text(runs: StudyRuns) -> str:
+    if not runs.limits:
+        return "none yet"
+    limits = [f"{rounded_up(far_m, '0.1')} m" for far_m, _ in runs.limits.values()]
+    added = f", {limits[1]} with the buffer of {runs.buffer_m:g} m" if len(limits) > 1 else "; a buffer has to be added"
+    return f"{limits[0]} around the bridge's plan{added}"
+
+
+def _basis_text(runs: StudyRuns) -> str:
+    settings, names = runs.ensemble.settings, input_names(runs.ensemble)
+    were = "was" if len(names) == 1 else "were"
+    return (
+        f"{len(runs.table)} of {settings.runs} independent runs, in which {listed(names)} {were} sampled; asked are "
+        f"{percent(settings.quantile)} of runs with {percent(settings.confidence)} confidence"
+    )

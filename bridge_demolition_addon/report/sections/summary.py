@@ -1,0 +1,166 @@
+"""First page of the report of a run: a picture, the verdict, the plan with its limit, and what to doubt."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from functools import partial
+
+import numpy as np
+
+from ...charts.plan_maps import debris_map, map_height_mm
+from ...model.debris.exclusion import ExclusionZone
+from ...model.debris.footprint import bodies_that_moved, footprint, reaches_on_the_way
+from ...model.debris.throws import Debris
+from ...model.results.arrays import Results
+from ...model.results.collapse import Span, rest_of, spans_of
+from ...model.results.creep import creep_summary, creep_text
+from ...model.results.motion import MOVED_M, relative_to_ground, travel, without_removed
+from ...model.results.moving import still_moving_note
+from ...model.scenario import Scenario
+from ...model.sequence.undisturbed import asleep_text
+from ...model.stages.stability import stability_texts
+from ..document.blocks import Block, Paragraph, Photo, Picture, facts
+from ..run_folder import ReportedRun
+from ..wording.numbers import rounded_up
+from ..wording.sequence import means_text
+from ..wording.verdict import run_limit, run_verdict, verdict_without_frames
+from .cover import photo_caption
+
+FIRST_PHOTOS = ("after", "impact", "before")
+"""Names of rendered pictures; the first one that is there stands on the first page."""
+
+_MOST_NAMED = 8
+
+
+def run_summary(run: ReportedRun, debris: Debris | None, zone: ExclusionZone | None) -> tuple[Block, ...]:
+    """Return what stands on the first page: of a run without results only what is missing of it."""
+    missing = [Paragraph(text, is_notice=True) for text in run.shortcomings]
+    if run.results is None or debris is None or not len(run.results.inventory.of_kind("shard")):
+        verdict = Paragraph(verdict_without_frames(run.results is not None), is_notice=True)
+        return (verdict, *missing, *_plan(_means(run.scenario)))
+    distance_m = _distance_m(run.results)
+    blocks: list[Block] = [*_picture(run, debris), Paragraph(verdict_of(run, distance_m), is_notice=True)]
+    rows = [*_means(run.scenario), *_outcome(run, distance_m), *_around(run, zone), *_basis(run)]
+    doubts = [Paragraph(text, is_notice=True) for text in _doubts(run)]
+    return (*blocks, *_plan(rows), *missing, *doubts)
+
+
+def verdict_of(run: ReportedRun, distance_m: float) -> str:
+    """Return the verdict on a run with shards, debris of which got so far from the bridge's plan, m."""
+    return run_verdict(lost_shares(_spans(run)), distance_m, _end(run.recorded))
+
+
+def lost_shares(spans: Sequence[Span]) -> dict[str, float]:
+    """Return the parts of their heights above the ground that spans have lost at the end, by name."""
+    heights = {span.name: (float(span.heights_m[0]), float(span.heights_m[-1])) for span in spans}
+    return {name: (first - last) / first if first > 0.0 else 0.0 for name, (first, last) in heights.items()}
+
+
+def _spans(run: ReportedRun) -> tuple[Span, ...]:
+    bridge = run.scenario.bridge if run.scenario else None
+    return spans_of(run.recorded, bridge.span_lengths_m if bridge else ())
+
+
+def _end(results: Results) -> str:
+    rest = rest_of(results)
+    if rest.first_motion_s is None:
+        return "nothing moved"
+    if rest.at_rest_s is None:
+        return f"{rest.moving_at_end} of {len(results.inventory.of_kind('shard'))} shards still moved at the end"
+    return f"all was at rest from {rest.at_rest_s:.1f} s on"
+
+
+def _distance_m(results: Results) -> float:
+    """Return how far debris and balls got from the bridge's plan at any time, m, as in a study."""
+    left = relative_to_ground(results)
+    shards, balls = left.inventory.of_kind("shard"), left.inventory.of_kind("ball")
+    moved = bodies_that_moved(left, np.concatenate([shards, balls]))
+    return float(reaches_on_the_way(left, moved, footprint(left, shards, 0)).max(initial=0.0))
+
+
+def _picture(run: ReportedRun, debris: Debris) -> Iterator[Block]:
+    """Yield the picture of the end, or a map of the debris where none was rendered."""
+    if name := first_photo(run):
+        yield Photo(run.pictures[name], photo_caption(run, name))
+    elif len(debris.bodies):
+        zones = run.scenario.zones if run.scenario else ()
+        low_x, low_y, high_x, high_y = np.array([debris.area.bounds(), debris.outline.bounds()]).T
+        bounds = (min(low_x), min(low_y), max(high_x), max(high_y))
+        draw = partial(debris_map, results=run.recorded, debris=debris, zones=zones)
+        yield Picture(draw, "Debris at the end in plan.", min(map_height_mm(bounds), 95.0))
+
+
+def first_photo(run: ReportedRun) -> str | None:
+    """Return the name of the rendered picture on the first page; None without one."""
+    return next((name for name in FIRST_PHOTOS if name in run.pictures), None)
+
+
+def _plan(rows: Sequence[tuple[str, str]]) -> Iterator[Block]:
+    if rows:
+        yield facts("The plan", rows, "plan")
+
+
+def _means(scenario: Scenario | None) -> list[tuple[str, str]]:
+    return [("Done to the bridge", means_text(scenario))] if scenario else []
+
+
+def _outcome(run: ReportedRun, distance_m: float) -> Iterator[tuple[str, str]]:
+    """Yield what came down and what stays."""
+    yield "Came down by", ", ".join(f"{span.name} {span.drop_m:.2f} m" for span in _spans(run))
+    yield "Stays", _staying_text(run.recorded)
+    yield "Limit", run_limit(distance_m, still_moving_note(run.recorded))
+
+
+def _staying_text(results: Results) -> str:
+    """Return which members have no shard that moved."""
+    shards = results.inventory.of_kind("shard")
+    moved = travel(results.frames.positions_m[0, shards], results.frames.positions_m[-1, shards]) > MOVED_M
+    members = results.inventory.body_members[shards]
+    names = [str(name) for name in dict.fromkeys(members.tolist()) if name]
+    staying = [name for name in names if not moved[members == name].any()]
+    if not staying:
+        return f"no member without a shard that moved by more than {MOVED_M:g} m"
+    which = f"{len(staying)} of {len(names)} members"
+    which += f" ({', '.join(staying)})" if len(staying) <= _MOST_NAMED else ""
+    return f"{which}, of which no shard moved by more than {MOVED_M:g} m"
+
+
+def _around(run: ReportedRun, zone: ExclusionZone | None) -> Iterator[tuple[str, str]]:
+    """Yield what is kept clear around the bridge."""
+    exclusion = run.scenario.exclusion if run.scenario else None
+    if zone is not None and exclusion is not None:
+        far = f"up to {rounded_up(zone.largest_distance_m, '0.1')} m from the bridge's plan"
+        yield "Exclusion zone of one run", f"{far}, with the buffer of {exclusion.buffer_m:g} m"
+    if exclusion is None:
+        yield "Exclusion zone", "none: the scenario has no table [exclusion] with a buffer"
+    elif exclusion.cordon_m is not None:
+        yield "Cordon", f"{exclusion.cordon_m:g} m around the bridge's plan, by the scenario"
+
+
+def _basis(run: ReportedRun) -> Iterator[tuple[str, str]]:
+    """Yield what all this rests on."""
+    seed = f", seed {run.scenario.seed}" if run.scenario else ""
+    shards = len(run.recorded.inventory.of_kind("shard"))
+    yield "Rests on", f"one run{seed}, {shards} shards; another seed may throw farther; a study gives a limit"
+
+
+def _doubts(run: ReportedRun) -> Iterator[str]:
+    """Yield what to doubt of a run that has results."""
+    results = run.recorded
+    if len(results.frames) < 2:
+        yield "Only one frame was recorded: nothing has moved yet, and there are no forces."
+    stability = stability_texts(run.summary.values) if run.summary else ()
+    yield from (f"{text}." for text in stability)
+    if not stability and run.scenario and (asleep := asleep_text(run.scenario)):  # of a run of an earlier version
+        yield f"{asleep}."
+    if moving := run.still_moving:
+        yield f"{moving}. Footprint, pile and zones are not final either."
+    if text := creep_text({"creeping": creep_summary(without_removed(results)[0])}):
+        yield f"{text}."
+    if np.isnan(results.frames.loads.body_sums_n[1:]).any():
+        yield (
+            "Forces are not known in every frame, as Blender's memory was not as expected or recording began late: "
+            "what needs them is empty."
+        )
+    if results.load_sampling.startswith("last sub-step"):
+        yield "Loads were read once a frame only: peaks and impulses of impacts are missed for the most part."

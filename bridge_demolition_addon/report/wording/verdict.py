@@ -1,0 +1,79 @@
+"""The verdict of a report: one sentence on a run or a study. Distances are rounded up."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from ...model.schema import given
+from ...model.study.conclusions import DebrisLimit
+from ...model.study.criteria import KINDS
+from .numbers import listed, percent, rounded_up
+
+FALLEN, STANDS = given(KINDS["span down"].share), given(KINDS["span stands"].share)
+"""Parts of its height from which on a span is down, and up to which it stands, as criteria of studies have them."""
+
+NO_LIMIT_OF_ONE_RUN = "one run gives no limit to plan with"
+
+_NO_FRAMES = "No frame of this one run is there, only its logs: it has no verdict."
+_NO_SHARDS = "This one run has no shards: there is no bridge to judge."
+
+
+def run_verdict(lost: Mapping[str, float], distance_m: float, end: str) -> str:
+    """Return what one run came out as.
+
+    Parameters
+    ----------
+    lost
+        Parts of their heights that spans have lost at the end, by name.
+    distance_m
+        How far debris got from the bridge's plan at any time.
+    end
+        When all was at rest, or what still moved, as a clause.
+    """
+    return f"In this one run {_spans(lost)}, {_debris(distance_m)}, and {end}."
+
+
+def verdict_without_frames(has_results: bool) -> str:
+    """Return why there is no verdict on a run."""
+    return _NO_SHARDS if has_results else _NO_FRAMES
+
+
+def run_limit(distance_m: float, note: str = "") -> str:
+    """Return how far debris of one run got, and that this is no limit; `note` says why it is not final."""
+    final = f" ({note})" if note else ""
+    return f"{_debris(distance_m)} in this one run{final}; {NO_LIMIT_OF_ONE_RUN}"
+
+
+def study_verdict(limit: DebrisLimit, buffer_m: float | None, *, is_final: bool = True) -> str:
+    """Return what a study says to plan with, or that it says nothing yet."""
+    if not limit.has_enough_runs:
+        return f"These {limit.runs} runs set no limit yet: it takes {limit.runs_needed}."
+    if not limit.is_known:
+        return f"These runs set no limit, as {limit.unfinished} of {limit.runs} did not finish."
+    around = f"Debris stays within {rounded_up(limit.limit_m, '0.1')} m of the bridge's plan"
+    if buffer_m:
+        around += f", {rounded_up(limit.limit_m + buffer_m, '0.1')} m with the buffer of {buffer_m:g} m"
+    moving = "" if is_final else ", while some of them still moved at their end"
+    return (
+        f"{around}, in at least {percent(limit.quantile)} of runs like these {limit.runs}, with "
+        f"{percent(limit.confidence)} confidence{moving}."
+    )
+
+
+def _spans(lost: Mapping[str, float]) -> str:
+    fallen = [name for name, share in lost.items() if share >= FALLEN]
+    stood = [name for name, share in lost.items() if share <= STANDS]
+    partly = {name: share for name, share in lost.items() if STANDS < share < FALLEN}
+    if len(stood) == len(lost):
+        most = rounded_up(100.0 * max(0.0, *lost.values(), 0.0), "1")
+        return f"the bridge stood, with no more than {most} % of a span's height lost"
+    parts = [f"{listed(fallen)} came down"] if fallen else []
+    parts += [f"{name} came down by {100.0 * share:.0f} % of its height" for name, share in partly.items()]
+    parts += [f"{listed(stood)} stood"] if stood else []
+    return listed(parts)
+
+
+def _debris(distance_m: float) -> str:
+    if distance_m <= 0.0:
+        return "no debris got beyond the bridge's plan"
+    return f"debris stayed within {rounded_up(distance_m, '0.1')} m of the bridge's plan"
