@@ -5,6 +5,7 @@ import re
 from datetime import datetime
 from html import unescape
 
+import docx
 import pytest
 from support.run_folders import TOLD, flying_shards, keep_run
 
@@ -14,8 +15,6 @@ from bridge_demolition_addon.errors import MissingLibraryError, OutputError
 from bridge_demolition_addon.report.document import word, word_library
 from bridge_demolition_addon.report.document.blocks import Document, Listing, Section
 from bridge_demolition_addon.report.write import write_report
-
-docx = pytest.importorskip("docx")
 
 
 @pytest.fixture(scope="module")

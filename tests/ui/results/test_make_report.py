@@ -4,6 +4,7 @@
 import csv
 import shutil
 
+import docx
 import pytest
 from support.checkout import SMALL
 from support.run_folders import flying_shards, keep_run
@@ -93,7 +94,6 @@ def test_the_button_makes_a_report_of_the_folder(extension, tmp_path):
 
 
 def test_another_button_makes_it_with_a_word_file(extension, tmp_path):
-    docx = pytest.importorskip("docx")
     folder = keep_run(tmp_path / "run", flying_shards(6, 13), I235)
     extension.context.scene.bda.output_directory = str(folder)
     assert extension.ops.bda.make_word_report() == {"FINISHED"}
