@@ -33,10 +33,11 @@ _TABLE_STYLE, _NOTICE_STYLE, _CAPTION_STYLE = "Table Grid", "Intense Quote", "Ca
 def is_as_written(path: Path) -> bool:
     """Return whether a Word file is as it was written here: programs note the time when they save one."""
     import docx
+    from docx.opc.exceptions import PackageNotFoundError
 
     try:
         return bool(docx.Document(str(path)).core_properties.modified.replace(tzinfo=None) == _NO_TIME)
-    except (OSError, KeyError, ValueError, zipfile.BadZipFile, docx.opc.exceptions.PackageNotFoundError):
+    except (OSError, KeyError, ValueError, zipfile.BadZipFile, PackageNotFoundError):
         return False
 
 
