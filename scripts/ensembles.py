@@ -56,8 +56,8 @@ ENSEMBLES = {
 }
 """By the names of their examples."""
 
-OF_THE_PLANNER = ("candidate", "round")
-"""Inputs of optimisations that are no keys of the scenario."""
+OF_THE_PLANNER = ("candidate", "round", "charge_kg")
+"""Inputs and outputs of optimisations that no run has."""
 
 
 def main() -> int:
@@ -101,7 +101,8 @@ def outputs_that_differ(name: str) -> list[str]:
     ensemble, table = ensemble_of_file(settings_file(name)), read_runs(runs_table(name))
     row = min(table.rows, key=lambda row: row.outputs[RESTED] or ensemble.scenario.time.duration_s)
     again = row_again(ensemble, row)
-    return [output for output in table.outputs if is_another(row.outputs[output], again.outputs.get(output))]
+    of_runs = [output for output in table.outputs if output not in OF_THE_PLANNER]
+    return [output for output in of_runs if is_another(row.outputs[output], again.outputs.get(output))]
 
 
 def is_another(kept: object, again: object) -> bool:

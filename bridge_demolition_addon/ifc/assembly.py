@@ -391,7 +391,7 @@ class Assembly:
         members = self.members()
         chosen = _carrying([member for number, member in members if number in within])
         pads = pads_under(chosen, [member for number, member in members if number not in within])
-        if {pad.above for pad in pads} != {member.name for member in chosen}:
+        if not pads or {pad.above for pad in pads} != {member.name for member in chosen}:
             return False
         outcomes = {member.name: self.outcomes[number] for number, member in members}
         for pad in pads:

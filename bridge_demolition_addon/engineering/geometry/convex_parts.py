@@ -64,7 +64,7 @@ def convex_parts(solid: TriangleMesh, most: int, least_m3: float = 0.0) -> tuple
         else:
             done.append(part)
     parts = [*done, *waiting]
-    if sum(part.volume_m3 >= least_m3 for part in parts) == 1:
+    if len([part for part in parts if part.volume_m3 >= least_m3]) == 1:
         return (solid,)
     return tuple(_without_films(part.body, _RUBBISH * volume) for part in parts)
 

@@ -88,6 +88,8 @@ def _numbers(text: str) -> np.ndarray:
     names: list[str] = []
     if lines and not _are_numbers(_words(lines[0])):
         names, lines = _names(lines[0]), lines[1:]
+    if not lines:
+        raise GeometryError("expected lines of x, y and z")
     columns = _named_columns(names)
     points = _columns(lines, columns) if columns else _first_columns(lines)
     if not np.isfinite(points[:, :2]).all():
@@ -97,7 +99,7 @@ def _numbers(text: str) -> np.ndarray:
 
 def _first_columns(lines: Sequence[str]) -> np.ndarray:
     """Return the first three numbers (n, 3) of each line."""
-    width = len(_words(lines[0])) if lines else 0
+    width = len(_words(lines[0]))
     if width < _FEWEST_COLUMNS:
         raise GeometryError("expected lines of x, y and z")
     try:

@@ -171,7 +171,7 @@ def test_names_of_members_differ(file_of):
 
 
 def test_a_scenario_needs_a_bridge_or_geometry():
-    with pytest.raises(ScenarioError, match=r"bridge is missing: expected a table, or .* \[\[geometry\]\]"):
+    with pytest.raises(ScenarioError, match=r"bridge is missing: expected a table, .* \[\[geometry\]\]"):
         replace(I235, bridge=None)
 
 

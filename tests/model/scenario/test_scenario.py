@@ -88,7 +88,16 @@ def test_every_key_has_a_meaning():
 
 
 def test_every_key_with_a_unit_carries_it_in_its_name():
-    in_names = {"m": "_m", "s": "_s", "kg": "_kg", "kg/m³": "_kg_m3", "N": "_n", "kgf": "_kgf", "px": "_px"}
+    in_names = {
+        "m": "_m",
+        "s": "_s",
+        "kg": "_kg",
+        "kg/m": "_kg_m",
+        "kg/m³": "_kg_m3",
+        "N": "_n",
+        "kgf": "_kgf",
+        "px": "_px",
+    }
     in_names |= {
         "ms": "_ms",
         "m/s": "_m_s",
