@@ -21,23 +21,20 @@ from ..model.schema import LINE_BREAKING_CATEGORIES, given
 from .added_supports import KIND, under_bearing, under_ends, with_one_pinned
 from .bearings import BearingElement, BearingTables, bearing_of, bearing_tables, seated, with_one_fixed
 from .bodies import Bodies
-from .contacts import TOUCHING_M, NearbyMembers
+from .contacts import NearbyMembers
 from .element_materials import Substance
 from .elements import Element
 from .file_digits import is_sound, writable
 from .gaps import WAYS, brought_near, closed_gaps
 from .haunches import with_haunches
 from .kinds import ElementFacts
+from .loose_groups import BELOW_GROUND_M, loose_groups
 from .materials import MaterialTable
 from .missing_bearings import pads_under, with_one_support_pinned
 from .outcome import ADDED, CONNECTION, LEFT_OUT, MEMBER, Outcome
 from .placement import Placement
 from .quantities import Quantities
 from .settings import KINDS
-from .supports import HELD_KINDS, STANDING
-
-_BELOW_GROUND_M = 1e-3
-"""How far a member may reach below the ground, as elsewhere."""
 
 _SAME = 0.99
 """Part of two members' volumes that they have in common where one is the other's double."""
@@ -307,7 +304,7 @@ class Assembly:
     def hold(self, gap_m: float, table: MaterialTable) -> None:
         """Have all members held: what touches nothing is brought to what is near, put on supports, or left out."""
         for _ in range(2):
-            loose = self._loose_groups()
+            loose = loose_groups(self.members(), self.bearing_tables(), self.added)
             for group in loose:
                 if not self._move(group, gap_m) and not self._put_on_pads(group):
                     self._put_on_supports(group, table)
@@ -321,45 +318,9 @@ class Assembly:
 
     def _lose_loose(self) -> None:
         """Leave out what touches nothing that is held."""
-        for group in self._loose_groups():
+        for group in loose_groups(self.members(), self.bearing_tables(), self.added):
             for number in group:
                 self.leave_out(number, "it touches no other member that is held, and would fall at once")
-
-    def _loose_groups(self) -> list[list[int]]:
-        """Return numbers of members that touch each other and nothing that is held, group by group."""
-        members = self.members()
-        contacts = NearbyMembers([member.solid for _, member in members])
-        rows = {member.name: row for row, (_, member) in enumerate(members)}
-        group = list(range(len(members)))
-
-        def root(row: int) -> int:
-            while group[row] != row:
-                row = group[row]
-            return row
-
-        pairs = [
-            (row, other)
-            for row in range(len(members))
-            for gap, other in contacts.near(row)
-            if gap <= TOUCHING_M and other < row
-        ]
-        tables = self.bearing_tables()
-        of_bearings = [table.members for table in tables.bearings] + [table.members for table in tables.connections]
-        pairs += [(rows[one], rows[other]) for one, other in of_bearings if one in rows and other in rows]
-        for one, other in pairs:
-            group[root(one)] = root(other)
-        held = {
-            root(row)
-            for row, (_, member) in enumerate(members)
-            if member.kind in (*HELD_KINDS, *STANDING)
-            or member.solid.bounds[0, 2] <= _BELOW_GROUND_M
-            or any(member is added for added in self.added)
-        }
-        groups: dict[int, list[int]] = {}
-        for row, (number, _) in enumerate(members):
-            if root(row) not in held:
-                groups.setdefault(root(row), []).append(number)
-        return list(groups.values())
 
     def _move(self, group: list[int], gap_m: float) -> bool:
         """Move members by a gap to what is near, and return whether there is such a gap."""
@@ -455,10 +416,10 @@ def _names(texts: Sequence[str]) -> list[str]:
 
 def _above_ground(solid: TriangleMesh) -> TriangleMesh | None:
     """Return the part of a solid above the ground; None where there is no such part."""
-    if solid.bounds[0, 2] >= -_BELOW_GROUND_M:
+    if solid.bounds[0, 2] >= -BELOW_GROUND_M:
         return solid
     kept = to_manifold(solid).trim_by_plane((0.0, 0.0, 1.0), 0.0)
-    if kept.is_empty() or kept.bounding_box()[5] < _BELOW_GROUND_M:
+    if kept.is_empty() or kept.bounding_box()[5] < BELOW_GROUND_M:
         return None
     return from_manifold(kept)
 
