@@ -91,7 +91,7 @@ def test_the_page_on_optimisation_says_what_the_optimisation_says():
     for text in (
         f"brought both spans down in {fresh['successes']} of {fresh['runs']}",
         f"at least {100.0 * fresh['least_probability']:.0f} % of such runs succeed",
-        f"Two candidates need {rounded(fresh['value'])} kg",
+        f"The one that was chosen needs {rounded(fresh['value'])} kg",
         f"has {found['values'][CHARGE_G]:.0f} g in each hole of the middle pier, which goes at "
         f"{found['values'][DELAY_MS]:.0f} ms",
     ):
