@@ -26,7 +26,7 @@ from bridge_demolition_addon.model.ensemble.folder import ensemble_of_file
 from bridge_demolition_addon.model.scenario.file import scenario_text
 from bridge_demolition_addon.model.study.file import SEED, Ensemble
 from bridge_demolition_addon.model.study.keys import changed, keys_named
-from bridge_demolition_addon.model.study.runs_table import RESTED, RunRow, RunsTable, read_runs, write_runs
+from bridge_demolition_addon.model.study.runs_table import DONE, RESTED, RunRow, RunsTable, read_runs, write_runs
 from bridge_demolition_addon.report.ensemble.study_runs import StudyRuns, read_study_runs
 from bridge_demolition_addon.report.wording.numbers import percent, rounded_up
 from bridge_demolition_addon.studies.run_process import RunLimits, RunProcess
@@ -99,7 +99,8 @@ def outputs_that_differ(name: str) -> list[str]:
     Raises SystemExit where it does not finish.
     """
     ensemble, table = ensemble_of_file(settings_file(name)), read_runs(runs_table(name))
-    row = min(table.rows, key=lambda row: row.outputs[RESTED] or ensemble.scenario.time.duration_s)
+    done = [row for row in table.rows if row.status == DONE]
+    row = min(done, key=lambda row: row.outputs[RESTED] or ensemble.scenario.time.duration_s)
     again = row_again(ensemble, row)
     of_runs = [output for output in table.outputs if output not in OF_THE_PLANNER]
     return [output for output in of_runs if is_another(row.outputs[output], again.outputs.get(output))]

@@ -8,6 +8,7 @@ import pytest
 from scipy.stats import spearmanr
 from support.checkout import EXAMPLES, ROOT
 
+from bridge_demolition_addon.model.sequence.rest import FASTEST
 from bridge_demolition_addon.model.study.conclusions import debris_limit
 from bridge_demolition_addon.model.study.file import read_study
 from bridge_demolition_addon.model.study.runs_table import REACH, read_runs
@@ -54,10 +55,23 @@ def test_the_criteria_are_those_of_the_runs(told, runs):
 def test_what_rested_and_what_is_doubtful_is_that_of_the_runs(told, runs):
     said = json.loads(ensembles.answer(NAME).read_text(encoding="utf-8"))
     assert (said["still_moving"], said["single_moving"]) == (runs.still_moving, runs.single_moving)
-    assert runs.still_moving == 0 and f"in {runs.single_moving} single shards still moved" in told
+    assert runs.still_moving == 0
+    for text in (told, page("README.md")):
+        assert f"in {runs.single_moving} single shards still moved" in text
+    fastest_m_s = FASTEST * read_study(EXAMPLES / "studies" / f"{NAME}.toml").scenario.time.rest_speed_m_s
+    assert f"at less than {fastest_m_s:g} m/s" in told and f"at less than {fastest_m_s:g} m/s" in page("README.md")
+    rested_s = runs.output("came_to_rest_s")
+    assert f"came to rest, {rested_s.min():.0f} to {rested_s.max():.0f} s after their start" in told
     doubtful = said["doubtful_throws"]
     assert f"explain {doubtful['throws']} throws, in {doubtful['runs']} of the runs" in told
     assert f"Without them the limit is {doubtful['limit_m'] + 0.05:.1f} m" in told
+
+
+def test_runs_with_a_misfire_are_counted(told, runs):
+    zones = [runs.input(name) for name in runs.inputs if name.endswith(".fires")]
+    misfires = sum(1 - zone.astype(int) for zone in zones)
+    assert f"In {(misfires > 0).sum()} of them one zone or two misfire" in told and misfires.max() == 2
+    assert f"also the {(misfires > 0).sum()} in which a zone misfires" in page("README.md")
 
 
 def test_no_input_explains_the_debris_distance(told, runs):

@@ -106,7 +106,7 @@ def _piece_facts(model: Model) -> Iterator[Fact]:
         for names in pieces[:MOST_PAIRS_NAMED]:
             yield "", _listed(names)
         if len(pieces) > MOST_PAIRS_NAMED:
-            yield "", f"and {len(pieces) - MOST_PAIRS_NAMED} more, each of fewer members"
+            yield "", f"and {len(pieces) - MOST_PAIRS_NAMED} more, none of more members than these"
 
 
 def _pieces(model: Model) -> list[list[str]]:
