@@ -126,6 +126,15 @@ CLAIMS: dict[str, dict[str, tuple[float, float]]] = {
         "throw_95_percent_m": (0.5, 12.0),  # 1.4 to 5.9
         "made_share": (0.0, 0.04),  # 0.003 to 0.021
     },
+    "drilled_two_spans_in_100_shards": {  # over 20 seeds
+        # It stands by its bars until the first zone fires.
+        "moved_before_m": (0.0, 0.05),  # 0.011 to 0.013
+        "span_1_share_fallen_2_m": (0.5, 1.0),  # 0.57 to 1.00
+        "span_2_share_fallen_2_m": (0.5, 1.0),  # 0.78 to 1.00
+        # The decks come down between their piers: debris ends no farther than twice the height of the bridge.
+        "throw_95_percent_m": (0.5, 12.0),  # 1.3 to 5.0
+        "made_share": (0.0, 0.08),  # 0.008 to 0.051
+    },
     "drilled_viaduct_pier": {  # over 20 seeds
         # It stands by its bars until the first zone fires.
         "moved_before_m": (0.0, 0.05),  # 0.02
