@@ -18,7 +18,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 sys.path.insert(1, str(Path(__file__).resolve().parent.parent / "tests"))
 
 from ensembles import runs_table
-from support.checkout import REPORT_2019, ROOT, SEEDED, SHOWN_ONCE
+from support.checkout import REPORT_2019, ROOT, SEEDED
 from support.example_runs import MEASURED_S
 
 from bridge_demolition_addon.model.scenario.file import read_scenario
@@ -34,9 +34,8 @@ PAGE, STATICS, RANGES = (
     ROOT / "docs" / "data" / "examples.csv",
     ROOT / "docs" / "data" / "seeds",
 )
-FILES = SEEDED | SHOWN_ONCE
 COLUMNS = ("example", "verdict", "reason", "utilisation", "member", "load_factor", "positions", "carried")
-STUDIED = {"drilled_two_spans_longer_zones": "drilled_two_spans"}
+STUDIED = {"drilled_two_spans_longer_zones": "drilled_two_spans", "lillebruen": "lillebruen"}
 """Examples of which a study tells instead, in which more than the seed differs, by its name."""
 DOWN = 0.5
 """Part of a span's deck that has to be more than 2 m lower for the span to count as down."""
@@ -77,17 +76,17 @@ are of a version that counted as made by the solver what contacts only [give bac
 
 def main(names: list[str]) -> int:
     """Work out the statics of examples, write the page, and return the exit status."""
-    if unknown := [name for name in names if name not in (*FILES, "page")]:
+    if unknown := [name for name in names if name not in (*SEEDED, "page")]:
         print(f"examples_table: there is no example {', '.join(unknown)}", file=sys.stderr)
         return 2
     kept = {row["example"]: row for row in rows(STATICS)}
-    for name in [name for name in names if name != "page"] or ([] if names else FILES):
+    for name in [name for name in names if name != "page"] or ([] if names else SEEDED):
         kept[name] = statics(name)
         print(f"{name}: {kept[name]['verdict']}", flush=True)
         with STATICS.open("w", newline="", encoding="utf-8") as file:
             writer = csv.DictWriter(file, COLUMNS, lineterminator="\n")
             writer.writeheader()
-            writer.writerows(kept[example] for example in FILES if example in kept)
+            writer.writerows(kept[example] for example in SEEDED if example in kept)
     PAGE.write_text(page(), encoding="utf-8", newline="\n")
     return 0
 
@@ -102,7 +101,7 @@ def rows(path: Path) -> list[dict[str, str]]:
 
 def statics(name: str) -> dict[str, str]:
     """Return how the bridge of an example stands, and what it carries of the loads of its design."""
-    scenario = read_scenario(FILES[name])
+    scenario = read_scenario(SEEDED[name])
     model = checked_model(scenario)
     stability = stability_of(scenario, model, with_factor=True)
     found = {
@@ -127,8 +126,8 @@ def number(value: float | None) -> str:
 def page() -> str:
     """Return the page."""
     kept = {row["example"]: row for row in rows(STATICS)}
-    of_2019 = [name for name, path in FILES.items() if path.parent == REPORT_2019]
-    now = [name for name in FILES if name not in of_2019]
+    of_2019 = [name for name, path in SEEDED.items() if path.parent == REPORT_2019]
+    now = [name for name in SEEDED if name not in of_2019]
     return "\n".join([HEADER, NOW, *table(now, kept), OF_2019, *table(of_2019, kept)]) + "\n"
 
 
@@ -137,7 +136,7 @@ def table(names: Iterable[str], kept: dict[str, dict[str, str]]) -> Iterator[str
     yield "| example | stands | carries | runs | at rest | down | throw of 95 % | farthest | made |"
     yield "| --- | --- | --- | --- | --- | --- | --- | --- | --- |"
     for name in names:
-        link = f"[{name}](../{FILES[name].relative_to(ROOT).as_posix()})"
+        link = f"[{name}](../{SEEDED[name].relative_to(ROOT).as_posix()})"
         yield f"| {link} | {standing(kept.get(name))} | {carrying(kept.get(name))} | {of_runs(name)} |"
 
 

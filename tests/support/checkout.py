@@ -14,15 +14,15 @@ DEMOLITIONS = {path.stem: path for folder in (EXAMPLES, REPORT_2019) for path in
 DRILLED = {f"drilled_{path.stem}": path for path in sorted((EXAMPLES / "drilled").glob("*.toml"))}
 """Files of demolitions by drilled charges, by their names."""
 
-SEEDED = DEMOLITIONS | DRILLED
-"""Files of all demolitions that `scripts/seeds` runs."""
-
-SHOWN_ONCE = {
-    "span_in_an_earthquake": EXAMPLES / "ground_motion" / "span_in_an_earthquake.toml",
-    "excavator_on_the_deck": EXAMPLES / "stages" / "excavator_on_the_deck.toml",
-    "lillebruen": EXAMPLES / "imported" / "lillebruen.toml",
+OTHERS = {
+    path.stem: path
+    for folder in ("ground_motion", "stages", "imported", "steel")
+    for path in sorted((EXAMPLES / folder).glob("*.toml"))
 }
-"""Files of other examples, of which there are no ranges over seeds."""
+"""Files of the other examples that are run, by their names."""
+
+SEEDED = DEMOLITIONS | DRILLED | OTHERS
+"""Files of all examples that `scripts/seeds` runs."""
 
 PRESETS = ROOT / "bridge_demolition_addon" / "ui" / "scenario" / "presets"
 I235_FILE = REPORT_2019 / "i235_one_span.toml"

@@ -82,9 +82,9 @@ def solver_energy(run: ExampleRun) -> dict[str, float | None]:
 
 
 def before_it_begins(run: ExampleRun) -> dict[str, float | None]:
-    """How far the bridge has moved and what has broken when ball, charges or jackhammer are about to reach it."""
+    """How far the bridge has moved and what has broken when something is about to be done to it, if not at once."""
     begins_s = run.begins_s
-    if begins_s is None:
+    if not begins_s:
         return {}
     before = run.at(begins_s) - 1
     broken = ~run.results.frames.intact[before]

@@ -11,6 +11,7 @@ from bridge_demolition_addon.model.results.arrays import Results, load_results
 from bridge_demolition_addon.model.results.fingerprint import SHORT, motion_digest
 from bridge_demolition_addon.model.scenario import Scenario
 from bridge_demolition_addon.model.scenario.file import read_scenario
+from bridge_demolition_addon.model.sequence.undisturbed import first_event_s
 
 
 @dataclass(frozen=True)
@@ -27,12 +28,15 @@ class ExampleRun:
 
     @property
     def begins_s(self):
-        """When the ball hits, the first charge goes off or the jackhammer starts; None where nothing is done."""
+        """When the ball hits, or what else is done to the bridge begins; None where nothing is done."""
         if self.scenario.jackhammers:
             return self.scenario.jackhammers[0].start_time_s
         if self.scenario.charges or self.scenario.blast_zones:
             return self.scenario.blast.start_s
-        return self.summary["impact"]["time_s"] if self.summary["impact"] else None
+        if self.scenario.ball:
+            return self.summary["impact"]["time_s"] if self.summary["impact"] else None
+        begins_s = first_event_s(self.scenario)
+        return begins_s if np.isfinite(begins_s) else None
 
     @property
     def hit_deck(self):

@@ -15,6 +15,7 @@ from ...model.schema import given
 from .drivers import Driver, WarmUp
 from .elastic_connections import ElasticConnections
 from .meter import Meter, Reading
+from .ruptured_joints import RupturedJoints
 
 _MOST_ROUNDS = 20
 """How often connections break one after another in one sub-step, before the rest waits for the next."""
@@ -48,12 +49,15 @@ class Resistance:
         The connections, where they are elastic.
     reinforcement : ElasticConnections or None
         The same, where bars hold on as connections break.
+    joints : RupturedJoints or None
+        Joints of steel among them.
     """
 
     overloads: Overloads | None
     remaining_strength: np.ndarray
     elastic: ElasticConnections | None = None
     reinforcement: ElasticConnections | None = None
+    joints: RupturedJoints | None = None
 
 
 class Breaker:
@@ -134,8 +138,11 @@ class Breaker:
 
     def _let_collide(self) -> None:
         """Let bodies collide that no connection holds together, nor reinforcement in place of one."""
-        elastic = self._resistance.elastic
-        self._constraints.let_broken_collide(elastic.holding(self._intact) if elastic else self._intact)
+        elastic, joints = self._resistance.elastic, self._resistance.joints
+        holding = elastic.holding(self._intact) if elastic else self._intact
+        if joints:
+            holding = holding | joints.lie_in_each_other(self._constraints.cracked, holding)
+        self._constraints.let_broken_collide(holding)
 
 
 class ElasticPrediction(Driver):
