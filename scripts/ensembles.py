@@ -51,6 +51,7 @@ class Example:
 ENSEMBLES = {
     "i235_one_span": Example("study", "studies", "runs.csv", "study.json", ""),
     "drilled_two_spans": Example("study", "studies", "runs.csv", "study.json", ""),
+    "lillebruen": Example("study", "studies", "runs.csv", "study.json", ""),
     "lightest_ball": Example("search", "searches", "trials.csv", "search.json", "curve.png"),
     "least_charge": Example("optimise", "optimisations", "trials.csv", "optimise.json", "tradeoff.png"),
 }

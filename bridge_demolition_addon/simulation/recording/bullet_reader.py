@@ -127,7 +127,8 @@ class BulletReader:
         bars = self._setup.breaking.bars
         if bars is None or not bars.are_hinges.any():
             return None
-        return RupturedJoints(bars.are_hinges, self._inventory, self._world.bodies.motion())
+        reader, inventory = self._world.bodies.motion(), self._inventory
+        return RupturedJoints(bars.are_hinges, inventory.pairs, inventory.vertices_by_body(), reader)
 
     def before_frame(self, substeps: int) -> None:
         """Set how many sub-steps the coming frame has."""

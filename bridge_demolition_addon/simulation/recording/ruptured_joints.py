@@ -1,23 +1,28 @@
 """Joints of steel that have ruptured, whose bodies meet each other again once they are apart.
 
-A plastic hinge turns its two bodies into each other, as they are rigid and the section between them is not. Bullet would
-push them apart as soon as they may collide, and throw light pieces of a bar by tens of metres.
+A plastic hinge turns its two bodies into each other, as they are rigid and the section between them is not. Bullet
+would push them apart as soon as they may collide, and throw light pieces of a bar by tens of metres.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from ...bullet.body_motion import BodyMotion, BodyMotionReader
-from ...model.results.inventory import Inventory
 
 
 class RupturedJoints:
-    """Those of m connections that are joints of steel (m,), and have ruptured after they yielded."""
+    """Those of m connections that are joints of steel (m,), and have ruptured after they yielded.
 
-    def __init__(self, are_joints: np.ndarray, inventory: Inventory, reader: BodyMotionReader):
-        self._are_joints, self._pairs, self._reader = are_joints, inventory.pairs, reader
-        self._vertices_m = inventory.vertices_by_body()
+    Connections are between `pairs` (m, 2) of n bodies, whose vertices (v, 3) are in their own axes.
+    """
+
+    def __init__(
+        self, are_joints: np.ndarray, pairs: np.ndarray, vertices_m: Sequence[np.ndarray], reader: BodyMotionReader
+    ):
+        self._are_joints, self._pairs, self._vertices_m, self._reader = are_joints, pairs, vertices_m, reader
         self._yielded = np.zeros(len(are_joints), bool)
         self._lie_in_each_other = np.zeros(len(are_joints), bool)
 
