@@ -37,6 +37,7 @@ CASES = (
     "sudden_loss",
     "reinforced_slab",
     "drop_on_shards",
+    "bars_by_program",
     "bent_beam",
     "catenary",
     # held against what was measured, too

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The truss span of steel stands before its chords are severed."""
 
+from dataclasses import replace
+
 from support.checkout import EXAMPLES
 
 from bridge_demolition_addon.model.scenario.file import read_scenario
@@ -20,3 +22,11 @@ def test_it_stands_and_none_of_its_bars_buckles():
     uses = bar_uses(scenario, model, model_at_rest(model, scenario.joints))
     assert len(uses) == 92
     assert max(use.used for use in uses) < 0.5
+
+
+def test_no_seed_changes_it():
+    """Its header says that one run is all that there is."""
+    scenario = read_scenario(FILE)
+    model, other = (build_model(replace(scenario, seed=seed)) for seed in (1, 2))
+    assert (model.centres_m == other.centres_m).all()
+    assert (model.connections.points == other.connections.points).all()
