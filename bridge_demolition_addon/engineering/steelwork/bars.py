@@ -44,6 +44,8 @@ class SteelBar:
     turns : (2, 2) bool
         Whether it turns freely at each end about y and z.
     pieces : int
+    bow_m : (2,) float
+        How far its middle is out of the straight line along y and z of its section: a half wave from node to node.
     """
 
     section: SteelSection
@@ -53,6 +55,7 @@ class SteelBar:
     within_m: FloatArray
     turns: BoolArray
     pieces: int
+    bow_m: FloatArray
 
     @property
     def length_m(self) -> float:
@@ -80,7 +83,12 @@ class SteelBar:
 
     def at(self, along_m: FloatArray) -> FloatArray:
         """Return positions (k, 3) on its axis, by those along it (k,)."""
-        return np.asarray(self.begin_m + along_m[:, None] * self.axes[:, 0])
+        wave = sine(math.pi * along_m / self.length_m)
+        return np.asarray(
+            self.begin_m
+            + along_m[:, None] * self.axes[:, 0]
+            + wave[:, None] * transformed(self.axes[:, 1:], self.bow_m)
+        )
 
     @property
     def _limits_m(self) -> FloatArray:

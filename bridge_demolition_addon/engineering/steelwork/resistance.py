@@ -12,6 +12,7 @@ import numpy as np
 
 from ..arrays import FloatArray
 from ..elasticity.member_shapes import principal_moments
+from ..geometry.vectors import unit
 from ..mechanics.strength import Strength, rectangular_sections
 from .grades import STEEL_MODULI
 from .sections import SteelSection
@@ -107,6 +108,21 @@ def buckling(section: SteelSection, yield_pa: float, lengths_m: tuple[float, flo
         reduction = reduction_factor(slenderness, curve)
         about.append(Buckling(axis, curve, slenderness, reduction, euler_n, reduction * plastic_n))
     return min(about, key=lambda one: one.resistance_n)
+
+
+def initial_bow_m(section: SteelSection, yield_pa: float, lengths_m: tuple[float, float]) -> FloatArray:
+    """Return how far a strut is bowed in its middle along y and z (2,), so that it buckles as its curve says.
+
+    e_0 = α (λ - 0.2) M_Rk / N_Rk in a half wave, about the axis in which it resists least: EN 1993-1-1:2005, 5.3.2,
+    equation 5.10.
+    """
+    strut, moments = buckling(section, yield_pa, lengths_m), section.shape.second_moments_m4
+    about = {"y": np.array((1.0, 0.0)), "z": np.array((0.0, 1.0))}.get(strut.axis)
+    if about is None:
+        about = unit(np.array((moments[0, 1], principal_moments(moments[None])[0][0] - moments[0, 0])))
+    modulus = float(section.shape.plastic_moduli_m3[0 if strut.axis == "y" else 1])
+    size = IMPERFECTIONS[strut.curve] * max(0.0, strut.slenderness - _NO_BUCKLING) * modulus / section.area_m2
+    return np.asarray(size * np.array((-about[1], about[0])))
 
 
 def reduction_factor(slenderness: float, curve: str) -> float:

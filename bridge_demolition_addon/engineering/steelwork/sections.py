@@ -51,6 +51,10 @@ class SteelSection:
         Its thickest part, by which the yield strength goes.
     buckling_curves : tuple of str
         Curves about y and z, up to S420: EN 1993-1-1:2005, table 6.2.
+    flanges_apart_m : float or None
+        Distance between the middles of two flanges that are alike; None of all but such I-sections.
+    is_rolled : bool
+        Whether it is of a rolled I-section.
     """
 
     name: str
@@ -61,6 +65,8 @@ class SteelSection:
     torsion_modulus_m3: float
     thickest_m: float
     buckling_curves: tuple[str, str]
+    flanges_apart_m: float | None = None
+    is_rolled: bool = False
 
     @cached_property
     def shape(self) -> PlaneShape:
@@ -118,6 +124,8 @@ def rolled_i(name: str, height: float, width: float, web: float, flange: float, 
         _plates_modulus([(width, flange)] * 2 + [(height - 2.0 * flange, web)]),
         max(web, flange),
         curves,
+        height - flange,
+        is_rolled=True,
     )
 
 
@@ -147,6 +155,7 @@ def plate_girder(
         _plates_modulus(plates),
         max(web, thickest),
         ("b", "c") if thickest <= _THIN_FLANGE_M else ("c", "d"),
+        height - top_plate if top == bottom else None,
     )
 
 

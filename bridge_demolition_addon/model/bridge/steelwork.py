@@ -84,7 +84,8 @@ def _bar(
             for name, joined in zip(table.nodes, table.ends, strict=True)
         ]
     )
-    bar = SteelBar(table.steel_section, begin, end, axes, within, turns, steelwork.pieces_of(table))
+    bow_m = steelwork.bow_m(table, math.dist(begin, end))
+    bar = SteelBar(table.steel_section, begin, end, axes, within, turns, steelwork.pieces_of(table), bow_m)
     for name, inside in zip(table.nodes, within.tolist(), strict=True):
         if inside > _MOST_WITHIN * bar.length_m:
             raise GeometryError(

@@ -10,7 +10,7 @@ from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.strength import Strength
 from ...engineering.steelwork.catalogue import section_named
 from ...engineering.steelwork.grades import DENSITY_KG_M3, GRADES, STEEL_MODULI, strengths_pa
-from ...engineering.steelwork.resistance import plastic_strength
+from ...engineering.steelwork.resistance import initial_bow_m, plastic_strength
 from ...engineering.steelwork.sections import SteelSection
 from ...errors import Faults, ScenarioError
 from ..schema import SHORTEST_LENGTH_M, SIZE, Table, key, shown
@@ -132,6 +132,10 @@ class Steelwork(Table):
         "Pieces that each bar is cut into that says no other number.", default=4, at_least=1, at_most=_MOST_PIECES
     )
     density_kg_m3: float = key("Density of the steel.", default=DENSITY_KG_M3, unit="kg/m³", above=0)
+    bowed: bool = key(
+        "Whether bars are built with the bow of EN 1993-1-1, 5.3.2, so that they buckle as their curves say.",
+        default=False,
+    )
     nodes: tuple[SteelNode, ...] = ()
     members: tuple[SteelMember, ...] = ()
     trusses: tuple[TrussSpan, ...] = ()
@@ -154,6 +158,14 @@ class Steelwork(Table):
 
     def yield_and_ultimate_pa(self, member: SteelMember) -> tuple[float, float]:
         return strengths_pa(self.grade_of(member), member.steel_section.thickest_m)
+
+    def bow_m(self, member: SteelMember, length_m: float) -> np.ndarray:
+        """Return how far a bar is bowed in its middle along y and z of its section (2,), if bars are."""
+        if not self.bowed:
+            return np.zeros(2)
+        about_y, about_z = member.buckling_lengths
+        yield_pa, _ = self.yield_and_ultimate_pa(member)
+        return initial_bow_m(member.steel_section, yield_pa, (about_y * length_m, about_z * length_m))
 
     def joints(self, strength_factor: float) -> tuple[Joint, ...]:
         """Return the joints of bars that are alike, by `joint_keys`."""

@@ -9,6 +9,7 @@ import numpy as np
 
 from ...engineering.elasticity.equilibrium import Equilibrium
 from ...engineering.mechanics.section_forces import section_forces
+from ...engineering.steelwork.lateral_buckling import LateralBuckling, lateral_buckling
 from ...engineering.steelwork.resistance import Buckling, buckling
 from ..actions import Fact
 from ..scenario import Scenario
@@ -34,6 +35,9 @@ class BarUse:
         Axial force, bending and shear of a section by what it resists plastically, as a run judges it.
     buckling_used : float
         Compression by what the bar resists in buckling; 0 for one that is pulled.
+    lateral_used : float or None
+        Bending about the strong axis by what the bar resists in lateral torsional buckling; None where it is not
+        judged.
     """
 
     name: str
@@ -45,10 +49,12 @@ class BarUse:
     section_used: float
     buckling_used: float
     buckling: Buckling
+    lateral_used: float | None
+    lateral: LateralBuckling | None
 
     @property
     def used(self) -> float:
-        return max(self.section_used, self.buckling_used)
+        return max(self.section_used, self.buckling_used, self.lateral_used or 0.0)
 
 
 def bar_uses(scenario: Scenario, model: Model, rest: Equilibrium) -> list[BarUse]:
@@ -69,6 +75,8 @@ def bar_uses(scenario: Scenario, model: Model, rest: Equilibrium) -> list[BarUse
         yield_pa, _ = steelwork.yield_and_ultimate_pa(table)
         about_y, about_z = table.buckling_lengths
         strut = buckling(bar.section, yield_pa, (about_y * bar.length_m, about_z * bar.length_m))
+        sideways = lateral_buckling(bar.section, yield_pa, about_z * bar.length_m)
+        about_strong = float(np.abs(loads.moments_nm[rows] @ bar.axes[:, 1]).max())
         uses.append(
             BarUse(
                 name=table.name,
@@ -80,6 +88,8 @@ def bar_uses(scenario: Scenario, model: Model, rest: Equilibrium) -> list[BarUse
                 section_used=float(alone[rows].max()),
                 buckling_used=max(0.0, -float(axial.min())) / strut.resistance_n,
                 buckling=strut,
+                lateral_used=about_strong / sideways.resistance_nm if sideways else None,
+                lateral=sideways,
             )
         )
     return sorted(uses, key=lambda use: -use.used)
@@ -93,6 +103,12 @@ def steel_facts(scenario: Scenario, model: Model, rest: Equilibrium) -> Iterator
     if buckles := [use for use in uses if use.buckling_used > 1.0]:
         names = ", ".join(use.name for use in buckles[:MOST_BARS_NAMED])
         yield "buckle", f"{names}: pressed by more than EN 1993-1-1, 6.3.1 lets them resist"
+    if turns := [use for use in uses if use.lateral_used and use.lateral_used > 1.0]:
+        names = ", ".join(use.name for use in turns[:MOST_BARS_NAMED])
+        yield (
+            "buckle sideways",
+            f"{names}: bent by more than EN 1993-1-1, 6.3.2.3 lets them resist; a run does not show it",
+        )
     for use in uses[:MOST_BARS_NAMED]:
         yield use.name, _text(use)
     if len(uses) > MOST_BARS_NAMED:
@@ -111,10 +127,15 @@ def _text(use: BarUse) -> str:
         f"{use.section}, {use.grade}, {use.length_m:.2f} m: {pulled} by {abs(use.axial_n) / 1e3:.1f} kN, "
         f"{use.bending_nm / 1e3:.1f} kN·m, {use.section_used:.0%} of its section"
     )
-    if use.buckling_used == 0.0:
-        return text
-    strut = use.buckling
-    return (
-        f"{text}, {use.buckling_used:.0%} of {strut.resistance_n / 1e3:.0f} kN in buckling about {strut.axis}, "
-        f"curve {strut.curve}, χ = {strut.reduction:.2f}"
-    )
+    if use.buckling_used > 0.0:
+        strut = use.buckling
+        text += (
+            f", {use.buckling_used:.0%} of {strut.resistance_n / 1e3:.0f} kN in buckling about {strut.axis}, "
+            f"curve {strut.curve}, χ = {strut.reduction:.2f}"
+        )
+    if use.lateral and use.lateral_used and use.lateral_used > use.section_used:
+        text += (
+            f", {use.lateral_used:.0%} of {use.lateral.resistance_nm / 1e3:.0f} kN·m in lateral torsional buckling, "
+            f"curve {use.lateral.curve}, χ_LT = {use.lateral.reduction:.2f}"
+        )
+    return text

@@ -2,6 +2,7 @@
 """Bars that yield: beams that come down by plastic theory, and a strut that bends more near to Euler's load."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -87,3 +88,32 @@ def test_compression_makes_a_strut_softer_until_euler_s_load(share):
     by_theory = 12.0 * (2.0 / math.cos(u) - 2.0 - u * u) / (5.0 * u**4)
     # 1 / (1 - P / P_cr), within 1 %, says at which load each would be infinite.
     assert (1.0 - 1.0 / larger) / (1.0 - 1.0 / by_theory) == pytest.approx(1.0, abs=0.03)
+
+
+@pytest.mark.parametrize(("length_m", "pieces"), [(3.0, 8), (5.0, 8), (8.0, 8), (5.0, 4)])
+def test_a_bowed_strut_buckles_as_its_curve_says(length_m, pieces):
+    """A pinned strut, pressed more and more: χ A f_y of EN 1993-1-1, 6.3.1, curve c about the weak axis of HEB 200."""
+    slenderness = (
+        length_m / math.pi * math.sqrt(235.0 * SECTION.area_m2 / 210e3 / SECTION.shape.second_moments_m4[1, 1])
+    )
+    phi = 0.5 * (1.0 + 0.49 * (slenderness - 0.2) + slenderness**2)
+    by_curve_n = 235e6 * SECTION.area_m2 / (phi + math.sqrt(phi**2 - slenderness**2))
+    # Node b has the mass that the force moves, and hardly any weight is left beside it.
+    held = node("b", length_m, 5.0, support="rocker", mass_kg=50_000.0)
+    struts = [bar("strut", "a", "b", "HEB 200", roll_deg=90.0)]
+    scenario = steel_scenario(
+        [node("a", 0.0, 5.0, support="pinned"), held], struts, grade="S235", pieces=pieces, bowed=True
+    )
+    model = build_model(scenario)
+    model = replace(model, masses_kg=np.where(model.masses_kg < 1e4, 0.05, 1.0) * model.masses_kg)
+    whole, rest = np.ones(len(model.connections)), model_at_rest(model, scenario.joints)
+    utilisations = Utilisations(model, scenario.joints)
+    strut = CrackedBridge(model, scenario.joints, utilisations, whole > 0.0, whole, rest)
+    loads = np.zeros((6, len(model.shards)))
+    loads[0, model.masses_kg.argmax()] = -by_curve_n
+    for share in (0.5, 0.7, 0.8, 0.9):
+        strut.carry(1.0, share * loads)
+    assert not strut.fallen.any()
+    for share in (1.0, 1.1):
+        strut.carry(1.0, share * loads)
+    assert strut.fallen.any()

@@ -18,6 +18,7 @@ from support.steelwork import (
 
 from bridge_demolition_addon.engineering.steelwork.catalogue import section_named
 from bridge_demolition_addon.engineering.steelwork.grades import DENSITY_KG_M3
+from bridge_demolition_addon.engineering.steelwork.lateral_buckling import lateral_buckling
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.errors import GeometryError, ScenarioError
 from bridge_demolition_addon.model.structure.equilibrium import (
@@ -269,3 +270,15 @@ height_m = 4.0
     }
     half = 0.5 * STANDARD_GRAVITY_M_S2 * DENSITY_KG_M3 * section_named("SHS 100x5").area_m2 * 6.0
     assert by_bearing == pytest.approx({"A on pier 1": half, "B on ground": half}, rel=0.01)
+
+
+@pytest.mark.parametrize(("roll_deg", "turns"), [(0.0, True), (90.0, False)])
+def test_a_slender_cantilever_is_judged_in_lateral_buckling_about_its_strong_axis_alone(roll_deg, turns):
+    """w L² / 2 by χ_LT M_pl; about its weak axis an I-section does not buckle sideways."""
+    scenario = cantilever(roll_deg=roll_deg)
+    model = build_model(scenario)
+    (use,) = bar_uses(scenario, model, model_at_rest(model, scenario.joints))
+    section = section_named("IPE 300")
+    moment = DENSITY_KG_M3 * section.area_m2 * STANDARD_GRAVITY_M_S2 * 10.0**2 / 2.0
+    resistance = lateral_buckling(section, 355e6, 10.0).resistance_nm
+    assert use.lateral_used == pytest.approx(moment / resistance if turns else 0.0, rel=0.03, abs=1e-3)
