@@ -22,7 +22,8 @@ import numpy as np
 from ..arrays import BoolArray, FloatArray, IntArray
 from .gaps import SolvedTangents
 from .joint_rows import turned, turned_back
-from .springs import PressedSprings, SpringPositions, SpringStep, loads_of_springs, stiffness_of_springs
+from .spring_law import PressedSprings
+from .springs import SpringPositions, SpringStep, loads_of_springs, stiffness_of_springs
 
 _LIFTED_M = 0.02
 """Opening from which on pins and guides of a bearing that holds no uplift are out of their holes."""

@@ -177,7 +177,7 @@ def linear(
 
 
 @compiled
-def _crossed(first: Any, second: Any) -> Any:
+def crossed(first: Any, second: Any) -> Any:
     """Cross product."""
     (x, y, z), (a, b, c) = first, second
     return y * c - z * b, z * a - x * c, x * b - y * a
@@ -202,17 +202,17 @@ def corner_stiffness(tangents: Any, first_arms: Any, second_arms: Any, corners: 
             first_arm, second_arm = _vector(first_arms, gap), _vector(second_arms, gap)
             for axis in range(3):
                 line = tangents[axis, 0, gap], tangents[axis, 1, gap], tangents[axis, 2, gap]
-                by_first, by_second = _crossed(first_arm, line), _crossed(second_arm, line)
+                by_first, by_second = crossed(first_arm, line), crossed(second_arm, line)
                 for other in range(3):
                     tangent[axis, other] = line[other]
                     turning_first[axis, other] = by_first[other]
                     turning_second[axis, other] = by_second[other]
             for other in range(3):
-                to_first = _crossed(first_arm, _column(tangent, other))
-                to_second = _crossed(second_arm, _column(tangent, other))
-                about_first = _crossed(first_arm, _column(turning_first, other))
-                about_second = _crossed(second_arm, _column(turning_second, other))
-                about_both = _crossed(first_arm, _column(turning_second, other))
+                to_first = crossed(first_arm, _column(tangent, other))
+                to_second = crossed(second_arm, _column(tangent, other))
+                about_first = crossed(first_arm, _column(turning_first, other))
+                about_second = crossed(second_arm, _column(turning_second, other))
+                about_both = crossed(first_arm, _column(turning_second, other))
                 for axis in range(3):
                     added = (
                         tangent[axis, other],

@@ -19,6 +19,7 @@ import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
 from .compiled_cracks import quickest, stiffness_of_corners, summed
+from .compiled_springs import rates
 from .crack_law import DOWEL_SHARE, FRICTION, CrackLaw, rubbing_bars, sliding, stretches_of_bars
 from .crack_state import CornerState, CrackState
 from .equations import summed_on_bodies
@@ -327,7 +328,7 @@ class CrackStep(GuessedForces):
         return _summed(first), _summed(second)
 
     def _moved(self, velocities: FloatArray) -> FloatArray:
-        return self._substep_s * self._gaps.rates(velocities)
+        return self._substep_s * rates(self._gaps, velocities)
 
     def _resisted(self, moved: FloatArray) -> FloatArray:
         return self._resistance.forces(self._gaps.widths_m + moved)

@@ -9,15 +9,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
+from .compiled_springs import rates, resisted, spring_loops
 from .equations import summed_on_bodies
 from .gaps import Gaps, SolvedTangents, stiffness_of_points
 from .guesses import GuessedForces
 from .joint_rows import cross_products, turned, turned_back
+from .spring_law import PressedSprings
 
 _AGREES = 1e-4
 """Largest error of the force of a spring, by the mean force of the springs of its connection."""
@@ -99,60 +101,6 @@ class SpringPositions:
         return Gaps(self.below, self.above, arms_below, arms, widths_m)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class PressedSprings:
-    """Resistance of q springs: they press upwards, and hold sideways by their stiffness up to friction."""
-
-    vertical_n_m: FloatArray  # (q,), stiffness
-    sideways_n_m: FloatArray  # (2, q), stiffness along x and y
-    capacity_n: FloatArray  # (q,), largest pressing force; may be infinite
-    friction: FloatArray  # (q,), largest force sideways by the pressing force; infinite where they do not slide
-    pulls: BoolArray  # (q,), whether they hold what is lifted
-    pressed_n: FloatArray  # (q,), pressing force by which they hold sideways
-
-    def only(self, which: IntArray) -> PressedSprings:
-        """Return some of the springs."""
-        return PressedSprings(*(getattr(self, item.name)[..., which] for item in fields(self)))
-
-    @property
-    def whole(self) -> FloatArray:
-        """Stiffness (3, 3, q) of springs that neither lift off, nor slide, nor yield."""
-        tangents = np.zeros((3, 3, len(self.vertical_n_m)))
-        tangents[0, 0], tangents[1, 1], tangents[2, 2] = *self.sideways_n_m, self.vertical_n_m
-        return tangents
-
-    def resisted(self, gaps_m: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return forces (3, q) on what lies above gaps (3, q), and by how much these fall with them, (3, 3, q)."""
-        wanted = -self.vertical_n_m * gaps_m[2]
-        acts = self.pulls | (wanted > 0.0)
-        upwards = np.where(acts, np.minimum(wanted, self.capacity_n), 0.0)
-        held = -self.sideways_n_m * gaps_m[:2]
-        size = np.sqrt(held[0] * held[0] + held[1] * held[1])
-        limit = self._limits()
-        slides = size > limit
-        share = np.divide(limit, size, out=np.ones_like(size), where=slides)
-        forces = np.stack((share * held[0], share * held[1], upwards))
-        tangents = self.whole
-        tangents[2, 2] *= acts & (wanted < self.capacity_n)
-        tangents[:2, :2] *= share
-        across = np.divide(share, size * size, out=np.zeros_like(size), where=slides)
-        tangents[:2, :2] -= across * held[:, None] * held * self.sideways_n_m
-        return forces, tangents
-
-    def stored_j(self, gaps_m: FloatArray) -> FloatArray:
-        """Return the energy (q,) that springs across gaps (3, q) would give back."""
-        forces, stiffness = self.resisted(gaps_m)[0], np.stack((*self.sideways_n_m, self.vertical_n_m))
-        doubled = np.divide(forces * forces, stiffness, out=np.zeros_like(forces), where=stiffness > 0.0)
-        stored: FloatArray = 0.5 * doubled.sum(axis=0)
-        return stored
-
-    def _limits(self) -> FloatArray:
-        """Largest forces sideways (q,)."""
-        holds = np.isinf(self.friction)
-        by_friction = np.where(holds, 0.0, self.friction) * self.pressed_n
-        return np.where(holds & (self.pulls | (self.pressed_n > 0.0)), np.inf, by_friction)
-
-
 class SpringStep(GuessedForces):
     """Forces of c connections, `rows` (c,), with q springs in a sub-step.
 
@@ -208,16 +156,16 @@ class SpringStep(GuessedForces):
         return summed_on_bodies(first, second, loads, count)
 
     def _moved(self, velocities: FloatArray) -> FloatArray:
-        return self._substep_s * self._gaps.rates(velocities)
+        return self._substep_s * rates(self._gaps, velocities)
 
     def _resisted(self, moved: FloatArray) -> FloatArray:
-        return -self._law.resisted(self._gaps.widths_m + moved)[0]
+        return -resisted(self._law, self._gaps.widths_m + moved)[0]
 
     def _linear(self, moved: FloatArray) -> FloatArray:
         return self._forces + turned(self._tangents, moved)
 
     def _begin_at(self, moved: FloatArray) -> None:
-        upwards, self._tangents = self._law.resisted(self._gaps.widths_m + moved)
+        upwards, self._tangents = resisted(self._law, self._gaps.widths_m + moved)
         self._forces = -upwards - turned(self._tangents, moved)
 
     def _slack(self) -> FloatArray:
@@ -231,6 +179,12 @@ def stiffness_of_springs(
 
     Springs have tangents (3, 3, p), and arms (3, p) from the centres of the bodies above and below.
     """
+    loops = spring_loops()
+    if loops is not None:
+        found: tuple[FloatArray, FloatArray, FloatArray] = loops.summed_stiffness(
+            tangents, arms, arms_below, positions.of, positions.above_first
+        )
+        return found
     of_above, of_below, between = stiffness_of_points(tangents, arms, arms_below, positions.summed)
     first, second = positions.ordered(of_above, of_below)
     return first, second, np.where(positions.above_first, between, np.swapaxes(between, 0, 1))
@@ -240,6 +194,12 @@ def loads_of_springs(
     positions: SpringPositions, forces: FloatArray, arms: FloatArray, arms_below: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Return what forces (3, p) of springs on the bodies above do to the first and second bodies, (6, c) each."""
+    loops = spring_loops()
+    if loops is not None:
+        found: tuple[FloatArray, FloatArray] = loops.summed_loads(
+            forces, arms, arms_below, positions.of, positions.above_first
+        )
+        return found
     above, below = (
         positions.summed(np.concatenate((force, cross_products(arm, force))))
         for force, arm in ((forces, arms), (-forces, arms_below))

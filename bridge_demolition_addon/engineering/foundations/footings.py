@@ -16,7 +16,8 @@ import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..elasticity.gaps import SolvedTangents
-from ..elasticity.springs import PressedSprings, SpringPositions, SpringStep
+from ..elasticity.spring_law import PressedSprings
+from ..elasticity.springs import SpringPositions, SpringStep
 
 _ANY = 1e300
 """Pressure by which friction holds any slip."""
