@@ -195,7 +195,7 @@ def of_study(name: str) -> str:
     shares = [{"made_share": run["made_by_solver_share"]} for run in outputs]
     return " | ".join(
         (
-            f"{len(outputs)} of [a study](studies.md#a-plan-is-a-study)",
+            f"{len(outputs)} of [a study](../examples/studies/{name}.toml)",
             f"{resting} of {len(outputs)}",
             downs,
             "",

@@ -4,6 +4,7 @@
 import json
 
 import ensembles
+import numpy as np
 import pytest
 from scipy.stats import spearmanr
 from support.checkout import EXAMPLES, ROOT
@@ -11,7 +12,7 @@ from support.checkout import EXAMPLES, ROOT
 from bridge_demolition_addon.model.sequence.rest import FASTEST
 from bridge_demolition_addon.model.study.conclusions import debris_limit
 from bridge_demolition_addon.model.study.file import read_study
-from bridge_demolition_addon.model.study.runs_table import REACH, read_runs
+from bridge_demolition_addon.model.study.runs_table import REACH, RESTED, read_runs
 from bridge_demolition_addon.report.wording.study import limit_sentence
 
 NAME = "drilled_two_spans"
@@ -115,3 +116,27 @@ def test_the_page_on_optimisation_says_what_the_optimisation_says():
 
 def rounded(value):
     return f"{value:.1f}"
+
+
+def test_the_example_from_ifc_says_what_its_study_came_to():
+    found = read_runs(ensembles.runs_table("lillebruen"))
+    study, example = page("examples", "studies", "lillebruen.toml"), page("examples", "imported", "lillebruen.toml")
+    study, example = study.replace(" # ", " "), example.replace(" # ", " ")
+    reaches_m, count = np.sort(found.largest(REACH)), len(found.rows)
+    within = f"stays within {reaches_m[-1]:.1f} m of the bridge's plan in all of {count} runs"
+    assert f"{within}, and within {reaches_m[-2]:.1f} m in {count - 1} of them" in study
+    down = found.met('criteria."the deck comes down"').sum()
+    assert f"comes down in {down}; in the other {count - down}" in study
+    assert f"in {down} of {count} runs the deck comes down" in example
+    outputs = [row.outputs for row in found.rows]
+    rest_s = [run[RESTED] for run in outputs if run[RESTED] is not None]
+    assert f"{len(rest_s)} runs come to rest" in study
+    assert f"{len(rest_s)} come to rest within 20 s, after {min(rest_s):.0f} to {max(rest_s):.0f} s" in example
+    throws_m, made = ([run[key] for run in outputs] for key in ("largest_throw_m", "made_by_solver_share"))
+    assert f"the farthest throw is {min(throws_m):.1f} to {max(throws_m):.1f} m" in example
+    doubtful = [run["doubtful_throws"] for run in outputs]
+    shares = f"{100 * min(made):.0f} to {100 * max(made):.0f} %"
+    assert f"{shares} of the dissipated energy, and {min(doubtful)} to {max(doubtful)} throws" in study
+    assert f"and {shares} in those of the study" in example
+    without_m = max(run["reach_without_doubtful_m"] for run in outputs)
+    assert f"{without_m:.1f}" == f"{reaches_m[-1]:.1f}"
