@@ -128,7 +128,7 @@ class BulletReader:
         if bars is None or not bars.are_hinges.any():
             return None
         reader, inventory = self._world.bodies.motion(), self._inventory
-        return RupturedJoints(bars.are_hinges, inventory.pairs, inventory.vertices_by_body(), reader)
+        return RupturedJoints(bars.are_hinges, inventory.faces, inventory.vertices_by_body(), reader)
 
     def before_frame(self, substeps: int) -> None:
         """Set how many sub-steps the coming frame has."""

@@ -11,18 +11,28 @@ from collections.abc import Sequence
 import numpy as np
 
 from ...bullet.body_motion import BodyMotion, BodyMotionReader
+from ...engineering.elasticity.joint_rows import components_last
+from ...engineering.geometry.turned_boxes import TurnedBoxes, lie_in_each_other
+from ...engineering.geometry.vectors import product, transformed, transformed_back
+from ...engineering.mechanics.section_cuts import ConnectedFaces
+from ...engineering.mechanics.section_forces import section_axes
 
 
 class RupturedJoints:
-    """Those of m connections that are joints of steel (m,), and have ruptured after they yielded.
+    """Those of the connections (m,) of bodies that are joints of steel (m,), and have ruptured after they yielded.
 
-    Connections are between `pairs` (m, 2) of n bodies, whose vertices (v, 3) are in their own axes.
+    Vertices (v, 3) of bodies are in their own axes. `reader` reads where these are, at first as they were built.
     """
 
     def __init__(
-        self, are_joints: np.ndarray, pairs: np.ndarray, vertices_m: Sequence[np.ndarray], reader: BodyMotionReader
+        self, are_joints: np.ndarray, faces: ConnectedFaces, vertices_m: Sequence[np.ndarray], reader: BodyMotionReader
     ):
-        self._are_joints, self._pairs, self._vertices_m, self._reader = are_joints, pairs, vertices_m, reader
+        self._are_joints, self._pairs, self._reader = are_joints, faces.pairs, reader
+        along, built = section_axes(faces.normals), reader.read()
+        self._boxes = [
+            _boxes_of(faces.pairs[:, side], along, vertices_m, components_last(built.rotation_components))
+            for side in (0, 1)
+        ]
         self._yielded = np.zeros(len(are_joints), bool)
         self._lie_in_each_other = np.zeros(len(are_joints), bool)
 
@@ -30,25 +40,35 @@ class RupturedJoints:
         """Return the joints (m,) whose bodies have not been apart since they ruptured.
 
         Of all connections (m,), `cracked` says which hold on past their strength, and `holding` which hold at all.
-        Bodies are taken as apart when the boxes around them do not meet.
+        Bodies are taken as the boxes around them, along the bar of the joint.
         """
         self._lie_in_each_other |= self._yielded & ~holding
         self._yielded = (self._yielded | cracked & self._are_joints) & holding
-        if rows := np.flatnonzero(self._lie_in_each_other).tolist():
-            motion = self._reader.read()
-            for row in rows:
-                self._lie_in_each_other[row] = self._boxes_meet(row, motion)
+        if self._lie_in_each_other.any():
+            rows, motion = np.flatnonzero(self._lie_in_each_other), self._reader.read()
+            first, second = (self._now(side, rows, motion) for side in (0, 1))
+            self._lie_in_each_other[rows] = lie_in_each_other(first, second)
         return self._lie_in_each_other
 
-    def _boxes_meet(self, row: int, motion: BodyMotion) -> bool:
-        """Whether the boxes around the two bodies of a connection meet."""
-        (lower_a, upper_a), (lower_b, upper_b) = (self._box(body, motion) for body in self._pairs[row].tolist())
-        return bool((lower_a <= upper_b).all() and (lower_b <= upper_a).all())
-
-    def _box(self, body: int, motion: BodyMotion) -> tuple[np.ndarray, np.ndarray]:
-        """Return the lowest and the highest corner (3,) of the box around a body."""
-        turned = self._vertices_m[body] @ motion.rotation_components[:, :, body].T
-        return (
-            motion.position_components_m[:, body] + turned.min(axis=0),
-            motion.position_components_m[:, body] + turned.max(axis=0),
+    def _now(self, side: int, rows: np.ndarray, motion: BodyMotion) -> TurnedBoxes:
+        """Return the boxes around the first or the second bodies of joints (r,) as these have moved."""
+        bodies, built = self._pairs[rows, side], self._boxes[side]
+        turns, places_m = (
+            components_last(motion.rotation_components[..., bodies]),
+            motion.position_components_m[:, bodies].T,
         )
+        middles_m = places_m + transformed(turns, built.middles_m[rows])
+        return TurnedBoxes(middles_m, product(turns, built.axes[rows]), built.halves_m[rows])
+
+
+def _boxes_of(
+    bodies: np.ndarray, along: np.ndarray, vertices_m: Sequence[np.ndarray], rotations: np.ndarray
+) -> TurnedBoxes:
+    """Return boxes around bodies (m,) in their own axes, with edges along axes (m, 3, 3) of the world."""
+    axes = product(np.swapaxes(rotations[bodies], 1, 2), along)
+    spans_m = np.zeros((len(bodies), 2, 3))
+    for row, body in enumerate(bodies.tolist()):
+        there = transformed_back(axes[row], vertices_m[body])
+        spans_m[row] = there.min(axis=0), there.max(axis=0)
+    middles_m = transformed(axes, spans_m.mean(axis=1))
+    return TurnedBoxes(middles_m, axes, 0.5 * (spans_m[:, 1] - spans_m[:, 0]))
