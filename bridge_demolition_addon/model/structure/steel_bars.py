@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...engineering.elasticity.equilibrium import Equilibrium
+from ...engineering.geometry.vectors import dot
 from ...engineering.mechanics.section_forces import section_forces
 from ...engineering.steelwork.lateral_buckling import LateralBuckling, lateral_buckling
 from ...engineering.steelwork.resistance import Buckling, buckling
@@ -76,7 +77,7 @@ def bar_uses(scenario: Scenario, model: Model, rest: Equilibrium) -> list[BarUse
         about_y, about_z = table.buckling_lengths
         strut = buckling(bar.section, yield_pa, (about_y * bar.length_m, about_z * bar.length_m))
         sideways = lateral_buckling(bar.section, yield_pa, about_z * bar.length_m)
-        about_strong = float(np.abs(loads.moments_nm[rows] @ bar.axes[:, 1]).max())
+        about_strong = float(np.abs(dot(loads.moments_nm[rows], bar.axes[:, 1])).max())
         uses.append(
             BarUse(
                 name=table.name,

@@ -31,7 +31,7 @@ from .ground_drive import GroundDrive
 from .loads import Loads
 from .meter import Meter
 from .motion_reader import unknown_loads
-from .ruptured_joints import RupturedJoints
+from .ruptured_joints import joints_of_steel
 from .substeps import SubstepRecorder, in_order
 from .torques import Torques
 
@@ -99,7 +99,8 @@ class BulletReader:
             holding.reinforce(breaking, events.remaining_strength)
         warm_up = WarmUp(world, self._free_shards(), breaking, release=elastic is None)
         meter = Meter(world, inventory, elastic)
-        overloads, joints = self._overloads(elastic, events.pressed), self._joints_of_steel()
+        overloads = self._overloads(elastic, events.pressed)
+        joints = joints_of_steel(breaking.bars, inventory, world.bodies.motion())
         resistance = Resistance(overloads, events.remaining_strength, elastic, holding, joints)
         breaker = Breaker(constraints, meter, resistance, warm_up)
         drivers = in_order(
@@ -121,14 +122,6 @@ class BulletReader:
             cracks = CrackAccumulator(len(inventory.pairs)) if follows_bars else None
             self._sums = FrameSums(meter, inventory, self._work(), bearings, cracks, every_substep=self._every_substep)
         return SubstepRecorder(constraints, drivers, meter, breaker, warm_up, self._sums)
-
-    def _joints_of_steel(self) -> RupturedJoints | None:
-        """Return the joints of steel, of which none has ruptured yet; None without any."""
-        bars = self._setup.breaking.bars
-        if bars is None or not bars.are_hinges.any():
-            return None
-        reader, inventory = self._world.bodies.motion(), self._inventory
-        return RupturedJoints(bars.are_hinges, inventory.faces, inventory.vertices_by_body(), reader)
 
     def before_frame(self, substeps: int) -> None:
         """Set how many sub-steps the coming frame has."""

@@ -14,8 +14,10 @@ from ...bullet.body_motion import BodyMotion, BodyMotionReader
 from ...engineering.elasticity.joint_rows import components_last
 from ...engineering.geometry.turned_boxes import TurnedBoxes, lie_in_each_other
 from ...engineering.geometry.vectors import product, transformed, transformed_back
+from ...engineering.mechanics.reinforcement import FaceBars
 from ...engineering.mechanics.section_cuts import ConnectedFaces
 from ...engineering.mechanics.section_forces import section_axes
+from ...model.results.inventory import Inventory
 
 
 class RupturedJoints:
@@ -59,6 +61,13 @@ class RupturedJoints:
         )
         middles_m = places_m + transformed(turns, built.middles_m[rows])
         return TurnedBoxes(middles_m, product(turns, built.axes[rows]), built.halves_m[rows])
+
+
+def joints_of_steel(bars: FaceBars | None, inventory: Inventory, reader: BodyMotionReader) -> RupturedJoints | None:
+    """Return the joints of steel among connections with bars, of which none has ruptured yet; None without any."""
+    if bars is None or not bars.are_hinges.any():
+        return None
+    return RupturedJoints(bars.are_hinges, inventory.faces, inventory.vertices_by_body(), reader)
 
 
 def _boxes_of(
