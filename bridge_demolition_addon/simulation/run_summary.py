@@ -6,7 +6,6 @@ import math
 import platform
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
-from pathlib import Path
 from typing import Any
 
 import bpy
@@ -29,6 +28,7 @@ from ..scene.bodies import terrain_facts
 from ..scene.stability import kept_stability
 from ..scene.tools.ground_motion import GroundMotionOfScene, ground_motion_of
 from ..scene.world import scene_time_step
+from ..system.processor import processor_name
 from .recording.recorder import Recording
 
 
@@ -118,22 +118,12 @@ def _fingerprint(recording: Recording, results: Results) -> dict[str, str]:
         "built": given(recording.setup).digest,
         "motion": motion_digest(results),
         **whole,
-        "processor": _processor(),
+        "processor": processor_name(),
         "system": f"{platform.system()} {platform.machine()}",
         "blender": f"{bpy.app.version_string} {bpy.app.build_hash.decode()}",
         "python": platform.python_version(),
         "numpy": np.__version__,
     }
-
-
-def _processor() -> str:
-    """Name of the processor, if the system knows it."""
-    information = Path("/proc/cpuinfo")  # of Linux, where Python knows no more than the architecture
-    if information.exists():
-        for line in information.read_text(encoding="utf-8", errors="replace").splitlines():
-            if line.startswith("model name"):
-                return line.partition(":")[2].strip()
-    return platform.processor() or platform.machine()
 
 
 def _on_ground(results: Results) -> dict[str, Any]:

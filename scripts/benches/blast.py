@@ -56,19 +56,22 @@ class SteadyLoads(Explosion):
         return not self.every
 
 
-def main(smallest: bool) -> None:
-    """Print the time of a frame and its ratio to the bare step, for each number of shards."""
+def main(smallest: bool) -> dict[str, float]:
+    """Print the time of a frame for each number of shards, and return its ratios to the bare step."""
+    ratios = {}
     print(f"{'shards':>7}{'frame':>24}{'ms':>10}{'of bare step':>14}")
     for shards in (SMALLEST,) if smallest else SIZES:
         bare = _show(shards, "bare step", _seconds(shards))
         _show(shards, "motion recorded", _seconds(shards, record=True), bare)
         for apply in Apply:
             for name, every in LOADED.items():
-                _show(shards, f"{apply.value}, {name}", _with_blast(shards, apply, every), bare)
+                seconds = _show(shards, f"{apply.value}, {name}", _with_blast(shards, apply, every), bare)
+                ratios[f"{apply.value}, {name}, over bare step, {shards} shards"] = seconds / bare
         if shards <= WAY_OF_2019_UP_TO:
             scene = build_scene(deck(shards))
             with blast_by_fields(scene, np.array(CHARGES[0].place_m)):
                 _show(shards, "way of 2019", _least(scene), bare)
+    return ratios
 
 
 def _show(shards: int, name: str, seconds: float, bare: float | None = None) -> float:

@@ -34,8 +34,9 @@ SETTINGS = ConnectionSettings(
 WAYS = ("bare step", "rigid", "elastic", "elastic, again in every sub-step")
 
 
-def main(smallest: bool) -> None:
-    """Build the deck in each number of shards, play it every way in turn, and print the least times and ratios."""
+def main(smallest: bool) -> dict[str, float]:
+    """Build the deck in each number of shards, play it every way in turn, print the least times, and return ratios."""
+    ratios = {}
     for shards in (SMALLEST,) if smallest else SIZES:
         scenario = deck(shards, connections=SETTINGS)
         model = build_model(scenario)
@@ -62,3 +63,6 @@ def main(smallest: bool) -> None:
         for way, times in seconds.items():
             spread = statistics.median(times) / min(times) - 1.0
             print(f"  {way:35} {1e3 * min(times):8.1f} ms a frame  {min(times) / bare:5.2f}  (spread {spread:.0%})")
+            if way != "bare step":
+                ratios[f"{way} over bare step, {shards} shards"] = min(times) / bare
+    return ratios

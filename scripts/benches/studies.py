@@ -38,18 +38,20 @@ for line in sys.stdin:
 """A program of draws without anything of ours in it."""
 
 
-def main(smallest: bool) -> None:
-    """Print all ratios."""
+def main(smallest: bool) -> dict[str, float]:
+    """Print all ratios, and return those of a study over Blender's own steps."""
     scenario, count, empty = SMALLEST if smallest else (SCENARIO, DRAWS, NOTHING)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        draws(folder, _study_file(folder / "study.toml", scenario, count), count)
+        ratios = draws(folder, _study_file(folder / "study.toml", scenario, count), count)
         scheduling(folder, empty)
         scheduling_on_dask(folder, max(empty // 5, 20))
+    return ratios
 
 
-def draws(folder: Path, study: Path, count: int) -> None:
+def draws(folder: Path, study: Path, count: int) -> dict[str, float]:
     """Compare a study with Blender's own time for the same draws; two jobs take two of them at least."""
+    ratios = {}
     alone = _times_of(sys.executable, BARE, "alone", study)
     one = _times_of(*_study_command(study, folder / "one", 1))
     same = _times_of(sys.executable, BARE, "same", study)
@@ -61,8 +63,12 @@ def draws(folder: Path, study: Path, count: int) -> None:
         print(f"{name:>40}{wall_s:>8.1f}{processor_s:>8.1f}")
     for name, bare in (("as Blender plays them by itself", alone), ("as they are", same)):
         print(f"study with one job over steps {name}: {one[0] / bare[0]:.2f} and {one[1] / bare[1]:.2f}")
+        ratios[f"study with one job over steps {name}"] = one[0] / bare[0]
     if count > 1:
-        print(f"two jobs over one: {one[0] / times['study with two jobs'][0]:.2f} times as fast")
+        shorter = one[0] / times["study with two jobs"][0]
+        print(f"two jobs over one: {shorter:.2f} times as fast")
+        ratios["study with two jobs over one"] = 1.0 / shorter
+    return ratios
 
 
 def scheduling(folder: Path, count: int) -> None:
