@@ -25,7 +25,7 @@ class TurnedBoxes:
     halves_m: FloatArray
 
     def radii_m(self, directions: FloatArray) -> FloatArray:
-        """Return how far each reaches from its middle (k, d) along directions (k, 3, d)."""
+        """Return half of their extents (k, d) along directions (k, 3, d)."""
         along = np.abs(_products(self.axes[:, :, :, None], directions[:, :, None, :]))
         return np.asarray(_products(self.halves_m[:, :, None], along))
 
