@@ -50,7 +50,7 @@ def swept_mesh(source: IfcSource, entity: Any) -> TriangleMesh:
 def _swept(source: IfcSource, solid: Any) -> TriangleMesh:
     unit_m = source.unit_m
     curve = curve_of(solid.Directrix, unit_m)
-    profiles = [outline_of(profile, unit_m) for profile in solid.CrossSections]
+    profiles = [outline_of(profile, unit_m, source.angle_rad) for profile in solid.CrossSections]
     places = [place_along(getattr(position, "Location", position), unit_m) for position in solid.CrossSectionPositions]
     if len(profiles) < 2 or len(places) != len(profiles) or len({len(profile) for profile in profiles}) != 1:
         raise GeometryError("has sections with different numbers of corners")

@@ -46,13 +46,15 @@ _BEYOND_ASCII = re.compile(r"[^\x00-\x7f]+")
 class IfcSource:
     """An IFC file: its content, an `ifcopenshell.file`, and notes on corrections.
 
-    `scale` is a factor on what IfcOpenShell takes for metres; `unit_m` is the length of the file's unit.
+    `scale` is a factor on what IfcOpenShell takes for metres; `unit_m` and `angle_rad` are the file's units of length
+    and angle.
     """
 
     path: Path
     model: Any
     scale: float
     unit_m: float
+    angle_rad: float = 1.0
     notes: tuple[str, ...] = ()
     lost_classes: tuple[str, ...] = ()
     """Classes of an older schema that the one that the file is read as does not have."""
@@ -104,7 +106,8 @@ def open_source(path: Path, settings: ImportSettings) -> IfcSource:
         notes = (*notes, f"lengths are taken for {settings.unit}, though the file says that its unit is {own_m:g} m")
     notes = (*notes, *place_along_curves(model, unit_m))
     taken_m = library("util.unit").calculate_unit_scale(model)
-    return IfcSource(path, model, unit_m / taken_m, unit_m, notes, lost)
+    angle_rad = float(library("util.unit").calculate_unit_scale(model, "PLANEANGLEUNIT")) or 1.0
+    return IfcSource(path, model, unit_m / taken_m, unit_m, angle_rad, notes, lost)
 
 
 def _content(path: Path) -> bytes:
