@@ -144,7 +144,9 @@ def _read(entity: Any) -> Element:
 def _named_class(entity: Any) -> str:
     """Return the class that a proxy is by its description, as words; schemas before IFC4X2 have no bearings."""
     found = _CLASS.fullmatch(entity.Description or "")
-    return re.sub(r"(?<=[a-z])(?=[A-Z])", " ", found.group(1)) if found and entity.is_a("IfcBuildingElementProxy") else ""
+    return (
+        re.sub(r"(?<=[a-z])(?=[A-Z])", " ", found.group(1)) if found and entity.is_a("IfcBuildingElementProxy") else ""
+    )
 
 
 def _classes(entity: Any) -> tuple[str, ...]:

@@ -98,8 +98,7 @@ def test_no_volume_is_lost_where_pieces_are_sewn():
             for size, depth, y in zip(sizes, sunk, (-1.2, 1.2), strict=True)
         ]
         by_hand = 1.0 * 3.5 * 0.6 + sum(
-            size[0] * size[1] * (size[2] - depth)
-            for size, depth in zip(sizes, sunk, strict=True)
+            size[0] * size[1] * (size[2] - depth) for size, depth in zip(sizes, sunk, strict=True)
         )
         parts = convex_parts(union([box((1.0, 3.5, 0.6), (0.0, 0.0, 0.3)), *pads]), int(rng.integers(2, 12)))
         assert sum(part.volume for part in parts) == pytest.approx(by_hand, rel=1e-4)
