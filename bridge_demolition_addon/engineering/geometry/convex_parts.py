@@ -93,7 +93,7 @@ class _Part:
         engine closes these as it reads the mesh, in some cases over a corner of the piece.
         """
         read = to_manifold(_without_films(self.body, _RUBBISH * self.volume_m3))
-        return abs(read.volume() - self.volume_m3) <= _LOST * self.volume_m3
+        return bool(abs(read.volume() - self.volume_m3) <= _LOST * self.volume_m3)
 
     def cut(self, whole_m3: float) -> list[_Part]:
         """Return the pieces of the best cut through a part of a solid; none where no cut gains enough."""

@@ -14,6 +14,7 @@ from ...errors import ScenarioError
 from ..bridge.member import Member
 from ..bridge.own_axes import own_axes
 from ..materials.bar_layers import BarLayer
+from ..scenario.reinforcement import USUAL_COVER_M
 from .design_basis import LEAST, BarDesign
 from .load_paths import Seat
 from .schedule import ScheduledBars, ScheduledLinks
@@ -74,11 +75,16 @@ class FileDesign:
         return found
 
     def rows_or_least(self, index: int, rows: Rows) -> Rows:
-        """Yield the rows of a member, or least bars that are spread over it where its section has no room for them."""
+        """Yield the rows of a member, or least bars that are spread over it where its section has no room for them.
+
+        A cover that the user gives is refused instead.
+        """
         member = self.members[index]
         try:
             made = list(rows)
         except ScenarioError as error:
+            if self.design.rule.cover_m != USUAL_COVER_M:
+                raise
             self.note(member.name, f"least bars, spread over it, as no others fit ({error})")
             made = list(spread_rows(self.design, member, dict.fromkeys("xyz", LEAST_RATIO)))
         yield from made
