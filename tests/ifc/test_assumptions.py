@@ -101,7 +101,8 @@ def test_what_is_made_longer_keeps_its_section():
 
 
 @pytest.mark.parametrize(
-    "gap_m, said", [(0.007, "to touch Girder left"), (0.014, "to touch Girder left"), (0.03, "a plate up to Girder left")]
+    "gap_m, said",
+    [(0.007, "to touch Girder left"), (0.014, "to touch Girder left"), (0.03, "a plate up to Girder left")],
 )
 def test_a_gap_over_a_bearing_is_closed(gap_m, said, tmp_path):
     made = whole_bridge()
