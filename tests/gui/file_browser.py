@@ -19,8 +19,6 @@ def choose_file(person: Person, path: Path) -> Steps:
     area = next(shown for shown in window.screen.areas if shown.type == "FILE_BROWSER")
     folder, foot = (Place(window, area, region_of(area, kind)) for kind in ("UI", "EXECUTE"))
     person.take_to(window)
-    yield 2.0
-    yield from person.picture("browser")
     yield from person.fill_in("directory", f"{path.parent}/", folder)
     yield 0.5
     yield from click_foot(person, foot, NAME)

@@ -2,6 +2,7 @@
 """Outlines whose parts are said to run backwards and do not follow each other: areas by hand."""
 
 import math
+from itertools import pairwise
 
 import ifcopenshell
 import pytest
@@ -53,7 +54,7 @@ def test_a_plate_is_extruded_with_its_hole(file, tmp_path):
     ends = [*corners, corners[0]]
     sides = [
         make("IfcPolyline", [make("IfcCartesianPoint", one), make("IfcCartesianPoint", other)])
-        for one, other in zip(ends, ends[1:], strict=False)
+        for one, other in pairwise(ends)
     ]
     outer = make("IfcCompositeCurve", [make("IfcCompositeCurveSegment", "CONTINUOUS", False, s) for s in sides], None)
     profile = make("IfcArbitraryProfileDefWithVoids", "AREA", None, outer, [slot(file)])

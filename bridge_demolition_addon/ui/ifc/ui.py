@@ -26,7 +26,6 @@ class BDA_PT_ifc_elements(SidebarPanel, bpy.types.Panel):
     """What the elements of an IFC file become."""
 
     bl_label = "IFC Elements"
-    bl_order = -1  # above the panel with the button that lists them: elsewhere it is not found
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
