@@ -131,8 +131,8 @@ class BDA_OT_look_into_ifc(Action, ImportHelper, bpy.types.Operator):
         several = f"; it has the bridges {', '.join(bridges)}: choose one in Only" if len(bridges) > 1 else ""
         members = sum(bool(element.kind) for element in listed)
         return (
-            f"{len(listed)} elements, {members} of which become members or bearings: correct them in the panel IFC "
-            f"Elements, below those of the scenario{several}"
+            f"{len(listed)} elements, {members} of which become members or bearings: correct them in IFC Elements, "
+            f"at the end of this panel{several}"
         )
 
 
