@@ -188,7 +188,8 @@ def page() -> str:
     lines += [
         "",
         "Each bridge was run once, [one of many](accuracy.md#one-run-is-one-possible-outcome), or not where a dash",
-        "stands: its statics alone were worked out.",
+        "stands: its statics alone were worked out, or nothing but the import for the box girder of IFC4X1: those of",
+        "its 173 plates had not ended after eight minutes on two busy cores.",
         "A bridge of which much is lost, such as the abutments of an OpenBrIM file, stands on supports that are added.",
         "",
         *_damaged(),

@@ -1,7 +1,10 @@
 """``bda check``: print what follows from a scenario, without running it."""
 
 import argparse
+import sys
+import threading
 from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 
 from ..model.actions import Fact, PlannedAction
 from ..model.bridge.layout import bridge_facts
@@ -30,6 +33,11 @@ from ..studies.estimate import FACTOR, disk_megabytes, duration_text, megabytes_
 from .arguments import naming
 from .blender import simulation_module
 
+_LONG_S = 20.0
+"""Time after which a check says what takes it so long."""
+
+_LONG = "bda: works out how the bridge stands, which takes minutes where much of it cracks by its own weight"
+
 
 def add_to(commands: argparse._SubParsersAction) -> None:
     """Add the command to the command line."""
@@ -51,12 +59,24 @@ def add_to(commands: argparse._SubParsersAction) -> None:
 def check(arguments: argparse.Namespace) -> None:
     """Print what a planner wants to know before a run."""
     scenario = read_scenario(arguments.scenario)
-    with naming(arguments.scenario):
+    with naming(arguments.scenario), _said_if_long():
         for line in scenario_facts(scenario, stand=arguments.stand):
             print(line)
         if arguments.awake:
             for line in _section("Awake", _awake_facts(scenario)):
                 print(line)
+
+
+@contextmanager
+def _said_if_long() -> Iterator[None]:
+    """Say what takes long where it does, so that a check is not taken for one that hangs."""
+    timer = threading.Timer(_LONG_S, print, (_LONG,), {"file": sys.stderr, "flush": True})
+    timer.daemon = True
+    timer.start()
+    try:
+        yield
+    finally:
+        timer.cancel()
 
 
 def scenario_facts(scenario: Scenario, *, stand: bool = False) -> Iterator[str]:

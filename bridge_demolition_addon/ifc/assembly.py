@@ -204,7 +204,8 @@ class Assembly:
             self.outcomes[min(0, *self.outcomes) - 1] = replace(
                 outcome, member=part, file_volume_m3=None, file_mass_kg=None
             )
-        self.notes.append(f"{member.name} is cut into {len(large)} members where others pass through it")
+        if len(large) > 1:
+            self.notes.append(f"{member.name} is cut into {len(large)} members where others pass through it")
 
     def make_writable(self) -> None:
         """Give all meshes coordinates that a file holds; what is no solid with them is simplified, or left out."""

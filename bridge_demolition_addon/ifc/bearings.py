@@ -25,6 +25,9 @@ SEAT_M = 0.001
 HIGHEST_PLINTH_M = 0.5
 """Height up to which what a bearing stands on is taken for a plinth that the file lacks."""
 
+HIGHEST_PLATE_M = 0.1
+"""Gap up to which what lies on a bearing is taken to have a plate under it that the file lacks, such as a wedge."""
+
 _LOOKS_UP = 0.9
 """Least vertical part of the normal of a face that a plinth stands on."""
 
@@ -103,12 +106,14 @@ def bearing_of(
                 solid = on_plinth(solid, contacts.solid(below[0]))
                 plinth = f"a plinth down to {names[below[0]]} is added under it"
     if not above and gap_m > 0.0:
-        over = contacts.reached(lengthened(solid, gap_m), 0.0)
-        above = sorted(over.keys() - set(below), key=lambda index: -over[index])[:1]
+        above, over_m = _nearest_above(solid, contacts, set(below), gap_m)
         if above:
-            reach_m = gap_m + STEEPEST * float(np.ptp(solid.vertices[:, :2], axis=0).max())
+            reach_m = over_m + STEEPEST * float(np.ptp(solid.vertices[:, :2], axis=0).max())
             solid = cut_by(lengthened(solid, reach_m), [contacts.solid(index) for index in above])
-            closed.append(names[above[0]])
+            if over_m > gap_m:
+                plinth = "; ".join(filter(None, (plinth, f"a plate up to {names[above[0]]} is added on it")))
+            else:
+                closed.append(names[above[0]])
     if not above or (not below and gap_m <= 0.0):
         return f"nothing touches it from {'above' if below else 'below'}{_gaps(solid, contacts, names)}"
     free, source = free_motions(element, placement)
@@ -116,6 +121,17 @@ def bearing_of(
     text = "; ".join(filter(None, (text, plinth)))
     assumed = source.endswith(_UNKNOWN)
     return BearingElement(below[0] if below else None, tuple(above), solid, free, source, text, assumed)
+
+
+def _nearest_above(
+    solid: TriangleMesh, contacts: NearbyMembers, below: set[int], gap_m: float
+) -> tuple[list[int], float]:
+    """Return the member that is nearest above a bearing, if any, and the gap up to which it was looked for."""
+    for over_m in (gap_m, HIGHEST_PLATE_M):
+        over = contacts.reached(lengthened(solid, over_m), 0.0)
+        if above := sorted(over.keys() - below, key=lambda index: -over[index])[:1]:
+            return above, over_m
+    return [], gap_m
 
 
 def with_one_fixed(

@@ -139,8 +139,7 @@ class _Reader:
 
     def substance(self, element: Element) -> Substance | str:
         """Return the material of an element; its name where the table lacks it, empty for no material."""
-        material = library("util.element").get_material(element.entity, should_skip_usage=True)
-        parts = _parts_of(material)
+        parts = _parts_of(self._material(element))
         if not parts and (name := material_name(element.psets)):
             row = self.table.row(name)
             if row is None:
@@ -162,6 +161,14 @@ class _Reader:
         density = by_thickness / math.fsum(shares)
         main = known[shares.index(max(shares))]
         return Substance(main.name, density, main.row, f"the density is the mean of {len(known)} layers by thickness")
+
+    def _material(self, element: Element) -> Any:
+        """Return the material of an element, or else of the smallest assembly that has it as a part and has one."""
+        wholes = (self.source.model.by_id(number) for number in element.wholes)
+        for entity in (element.entity, *(whole for whole in wholes if whole.is_a("IfcElement"))):
+            if material := library("util.element").get_material(entity, should_skip_usage=True):
+                return material
+        return None
 
     def _one(self, material: Any) -> Substance | str:
         name = (material.Name or "").strip()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from typing import Any
@@ -18,6 +19,7 @@ _NO_BODIES = (
 )
 """Representations of an element that do not show its body."""
 
+_CLASS = re.compile(r"Ifc([A-Z]\w+)")
 _LISTED = 5
 _DEEPEST = 100
 """Parts within parts of a bridge; what is deeper is in itself."""
@@ -120,7 +122,7 @@ def _read(entity: Any) -> Element:
     util = library("util.element")
     kind = util.get_type(entity)
     predefined = str(util.get_predefined_type(entity) or "").upper()
-    words = (entity.Name, entity.ObjectType, getattr(kind, "Name", None), predefined)
+    words = (entity.Name, entity.ObjectType, getattr(kind, "Name", None), predefined, _named_class(entity))
     wholes = list(_wholes(entity))
     psets = util.get_psets(entity)
     facts = ElementFacts(
@@ -137,6 +139,14 @@ def _read(entity: Any) -> Element:
         ),
     )
     return Element(entity, facts, LeftOut(""), psets, tuple(whole.id() for whole in wholes))
+
+
+def _named_class(entity: Any) -> str:
+    """Return the class that a proxy is by its description, as words; schemas before IFC4X2 have no bearings."""
+    found = _CLASS.fullmatch(entity.Description or "")
+    return (
+        re.sub(r"(?<=[a-z])(?=[A-Z])", " ", found.group(1)) if found and entity.is_a("IfcBuildingElementProxy") else ""
+    )
 
 
 def _classes(entity: Any) -> tuple[str, ...]:

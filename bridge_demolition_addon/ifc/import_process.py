@@ -152,6 +152,8 @@ class _Attempt:
                     return {"crash": f"took longer than {limit_s:g} s"}
                 if part:
                     progress.part(*part)
+                else:
+                    progress.wait()
                 continue
             since = time.monotonic()
             if answer is None:

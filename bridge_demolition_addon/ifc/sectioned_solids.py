@@ -14,11 +14,11 @@ import numpy as np
 from manifold3d import triangulate
 
 from ..engineering.geometry.mesh import TriangleMesh, joined_meshes
-from ..engineering.geometry.plan_areas import signed_area
 from ..engineering.geometry.vectors import length, transformed
 from ..errors import GeometryError
-from .alignments import Curve, curve_of, place_along, points_of
+from .alignments import Curve, curve_of, place_along
 from .library import library
+from .profiles import outline_of
 from .source import IfcSource
 
 _CHORD_M = 0.005
@@ -50,7 +50,7 @@ def swept_mesh(source: IfcSource, entity: Any) -> TriangleMesh:
 def _swept(source: IfcSource, solid: Any) -> TriangleMesh:
     unit_m = source.unit_m
     curve = curve_of(solid.Directrix, unit_m)
-    profiles = [_profile(profile) * unit_m for profile in solid.CrossSections]
+    profiles = [outline_of(profile, unit_m, source.angle_rad) for profile in solid.CrossSections]
     places = [place_along(getattr(position, "Location", position), unit_m) for position in solid.CrossSectionPositions]
     if len(profiles) < 2 or len(places) != len(profiles) or len({len(profile) for profile in profiles}) != 1:
         raise GeometryError("has sections with different numbers of corners")
@@ -110,22 +110,6 @@ def _loft(rings: np.ndarray, first: np.ndarray, last: np.ndarray) -> TriangleMes
 def _lid(profile: np.ndarray) -> np.ndarray:
     """Return triangles (t, 3) of a profile that has been made anticlockwise."""
     return np.asarray(triangulate([np.ascontiguousarray(profile)]), dtype=np.int64).reshape(-1, 3)
-
-
-def _profile(profile: Any) -> np.ndarray:
-    """Return the corners (k, 2) of a profile, anticlockwise, in the file's unit."""
-    if profile.is_a("IfcRectangleProfileDef"):
-        x, y = profile.XDim / 2.0, profile.YDim / 2.0
-        corners = np.array([(-x, -y), (x, -y), (x, y), (-x, y)])
-    elif profile.is_a("IfcArbitraryClosedProfileDef") and not profile.is_a("IfcArbitraryProfileDefWithVoids"):
-        corners = points_of(profile.OuterCurve)[:, :2]
-    else:
-        raise GeometryError(f"has sections of the kind {profile.is_a()}")
-    if len(corners) > 1 and np.array_equal(corners[0], corners[-1]):
-        corners = corners[:-1]
-    if len(corners) < 3:
-        raise GeometryError("has a section with less than three corners")
-    return corners if signed_area(corners) > 0.0 else corners[::-1]
 
 
 def _stations(curve: Curve, start: float, end: float) -> np.ndarray:

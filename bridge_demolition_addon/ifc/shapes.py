@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ from ..engineering.geometry.mesh import TriangleMesh
 from ..engineering.geometry.vectors import transformed
 from ..errors import GeometryError
 from .elements import Element
+from .extrusions import extruded_mesh
 from .library import library
 from .sectioned_solids import swept_mesh
 from .source import IfcSource
@@ -76,7 +78,7 @@ def shapes_of(source: IfcSource, elements: Iterable[Element], kept: KeptShapes) 
         if mesh is None:
             kept.begins(done, len(wanted), element)
             try:
-                mesh = _swept_or_none(source, element.entity) or _shape(element.entity, settings, source.scale)
+                mesh = _own_or_none(source, element.entity) or _shape(element.entity, settings, source.scale)
             except _CONTRADICTIONS as error:
                 kept.failed[number] = f"contradicts its schema ({error})"
                 continue
@@ -89,11 +91,12 @@ def shapes_of(source: IfcSource, elements: Iterable[Element], kept: KeptShapes) 
     return shapes
 
 
-def _swept_or_none(source: IfcSource, entity: Any) -> TriangleMesh | None:
-    try:
-        return swept_mesh(source, entity)
-    except GeometryError:  # it is of another kind
-        return None
+def _own_or_none(source: IfcSource, entity: Any) -> TriangleMesh | None:
+    """Return a body that is worked out here, as the geometry library leaves those of its kind unsound."""
+    for made in (swept_mesh, extruded_mesh):
+        with suppress(GeometryError):  # it is of another kind
+            return made(source, entity)
+    return None
 
 
 def single_shape(source: IfcSource, entity: Any) -> TriangleMesh | None:

@@ -13,6 +13,8 @@ from typing import Any
 from ..errors import IfcError, UnreadableError
 from ..system.reading import MEGABYTE, check_file
 from .library import library
+from .linear_placements import place_along_curves
+from .older_schemas import translated
 from .settings import UNITS, ImportSettings
 
 MOST_BYTES = 2000 * MEGABYTE
@@ -21,9 +23,6 @@ MOST_BYTES = 2000 * MEGABYTE
 SCHEMAS = ("IFC2X3", "IFC4", "IFC4X3")
 
 _READ_AS = re.compile(r"IFC4X(1|2|3_(RC|TC|ADD1)\w*)(_\w*)?")
-_STRATUM = re.compile(rb"IFC(?:SOLID|VOID|WATER)STRATUM\s*\((.*?)\)\s*;", flags=re.IGNORECASE | re.DOTALL)
-"""Strata as release candidates have them, of classes of their own and without a predefined type."""
-
 _NEWEST = "IFC4X3_ADD2"
 """Schemas that came before IFC4X3, whose elements it has too, and what they are read as."""
 
@@ -47,13 +46,15 @@ _BEYOND_ASCII = re.compile(r"[^\x00-\x7f]+")
 class IfcSource:
     """An IFC file: its content, an `ifcopenshell.file`, and notes on corrections.
 
-    `scale` is a factor on what IfcOpenShell takes for metres; `unit_m` is the length of the file's unit.
+    `scale` is a factor on what IfcOpenShell takes for metres; `unit_m` and `angle_rad` are the file's units of length
+    and angle.
     """
 
     path: Path
     model: Any
     scale: float
     unit_m: float
+    angle_rad: float = 1.0
     notes: tuple[str, ...] = ()
     lost_classes: tuple[str, ...] = ()
     """Classes of an older schema that the one that the file is read as does not have."""
@@ -78,7 +79,7 @@ def open_source(path: Path, settings: ImportSettings) -> IfcSource:
     openshell = library()
     content = _content(path)
     mended, count = _AMERICAN.subn(rb"\1METRE\2", content)
-    mended, schema = _relabelled(mended)
+    mended, schema, assumed = _relabelled(mended)
     try:
         # By its text, as a file opened by its path is not closed before the interpreter ends.
         model = openshell.file.from_string(_text(mended))
@@ -89,7 +90,7 @@ def open_source(path: Path, settings: ImportSettings) -> IfcSource:
     notes = ("METER is taken for METRE, as the standard spells it",) if count else ()
     lost = _lost_classes(mended) if schema else ()
     if schema:
-        notes = (*notes, f"the schema {schema} is read as {_NEWEST}, which came after it")
+        notes = (*notes, f"the schema {schema} is read as {_NEWEST}, which came after it", *assumed)
     if lost:
         notes = (*notes, f"{_NEWEST} has no {', '.join(lost)}: what is placed along these has no shape")
     own_m = _unit_of_file(model)
@@ -103,8 +104,10 @@ def open_source(path: Path, settings: ImportSettings) -> IfcSource:
         )
     if own_m is not None and unit_m != own_m:
         notes = (*notes, f"lengths are taken for {settings.unit}, though the file says that its unit is {own_m:g} m")
+    notes = (*notes, *place_along_curves(model, unit_m))
     taken_m = library("util.unit").calculate_unit_scale(model)
-    return IfcSource(path, model, unit_m / taken_m, unit_m, notes, lost)
+    angle_rad = float(library("util.unit").calculate_unit_scale(model, "PLANEANGLEUNIT")) or 1.0
+    return IfcSource(path, model, unit_m / taken_m, unit_m, angle_rad, notes, lost)
 
 
 def _content(path: Path) -> bytes:
@@ -132,14 +135,15 @@ def _content(path: Path) -> bytes:
     return content
 
 
-def _relabelled(content: bytes) -> tuple[bytes, str]:
-    """Return a file with the schema that it is read as, and its own where that is another; empty where it is not."""
+def _relabelled(content: bytes) -> tuple[bytes, str, tuple[str, ...]]:
+    """Return a file with the schema that it is read as, its own where that is another, and what was assumed."""
     found = _SCHEMA.search(content[:_HEAD])
     name = found.group(1).decode("latin-1").upper() if found else ""
     if not found or not _READ_AS.fullmatch(name):
-        return content, ""
+        return content, "", ()
     relabelled = content[: found.start(1)] + _NEWEST.encode() + content[found.end(1) :]
-    return _STRATUM.sub(rb"IFCGEOTECHNICALSTRATUM(\1,$);", relabelled), name
+    mended, notes = translated(relabelled)
+    return mended, name, notes
 
 
 def _lost_classes(content: bytes) -> tuple[str, ...]:

@@ -77,7 +77,7 @@ def loaded(path: Path, *, is_cloud: bool) -> tuple[np.ndarray, np.ndarray]:
 def _points(whole: Any, path: Path) -> np.ndarray:
     try:
         parts = whole.dump() if hasattr(whole, "dump") else [whole]
-        points = np.concatenate([_vertices(part, path) for part in parts])
+        points = np.concatenate([np.empty((0, 3)), *(_vertices(part, path) for part in parts)])
     except Exception as error:  # what is neither a mesh nor a cloud
         raise GeometryError(f"{path}: cannot be read as {path.suffix[1:].upper()}: {error}") from error
     points = points[np.isfinite(points).all(axis=1)]

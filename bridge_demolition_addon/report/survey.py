@@ -54,7 +54,14 @@ def survey_rows(comparison: SurveyComparison) -> list[tuple[str, str]]:
         ("survey less forecast", f"{_metres(mean)} in the mean, {_metres(squares)} as root mean square"),
         ("", f"95 % of the cells within {_metres(common)}"),
         ("known by the survey", f"{float(comparison.known.sum()) * area:.1f} m²"),
+        ("ground by the survey", _ground(comparison)),
     ]
+
+
+def _ground(comparison: SurveyComparison) -> str:
+    ground_m = comparison.ground_m
+    off = "" if not abs(ground_m) > comparison.above_m else ": say by --origin which height the scenario's 0 has in it"
+    return f"{_metres(ground_m)} above that of the run, as median where the forecast has no debris{off}"
 
 
 def _amount(comparison: SurveyComparison, cells: np.ndarray, heights_m: np.ndarray) -> str:

@@ -11,7 +11,7 @@ from typing import Any
 
 from ..errors import OutputError, text_of
 from ..exports.sheets import write_workbook
-from ..model.debris.survey import SurveySettings, compared, read_survey
+from ..model.debris.survey import SurveyComparison, SurveySettings, compared, read_survey
 from ..model.ensemble.folder import holds_ensemble
 from ..model.run_folder.files import (
     CHARGES_DXF,
@@ -43,7 +43,7 @@ from .ensemble.search import read_answer, search_report
 from .ensemble.study import study_report
 from .ensemble.study_runs import read_study_runs
 from .run import run_report
-from .run_folder import read_run
+from .run_folder import ReportedRun, read_run
 from .sections.charge_plan import planned_section
 from .sections.stages import has_stages, stages_report
 from .site_plan import write_areas
@@ -97,6 +97,8 @@ class Extras:
 NO_EXTRAS = Extras()
 
 SurveyPlace = tuple[Sequence[float] | None, float | None, float | None]
+_AS_GROUND: SurveyPlace = (None, None, None)
+_USUAL_CELLS = SurveySettings()
 """Origin of the scenario in a survey, direction of its x axis, and metres in its unit; None for those of the ground."""
 
 
@@ -148,11 +150,20 @@ def write_survey(
 
     Where and how the survey lies is that of the ground of the run's scenario, but for what `place` says.
     """
-    progress.stage("reading the results")
+    progress.stage(f"reading the results, and {survey.name}")
+    comparison, run = survey_beside_run(folder, survey, place, settings)
+    with _written_to(output):
+        written = _written(survey_report(comparison, run.name, survey), output, progress)
+    return survey_rows(comparison), written
+
+
+def survey_beside_run(
+    folder: Path, survey: Path, place: SurveyPlace = _AS_GROUND, settings: SurveySettings = _USUAL_CELLS
+) -> tuple[SurveyComparison, ReportedRun]:
+    """Return a survey of debris beside a run, and that run."""
     run = read_run(folder)
     if run.results is None or run.scenario is None:
         raise OutputError(f"{folder}: {' '.join(run.shortcomings)}")
-    progress.stage(f"reading {survey.name}")
     origin, bearing_deg, scale = place
     ground = run.scenario.ground
     if origin is not None:
@@ -162,10 +173,7 @@ def write_survey(
     if scale is not None:
         ground = replace(ground, scale=scale)
     points = read_survey(survey, Placing.of(replace(run.scenario, ground=ground)))
-    comparison = compared(run.results, points, settings)
-    with _written_to(output):
-        written = _written(survey_report(comparison, run.name, survey), output, progress)
-    return survey_rows(comparison), written
+    return compared(run.results, points, settings), run
 
 
 def _write_comparison(

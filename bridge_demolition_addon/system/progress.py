@@ -13,5 +13,8 @@ class Progress:
     def part(self, done: int, total: int, text: str) -> None:
         """Take in how many parts of a stage are done."""
 
+    def wait(self) -> None:
+        """Take in that the work waits for another process, and can be stopped."""
+
     def finish(self) -> None:
         """Leave the terminal ready for other output."""

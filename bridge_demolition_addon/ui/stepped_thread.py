@@ -74,6 +74,10 @@ class SteppedThread(Progress):
         self.done, self.total = done, total
         self._hand_over()
 
+    def wait(self) -> None:
+        """Let Blender go on while the work waits for another process; called by the work."""
+        self._hand_over()
+
     def _hand_over(self) -> None:
         self._our_turn.release()
         self._its_turn.acquire()

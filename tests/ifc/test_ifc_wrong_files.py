@@ -58,17 +58,17 @@ def test_a_schema_that_is_not_known(text, tmp_path):
 
 
 def test_classes_that_later_schemas_do_not_have_are_named(text, tmp_path):
-    """IfcDistanceExpression is of IFC4X1 alone: what is placed by it has no shape, which is said with its name."""
+    """IfcOrientationExpression is of IFC4X1 alone: what is placed by it has no shape, which is said with its name."""
     label = text.split("FILE_SCHEMA(('")[1].split("'")[0]
     older = text.replace(f"'{label}'", "'IFC4X1'").replace(
-        "ENDSEC;\nEND-", "#99999=IFCDISTANCEEXPRESSION(0.,$,$,$,.T.);\nENDSEC;\nEND-"
+        "ENDSEC;\nEND-", "#99999=IFCORIENTATIONEXPRESSION($,$);\nENDSEC;\nEND-"
     )
     (tmp_path / "bridge.ifc").write_text(older)
     notes = read_bridge(tmp_path / "bridge.ifc", ImportSettings()).notes
-    assert "IFC4X3_ADD2 has no IFCDISTANCEEXPRESSION: what is placed along these has no shape" in notes
-    bodiless = older.replace("IFCEXTRUDEDAREASOLID(", "IFCDISTANCEEXPRESSION(")
+    assert "IFC4X3_ADD2 has no IFCORIENTATIONEXPRESSION: what is placed along these has no shape" in notes
+    bodiless = older.replace("IFCEXTRUDEDAREASOLID(", "IFCORIENTATIONEXPRESSION(")
     (tmp_path / "bridge.ifc").write_text(bodiless)
-    assert "as later schemas have no IFCDISTANCEEXPRESSION; export it as IFC4X3" in refused(tmp_path / "bridge.ifc")
+    assert "as later schemas have no IFCORIENTATIONEXPRESSION; export it as IFC4X3" in refused(tmp_path / "bridge.ifc")
 
 
 def test_no_project(text, tmp_path):

@@ -97,6 +97,21 @@ def test_progress_names_elements_and_a_stop_ends_the_process(path, tmp_path):
     assert not (tmp_path / "other").exists()
 
 
+def test_an_import_can_be_stopped_while_its_file_is_opened(path, tmp_path):
+    """The process says nothing between two stages; without a call in between a window would stand still."""
+
+    class Stopped(BaseException):
+        pass
+
+    class Stopping(Progress):
+        def wait(self):
+            raise Stopped
+
+    with pytest.raises(Stopped):
+        import_bridge(path, tmp_path / "made", ImportSettings(), Stopping())
+    assert not (tmp_path / "made").exists()
+
+
 def test_refusals_and_what_is_there_already(path, tmp_path):
     with pytest.raises(IfcError, match="no such file"):
         import_bridge(tmp_path / "none.ifc", tmp_path / "made", ImportSettings())

@@ -121,6 +121,12 @@ class SurveyComparison:
         return float(self.distances_m[cells].max()) if cells.any() else float("nan")
 
     @property
+    def ground_m(self) -> float:
+        """Median height of the survey where the forecast has no debris; nan where it has no points there."""
+        heights = self.survey_m[self.known & (self.forecast_m <= self.above_m)]
+        return float(np.median(heights)) if len(heights) else float("nan")
+
+    @property
     def errors_m(self) -> tuple[float, float, float]:
         """Mean of survey less forecast, its root mean square, and what 95 % of the cells do not exceed."""
         values = self.difference_m[np.isfinite(self.difference_m)]
@@ -169,8 +175,11 @@ def compared(results: Results, points: np.ndarray, settings: SurveySettings) -> 
     if not ground.is_flat:
         surveyed = surveyed - ground.heights_at(places)
     if not np.isfinite(surveyed).any():
+        (west, south), (east, north) = points[:, :2].min(axis=0), points[:, :2].max(axis=0)
         raise ScenarioError(
-            "the survey has no point near the bridge: say by --origin and --bearing where the scenario begins in it"
+            f"the survey has no point near the bridge: it goes from x = {west:.0f} m to {east:.0f} m and from y = "
+            f"{south:.0f} m to {north:.0f} m in the scenario; say by --origin and --bearing where the scenario begins "
+            "in it, and by --scale how many metres its unit has"
         )
     unmoved = np.setdiff1d(shards, debris.bodies)
     standing = _within(footprint(results, unmoved, -1), places)

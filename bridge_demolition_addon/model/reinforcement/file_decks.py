@@ -63,14 +63,15 @@ def file_deck_bars(basis: FileDesign, line: FileDeckLine) -> Rows:
     if not girders:
         for index in line.part.decks:
             if index in basis.concrete:
-                yield from in_own_axes(_slab(basis, line, index, effects))
+                yield from basis.rows_or_least(index, in_own_axes(_slab(basis, line, index, effects)))
         return
     for index in girders:
         if index in basis.concrete:
-            yield from in_own_axes(_girder(basis, line, index, girders))
+            yield from basis.rows_or_least(index, in_own_axes(_girder(basis, line, index, girders)))
     for index in line.part.decks:
         if index in basis.concrete:
-            yield from in_own_axes(_slab_on_girders(basis, line, index, girders, effects))
+            rows = in_own_axes(_slab_on_girders(basis, line, index, girders, effects))
+            yield from basis.rows_or_least(index, rows)
 
 
 def _slab(basis: FileDesign, line: FileDeckLine, index: int, effects: BeamEffects) -> Rows:

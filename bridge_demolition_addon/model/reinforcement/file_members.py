@@ -14,6 +14,7 @@ from ...errors import ScenarioError
 from ..bridge.member import Member
 from ..bridge.own_axes import own_axes
 from ..materials.bar_layers import BarLayer
+from ..scenario.reinforcement import USUAL_COVER_M
 from .design_basis import LEAST, BarDesign
 from .load_paths import Seat
 from .schedule import ScheduledBars, ScheduledLinks
@@ -26,6 +27,9 @@ _TWENTIETH = 0.05
 _KILO = 1e3
 _PER_SQUARE_METRE = 1e6
 _MM = 1e3
+LEAST_RATIO = 0.002
+"""Steel along each axis, by volume, of members of which nothing is designed."""
+
 _AS_SLAB = 0.6
 """Width of a deck's underside by that of its top from which on its bars lie in one row, as those of a slab."""
 
@@ -69,6 +73,21 @@ class FileDesign:
             f"{wanted / _KILO:.0f} {unit}, is carried: prestressed, or built for less",
         )
         return found
+
+    def rows_or_least(self, index: int, rows: Rows) -> Rows:
+        """Yield the rows of a member, or least bars that are spread over it where its section has no room for them.
+
+        A cover that the user gives is refused instead.
+        """
+        member = self.members[index]
+        try:
+            made = list(rows)
+        except ScenarioError as error:
+            if self.design.rule.cover_m != USUAL_COVER_M:
+                raise
+            self.note(member.name, f"least bars, spread over it, as no others fit ({error})")
+            made = list(spread_rows(self.design, member, dict.fromkeys("xyz", LEAST_RATIO)))
+        yield from made
 
     def note(self, name: str, text: str) -> None:
         """Note something of a member, together with others of which the same is to be said."""

@@ -15,7 +15,7 @@ from ..bridge.own_axes import own_axes
 from .beam_effects import beam_effects
 from .design_basis import LEAST
 from .file_decks import FileDeckLine, beam_rows
-from .file_members import FileDesign, LyingSection, Rows, in_own_axes, spread_rows
+from .file_members import LEAST_RATIO, FileDesign, LyingSection, Rows, in_own_axes, spread_rows
 from .load_paths import carriers_of, spans
 from .substructure import ColumnSize, column_bars
 
@@ -26,7 +26,6 @@ _FREE_TOP, _HELD_TOP = 2.0, 1.0
 """Buckling length by the height: EN 1992-1-1:2004, figure 5.7 b and a."""
 
 _ON_GROUND = ("footing", "abutment", "approach slab", "wing wall")
-_LEAST_RATIO = 0.002
 
 NOT_REINFORCED = ("fill",)
 """Kinds of members of which nothing is designed."""
@@ -81,15 +80,15 @@ def file_substructure_bars(basis: FileDesign, indices: Sequence[int], loads: dic
         if member.kind in NOT_REINFORCED:
             continue
         if member.kind == "pier cap" or (spans(member) and index in loads):
-            yield from in_own_axes(_cap(basis, index, loads.get(index, CarriedLoad())))
+            yield from basis.rows_or_least(index, in_own_axes(_cap(basis, index, loads.get(index, CarriedLoad()))))
         elif member.kind == "footing":
-            yield from _footing(basis, index)
+            yield from basis.rows_or_least(index, _footing(basis, index))
         elif member.kind == "pier" and not _is_wall(basis, index):
-            yield from in_own_axes(_column(basis, index, loads.get(index, CarriedLoad())))
+            yield from basis.rows_or_least(index, in_own_axes(_column(basis, index, loads.get(index, CarriedLoad()))))
         elif member.kind in ("pier", "wall", "abutment", "wing wall"):
             yield from _wall(basis, index, loads.get(index, CarriedLoad()))
         else:
-            yield from spread_rows(basis.design, member, dict.fromkeys("xyz", _LEAST_RATIO))
+            yield from spread_rows(basis.design, member, dict.fromkeys("xyz", LEAST_RATIO))
 
 
 def _cap(basis: FileDesign, index: int, load: CarriedLoad) -> Rows:

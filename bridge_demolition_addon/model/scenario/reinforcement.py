@@ -14,6 +14,9 @@ HL_93 = "HL-93"
 OWN_WEIGHT = "own weight"
 NONE = "none"
 
+USUAL_COVER_M = 0.045
+"""Nominal cover where the user says none."""
+
 _KILO = 1e3
 _OWN = "traffic of your own (traffic_kn_m2, axles_kn)"
 _PERCENT = {"default": None, "unit": "%", "at_least": 0, "at_most": 8}
@@ -101,7 +104,7 @@ class BarRule(Table):
     cover_m: float = key(
         "Nominal cover of the outermost bars. By default that of EN 1992-1-1 for exposure XD1, class S4: 35 mm and 10 "
         "mm for deviations.",
-        default=0.045,
+        default=USUAL_COVER_M,
         unit="m",
         above=0,
         at_most=1,

@@ -72,6 +72,7 @@ class StandingBridge:
         self._inertias, self._held_motions = inertias_of(model), held_motions(model, joints)
         self._utilisations = Utilisations(model, joints)
         self._as_built: Standing | None = None
+        self._last_cracked: tuple[tuple[bytes | float, ...], CrackedBridge] | None = None
 
     def rest(
         self,
@@ -99,9 +100,7 @@ class StandingBridge:
             return self._on_bars(on_bare, left, standing)
         if self.model.crack_bars is None or not len(self._broken(standing, intact)):
             return standing
-        cracked = self._begun(intact, left, standing)
-        self._pause()
-        cracked.carry(factor, loads)
+        cracked = self._cracked(intact, left, loads, factor, standing)
         return standing if cracked.fallen.any() else self._on_bars(cracked, left, standing)
 
     def held(self, intact: np.ndarray) -> np.ndarray:
@@ -147,6 +146,18 @@ class StandingBridge:
             bare_n=np.zeros(0),
         )
 
+    def _cracked(
+        self, intact: np.ndarray, left: np.ndarray, loads: np.ndarray, factor: float, elastic: Standing
+    ) -> CrackedBridge:
+        """Return a bridge whose concrete has cracked under loads; the last one is kept, as much cracking takes long."""
+        case = (intact.tobytes(), left.tobytes(), loads.tobytes(), factor)
+        if self._last_cracked is None or self._last_cracked[0] != case:
+            cracked = self._begun(intact, left, elastic)
+            self._pause()
+            cracked.carry(factor, loads)
+            self._last_cracked = case, cracked
+        return self._last_cracked[1]
+
     def _begun(self, intact: np.ndarray, left: np.ndarray, elastic: Standing) -> CrackedBridge:
         """Return a bridge whose concrete cracks under loads, before any."""
         return CrackedBridge(self.model, self._joints, self._utilisations, intact, left, elastic.uncracked)
@@ -186,10 +197,7 @@ class StandingBridge:
         """
         first = standing = self._elastic(intact, left, loads, factor, every_section=False)
         if self.model.crack_bars is not None:
-            cracked = self._begun(intact, left, first)
-            self._pause()
-            cracked.carry(factor, loads)
-            return cracked.fallen
+            return self._cracked(intact, left, loads, factor, first).fallen
         intact, is_collapse = intact.copy(), False
         least = FALLEN_SHARE * self._masses[first.held].sum()
         rounds = 0

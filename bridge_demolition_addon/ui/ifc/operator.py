@@ -130,7 +130,10 @@ class BDA_OT_look_into_ifc(Action, ImportHelper, bpy.types.Operator):
         settings.ifc_only = ""
         several = f"; it has the bridges {', '.join(bridges)}: choose one in Only" if len(bridges) > 1 else ""
         members = sum(bool(element.kind) for element in listed)
-        return f"{len(listed)} elements, {members} of which become members or bearings{several}"
+        return (
+            f"{len(listed)} elements, {members} of which become members or bearings: correct them in IFC Elements, "
+            f"at the end of this panel{several}"
+        )
 
 
 class BDA_OT_ifc_alike(UndoableAction, bpy.types.Operator):

@@ -26,7 +26,7 @@ class BDA_PT_ifc_elements(SidebarPanel, bpy.types.Panel):
     """What the elements of an IFC file become."""
 
     bl_label = "IFC Elements"
-    bl_options = {"DEFAULT_CLOSED"}
+    bl_parent_id = "BDA_PT_scenario"  # with the button that lists them: below all other panels it is not found
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

@@ -7,19 +7,24 @@ from pathlib import Path
 from typing import ClassVar
 
 import bpy
+import numpy as np
 from bpy.props import EnumProperty, IntProperty, StringProperty
+from bpy_extras.io_utils import ImportHelper
 
 from ...engineering.blast.pulses import BlastModel
 from ...errors import OutputError, SimulationError
 from ...exports.formats import FORMATS, new_export
+from ...model.debris.survey import SURVEY_FILES
 from ...model.run_folder.files import FORCE_CHART, REPORT_PAGE, REPORT_PDF, REPORT_WORD
 from ...model.run_folder.folder import keep_site
 from ...report.document.word_library import word_is_there
+from ...scene.surveys import show_survey
 from ...simulation.kept_run import folder_of_run, has_run, is_run_of
 from ...system.disk import writing
 from ..modal_task import ModalTask, Work
 from ..operators import Action, UndoableAction, absolute, no_world, recording_runs
 from ..scenario.built import shown_site
+from ..sidebar import path_property
 from ..stepped_thread import SteppedThread
 from ..viewport import look_at_selected, look_at_shards, select_only, shards_in_view
 from .shown_run import shown_run
@@ -92,6 +97,33 @@ class BDA_OT_open_results(Action, bpy.types.Operator):
 
     def act(self, context: bpy.types.Context) -> str | None:
         open_path(shown_run(context.scene).folder)
+
+
+class BDA_OT_show_survey(UndoableAction, ImportHelper, bpy.types.Operator):
+    """Show a scan of the debris beside the end of the run, coloured by how much higher or lower it is"""
+
+    bl_label = "Show Survey"
+    changes_objects = True
+    blocked_by = (_no_run, recording_runs)
+
+    filter_glob: StringProperty(default=";".join(f"*{ending}" for ending in SURVEY_FILES), options={"HIDDEN"})
+    filepath: path_property("File", "Scan of the site: a point cloud, heights on a grid, or a mesh")
+
+    def act(self, context: bpy.types.Context) -> str:
+        if not self.filepath:
+            raise OutputError("no file of a survey was given: choose one")
+        # Loading matplotlib takes a second, which switching the extension on need not wait for.
+        from ...report.survey import survey_rows
+        from ...report.write import survey_beside_run
+
+        comparison, run = survey_beside_run(shown_run(context.scene).folder, absolute(self.filepath))
+        ground = run.recorded.ground()
+        places = np.stack(np.meshgrid(comparison.xs_m, comparison.ys_m), -1)
+        heights = np.zeros(places.shape[:2]) if ground.is_flat else ground.heights_at(places)
+        show_survey(context.scene, comparison, heights)
+        said = dict(survey_rows(comparison))
+        overlap, off = said["overlap of the footprints"], said["survey less forecast"]
+        return f"Footprints overlap by {overlap}; survey less forecast is {off}"
 
 
 class BDA_OT_draw_charts(ModalTask, bpy.types.Operator):

@@ -66,3 +66,4 @@ class BDA_PT_report(SidebarPanel, bpy.types.Panel):
         column.operator("bda.make_report")
         column.operator("bda.make_word_report")
         column.operator("bda.open_report")
+        column.operator("bda.show_survey", icon="POINTCLOUD_DATA")

@@ -121,4 +121,12 @@ def test_the_command_says_it_and_writes_a_report(tmp_path, capsys):
     assert rows[0] == "x_m,y_m,forecast_m,survey_m,distance_m"
     assert len(rows) > 40
     assert main(["compare", str(folder), "--survey", str(survey), "--origin", "9e5", "0", "0"]) == 2
-    assert "no point near the bridge: say by --origin" in capsys.readouterr().err
+    refusal = capsys.readouterr().err
+    assert "no point near the bridge: it goes from x = -900008 m to -899992 m" in refusal
+    assert "say by --origin and --bearing" in refusal
+
+
+def test_ground_that_is_too_high_is_said():
+    """All points are 2 m higher, as where heights of the survey begin elsewhere: so is its ground."""
+    assert compared(hanging_chain(), scan() + np.array((0.0, 0.0, 2.0)), CELLS).ground_m == pytest.approx(2.0)
+    assert compared(hanging_chain(), scan(), CELLS).ground_m == pytest.approx(0.0)

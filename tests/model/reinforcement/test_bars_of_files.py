@@ -154,6 +154,14 @@ def test_bars_go_on_into_members_that_meet_without_a_bearing(tmp_path):
     assert (built.bars.openings_m[rows_] > 0.0).all()
 
 
+def test_members_too_thin_for_bars_have_least_bars(tmp_path):
+    """A slab of 12 cm, in which bars under 45 mm of concrete would be in the middle: 0.2 % along each axis."""
+    schedule = schedule_of(scenario_of(slab(3.0, 0.12, supports_m=(0.3, 2.7)), tmp_path))
+    layers = {row.layer.along: row.layer for row in schedule.bars if "deck" in row.members}
+    assert {along: layer.spread_mm2_m2 for along, layer in layers.items()} == dict.fromkeys("xyz", 2000.0)
+    assert any(note.startswith("deck: least bars, spread over it") for note in schedule.notes)
+
+
 @pytest.mark.parametrize(
     ("rule", "tables", "message"),
     [

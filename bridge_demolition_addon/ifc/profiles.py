@@ -1,0 +1,114 @@
+"""Outlines of profiles that bodies are swept with: closed areas, and sheets of one thickness along a line."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from ..engineering.geometry.plan_areas import signed_area
+from ..engineering.geometry.vectors import length, unit
+from ..errors import GeometryError
+from .alignments import plain_number, points_of
+
+_CHORD_M = 0.001
+"""Largest distance of the middle of a chord from its arc."""
+
+_SAME = 1e-6
+"""Part of the size of a profile within which points are one."""
+
+_SHARPEST = 0.2
+"""Least cosine of half the angle by which the line of a sheet turns, so that its corners do not run away."""
+
+
+def outline_of(profile: Any, unit_m: float, angle_rad: float) -> np.ndarray:
+    """Return the corners (k, 2) of a profile, anticlockwise, m; a `GeometryError` names a kind not known.
+
+    Lengths and angles in the file are in units of so many metres and radians.
+    """
+    if profile.is_a("IfcRectangleProfileDef"):
+        x, y = profile.XDim * unit_m / 2.0, profile.YDim * unit_m / 2.0
+        corners = np.array([(-x, -y), (x, -y), (x, y), (-x, y)])
+    elif profile.is_a("IfcCenterLineProfileDef"):
+        corners = _sheet(line_of(profile.Curve, unit_m, angle_rad), profile.Thickness * unit_m)
+    elif profile.is_a("IfcArbitraryClosedProfileDef") and not profile.is_a("IfcArbitraryProfileDefWithVoids"):
+        corners = line_of(profile.OuterCurve, unit_m, angle_rad)
+    else:
+        raise GeometryError(f"has sections of the kind {profile.is_a()}")
+    if len(corners) > 1 and np.array_equal(corners[0], corners[-1]):
+        corners = corners[:-1]
+    if len(corners) < 3:
+        raise GeometryError("has a section with less than three corners")
+    return corners if signed_area(corners) > 0.0 else corners[::-1]
+
+
+def line_of(curve: Any, unit_m: float, angle_rad: float) -> np.ndarray:
+    """Return the points (n, 2) of a curve in the plane of a profile, m; a `GeometryError` names a kind not known."""
+    if curve.is_a("IfcTrimmedCurve"):
+        return _arc(curve, unit_m, angle_rad)
+    if not curve.is_a("IfcCompositeCurve"):
+        return points_of(curve)[:, :2] * unit_m
+    parts = [line_of(segment.ParentCurve, unit_m, angle_rad) for segment in curve.Segments]
+    return _chained(parts)
+
+
+def _chained(parts: list[np.ndarray]) -> np.ndarray:
+    """Return parts as one line, each where the one before it ends, and turned so that it goes on from there.
+
+    Neither the order of parts nor which way they run is taken from the file: some programs say that all of them are
+    turned round.
+    """
+    line, rest = parts[0], parts[1:]
+    if rest and _nearest(line[0], rest)[0] < _nearest(line[-1], rest)[0]:
+        line = line[::-1]
+    while rest:
+        _, row, is_turned = _nearest(line[-1], rest)
+        part = rest.pop(row)
+        line = np.concatenate([line, part[::-1] if is_turned else part])
+    size = float(np.ptp(line, axis=0).max())
+    line = line[[True, *(length(np.diff(line, axis=0)) > _SAME * size).tolist()]]
+    return line[:-1] if len(line) > 2 and float(length(line[-1] - line[0])) <= _SAME * size else line
+
+
+def _nearest(point: np.ndarray, parts: list[np.ndarray]) -> tuple[float, int, bool]:
+    """Return the distance of the nearest end of parts from a point, the part's row, and whether that is its last."""
+    ends = ((float(length(part[end] - point)), row, end == -1) for row, part in enumerate(parts) for end in (0, -1))
+    return min(ends)
+
+
+def _arc(curve: Any, unit_m: float, angle_rad: float) -> np.ndarray:
+    """Return the points (n, 2) of an arc of a circle, m."""
+    circle = curve.BasisCurve
+    if not circle.is_a("IfcCircle"):
+        raise GeometryError(f"has a curve of the kind {circle.is_a()}")
+    centre = np.array(circle.Position.Location.Coordinates[:2], dtype=float) * unit_m
+    radius = float(circle.Radius) * unit_m
+    start, end = (_angle(trims, circle, centre / unit_m, angle_rad) for trims in (curve.Trim1, curve.Trim2))
+    turn = (end - start) % math.tau if curve.SenseAgreement else -((start - end) % math.tau)
+    step = 2.0 * math.acos(max(0.5, 1.0 - _CHORD_M / radius))
+    angles = start + (turn or math.tau) * np.linspace(0.0, 1.0, max(2, math.ceil(abs(turn or math.tau) / step) + 1))
+    return centre + radius * np.column_stack((np.cos(angles), np.sin(angles)))
+
+
+def _angle(trims: Any, circle: Any, centre: np.ndarray, angle_rad: float) -> float:
+    """Return the direction of an end of an arc from its centre, given as a point or an angle."""
+    for trim in trims:
+        if hasattr(trim, "Coordinates"):
+            x, y = np.array(trim.Coordinates[:2], dtype=float) - centre
+            return math.atan2(y, x)
+    ratios = circle.Position.RefDirection.DirectionRatios if circle.Position.RefDirection else (1.0, 0.0)
+    return math.atan2(ratios[1], ratios[0]) + plain_number(trims[0]) * angle_rad
+
+
+def _sheet(line: np.ndarray, thickness_m: float) -> np.ndarray:
+    """Return the outline of a sheet of one thickness, of which a line (n, 2) is the middle."""
+    if len(line) < 2:
+        raise GeometryError("has a sheet along a line of no length")
+    ways = unit(np.diff(line, axis=0))
+    left = np.column_stack((-ways[:, 1], ways[:, 0]))
+    before, after = np.vstack([left[:1], left]), np.vstack([left, left[-1:]])
+    middle = unit(before + after)
+    cosines = np.maximum((middle * before).sum(axis=1), _SHARPEST)
+    beside = middle * (thickness_m / 2.0 / cosines)[:, None]
+    return np.concatenate([line - beside, (line + beside)[::-1]])
