@@ -42,9 +42,6 @@ _FLAT_M = 0.03
 _COMMON = 0.1
 """Part of a sliver's surface that it has to have in common, on both sides, with what it is sewn to."""
 
-_LOST = 1e-4
-"""Part of its volume that a piece may lose or gain where it is handed to the boolean engine again."""
-
 _RUBBISH = 1e-9
 """Part of the solid's volume below which a piece is rounding."""
 
@@ -85,16 +82,6 @@ class _Part:
         """Return the piece of an outer shell and the cavities in it."""
         return cls(shells[0] if len(shells) == 1 else Manifold.compose(shells))
 
-    @property
-    def keeps_its_volume(self) -> bool:
-        """Whether its mesh, read again, has the volume that it has now.
-
-        Where pieces are sewn at faces that lie in one plane, triangles without an area may be left between them. The
-        engine closes these as it reads the mesh, in some cases over a corner of the piece.
-        """
-        read = to_manifold(_without_films(self.body, _RUBBISH * self.volume_m3))
-        return bool(abs(read.volume() - self.volume_m3) <= _LOST * self.volume_m3)
-
     def cut(self, whole_m3: float) -> list[_Part]:
         """Return the pieces of the best cut through a part of a solid; none where no cut gains enough."""
         best: list[_Part] = []
@@ -104,7 +91,7 @@ class _Part:
             pieces = [_Part.of(shells) for half in halves for shells in bodies(half, _RUBBISH * self.volume_m3)]
             pieces = _without_slivers(pieces, _LEAST_PIECE * whole_m3)
             excess_m3 = math.fsum(piece.excess_m3 for piece in pieces)
-            if len(pieces) > 1 and excess_m3 < left_m3 and all(piece.keeps_its_volume for piece in pieces):
+            if len(pieces) > 1 and excess_m3 < left_m3:
                 best, left_m3 = pieces, excess_m3
         return best
 

@@ -82,23 +82,3 @@ def test_small_parts_alone_do_not_part_a_solid():
         solid = union([cap, *tops])
         assert len(convex_parts(solid, 12)) == without
         assert len(convex_parts(solid, 12, 0.1)) == with_least
-
-
-def test_no_volume_is_lost_where_pieces_are_sewn():
-    """Caps of 2.1 m³ with two pads each on them, 2 to 30 cm high: the sum of the parts is the cap with its pads.
-
-    Sewn pieces of seeds 144, 156 and 204 had lost or gained 0.1 to 0.9 % when the boolean engine read them again.
-    """
-    for seed in (144, 156, 204, *range(6)):
-        rng = np.random.default_rng(seed)
-        sizes = [(rng.uniform(0.3, 0.9), rng.uniform(0.3, 0.9), rng.uniform(0.02, 0.3)) for _ in range(2)]
-        sunk = [float(rng.choice([0.0, 1e-3, 1e-4])) for _ in range(2)]
-        pads = [
-            box(size, (0.0, y, 0.6 - depth + size[2] / 2.0))
-            for size, depth, y in zip(sizes, sunk, (-1.2, 1.2), strict=True)
-        ]
-        by_hand = 1.0 * 3.5 * 0.6 + sum(
-            size[0] * size[1] * (size[2] - depth) for size, depth in zip(sizes, sunk, strict=True)
-        )
-        parts = convex_parts(union([box((1.0, 3.5, 0.6), (0.0, 0.0, 0.3)), *pads]), int(rng.integers(2, 12)))
-        assert sum(part.volume for part in parts) == pytest.approx(by_hand, rel=1e-4)
