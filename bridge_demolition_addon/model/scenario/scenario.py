@@ -45,7 +45,8 @@ from .recording import PictureSettings, RecordingSettings
 from .reinforcement import BarRule, BridgeReinforcement, GeometryReinforcement
 from .site import Exclusion, Neighbour, Site, Zone
 from .steelwork import Steelwork
-from .structural_changes import Change, Removal, SawCut, Weakening, severing
+from .structural_changes import Change, Removal, SawCut, TendonCut, Weakening, severing
+from .tendons import Tendon, check_names
 from .time import MOST_FRAMES, TimeSettings
 
 _RIGID_WITH_BARS = "bars between rigid bodies would make energy"
@@ -74,6 +75,7 @@ class Scenario(Table):
     materials: tuple[Material, ...] = ()
     reinforcement: tuple[BarLayer, ...] = ()
     geometry_reinforcement: GeometryReinforcement | None = None
+    tendons: tuple[Tendon, ...] = ()
     connections: ConnectionSettings
     bearings: tuple[Bearing, ...] = ()
     supports: tuple[Support, ...] = ()
@@ -89,6 +91,7 @@ class Scenario(Table):
     removals: tuple[Removal, ...] = ()
     saw_cuts: tuple[SawCut, ...] = ()
     weakenings: tuple[Weakening, ...] = ()
+    tendon_cuts: tuple[TendonCut, ...] = ()
     loads: tuple[Load, ...] = ()
     recording: RecordingSettings = field(default_factory=RecordingSettings)
     pictures: PictureSettings = field(default_factory=PictureSettings)
@@ -195,7 +198,7 @@ class Scenario(Table):
         """Changes to the structure, but for those of blast zones, which depend on its model."""
         fired = [cut for cut in self.cuts if cut.fires and self.blast.explosion]
         severed = (severing(cut, self.blast.start_s, self.seed) for cut in fired)
-        return (*self.removals, *self.saw_cuts, *self.weakenings, *severed)
+        return (*self.removals, *self.saw_cuts, *self.weakenings, *severed, *self.tendon_cuts)
 
     def _check_together(self) -> None:
         self._settle_contacts()
@@ -206,10 +209,11 @@ class Scenario(Table):
         self._check_slow_motion()
         object.__setattr__(self, "connections", self.connections.with_strength(self.fracture.shards))
         object.__setattr__(self, "connections", self.connections.with_stiffness(self.materials))
-        if (self.is_reinforced or self.steelwork) and self.connections.is_elastic:
+        if (self.is_reinforced or self.steelwork or self.tendons) and self.connections.is_elastic:
             object.__setattr__(self, "time", self.time.with_bars())
         check_materials(self.materials)
         self._check_reinforcement()
+        self._check_tendons()
         if not self.connections.is_elastic:
             for table in self.bearings:
                 table.check_rigid()
@@ -295,6 +299,26 @@ class Scenario(Table):
         if not connections.is_elastic:
             wanted = f'"elastic" with {table}: {_RIGID_WITH_BARS}'
             raise connections.unexpected("stiffness", wanted)
+
+    def _check_tendons(self) -> None:
+        if not self.tendons:
+            if self.tendon_cuts:
+                raise ScenarioError("tendon_cuts is given: expected none without [[tendons]]")
+            return
+        check_names(self.tendons)
+        if self.connections.material is None:
+            raise ScenarioError("connections.material is missing: expected it with [[tendons]]")
+        if not self.connections.is_elastic:
+            wanted = '"elastic" with [[tendons]]: their prestress deforms what it presses'
+            raise self.connections.unexpected("stiffness", wanted)
+        known = [tendon.name for tendon in self.tendons]
+        for cut in self.tendon_cuts:
+            for name in cut.tendons or ():
+                if name not in known:
+                    raise ScenarioError(
+                        f"tendon_cuts.tendons has {shown(name)}: expected names of [[tendons]], which are "
+                        f"{', '.join(known)}"
+                    )
 
     def _check_slow_motion(self) -> None:
         blast = self.blast

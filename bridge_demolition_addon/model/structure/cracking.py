@@ -17,6 +17,7 @@ from ...engineering.elasticity.equilibrium import Equilibrium
 from ...engineering.elasticity.joint_rows import JointFrames, components_first, turned, turned_back
 from ...engineering.elasticity.section_stiffness import in_frames
 from ...engineering.elasticity.steel_bars import USUAL_STEEL
+from ...engineering.elasticity.tendons import TendonForces
 from ...engineering.foundations.footings import Footings
 from ...engineering.geometry.vectors import product, transformed
 from ...engineering.mechanics.crack_faces import CrackFaces, TornFaces
@@ -55,7 +56,8 @@ class CrackedBridge:
     """A model with bars, under loads that grow: what has cracked or yielded stays so.
 
     `intact` (m,) are its connections that are whole, with a part `left` (m,) of their strength each. At first it is at
-    `rest` without cracks. Then bars may stand `bare`. Without bars across faces, what breaks carries nothing.
+    `rest` without cracks. Then bars may stand `bare`. Without bars across faces, what breaks carries nothing. Tendons
+    are as they are after the cuts so far, and rupture across cracks.
     """
 
     def __init__(
@@ -67,6 +69,7 @@ class CrackedBridge:
         left: np.ndarray,
         rest: Equilibrium,
         bare: StandingBare | None = None,
+        tendons: TendonForces | None = None,
     ):
         self._model, self._utilisations, self._left = model, utilisations, left
         self._masses = np.append(np.where(model.fixed, 0.0, model.masses_kg), 0.0)
@@ -90,7 +93,7 @@ class CrackedBridge:
         if model.bearings:
             springs = model.bearings.springs
             pads = Bearings(springs, *ends, self._first[springs.rows], *positions_built)
-        of_bars = left.copy()
+        of_bars = left.copy() if tendons is None else left * tendons.bars_left(len(left))
         built = BuiltStructure(
             JointFrames(self._first, self._second, axes, axes, *levers),
             in_frames(stiffness, components_first(utilisations.axes), held_motions(model, joints)),
@@ -100,7 +103,7 @@ class CrackedBridge:
         )
         cracks = self._faces.cracks(bars.steel, of_bars, stiffness.axial_n_m)
         cages = None if bare is None else _standing(bare, len(connections), bodies, rest)
-        self._structure = CrackedStructure(built, cracks, of_bars, intact, rest, cages)
+        self._structure = CrackedStructure(built, cracks, of_bars, intact, rest, cages, tendons)
         self._held_at_first = self._structure.held.copy()
         self._judged = np.zeros((6, len(connections)))  # loads of which some were found to overload connections
 
