@@ -141,7 +141,8 @@ class CrackedStructure:
         own = turned_back(self.rotations, moments)
         turning = np.divide(own, inertias, out=np.zeros_like(own), where=inertias > 0.0)
         shifting = np.divide(forces, masses, out=np.zeros_like(forces), where=masses > 0.0)
-        return accelerations + np.concatenate((shifting, turned(self.rotations, turning)))
+        both: FloatArray = accelerations + np.concatenate((shifting, turned(self.rotations, turning)))
+        return both
 
     def _broken_in_step(
         self, structure: ElasticStructure, accelerations: FloatArray, overloaded: Overloaded, tear: Tear

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import FloatArray, IntArray
+from ..arrays import BoolArray, FloatArray, IntArray
 from .mesh import TriangleMesh
 from .vectors import cross, distance, dot
 
@@ -78,7 +78,7 @@ def _stays(path_m: FloatArray, ends: FloatArray, mesh: TriangleMesh, number: int
     return [(begin, end, number) for begin, end in zip(begins, leaves, strict=False)]
 
 
-def _pierced(start: FloatArray, way: FloatArray, corners: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _pierced(start: FloatArray, way: FloatArray, corners: FloatArray) -> tuple[FloatArray, BoolArray]:
     """Return where on its way (3,) from a point (3,) a line pierces triangles (t, 3, 3), and whether outwards.
 
     T. Möller and B. Trumbore (1997), Fast, minimum storage ray/triangle intersection, Journal of Graphics Tools 2 (1).
@@ -93,4 +93,5 @@ def _pierced(start: FloatArray, way: FloatArray, corners: FloatArray) -> tuple[F
     second = dot(np.broadcast_to(way, beside.shape), beside) / safe
     share = dot(other, beside) / safe
     met = (whole != 0.0) & (first >= 0.0) & (second >= 0.0) & (first + second <= 1.0) & (share >= 0.0) & (share < 1.0)
-    return share[met], whole[met] < 0.0
+    outwards: BoolArray = whole[met] < 0.0
+    return share[met], outwards

@@ -144,7 +144,7 @@ def _event(change: Change, structure: Structure) -> Event:
 
 
 def _cut_with(structure: Structure, connections: np.ndarray, bodies: np.ndarray) -> tuple[CutTendon, ...]:
-    """Return where tendons are cut with connections (c,) that they pass through, or with bodies (b,) that they are in."""
+    """Return where tendons are cut: in connections (c,) that they pass through, or beside bodies (b,) they are in."""
     return tuple(structure.tendons.passages.crossing(connections, bodies)) if structure.tendons else ()
 
 

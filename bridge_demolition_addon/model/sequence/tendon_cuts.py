@@ -18,7 +18,8 @@ def cuts_of_tendons(change: TendonCut, tendons: ModelTendons | None) -> tuple[Cu
     cuts = tuple(_cuts(change, tendons)) if tendons else ()
     if not cuts:
         raise ScenarioError(
-            f"{change.table} at {change.time_s:g} s: no tendon is there; expected names, members or a box that meet some"
+            f"{change.table} at {change.time_s:g} s: no tendon is there; "
+            "expected names, members or a box that meet some"
         )
     return cuts
 

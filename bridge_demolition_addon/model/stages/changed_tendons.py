@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ..schema import given
 from .changed_bridge import ChangedBridge
 from .standing import StandingBridge
 
@@ -12,27 +13,17 @@ _LEAST_J = 1.0
 
 @dataclass(frozen=True, slots=True)
 class ReleasedTendon:
-    """A tendon that is cut, the energy that it lets go, and the part of it that stays in it."""
+    """A tendon that is cut, and the energy that it lets go."""
 
     name: str
     released_j: float
-    left_share: float
 
 
 def released_tendons(bridge: StandingBridge, before: ChangedBridge, after: ChangedBridge) -> tuple[ReleasedTendon, ...]:
     """Return what the tendons of a bridge let go by changes."""
-    whole, first, then = (
-        bridge.tendons(changed.intact, changed.cuts)
-        for changed in (ChangedBridge.as_built(bridge.model), before, after)
-    )
-    tendons = bridge.model.tendons
-    if whole is None or first is None or then is None or tendons is None:
+    first, then = (bridge.tendons(changed.intact, changed.cuts) for changed in (before, after))
+    if first is None or then is None:
         return ()
-    columns = zip(
-        tendons.names, whole.stored_j().tolist(), first.stored_j().tolist(), then.stored_j().tolist(), strict=True
-    )
-    return tuple(
-        ReleasedTendon(name, had_j - has_j, has_j / whole_j)
-        for name, whole_j, had_j, has_j in columns
-        if had_j - has_j > _LEAST_J
-    )
+    released_j = (first.stored_j() - then.stored_j()).tolist()
+    pairs = zip(given(bridge.model.tendons).names, released_j, strict=True)
+    return tuple(ReleasedTendon(name, energy_j) for name, energy_j in pairs if energy_j > _LEAST_J)

@@ -200,8 +200,8 @@ def _check_within(tendon: Tendon, path_m: np.ndarray, passed: Passages) -> None:
     if passed.gap_m is not None:
         x, y, z = points_along(path_m, np.array([passed.gap_m]))[0].tolist()
         raise ScenarioError(
-            f"tendons {tendon.name!r} leaves {tendon.member} at ({x:.3f}, {y:.3f}, {z:.3f}) m: expected all of its line "
-            "within the member"
+            f"tendons {tendon.name!r} leaves {tendon.member} at ({x:.3f}, {y:.3f}, {z:.3f}) m: expected all of "
+            "its line within the member"
         )
     if not len(passed.first):
         raise ScenarioError(

@@ -33,6 +33,7 @@ from .meter import Meter
 from .motion_reader import unknown_loads
 from .ruptured_joints import RupturedJoints
 from .substeps import SubstepRecorder, in_order
+from .tendons import Tendons
 from .torques import Torques
 
 
@@ -52,6 +53,8 @@ class BulletReader:
         How the bridge deforms under its own weight; None where connections are rigid.
     have_bars : (m,) bool or None
         Connections across whose cracks bars are followed; None where they are not.
+    tendons : Tendons or None
+        What presses bodies together; None without tendons, or where connections are rigid.
     rigid_because : LayoutError or None
         Why connections that should be elastic are rigid.
     """
@@ -88,7 +91,8 @@ class BulletReader:
         """Return the recorder that Bullet calls, with all drivers in order."""
         setup, world, inventory = self._setup, self._world, self._inventory
         breaking, constraints = setup.breaking, world.constraints
-        self._events = events = Events(world, inventory.pairs, inventory.masses_kg, setup.events, elastic)
+        self.tendons = tendons = self._tendons_of(elastic)
+        self._events = events = Events(world, inventory.pairs, inventory.masses_kg, setup.events, elastic, tendons)
         if setup.elasticity is None and breaking.ductility and np.any(breaking.ductility.strength_share):
             raise SimulationError(
                 "the connections of this scene are rigid and have bars by ductile_share: expected elastic ones, as "
@@ -96,7 +100,7 @@ class BulletReader:
             )
         holding = elastic if breaking.is_reinforced else None
         if holding:
-            holding.reinforce(breaking, events.remaining_strength)
+            holding.reinforce(breaking, events.remaining_bars)
         warm_up = WarmUp(world, self._free_shards(), breaking, release=elastic is None)
         meter = Meter(world, inventory, elastic)
         overloads, joints = self._overloads(elastic, events.pressed), self._joints_of_steel()
@@ -111,6 +115,7 @@ class BulletReader:
                 ThresholdScale(constraints, setup.time.step.substep_s),
                 blast,
                 Loads(world.bodies, setup.placed_loads),
+                tendons,
                 ElasticPrediction(elastic, breaker) if elastic else None,
                 Torques(world.bodies, np.array(setup.bodies.rigid["angular_damping"])),
             )
@@ -121,6 +126,13 @@ class BulletReader:
             cracks = CrackAccumulator(len(inventory.pairs)) if follows_bars else None
             self._sums = FrameSums(meter, inventory, self._work(), bearings, cracks, every_substep=self._every_substep)
         return SubstepRecorder(constraints, drivers, meter, breaker, warm_up, self._sums)
+
+    def _tendons_of(self, elastic: ElasticConnections | None) -> Tendons | None:
+        """Return the tendons; None without any, and where connections are rigid."""
+        tendons = self._setup.tendons
+        if tendons is None or elastic is None or elastic.tendons is None:
+            return None
+        return Tendons(self._world.bodies, tendons, elastic.tendons)
 
     def _joints_of_steel(self) -> RupturedJoints | None:
         """Return the joints of steel, of which none has ruptured yet; None without any."""
@@ -151,7 +163,8 @@ class BulletReader:
         stiffness, ratio = elasticity.stiffness, elasticity.damping_ratio
         try:
             springs = SupportSprings(setup.soil, setup.bearings.springs if setup.bearings else None)
-            return ElasticConnections(self._scene, self._world, self._inventory, bodies, stiffness, ratio, springs)
+            settings = stiffness, ratio, springs, setup.tendons
+            return ElasticConnections(self._scene, self._world, self._inventory, bodies, *settings)
         except LayoutError as error:
             self.rigid_because = error
             return None

@@ -197,6 +197,11 @@ class Recording(RecordedFrames):
         return self._bearings.summary() if self._bearings else []
 
     @property
+    def tendons(self) -> list[dict[str, Any]]:
+        """What each tendon stored at first and let go so far, ready for JSON."""
+        return self._reader.tendons.summary() if self._reader and self._reader.tendons else []
+
+    @property
     def reinforcement(self) -> dict[str, Any] | None:
         """What bars across cracks did so far, ready for JSON; None where they are not followed."""
         return self._bars.summary() if self._bars else None
