@@ -61,6 +61,15 @@ class TendonSteel:
         shares: FloatArray = np.minimum(away / self.transmission_m[tendon], 1.0)
         return shares
 
+    def shares_at(self, passages: TendonPassages, cuts: Sequence[CutTendon] = ()) -> FloatArray:
+        """Return the parts (k,) of their forces that tendons have at passages, after cuts."""
+        shares = np.ones(len(passages.tendons))
+        for tendon in np.unique(passages.tendons).tolist():
+            mine = np.flatnonzero(passages.tendons == tendon)
+            at = np.array([cut.distance_m for cut in cuts if cut.tendon == tendon])
+            shares[mine] = self.shares(tendon, at, passages.distances_m[mine])
+        return shares
+
     def stored_j(self, tendon: int, cuts_m: FloatArray) -> float:
         """Return the energy in a tendon after cuts at distances (c,), ∫ F² / 2 E A: of its prestress alone."""
         free, length_m = self._free_ends_m(tendon, cuts_m), float(self.lengths_m[tendon])
@@ -132,14 +141,14 @@ class TendonForces:
         self._lines = [turned_back(rotations[..., end], passages.directions) for end in ends]
         self._anchors = [turned_back(rotations[..., end], passages.points_m - positions_m[:, end]) for end in ends]
         self.cuts: list[CutTendon] = []
-        self.shares = self._shares()
+        self.shares = steel.shares_at(passages)
 
     def cut(self, cuts: Sequence[CutTendon]) -> FloatArray:
         """Cut tendons; return the energy (t,) in J that each lets go."""
         before = self.stored_j()
         known = {(cut.tendon, cut.distance_m) for cut in self.cuts}
         self.cuts = [*self.cuts, *(cut for cut in cuts if (cut.tendon, cut.distance_m) not in known)]
-        self.shares = self._shares()
+        self.shares = self._steel.shares_at(self.passages, self.cuts)
         return before - self.stored_j()
 
     def stored_j(self) -> FloatArray:
@@ -195,19 +204,8 @@ class TendonForces:
 
     def _whole_shares(self, rows: IntArray) -> FloatArray:
         """Shares of passages by those without cuts: bars near ends without anchorages are held as they were."""
-        before = self._shares_after([])[rows]
+        before = self._steel.shares_at(self.passages)[rows]
         return np.divide(self.shares[rows], before, out=np.ones(len(rows)), where=before > 0.0)
-
-    def _shares(self) -> FloatArray:
-        return self._shares_after(self.cuts)
-
-    def _shares_after(self, cuts: Sequence[CutTendon]) -> FloatArray:
-        passages, shares = self.passages, np.ones(len(self.passages.tendons))
-        for tendon in np.unique(passages.tendons).tolist():
-            mine = np.flatnonzero(passages.tendons == tendon)
-            at = np.array([cut.distance_m for cut in cuts if cut.tendon == tendon])
-            shares[mine] = self._steel.shares(tendon, at, passages.distances_m[mine])
-        return shares
 
     def _cuts_of(self, tendon: int) -> FloatArray:
         return np.array([cut.distance_m for cut in self.cuts if cut.tendon == tendon])

@@ -45,7 +45,7 @@ from .steelwork import (
 )
 from .stiffness import CutMembers, connection_stiffness
 from .supports import HeldPart, held_parts
-from .tendons import ModelTendons, placed_tendons, with_tendons
+from .tendons import ModelTendons, model_tendons
 
 
 @dataclass(frozen=True, slots=True)
@@ -206,17 +206,9 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
             bars = bars.with_even(starters.yield_n, starters.openings_m)
     if steel:
         bars = with_steel_hinges(bars, steel, scenario, members, len(connections))
-    tendons = placed_tendons(
-        scenario,
-        members,
-        fractured.member_of_shard,
-        shards,
-        connections,
-        scenario.joints,
-        joint_of_connection,
+    tendons, bars = model_tendons(
+        scenario, members, fractured.member_of_shard, shards, connections, joint_of_connection, bars
     )
-    if tendons:
-        bars, tendons = with_tendons(bars, tendons, scenario.tendons, connections, scenario.steel.hardening)
     stiffness = None
     if scenario.connections.is_elastic:
         cut = CutMembers(members, fractured.member_of_shard, shards, _middles(fractured), fixed)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
@@ -39,6 +40,9 @@ _PARABOLA_PIECES = 64
 
 _YIELD = 0.88
 """Yield strength of prestressing steel by its tensile strength: f_p0.1k / f_pk of EN 10138 strands."""
+
+_USUAL_PA = 30e6
+"""Strength in compression of concrete, where the connections of a tendon have none."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -83,95 +87,151 @@ class ModelTendons:
         return points_along(self.paths_m[tendon], np.array([distance_m]))[0]
 
 
-def placed_tendons(
+@dataclass(frozen=True, slots=True, eq=False)
+class _Placed:
+    """A tendon of the scenario in its member: its line, and where that passes from shard to shard, k times."""
+
+    table: Tendon
+    member: Member
+    path_m: np.ndarray  # (p, 3)
+    passed: Passages
+    pairs: np.ndarray  # (2, k), shards
+    connections: np.ndarray  # (k,), -1 for none
+    compression_pa: float  # strength of the concrete
+
+    @property
+    def tensile_pa(self) -> float:
+        return tensile_strength_pa(self.compression_pa)
+
+    @property
+    def is_upright(self) -> bool:
+        way = np.abs(self.path_m[-1] - self.path_m[0])
+        return bool(way[2] > max(way[:2]))
+
+    @property
+    def depth_m(self) -> float:
+        """Depth of the section: the height of a lying member, the smaller side of an upright one."""
+        sizes = np.ptp(self.member.solid.vertices, axis=0)
+        return float(min(sizes[:2]) if self.is_upright else sizes[2])
+
+    @property
+    def block_m(self) -> float:
+        """Depth of concrete that is crushed as it ruptures: A f_p / (b f_c) of a lying member, 0 of an upright one."""
+        if self.is_upright or not self.table.bonded:
+            return 0.0
+        way = np.abs(self.path_m[-1] - self.path_m[0])
+        width_m = float(np.ptp(self.member.solid.vertices, axis=0)[1 if way[0] >= way[1] else 0])
+        return self.table.rupture_n / (width_m * self.compression_pa)
+
+    def pulls_n(self, block_m: float) -> np.ndarray:
+        """Return the forces (k,) that its prestress has left of its strength.
+
+        A crack between shards closes at the edge of the section, and concrete is crushed over some depth a below it. So
+        the strength counts for as much as has the moment A f_p (d - a / 2) about that edge.
+        """
+        lowest, highest = self.member.solid.bounds[:, 2]
+        heights = self.passed.points_m[:, 2]
+        depths = np.full(len(heights), np.inf) if self.is_upright else np.maximum(highest - heights, heights - lowest)
+        shares = np.maximum(1.0 - 0.5 * block_m / depths, 0.0)
+        pulls: np.ndarray = np.maximum(shares * self.table.rupture_n - self.table.force_n, 0.0) * self.table.bonded
+        return pulls
+
+
+def model_tendons(
     scenario: Scenario,
     members: Sequence[Member],
     member_of_shard: np.ndarray,
     shards: Sequence[TriangleMesh],
     connections: Connections,
-    joints: Sequence[Joint],
     joint_of_connection: np.ndarray,
-) -> ModelTendons | None:
-    """Return the tendons of a scenario in shards without gaps; None without any."""
-    if not scenario.tendons:
-        return None
-    rows = {tuple(pair): row for row, pair in reversed(list(enumerate(np.sort(connections.pairs, axis=1).tolist())))}
-    paths, lengths, transmission, parts = [], [], [], []
-    for number, tendon in enumerate(scenario.tendons):
-        member = _member_of(tendon, members)
-        path = _path(tendon, members[member])
-        own = np.flatnonzero(member_of_shard == member)
-        passed = passages(path, [shards[shard] for shard in own.tolist()])
-        _check_within(tendon, path, passed)
-        pairs = np.stack((own[passed.first], own[passed.second]))
-        at = np.array([rows.get(tuple(pair), -1) for pair in np.sort(pairs.T, axis=1).tolist()])
-        tensile_pa = _tensile_pa(joints, joint_of_connection, at)
-        paths.append(path)
-        lengths.append(float(distance(path[1:], path[:-1]).sum()))
-        transmission.append(transmission_length_m(tendon.diameter_m, tendon.prestress_pa, tensile_pa))
-        openings = np.full(len(at), np.inf)
-        if tendon.bonded:
-            depth_m = _depth_m(members[member], path)
-            openings = np.array([_opening_m(tendon, connections, row, depth_m, tensile_pa) for row in at.tolist()])
-        parts.append(
-            TendonPassages(
-                np.full(len(at), number),
-                pairs[0],
-                pairs[1],
-                passed.distances_m,
-                passed.points_m.T,
-                passed.directions.T,
-                at,
-                openings,
-                np.zeros(len(at)),
-            )
-        )
-    steel = TendonSteel(
-        forces_n=np.array([tendon.force_n for tendon in scenario.tendons]),
-        areas_m2=np.array([tendon.area_m2 for tendon in scenario.tendons]),
-        lengths_m=np.array(lengths),
-        transmission_m=np.array(transmission),
-        bonded=np.array([tendon.bonded for tendon in scenario.tendons]),
-        anchored=np.array([tendon.anchored for tendon in scenario.tendons]),
-    )
-    return ModelTendons(
-        tuple(tendon.name for tendon in scenario.tendons),
-        tuple(tendon.member for tendon in scenario.tendons),
-        steel,
-        _joined(parts),
-        tuple(paths),
-    )
+    bars: FaceBars | None,
+) -> tuple[ModelTendons | None, FaceBars | None]:
+    """Return the tendons of a scenario in shards without gaps, and bars across connections together with theirs.
 
-
-def with_tendons(
-    bars: FaceBars | None, tendons: ModelTendons, tables: Sequence[Tendon], connections: Connections, hardening: float
-) -> tuple[FaceBars, ModelTendons]:
-    """Return bars together with bonded tendons, which hold cracks with what is left of their strength by prestress.
-
-    With the tendons, which part of the bars they are. Bars resist `hardening` times their yield force as they rupture.
+    Bonded tendons hold cracks as bars do, with what their prestress has left of their strength. Without tendons there
+    are none, and the bars as they were.
     """
-    bars = bars or FaceBars.none(len(connections))
+    if not scenario.tendons:
+        return None, bars
+    rows = {tuple(pair): row for row, pair in reversed(list(enumerate(np.sort(connections.pairs, axis=1).tolist())))}
+    placed = []
+    for table in scenario.tendons:
+        member = _member_of(table, members)
+        own = np.flatnonzero(member_of_shard == member)
+        path_m = _path(table, members[member])
+        passed = passages(path_m, [shards[shard] for shard in own.tolist()])
+        _check_within(table, path_m, passed)
+        pairs = np.stack((own[passed.first], own[passed.second]))
+        crossed = np.array([rows.get(tuple(pair), -1) for pair in np.sort(pairs.T, axis=1).tolist()])
+        compression_pa = _compression_pa(scenario.joints, joint_of_connection[crossed[crossed >= 0]])
+        placed.append(_Placed(table, members[member], path_m, passed, pairs, crossed, compression_pa))
+    tendons = ModelTendons(
+        names=tuple(one.table.name for one in placed),
+        members=tuple(one.table.member for one in placed),
+        steel=_steel(placed),
+        passages=_passages(placed, connections),
+        paths_m=tuple(one.path_m for one in placed),
+    )
+    blocks = [math.fsum(other.block_m for other in placed if other.member is one.member) for one in placed]
+    pulls_n = np.concatenate([one.pulls_n(block_m) for one, block_m in zip(placed, blocks, strict=True)])
+    return _with_bars(tendons, pulls_n / scenario.steel.hardening, bars or FaceBars.none(len(connections)), connections)
+
+
+def _steel(placed: Sequence[_Placed]) -> TendonSteel:
+    return TendonSteel(
+        forces_n=np.array([one.table.force_n for one in placed]),
+        areas_m2=np.array([one.table.area_m2 for one in placed]),
+        lengths_m=np.array([float(distance(one.path_m[1:], one.path_m[:-1]).sum()) for one in placed]),
+        transmission_m=np.array(
+            [transmission_length_m(one.table.diameter_m, one.table.prestress_pa, one.tensile_pa) for one in placed]
+        ),
+        bonded=np.array([one.table.bonded for one in placed]),
+        anchored=np.array([one.table.anchored for one in placed]),
+    )
+
+
+def _passages(placed: Sequence[_Placed], connections: Connections) -> TendonPassages:
+    counts = [len(one.connections) for one in placed]
+    openings = [
+        _opening_m(one, connections, row) if one.table.bonded else np.inf
+        for one in placed
+        for row in one.connections.tolist()
+    ]
+    return TendonPassages(
+        tendons=np.repeat(np.arange(len(placed)), counts),
+        first=np.concatenate([one.pairs[0] for one in placed]),
+        second=np.concatenate([one.pairs[1] for one in placed]),
+        distances_m=np.concatenate([one.passed.distances_m for one in placed]),
+        points_m=np.concatenate([one.passed.points_m for one in placed]).T,
+        directions=np.concatenate([one.passed.directions for one in placed]).T,
+        connections=np.concatenate([one.connections for one in placed]),
+        openings_m=np.array(openings),
+        of_bars=np.zeros(sum(counts)),
+    )
+
+
+def _with_bars(
+    tendons: ModelTendons, pulls_n: np.ndarray, bars: FaceBars, connections: Connections
+) -> tuple[ModelTendons, FaceBars]:
+    """Return tendons that know which part they are of all bars, and these bars: they yield at `pulls_n` (k,)."""
     passed, steel = tendons.passages, tendons.steel
-    left_n = np.array([table.rupture_n - table.force_n for table in tables]) / hardening * steel.bonded
-    built = tendons.forces_of_shards(np.zeros((int(max(passed.first.max(), passed.second.max())) + 1, 3)))
     rows = np.flatnonzero((passed.connections >= 0) & steel.bonded[passed.tendons])
     at = passed.connections[rows]
-    pulls = left_n[passed.tendons[rows]] * built.shares[rows]
+    pulls = (pulls_n * steel.shares_at(passed))[rows]
     axes = section_axes(connections.normals[at])
     along = passed.directions[:, rows].T
     along = np.where(dot(along, connections.normals[at])[:, None] < 0.0, -1.0, 1.0) * along
-    added = bars.with_pulls(
+    together = bars.with_pulls(
         at,
         pulls,
         transformed_back(axes[:, :, 1:], passed.points_m[:, rows].T - connections.points[at]),
         transformed_back(axes, along),
         passed.openings_m[rows],
     )
-    whole = bars.yield_n.copy()
+    whole, of_bars = bars.yield_n.copy(), np.zeros(len(passed.tendons))
     np.add.at(whole, at, pulls)
-    of_bars = np.zeros(len(passed.tendons))
     of_bars[rows] = np.divide(pulls, whole[at], out=np.zeros(len(rows)), where=whole[at] > 0.0)
-    return added, replace(tendons, passages=replace(passed, of_bars=of_bars))
+    return replace(tendons, passages=replace(passed, of_bars=of_bars)), together
 
 
 def _member_of(tendon: Tendon, members: Sequence[Member]) -> int:
@@ -210,31 +270,20 @@ def _check_within(tendon: Tendon, path_m: np.ndarray, passed: Passages) -> None:
         )
 
 
-def _tensile_pa(joints: Sequence[Joint], joint_of_connection: np.ndarray, rows: np.ndarray) -> float:
-    """Strength in tension of the concrete of the first connection on the way of a tendon."""
-    for row in rows[rows >= 0].tolist():
-        strength = joints[joint_of_connection[row]].strength
-        if strength is not None:
-            return tensile_strength_pa(float(np.max(strength.compression_pa)))
-    return tensile_strength_pa(30e6)
+def _compression_pa(joints: Sequence[Joint], used: np.ndarray) -> float:
+    """Strength in compression of the first of some joints (j,) that has one."""
+    for joint in used.tolist():
+        if (strength := joints[joint].strength) is not None:
+            return float(np.max(strength.compression_pa))
+    return _USUAL_PA
 
 
-def _depth_m(member: Member, path_m: np.ndarray) -> float:
-    """Depth of the section that a tendon is in: the height of a lying member, the smaller side of an upright one."""
-    sizes, way = np.ptp(member.solid.vertices, axis=0), np.abs(path_m[-1] - path_m[0])
-    return float(min(sizes[:2]) if way[2] > max(way[:2]) else sizes[2])
-
-
-def _opening_m(tendon: Tendon, connections: Connections, row: int, depth_m: float, tensile_pa: float) -> float:
+def _opening_m(placed: _Placed, connections: Connections, row: int) -> float:
     """Opening of a crack at which a tendon ruptures, with the strain that its prestress has left."""
-    strain = RUPTURE_STRAIN - tendon.prestress_pa / MODULUS_PA
-    left_pa = tendon.strength_pa - tendon.prestress_pa
+    table, depth_m = placed.table, placed.depth_m
+    strain = RUPTURE_STRAIN - table.prestress_pa / MODULUS_PA
+    left_pa = table.strength_pa - table.prestress_pa
     steel = Steel(_YIELD * left_pa, 1.0 / _YIELD, max(strain, 2.0 * left_pa / MODULUS_PA))
     area_m2 = float(connections.areas[row]) if row >= 0 else depth_m * depth_m
-    spacing_m = spacing_of_ratio_m(tendon.diameter_m, tendon.area_m2 / max(area_m2, tendon.area_m2))
-    return rupture_opening_m(mean_strain_at_rupture(steel, tendon.diameter_m, spacing_m, tensile_pa), depth_m)
-
-
-def _joined(parts: Sequence[TendonPassages]) -> TendonPassages:
-    names = TendonPassages.__dataclass_fields__
-    return TendonPassages(*(np.concatenate([getattr(part, name) for part in parts], axis=-1) for name in names))
+    spacing_m = spacing_of_ratio_m(table.diameter_m, table.area_m2 / max(area_m2, table.area_m2))
+    return rupture_opening_m(mean_strain_at_rupture(steel, table.diameter_m, spacing_m, placed.tensile_pa), depth_m)
