@@ -125,17 +125,20 @@ class CrackedStructure:
             self.positions_m, self.rotations = self._moved(moving)
             structure.end_substep()
             rests = abs(moving[:3]).max(axis=0) <= _AT_REST * self._step_s * abs(accelerations[:3]).max()
-            if rests.all() and not broke and not len(ruptured):
+            if rests.all() and not broke and not len(ruptured) and not self._tendons_rupture():
                 return True
         self._let_go()
         self.held &= rests
         return False
 
+    def _tendons_rupture(self) -> bool:
+        """Cut tendons across cracks that are too wide at rest, and return whether there are some."""
+        return self._tendons is not None and bool(self._tendons.settle(self.positions_m, self.rotations).any())
+
     def _with_tendons(self, accelerations: FloatArray) -> FloatArray:
         """Add to accelerations (6, n) those by the tendons that have not ruptured."""
         if self._tendons is None:
             return accelerations
-        self._tendons.settle(self.positions_m, self.rotations)
         forces, moments = np.split(self._tendons.loads(self.positions_m, self.rotations), 2)
         masses, inertias = self._bodies.masses_kg, self._bodies.inertias_kg_m2[[0, 1, 2], [0, 1, 2]]
         own = turned_back(self.rotations, moments)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from copy import copy
 from dataclasses import dataclass, replace
@@ -35,6 +36,9 @@ from .utilisation import Utilisations
 FALLEN_SHARE = 0.005
 """Least part of the held mass for a collapse: a splinter that comes loose is not one."""
 
+
+_LARGEST_STEP = 0.1
+"""Part of a load by which it grows at once where there are tendons."""
 
 _AT_ONCE = 0.5
 """Share of what bare bars resist where their load comes upon them at once: elastic ones are then pressed up to twice as
@@ -104,6 +108,8 @@ class CrackedBridge:
         cracks = self._faces.cracks(bars.steel, of_bars, stiffness.axial_n_m)
         cages = None if bare is None else _standing(bare, len(connections), bodies, rest)
         self._structure = CrackedStructure(built, cracks, of_bars, intact, rest, cages, tendons)
+        self._has_tendons = tendons is not None
+        self._carried: float | None = None  # the load factor of the last loads
         self._held_at_first = self._structure.held.copy()
         self._judged = np.zeros((6, len(connections)))  # loads of which some were found to overload connections
 
@@ -121,7 +127,19 @@ class CrackedBridge:
             inert = np.vstack((np.tile(self._masses, (3, 1)), self._inertias.T))
             on_all = np.column_stack((loads, np.zeros(6)))
             accelerations += np.divide(on_all, inert, out=np.zeros_like(on_all), where=inert > 0.0)
-        self._structure.load(factor * accelerations, self._overloaded, self._tear)
+        for part in self._factors_up_to(factor):
+            self._structure.load(part * accelerations, self._overloaded, self._tear)
+
+    def _factors_up_to(self, factor: float) -> list[float]:
+        """Return the load factors to go through one after another, from the last one that was carried.
+
+        With tendons, which press cracks, many cracks at once are not solved: bars in them would open too far.
+        """
+        before, self._carried = self._carried, factor
+        if not self._has_tendons or before is None or factor <= before:
+            return [factor]
+        count = math.ceil((factor - before) / (_LARGEST_STEP * factor))
+        return [before + (factor - before) * number / count for number in range(1, count + 1)]
 
     @property
     def held(self) -> np.ndarray:
