@@ -128,7 +128,8 @@ class CrackedBridge:
             on_all = np.column_stack((loads, np.zeros(6)))
             accelerations += np.divide(on_all, inert, out=np.zeros_like(on_all), where=inert > 0.0)
         for part in self._factors_up_to(factor):
-            self._structure.load(part * accelerations, self._overloaded, self._tear)
+            if not self._structure.load(part * accelerations, self._overloaded, self._tear):
+                break
 
     def _factors_up_to(self, factor: float) -> list[float]:
         """Return the load factors to go through one after another, from the last one that was carried.

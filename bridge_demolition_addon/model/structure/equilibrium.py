@@ -85,7 +85,11 @@ def member_sections_of(model: Model) -> MemberSections:
 
 
 def overloads_of(model: Model, strength: Strength, sections: MemberSections) -> Overloads:
-    return Overloads(_faces(model), _moves(model), strength, sections)
+    friction = None
+    if model.tendons:
+        names = np.array([*(model.members[member].name for member in model.member_of_shard), ""])
+        friction = model.tendons.friction(names[model.connections.pairs])
+    return Overloads(_faces(model), _moves(model), strength, sections, friction=friction)
 
 
 def _faces(model: Model) -> ConnectedFaces:

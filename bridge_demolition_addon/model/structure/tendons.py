@@ -14,6 +14,7 @@ from ...engineering.elasticity.bar_rupture import (
     spacing_of_ratio_m,
     tensile_strength_pa,
 )
+from ...engineering.elasticity.crack_law import FRICTION
 from ...engineering.elasticity.steel_bars import Steel
 from ...engineering.elasticity.tendons import (
     MODULUS_PA,
@@ -54,6 +55,14 @@ class ModelTendons:
     steel: TendonSteel
     passages: TendonPassages
     paths_m: tuple[np.ndarray, ...] = field(repr=False)  # (p, 3) each
+
+    def friction(self, members: np.ndarray) -> np.ndarray:
+        """Return the friction of connections between two shards of members (m, 2), by name: of those with tendons.
+
+        Prestress presses inclined faces, which would slide by their shear strength alone.
+        """
+        own = np.isin(members, self.members).all(axis=1) & (members[:, 0] == members[:, 1])
+        return np.where(own, FRICTION, 0.0)
 
     def forces(self, positions_m: np.ndarray, rotations: np.ndarray) -> TendonForces:
         """Return the forces on n bodies at positions (3, n) in rotations (3, 3, n), as they were built."""

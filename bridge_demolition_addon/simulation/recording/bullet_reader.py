@@ -189,7 +189,10 @@ class BulletReader:
             kinds = kinds_of(inventory.body_members[inventory.pairs])
             thicknesses_m = given(self._setup.elasticity).thicknesses_m
             sections = MemberSections(inventory.faces, self._built_positions_m, inventory.moves, kinds, thicknesses_m)
-        return Overloads(inventory.faces, inventory.moves, strength, sections, pressed)
+        tendons, friction = self._setup.tendons, None
+        if tendons and elastic:
+            friction = tendons.friction(inventory.body_members[inventory.pairs])
+        return Overloads(inventory.faces, inventory.moves, strength, sections, pressed, friction)
 
     def _bearing_pads(self) -> BearingPads | None:
         """Return the connections at pads of bearings; None without any."""
