@@ -103,7 +103,7 @@ def run_summary(recording: Recording, results: Results, context: RunContext, *, 
         "changed_bodies": recording.changed_bodies,
     }
     if recording.tendons:
-        summary["tendons"] = recording.tendons
+        summary["tendons"] = recording.tendons.summary()
     return summary if scenario is None else summary | _of_scenario(scenario, recording, results, context.ground_motion)
 
 

@@ -46,7 +46,7 @@ from .reinforcement import BarRule, BridgeReinforcement, GeometryReinforcement
 from .site import Exclusion, Neighbour, Site, Zone
 from .steelwork import Steelwork
 from .structural_changes import Change, Removal, SawCut, TendonCut, Weakening, severing
-from .tendons import Tendon, check_names
+from .tendons import Tendon, check_tendons
 from .time import MOST_FRAMES, TimeSettings
 
 _RIGID_WITH_BARS = "bars between rigid bodies would make energy"
@@ -213,7 +213,7 @@ class Scenario(Table):
             object.__setattr__(self, "time", self.time.with_bars())
         check_materials(self.materials)
         self._check_reinforcement()
-        self._check_tendons()
+        check_tendons(self.tendons, self.tendon_cuts, self.connections)
         if not self.connections.is_elastic:
             for table in self.bearings:
                 table.check_rigid()
@@ -299,26 +299,6 @@ class Scenario(Table):
         if not connections.is_elastic:
             wanted = f'"elastic" with {table}: {_RIGID_WITH_BARS}'
             raise connections.unexpected("stiffness", wanted)
-
-    def _check_tendons(self) -> None:
-        if not self.tendons:
-            if self.tendon_cuts:
-                raise ScenarioError("tendon_cuts is given: expected none without [[tendons]]")
-            return
-        check_names(self.tendons)
-        if self.connections.material is None:
-            raise ScenarioError("connections.material is missing: expected it with [[tendons]]")
-        if not self.connections.is_elastic:
-            wanted = '"elastic" with [[tendons]]: their prestress deforms what it presses'
-            raise self.connections.unexpected("stiffness", wanted)
-        known = [tendon.name for tendon in self.tendons]
-        for cut in self.tendon_cuts:
-            for name in cut.tendons or ():
-                if name not in known:
-                    raise ScenarioError(
-                        f"tendon_cuts.tendons has {shown(name)}: expected names of [[tendons]], which are "
-                        f"{', '.join(known)}"
-                    )
 
     def _check_slow_motion(self) -> None:
         blast = self.blast

@@ -1,7 +1,7 @@
 """Tendons: prestressing steel along a line in a member, as a scenario gives them."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import ClassVar
@@ -10,6 +10,8 @@ from ...engineering.elasticity.tendons import MODULUS_PA, RUPTURE_STRAIN
 from ...engineering.mechanics.strength import NEWTON_PER_SQUARE_MILLIMETRE
 from ...errors import ScenarioError
 from ..schema import SHORTEST_LENGTH_M, Table, check_exactly_one, key, shown
+from .connections import ConnectionSettings
+from .structural_changes import TendonCut
 
 _SQUARE_METRE_PER_SQUARE_MILLIMETRE = 1e-6
 
@@ -123,12 +125,24 @@ class Tendon(Table):
                 )
 
 
-def check_names(tendons: tuple[Tendon, ...]) -> None:
-    """Check that each tendon has a name of its own."""
-    if twice := next(_twice(tendons), None):
-        raise ScenarioError(f"tendons.name is {shown(twice)} twice: expected a name of its own for each tendon")
-
-
-def _twice(tendons: tuple[Tendon, ...]) -> Iterator[str]:
-    names = [tendon.name for tendon in tendons]
-    return (name for number, name in enumerate(names) if name in names[:number])
+def check_tendons(tendons: Sequence[Tendon], cuts: Sequence[TendonCut], connections: ConnectionSettings) -> None:
+    """Check that each tendon has a name of its own, cuts name tendons, and connections can be pressed."""
+    if not tendons:
+        if cuts:
+            raise ScenarioError("tendon_cuts is given: expected none without [[tendons]]")
+        return
+    known = [tendon.name for tendon in tendons]
+    for number, name in enumerate(known):
+        if name in known[:number]:
+            raise ScenarioError(f"tendons.name is {shown(name)} twice: expected a name of its own for each tendon")
+    if connections.material is None:
+        raise ScenarioError("connections.material is missing: expected it with [[tendons]]")
+    if not connections.is_elastic:
+        raise connections.unexpected("stiffness", '"elastic" with [[tendons]]: their prestress deforms what it presses')
+    for cut in cuts:
+        for name in cut.tendons or ():
+            if name not in known:
+                raise ScenarioError(
+                    f"tendon_cuts.tendons has {shown(name)}: expected names of [[tendons]], which are "
+                    f"{', '.join(known)}"
+                )

@@ -20,7 +20,7 @@ from ...errors import ScenarioError
 from ..scenario import Scenario
 from ..scenario.connections import MATERIAL_OF_LARGE_MODELS
 from ..schema import given
-from ..structure.cracking import FALLEN_SHARE, CrackedBridge, StandingBare
+from ..structure.cracking import FALLEN_SHARE, CrackedBridge, StandingBare, SteelBeside
 from ..structure.equilibrium import at_rest, held_motions, inertias_of
 from ..structure.model import Model
 from ..structure.utilisation import Utilisations
@@ -179,7 +179,7 @@ class StandingBridge:
             intact,
             left,
             elastic.uncracked,
-            tendons=self.tendons(intact, cuts),
+            SteelBeside(tendons=self.tendons(intact, cuts)),
         )
 
     def _on_bare_bars(
@@ -190,8 +190,8 @@ class StandingBridge:
             whole, nothing = np.ones(len(intact)), np.zeros((6, len(self.model.shards)))
             self._as_built = self._elastic(whole > 0.0, whole, nothing, 1.0, every_section=False)
         built = self._as_built.uncracked
-        bars, tendons = StandingBare(bare, at_worst), self.tendons(intact, cuts)
-        return CrackedBridge(self.model, self._joints, self._utilisations, intact, left, built, bars, tendons)
+        beside = SteelBeside(StandingBare(bare, at_worst), self.tendons(intact, cuts))
+        return CrackedBridge(self.model, self._joints, self._utilisations, intact, left, built, beside)
 
     def _on_bars(self, cracked: CrackedBridge, left: np.ndarray, elastic: Standing) -> Standing:
         """Return a bridge that stands with cracks."""

@@ -56,12 +56,20 @@ class StandingBare:
     at_worst: bool = False
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class SteelBeside:
+    """Steel beside the connections of a bridge: bars that stand bare, and tendons after the cuts so far."""
+
+    bare: StandingBare | None = None
+    tendons: TendonForces | None = None
+
+
 class CrackedBridge:
     """A model with bars, under loads that grow: what has cracked or yielded stays so.
 
     `intact` (m,) are its connections that are whole, with a part `left` (m,) of their strength each. At first it is at
-    `rest` without cracks. Then bars may stand `bare`. Without bars across faces, what breaks carries nothing. Tendons
-    are as they are after the cuts so far, and rupture across cracks.
+    `rest` without cracks, with its tendons, which rupture across cracks. Then bars may stand bare. Without bars across
+    faces, what breaks carries nothing.
     """
 
     def __init__(
@@ -72,9 +80,9 @@ class CrackedBridge:
         intact: np.ndarray,
         left: np.ndarray,
         rest: Equilibrium,
-        bare: StandingBare | None = None,
-        tendons: TendonForces | None = None,
+        beside: SteelBeside | None = None,
     ):
+        bare, tendons = (beside.bare, beside.tendons) if beside else (None, None)
         self._model, self._utilisations, self._left = model, utilisations, left
         self._masses = np.append(np.where(model.fixed, 0.0, model.masses_kg), 0.0)
         self._inertias = np.vstack((inertias_of(model), np.zeros(3)))
@@ -109,7 +117,7 @@ class CrackedBridge:
         cages = None if bare is None else _standing(bare, len(connections), bodies, rest)
         self._structure = CrackedStructure(built, cracks, of_bars, intact, rest, cages, tendons)
         self._has_tendons = tendons is not None
-        self._carried: float | None = None  # the load factor of the last loads
+        self._carried: float | None = None  # the load factor of the last loads, with tendons
         self._held_at_first = self._structure.held.copy()
         self._judged = np.zeros((6, len(connections)))  # loads of which some were found to overload connections
 
@@ -127,20 +135,10 @@ class CrackedBridge:
             inert = np.vstack((np.tile(self._masses, (3, 1)), self._inertias.T))
             on_all = np.column_stack((loads, np.zeros(6)))
             accelerations += np.divide(on_all, inert, out=np.zeros_like(on_all), where=inert > 0.0)
-        for part in self._factors_up_to(factor):
+        before, self._carried = self._carried, factor if self._has_tendons else None
+        for part in _factors_between(before, factor):
             if not self._structure.load(part * accelerations, self._overloaded, self._tear):
                 break
-
-    def _factors_up_to(self, factor: float) -> list[float]:
-        """Return the load factors to go through one after another, from the last one that was carried.
-
-        With tendons, which press cracks, many cracks at once are not solved: bars in them would open too far.
-        """
-        before, self._carried = self._carried, factor
-        if not self._has_tendons or before is None or factor <= before:
-            return [factor]
-        count = math.ceil((factor - before) / (_LARGEST_STEP * factor))
-        return [before + (factor - before) * number / count for number in range(1, count + 1)]
 
     @property
     def held(self) -> np.ndarray:
@@ -231,6 +229,17 @@ class CrackedBridge:
         self._faces.tear(cracks, torn, positions_m, rotations)
 
 
+def _factors_between(before: float | None, factor: float) -> list[float]:
+    """Return the load factors to go through one after another, from one that was carried before; None for none.
+
+    With tendons, which press cracks, many cracks at once are not solved: bars in them would open too far.
+    """
+    if before is None or factor <= before:
+        return [factor]
+    count = math.ceil((factor - before) / (_LARGEST_STEP * factor))
+    return [before + (factor - before) * number / count for number in range(1, count + 1)]
+
+
 def _standing(bare: StandingBare, from_row: int, built: RigidBodies, rest: Equilibrium) -> Cages:
     """Return bars between points of bodies as they were built, without force where these are at rest."""
     cages = Cages(from_row, held_sideways=not bare.at_worst, share=_AT_ONCE if bare.at_worst else 1.0)
@@ -248,6 +257,7 @@ def cracked_by_weight(model: Model, joints: Sequence[Joint], rest: Equilibrium) 
     if model.crack_bars is None:
         return None
     whole = np.ones(len(model.connections))
-    cracked = CrackedBridge(model, joints, Utilisations(model, joints), whole > 0.0, whole, rest)
+    beside = SteelBeside(tendons=model.tendons.forces_of_shards(model.centres_m)) if model.tendons else None
+    cracked = CrackedBridge(model, joints, Utilisations(model, joints), whole > 0.0, whole, rest, beside)
     cracked.carry(1.0)
     return cracked

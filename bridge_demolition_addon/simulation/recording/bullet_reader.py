@@ -91,7 +91,7 @@ class BulletReader:
         """Return the recorder that Bullet calls, with all drivers in order."""
         setup, world, inventory = self._setup, self._world, self._inventory
         breaking, constraints = setup.breaking, world.constraints
-        self.tendons = tendons = self._tendons_of(elastic)
+        self.tendons = tendons = _tendons_of(setup, world, elastic)
         self._events = events = Events(world, inventory.pairs, inventory.masses_kg, setup.events, elastic, tendons)
         if setup.elasticity is None and breaking.ductility and np.any(breaking.ductility.strength_share):
             raise SimulationError(
@@ -103,7 +103,7 @@ class BulletReader:
             holding.reinforce(breaking, events.remaining_bars)
         warm_up = WarmUp(world, self._free_shards(), breaking, release=elastic is None)
         meter = Meter(world, inventory, elastic)
-        overloads, joints = self._overloads(elastic, events.pressed), self._joints_of_steel()
+        overloads, joints = self._overloads(elastic, events.pressed), _joints_of_steel(setup, world)
         resistance = Resistance(overloads, events.remaining_strength, elastic, holding, joints)
         breaker = Breaker(constraints, meter, resistance, warm_up)
         drivers = in_order(
@@ -127,21 +127,6 @@ class BulletReader:
             self._sums = FrameSums(meter, inventory, self._work(), bearings, cracks, every_substep=self._every_substep)
         return SubstepRecorder(constraints, drivers, meter, breaker, warm_up, self._sums)
 
-    def _tendons_of(self, elastic: ElasticConnections | None) -> Tendons | None:
-        """Return the tendons; None without any, and where connections are rigid."""
-        tendons = self._setup.tendons
-        if tendons is None or elastic is None or elastic.tendons is None:
-            return None
-        return Tendons(self._world.bodies, tendons, elastic.tendons)
-
-    def _joints_of_steel(self) -> RupturedJoints | None:
-        """Return the joints of steel, of which none has ruptured yet; None without any."""
-        bars = self._setup.breaking.bars
-        if bars is None or not bars.are_hinges.any():
-            return None
-        reader, inventory = self._world.bodies.motion(), self._inventory
-        return RupturedJoints(bars.are_hinges, inventory.pairs, inventory.vertices_by_body(), reader)
-
     def before_frame(self, substeps: int) -> None:
         """Set how many sub-steps the coming frame has."""
         self._substeps_of_frame = substeps
@@ -162,9 +147,8 @@ class BulletReader:
         bodies, elasticity = setup.bodies.objects, given(setup.elasticity)
         stiffness, ratio = elasticity.stiffness, elasticity.damping_ratio
         try:
-            springs = SupportSprings(setup.soil, setup.bearings.springs if setup.bearings else None)
-            settings = stiffness, ratio, springs, setup.tendons
-            return ElasticConnections(self._scene, self._world, self._inventory, bodies, *settings)
+            springs = SupportSprings(setup.soil, setup.bearings.springs if setup.bearings else None, setup.tendons)
+            return ElasticConnections(self._scene, self._world, self._inventory, bodies, stiffness, ratio, springs)
         except LayoutError as error:
             self.rigid_because = error
             return None
@@ -308,3 +292,19 @@ class BulletReader:
             loads=loads,
             work=work,
         )
+
+
+def _tendons_of(setup: RunSetup, world: BulletWorld, elastic: ElasticConnections | None) -> Tendons | None:
+    """Return the tendons; None without any, and where connections are rigid."""
+    if setup.tendons is None or elastic is None or elastic.tendons is None:
+        return None
+    return Tendons(world.bodies, setup.tendons, elastic.tendons)
+
+
+def _joints_of_steel(setup: RunSetup, world: BulletWorld) -> RupturedJoints | None:
+    """Return the joints of steel, of which none has ruptured yet; None without any."""
+    bars = setup.breaking.bars
+    if bars is None or not bars.are_hinges.any():
+        return None
+    reader, inventory = world.bodies.motion(), setup.inventory
+    return RupturedJoints(bars.are_hinges, inventory.pairs, inventory.vertices_by_body(), reader)

@@ -78,10 +78,14 @@ class RestingState:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SupportSprings:
-    """What is in place of some elastic connections: soil under footings, and pads of bearings; None where neither."""
+    """What is in place of some elastic connections: soil under footings, and pads of bearings; and tendons beside all.
+
+    None of what there is not.
+    """
 
     soil: SoilSprings | None = None
     pads: PadSprings | None = None
+    tendons: ModelTendons | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -115,7 +119,6 @@ class ElasticConnections:
         stiffness: SectionStiffness,
         damping_ratio: float,
         springs: SupportSprings | None = None,
-        tendons: ModelTendons | None = None,
     ):
         self._world, self._rows, self._reader = world, world.elastic_rows(), world.bodies.motion()
         self._damping_ratio = damping_ratio
@@ -148,6 +151,7 @@ class ElasticConnections:
         if pads is not None:
             self._bearings = Bearings(pads, *ends, inventory.pairs[pads.rows, 0], *built)
             self._stiffness = without(self._stiffness, pads.rows)
+        tendons = springs.tendons if springs else None
         self.tendons: TendonForces | None = tendons.forces(*built) if tendons else None
         self._lifting = [_Lifting(law) for law in (self._footings, self._bearings) if law]
         self._rest = self._settle(motion)

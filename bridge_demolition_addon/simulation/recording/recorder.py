@@ -37,6 +37,7 @@ from .motion_reader import MomentumReader, check_motion_is_enough
 from .recordable import check_recordable
 from .recorded_frames import RecordedFrames
 from .run_timing import RunTiming
+from .tendons import Tendons
 
 _CONSOLE = logging.getLogger(__name__)
 
@@ -77,6 +78,8 @@ class Recording(RecordedFrames):
         All that decides the run; None before the first frame.
     substeps : int
         Sub-steps of the frame played last.
+    tendons : Tendons or None
+        What each tendon let go so far; None without any.
     """
 
     def __init__(
@@ -111,6 +114,7 @@ class Recording(RecordedFrames):
         self._timing = RunTiming(scene)
         self._lifted: list[bpy.types.Object] = []
         self._reader: BulletReader | None = None
+        self.tendons: Tendons | None = None
         self._momentum: MomentumReader | None = None
         self._logs: Logs | None = None
         self._blast: Blast | None = None
@@ -197,11 +201,6 @@ class Recording(RecordedFrames):
         return self._bearings.summary() if self._bearings else []
 
     @property
-    def tendons(self) -> list[dict[str, Any]]:
-        """What each tendon stored at first and let go so far, ready for JSON."""
-        return self._reader.tendons.summary() if self._reader and self._reader.tendons else []
-
-    @property
     def reinforcement(self) -> dict[str, Any] | None:
         """What bars across cracks did so far, ready for JSON; None where they are not followed."""
         return self._bars.summary() if self._bars else None
@@ -281,6 +280,7 @@ class Recording(RecordedFrames):
         self._reader = BulletReader(
             self.scene, setup, self.world, self._blast, every_substep=self._every_substep, loads=self.has_loads
         )
+        self.tendons = self._reader.tendons
         if self._logs and self._reader.have_bars is not None:
             self._bars = RecordedBars(setup.inventory, self._reader.have_bars)
             self._logs.begin_bars()
