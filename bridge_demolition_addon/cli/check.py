@@ -27,6 +27,7 @@ from ..model.structure.equilibrium import model_at_rest
 from ..model.structure.facts import accuracy_facts, connection_facts, foundation_facts, overlap_facts, rest_facts
 from ..model.structure.model import Model
 from ..model.structure.steel_bars import steel_facts
+from ..model.structure.tendon_facts import tendon_facts
 from ..model.structure.usual_sizes import size_facts
 from ..model.terrain.built import terrain_facts
 from ..studies.estimate import FACTOR, disk_megabytes, duration_text, megabytes_by_size, seconds_by_size
@@ -112,6 +113,8 @@ def scenario_facts(scenario: Scenario, *, stand: bool = False) -> Iterator[str]:
         yield from _section("Fineness", accuracy_facts(scenario, model))
     if model.steel:
         yield from _section("Steelwork", steel_facts(scenario, model, model_at_rest(model, scenario.joints)))
+    if model.tendons:
+        yield from _section("Tendons", tendon_facts(scenario, model.tendons))
     yield from _section("Overlap at the start", overlap_facts(model))
     if model.soil:
         yield from _section("Foundations", foundation_facts(scenario, model))

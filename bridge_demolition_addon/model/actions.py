@@ -83,6 +83,9 @@ class Worksite(Protocol):
     def affected_by(self, action: PlannedAction) -> Affected:
         """Return the shards that a change or a load acts on; refuse one that acts on nothing."""
 
+    def cut_tendons_text(self, action: Any) -> str:
+        """Return which tendons a cut meets, where, and what energy they let go; refuse one that meets none."""
+
     def number_of(self, action: PlannedAction) -> int:
         """Return the number of an action in its list, from 1 on."""
 

@@ -37,6 +37,7 @@ from .sections.planned_sequence import sequence_section
 from .sections.reinforcement import reinforcement_section
 from .sections.stages import has_stages, stages_section
 from .sections.summary import first_photo, run_summary
+from .sections.tendons import tendon_section
 from .single_pages import single_pages
 from .site_plan import write_areas
 
@@ -99,6 +100,8 @@ def run_document(
             sections.append(motion)
     elif run.results is None:
         sections.append(logged_section(run))
+    if (tendons := tendon_section(run)) is not None:
+        sections.append(tendons)
     if stages is not None:
         sections.append(stages_section(stages))
     if run.scenario and (reinforcement := reinforcement_section(run.scenario)):

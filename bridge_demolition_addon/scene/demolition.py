@@ -40,6 +40,7 @@ from .connections.constraints import create_connections
 from .connections.elasticity import forget_elasticity, keep_elasticity
 from .connections.joints import set_joints
 from .connections.soil import keep_soil
+from .connections.tendons import keep_tendons
 from .structural_changes import keep_changes, keep_loads
 from .time_scale import animate_time_scale, stop_animation
 from .tools.ball import create_ball
@@ -113,6 +114,7 @@ def _build(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> list[bpy
             name_bearings(made, model.bearings.names, model.bearings.springs)
             if model.stiffness is not None:
                 keep_pads(made, model.bearings.springs)
+        keep_tendons(scene, model.tendons, shards, made)
         forget_elasticity(scene)
         if model.stiffness is not None:
             ratio = scenario.connections.damping_ratio

@@ -27,6 +27,7 @@ from ..model.results.inventory import Inventory
 from ..model.scenario import Change, Load, Scenario
 from ..model.sequence.events import Event, Structure, recorded_structure, schedule
 from ..model.sequence.loads import PlacedLoad, placed_loads
+from ..model.structure.tendons import ModelTendons
 from .blast.charges import blast_of, charges_of
 from .bodies import Kind, start_motion_of
 from .body_settings import BodySettings, body_settings_of
@@ -35,6 +36,7 @@ from .connections.breaking_settings import Breaking, breaking_of
 from .connections.constraint_settings import ConstraintSettings, constraint_settings_of
 from .connections.elasticity import ConnectionElasticity, elasticity_of
 from .connections.soil import soil_of
+from .connections.tendons import tendons_of
 from .effective_scenario import with_bodies, with_duration, with_first_frame, with_speed, with_time_step
 from .inventory import take_inventory
 from .structural_changes import changes_of, loads_of
@@ -97,6 +99,14 @@ def _bearing_parts(setup: RunSetup) -> Parts:
     if setup.elasticity is None or setup.bearings is None:
         return {}
     return {f"bearings {name}": values for name, values in known_parts(setup.bearings.springs).items()}
+
+
+def _tendon_parts(setup: RunSetup) -> Parts:
+    """Return no parts without tendons, nor for rigid connections: there they do not press."""
+    if setup.elasticity is None or setup.tendons is None:
+        return {}
+    parts = {f"tendons {name}": values for name, values in known_parts(setup.tendons.steel).items()}
+    return parts | {f"passages {name}": values for name, values in known_parts(setup.tendons.passages).items()}
 
 
 def _breaking_parts(setup: RunSetup) -> Parts:
@@ -275,6 +285,7 @@ class RunSetup:
         compared={"bearings": lambda setup: known_parts(setup.bearings.springs) if setup.bearings else {}},
         written=_SAME_KEY,
     )
+    tendons: ModelTendons | None = decides(hashed=_tendon_parts, compared={"tendons": _tendon_parts}, written=_SAME_KEY)
     blast: BlastSettings = decides(hashed="hashed with charges", compared=_BY_KEY, written="written as panels show it")
     charges: tuple[Charge, ...] = decides(hashed=_blast_parts, compared=_BY_KEY, written="written as panels show them")
     time: TimeOfScene = decides(
@@ -352,7 +363,7 @@ class RunSetup:
         bodies = self.bodies
         corners = transformed(bodies.rotations[:, None], bodies.boxes_m) + bodies.positions_m[:, None]
         boxes_m = np.stack((corners.min(axis=1), corners.max(axis=1)), axis=1)
-        return recorded_structure(self.inventory, bodies.positions_m, boxes_m)
+        return recorded_structure(self.inventory, bodies.positions_m, boxes_m, self.tendons)
 
 
 def run_setup_of(scene: bpy.types.Scene, *, with_connections: bool = True) -> RunSetup:
@@ -375,6 +386,7 @@ def run_setup_of(scene: bpy.types.Scene, *, with_connections: bool = True) -> Ru
         ground_motion=ground_motion_of(scene),
         soil=soil_of(connections.objects),
         bearings=bearings_of(connections.objects),
+        tendons=tendons_of(scene, bodies.objects, connections.objects if with_connections else ()),
         blast=blast_of(scene),
         charges=charges_of(scene),
         time=time_of(scene),

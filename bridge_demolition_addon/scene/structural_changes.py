@@ -8,7 +8,7 @@ from typing import TypeVar
 import bpy
 
 from ..errors import ScenarioError
-from ..model.scenario import Change, Load, Removal, SawCut, Severing, Weakening, ZoneFiring
+from ..model.scenario import Change, Load, Removal, SawCut, Severing, TendonCut, Weakening, ZoneFiring
 from ..model.scenario.kept import tables_from_text, tables_text
 from .custom_properties import edited, keep
 
@@ -29,7 +29,7 @@ def keep_loads(scene: bpy.types.Scene, loads: Sequence[Load]) -> None:
 
 def changes_of(scene: bpy.types.Scene) -> tuple[Change, ...]:
     """Return the changes that a scene keeps."""
-    classes: tuple[type[Change], ...] = (Removal, SawCut, Severing, Weakening, ZoneFiring)
+    classes: tuple[type[Change], ...] = (Removal, SawCut, Severing, TendonCut, Weakening, ZoneFiring)
     return _kept_tables(scene, _CHANGES, classes)
 
 

@@ -102,6 +102,8 @@ def run_summary(recording: Recording, results: Results, context: RunContext, *, 
         "made_by_hand": list(context.made_by_hand),
         "changed_bodies": recording.changed_bodies,
     }
+    if recording.tendons:
+        summary["tendons"] = recording.tendons.summary()
     return summary if scenario is None else summary | _of_scenario(scenario, recording, results, context.ground_motion)
 
 

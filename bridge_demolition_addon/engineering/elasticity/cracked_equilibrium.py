@@ -22,8 +22,9 @@ from .bearings import Bearings
 from .cracks import Cracks
 from .equations import RigidBodies, connected_parts
 from .equilibrium import Equilibrium
-from .joint_rows import JointFrames, components_first, components_last, cross_products, turned
+from .joint_rows import JointFrames, components_first, components_last, cross_products, turned, turned_back
 from .structure import BareBarLaw, ElasticStep, ElasticStructure, SpringLaw, StepInput
+from .tendons import TendonForces
 
 _STEPS_S = (1.0, 0.25, 0.06)
 """Lengths of a step: in the first, what hangs by a thousandth of the stiffness of a bridge with 5 Hz still finds its
@@ -73,7 +74,8 @@ class CrackedStructure:
 
     `intact` (m,) are connections that are whole, with
     which it is at `rest` at first: springs that do not touch anything would not know where it rests. `left` (m,) is
-    what `cracks` have as the shares of their bars. `bare_bars` stand where connections are gone.
+    what `cracks` have as the shares of their bars. `bare_bars` stand where connections are gone. Tendons go with the
+    bodies, whose inertia is about their own axes.
     """
 
     def __init__(
@@ -84,10 +86,11 @@ class CrackedStructure:
         intact: BoolArray,
         rest: Equilibrium,
         bare_bars: BareBarLaw | None = None,
+        tendons: TendonForces | None = None,
     ):
         self._built, self.cracks, self._left = built, cracks, left
         self._frames, self._bodies, self._step_s = built.frames, built.bodies, _STEPS_S[0]
-        self._falls, self.bare_bars = False, bare_bars
+        self._falls, self.bare_bars, self._tendons = False, bare_bars, tendons
         self.positions_m, self.rotations = rest.positions_m, rest.rotations
         self.intact, self.held = intact.copy(), rest.held.copy()
         self.loads = np.zeros(
@@ -116,17 +119,33 @@ class CrackedStructure:
         for _ in range(_MOST_STEPS):
             ruptured = structure.settle(self.positions_m, self.rotations)
             self._let_go()
-            broke, step = self._broken_in_step(structure, accelerations, overloaded, tear)
+            broke, step = self._broken_in_step(structure, self._with_tendons(accelerations), overloaded, tear)
             self.loads = self._loads_of(step)
             moving = self._moving(step)
             self.positions_m, self.rotations = self._moved(moving)
             structure.end_substep()
             rests = abs(moving[:3]).max(axis=0) <= _AT_REST * self._step_s * abs(accelerations[:3]).max()
-            if rests.all() and not broke and not len(ruptured):
+            if rests.all() and not broke and not len(ruptured) and not self._tendons_rupture():
                 return True
         self._let_go()
         self.held &= rests
         return False
+
+    def _tendons_rupture(self) -> bool:
+        """Cut tendons across cracks that are too wide at rest, and return whether there are some."""
+        return self._tendons is not None and bool(self._tendons.settle(self.positions_m, self.rotations).any())
+
+    def _with_tendons(self, accelerations: FloatArray) -> FloatArray:
+        """Add to accelerations (6, n) those by the tendons that have not ruptured."""
+        if self._tendons is None:
+            return accelerations
+        forces, moments = np.split(self._tendons.loads(self.positions_m, self.rotations), 2)
+        masses, inertias = self._bodies.masses_kg, self._bodies.inertias_kg_m2[[0, 1, 2], [0, 1, 2]]
+        own = turned_back(self.rotations, moments)
+        turning = np.divide(own, inertias, out=np.zeros_like(own), where=inertias > 0.0)
+        shifting = np.divide(forces, masses, out=np.zeros_like(forces), where=masses > 0.0)
+        both: FloatArray = accelerations + np.concatenate((shifting, turned(self.rotations, turning)))
+        return both
 
     def _broken_in_step(
         self, structure: ElasticStructure, accelerations: FloatArray, overloaded: Overloaded, tear: Tear
@@ -197,6 +216,8 @@ class CrackedStructure:
         of_lost = lost[frames.first] | lost[frames.second]
         self.intact &= ~of_lost
         self._left[of_lost] = 0.0  # its bars are gone as well
+        if self._tendons is not None and lost.any():
+            self._tendons.cut(self._tendons.passages.crossing(np.zeros(0, int), np.flatnonzero(lost)))
         holds = self.intact.copy()
         holds[self.cracks.rows[~of_lost[self.cracks.rows]]] = True
         first, second = frames.first[holds], frames.second[holds]

@@ -14,6 +14,7 @@ from .equations import RigidBodies, connected_parts, stiffness_blocks, stressed,
 from .frequencies import SLACK, first_frequency
 from .joint_rows import JointFrames, JointRows, components_first, components_last, joint_positions
 from .sparse_system import BlockSystem
+from .tendons import TendonForces
 
 _LARGEST_M = 0.5
 """Largest deformation; beyond it there is no equilibrium near the shape in which the part was built."""
@@ -63,12 +64,13 @@ def equilibrium(
     gravity_m_s2: FloatArray,
     loads: FloatArray | None = None,
     bearings: Bearings | None = None,
+    tendons: TendonForces | None = None,
 ) -> Equilibrium:
     """Return where bodies rest that elastic connections hold, which carry no load where they are now.
 
     `stiffness` (6, 6, m) is as in `ElasticStructure`; `loads` (6, n) are further forces on the bodies, N, and
     moments about their centres, N·m. Of connections that are bearings the stiffness does not count, and their loads are
-    forces along the axes of the world, and moments about the middles of their springs.
+    forces along the axes of the world, and moments about the middles of their springs. Tendons go with the bodies.
     """
     if bearings is not None:
         stiffness = without(stiffness, bearings.rows)
@@ -80,7 +82,9 @@ def equilibrium(
         members, rows = parts.pop(0)
         started = replace(bodies, positions_m=positions_m, rotations=rotations)
         pads = None if bearings is None else _PartOnBearings(bearings, rows)
-        rest = _part_at_rest(members, frames.only(rows), stiffness[..., rows], started, gravity_m_s2, loads, pads)
+        rest = _part_at_rest(
+            members, frames.only(rows), stiffness[..., rows], started, gravity_m_s2, loads, pads, tendons
+        )
         if rest:
             held[members] = True
             positions, turned, frequency = rest
@@ -116,9 +120,10 @@ class _Part:
         bodies: RigidBodies,
         weights: FloatArray,
         pads: _PartOnBearings | None,
+        tendons: TendonForces | None,
     ):
         self._members, self._frames, self._stiffness = members, frames, stiffness
-        self._bodies, self._weights, self._pads = bodies, weights, pads
+        self._bodies, self._weights, self._pads, self._tendons = bodies, weights, pads, tendons
         self._unloaded = joint_positions(frames, bodies.positions_m, bodies.rotations).deformations()
         unknown = np.full(len(bodies), -1)
         unknown[members] = np.arange(len(members))
@@ -133,6 +138,8 @@ class _Part:
         if self._pads is not None:
             self._pads.add_loads(holding, positions_m, rotations)
         on_bodies = summed_on_bodies(self._frames.first, self._frames.second, holding, len(self._bodies))
+        if self._tendons is not None:
+            on_bodies = on_bodies + self._tendons.loads(positions_m, rotations)
         left: FloatArray = (self._weights + on_bodies)[:, self._members]
         return left
 
@@ -186,6 +193,7 @@ def _part_at_rest(
     gravity_m_s2: FloatArray,
     loads: FloatArray | None,
     pads: _PartOnBearings | None,
+    tendons: TendonForces | None,
 ) -> tuple[FloatArray, FloatArray, float] | None:
     """Positions, rotations and first frequency of connected bodies (b,) at rest; None for a mechanism."""
     count, positions_m, rotations = len(bodies), bodies.positions_m, bodies.rotations
@@ -193,7 +201,7 @@ def _part_at_rest(
     weights[:3, members] = bodies.masses_kg[members] * gravity_m_s2[:, None]
     if loads is not None:
         weights[:, members] += loads[:, members]
-    part = _Part(members, frames, stiffness, bodies, weights, pads)
+    part = _Part(members, frames, stiffness, bodies, weights, pads, tendons)
     solutions, balanced = (_SOLUTIONS, _AT_REST) if pads is None else (_SOLUTIONS_ON_BEARINGS, _AT_REST_ON_BEARINGS)
     for _ in range(solutions):
         own = bodies.mass_matrices(rotations, members)

@@ -33,7 +33,8 @@ class Overloads:
     In all methods `rows` (r,) are intact connections and `axes` (r, 3, 3) those of their sections, `loads` those of
     all; `left` (m,) is what is left of the strength of each, `intact` (m,) what still holds, `parts` (m,) what elastic
     connections hold together. `pressed` (m,) is by how much more of it is left in compression, and the caller keeps it
-    up to date; None where it is as much everywhere.
+    up to date; None where it is as much everywhere. `friction` (m,) is what helps pressed faces against shear; None
+    where it is not counted on.
     """
 
     def __init__(
@@ -43,8 +44,9 @@ class Overloads:
         strength: Strength,
         member_sections: MemberSections | None,
         pressed: FloatArray | None = None,
+        friction: FloatArray | None = None,
     ):
-        self._pressed = pressed
+        self._pressed, self._friction = pressed, friction
         self._pairs, self._moves, self._strength = faces.pairs, moves, strength
         self._member_sections = member_sections
         self._sections = rectangular_sections(faces.areas_m2, faces.second_moments_m4)
@@ -102,7 +104,7 @@ class Overloads:
 
     def of_forces(self, rows: IntArray, forces: SectionForces) -> FloatArray:
         """Utilisations (r,), of whole strengths, of some connections by forces in their axes."""
-        return utilisation(forces, sections_at(self._sections, rows), self._strength_at(rows))
+        return utilisation(forces, sections_at(self._sections, rows), self._strength_at(rows), self._friction_at(rows))
 
     def together(
         self,
@@ -127,11 +129,15 @@ class Overloads:
             return strength
         return replace(strength, compression_pa=self._pressed[rows] * strength.compression_pa)
 
+    def _friction_at(self, rows: IntArray) -> FloatArray | None:
+        return None if self._friction is None else self._friction[rows]
+
     def _in_cuts(self, rows: IntArray, loads: ConnectionLoads, axes: FloatArray, intact: BoolArray) -> FloatArray:
         """Mean utilisations (r,), of whole strengths, of the cuts through the two shards of some connections."""
         cut_loads, areas, second_moments = self._cuts.sections(rows, intact, loads, axes)
-        of_both_cuts = self._strength_at(np.concatenate((rows, rows)))
-        used = utilisation(cut_loads, rectangular_sections(areas, second_moments), of_both_cuts)
+        both = np.concatenate((rows, rows))
+        sections = rectangular_sections(areas, second_moments)
+        used = utilisation(cut_loads, sections, self._strength_at(both), self._friction_at(both))
         return used.reshape(2, -1).mean(axis=0)
 
     def _in_members(
@@ -150,7 +156,8 @@ class Overloads:
             holding = np.where(intact, parts, -1)
             of_sections, areas, second_moments = members.sections(rows[whole], holding, loads, axes[whole])
             sections = rectangular_sections(areas, second_moments)
-            used[whole] = utilisation(of_sections, sections, self._strength_at(rows[whole]))
+            resisting = self._strength_at(rows[whole]), self._friction_at(rows[whole])
+            used[whole] = utilisation(of_sections, sections, *resisting)
         if not whole.all():
             used[~whole] = self._in_cuts(rows[~whole], loads, axes[~whole], intact)
         return used

@@ -41,6 +41,33 @@ class FaceBars:
             self.hinges,
         )
 
+    def with_pulls(
+        self,
+        rows: IntArray,
+        pulls_n: FloatArray,
+        offsets_m: FloatArray,
+        directions: FloatArray,
+        openings_m: FloatArray,
+    ) -> FaceBars:
+        """Return them together with bars across faces `rows` (b,), some maybe of one face.
+
+        They yield at `pulls_n` (b,), at offsets (b, 2) and along directions (b, 3) as above.
+        """
+        forces, parts = self.yield_n[:, None] * self.directions, self.yield_n.copy()
+        by_offset, by_opening = self.yield_n[:, None] * self.offsets_m, self.yield_n * self.openings_m
+        np.add.at(parts, rows, pulls_n)
+        np.add.at(forces, rows, pulls_n[:, None] * directions)
+        np.add.at(by_offset, rows, pulls_n[:, None] * offsets_m)
+        np.add.at(by_opening, rows, pulls_n * openings_m)
+        has_bars, whole = parts > 0.0, length(forces)
+        return FaceBars(
+            whole,
+            np.divide(by_offset, parts[:, None], out=np.zeros_like(by_offset), where=has_bars[:, None]),
+            np.divide(forces, whole[:, None], out=self.directions.copy(), where=whole[:, None] > 0.0),
+            np.divide(by_opening, parts, out=np.zeros_like(parts), where=has_bars),
+            self.hinges,
+        )
+
     @property
     def are_hinges(self) -> BoolArray:
         """Which of them (m,) are sections of steel."""

@@ -163,7 +163,9 @@ def largest_utilisations(sections: Sections, strength: Strength) -> tuple[FloatA
     return length(by_force), length(np.stack((edge_by_moment, shear_by_moment), axis=-1))
 
 
-def utilisation(forces: SectionForces, sections: Sections, strength: Strength) -> FloatArray:
+def utilisation(
+    forces: SectionForces, sections: Sections, strength: Strength, friction: FloatArray | None = None
+) -> FloatArray:
     """Utilisation (m,) of each connection; above 1 it breaks. Nan where the section has no area, or the forces are nan.
 
     - Stretched edge: axial tension by its strength plus bending by its own; compression relieves it.
@@ -173,14 +175,18 @@ def utilisation(forces: SectionForces, sections: Sections, strength: Strength) -
     The larger of the two edges acts together with shear as √(edge² + shear²). For steel that is the yield criterion of
     von Mises, EN 1993-1-1:2005, equation 6.1. For joints that are pulled apart it is the quadratic criterion of nominal
     stress (L. Ye, 1988, Composites Science and Technology 33, 257-277; P. Camanho, C. Dávila, 2002,
-    NASA/TM-2002-211737). Friction, which helps a pressed section against shear, is not counted on.
+    NASA/TM-2002-211737). Friction, which helps a pressed section against shear, counts with a coefficient (m,) where
+    one is given: EN 1992-1-1:2004, equation 6.25, v_Rd = c f_ctd + μ σ_n.
 
     The stress of a rectangle is largest at a corner: bending about its two axes adds up.
     """
     axial = forces.axial_n / sections.areas_m2
     moments = transformed_back(sections.directions, forces.bending_nm)
     bending = (np.abs(moments) / sections.bending_moduli_m3).sum(axis=1)
-    shear = length(forces.shear_n) / sections.areas_m2 / strength.shear_pa
+    shear_pa = length(forces.shear_n) / sections.areas_m2
+    if friction is not None:
+        shear_pa = np.maximum(shear_pa + friction * np.minimum(axial, 0.0), 0.0)
+    shear = shear_pa / strength.shear_pa
     shear += np.abs(forces.torsion_nm) / sections.torsion_moduli_m3 / strength.torsion_pa
     stretched = axial / np.where(axial > 0.0, strength.tension_pa, strength.bending_pa) + bending / strength.bending_pa
     pressed = (bending - axial) / strength.compression_pa

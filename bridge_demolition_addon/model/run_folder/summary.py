@@ -104,6 +104,11 @@ class RunSummary:
         return self.values.get("reinforcement")
 
     @property
+    def tendons(self) -> list[dict[str, Any]]:
+        """What each tendon stored at first and let go; empty without tendons, and of runs that were recorded before."""
+        return self.values.get("tendons", [])
+
+    @property
     def came_to_rest_s(self) -> float | None:
         """When everything came to rest; None where it did not."""
         return self.values.get("came_to_rest_s")
@@ -188,6 +193,10 @@ def _checked(summary: Any) -> dict[str, Any]:
         _check_table(f"bearings[{number}]", bearing, _BEARING)
     if summary.get("reinforcement") is not None:
         _check_bars(summary["reinforcement"])
+    for number, tendon in enumerate(summary.get("tendons", ())):
+        _check_table(f"tendons[{number}]", tendon, _TENDON)
+        for other, release in enumerate(tendon["released"]):
+            _check_table(f"tendons[{number}].released[{other}]", release, _RELEASE)
     for number, hit in enumerate(summary.get("hits_of_the_ball", ())):
         _check_table(f"hits_of_the_ball[{number}]", hit, _HIT, optional=_ESTIMATES)
     return summary
@@ -323,6 +332,8 @@ _LARGEST_USE = {
     "first_member": _is_text,
     "second_member": _is_text,
 }
+_TENDON = {"name": _is_text, "member": _is_text, "force_N": _is_number, "stored_J": _is_number, "released": _is_list}
+_RELEASE = {"time_s": _is_number, "how": _is_text, "energy_J": _is_number}
 _LEVELLED = {"name": _is_text, "dug_m": _is_number, "filled_m": _is_number}
 _SUMMARY = {
     "terrain": _is_table_or_none,
@@ -342,6 +353,7 @@ _SUMMARY = {
     "hits_of_the_ball": _is_list,
     "bearings": _is_list,
     "reinforcement": _is_table_or_none,
+    "tendons": _is_list,
 }
 
 _ESTIMATES = {"half_sine_peak_force_N": _is_number, "hertz_peak_force_N": _is_number}

@@ -25,7 +25,8 @@ from .reinforcement import BarRule, BridgeReinforcement, GeometryReinforcement, 
 from .scenario import Scenario
 from .site import Exclusion, Neighbour, Site, Zone
 from .steelwork import SteelMember, SteelNode, Steelwork
-from .structural_changes import Change, Removal, SawCut, Severing, Weakening, ZoneFiring
+from .structural_changes import Change, Removal, SawCut, Severing, TendonCut, Weakening, ZoneFiring
+from .tendons import Tendon
 from .time import TimeSettings
 from .trusses import TrussSpan
 
@@ -79,6 +80,8 @@ __all__ = [
     "Steelwork",
     "Support",
     "SurfaceValues",
+    "Tendon",
+    "TendonCut",
     "TimeSettings",
     "TrussSpan",
     "Weakening",

@@ -45,7 +45,8 @@ from .recording import PictureSettings, RecordingSettings
 from .reinforcement import BarRule, BridgeReinforcement, GeometryReinforcement
 from .site import Exclusion, Neighbour, Site, Zone
 from .steelwork import Steelwork
-from .structural_changes import Change, Removal, SawCut, Weakening, severing
+from .structural_changes import Change, Removal, SawCut, TendonCut, Weakening, severing
+from .tendons import Tendon, check_tendons
 from .time import MOST_FRAMES, TimeSettings
 
 _RIGID_WITH_BARS = "bars between rigid bodies would make energy"
@@ -74,6 +75,7 @@ class Scenario(Table):
     materials: tuple[Material, ...] = ()
     reinforcement: tuple[BarLayer, ...] = ()
     geometry_reinforcement: GeometryReinforcement | None = None
+    tendons: tuple[Tendon, ...] = ()
     connections: ConnectionSettings
     bearings: tuple[Bearing, ...] = ()
     supports: tuple[Support, ...] = ()
@@ -89,6 +91,7 @@ class Scenario(Table):
     removals: tuple[Removal, ...] = ()
     saw_cuts: tuple[SawCut, ...] = ()
     weakenings: tuple[Weakening, ...] = ()
+    tendon_cuts: tuple[TendonCut, ...] = ()
     loads: tuple[Load, ...] = ()
     recording: RecordingSettings = field(default_factory=RecordingSettings)
     pictures: PictureSettings = field(default_factory=PictureSettings)
@@ -195,7 +198,7 @@ class Scenario(Table):
         """Changes to the structure, but for those of blast zones, which depend on its model."""
         fired = [cut for cut in self.cuts if cut.fires and self.blast.explosion]
         severed = (severing(cut, self.blast.start_s, self.seed) for cut in fired)
-        return (*self.removals, *self.saw_cuts, *self.weakenings, *severed)
+        return (*self.removals, *self.saw_cuts, *self.weakenings, *severed, *self.tendon_cuts)
 
     def _check_together(self) -> None:
         self._settle_contacts()
@@ -206,10 +209,11 @@ class Scenario(Table):
         self._check_slow_motion()
         object.__setattr__(self, "connections", self.connections.with_strength(self.fracture.shards))
         object.__setattr__(self, "connections", self.connections.with_stiffness(self.materials))
-        if (self.is_reinforced or self.steelwork) and self.connections.is_elastic:
+        if (self.is_reinforced or self.steelwork or self.tendons) and self.connections.is_elastic:
             object.__setattr__(self, "time", self.time.with_bars())
         check_materials(self.materials)
         self._check_reinforcement()
+        check_tendons(self.tendons, self.tendon_cuts, self.connections)
         if not self.connections.is_elastic:
             for table in self.bearings:
                 table.check_rigid()

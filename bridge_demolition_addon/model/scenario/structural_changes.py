@@ -103,6 +103,25 @@ class Weakening(Change):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class TendonCut(Change):
+    """A cut of tendons in one moment, without the concrete around them: of those named, of those in some members, or
+    of all, where they run through the box. Without a box an unbonded tendon lets go at its anchorages. Saw cuts,
+    removals, severed members and zones that are blasted away cut the tendons that cross them as well.
+    """
+
+    table: ClassVar[str] = "tendon_cuts"
+    kind: ClassVar[str] = "tendon cut"
+
+    tendons: tuple[str, ...] | None = key("Names of the tendons; by default all.", default=None)
+
+    def facts(self, site: Worksite) -> Iterator[Fact]:
+        yield f"{self.time_s:.3f} s", f"{self.kind}, {site.cut_tendons_text(self)}"
+
+    def check_model(self, site: Worksite) -> None:
+        site.cut_tendons_text(self)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class ZoneFiring(Change):
     """What drilled charges do to a blast zone, the box of a member, when its last row fires. It follows from the zone
     and the model, and is no table of a scenario; a scene keeps it.

@@ -18,12 +18,14 @@ from ..bridge.member import Member
 from ..loads import Load
 from ..materials.bar_layers import BarLayer
 from ..reinforcement.design import all_layers
-from ..scenario import Change, MemberCut, Scenario
+from ..scenario import Change, MemberCut, Scenario, TendonCut
 from ..scenario.structural_changes import severing
+from ..schema import given
 from ..structure.blast_zones import one_member, placed_zone
 from ..structure.model import Model, build_model
 from .events import Structure, model_structure, schedule
 from .loads import placed_on_model
+from .tendon_cuts import cut_text
 
 _SPHERE_FACETS = 64
 """Round enough: the corners are on the sphere, and its sides 0.1 % of the radius within it."""
@@ -92,6 +94,10 @@ class ModelWorksite:
                 "position_m", f"a position in {member.name}, from {lowest:g} to {highest:g} (m) along {cut.along}"
             )
         schedule((severing(cut, self.plan.blast.start_s, self.plan.seed),), self._structure)
+
+    def cut_tendons_text(self, action: TendonCut) -> str:
+        (event,) = schedule((action,), self._structure)
+        return cut_text(event.tendons, given(self.model.tendons))
 
     def number_of(self, action: PlannedAction) -> int:
         alike = [other for other in self.plan.actions if type(other) is type(action)]

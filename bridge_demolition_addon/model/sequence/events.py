@@ -11,14 +11,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...engineering.elasticity.tendons import CutTendon
 from ...engineering.geometry.vectors import dot
 from ...errors import ScenarioError
 from ..loads import Part
 from ..results.inventory import Inventory
-from ..scenario import Change, Removal, SawCut, Weakening, ZoneFiring
+from ..scenario import Change, Removal, SawCut, TendonCut, Weakening, ZoneFiring
 from ..structure.model import Model
+from ..structure.tendons import ModelTendons
 from .bare_bars import StandingBars, standing_bars
 from .departures import Departure, departure_of
+from .tendon_cuts import cuts_of_tendons
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -33,6 +36,7 @@ class Structure:
     pairs: np.ndarray  # (m, 2), bodies of the connections
     points_m: np.ndarray  # (m, 3), positions of the connections
     boxes_m: np.ndarray  # (n, 2, 3), lowest and highest corners of the bodies
+    tendons: ModelTendons | None = None
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -40,7 +44,7 @@ class Event:
     """A change as rows of bodies that it removes, and of connections."""
 
     time_s: float
-    kind: str  # ``removal``, ``saw cut``, ``weakening`` or ``blast zone``
+    kind: str  # ``removal``, ``saw cut``, ``weakening``, ``blast zone`` or ``tendon cut``
     bodies: np.ndarray  # (b,), bodies that no longer carry: removed, or thrown out of their member
     connections: np.ndarray  # (c,), those that are cut or weakened
     factor: float  # on their strength; 0 for those that are cut
@@ -48,6 +52,7 @@ class Event:
     departure: Departure | None = None  # how the bodies of a blast zone leave their member
     bars: StandingBars | None = None  # those that stay in it
     pressed: float = 1.0  # factor on the strength in compression, beside the factor on all strengths
+    tendons: tuple[CutTendon, ...] = ()  # that are cut, and where
 
 
 def model_structure(model: Model) -> Structure:
@@ -63,10 +68,13 @@ def model_structure(model: Model) -> Structure:
         pairs=np.where(model.connections.pairs < 0, count, model.connections.pairs),
         points_m=model.connections.points,
         boxes_m=np.concatenate((np.array([shard.bounds for shard in model.shards]), np.zeros((1, 2, 3)))),
+        tendons=model.tendons,
     )
 
 
-def recorded_structure(inventory: Inventory, centres_m: np.ndarray, boxes_m: np.ndarray) -> Structure:
+def recorded_structure(
+    inventory: Inventory, centres_m: np.ndarray, boxes_m: np.ndarray, tendons: ModelTendons | None = None
+) -> Structure:
     """Return the structure of bodies that are recorded, before anything moves.
 
     `centres_m` (n, 3) are their centres of mass, `boxes_m` (n, 2, 3) the corners of the boxes around them.
@@ -81,6 +89,7 @@ def recorded_structure(inventory: Inventory, centres_m: np.ndarray, boxes_m: np.
         pairs=inventory.pairs,
         points_m=inventory.points_m,
         boxes_m=boxes_m,
+        tendons=tendons,
     )
 
 
@@ -91,6 +100,10 @@ def schedule(changes: Sequence[Change], structure: Structure) -> tuple[Event, ..
 
 def _event(change: Change, structure: Structure) -> Event:
     bodies, factor, departure = np.zeros(0, int), 0.0, None
+    if isinstance(change, TendonCut):
+        return Event(
+            change.time_s, change.kind, bodies, bodies, 1.0, tendons=cuts_of_tendons(change, structure.tendons)
+        )
     match change:
         case Removal():
             inside = in_box(change, structure.centres_m)
@@ -111,6 +124,7 @@ def _event(change: Change, structure: Structure) -> Event:
                 )
     if not len(bodies if isinstance(change, Removal | ZoneFiring) else connections):
         raise ScenarioError(f"{change.table} at {change.time_s:g} s: {_why_nothing(change, structure)}")
+    tendons = _cut_with(structure, connections, bodies) if factor == 0.0 else ()
     if isinstance(change, ZoneFiring):
         is_in_zone = np.zeros(len(structure.centres_m), bool)
         is_in_zone[bodies] = True
@@ -124,8 +138,14 @@ def _event(change: Change, structure: Structure) -> Event:
             departure,
             standing_bars(change, is_in_zone, structure.pairs, structure.points_m),
             change.left_by_compression,
+            tendons,
         )
-    return Event(change.time_s, change.kind, bodies, connections, factor)
+    return Event(change.time_s, change.kind, bodies, connections, factor, tendons=tendons)
+
+
+def _cut_with(structure: Structure, connections: np.ndarray, bodies: np.ndarray) -> tuple[CutTendon, ...]:
+    """Return where tendons are cut: in connections (c,) that they pass through, or beside bodies (b,) they are in."""
+    return tuple(structure.tendons.passages.crossing(connections, bodies)) if structure.tendons else ()
 
 
 def _of_zone(zone: ZoneFiring, structure: Structure) -> tuple[np.ndarray, np.ndarray]:

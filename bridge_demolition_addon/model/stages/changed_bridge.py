@@ -9,6 +9,7 @@ from typing import Self
 import numpy as np
 
 from ...engineering.drilled_charges.cages import BareBars
+from ...engineering.elasticity.tendons import CutTendon
 from ..sequence.bare_bars import StandingBars
 from ..sequence.events import Event
 from ..structure.model import Model
@@ -47,6 +48,7 @@ class ChangedBridge:
     left: np.ndarray  # (m,), part of its strength that each has; 1 for those that are gone
     removed: np.ndarray  # (n,), shards that were taken away or thrown out
     zones: tuple[BaredZone, ...] = ()
+    cuts: tuple[CutTendon, ...] = ()  # of tendons
 
     @classmethod
     def as_built(cls, model: Model) -> Self:
@@ -95,9 +97,9 @@ class ChangedBridge:
         intact[event.connections] &= event.factor > 0.0
         if event.factor > 0.0:
             left[event.connections] *= event.factor
-        changed = ChangedBridge(intact, left, removed)
+        changed, cuts = ChangedBridge(intact, left, removed), (*self.cuts, *event.tendons)
         kept = (_without(zone, changed._is_gone(zone.bars.bodies)) for zone in zones)
-        return ChangedBridge(intact, left, removed, tuple(kept))
+        return ChangedBridge(intact, left, removed, tuple(kept), cuts)
 
     def _is_gone(self, bodies: np.ndarray) -> np.ndarray:
         """Return whether one of the two bodies (k, 2) was taken away; the ground is none of the shards."""

@@ -83,9 +83,11 @@ def _coming_down(
     model, loads = bridge.model, np.zeros((6, len(bridge.model.shards)))
     if at_worst:
         loads[:2] = _INCLINATION * STANDARD_GRAVITY_M_S2 * np.where(model.fixed, 0.0, model.masses_kg)
-    down = ~bridge.rest(changed.intact, changed.left, loads, bare=changed.bare, at_worst=at_worst).held
+    down = ~bridge.rest(
+        changed.intact, changed.left, loads, bare=changed.bare, at_worst=at_worst, cuts=changed.cuts
+    ).held
     if changed.bare is None:
-        down |= bridge.comes_down(changed.intact, changed.left, loads, 1.0)
+        down |= bridge.comes_down(changed.intact, changed.left, loads, 1.0, changed.cuts)
     falls: np.ndarray = held & down & ~changed.removed
     return falls
 

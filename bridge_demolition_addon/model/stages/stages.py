@@ -12,10 +12,12 @@ from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...errors import ScenarioError
 from ..actions import Fact
 from ..scenario import Equipment, Scenario
+from ..schema import given
 from ..sequence.events import Event, model_structure, schedule
 from ..structure.blast_zones import zone_firings
 from ..structure.model import Model
 from .changed_bridge import ChangedBridge, PressedBars
+from .changed_tendons import ReleasedTendon, released_tendons
 from .reactions import supports_of
 from .standing import Standing, StandingBridge
 
@@ -46,6 +48,7 @@ class Stage:
     equipment_n: float  # its weight
     collapse_factor: float  # load factor at which it collapses
     bars: tuple[PressedBars, ...] = ()  # that stand bare
+    tendons: tuple[ReleasedTendon, ...] = ()  # that let go in this step
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,11 +67,11 @@ def stages_of(scenario: Scenario, bridge: StandingBridge, progress: Callable[[in
     steps = _steps(scenario, schedule(changes, model_structure(model)))
     changed, stages = ChangedBridge.as_built(model), []
     for number, (time_s, events) in enumerate(steps):
-        changed = changed.after(events)
+        before, changed = changed, changed.after(events)
         machines = [machine for machine in scenario.equipment if machine.stands_at(time_s)]
         loads = equipment_loads(model, machines, changed.removed)
         state = changed.intact, changed.left, loads
-        standing = bridge.rest(*state, bare=changed.bare)
+        standing = bridge.rest(*state, bare=changed.bare, cuts=changed.cuts)
         stages.append(
             Stage(
                 time_s=time_s,
@@ -78,8 +81,9 @@ def stages_of(scenario: Scenario, bridge: StandingBridge, progress: Callable[[in
                 loose=~standing.held & ~changed.removed & ~model.fixed,
                 equipment=tuple(machine.name for machine in machines),
                 equipment_n=STANDARD_GRAVITY_M_S2 * math.fsum(machine.mass_kg for machine in machines),
-                collapse_factor=bridge.collapse_factor(*state, changed.bare),
+                collapse_factor=bridge.collapse_factor(*state, changed.bare, changed.cuts),
                 bars=changed.pressed_bars(standing.bare_n),
+                tendons=released_tendons(bridge, before, changed),
             )
         )
         progress(number + 1, len(steps))
@@ -198,4 +202,7 @@ def _described(event: Event, model: Model) -> str:
     if len(event.bodies):
         names = {model.members[member].name for member in model.member_of_shard[event.bodies]}
         return f"{event.kind} of {', '.join(sorted(names))}"
+    if event.tendons and not len(event.connections):
+        cut = sorted({cut.tendon for cut in event.tendons})
+        return f"{event.kind} of {', '.join(given(model.tendons).names[tendon] for tendon in cut)}"
     return f"{event.kind} of {len(event.connections)} connections"

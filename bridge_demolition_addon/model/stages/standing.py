@@ -10,6 +10,7 @@ import numpy as np
 
 from ...engineering.drilled_charges.cages import BareBars
 from ...engineering.elasticity.equilibrium import Equilibrium
+from ...engineering.elasticity.tendons import CutTendon, TendonForces
 from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.overloads import Overloads
 from ...engineering.mechanics.section_cuts import ConnectionLoads
@@ -19,7 +20,7 @@ from ...errors import ScenarioError
 from ..scenario import Scenario
 from ..scenario.connections import MATERIAL_OF_LARGE_MODELS
 from ..schema import given
-from ..structure.cracking import FALLEN_SHARE, CrackedBridge, StandingBare
+from ..structure.cracking import FALLEN_SHARE, CrackedBridge, StandingBare, SteelBeside
 from ..structure.equilibrium import at_rest, held_motions, inertias_of
 from ..structure.model import Model
 from ..structure.utilisation import Utilisations
@@ -64,7 +65,10 @@ class Standing:
 
 
 class StandingBridge:
-    """Solves a model with elastic connections at rest, whatever of it is gone; calls `pause` before each solution."""
+    """Solves a model with elastic connections at rest, whatever of it is gone; calls `pause` before each solution.
+
+    Tendons are cut where they pass through connections that are gone, and wherever `cuts` says.
+    """
 
     def __init__(self, model: Model, joints: Sequence[Joint], pause: Callable[[], None] = lambda: None):
         self.model, self._joints, self._pause = model, joints, pause
@@ -72,7 +76,15 @@ class StandingBridge:
         self._inertias, self._held_motions = inertias_of(model), held_motions(model, joints)
         self._utilisations = Utilisations(model, joints)
         self._as_built: Standing | None = None
-        self._last_cracked: tuple[tuple[bytes | float, ...], CrackedBridge] | None = None
+        self._last_cracked: tuple[tuple[bytes | float | tuple[CutTendon, ...], ...], CrackedBridge] | None = None
+
+    def tendons(self, intact: np.ndarray, cuts: Sequence[CutTendon] = ()) -> TendonForces | None:
+        """Return the tendons with the connections that are `intact` (m,), after further cuts; None without any."""
+        if self.model.tendons is None:
+            return None
+        forces = self.model.tendons.forces_of_shards(self.model.centres_m)
+        forces.cut([*forces.passages.crossing(np.flatnonzero(~intact), np.zeros(0, int)), *cuts])
+        return forces
 
     def rest(
         self,
@@ -84,6 +96,7 @@ class StandingBridge:
         every_section: bool = True,
         bare: BareBars | None = None,
         at_worst: bool = False,
+        cuts: Sequence[CutTendon] = (),
     ) -> Standing:
         """Return the bridge at rest with the connections that are `intact` (m,), and `left` (m,) of their strength.
 
@@ -92,15 +105,15 @@ class StandingBridge:
         Where bars cross what is overloaded, that cracks, if the bridge then stands. Where bars stand `bare`, all
         that is overloaded breaks or cracks; `at_worst` is as in `StandingBare`.
         """
-        standing = self._elastic(intact, left, loads, factor, every_section=every_section)
+        standing = self._elastic(intact, left, loads, factor, every_section=every_section, cuts=cuts)
         if bare is not None:
-            on_bare = self._on_bare_bars(intact, left, bare, at_worst)
+            on_bare = self._on_bare_bars(intact, left, bare, at_worst, cuts)
             self._pause()
             on_bare.carry(factor, loads)
             return self._on_bars(on_bare, left, standing)
         if self.model.crack_bars is None or not len(self._broken(standing, intact)):
             return standing
-        cracked = self._cracked(intact, left, loads, factor, standing)
+        cracked = self._cracked(intact, left, loads, factor, standing, cuts)
         return standing if cracked.fallen.any() else self._on_bars(cracked, left, standing)
 
     def held(self, intact: np.ndarray) -> np.ndarray:
@@ -109,7 +122,14 @@ class StandingBridge:
         return self._elastic(intact, np.ones(len(intact)), nothing, 1.0, every_section=False).held
 
     def _elastic(
-        self, intact: np.ndarray, left: np.ndarray, loads: np.ndarray, factor: float, *, every_section: bool
+        self,
+        intact: np.ndarray,
+        left: np.ndarray,
+        loads: np.ndarray,
+        factor: float,
+        *,
+        every_section: bool,
+        cuts: Sequence[CutTendon] = (),
     ) -> Standing:
         """Return the bridge as if nothing cracked."""
         self._pause()
@@ -125,6 +145,7 @@ class StandingBridge:
             (0.0, 0.0, -factor * STANDARD_GRAVITY_M_S2),
             factor * loads,
             model.bearings.springs.among(intact) if model.bearings else None,
+            self.tendons(intact, cuts),
         )
         carried = np.zeros((6, len(intact)))
         carried[:, rows] = solution.loads
@@ -147,30 +168,47 @@ class StandingBridge:
         )
 
     def _cracked(
-        self, intact: np.ndarray, left: np.ndarray, loads: np.ndarray, factor: float, elastic: Standing
+        self,
+        intact: np.ndarray,
+        left: np.ndarray,
+        loads: np.ndarray,
+        factor: float,
+        elastic: Standing,
+        cuts: Sequence[CutTendon],
     ) -> CrackedBridge:
         """Return a bridge whose concrete has cracked under loads; the last one is kept, as much cracking takes long."""
-        case = (intact.tobytes(), left.tobytes(), loads.tobytes(), factor)
+        case = (intact.tobytes(), left.tobytes(), loads.tobytes(), factor, tuple(cuts))
         if self._last_cracked is None or self._last_cracked[0] != case:
-            cracked = self._begun(intact, left, elastic)
+            cracked = self._begun(intact, left, elastic, cuts)
             self._pause()
             cracked.carry(factor, loads)
             self._last_cracked = case, cracked
         return self._last_cracked[1]
 
-    def _begun(self, intact: np.ndarray, left: np.ndarray, elastic: Standing) -> CrackedBridge:
+    def _begun(
+        self, intact: np.ndarray, left: np.ndarray, elastic: Standing, cuts: Sequence[CutTendon] = ()
+    ) -> CrackedBridge:
         """Return a bridge whose concrete cracks under loads, before any."""
-        return CrackedBridge(self.model, self._joints, self._utilisations, intact, left, elastic.uncracked)
+        return CrackedBridge(
+            self.model,
+            self._joints,
+            self._utilisations,
+            intact,
+            left,
+            elastic.uncracked,
+            SteelBeside(tendons=self.tendons(intact, cuts)),
+        )
 
-    def _on_bare_bars(self, intact: np.ndarray, left: np.ndarray, bare: BareBars, at_worst: bool) -> CrackedBridge:
+    def _on_bare_bars(
+        self, intact: np.ndarray, left: np.ndarray, bare: BareBars, at_worst: bool, cuts: Sequence[CutTendon] = ()
+    ) -> CrackedBridge:
         """Return a bridge that stands as it was built, in the moment in which bars of it are bared."""
         if self._as_built is None:
             whole, nothing = np.ones(len(intact)), np.zeros((6, len(self.model.shards)))
             self._as_built = self._elastic(whole > 0.0, whole, nothing, 1.0, every_section=False)
         built = self._as_built.uncracked
-        return CrackedBridge(
-            self.model, self._joints, self._utilisations, intact, left, built, StandingBare(bare, at_worst)
-        )
+        beside = SteelBeside(StandingBare(bare, at_worst), self.tendons(intact, cuts))
+        return CrackedBridge(self.model, self._joints, self._utilisations, intact, left, built, beside)
 
     def _on_bars(self, cracked: CrackedBridge, left: np.ndarray, elastic: Standing) -> Standing:
         """Return a bridge that stands with cracks."""
@@ -190,14 +228,21 @@ class StandingBridge:
             bare_n=cracked.bare_n,
         )
 
-    def comes_down(self, intact: np.ndarray, left: np.ndarray, loads: np.ndarray, factor: float) -> np.ndarray:
+    def comes_down(
+        self,
+        intact: np.ndarray,
+        left: np.ndarray,
+        loads: np.ndarray,
+        factor: float,
+        cuts: Sequence[CutTendon] = (),
+    ) -> np.ndarray:
         """Return which shards (n,) come down at a load factor, as overloaded connections break one after another.
 
         Splinters that come loose do not count.
         """
-        first = standing = self._elastic(intact, left, loads, factor, every_section=False)
+        first = standing = self._elastic(intact, left, loads, factor, every_section=False, cuts=cuts)
         if self.model.crack_bars is not None:
-            return self._cracked(intact, left, loads, factor, first).fallen
+            return self._cracked(intact, left, loads, factor, first, cuts).fallen
         intact, is_collapse = intact.copy(), False
         least = FALLEN_SHARE * self._masses[first.held].sum()
         rounds = 0
@@ -213,20 +258,25 @@ class StandingBridge:
         return first.held & ~standing.held if is_collapse else first.held
 
     def collapse_factor(
-        self, intact: np.ndarray, left: np.ndarray, loads: np.ndarray, bare: BareBars | None = None
+        self,
+        intact: np.ndarray,
+        left: np.ndarray,
+        loads: np.ndarray,
+        bare: BareBars | None = None,
+        cuts: Sequence[CutTendon] = (),
     ) -> float:
         """Return the collapse load factor, within 1 %: ∞ above 64, nan where nothing is held.
 
         With bars, also if they stand `bare`, what cracked or yielded under a smaller factor stays so.
         """
         if bare is not None:
-            return self._collapse_factor_of(self._on_bare_bars(intact, left, bare, False), loads)
-        elastic = self._elastic(intact, left, loads, 1.0, every_section=False)
+            return self._collapse_factor_of(self._on_bare_bars(intact, left, bare, False, cuts), loads)
+        elastic = self._elastic(intact, left, loads, 1.0, every_section=False, cuts=cuts)
         if not elastic.held.any():
             return np.nan
         if self.model.crack_bars is None:
             return _largest(lambda factor: not self.comes_down(intact, left, loads, factor).any())
-        return self._collapse_factor_of(self._begun(intact, left, elastic), loads)
+        return self._collapse_factor_of(self._begun(intact, left, elastic, cuts), loads)
 
     def _collapse_factor_of(self, kept: CrackedBridge, loads: np.ndarray) -> float:
         def stands(factor: float) -> bool:

@@ -15,6 +15,7 @@ from ...system.disk import whole_file
 from ..structure.model import Model
 from .bearing_rows import BEARING_COLUMNS, BEARINGS_FILE, bearing_rows
 from .changed_bridge import PressedBars
+from .changed_tendons import ReleasedTendon
 from .misfires import MISFIRE_COLUMNS, MISFIRES_FILE, Misfire, misfire_row
 from .reactions import SupportPoint, supports_of
 from .stages import Criticality, Stage, reactions_n
@@ -53,6 +54,7 @@ STAGE_COLUMNS = (
     "sag_mm",
     "first_frequency_Hz",
     "bare_bars_used",
+    "tendons_released_kJ",
 )
 REACTION_COLUMNS = (
     "stage",
@@ -146,6 +148,9 @@ def stage_row(number: int, stage: Stage, bridge: StandingBridge) -> dict[str, An
         "sag_mm": standing.sag_m * _KILO,
         "first_frequency_Hz": standing.frequency_hz,
         "bare_bars_used": max((bars.used for bars in stage.bars), default=None),
+        "tendons_released_kJ": math.fsum(tendon.released_j for tendon in stage.tendons) / _KILO
+        if model.tendons
+        else None,
     }
     if np.isfinite(standing.used).any():
         worst = int(np.nanargmax(standing.used))
@@ -209,6 +214,7 @@ def stage_sentences(stage: Stage, row: Mapping[str, Any]) -> list[str]:
     if row["cracked"]:
         sentences.append(f"{row['cracked']} connections have cracked, and hold by their bars")
     sentences += [_of_bare_bars(bars) for bars in stage.bars]
+    sentences += [_of_tendon(tendon) for tendon in stage.tendons]
     sentences.append(factor_in_words(stage.collapse_factor))
     if stage.collapse_factor < 1.0:
         sentences.append(SLOW_COLLAPSE)
@@ -219,6 +225,11 @@ def _of_bare_bars(bars: PressedBars) -> str:
     how = "pulled" if bars.force_n > 0.0 else "pressed"
     force, resisted = (f"{with_digits(abs(load_n) / _KILO, 0)} kN" for load_n in (bars.force_n, bars.resisted_n))
     return f"bare bars of {bars.zone} are {how} with {force} at rest, and resist {resisted}"
+
+
+def _of_tendon(tendon: ReleasedTendon) -> str:
+    energy = f"{with_digits(tendon.released_j / _KILO, 1)} kJ"
+    return f"tendon {tendon.name} lets go {energy} at once: keep everybody off its line and its anchorages"
 
 
 def criticality_sentences(members: Sequence[Criticality]) -> list[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from copy import copy
 from dataclasses import dataclass, replace
@@ -17,6 +18,7 @@ from ...engineering.elasticity.equilibrium import Equilibrium
 from ...engineering.elasticity.joint_rows import JointFrames, components_first, turned, turned_back
 from ...engineering.elasticity.section_stiffness import in_frames
 from ...engineering.elasticity.steel_bars import USUAL_STEEL
+from ...engineering.elasticity.tendons import TendonForces
 from ...engineering.foundations.footings import Footings
 from ...engineering.geometry.vectors import product, transformed
 from ...engineering.mechanics.crack_faces import CrackFaces, TornFaces
@@ -35,6 +37,9 @@ FALLEN_SHARE = 0.005
 """Least part of the held mass for a collapse: a splinter that comes loose is not one."""
 
 
+_LARGEST_STEP = 0.1
+"""Part of a load by which it grows at once where there are tendons."""
+
 _AT_ONCE = 0.5
 """Share of what bare bars resist where their load comes upon them at once: elastic ones are then pressed up to twice as
 much as at rest."""
@@ -51,11 +56,20 @@ class StandingBare:
     at_worst: bool = False
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class SteelBeside:
+    """Steel beside the connections of a bridge: bars that stand bare, and tendons after the cuts so far."""
+
+    bare: StandingBare | None = None
+    tendons: TendonForces | None = None
+
+
 class CrackedBridge:
     """A model with bars, under loads that grow: what has cracked or yielded stays so.
 
     `intact` (m,) are its connections that are whole, with a part `left` (m,) of their strength each. At first it is at
-    `rest` without cracks. Then bars may stand `bare`. Without bars across faces, what breaks carries nothing.
+    `rest` without cracks, with its tendons, which rupture across cracks. Then bars may stand bare. Without bars across
+    faces, what breaks carries nothing.
     """
 
     def __init__(
@@ -66,8 +80,9 @@ class CrackedBridge:
         intact: np.ndarray,
         left: np.ndarray,
         rest: Equilibrium,
-        bare: StandingBare | None = None,
+        beside: SteelBeside | None = None,
     ):
+        bare, tendons = (beside.bare, beside.tendons) if beside else (None, None)
         self._model, self._utilisations, self._left = model, utilisations, left
         self._masses = np.append(np.where(model.fixed, 0.0, model.masses_kg), 0.0)
         self._inertias = np.vstack((inertias_of(model), np.zeros(3)))
@@ -90,7 +105,7 @@ class CrackedBridge:
         if model.bearings:
             springs = model.bearings.springs
             pads = Bearings(springs, *ends, self._first[springs.rows], *positions_built)
-        of_bars = left.copy()
+        of_bars = left.copy() if tendons is None else left * tendons.bars_left(len(left))
         built = BuiltStructure(
             JointFrames(self._first, self._second, axes, axes, *levers),
             in_frames(stiffness, components_first(utilisations.axes), held_motions(model, joints)),
@@ -100,7 +115,9 @@ class CrackedBridge:
         )
         cracks = self._faces.cracks(bars.steel, of_bars, stiffness.axial_n_m)
         cages = None if bare is None else _standing(bare, len(connections), bodies, rest)
-        self._structure = CrackedStructure(built, cracks, of_bars, intact, rest, cages)
+        self._structure = CrackedStructure(built, cracks, of_bars, intact, rest, cages, tendons)
+        self._has_tendons = tendons is not None
+        self._carried: float | None = None  # the load factor of the last loads, with tendons
         self._held_at_first = self._structure.held.copy()
         self._judged = np.zeros((6, len(connections)))  # loads of which some were found to overload connections
 
@@ -118,7 +135,10 @@ class CrackedBridge:
             inert = np.vstack((np.tile(self._masses, (3, 1)), self._inertias.T))
             on_all = np.column_stack((loads, np.zeros(6)))
             accelerations += np.divide(on_all, inert, out=np.zeros_like(on_all), where=inert > 0.0)
-        self._structure.load(factor * accelerations, self._overloaded, self._tear)
+        before, self._carried = self._carried, factor if self._has_tendons else None
+        for part in _factors_between(before, factor):
+            if not self._structure.load(part * accelerations, self._overloaded, self._tear):
+                break
 
     @property
     def held(self) -> np.ndarray:
@@ -209,6 +229,17 @@ class CrackedBridge:
         self._faces.tear(cracks, torn, positions_m, rotations)
 
 
+def _factors_between(before: float | None, factor: float) -> list[float]:
+    """Return the load factors to go through one after another, from one that was carried before; None for none.
+
+    With tendons, which press cracks, many cracks at once are not solved: bars in them would open too far.
+    """
+    if before is None or factor <= before:
+        return [factor]
+    count = math.ceil((factor - before) / (_LARGEST_STEP * factor))
+    return [before + (factor - before) * number / count for number in range(1, count + 1)]
+
+
 def _standing(bare: StandingBare, from_row: int, built: RigidBodies, rest: Equilibrium) -> Cages:
     """Return bars between points of bodies as they were built, without force where these are at rest."""
     cages = Cages(from_row, held_sideways=not bare.at_worst, share=_AT_ONCE if bare.at_worst else 1.0)
@@ -226,6 +257,7 @@ def cracked_by_weight(model: Model, joints: Sequence[Joint], rest: Equilibrium) 
     if model.crack_bars is None:
         return None
     whole = np.ones(len(model.connections))
-    cracked = CrackedBridge(model, joints, Utilisations(model, joints), whole > 0.0, whole, rest)
+    beside = SteelBeside(tendons=model.tendons.forces_of_shards(model.centres_m)) if model.tendons else None
+    cracked = CrackedBridge(model, joints, Utilisations(model, joints), whole > 0.0, whole, rest, beside)
     cracked.carry(1.0)
     return cracked

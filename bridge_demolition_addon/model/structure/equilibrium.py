@@ -11,6 +11,7 @@ from ...engineering.elasticity.equations import RigidBodies
 from ...engineering.elasticity.equilibrium import Equilibrium, equilibrium
 from ...engineering.elasticity.joint_rows import JointFrames, components_first
 from ...engineering.elasticity.section_stiffness import SectionStiffness, in_frames
+from ...engineering.elasticity.tendons import TendonForces
 from ...engineering.mechanics.joint import MOTIONS, Joint
 from ...engineering.mechanics.member_sections import MemberSections, kinds_of
 from ...engineering.mechanics.overloads import Overloads
@@ -84,7 +85,11 @@ def member_sections_of(model: Model) -> MemberSections:
 
 
 def overloads_of(model: Model, strength: Strength, sections: MemberSections) -> Overloads:
-    return Overloads(_faces(model), _moves(model), strength, sections)
+    friction = None
+    if model.tendons:
+        names = np.array([*(model.members[member].name for member in model.member_of_shard), ""])
+        friction = model.tendons.friction(names[model.connections.pairs])
+    return Overloads(_faces(model), _moves(model), strength, sections, friction=friction)
 
 
 def _faces(model: Model) -> ConnectedFaces:
@@ -102,12 +107,20 @@ def _moves(model: Model) -> np.ndarray:
 def model_at_rest(model: Model, joints: Sequence[Joint]) -> Equilibrium:
     """Return where the shards of a model rest, and the ground behind them; its connections have to be elastic.
 
-    Springs in motions that are free do not count.
+    Springs in motions that are free do not count. Tendons have their prestress.
     """
     masses = np.where(model.fixed, 0.0, model.masses_kg)
     held, pads = held_motions(model, joints), model.bearings.springs if model.bearings else None
+    tendons = model.tendons.forces_of_shards(model.centres_m) if model.tendons else None
     return at_rest(
-        model.connections, given(model.stiffness), masses, inertias_of(model), model.centres_m, held, pads=pads
+        model.connections,
+        given(model.stiffness),
+        masses,
+        inertias_of(model),
+        model.centres_m,
+        held,
+        pads=pads,
+        tendons=tendons,
     )
 
 
@@ -139,6 +152,7 @@ def at_rest(
     gravity_m_s2: tuple[float, float, float] = (0.0, 0.0, -STANDARD_GRAVITY_M_S2),
     loads: np.ndarray | None = None,
     pads: PadSprings | None = None,
+    tendons: TendonForces | None = None,
 ) -> Equilibrium:
     """Return where n bodies rest under their own weight, and the ground as the last body.
 
@@ -152,6 +166,8 @@ def at_rest(
         Further forces on the shards, N, and moments about their centres, N·m.
     pads : PadSprings, optional
         Springs in place of those connections that are bearings.
+    tendons : TendonForces, optional
+        Tendons, as they are after the cuts so far.
     """
     sections = components_first(section_axes(connections.normals))
     held = np.ones((6, len(connections)), bool) if held is None else held
@@ -172,4 +188,5 @@ def at_rest(
         np.array(gravity_m_s2),
         None if loads is None else np.column_stack((loads, np.zeros(6))),
         bearings,
+        tendons,
     )

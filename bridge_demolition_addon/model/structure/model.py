@@ -45,6 +45,7 @@ from .steelwork import (
 )
 from .stiffness import CutMembers, connection_stiffness
 from .supports import HeldPart, held_parts
+from .tendons import ModelTendons, model_tendons
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,6 +75,8 @@ class Model:
         All bars that hold where elastic connections crack, in layers and by `ductile_share`; None without any.
     steel : SteelConnections or None
         Which connections are joints of steel bars; None without steelwork.
+    tendons : ModelTendons or None
+        None without `[[tendons]]`.
     """
 
     members: tuple[Member, ...]
@@ -93,6 +96,7 @@ class Model:
     bearings: ModelBearings | None = None
     crack_bars: CrackBars | None = None
     steel: SteelConnections | None = None
+    tendons: ModelTendons | None = None
 
     def thicknesses_m(self) -> np.ndarray:
         """Return the thickness (m,) of the thinner of the members that each connection is between."""
@@ -202,6 +206,9 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
             bars = bars.with_even(starters.yield_n, starters.openings_m)
     if steel:
         bars = with_steel_hinges(bars, steel, scenario, members, len(connections))
+    tendons, bars = model_tendons(
+        scenario, members, fractured.member_of_shard, shards, connections, joint_of_connection, bars
+    )
     stiffness = None
     if scenario.connections.is_elastic:
         cut = CutMembers(members, fractured.member_of_shard, shards, _middles(fractured), fixed)
@@ -234,6 +241,7 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
         if stiffness
         else None,
         steel=steel,
+        tendons=tendons,
     )
 
 

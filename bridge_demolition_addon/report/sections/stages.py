@@ -70,7 +70,7 @@ _BEARINGS = (
     "Bearings: least and largest forces (kN) on what lies above them over the stages, z upwards. They go on into the "
     "supports, and are no part of their sum"
 )
-_SINCE_LATER = ("cracked", "bare_bars_used", "falls_at_most_kg")
+_SINCE_LATER = ("cracked", "bare_bars_used", "tendons_released_kJ", "falls_at_most_kg")
 """Columns that earlier versions did not write."""
 
 _MISFIRES = (
@@ -121,6 +121,7 @@ def stages_section(folder: Path) -> Section:
     blocks: list[Block] = [
         Paragraph(_WORDS),
         *_warnings(stages),
+        *_released(stages),
         table,
         *_reaction_blocks(folder),
         *_bearing_blocks(folder),
@@ -135,6 +136,16 @@ def stages_section(folder: Path) -> Section:
         blocks.append(DataTable("criticality", "Members that hold others", columns, critical))
     blocks += _misfire_blocks(folder)
     return Section("Stages", tuple(blocks))
+
+
+def _released(stages: Sequence[dict[str, str]]) -> list[Block]:
+    """Return what tendons let go in each stage; nothing where none do."""
+    energies = [(stage["stage"], _number(stage.get("tendons_released_kJ", "")) or 0.0) for stage in stages]
+    parts = [f"{energy:.1f} kJ in stage {stage}" for stage, energy in energies if energy > 0.0]
+    if not parts:
+        return []
+    text = "Tendons let go at once, and hurt people along their lines and at their anchorages: "
+    return [Paragraph(f"{text}{', '.join(parts)}.", is_notice=True)]
 
 
 def _misfire_blocks(folder: Path) -> list[Block]:

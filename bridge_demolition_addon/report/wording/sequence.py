@@ -11,7 +11,7 @@ from ...model.actions import PlannedAction
 from ...model.blast.charges import Charge
 from ...model.ground_motion.settings import GroundMotion
 from ...model.loads import Load
-from ...model.scenario import Ball, BlastZone, Change, Equipment, Jackhammer, MemberCut, Scenario, Weakening
+from ...model.scenario import Ball, BlastZone, Change, Equipment, Jackhammer, MemberCut, Scenario, TendonCut, Weakening
 from ...model.schema import given
 
 
@@ -53,6 +53,7 @@ def _means(scenario: Scenario) -> Iterator[str]:
         (scenario.removals, "removal"),
         (scenario.saw_cuts, "saw cut"),
         (scenario.weakenings, "weakening"),
+        (scenario.tendon_cuts, "tendon cut"),
         (scenario.jackhammers, "jackhammer"),
         (scenario.loads, "load"),
         (scenario.equipment, "machine"),
@@ -100,6 +101,8 @@ def _described(action: PlannedAction) -> tuple[str, str]:
             return f"{action.name} detonates: {bare}", _point(action.place_m)
         case Weakening():
             return f"weakening to {100.0 * action.factor:g} % of the strength", action.where or "everywhere"
+        case TendonCut():
+            return f"{action.kind}: {', '.join(action.tendons or ('all',))}", action.where or "at their anchorages"
         case Change():
             return action.kind, action.where or "everywhere"
         case Load():

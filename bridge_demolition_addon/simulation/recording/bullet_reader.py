@@ -33,6 +33,7 @@ from .meter import Meter
 from .motion_reader import unknown_loads
 from .ruptured_joints import joints_of_steel
 from .substeps import SubstepRecorder, in_order
+from .tendons import Tendons
 from .torques import Torques
 
 
@@ -52,6 +53,8 @@ class BulletReader:
         How the bridge deforms under its own weight; None where connections are rigid.
     have_bars : (m,) bool or None
         Connections across whose cracks bars are followed; None where they are not.
+    tendons : Tendons or None
+        What presses bodies together; None without tendons, or where connections are rigid.
     rigid_because : LayoutError or None
         Why connections that should be elastic are rigid.
     """
@@ -88,7 +91,8 @@ class BulletReader:
         """Return the recorder that Bullet calls, with all drivers in order."""
         setup, world, inventory = self._setup, self._world, self._inventory
         breaking, constraints = setup.breaking, world.constraints
-        self._events = events = Events(world, inventory.pairs, inventory.masses_kg, setup.events, elastic)
+        self.tendons = tendons = _tendons_of(setup, world, elastic)
+        self._events = events = Events(world, inventory.pairs, inventory.masses_kg, setup.events, elastic, tendons)
         if setup.elasticity is None and breaking.ductility and np.any(breaking.ductility.strength_share):
             raise SimulationError(
                 "the connections of this scene are rigid and have bars by ductile_share: expected elastic ones, as "
@@ -96,7 +100,7 @@ class BulletReader:
             )
         holding = elastic if breaking.is_reinforced else None
         if holding:
-            holding.reinforce(breaking, events.remaining_strength)
+            holding.reinforce(breaking, events.remaining_bars)
         warm_up = WarmUp(world, self._free_shards(), breaking, release=elastic is None)
         meter = Meter(world, inventory, elastic)
         overloads = self._overloads(elastic, events.pressed)
@@ -112,6 +116,7 @@ class BulletReader:
                 ThresholdScale(constraints, setup.time.step.substep_s),
                 blast,
                 Loads(world.bodies, setup.placed_loads),
+                tendons,
                 ElasticPrediction(elastic, breaker) if elastic else None,
                 Torques(world.bodies, np.array(setup.bodies.rigid["angular_damping"])),
             )
@@ -143,7 +148,7 @@ class BulletReader:
         bodies, elasticity = setup.bodies.objects, given(setup.elasticity)
         stiffness, ratio = elasticity.stiffness, elasticity.damping_ratio
         try:
-            springs = SupportSprings(setup.soil, setup.bearings.springs if setup.bearings else None)
+            springs = SupportSprings(setup.soil, setup.bearings.springs if setup.bearings else None, setup.tendons)
             return ElasticConnections(self._scene, self._world, self._inventory, bodies, stiffness, ratio, springs)
         except LayoutError as error:
             self.rigid_because = error
@@ -169,7 +174,10 @@ class BulletReader:
             kinds = kinds_of(inventory.body_members[inventory.pairs])
             thicknesses_m = given(self._setup.elasticity).thicknesses_m
             sections = MemberSections(inventory.faces, self._built_positions_m, inventory.moves, kinds, thicknesses_m)
-        return Overloads(inventory.faces, inventory.moves, strength, sections, pressed)
+        tendons, friction = self._setup.tendons, None
+        if tendons and elastic:
+            friction = tendons.friction(inventory.body_members[inventory.pairs])
+        return Overloads(inventory.faces, inventory.moves, strength, sections, pressed, friction)
 
     def _bearing_pads(self) -> BearingPads | None:
         """Return the connections at pads of bearings; None without any."""
@@ -285,3 +293,10 @@ class BulletReader:
             loads=loads,
             work=work,
         )
+
+
+def _tendons_of(setup: RunSetup, world: BulletWorld, elastic: ElasticConnections | None) -> Tendons | None:
+    """Return the tendons; None without any, and where connections are rigid."""
+    if setup.tendons is None or elastic is None or elastic.tendons is None:
+        return None
+    return Tendons(world.bodies, setup.tendons, elastic.tendons)

@@ -32,12 +32,14 @@ from ...engineering.elasticity.joint_rows import (
 )
 from ...engineering.elasticity.section_stiffness import SectionStiffness, in_frames
 from ...engineering.elasticity.structure import ElasticStep, ElasticStructure, StepInput
+from ...engineering.elasticity.tendons import TendonForces
 from ...engineering.foundations.footings import Footings, SoilSprings
 from ...engineering.mechanics.crack_faces import CrackFaces, TornFaces
 from ...engineering.mechanics.reinforcement import FaceBars
 from ...engineering.mechanics.section_forces import section_axes
 from ...model.results.inventory import Inventory
 from ...model.schema import given
+from ...model.structure.tendons import ModelTendons
 from ...scene.connections.breaking_settings import Breaking
 from ...scene.world import scene_time_step
 from .standing_bars import StandingBarsOfZones
@@ -76,10 +78,14 @@ class RestingState:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class SupportSprings:
-    """What is in place of some elastic connections: soil under footings, and pads of bearings; None where neither."""
+    """What is in place of some elastic connections: soil under footings, and pads of bearings; and tendons beside all.
+
+    None of what there is not.
+    """
 
     soil: SoilSprings | None = None
     pads: PadSprings | None = None
+    tendons: ModelTendons | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -95,7 +101,8 @@ class ElasticConnections:
 
     The damping ratio is that of the first frequency, as a share of the critical one, also of what is left once
     connections break or supports go: of each part on a support, at most once a frame. Footings stand on soil where the
-    ground yields, and pads of bearings press, lift off and slide.
+    ground yields, and pads of bearings press, lift off and slide. Tendons press as the bodies are put at rest; later
+    they are among the loads on the bodies.
 
     Raises
     ------
@@ -144,6 +151,8 @@ class ElasticConnections:
         if pads is not None:
             self._bearings = Bearings(pads, *ends, inventory.pairs[pads.rows, 0], *built)
             self._stiffness = without(self._stiffness, pads.rows)
+        tendons = springs.tendons if springs else None
+        self.tendons: TendonForces | None = tendons.forces(*built) if tendons else None
         self._lifting = [_Lifting(law) for law in (self._footings, self._bearings) if law]
         self._rest = self._settle(motion)
         self._frequencies = np.full(len(self._frames), self._rest.frequency_hz)  # of the part of each connection
@@ -315,7 +324,7 @@ class ElasticConnections:
         """Put the bodies where they rest under their own weight."""
         masses = np.where(motion.inverse_masses > 0.0, self._masses, 0.0)
         bodies = RigidBodies(masses, self._inertias, motion.position_components_m, motion.rotation_components)
-        rest = equilibrium(self._frames, self._stiffness, bodies, self._gravity, bearings=self._bearings)
+        rest = equilibrium(self._frames, self._stiffness, bodies, self._gravity, None, self._bearings, self.tendons)
         rows = np.flatnonzero(rest.held)
         self._reader.set_positions(rows, rest.positions_m[:, rows], rest.rotations[..., rows])
         return rest

@@ -14,6 +14,7 @@ from ...model.sequence.departures import Departure
 from ...model.sequence.events import Event
 from .drivers import Driver
 from .elastic_connections import ElasticConnections
+from .tendons import Tendons
 
 _ROUNDING = 1e-3
 """Part of a sub-step by which adding up sub-steps may be off."""
@@ -54,7 +55,8 @@ class Events(Driver):
     """All events of a world in order of time, each before the first sub-step that begins at its time or later.
 
     The connections are between pairs (m, 2) of bodies with masses (n,); `remaining_strength` (m,) is the part of its
-    strength that each has left. Bars of blast zones stand bare where connections are elastic. `pressed` (m,) is by how
+    strength that each has left, and `remaining_bars` (m,) that of its bars, which is less where tendons among them are
+    cut. Bars of blast zones stand bare where connections are elastic. `pressed` (m,) is by how
     much more strength each has left in compression.
     """
 
@@ -65,8 +67,11 @@ class Events(Driver):
         masses_kg: np.ndarray,
         events: Sequence[Event],
         elastic: ElasticConnections | None = None,
+        tendons: Tendons | None = None,
     ):
         self.remaining_strength = np.ones(len(pairs))
+        self.remaining_bars = self.remaining_strength if tendons is None else np.ones(len(pairs))
+        self._tendons = tendons
         self.pressed = np.ones(len(pairs)) if any(event.pressed != 1.0 for event in events) else None
         self._elastic = elastic
         self.applied: list[AppliedEvent] = []
@@ -107,6 +112,11 @@ class Events(Driver):
             self._world.constraints.break_rows(connections)
         if self._elastic and event.departure:
             self._elastic.bare_bars.law.let_go(event.bodies)
+        if self._tendons:
+            if event.tendons:
+                self._tendons.cut(event.tendons, self._begins_s)
+            left = self._tendons.forces.bars_left(len(self.remaining_strength))
+            self.remaining_bars[:] = self.remaining_strength * left
         bodies = event.bodies[~self._world.bodies.removed[event.bodies]]
         self._world.bodies.wake(self._concerned(bodies, connections))
         if event.departure is None:

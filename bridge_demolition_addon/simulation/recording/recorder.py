@@ -37,6 +37,7 @@ from .motion_reader import MomentumReader, check_motion_is_enough
 from .recordable import check_recordable
 from .recorded_frames import RecordedFrames
 from .run_timing import RunTiming
+from .tendons import Tendons
 
 _CONSOLE = logging.getLogger(__name__)
 
@@ -77,6 +78,8 @@ class Recording(RecordedFrames):
         All that decides the run; None before the first frame.
     substeps : int
         Sub-steps of the frame played last.
+    tendons : Tendons or None
+        What each tendon let go so far; None without any.
     """
 
     def __init__(
@@ -111,6 +114,7 @@ class Recording(RecordedFrames):
         self._timing = RunTiming(scene)
         self._lifted: list[bpy.types.Object] = []
         self._reader: BulletReader | None = None
+        self.tendons: Tendons | None = None
         self._momentum: MomentumReader | None = None
         self._logs: Logs | None = None
         self._blast: Blast | None = None
@@ -276,6 +280,7 @@ class Recording(RecordedFrames):
         self._reader = BulletReader(
             self.scene, setup, self.world, self._blast, every_substep=self._every_substep, loads=self.has_loads
         )
+        self.tendons = self._reader.tendons
         if self._logs and self._reader.have_bars is not None:
             self._bars = RecordedBars(setup.inventory, self._reader.have_bars)
             self._logs.begin_bars()

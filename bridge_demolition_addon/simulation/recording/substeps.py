@@ -17,6 +17,7 @@ from .frame_sums import FrameSums, MeasuredSubstep
 from .ground_drive import GroundDrive
 from .loads import Loads
 from .meter import Meter
+from .tendons import Tendons
 from .torques import Torques
 
 ORDER = (
@@ -27,6 +28,7 @@ ORDER = (
     ThresholdScale,
     Blast,
     Loads,
+    Tendons,
     ElasticPrediction,
     Torques,
 )

@@ -221,3 +221,17 @@ def test_no_force_and_moment_use_more_than_the_bounds():
     none, axes = np.zeros((count, 3)), [np.tile(axis, (count, 1)) for axis in (*np.eye(3), *-np.eye(3))]
     assert (by_force <= 2.0 * np.max([used_by(axis, none) for axis in axes], axis=0)).all()
     assert (by_moment <= 2.0 * np.max([used_by(none, axis) for axis in axes], axis=0)).all()
+
+
+def test_friction_helps_pressed_faces_alone():
+    """EN 1992-1-1:2004, equation 6.25: v = c + μ σ. A face of 1 m² with 2 MN of shear and 1 MN/m² of strength."""
+    sections = rectangular_sections(np.ones(3), np.tile(np.eye(2) / 12.0, (3, 1, 1)))
+    forces = SectionForces(
+        axial_n=np.array([-1e6, 1e3, -4e6]),
+        shear_n=np.tile((2e6, 0.0), (3, 1)),
+        torsion_nm=np.zeros(3),
+        bending_nm=np.zeros((3, 2)),
+    )
+    strength = Strength(1e12, 1e12, 1e6, 1e12, 1e12)
+    assert utilisation(forces, sections, strength) == pytest.approx([2.0, 2.0, 2.0], rel=1e-5)
+    assert utilisation(forces, sections, strength, np.full(3, 0.7)) == pytest.approx([1.3, 2.0, 0.0], abs=1e-5)

@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Prestressed beams in runs in Blender: at rest as by statics, and what the cut of tendons does to them at once."""
+
+import numpy as np
+import pytest
+from support.prestressed_beam import AREA_MM2, FORCE_N, Beam, beam_text, tendon
+
+from bridge_demolition_addon.engineering.elasticity.tendons import CutTendon
+from bridge_demolition_addon.scene.demolition import build_demolition
+from bridge_demolition_addon.simulation.playback import Playing
+from bridge_demolition_addon.simulation.recording.recorder import Recording
+
+STRAIGHT = "eccentricities_m = [0.3, 0.3, 0.3]"
+SPAN_M, CUT_S = 12.0, 0.3
+
+
+def played(blender, folder, beam):
+    """The recording of a run, and how far the middle of the beam has risen since it was built, (k,)."""
+    build_demolition(blender.context.scene, beam.scenario, beam.model)
+    playing = Playing(Recording(blender.context.scene, folder))
+    while not playing.finished:
+        playing.step()
+    playing.end()
+    results = playing.recording.results()
+    inventory = results.inventory
+    deck = np.flatnonzero(inventory.body_members == "deck")
+    built_m = results.frames.positions_m[0, deck]
+    order = np.argsort(built_m[:, 0])
+    heights = results.frames.positions_m[:, deck[order], 2]
+    middle_m = beam.first_m + beam.span_m / 2.0
+    rises = [np.interp(middle_m, built_m[order, 0], height - built_m[order, 2]) for height in heights]
+    return playing.recording, results, np.array(rises)
+
+
+def two_tendons(more="bonded = false"):
+    return "".join(tendon(STRAIGHT, name=name, area_mm2=AREA_MM2 / 2.0, more=more) for name in ("one", "other"))
+
+
+def test_half_of_the_tendons_go_at_once(blender, tmp_path):
+    """At rest as by statics; then between once and twice as far as to the rest that statics has with the other half."""
+    cut = f'[[tendon_cuts]]\ntime_s = {CUT_S}\ntendons = ["one"]\n'
+    beam = Beam(beam_text(two_tendons() + cut, blocks=12, span_m=SPAN_M, duration_s=1.5))
+    recording, results, rises_m = played(blender, tmp_path, beam)
+    before_m = beam.middle_rises_m(beam.rest())
+    after_m = beam.middle_rises_m(beam.rest(cuts=[CutTendon(0, 0.0)]))
+    until = results.frames.time_s < CUT_S - 0.02
+    assert rises_m[until][1:] == pytest.approx(before_m, rel=0.01)
+    static_m, jump_m = before_m - after_m, before_m - rises_m.min()
+    assert 1.5 * static_m < jump_m < 2.0 * static_m  # with 2 % of critical damping nearly twice
+    assert rises_m[-20:].mean() == pytest.approx(after_m, abs=0.2 * static_m)
+    energy_j = (FORCE_N / 2.0) ** 2 * SPAN_M / (2.0 * 195e9 * AREA_MM2 / 2.0 * 1e-6)
+    one, other = recording.tendons.summary()
+    assert (one["name"], one["stored_J"]) == ("one", pytest.approx(energy_j, rel=1e-6))
+    ((time_s, how, released_j),) = [tuple(part.values()) for part in one["released"]]
+    assert (time_s, how, released_j) == (pytest.approx(CUT_S, abs=0.01), "cut", pytest.approx(energy_j, rel=1e-6))
+    assert other["released"] == []
+
+
+def test_connections_carry_the_prestress_from_the_first_frame_on(blender, tmp_path):
+    beam = Beam(beam_text(two_tendons("bonded = true"), blocks=12, span_m=SPAN_M, duration_s=0.2))
+    _, results, _ = played(blender, tmp_path, beam)
+    row = beam.middle_face
+    by_statics = beam.rest().loads
+    forces = results.frames.loads.connection_forces_n[2:, row]
+    assert np.abs(forces[:, 0]) == pytest.approx(np.abs(by_statics.forces_n[row, 0]), rel=0.01)
+    assert np.abs(forces[:, 0]) == pytest.approx(FORCE_N, rel=0.01)
+    moments = results.frames.loads.connection_moments_nm[2:, row]
+    assert np.abs(moments[:, 1]) == pytest.approx(np.abs(by_statics.moments_nm[row, 1]), rel=0.01)
+
+
+def test_a_beam_without_its_tendons_comes_down(blender, tmp_path):
+    """Its weight alone is more than plain concrete resists; a saw cut takes all of a tendon without bond."""
+    saw = "[[saw_cuts]]\ntime_s = 0.1\npoint_m = [18.01, 0.0, 3.5]\nnormal = [1.0, 0.0, 0.0]\n"
+    beam = Beam(beam_text(tendon(STRAIGHT, more="bonded = false") + saw, blocks=10, duration_s=0.8))
+    recording, _, rises_m = played(blender, tmp_path, beam)
+    assert recording.tendons.summary()[0]["released"][0]["how"] == "cut"
+    assert rises_m.min() < -0.5
