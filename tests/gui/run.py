@@ -17,6 +17,7 @@ import re
 import shutil
 import subprocess
 import sys
+import sysconfig
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
@@ -39,6 +40,9 @@ JOB_SECONDS = 3600
 
 PICTURES = "pictures"
 """Folder of a job's pictures for the walk-through."""
+
+LIBRARIES = {"import": ("ifcopenshell", "lark", "shapely", "shapely.libs", "typing_extensions.py")}
+"""What another extension would have brought for a job, by names in the site-packages that this runs with."""
 
 ENDED_BY_SIGNAL = 128
 """Exit statuses above this one are signals."""
@@ -238,6 +242,8 @@ def do(machine: System | DebianRoot, output: Path, job: str, folder: Path) -> tu
     The home is empty at first: the results of another job are kept there.
     """
     make_empty(output / "home")
+    for name in LIBRARIES.get(job, ()):
+        copy_library(name, folder / "libraries" / name)
     window = ("--enable-event-simulate", "--gpu-backend", "opengl", "--window-geometry", "0", "0", *window_size(job))
     driven = ("--python", str(HERE / "drive.py"), "--", job, str(folder))
     session = ("python3", str(HERE / "session.py"), str(JOB_SECONDS), machine.blender, *window, *driven)
@@ -247,6 +253,16 @@ def do(machine: System | DebianRoot, output: Path, job: str, folder: Path) -> tu
     checks = [*checked(folder), ("Blender ends by itself and in peace", "" if status == 0 else f"exit status {status}")]
     checks += [("console", f"unexpected: {line}") for line in unexpected(folder)]
     return status, checks
+
+
+def copy_library(name: str, target: Path) -> None:
+    """Copy a package or module of the Python that this runs with, if it has it."""
+    target.parent.mkdir(exist_ok=True)
+    source = Path(sysconfig.get_path("platlib")) / name
+    if source.is_dir():
+        shutil.copytree(source, target)
+    elif source.is_file():
+        shutil.copyfile(source, target)
 
 
 def checked(folder: Path) -> list[tuple[str, str]]:
