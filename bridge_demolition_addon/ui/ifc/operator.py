@@ -132,7 +132,7 @@ class BDA_OT_look_into_ifc(Action, ImportHelper, bpy.types.Operator):
         members = sum(bool(element.kind) for element in listed)
         return (
             f"{len(listed)} elements, {members} of which become members or bearings: correct them in IFC Elements, "
-            f"at the end of this panel{several}"
+            f"below these buttons{several}"
         )
 
 

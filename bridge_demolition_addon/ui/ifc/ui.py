@@ -27,6 +27,7 @@ class BDA_PT_ifc_elements(SidebarPanel, bpy.types.Panel):
 
     bl_label = "IFC Elements"
     bl_parent_id = "BDA_PT_scenario"  # with the button that lists them: below all other panels it is not found
+    bl_options = set()  # open: it is there only once a file was looked into
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:
