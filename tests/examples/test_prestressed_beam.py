@@ -27,3 +27,10 @@ def test_a_cut_of_each_tendon_says_its_energy():
     model = build_model(read_scenario(FILE))
     stored_j = model.tendons.forces_of_shards(model.centres_m).stored_j()
     assert stored_j == pytest.approx([34e3] * 3, rel=0.01)
+
+
+def test_no_seed_changes_it():
+    """Its one run is all that there is: it is cut in prisms."""
+    model, other = (build_model(replace(read_scenario(FILE), seed=seed)) for seed in (1, 2))
+    assert (model.centres_m == other.centres_m).all()
+    assert (model.connections.points == other.connections.points).all()
