@@ -16,16 +16,14 @@ from bridge_demolition_addon.model.stages.standing import StandingBridge
 IMPORTED = EXAMPLES / "imported"
 """Bridges from files that have no bars."""
 
-STEEL = EXAMPLES / "steel"
-"""Bridges of steel, which have no bars either."""
+WITHOUT_BARS_OF_TRAFFIC = (REPORT_2019, IMPORTED, EXAMPLES / "steel", EXAMPLES / "prestressed")
+"""Folders of bridges with other bars, or none, than a design for traffic gives."""
 
 
 def is_as_it_is(path):
-    """Whether a file is a scenario of a bridge as it is; others are of 2019, imported, of steel, or of many runs."""
+    """Whether a file is a scenario of a bridge that is designed for traffic, and not of many runs."""
     heading = tomllib.loads(path.read_text(encoding="utf-8"))
-    elsewhere = (
-        REPORT_2019 in path.parents or IMPORTED in path.parents or STEEL in path.parents or "of_2019" in path.stem
-    )
+    elsewhere = set(WITHOUT_BARS_OF_TRAFFIC) & set(path.parents) or "of_2019" in path.stem
     return "scenario" in heading and not elsewhere
 
 
