@@ -85,7 +85,7 @@ def import_listed(person: Person) -> Steps:
     person.expect_reports("and it is said what became of the elements", "Imported ")
     wires = [shown for shown in person.scene.objects if shown.get("bda_role") == "IFC Left Out"]
     person.expect("what was left out is wire", {wire.display_type for wire in wires}, {"WIRE"})
-    person.expect("edge beams among it", sum(wire.name.startswith("KANTDRAGER") for wire in wires), 2)
+    person.expect("edge beams among it", sum(wire.name.startswith("EDGEBEAM") for wire in wires), 2)
     yield from person.picture("imported")
 
 

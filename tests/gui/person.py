@@ -20,6 +20,8 @@ TAB_PX = 20
 """Width of the tabs' edge, and less than a tab is high."""
 SCROLLS, NOTCHES, TO_THE_END = 3, 8, 30
 """How often the sidebar is scrolled in search of something, and by how much of the wheel: less than its height."""
+MARGIN_PX = 5
+"""From the left of the sidebar to a place that is beside all buttons and lists."""
 
 AT_THE_TOP_PX = 3
 
@@ -285,7 +287,8 @@ class Person:
     def scroll(self, notches: int) -> Steps:
         """Turn the wheel over the sidebar, downwards, or upwards for less than none."""
         sidebar = self.sidebar
-        yield from self.move(sidebar.x + sidebar.width // 3, sidebar.y + sidebar.height // 2)
+        # On the margin: over a list the wheel turns that.
+        yield from self.move(sidebar.x + MARGIN_PX, sidebar.y + sidebar.height // 2)
         for _ in range(abs(notches)):
             yield from self.press("WHEELDOWNMOUSE" if notches > 0 else "WHEELUPMOUSE")
 

@@ -144,6 +144,14 @@ CLAIMS: dict[str, dict[str, tuple[float, float]]] = {
         "throw_95_percent_m": (2.0, 17.5),  # 6.5 to 10.3
         "made_share": (0.0, 0.03),  # 0.002 to 0.013
     },
+    "excavator_on_the_deck": {  # over 20 seeds
+        # It stands under the excavator until it is cut.
+        "moved_before_m": (0.0, 0.02),  # 0.003 to 0.004
+        "broken_before": (0, 0),
+        "span_1_share_fallen_2_m": (0.5, 1.0),  # 0.91 to 1.00
+        "span_2_share_fallen_2_m": (0.5, 1.0),  # 1.00
+        "made_share": (0.0, 0.4),  # 0.008 to 0.228
+    },
     "two_spans_13m_ball": {  # over 20 seeds
         # The decks crack by their own weight, and rest on their bars.
         "moved_before_m": (0.0, 0.03),  # 0.012 to 0.014
