@@ -14,7 +14,7 @@ COUNT = 200
 
 def boxes(seed):
     rng = np.random.default_rng(seed)
-    turns = Rotation.random(COUNT, rng=rng).as_matrix()
+    turns = Rotation.from_euler("xyz", rng.uniform(0.0, 2.0 * np.pi, (COUNT, 3))).as_matrix()
     return TurnedBoxes(rng.uniform(-1.0, 1.0, (COUNT, 3)), turns, rng.uniform(0.05, 1.0, (COUNT, 3)))
 
 
