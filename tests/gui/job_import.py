@@ -85,7 +85,8 @@ def import_listed(person: Person) -> Steps:
     person.expect_reports("and it is said what became of the elements", "Imported ")
     wires = [shown for shown in person.scene.objects if shown.get("bda_role") == "IFC Left Out"]
     person.expect("what was left out is wire", {wire.display_type for wire in wires}, {"WIRE"})
-    person.expect("edge beams among it", sum(wire.name.startswith("EDGEBEAM") for wire in wires), 2)
+    # Shapes of what the user left out are not worked out; approach slabs would hold the ends of the deck down.
+    person.expect("they are the approach slabs", {wire.name[:14] for wire in wires}, {"OVERGANGSPLATE"})
     yield from person.picture("imported")
 
 
