@@ -54,6 +54,9 @@ _FARTHEST_M = 0.5
 Overloaded = Callable[[FloatArray, BoolArray], IntArray]
 """Which connections (k,) break, of loads (6, m) on the first bodies about their points, and whether each is intact."""
 
+Pause = Callable[[], None]
+"""Lets others go on while something takes long; may raise to stop it."""
+
 Tear = Callable[[Cracks, IntArray, FloatArray, FloatArray], None]
 """Adds cracks in place of connections (k,), with bodies at positions (3, n) in rotations (3, 3, n)."""
 
@@ -104,10 +107,10 @@ class CrackedStructure:
         memo = {id(part): part for part in (self._frames, self._built.stiffness, self._bodies)}
         return deepcopy(self, memo)
 
-    def load(self, accelerations: FloatArray, overloaded: Overloaded, tear: Tear) -> bool:
+    def load(self, accelerations: FloatArray, overloaded: Overloaded, tear: Tear, pause: Pause) -> bool:
         """Let it come to rest under loads by mass (6, n), connections breaking one after another.
 
-        Return whether it did. What falls, or goes on moving, is not held any more.
+        Return whether it did. What falls, or goes on moving, is not held any more. `pause` is called in each step.
         """
         built = self._built
         structure = ElasticStructure(
@@ -117,6 +120,7 @@ class CrackedStructure:
             structure.stand_bare(self.bare_bars)
         self._falls = False
         for _ in range(_MOST_STEPS):
+            pause()
             ruptured = structure.settle(self.positions_m, self.rotations)
             self._let_go()
             broke, step = self._broken_in_step(structure, self._with_tendons(accelerations), overloaded, tear)

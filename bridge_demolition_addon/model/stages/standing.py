@@ -65,7 +65,7 @@ class Standing:
 
 
 class StandingBridge:
-    """Solves a model with elastic connections at rest, whatever of it is gone; calls `pause` before each solution.
+    """Solves a model with elastic connections at rest, whatever of it is gone; calls `pause` again and again.
 
     Tendons are cut where they pass through connections that are gone, and wherever `cuts` says.
     """
@@ -108,8 +108,7 @@ class StandingBridge:
         standing = self._elastic(intact, left, loads, factor, every_section=every_section, cuts=cuts)
         if bare is not None:
             on_bare = self._on_bare_bars(intact, left, bare, at_worst, cuts)
-            self._pause()
-            on_bare.carry(factor, loads)
+            on_bare.carry(factor, loads, self._pause)
             return self._on_bars(on_bare, left, standing)
         if self.model.crack_bars is None or not len(self._broken(standing, intact)):
             return standing
@@ -180,8 +179,7 @@ class StandingBridge:
         case = (intact.tobytes(), left.tobytes(), loads.tobytes(), factor, tuple(cuts))
         if self._last_cracked is None or self._last_cracked[0] != case:
             cracked = self._begun(intact, left, elastic, cuts)
-            self._pause()
-            cracked.carry(factor, loads)
+            cracked.carry(factor, loads, self._pause)
             self._last_cracked = case, cracked
         return self._last_cracked[1]
 
@@ -281,9 +279,8 @@ class StandingBridge:
     def _collapse_factor_of(self, kept: CrackedBridge, loads: np.ndarray) -> float:
         def stands(factor: float) -> bool:
             nonlocal kept
-            self._pause()
             heavier = kept.copy()
-            heavier.carry(factor, loads)
+            heavier.carry(factor, loads, self._pause)
             if heavier.fallen.any():
                 return False
             kept = heavier

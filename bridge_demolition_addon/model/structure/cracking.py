@@ -11,7 +11,7 @@ import numpy as np
 
 from ...engineering.drilled_charges.cages import BareBars, Cages
 from ...engineering.elasticity.bearings import Bearings
-from ...engineering.elasticity.cracked_equilibrium import BuiltStructure, CrackedStructure
+from ...engineering.elasticity.cracked_equilibrium import BuiltStructure, CrackedStructure, Pause
 from ...engineering.elasticity.cracks import Cracks
 from ...engineering.elasticity.equations import RigidBodies
 from ...engineering.elasticity.equilibrium import Equilibrium
@@ -127,8 +127,11 @@ class CrackedBridge:
         other._structure = self._structure.copy()
         return other
 
-    def carry(self, factor: float, loads: np.ndarray | None = None) -> None:
-        """Let it come to rest under its weight and loads (6, n) on the shards, times a load factor."""
+    def carry(self, factor: float, loads: np.ndarray | None = None, pause: Pause = lambda: None) -> None:
+        """Let it come to rest under its weight and loads (6, n) on the shards, times a load factor.
+
+        It may take long: `pause` is called again and again meanwhile.
+        """
         accelerations = np.zeros((6, len(self._masses)))
         accelerations[2] = -STANDARD_GRAVITY_M_S2 * (self._masses > 0.0)
         if loads is not None:
@@ -137,7 +140,7 @@ class CrackedBridge:
             accelerations += np.divide(on_all, inert, out=np.zeros_like(on_all), where=inert > 0.0)
         before, self._carried = self._carried, factor if self._has_tendons else None
         for part in _factors_between(before, factor):
-            if not self._structure.load(part * accelerations, self._overloaded, self._tear):
+            if not self._structure.load(part * accelerations, self._overloaded, self._tear, pause):
                 break
 
     @property

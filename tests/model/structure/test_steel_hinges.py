@@ -117,3 +117,10 @@ def test_a_bowed_strut_buckles_as_its_curve_says(length_m, pieces):
     for share in (1.0, 1.1):
         strut.carry(1.0, share * loads)
     assert strut.fallen.any()
+
+
+def test_others_go_on_while_a_beam_comes_to_rest():
+    """Hinges form one after another, with a pause in each step."""
+    bridge, paused = beam("fixed", "fixed", 11), []
+    bridge.carry(17.0 * PLASTIC_NM / LENGTH_M**2 / WEIGHT_N_M, pause=lambda: paused.append(bridge.deflection_m))
+    assert len(paused) > 1
