@@ -92,3 +92,14 @@ def test_the_chart_shows_both_throws_of_every_run(runs):
     farthest, most = seeds_chart.draw(runs).axes[0].lines
     np.testing.assert_array_equal(farthest.get_ydata(), runs["largest_throw_m"])
     np.testing.assert_array_equal(most.get_ydata(), runs["throw_95_percent_m"])
+
+
+def test_the_page_on_stages_says_how_often_what_stands_by_statics_comes_down():
+    name = "excavator_on_the_deck"
+    runs = seeds_chart.read_throws(seeds_chart.DATA.with_stem(name))
+    down = (np.minimum(runs["span_1_share_fallen_2_m"], runs["span_2_share_fallen_2_m"]) > 0.5).sum()
+    assert f"both spans come down with {down} of {len(runs)} seeds" in words(ROOT / "docs" / "stages.md")
+    assert f"over {len(runs)} seeds both spans come down in all" in words(SEEDED[name]) and down == len(runs)
+    rest_s = runs["came_to_rest_s"][np.isfinite(runs["came_to_rest_s"])]
+    said = f"{len(rest_s)} come to rest, {rest_s.min():.0f} to {rest_s.max():.0f} s after the start"
+    assert said in words(SEEDED[name])

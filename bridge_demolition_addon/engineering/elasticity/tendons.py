@@ -23,6 +23,9 @@ MODULUS_PA = 195e9
 RUPTURE_STRAIN = 0.035
 """Least strain of prestressing steel under the largest force: EN 10138, and EN 1992-1-1:2004, 3.3.4 (5)."""
 
+LEAST_RELEASED_J = 1.0
+"""Energy that a tendon lets go, from which on it is said: less is rounding."""
+
 _SUDDEN, _STRANDS = 1.25, 0.19
 """α1 of a sudden release and α2 of strands of 3 and 7 wires: EN 1992-1-1:2004, 8.10.2.2 (2), equation 8.16."""
 

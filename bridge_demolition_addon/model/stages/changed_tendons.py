@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ...engineering.elasticity.tendons import LEAST_RELEASED_J
 from ..schema import given
 from .changed_bridge import ChangedBridge
 from .standing import StandingBridge
-
-_LEAST_J = 1.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,4 +25,4 @@ def released_tendons(bridge: StandingBridge, before: ChangedBridge, after: Chang
         return ()
     released_j = (first.stored_j() - then.stored_j()).tolist()
     pairs = zip(given(bridge.model.tendons).names, released_j, strict=True)
-    return tuple(ReleasedTendon(name, energy_j) for name, energy_j in pairs if energy_j > _LEAST_J)
+    return tuple(ReleasedTendon(name, energy_j) for name, energy_j in pairs if energy_j > LEAST_RELEASED_J)

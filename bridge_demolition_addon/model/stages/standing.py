@@ -249,7 +249,7 @@ class StandingBridge:
             if not len(broken):
                 return first.held & ~standing.held & is_collapse
             intact[broken] = False
-            standing = self._elastic(intact, left, loads, factor, every_section=False)
+            standing = self._elastic(intact, left, loads, factor, every_section=False, cuts=cuts)
             rounds += 1
             if not is_collapse and self._masses[first.held & ~standing.held].sum() > least:
                 is_collapse, rounds = True, 0

@@ -9,11 +9,9 @@ from typing import Any
 import numpy as np
 
 from ...bullet.bodies import BodyTable
-from ...engineering.elasticity.tendons import CutTendon, TendonForces
+from ...engineering.elasticity.tendons import LEAST_RELEASED_J, CutTendon, TendonForces
 from ...model.structure.tendons import ModelTendons
 from .drivers import Driver
-
-_LEAST_J = 1.0
 
 CUT, RUPTURED = "cut", "ruptured"
 
@@ -87,5 +85,5 @@ class Tendons(Driver):
         ]
 
     def _note(self, released_j: np.ndarray, how: str) -> None:
-        for tendon in np.flatnonzero(released_j > _LEAST_J).tolist():
+        for tendon in np.flatnonzero(released_j > LEAST_RELEASED_J).tolist():
             self.releases.append(Release(tendon, self._begins_s, how, float(released_j[tendon])))
