@@ -15,7 +15,7 @@ from ...model.schema import given
 from .drivers import Driver, WarmUp
 from .elastic_connections import ElasticConnections
 from .meter import Meter, Reading
-from .ruptured_joints import RupturedJoints
+from .ruptured_bars import RupturedBars
 
 _MOST_ROUNDS = 20
 """How often connections break one after another in one sub-step, before the rest waits for the next."""
@@ -49,15 +49,15 @@ class Resistance:
         The connections, where they are elastic.
     reinforcement : ElasticConnections or None
         The same, where bars hold on as connections break.
-    joints : RupturedJoints or None
-        Joints of steel among them.
+    ruptured : RupturedBars or None
+        Those of them whose bars have ruptured.
     """
 
     overloads: Overloads | None
     remaining_strength: np.ndarray
     elastic: ElasticConnections | None = None
     reinforcement: ElasticConnections | None = None
-    joints: RupturedJoints | None = None
+    ruptured: RupturedBars | None = None
 
 
 class Breaker:
@@ -138,10 +138,10 @@ class Breaker:
 
     def _let_collide(self) -> None:
         """Let bodies collide that no connection holds together, nor reinforcement in place of one."""
-        elastic, joints = self._resistance.elastic, self._resistance.joints
+        elastic, ruptured = self._resistance.elastic, self._resistance.ruptured
         holding = elastic.holding(self._intact) if elastic else self._intact
-        if joints:
-            holding = holding | joints.lie_in_each_other(self._constraints.cracked, holding)
+        if ruptured:
+            holding = holding | ruptured.lie_in_each_other(self._constraints.cracked, holding)
         self._constraints.let_broken_collide(holding)
 
 

@@ -31,7 +31,7 @@ from .ground_drive import GroundDrive
 from .loads import Loads
 from .meter import Meter
 from .motion_reader import unknown_loads
-from .ruptured_joints import joints_of_steel
+from .ruptured_bars import bars_that_rupture
 from .substeps import SubstepRecorder, in_order
 from .tendons import Tendons
 from .torques import Torques
@@ -104,8 +104,8 @@ class BulletReader:
         warm_up = WarmUp(world, self._free_shards(), breaking, release=elastic is None)
         meter = Meter(world, inventory, elastic)
         overloads = self._overloads(elastic, events.pressed)
-        joints = joints_of_steel(breaking.bars, inventory, world.bodies.motion())
-        resistance = Resistance(overloads, events.remaining_strength, elastic, holding, joints)
+        ruptured = bars_that_rupture(breaking.bars, inventory, world.bodies.motion())
+        resistance = Resistance(overloads, events.remaining_strength, elastic, holding, ruptured)
         breaker = Breaker(constraints, meter, resistance, warm_up)
         drivers = in_order(
             (
