@@ -6,6 +6,7 @@ import shutil
 import sys
 import tempfile
 from collections.abc import Iterator
+from pathlib import Path
 from types import ModuleType
 
 import pytest
@@ -57,12 +58,35 @@ _SLOW = ("examples", "studies", "simulation", "cli", "report")
 """Folders whose files take longest: they come first, so that no process is left alone with one at the end."""
 
 
+_QUICK = ("engineering", "model", "charts", "display", "system")
+"""Folders of those tests that `--quick` leaves: none needs a run in Blender, as few of these are quick."""
+
+_QUICK_FILES = ("test_words", "test_docs", "test_architecture", "test_licence", "test_private_names", "test_version")
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption("--quick", action="store_true", help="only what takes a minute: before a commit")
+
+
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     def rank_of_folder(item: pytest.Item) -> int:
         folder = item.path.relative_to(config.rootpath / "tests").parts[0]
         return _SLOW.index(folder) if folder in _SLOW else len(_SLOW)
 
     items.sort(key=rank_of_folder)
+    if config.getoption("quick"):
+        left_out = [item for item in items if item.get_closest_marker("slow") or "blender" in item.fixturenames]
+        config.hook.pytest_deselected(items=left_out)
+        gone = set(left_out)
+        items[:] = [item for item in items if item not in gone]
+
+
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """With `--quick`, do not even load the files that it leaves out."""
+    if not config.getoption("quick") or collection_path.suffix != ".py":
+        return None
+    place = collection_path.relative_to(config.rootpath / "tests")
+    return None if place.parts[0] in _QUICK or place.stem in (*_QUICK_FILES, "conftest") else True
 
 
 def pytest_configure(config: pytest.Config) -> None:

@@ -55,6 +55,7 @@ def kept_private():
     return owners
 
 
+@pytest.mark.slow
 def test_no_module_outside_the_package_reaches_for_a_private_name(kept_private):
     reaching = {}
     for path, tree in modules(*OUTSIDE):

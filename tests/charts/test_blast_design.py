@@ -201,6 +201,7 @@ def test_units_are_said_on_the_axes():
     assert "Kinney-Graham, surface burst" in words(two_span_total(GROUND))
 
 
+@pytest.mark.slow
 def test_pictures_are_written_into_a_new_folder(tmp_path):
     paths = write_charts(tmp_path / "new" / "charts", KPA)
     assert [path.stem for path in paths] == list(CHARTS)

@@ -121,6 +121,7 @@ def processor_features():
     return " ".join(simd.get("found", []))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "program, argument",
     [

@@ -23,6 +23,7 @@ def mesh_file(tmp_path, suffix):
     return path
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", MESH_FILES)
 def test_a_mesh_is_read_as_it_is(suffix, tmp_path):
     mesh = read_mesh(mesh_file(tmp_path, suffix))

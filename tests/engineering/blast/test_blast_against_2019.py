@@ -50,6 +50,7 @@ def test_3_a_pulse_arrives_decays_and_ends():
     assert solved.decays[0] == pytest.approx([8.48, 0.80, 0.19], abs=0.01)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("fps, fps_base", [(24, 1.0), (60, 1.0), (240, 1.0), (30, 1.001)])
 @pytest.mark.parametrize("substeps, time_scale", [(1, 1.0), (10, 1.0), (10, 0.05)])
 def test_4_impulse_does_not_depend_on_frames_and_steps(fps, fps_base, substeps, time_scale):

@@ -119,6 +119,7 @@ def _enters(hulls, centres, rotations, points, body):
     return outside_by[0] > 0.0 and (outside_by <= -1e-3).any()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("at_once", [70, 10_000, 1_000_000])
 def test_random_bodies_against_rays_walked_point_by_point(at_once, monkeypatch):
     monkeypatch.setattr(exposure, "PAIRS_AT_ONCE", at_once)

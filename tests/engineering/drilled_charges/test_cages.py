@@ -127,6 +127,7 @@ def turn(rates, step_s):
     return np.eye(3) + np.sin(angle) * across + (1.0 - np.cos(angle)) * across @ across
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("seed", "speed_m_s", "rate_rad_s"), [(0, 3.0, 2.0), (1, 8.0, 25.0), (2, 8.0, 25.0)])
 def test_bars_between_two_flying_bodies_make_no_energy(seed, speed_m_s, rate_rad_s):
     """Whatever they do to the bars, the momentum of both stays, and no more kinetic energy comes than there was."""

@@ -39,6 +39,7 @@ def law(seed):
     return found, gaps
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(5))
 def test_forces_and_tangents_have_the_same_bits(seed):
     reference, gaps = law(seed)
@@ -48,6 +49,7 @@ def test_forces_and_tangents_have_the_same_bits(seed):
         np.testing.assert_array_equal(one, other)
 
 
+@pytest.mark.slow
 def test_stiffness_has_the_same_bits():
     reference, gaps = law(1)
     tangents = reference.linear(gaps)[1]

@@ -59,6 +59,7 @@ def assert_same_bits(one, other):
         np.testing.assert_array_equal(np.signbit(first), np.signbit(second))
 
 
+@pytest.mark.slow
 def test_forces_and_tangents_have_the_same_bits(rng):
     springs_law = law(rng)
     gaps_m = rng.normal(size=(3, SPRINGS)) * 10.0 ** rng.uniform(-8.0, -1.0, SPRINGS)
@@ -73,6 +74,7 @@ def test_rates_have_the_same_bits(rng):
     assert_same_bits([compiled_springs.rates(gaps, velocities)], [gaps.rates(velocities)])
 
 
+@pytest.mark.slow
 def test_stiffness_has_the_same_bits(rng, by_numpy):
     of = positions(rng)
     tangents, arms = law(rng).resisted(1e-4 * rng.normal(size=(3, SPRINGS)))[1], rng.normal(size=(2, 3, SPRINGS))
@@ -80,6 +82,7 @@ def test_stiffness_has_the_same_bits(rng, by_numpy):
     assert_same_bits(stiffness_of_springs(*given), by_numpy(stiffness_of_springs, *given))
 
 
+@pytest.mark.slow
 def test_loads_have_the_same_bits(rng, by_numpy):
     given = (positions(rng), *rng.normal(size=(3, 3, SPRINGS)))
     assert_same_bits(loads_of_springs(*given), by_numpy(loads_of_springs, *given))

@@ -50,6 +50,7 @@ def carries(structure, side, acceleration_m_s2):
     return structure.load(accelerations, lambda loads, intact: np.flatnonzero(intact), tear, lambda: None)
 
 
+@pytest.mark.slow
 def test_a_plate_hangs_by_bars_as_the_bilinear_law_says():
     """Elastic below the force at which they yield, then on the slope of hardening, and down beyond its end."""
     steel, opening_m = Steel(hardening=1.5), 0.1

@@ -81,6 +81,7 @@ def pressed(force_n, sideways_n=0.0):
     return np.array([[sideways_n, 0.0, -force_n], [-sideways_n, 0.0, force_n]]).T
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("above_first", [True, False])
 def test_blocks_pressed_together_come_closer_by_force_over_stiffness(above_first):
     blocks = Blocks(four_pads(), above_first=above_first).step(pressed(2e5), 100, slowed=0.3)

@@ -107,6 +107,7 @@ class PulledSlab:
         return Overloads(self.faces, self.moves, strength, sections)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("count", [40, 200, 1000])
 def test_the_section_at_the_ground_bears_what_statics_says(count):
     slab = PulledSlab.cut(count, 1)
@@ -120,6 +121,7 @@ def test_the_section_at_the_ground_bears_what_statics_says(count):
     assert np.linalg.norm(loads.shear_n, axis=1) == pytest.approx(2.0 * ROOT_MOMENT_NM / HEIGHT_M, rel=1e-3)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("count", [200, 1000])
 def test_sections_between_shards_bear_what_statics_says(count):
     slab = PulledSlab.cut(count, 2)
@@ -158,6 +160,7 @@ def test_what_clips_an_edge_is_no_section_of_the_member():
     assert not slab.member_sections(np.nan).are_whole(rows).any()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("count", [40, 200, 1000])
 def test_a_slab_cracks_at_the_load_of_beam_theory_however_it_is_cut(count):
     # Shear adds 0.2 %; the foundation, where it cracks, is one plane.

@@ -41,6 +41,7 @@ def test_limits_of_cells_are_those_of_scipy(strips):
     np.testing.assert_allclose(strips.upper_limits[0], exact, rtol=1e-10)
 
 
+@pytest.mark.slow
 def test_the_limit_at_a_place_holds_in_as_many_studies_as_promised():
     place_m, studies = 12.0, 120
     generator = np.random.default_rng(9)

@@ -14,6 +14,8 @@ from bridge_demolition_addon.model.sequence.checked_model import checked_model
 from bridge_demolition_addon.model.stages.design_loads import carries_design_loads, design_loads, load_cases
 from bridge_demolition_addon.model.stages.standing import StandingBridge
 
+pytestmark = pytest.mark.slow
+
 SPAN_M, WIDTH_M, DEPTH_M, DENSITY_KG_M3 = 8.0, 3.0, 0.5, 2500.0
 SLAB = f"""
 [scenario]

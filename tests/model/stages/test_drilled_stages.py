@@ -18,6 +18,8 @@ from bridge_demolition_addon.model.stages.standing import StandingBridge, made_e
 from bridge_demolition_addon.model.stages.tables import write_tables
 from bridge_demolition_addon.report.sections.stages import stages_section
 
+pytestmark = pytest.mark.slow
+
 
 def test_a_column_holds_its_block_until_its_zone_fires(tmp_path):
     scenario = column_scenario(tmp_path, ZONE)

@@ -32,6 +32,8 @@ from bridge_demolition_addon.model.stages.reactions import supports_of
 from bridge_demolition_addon.model.stages.stages import stages_of
 from bridge_demolition_addon.model.stages.standing import StandingBridge, made_elastic
 
+pytestmark = pytest.mark.slow
+
 EXACT = 1e-3
 """Of the weight: loads are in the axes of shards that have turned a little as the beam deflected."""
 

@@ -14,6 +14,8 @@ from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
 from bridge_demolition_addon.model.stages.standing import BARS, StandingBridge
 
+pytestmark = pytest.mark.slow
+
 EXAMPLE = (Path(__file__).parents[3] / "examples" / "ground_motion" / "span_in_an_earthquake.toml").as_posix()
 
 

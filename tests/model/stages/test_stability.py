@@ -23,6 +23,8 @@ from bridge_demolition_addon.model.stages.stability import (
 from bridge_demolition_addon.model.stages.stability_by_statics import stability_of
 from bridge_demolition_addon.model.structure.usual_sizes import size_facts
 
+pytestmark = pytest.mark.slow
+
 HEAD = """
 [scenario]
 title = "Blocks"

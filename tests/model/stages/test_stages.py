@@ -30,6 +30,8 @@ from bridge_demolition_addon.model.stages.standing import StandingBridge, made_e
 from bridge_demolition_addon.model.stages.tables import SLOW_COLLAPSE, stage_row, stage_sentences
 from bridge_demolition_addon.simulation.motion_run import motion_run
 
+pytestmark = pytest.mark.slow
+
 EXCAVATOR = """
 [[equipment]]
 name = "excavator"

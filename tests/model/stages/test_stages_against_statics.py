@@ -28,6 +28,8 @@ from bridge_demolition_addon.model.sequence.checked_model import checked_model
 from bridge_demolition_addon.model.stages.reactions import supports_of
 from bridge_demolition_addon.simulation.motion_run import motion_run
 
+pytestmark = pytest.mark.slow
+
 LINKS = 5
 
 

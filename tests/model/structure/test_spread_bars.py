@@ -96,6 +96,7 @@ def test_bars_are_at_a_depth_or_spread(keys, message):
         BarLayer(members=("deck",), **keys)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("half_m", "share"), [(0.4, 0.4 / 0.768), (2.0, 1.0)])
 def test_straight_bars_have_less_near_their_ends(tmp_path, half_m, share):
     """A beam cut in its middle: φ 40 mm, f_y 500 N/mm², C30: l_b = 40 / 4 × 500 / (2.25 × 2.896) = 767 mm by hand."""

@@ -31,6 +31,7 @@ def test_normal_quantiles_are_those_of_scipy_to_their_last_digits():
     np.testing.assert_allclose(found, special.ndtri(probabilities), rtol=2e-15)
 
 
+@pytest.mark.slow
 def test_normal_probabilities_are_those_of_scipy():
     # The inverse of what has 16 digits: at -37 a digit of the value is 1e-13 of the probability.
     values = np.linspace(-37.0, 8.0, 400)

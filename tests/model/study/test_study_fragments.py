@@ -59,6 +59,7 @@ def test_a_run_has_the_distances_of_its_zones():
     assert 0.0 < outputs["fragments_50_m"] < outputs["fragments_99_m"] < outputs[NEARLY_ALL]
 
 
+@pytest.mark.slow
 def test_fragments_scatter_with_the_seed_and_not_those_of_a_misfire():
     other = fragment_outputs(replace(DRILLED, seed=DRILLED.seed + 1))
     assert other["fragments_99_m"] != fragment_outputs(DRILLED)["fragments_99_m"]
@@ -102,6 +103,7 @@ def test_the_sentence_has_all_that_stands_beside():
     )
 
 
+@pytest.mark.slow
 def test_report_and_plan_have_the_limits():
     runs = runs_of()
     told = told_of_study(runs)
