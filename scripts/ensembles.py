@@ -46,12 +46,14 @@ class Example:
     table: str
     answer: str
     picture: str  # beside these, or empty where it is drawn here
+    file: str = ""  # of its settings; by default that of its name
 
 
 ENSEMBLES = {
     "i235_one_span": Example("study", "studies", "runs.csv", "study.json", ""),
     "drilled_two_spans": Example("study", "studies", "runs.csv", "study.json", ""),
     "lillebruen": Example("study", "studies", "runs.csv", "study.json", ""),
+    "overbridge": Example("study", "overbridge", "runs.csv", "study.json", "", "study.toml"),
     "lightest_ball": Example("search", "searches", "trials.csv", "search.json", "curve.png"),
     "least_charge": Example("optimise", "optimisations", "trials.csv", "optimise.json", "tradeoff.png"),
 }
@@ -141,7 +143,8 @@ def row_again(ensemble: Ensemble, row: RunRow) -> RunRow:
 
 def settings_file(name: str) -> Path:
     """Return the file of its settings."""
-    return ROOT / "examples" / ENSEMBLES[name].folder / f"{name}.toml"
+    example = ENSEMBLES[name]
+    return ROOT / "examples" / example.folder / (example.file or f"{name}.toml")
 
 
 def runs_table(name: str) -> Path:

@@ -17,7 +17,7 @@ from typing import Any
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 sys.path.insert(1, str(Path(__file__).resolve().parent.parent / "tests"))
 
-from ensembles import runs_table
+from ensembles import runs_table, settings_file
 from support.checkout import REPORT_2019, ROOT, SEEDED
 from support.example_runs import MEASURED_S
 
@@ -35,7 +35,11 @@ PAGE, STATICS, RANGES = (
     ROOT / "docs" / "data" / "seeds",
 )
 COLUMNS = ("example", "verdict", "reason", "utilisation", "member", "load_factor", "positions", "carried")
-STUDIED = {"drilled_two_spans_longer_zones": "drilled_two_spans", "lillebruen": "lillebruen"}
+STUDIED = {
+    "drilled_two_spans_longer_zones": "drilled_two_spans",
+    "lillebruen": "lillebruen",
+    "overbridge": "overbridge",
+}
 """Examples of which a study tells instead, in which more than the seed differs, by its name."""
 UNDRAWN = ("truss_severed", "beam_cut_in_stages")
 """Examples in which nothing is drawn by chance: bars are cut evenly, and the beam in prisms."""
@@ -195,7 +199,7 @@ def of_study(name: str) -> str:
     shares = [{"made_share": run["made_by_solver_share"]} for run in outputs]
     return " | ".join(
         (
-            f"{len(outputs)} of [a study](../examples/studies/{name}.toml)",
+            f"{len(outputs)} of [a study](../{settings_file(name).relative_to(ROOT).as_posix()})",
             f"{resting} of {len(outputs)}",
             downs,
             "",

@@ -4,8 +4,8 @@
 import ensembles
 import pytest
 
-LONG = {"lillebruen"}
-"""Those of which a run takes minutes: `scripts/remake --check` makes one again."""
+LONG = {"lillebruen", "overbridge"}
+"""Those of which a run takes a minute or more: `scripts/remake --check` makes one again."""
 
 
 @pytest.mark.parametrize("name", sorted(set(ensembles.ENSEMBLES) - LONG))

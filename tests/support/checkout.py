@@ -21,6 +21,8 @@ OTHERS = {
 }
 """Files of the other examples that are run, by their names."""
 
+OTHERS["overbridge"] = EXAMPLES / "overbridge" / "charges.toml"
+
 SEEDED = DEMOLITIONS | DRILLED | OTHERS
 """Files of all examples that `scripts/seeds` runs."""
 
