@@ -8,12 +8,15 @@ from bridge_demolition_addon.version import VERSION
 
 SHIM = "site_assets/iframe-worker.js"
 PAGES = SitePages(ROOT)
+ALL_VERSIONS = "all-versions"
+"""Stands for the link to the page of all versions, until a page knows how deep it lies."""
 
 
 def on_config(config):
     """Show the version in the head and at the foot of each page, and look for no script elsewhere."""
     config.site_name += f" {VERSION}"
-    config.copyright = f"Version {VERSION}. Licence: GPL-3.0-or-later, without warranty."
+    others = f' <a href="{ALL_VERSIONS}">All versions</a>.' if config.extra["among_others"] else ""
+    config.copyright = f"Version {VERSION}.{others} Licence: GPL-3.0-or-later, without warranty."
     config.extra["polyfills"] = [SHIM]
     return config
 
@@ -34,3 +37,8 @@ def on_page_markdown(markdown, page, config, files):
         markdown += options()
     source = ROOT / "docs" / page.file.src_uri
     return PAGES.led(markdown, source) if source.is_file() else markdown
+
+
+def on_post_page(output, page, config):
+    """Lead to the page of all versions, which is beside the folder of this one."""
+    return output.replace(f'href="{ALL_VERSIONS}"', f'href="{"../" * (1 + page.url.count("/"))}index.html"')

@@ -10,6 +10,7 @@ from html.parser import HTMLParser
 from urllib.parse import unquote, urldefrag
 
 import pytest
+from site_build import MADE, versions_in
 from site_files import SitePages
 from support.checkout import ROOT
 
@@ -180,3 +181,33 @@ def test_links_of_a_document_lead_to_these_pages(project):
     assert SitePages(project).led(document.read_text(encoding="utf-8"), document) == (
         "[it](overview.md#top) [code](project/tool/code.py.md) [all](project/tool/index.md) [here](b.md) `x` [net](https://e.org)"
     )
+
+
+def test_sites_of_several_versions_stand_beside_each_other(tmp_path, site, pages):
+    """A site made before stays, the newest comes first, and each page leads to the list, however deep it lies."""
+    earlier = tmp_path / "0.0.9" / "search"
+    earlier.mkdir(parents=True)
+    (earlier / "search_index.json").write_text("{}", encoding="utf-8")
+    (tmp_path / "notes").mkdir()
+    done = call("--among", tmp_path)
+    assert done.returncode == 0, done.stderr
+    found = PageReader((tmp_path / "index.html").read_text(encoding="utf-8"))
+    assert found.leads_to == [f"{VERSION}/index.html", "0.0.9/index.html"]
+    made = sorted((tmp_path / VERSION).rglob("*.html"))
+    assert len(made) == len(pages)
+    depths = set()
+    for path in made:
+        led_to = PageReader(path.read_text(encoding="utf-8")).leads_to
+        back = [link for link in led_to if link.endswith("../index.html")]
+        if path.name != "404.html":  # its links are those of a server
+            assert tmp_path / "index.html" in [(path.parent / link).resolve() for link in back]
+            depths.add(len(path.relative_to(tmp_path).parts))
+    assert len(depths) > 1
+    assert not any("All versions" in path.read_text(encoding="utf-8") for path in site.rglob("*.html"))
+
+
+def test_versions_are_sorted_by_their_numbers(tmp_path):
+    for name in ("0.9.0", "0.10.0", "1.0.0"):
+        (tmp_path / name / "search").mkdir(parents=True)
+        (tmp_path / name / MADE).touch()
+    assert versions_in(tmp_path) == ["1.0.0", "0.10.0", "0.9.0"]
