@@ -18,7 +18,7 @@ from pathlib import Path
 
 import bench_history
 
-BENCHES = ("building", "fracture", "recording", "blast", "contours", "panels", "report", "elastic", "studies")
+BENCHES = ("building", "fracture", "recording", "blast", "contours", "panels", "report", "elastic", "truss", "studies")
 
 
 def main() -> int:
