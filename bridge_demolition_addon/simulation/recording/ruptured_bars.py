@@ -73,5 +73,5 @@ def bars_that_rupture(bars: FaceBars | None, inventory: Inventory, reader: BodyM
     if bars is None:
         return None
     of_shards = (inventory.body_kinds == "shard")[inventory.pairs].all(axis=1)
-    have_bars = of_shards & ((bars.yield_n > 0.0) | bars.are_hinges)
+    have_bars = of_shards & (bars.yield_n > 0.0)
     return RupturedBars(have_bars, inventory.pairs, inventory.vertices_by_body(), reader) if have_bars.any() else None
