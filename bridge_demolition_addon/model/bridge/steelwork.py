@@ -14,7 +14,7 @@ from ...engineering.geometry.vectors import transformed, unit
 from ...engineering.steelwork.bars import SteelBar, bar_axes, extruded, node_points, node_radius_m
 from ...errors import GeometryError
 from ..scenario.bearings import FIXED
-from ..scenario.girders import DECK_KIND, GirderSpan
+from ..scenario.girders import DECK_KIND, GIRDER_KIND, GirderSpan
 from ..scenario.steelwork import NODE_KIND, TURNS, SteelMember, SteelNode, Steelwork
 from ..schema import given
 from .member import Member, SteelPart
@@ -39,7 +39,11 @@ def steelwork_members(steelwork: Steelwork | None) -> tuple[Member, ...]:
             radii |= dict.fromkeys(names, max(radii[name] for name in names))
     fixed = {node.name: _held_end(node, steelwork.all_members) for node in steelwork.all_nodes}
     bars = [_bar(steelwork, table, places, axes[table.name], radii, fixed) for table in steelwork.all_members]
-    nodes = [_node(steelwork, node, ends[node.name], radii[node.name]) for node in steelwork.all_nodes]
+    end_nodes = {name for span in steelwork.girders for name in span.end_nodes}
+    nodes = [
+        _node(steelwork, node, ends[node.name], radii[node.name], goes_on=node.name in end_nodes)
+        for node in steelwork.all_nodes
+    ]
     decks = [_deck(span, {bar.name: given(bar.steel) for bar in bars}) for span in steelwork.decks]
     return (*decks, *bars, *nodes)
 
@@ -126,8 +130,12 @@ def _deck_part(span: GirderSpan, begin_m: float, end_m: float) -> TriangleMesh:
     return box(size, (0.5 * (begin_m + end_m), middle, bottom + 0.5 * thickness))
 
 
-def _node(steelwork: Steelwork, node: SteelNode, ends: Sequence[_End], radius_m: float) -> Member:
-    points = node_points([(unit(direction), outline) for _, direction, outline in ends], radius_m)
+def _node(steelwork: Steelwork, node: SteelNode, ends: Sequence[_End], radius_m: float, *, goes_on: bool) -> Member:
+    """Return a node; at the end of girders its plates go on behind it, so that the deck lies on their flanges there."""
+    plates = [(unit(direction), outline) for _, direction, outline in ends]
+    if goes_on:
+        plates += [(-unit(direction), outline) for table, direction, outline in ends if table.kind == GIRDER_KIND]
+    points = node_points(plates, radius_m)
     place = np.array(node.place_m)
     solid = from_manifold(hull(place + points))
     steel_m3 = radius_m * math.fsum(table.steel_section.area_m2 for table, _, _ in ends)

@@ -43,6 +43,9 @@ _EVEN_TORSION = 1.84
 """Torsion that a square field of studs resists as all of them yield, by that at which the first ones would: ∫ r dA =
 0.3826 a³, and a³ / 4.8."""
 
+_BY_EDGE = 3.0
+"""Moment that studs resist in uplift about the pressed edge of a flange, n P b / 2, by that of an even stress, b / 6."""
+
 _OF_DECK = (
     "deck_width_m",
     "studs_per_m",
@@ -246,6 +249,11 @@ class GirderSpan(Table):
         for one, other in pairwise(range(1, self.girders + 1)):
             yield from self._between(one, other)
 
+    @property
+    def end_nodes(self) -> tuple[str, ...]:
+        """Return the names of the nodes at both ends of each girder."""
+        return tuple(f"{girder} {number}" for girder in self.girder_names for number in (0, len(self._stations) - 1))
+
     def points_of(self) -> Iterator[tuple[str, ...]]:
         """Yield the names of the nodes of all girders at each position along the road."""
         for number in range(len(self._stations)):
@@ -414,7 +422,7 @@ def joints_of_deck(span: GirderSpan, concrete: Joint, factor: float) -> tuple[Jo
             tension_pa=uplift_pa,
             shear_pa=shear_pa,
             torsion_pa=_EVEN_TORSION * shear_pa,
-            bending_pa=uplift_pa,
+            bending_pa=_BY_EDGE * uplift_pa,
         )
         joints.append(Joint("FIXED", strength=resisted, moduli=moduli))
     return joints[0], joints[1]

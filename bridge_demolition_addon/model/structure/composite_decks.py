@@ -57,7 +57,9 @@ class DeckContacts:
     decks, girders : (c,) int
         Which deck of the steelwork each is of, and which of its girders, from 0.
     lengths_m, widths_m : (c,) float
-        Length along the girder, and width of its flange.
+        Length along the girder, and width of what touches in the mean.
+    flanges_m : (c,) float
+        Width of the flange, on which another shard may lie beside it.
     levers_m : (c,) float
         How far along the road from the contact what presses it acts: half-way between the points from which the
         stiffness of the two is measured. There both are as far as a beam that bends evenly is from its tangents.
@@ -68,7 +70,13 @@ class DeckContacts:
     girders: np.ndarray
     lengths_m: np.ndarray
     widths_m: np.ndarray
+    flanges_m: np.ndarray
     levers_m: np.ndarray
+
+    @property
+    def studded_m(self) -> np.ndarray:
+        """Length (c,) of girder whose studs each has: by its part of the flange."""
+        return self.lengths_m * self.widths_m / self.flanges_m
 
     def among(self, kept: np.ndarray) -> DeckContacts:
         """Return those that are left where only some connections (m,) are kept."""
@@ -84,6 +92,7 @@ def deck_connections(
     steelwork: Steelwork,
     members: Sequence[Member],
     member_of_shard: np.ndarray,
+    shards: Sequence[TriangleMesh],
     points_m: np.ndarray,
     faces: SharedFaces,
     first_row: int,
@@ -98,10 +107,12 @@ def deck_connections(
     lies = (deck_of[first] >= 0) & (girder_of[first] < 0) & (girder_of[second] >= 0)
     lies &= deck_of[first] == deck_of[second]
     widths = width_of[second]
-    lengths = np.divide(faces.areas, widths, out=np.zeros(len(faces)), where=widths > 0.0)
-    rows = np.flatnonzero(lies & (lengths > _SHORTEST_M))
+    rows = np.flatnonzero(lies & (faces.areas > _SHORTEST_M * widths))
     connections = Connections(faces.pairs[rows], faces.centres[rows], faces.areas[rows], faces.normals[rows])
     on_deck, below = faces.pairs[rows].T
+    lengths = np.array(
+        [_in_common(shards[one], shards[other], 0) for one, other in zip(on_deck.tolist(), below.tolist(), strict=True)]
+    )
     of_bars = [_turns_as_m(member) for member in members if member.steel]
     steel = np.full(len(member_of_shard), np.nan)
     steel[np.array([member.steel is not None for member in members])[member_of_shard]] = np.concatenate(of_bars)
@@ -110,7 +121,8 @@ def deck_connections(
         first_row + np.arange(len(rows)),
         deck_of[first[rows]],
         girder_of[second[rows]],
-        lengths[rows],
+        lengths,
+        faces.areas[rows] / lengths,
         widths[rows],
         middles - connections.points[:, 0],
     )
@@ -160,7 +172,7 @@ def contact_rows(contacts: DeckContacts, scenario: Scenario) -> np.ndarray:
     steelwork = given(scenario.steelwork)
     first = len(joints_of_faces(scenario)) + len(steelwork.joint_rows())
     over_piers = [top_width_m(span.sections[1]) for span in steelwork.decks]
-    is_over = np.isclose(contacts.widths_m, np.array(over_piers)[contacts.decks])
+    is_over = np.isclose(contacts.flanges_m, np.array(over_piers)[contacts.decks])
     return np.asarray(first + 2 * contacts.decks + is_over)
 
 
@@ -192,8 +204,8 @@ def faces_across_decks(
     rows = np.flatnonzero(is_across)
     moments = np.zeros((len(rows), 2, 2))
     for row, connection in enumerate(rows.tolist()):
-        one, other = (shards[shard].bounds[:, 2] for shard in connections.pairs[connection].tolist())
-        deep = min(float(one[1]), float(other[1])) - max(float(one[0]), float(other[0]))
+        one, other = connections.pairs[connection].tolist()
+        deep = _in_common(shards[one], shards[other], 2)
         area = float(connections.areas[connection])
         wide = area / deep
         moments[row] = np.diag((area * deep * deep, area * wide * wide)) / 12.0
@@ -228,7 +240,7 @@ def with_studs(bars: FaceBars | None, contacts: DeckContacts, scenario: Scenario
         return bars
     studs = [row for row in rows if row is not None]
     chosen, factor = contacts.only(mine), scenario.connections.strength_factor
-    yields = np.array([factor * row.per_m * row.shear_n for row in studs]) * chosen.lengths_m
+    yields = np.array([factor * row.per_m * row.shear_n for row in studs]) * chosen.studded_m
     openings = np.array([row.slip_m for row in studs])
     at_yield = np.array([factor * row.shear_n / row.stiffness_n_m for row in studs])
     laws = np.column_stack((at_yield / openings, np.full(len(studs), _GROWS), np.ones(len(studs))))
@@ -287,6 +299,12 @@ def _owners(steelwork: Steelwork, members: Sequence[Member]) -> tuple[np.ndarray
     return tuple(np.array(column) for column in zip(*columns, strict=True))  # type: ignore[return-value]
 
 
+def _in_common(one: TriangleMesh, other: TriangleMesh, axis: int) -> float:
+    """Return how long two shards are beside each other along an axis."""
+    (begin, end), (first, last) = one.bounds[:, axis].tolist(), other.bounds[:, axis].tolist()
+    return float(min(end, last) - max(begin, first))
+
+
 def _girder_of(member: Member) -> str:
     """Return the girder that a node or a bar is of, by its name."""
     return member.name.rpartition(" ")[0]
@@ -315,4 +333,4 @@ def _pressed_n_m(contacts: DeckContacts, scenario: Scenario) -> np.ndarray:
 def _sideways_n_m(contacts: DeckContacts, scenario: Scenario) -> np.ndarray:
     """Stiffness (c,) along the face, of studs; 0 without any, where springs are in place of it."""
     studs = _studs_of_contacts(contacts, scenario)
-    return np.array([row.per_m * row.stiffness_n_m if row else 0.0 for row in studs]) * contacts.lengths_m
+    return np.array([row.per_m * row.stiffness_n_m if row else 0.0 for row in studs]) * contacts.studded_m

@@ -184,7 +184,7 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
     decks = None
     if scenario.steelwork and scenario.steelwork.decks:
         on_girders, decks = deck_connections(
-            scenario.steelwork, members, fractured.member_of_shard, points, faces, len(connections)
+            scenario.steelwork, members, fractured.member_of_shard, shards, points, faces, len(connections)
         )
         connections = connecting.joined([connections, on_girders])
         joint_of_connection = np.concatenate((joint_of_connection, contact_rows(decks, scenario)))
