@@ -44,7 +44,7 @@ _EVEN_TORSION = 1.84
 0.3826 a³, and a³ / 4.8."""
 
 _BY_EDGE = 3.0
-"""Moment that studs resist in uplift about the pressed edge of a flange, n P b / 2, by that of an even stress, b / 6."""
+"""Moment that studs resist in uplift about the pressed edge of a flange, n P b / 2, by that of an elastic section."""
 
 _OF_DECK = (
     "deck_width_m",
@@ -84,8 +84,8 @@ class GirderSpan(Table):
     those that `[[steelwork.members]]` and `[[steelwork.nodes]]` would give, with fixed joints: nodes of girders 1, 2 …,
     counted from the left, with numbers along the road from 0, as `span G1 0`, at cross frames and where the section
     changes, and bars by the nodes at their ends, as `span G1 0-1`. A deck of concrete lies on the top flanges, `span
-    deck`. It is cut along the road where the pieces of girders below it end, and takes more than its part of
-    `fracture.shards` if it has to."""
+    deck`. It is cut across where the pieces of girders below it end, in so many parts at least, and these along the
+    road."""
 
     table: ClassVar[str] = "steelwork.girders"
 
