@@ -28,7 +28,7 @@ def test_short_studs_press_on_less_concrete():
 
 
 def test_uplift_is_that_of_a_cone_or_of_the_shank():
-    """By hand: h = 100 - 9.5 mm, 12.7 √25 90.5^1.5 = 54.67 kN; at 0.1 m 0.1 / 0.2715 of it. 450 π 19² / 4 = 127.6 kN."""
+    """By hand: h = 100 - 9.5 mm, 12.7 √25 90.5^1.5 = 54.67 kN, at 0.1 m 0.368 of it; 450 π 19² / 4 = 127.6 kN."""
     assert stud_uplift_n(0.019, 0.1, 450e6, 25e6, 1.0) == pytest.approx(54.67e3, rel=1e-3)
     assert stud_uplift_n(0.019, 0.1, 450e6, 25e6, 0.1) == pytest.approx(54.67e3 * 0.1 / 0.2715, rel=1e-3)
     assert stud_uplift_n(0.019, 0.3, 450e6, 25e6, 1.0) == pytest.approx(450e6 * math.pi * 0.019**2 / 4.0)
