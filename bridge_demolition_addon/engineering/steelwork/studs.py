@@ -14,7 +14,7 @@ SLIP_CAPACITY_M = 6e-3
 """Slip that ductile studs have before they fail: EN 1994-1-1:2004, 6.6.1.1 (5)."""
 
 STUD_ULTIMATE_PA = 450e6
-"""Ultimate strength of the steel of studs SD1: EN ISO 13918:2018, table 2."""
+"""Ultimate strength of the steel of studs SD1: EN ISO 13918:2018."""
 
 FRICTION_OF_STEEL = 0.5
 """Friction of concrete on steel without paint, free from oil and loose rust: EN 1994-1-1:2004, 6.7.4.2 (4)."""
@@ -32,7 +32,7 @@ _CONE = 12.7
 """k_ucr,N of headed fasteners in concrete that has not cracked, N and mm: EN 1992-4:2018, 7.2.1.4 (2)."""
 
 _HEAD_BY_DIAMETER = 0.5
-"""Thickness of the head by the diameter: 8 mm of 16 mm, 10 of 19 and 22, 12 of 25 (EN ISO 13918:2018, table 11)."""
+"""Thickness of the head by the diameter: 8 mm of 16 mm, 10 of 19 and 22, 12 of 25 (EN ISO 13918:2018)."""
 
 _MM = 1e-3
 

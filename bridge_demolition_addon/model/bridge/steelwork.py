@@ -113,8 +113,7 @@ def _bar(
 
 def _deck(span: GirderSpan, bars: dict[str, SteelPart]) -> Member:
     """Return the deck on girders, in parts that end where pieces of the girders do."""
-    girder = span.girder_names[0]
-    of_girder = [given(part.bar) for name, part in bars.items() if name.rpartition(" ")[0] == girder]
+    of_girder = [given(bars[keys["name"]].bar) for keys in span.bars_of(span.girder_names[0])]
     cuts = sorted(bar.begin_m[0] + along for bar in of_girder for along in bar.cuts_m.tolist())
     begin = span.place_m[0]
     limits = [begin, *cuts, begin + span.length_m]

@@ -244,10 +244,14 @@ class GirderSpan(Table):
     def members(self) -> Iterator[dict[str, Any]]:
         """Yield the keys of its bars."""
         for girder in self.girder_names:
-            for number, (begin, end) in enumerate(pairwise(self._stations)):
-                yield self._girder(girder, number, 0.5 * (begin.along_m + end.along_m))
+            yield from self.bars_of(girder)
         for one, other in pairwise(range(1, self.girders + 1)):
             yield from self._between(one, other)
+
+    def bars_of(self, girder: str) -> Iterator[dict[str, Any]]:
+        """Yield the keys of the bars of one of its girders, from the first end on."""
+        for number, (begin, end) in enumerate(pairwise(self._stations)):
+            yield self._girder(girder, number, 0.5 * (begin.along_m + end.along_m))
 
     @property
     def end_nodes(self) -> tuple[str, ...]:
@@ -360,6 +364,11 @@ class GirderSpan(Table):
             raise ScenarioError(f"{self.table}.{missing} is missing: expected it with {self.table}.{other}")
         if self.pier_length_m is not None and not self.pier_length_m < min(self.span_lengths_m):
             raise self.unexpected("pier_length_m", f"less than the shortest span, {min(self.span_lengths_m):g} (m)")
+        least_m = max(float(section.size_m[1]) for section in self.sections)
+        shortest_m = min(end.along_m - begin.along_m for begin, end in pairwise(self._stations))
+        if shortest_m < least_m:
+            wanted = f"cross frames and changes of section {least_m:g} m apart, as deep as girders are, or more"
+            raise self.unexpected("fields", f"{wanted}; some are {shortest_m:.4g} m apart")
         for name in ("spacing_m", "cross_frames"):
             if self.girders > 1 and getattr(self, name) is None:
                 raise ScenarioError(f"{self.table}.{name} is missing: expected it with {self.girders} girders")

@@ -144,8 +144,9 @@ def points_above_girders(
     points = points_m.copy()
     names = {member.name: index for index, member in enumerate(members)}
     for span in steelwork.decks if steelwork else ():
-        girder = span.girder_names[0]
-        below = [member for member in members if member.steel and _girder_of(member) == girder]
+        own = list(span.bars_of(span.girder_names[0]))
+        on_line = {keys["name"] for keys in own} | {node for keys in own for node in keys["nodes"]}
+        below = [member for member in members if member.name in on_line]
         places = np.sort(np.concatenate([_turns_as_m(member) for member in below]))
         ends = np.array([part.bounds[:, 0] for part in members[names[span.deck_name]].parts])
         for shard in np.flatnonzero(member_of_shard == names[span.deck_name]).tolist():
@@ -288,8 +289,7 @@ def _owners(steelwork: Steelwork, members: Sequence[Member]) -> tuple[np.ndarray
     for number, span in enumerate(steelwork.decks):
         rows[span.deck_name] = number, -1, 0.0
         for girder, name in enumerate(span.girder_names):
-            own = [keys for keys in span.members() if keys["name"].rpartition(" ")[0] == name]
-            for keys in own:
+            for keys in span.bars_of(name):
                 width = top_width_m(span.sections[keys["section"] != span.section])
                 rows[keys["name"]] = number, girder, width
                 for node in keys["nodes"]:
@@ -303,11 +303,6 @@ def _in_common(one: TriangleMesh, other: TriangleMesh, axis: int) -> float:
     """Return how long two shards are beside each other along an axis."""
     (begin, end), (first, last) = one.bounds[:, axis].tolist(), other.bounds[:, axis].tolist()
     return float(min(end, last) - max(begin, first))
-
-
-def _girder_of(member: Member) -> str:
-    """Return the girder that a node or a bar is of, by its name."""
-    return member.name.rpartition(" ")[0]
 
 
 def _turns_as_m(member: Member) -> np.ndarray:

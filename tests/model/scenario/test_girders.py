@@ -110,6 +110,8 @@ def test_a_girder_may_stand_alone_and_without_a_deck():
         ({"pier_section": OVER}, "pier_length_m is missing"),
         ({"pier_length_m": 4.0}, "pier_section is missing"),
         ({"pier_section": OVER, "pier_length_m": 20.0}, "less than the shortest span"),
+        ({"fields": (30,)}, "1.2 m apart, as deep as girders are, or more; some are 0.6667 m apart"),
+        ({"pier_section": OVER, "pier_length_m": 10.5}, "some are 0.25 m apart"),
         ({"cross_frames": None}, "cross_frames is missing"),
         ({"spacing_m": None}, "spacing_m is missing"),
         ({"studs_per_m": None}, "studs_per_m is missing"),
