@@ -422,6 +422,9 @@ def joints_of_deck(span: GirderSpan, concrete: Joint, factor: float) -> tuple[Jo
     if studs is None:
         loose = Joint("GENERIC", moduli=moduli)
         return loose, loose
+    at_yield_mm = factor * studs.shear_n / studs.stiffness_n_m / _MM
+    if at_yield_mm >= span.stud_slip_mm:
+        raise span.unexpected("stud_slip_mm", f"more than {at_yield_mm:.3g} (mm), at which studs yield")
     joints = []
     for section in span.sections:
         by_area = factor * studs.per_m / top_width_m(section)

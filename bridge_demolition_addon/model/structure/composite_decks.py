@@ -295,8 +295,9 @@ def _owners(steelwork: Steelwork, members: Sequence[Member]) -> tuple[np.ndarray
                 for node in keys["nodes"]:
                     before = rows[node][2] if node in rows else 0.0
                     rows[node] = number, girder, max(width, before)
-    columns = [rows.get(member.name, (-1, -1, 0.0)) for member in members]
-    return tuple(np.array(column) for column in zip(*columns, strict=True))  # type: ignore[return-value]
+    found = [rows.get(member.name, (-1, -1, 0.0)) for member in members]
+    decks, girders, widths = zip(*found, strict=True)
+    return np.array(decks), np.array(girders), np.array(widths)
 
 
 def _in_common(one: TriangleMesh, other: TriangleMesh, axis: int) -> float:

@@ -30,6 +30,7 @@ from support.steelwork import bar_loads
 from bridge_demolition_addon.engineering.steelwork.catalogue import section_named
 from bridge_demolition_addon.engineering.steelwork.grades import DENSITY_KG_M3
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.scenario.scenario import studs_of
 from bridge_demolition_addon.model.structure.cracking import CrackedBridge
 from bridge_demolition_addon.model.structure.equilibrium import model_at_rest
@@ -315,6 +316,12 @@ def hogging_nm(whole, weight, over_support_nm2, length_m, along_m):
     by_load = (0.5 * weight * x**3 / bending + weight * x / whole.shear_n).sum()
     reaction = by_load / (x**2 / bending + 1.0 / whole.shear_n).sum()
     return 0.5 * weight * along_m**2 - reaction * along_m
+
+
+def test_studs_that_would_fail_before_they_yield_are_refused():
+    """90 kN by 100 kN/mm are 0.9 mm."""
+    with pytest.raises(ScenarioError, match=r"stud_slip_mm is 0.5: expected more than 0.9 \(mm\)"):
+        composite_scenario(studs=f"{STUDS}\nstud_slip_mm = 0.5")
 
 
 def test_studs_by_diameter_have_the_strength_of_the_code():
