@@ -23,6 +23,7 @@ from ..model.stages.stability_by_statics import stability_of
 from ..model.stages.stages import equipment_facts
 from ..model.stages.standing import made_elastic
 from ..model.structure.blast_zones import placed_zones, zone_totals
+from ..model.structure.deck_facts import deck_facts
 from ..model.structure.equilibrium import model_at_rest
 from ..model.structure.facts import accuracy_facts, connection_facts, foundation_facts, overlap_facts, rest_facts
 from ..model.structure.model import Model
@@ -112,7 +113,8 @@ def scenario_facts(scenario: Scenario, *, stand: bool = False) -> Iterator[str]:
         yield from _section("At rest", rest_facts(scenario, model))
         yield from _section("Fineness", accuracy_facts(scenario, model))
     if model.steel:
-        yield from _section("Steelwork", steel_facts(scenario, model, model_at_rest(model, scenario.joints)))
+        rest = model_at_rest(model, scenario.joints)
+        yield from _section("Steelwork", (*steel_facts(scenario, model, rest), *deck_facts(scenario, model, rest)))
     if model.tendons:
         yield from _section("Tendons", tendon_facts(scenario, model.tendons))
     yield from _section("Overlap at the start", overlap_facts(model))

@@ -7,7 +7,7 @@ belongs to some examples, in `OF_EXAMPLES`.
 """
 
 from collections.abc import Callable
-from itertools import pairwise
+from itertools import accumulate, pairwise
 
 import numpy as np
 from support.example_runs import ExampleRun
@@ -17,6 +17,7 @@ from bridge_demolition_addon.model.bridge.layout import pier_axes
 from bridge_demolition_addon.model.debris.throws import debris_of
 from bridge_demolition_addon.model.results.solver_energy import is_known, made_share, throws_of
 from bridge_demolition_addon.model.results.summary import first_hit_s
+from bridge_demolition_addon.model.scenario import Scenario
 
 Measure = Callable[[ExampleRun], dict[str, float | None]]
 
@@ -44,16 +45,23 @@ def broken_connections(run: ExampleRun) -> dict[str, float | None]:
 
 def deck_falls(run: ExampleRun) -> dict[str, float | None]:
     """How far half of each span's deck has come down, and the share of it that is more than 2 m lower."""
-    if run.scenario.bridge is None:
-        return {}
+    axes_m = axes_of_supports(run.scenario)
     deck = run.of_members("deck")
     along_m = run.results.frames.positions_m[0, deck, 0]
     found = {}
-    for number, (begin_m, end_m) in enumerate(pairwise(pier_axes(run.scenario.bridge)), start=1):
+    for number, (begin_m, end_m) in enumerate(pairwise(axes_m), start=1):
         fallen_m = run.fallen_m(deck[(along_m > begin_m) & (along_m < end_m)])
         found[f"span_{number}_median_fall_m"] = np.median(fallen_m)
         found[f"span_{number}_share_fallen_2_m"] = (fallen_m > 2.0).mean()
     return found
+
+
+def axes_of_supports(scenario: Scenario) -> list[float]:
+    """Positions along the road of the axes that spans are between; none where no table says them."""
+    if scenario.bridge:
+        return pier_axes(scenario.bridge).tolist()
+    spans = scenario.steelwork.decks if scenario.steelwork else ()
+    return [span.place_m[0] + along_m for span in spans for along_m in accumulate(span.span_lengths_m, initial=0.0)]
 
 
 def times(run: ExampleRun) -> dict[str, float | None]:

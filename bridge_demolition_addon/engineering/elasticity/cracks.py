@@ -50,6 +50,9 @@ _LITTLE_M = 1e-5
 _LITTLE_SHARE = 1e-9
 """Part of the bars of a crack up to which a corner has no bars: what is left is rounding."""
 
+_IN_FACE = 1e-6
+"""Cosine up to which bars lie in the face: what rounding leaves of a right angle."""
+
 _SAME_GRIP = 0.01
 """Change of friction, by the largest in any crack, up to which it counts as the same."""
 
@@ -190,7 +193,7 @@ class Cracks:
     def used(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
         """Return the force (t,) of bars in the most used corner, by that at which they rupture; nan without bars.
 
-        Bars that are pressed do not count: those do not rupture.
+        Bars that are pressed do not count: those do not rupture. Studs, which lie along the face, do either way.
         """
         bars = self._bars()
         gaps = turned_back(rotations[..., self._first], self._gaps(positions_m, rotations))
@@ -198,7 +201,8 @@ class Cracks:
         hardening = self._steel.hardening[np.tile(self.rows, _COUNT)]
         size, most = np.sqrt(dot_products(forces, forces)), hardening * bars.yield_n
         holds = self._holds & (most > _LITTLE_SHARE * np.tile(_summed(most), _COUNT))
-        pulled = np.where(dot_products(forces, self._directions) > 0.0, size, 0.0)
+        either_way = np.abs(dot_products(self._normals, self._directions)) < _IN_FACE
+        pulled = np.where(either_way | (dot_products(forces, self._directions) > 0.0), size, 0.0)
         shares = np.divide(pulled, most, out=np.full_like(size, np.nan), where=holds)
         used: FloatArray = np.fmax.reduce(shares.reshape(_COUNT, -1), axis=0)
         return used

@@ -36,7 +36,8 @@ class CrackFaces:
     """Rectangles with the areas (m,) and second moments (m, 2, 2) of the faces of m connections, crossed by bars.
 
     A section of steel is four fibres at W_pl / A from its axes. They yield at its plastic axial force and moments, by
-    the linear rule of EN 1993-1-1:2005, 6.2.1 (7), and press as they pull.
+    the linear rule of EN 1993-1-1:2005, 6.2.1 (7), and press as they pull. Studs go on with the shear that they
+    carried, and their face presses as that of a crack.
     """
 
     def __init__(self, areas_m2: FloatArray, second_moments_m4: FloatArray, bars: FaceBars):
@@ -50,12 +51,12 @@ class CrackFaces:
 
     def cracks(self, steel: Steel, left: FloatArray, pressed_n_m: FloatArray) -> Cracks:
         """Return the cracks, none at first; `left` (m,) and `pressed_n_m` (m,) are as in `Cracks`."""
-        are_hinges, hinges = self._bars.are_hinges, self._bars.hinges
+        are_hinges, have_own_law, hinges = self._bars.are_hinges, self._bars.have_own_law, self._bars.hinges
         if hinges is None:
             return Cracks(steel, self._bars.openings_m, self._yield_n, left, pressed_n_m)
         alike = SteelOfBars.alike(steel, len(left))
         columns = zip((alike.yield_strain, alike.hardening, alike.rupture_strain), hinges.T, strict=True)
-        of_each = SteelOfBars(*(np.where(are_hinges, own, usual) for usual, own in columns))
+        of_each = SteelOfBars(*(np.where(have_own_law, own, usual) for usual, own in columns))
         pressed_n_m = np.where(are_hinges, 0.0, pressed_n_m)
         return Cracks(of_each, self._bars.openings_m, self._yield_n, left, pressed_n_m)
 
@@ -71,7 +72,7 @@ class CrackFaces:
         cracks.add(rows, *ends, places, outwards, along, positions_m, rotations, pulls_n)
 
     def _pulls_n(self, torn: TornFaces, places_m: FloatArray) -> FloatArray:
-        """Forces (3, 4, r) at the corners that sections of steel begin with: those they carried; else none."""
+        """Forces (3, 4, r) at the corners that sections of steel and studs begin with: what they carried."""
         count = len(torn.rows)
         forces, moments = (components_first(torn.signs[:, None] * loads) for loads in (torn.forces_n, torn.moments_nm))
         arms = places_m - places_m.mean(axis=1, keepdims=True)
@@ -90,4 +91,6 @@ class CrackFaces:
         pulls = 0.25 * forces[:, None] + np.stack(
             [cross_products(about, arms[:, corner]) for corner in range(4)], axis=1
         )
-        return np.where(self._bars.are_hinges[torn.rows], pulls, 0.0)
+        along = forces - dot_products(forces, normal) * normal
+        of_studs = np.where(self._bars.are_studs[torn.rows], np.repeat(0.25 * along[:, None], 4, axis=1), 0.0)
+        return np.where(self._bars.are_hinges[torn.rows], pulls, of_studs)

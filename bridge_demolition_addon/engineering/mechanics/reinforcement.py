@@ -9,6 +9,9 @@ import numpy as np
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..geometry.vectors import length
 
+_ALONG_FACE = 0.5
+"""Part of a direction along the normal up to which bars with a law of their own lie in the face."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FaceBars:
@@ -19,8 +22,8 @@ class FaceBars:
     directions: FloatArray  # (m, 3), of it, along the section's axes; the first is not below 0
     openings_m: FloatArray  # (m,), opening along it at which they rupture
     hinges: FloatArray | None = None
-    """(m, 3), of sections of steel that yield as a whole: strain at yield, hardening and strain at rupture; nan of the
-    others."""
+    """(m, 3), of sections of steel that yield as a whole, and of studs along a face: strain at yield, hardening and
+    strain at rupture; nan of the others."""
 
     def with_even(self, even_n: FloatArray, opening_m: float | FloatArray) -> FaceBars:
         """Return them together with bars (m,) that are spread evenly over the faces, and pull across these.
@@ -69,19 +72,54 @@ class FaceBars:
         )
 
     @property
-    def are_hinges(self) -> BoolArray:
-        """Which of them (m,) are sections of steel."""
+    def have_own_law(self) -> BoolArray:
+        """Which of them (m,) are sections of steel or studs."""
         if self.hinges is None:
             return np.zeros(len(self.yield_n), bool)
         return ~np.isnan(self.hinges[:, 0])
 
+    @property
+    def are_hinges(self) -> BoolArray:
+        """Which of them (m,) are sections of steel."""
+        return self.have_own_law & (self.directions[:, 0] > _ALONG_FACE)
+
+    @property
+    def are_studs(self) -> BoolArray:
+        """Which of them (m,) are studs, whose direction lies in the face."""
+        return self.have_own_law & (self.directions[:, 0] <= _ALONG_FACE)
+
     def with_hinges(self, rows: IntArray, yield_n: FloatArray, openings_m: FloatArray, hinges: FloatArray) -> FaceBars:
         """Return them with sections of steel in place of those in some rows (s,)."""
+        return self._with_own_laws(rows, yield_n, openings_m, hinges, (1.0, 0.0, 0.0))
+
+    def with_studs(
+        self,
+        rows: IntArray,
+        yield_n: FloatArray,
+        slips_m: FloatArray,
+        laws: FloatArray,
+        direction: tuple[float, float, float],
+    ) -> FaceBars:
+        """Return them with studs in place of those in some rows (s,), which yield along a direction in the face.
+
+        `laws` (s, 3) are as `hinges`, and `slips_m` (s,) those at which studs fail.
+        """
+        return self._with_own_laws(rows, yield_n, slips_m, laws, direction)
+
+    def _with_own_laws(
+        self,
+        rows: IntArray,
+        yield_n: FloatArray,
+        openings_m: FloatArray,
+        laws: FloatArray,
+        direction: tuple[float, float, float],
+    ) -> FaceBars:
         all_yield_n, offsets_m, directions = self.yield_n.copy(), self.offsets_m.copy(), self.directions.copy()
-        openings, all_hinges = self.openings_m.copy(), np.full((len(all_yield_n), 3), np.nan)
-        all_yield_n[rows], openings[rows], all_hinges[rows] = yield_n, openings_m, hinges
-        offsets_m[rows], directions[rows] = 0.0, (1.0, 0.0, 0.0)
-        return FaceBars(all_yield_n, offsets_m, directions, openings, all_hinges)
+        openings = self.openings_m.copy()
+        all_laws = np.full((len(all_yield_n), 3), np.nan) if self.hinges is None else self.hinges.copy()
+        all_yield_n[rows], openings[rows], all_laws[rows] = yield_n, openings_m, laws
+        offsets_m[rows], directions[rows] = 0.0, direction
+        return FaceBars(all_yield_n, offsets_m, directions, openings, all_laws)
 
     @classmethod
     def none(cls, count: int) -> FaceBars:

@@ -81,6 +81,11 @@ class SteelBar:
         limits = self._limits_m
         return np.diff(limits)
 
+    @property
+    def turns_as_m(self) -> FloatArray:
+        """Where pieces turn and stretch as the bar does (n,), from its first node: between what joints stand for."""
+        return self._limits_m[1:-1]
+
     def at(self, along_m: FloatArray) -> FloatArray:
         """Return positions (k, 3) on its axis, by those along it (k,)."""
         wave = sine(math.pi * along_m / self.length_m)

@@ -29,6 +29,15 @@ _THIN_FLANGE_M = 0.04
 """Thickness of flanges up to which rolled and welded I-sections have the better curves (ibid.)."""
 
 
+@dataclass(frozen=True, slots=True)
+class Web:
+    """Upright webs between two flanges."""
+
+    count: int
+    height_m: float  # clear, between the flanges
+    thickness_m: float
+
+
 @dataclass(frozen=True, eq=False)
 class SteelSection:
     """A section of a steel bar.
@@ -55,6 +64,8 @@ class SteelSection:
         Distance between the middles of two flanges that are alike; None of all but such I-sections.
     is_rolled : bool
         Whether it is of a rolled I-section.
+    web : Web or None
+        Its webs; None of sections without one between two flanges.
     """
 
     name: str
@@ -67,6 +78,7 @@ class SteelSection:
     buckling_curves: tuple[str, str]
     flanges_apart_m: float | None = None
     is_rolled: bool = False
+    web: Web | None = None
 
     @cached_property
     def shape(self) -> PlaneShape:
@@ -126,6 +138,7 @@ def rolled_i(name: str, height: float, width: float, web: float, flange: float, 
         curves,
         height - flange,
         is_rolled=True,
+        web=Web(1, 2.0 * inner, web),
     )
 
 
@@ -156,6 +169,7 @@ def plate_girder(
         max(web, thickest),
         ("b", "c") if thickest <= _THIN_FLANGE_M else ("c", "d"),
         height - top_plate if top == bottom else None,
+        web=Web(1, clear, web),
     )
 
 
@@ -203,6 +217,7 @@ def welded_box(name: str, height: float, width: float, web: float, flange: float
         2.0 * deep * wide * min(web, flange),
         max(web, flange),
         ("b", "b"),
+        web=Web(2, clear, web),
     )
 
 

@@ -57,6 +57,7 @@ class Member:
     parts: tuple[TriangleMesh, ...] = ()
     unskewed: Rows = SQUARE  # by which positions on plan are as they would be without skew
     steel: SteelPart | None = None  # of steelwork alone, which is cut and connected by itself
+    keeps_parts: bool = False  # whether each of its parts takes a shard at least, as of a deck on pieces of girders
 
     @property
     def volume_m3(self) -> float:

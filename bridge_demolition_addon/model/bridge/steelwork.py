@@ -1,18 +1,22 @@
-"""Members of steelwork: a bar for each table, and a node with its plates where bars meet."""
+"""Members of steelwork: a bar for each table, a node with its plates where bars meet, and decks on girders."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from itertools import pairwise
 
 import numpy as np
 
-from ...engineering.geometry.solids import from_manifold, hull
+from ...engineering.geometry.mesh import TriangleMesh
+from ...engineering.geometry.solids import box, from_manifold, hull
 from ...engineering.geometry.vectors import transformed, unit
 from ...engineering.steelwork.bars import SteelBar, bar_axes, extruded, node_points, node_radius_m
 from ...errors import GeometryError
 from ..scenario.bearings import FIXED
+from ..scenario.girders import DECK_KIND, GIRDER_KIND, GirderSpan
 from ..scenario.steelwork import NODE_KIND, TURNS, SteelMember, SteelNode, Steelwork
+from ..schema import given
 from .member import Member, SteelPart
 
 _MOST_WITHIN = 0.45
@@ -20,7 +24,7 @@ _MOST_WITHIN = 0.45
 
 
 def steelwork_members(steelwork: Steelwork | None) -> tuple[Member, ...]:
-    """Return all bars, and then all nodes."""
+    """Return all decks on girders, then all bars, and then all nodes."""
     if steelwork is None:
         return ()
     places = {node.name: np.array(node.place_m) for node in steelwork.all_nodes}
@@ -30,10 +34,18 @@ def steelwork_members(steelwork: Steelwork | None) -> tuple[Member, ...]:
     }
     ends = {node.name: _ends_at(node, steelwork.all_members, axes) for node in steelwork.all_nodes}
     radii = {node.name: _radius_m(node, ends[node.name]) for node in steelwork.all_nodes}
+    for span in steelwork.girders:  # pieces of girders side by side end in one plane, and so do shards of the deck
+        for names in span.points_of():
+            radii |= dict.fromkeys(names, max(radii[name] for name in names))
     fixed = {node.name: _held_end(node, steelwork.all_members) for node in steelwork.all_nodes}
     bars = [_bar(steelwork, table, places, axes[table.name], radii, fixed) for table in steelwork.all_members]
-    nodes = [_node(steelwork, node, ends[node.name], radii[node.name]) for node in steelwork.all_nodes]
-    return (*bars, *nodes)
+    end_nodes = {name for span in steelwork.girders for name in span.end_nodes}
+    nodes = [
+        _node(steelwork, node, ends[node.name], radii[node.name], goes_on=node.name in end_nodes)
+        for node in steelwork.all_nodes
+    ]
+    decks = [_deck(span, {bar.name: given(bar.steel) for bar in bars}) for span in steelwork.decks]
+    return (*decks, *bars, *nodes)
 
 
 _End = tuple[SteelMember, np.ndarray, np.ndarray]
@@ -46,7 +58,7 @@ def _ends_at(node: SteelNode, tables: Sequence[SteelMember], axes: dict[str, np.
         own = axes[table.name]
         for name, sign in zip(table.nodes, (1.0, -1.0), strict=True):
             if name == node.name:
-                outline = transformed(own[:, 1:], np.concatenate(table.steel_section.rings))
+                outline = transformed(own[:, 1:], np.concatenate(table.steel_section.rings) + np.array(table.offset_m))
                 ends.append((table, sign * own[:, 0], outline))
     return ends
 
@@ -76,7 +88,8 @@ def _bar(
     radii: dict[str, float],
     fixed: dict[str, str | None],
 ) -> Member:
-    begin, end = (places[name] for name in table.nodes)
+    beside = transformed(axes[:, 1:], np.array(table.offset_m))
+    begin, end = (places[name] + beside for name in table.nodes)
     within = np.array([radii[name] for name in table.nodes])
     turns = np.array(
         [
@@ -98,8 +111,30 @@ def _bar(
     return Member(table.name, table.kind, solid, steelwork.density_kg_m3, steel=part)
 
 
-def _node(steelwork: Steelwork, node: SteelNode, ends: Sequence[_End], radius_m: float) -> Member:
-    points = node_points([(unit(direction), outline) for _, direction, outline in ends], radius_m)
+def _deck(span: GirderSpan, bars: dict[str, SteelPart]) -> Member:
+    """Return the deck on girders, in parts that end where pieces of the girders do."""
+    of_girder = [given(bars[keys["name"]].bar) for keys in span.bars_of(span.girder_names[0])]
+    cuts = sorted(bar.begin_m[0] + along for bar in of_girder for along in bar.cuts_m.tolist())
+    begin = span.place_m[0]
+    limits = [begin, *cuts, begin + span.length_m]
+    parts = tuple(_deck_part(span, *ends) for ends in pairwise(limits))
+    solid = _deck_part(span, limits[0], limits[-1])
+    return Member(span.deck_name, DECK_KIND, solid, span.deck_density_kg_m3, parts, keeps_parts=True)
+
+
+def _deck_part(span: GirderSpan, begin_m: float, end_m: float) -> TriangleMesh:
+    _, middle, bottom = span.place_m
+    thickness = given(span.deck_thickness_m)
+    size = (end_m - begin_m, given(span.deck_width_m), thickness)
+    return box(size, (0.5 * (begin_m + end_m), middle, bottom + 0.5 * thickness))
+
+
+def _node(steelwork: Steelwork, node: SteelNode, ends: Sequence[_End], radius_m: float, *, goes_on: bool) -> Member:
+    """Return a node; at the end of girders its plates go on behind it, so that the deck lies on their flanges there."""
+    plates = [(unit(direction), outline) for _, direction, outline in ends]
+    if goes_on:
+        plates += [(-unit(direction), outline) for table, direction, outline in ends if table.kind == GIRDER_KIND]
+    points = node_points(plates, radius_m)
     place = np.array(node.place_m)
     solid = from_manifold(hull(place + points))
     steel_m3 = radius_m * math.fsum(table.steel_section.area_m2 for table, _, _ in ends)

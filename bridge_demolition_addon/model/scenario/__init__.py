@@ -19,6 +19,7 @@ from .connections import ConnectionBetween, ConnectionSettings
 from .contacts import ContactSettings, SurfaceValues
 from .fracture import Finer, FracturePoint, FractureSettings, MemberFracture
 from .geometry import Geometry
+from .girders import GirderSpan
 from .jackhammer import Jackhammer
 from .recording import PictureSettings, RecordingSettings
 from .reinforcement import BarRule, BridgeReinforcement, GeometryReinforcement, RatiosOfMember
@@ -55,6 +56,7 @@ __all__ = [
     "FractureSettings",
     "Geometry",
     "GeometryReinforcement",
+    "GirderSpan",
     "Girders",
     "Ground",
     "GroundSurface",

@@ -40,6 +40,7 @@ from .connections import ConnectionSettings
 from .contacts import BodyInContact, ContactSettings, SurfaceValues, check_not_both, with_own_values
 from .fracture import FractureSettings
 from .geometry import Geometry
+from .girders import DECK_KIND, GirderSpan, StudRow, joints_of_deck
 from .jackhammer import Jackhammer
 from .recording import PictureSettings, RecordingSettings
 from .reinforcement import BarRule, BridgeReinforcement, GeometryReinforcement
@@ -113,10 +114,13 @@ class Scenario(Table):
         """Return the joint of connections that follow no rule, then that of each rule, then that of each bearing.
 
         Rules are those of `connections.between`. With reinforcement, the same follow for members that have bars. Those
-        of steelwork come last.
+        of steelwork come last, and after them those of decks with girders.
         """
-        of_steel = self.steelwork.joints(self.connections.strength_factor) if self.steelwork else ()
-        return (*joints_of_faces(self), *of_steel)
+        factor = self.connections.strength_factor
+        of_steel = self.steelwork.joints(factor) if self.steelwork else ()
+        decks = self.steelwork.decks if self.steelwork else ()
+        of_decks = chain.from_iterable(joints_of_deck(span, deck_joint(self, span), factor) for span in decks)
+        return (*joints_of_faces(self), *of_steel, *of_decks)
 
     @property
     def is_reinforced(self) -> bool:
@@ -341,6 +345,23 @@ def joints_of_faces(scenario: Scenario) -> tuple[Joint, ...]:
     if not scenario.reinforcement and not rules_of_bars(scenario):
         return (own, *others, *pads)
     return (own, *others, *pads, *connections.joints(scenario.materials, have_bars=True), *pads)
+
+
+def deck_joint(scenario: Scenario, span: GirderSpan) -> Joint:
+    """Return the joint of connections within the deck on girders."""
+    connections = scenario.connections
+    own, *others = connections.joints(scenario.materials)
+    for rule, joint in zip(connections.between, others, strict=True):
+        if not rule.none and all(name in (span.deck_name, DECK_KIND) for name in rule.members):
+            return joint
+    return own
+
+
+def studs_of(span: GirderSpan, scenario: Scenario) -> StudRow | None:
+    """Return the studs below a deck, before any factor on strengths; None where it lies on friction alone."""
+    concrete = deck_joint(scenario, span)
+    unweakened_pa = float(given(concrete.strength).compression_pa) / scenario.connections.strength_factor
+    return span.studs(unweakened_pa, given(concrete.moduli))
 
 
 def bearing_tables(scenario: Scenario) -> tuple[Bearing, ...]:

@@ -16,6 +16,7 @@ from ...errors import Faults, ScenarioError
 from ..schema import SHORTEST_LENGTH_M, SIZE, Table, key, shown
 from .bearings import FIXED, PINNED, ROCKER
 from .connections import GROUND_NAME
+from .girders import GirderSpan
 from .trusses import TrussSpan
 
 NODE_KIND = "node"
@@ -86,6 +87,14 @@ class SteelMember(Table):
         at_least=-360,
         at_most=360,
     )
+    offset_m: tuple[float, float] = key(
+        "How far its axis lies beside the line between its nodes, along y and z of its section, such as for flanges "
+        "that are level where sections differ.",
+        default=(0.0, 0.0),
+        unit="m",
+        at_least=-10,
+        at_most=10,
+    )
     ends: tuple[str, str] = key(
         "How it is joined to each node: `fixed`, `pinned`, which turns freely about both axes of its section, or "
         "`hinged`, which does so about its y axis alone.",
@@ -106,6 +115,15 @@ class SteelMember(Table):
         default=(1.0, 1.0),
         above=0,
         at_most=10,
+    )
+    stiffener_spacing_m: float | None = key(
+        "Distance of upright stiffeners of its web, by which `bda check` judges that in shear; without it there are "
+        "some at its ends alone.",
+        default=None,
+        **SIZE,
+    )
+    rigid_end_posts: bool = key(
+        "Whether the ends of its web are held by rigid end posts, as of EN 1993-1-5, 9.3.1.", default=False
     )
 
     @property
@@ -139,16 +157,26 @@ class Steelwork(Table):
     nodes: tuple[SteelNode, ...] = ()
     members: tuple[SteelMember, ...] = ()
     trusses: tuple[TrussSpan, ...] = ()
+    girders: tuple[GirderSpan, ...] = ()
 
     @property
     def all_nodes(self) -> tuple[SteelNode, ...]:
-        """Its own nodes, and those of its trusses."""
-        return (*self.nodes, *(SteelNode(**keys) for truss in self.trusses for keys in truss.nodes()))
+        """Its own nodes, and those of its trusses and girders."""
+        return (*self.nodes, *(SteelNode(**keys) for span in self._spans for keys in span.nodes()))
 
     @property
     def all_members(self) -> tuple[SteelMember, ...]:
-        """Its own bars, and those of its trusses."""
-        return (*self.members, *(SteelMember(**keys) for truss in self.trusses for keys in truss.members()))
+        """Its own bars, and those of its trusses and girders."""
+        return (*self.members, *(SteelMember(**keys) for span in self._spans for keys in span.members()))
+
+    @property
+    def decks(self) -> tuple[GirderSpan, ...]:
+        """Girders that a deck lies on."""
+        return tuple(span for span in self.girders if span.has_deck)
+
+    @property
+    def _spans(self) -> tuple[TrussSpan | GirderSpan, ...]:
+        return (*self.trusses, *self.girders)
 
     def grade_of(self, member: SteelMember) -> str:
         return member.grade or self.grade
@@ -209,11 +237,13 @@ class Steelwork(Table):
         faults.check()
 
     def _check_names(self) -> None:
-        if not self.members and not self.trusses:
+        if not self.members and not self._spans:
             raise ScenarioError(
-                "steelwork.members is missing: expected bars under [[steelwork.members]] or [[steelwork.trusses]]"
+                "steelwork.members is missing: expected bars under [[steelwork.members]], [[steelwork.trusses]] or "
+                "[[steelwork.girders]]"
             )
         names = [*(member.name for member in self.all_members), *(node.name for node in self.all_nodes)]
+        names += [span.deck_name for span in self.decks]
         if twice := _first_twice(names):
             raise ScenarioError(f"steelwork has {shown(twice)} twice: expected a name of its own for each bar and node")
 

@@ -48,6 +48,9 @@ _LEAST_PART = 0.05
 are on: a shard of 60 kg that is pressed between two a hundred times as heavy is pushed away by Bullet, with energy that
 is not there."""
 
+_THROUGH_PART = 20.0
+"""Length of shards over their width with which they go through a part of a deck: only inclined by a twentieth."""
+
 _MOST_ATTEMPTS = 8
 
 _SPANNING = ("deck", "girder", "arch", "parapet", "pier cap")
@@ -94,7 +97,7 @@ def fractured_members(scenario: Scenario, members: Sequence[Member]) -> Fracture
         options = FractureOptions(
             density=density,
             noise=settings.noise,
-            stretch=rule.stretch if rule and rule.stretch else settings.stretch,
+            stretch=rule.stretch if rule and rule.stretch else _along_parts(member) or settings.stretch,
             through_plates=bool({member.name, member.kind} & with_bars),
             recursion=_recursion(settings),
         )
@@ -103,7 +106,8 @@ def fractured_members(scenario: Scenario, members: Sequence[Member]) -> Fracture
         whole = member if len(own_points[index]) else _in_convex_parts(member, int(counts[index]))
         cut = _cut_for_blasting(whole, zones, cuts, own_points[index]) if zones or cuts else whole
         # Each part takes one shard at least, but of those that a bridge is made of by rule.
-        count = int(counts[index]) if cut is member else max(int(counts[index]), len(cut.parts))
+        as_planned = cut is member and not member.keeps_parts
+        count = int(counts[index]) if as_planned else max(int(counts[index]), len(cut.parts))
         parts.append(_fractured(cut, count, own_points[index], int(seeds[index]), options))
     shards = tuple(shard for part in parts for shard in part.shards)
     member_of_shard = np.repeat(np.arange(len(members)), [len(part) for part in parts])
@@ -119,6 +123,11 @@ def fractured_members(scenario: Scenario, members: Sequence[Member]) -> Fracture
         ),
         bar_joints=joints,
     )
+
+
+def _along_parts(member: Member) -> tuple[float, float, float] | None:
+    """Return the stretch of shards that go through their part of a deck on girders, along the road and upwards."""
+    return (_THROUGH_PART, 1.0, _THROUGH_PART) if member.keeps_parts else None
 
 
 def shards_with_gaps(fractured: FracturedMembers, members: Sequence[Member], gap_m: float) -> tuple[TriangleMesh, ...]:

@@ -13,7 +13,6 @@ from ...engineering.foundations.footings import SoilSprings
 from ...engineering.fracture.shared_faces import SharedFaces
 from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.vectors import cross
-from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.reinforcement import FaceBars
 from ...engineering.structure import connections as connecting
 from ...engineering.structure.connections import Connections
@@ -27,6 +26,18 @@ from ..scenario.scenario import bearing_tables, joints_of_faces
 from ..schema import given
 from ..terrain.built import BuiltGround, built_ground
 from .bearings import ModelBearings, bearing_connections, have_bearing, placed_bearings, raised_shards
+from .composite_decks import (
+    DeckContacts,
+    are_of_decks,
+    contact_moments,
+    contact_rows,
+    contact_stiffness,
+    deck_connections,
+    faces_across_decks,
+    loose_deck_springs,
+    points_above_girders,
+    with_studs,
+)
 from .connection_rules import rules_of_pairs
 from .crack_bars import CrackBars, even_bars_n
 from .face_bars import face_bars, within_reinforced
@@ -75,6 +86,8 @@ class Model:
         All bars that hold where elastic connections crack, in layers and by `ductile_share`; None without any.
     steel : SteelConnections or None
         Which connections are joints of steel bars; None without steelwork.
+    decks : DeckContacts or None
+        Which connections are contacts of decks with girders; None without any.
     tendons : ModelTendons or None
         None without `[[tendons]]`.
     """
@@ -96,6 +109,7 @@ class Model:
     bearings: ModelBearings | None = None
     crack_bars: CrackBars | None = None
     steel: SteelConnections | None = None
+    decks: DeckContacts | None = None
     tendons: ModelTendons | None = None
 
     def thicknesses_m(self) -> np.ndarray:
@@ -134,7 +148,8 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
     placed = placed_bearings(bearing_tables(scenario), members)
 
     def allowed(pairs: np.ndarray) -> np.ndarray:
-        return ~excluded[rules_of(pairs)] & ~have_bearing(placed, fractured.member_of_shard, pairs)
+        of_decks = are_of_decks(scenario.steelwork, members, fractured.member_of_shard, pairs)
+        return ~excluded[rules_of(pairs)] & ~have_bearing(placed, fractured.member_of_shard, pairs) & ~of_decks
 
     is_steel = np.array([member.steel is not None for member in members])[fractured.member_of_shard]
     connections = _connections(scenario.connections, shards, centres, faces, allowed, heights_at, ~is_steel)
@@ -165,6 +180,17 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
         )
         if names:
             bearings = bearings.followed_by(pins, names) if bearings else ModelBearings(names, pins)
+    points = points_above_girders(scenario.steelwork, members, fractured.member_of_shard, shards, _middles(fractured))
+    decks = None
+    if scenario.steelwork and scenario.steelwork.decks:
+        on_girders, decks = deck_connections(
+            scenario.steelwork, members, fractured.member_of_shard, shards, points, faces, len(connections)
+        )
+        connections = connecting.joined([connections, on_girders])
+        joint_of_connection = np.concatenate((joint_of_connection, contact_rows(decks, scenario)))
+        loose = loose_deck_springs(decks, scenario, connections, len(bearings.names) if bearings else 0)
+        if loose:
+            bearings = bearings.followed_by(*loose) if bearings else ModelBearings(loose[1], loose[0])
     held = held_parts(scenario.supports, members, shards, fractured.member_of_shard)
     fixed = np.zeros(len(shards), dtype=bool)
     for part in held:
@@ -174,11 +200,18 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
     connections, joint_of_connection = connections.only(moves), joint_of_connection[moves]
     bearings = replace(bearings, springs=bearings.springs.among(moves)) if bearings else None
     steel = steel.among(moves) if steel else None
+    decks = decks.among(moves) if decks else None
     moments = second_moments(
         shards, connections.pairs[:, 0], connections.areas, connections.points, connections.normals
     )
     if steel:
         moments[steel.rows] = resisting_moments(steel, connections, members)
+    if decks:
+        moments[decks.rows] = contact_moments(decks)
+        across, of_rectangles = faces_across_decks(
+            scenario.steelwork, members, fractured.member_of_shard, shards, connections
+        )
+        moments[across] = of_rectangles
     soil = soil_springs(scenario.foundations, members, fractured.member_of_shard, shards, connections)
     bars = within = None
     if layers := all_layers(scenario, members):
@@ -206,13 +239,15 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
             bars = bars.with_even(starters.yield_n, starters.openings_m)
     if steel:
         bars = with_steel_hinges(bars, steel, scenario, members, len(connections))
+    if decks:
+        bars = with_studs(bars, decks, scenario, len(connections))
     tendons, bars = model_tendons(
         scenario, members, fractured.member_of_shard, shards, connections, joint_of_connection, bars
     )
     stiffness = None
     if scenario.connections.is_elastic:
-        cut = CutMembers(members, fractured.member_of_shard, shards, _middles(fractured), fixed)
-        stiffness = _stiffness(connections, moments, scenario.joints, joint_of_connection, cut, steel)
+        cut = CutMembers(members, fractured.member_of_shard, shards, points, fixed)
+        stiffness = _stiffness(connections, moments, scenario, joint_of_connection, cut, steel, decks)
     if soil and stiffness:
         connections, stiffness = on_footings(connections, soil), with_soil(stiffness, soil)
         moments[soil.rows] = second_moments_of(soil)
@@ -241,6 +276,7 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
         if stiffness
         else None,
         steel=steel,
+        decks=decks,
         tendons=tendons,
     )
 
@@ -248,18 +284,22 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
 def _stiffness(
     connections: Connections,
     moments: np.ndarray,
-    joints: Sequence[Joint],
+    scenario: Scenario,
     joint_of_connection: np.ndarray,
     cut: CutMembers,
     steel: SteelConnections | None,
+    decks: DeckContacts | None,
 ) -> SectionStiffness:
-    """Return the stiffness of all connections: by faces of shards, and by sections of steel bars."""
+    """Return the stiffness of all connections: by faces of shards, sections of steel bars, and studs of decks."""
     if steel is None:
-        return connection_stiffness(connections, moments, joints, joint_of_connection, cut)
+        return connection_stiffness(connections, moments, scenario.joints, joint_of_connection, cut)
     matrices = np.zeros((len(connections), 6, 6))
     others = np.setdiff1d(np.arange(len(connections)), steel.rows)
+    if decks:
+        others = np.setdiff1d(others, decks.rows)
+        matrices[decks.rows] = contact_stiffness(decks, scenario).matrices
     if len(others):
-        of_faces = connections.only(others), moments[others], joints, joint_of_connection[others]
+        of_faces = connections.only(others), moments[others], scenario.joints, joint_of_connection[others]
         matrices[others] = connection_stiffness(*of_faces, cut).matrices
     matrices[steel.rows] = steel_stiffness(steel, connections, cut.members).matrices
     return SectionStiffness(matrices)
@@ -282,7 +322,7 @@ def _crack_bars(
         if bearings:
             even[bearings.springs.rows] = 0.0  # no bars run through a bearing
         bars = bars or FaceBars.none(len(connections))
-        even[bars.are_hinges] = 0.0
+        even[bars.have_own_law] = 0.0
         bars = bars.with_even(even, float(given(settings.ductile_elongation_m)))
     return CrackBars(bars, scenario.steel) if bars else None
 

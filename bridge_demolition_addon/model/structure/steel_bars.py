@@ -12,6 +12,7 @@ from ...engineering.geometry.vectors import dot
 from ...engineering.mechanics.section_forces import section_forces
 from ...engineering.steelwork.lateral_buckling import LateralBuckling, lateral_buckling
 from ...engineering.steelwork.resistance import Buckling, buckling
+from ...engineering.steelwork.web_shear import WebShear, web_shear
 from ..actions import Fact
 from ..scenario import Scenario
 from ..schema import given
@@ -20,6 +21,9 @@ from .model import Model
 from .utilisation import Utilisations
 
 MOST_BARS_NAMED = 40
+
+_WEB_NAMED = 0.05
+"""Part of the resistance of a web that buckles from which on it is named."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,6 +43,8 @@ class BarUse:
     lateral_used : float or None
         Bending about the strong axis by what the bar resists in lateral torsional buckling; None where it is not
         judged.
+    web_used : float or None
+        Shear along the webs by what these resist as they buckle; None of sections without a web between flanges.
     """
 
     name: str
@@ -52,10 +58,12 @@ class BarUse:
     buckling: Buckling
     lateral_used: float | None
     lateral: LateralBuckling | None
+    web_used: float | None
+    web: WebShear | None
 
     @property
     def used(self) -> float:
-        return max(self.section_used, self.buckling_used, self.lateral_used or 0.0)
+        return max(self.section_used, self.buckling_used, self.lateral_used or 0.0, self.web_used or 0.0)
 
 
 def bar_uses(scenario: Scenario, model: Model, rest: Equilibrium) -> list[BarUse]:
@@ -77,6 +85,10 @@ def bar_uses(scenario: Scenario, model: Model, rest: Equilibrium) -> list[BarUse
         about_y, about_z = table.buckling_lengths
         strut = buckling(bar.section, yield_pa, (about_y * bar.length_m, about_z * bar.length_m))
         sideways = lateral_buckling(bar.section, yield_pa, about_z * bar.length_m)
+        webs = web_shear(
+            bar.section, yield_pa, table.stiffener_spacing_m or bar.length_m, rigid_end_posts=table.rigid_end_posts
+        )
+        along_web = float(np.abs(dot(loads.forces_n[rows], bar.axes[:, 2])).max())
         about_strong = float(np.abs(dot(loads.moments_nm[rows], bar.axes[:, 1])).max())
         uses.append(
             BarUse(
@@ -91,6 +103,8 @@ def bar_uses(scenario: Scenario, model: Model, rest: Equilibrium) -> list[BarUse
                 buckling=strut,
                 lateral_used=about_strong / sideways.resistance_nm if sideways else None,
                 lateral=sideways,
+                web_used=along_web / webs.resistance_n if webs else None,
+                web=webs,
             )
         )
     return sorted(uses, key=lambda use: -use.used)
@@ -110,6 +124,9 @@ def steel_facts(scenario: Scenario, model: Model, rest: Equilibrium) -> Iterator
             "buckle sideways",
             f"{names}: bent by more than EN 1993-1-1, 6.3.2.3 lets them resist; a run does not show it",
         )
+    if thin := [use for use in uses if use.web and use.web.buckles and (use.web_used or 0.0) > 1.0]:
+        names = ", ".join(use.name for use in thin[:MOST_BARS_NAMED])
+        yield "webs buckle", f"{names}: sheared by more than EN 1993-1-5, 5.3 lets them resist; a run does not show it"
     for use in uses[:MOST_BARS_NAMED]:
         yield use.name, _text(use)
     if len(uses) > MOST_BARS_NAMED:
@@ -138,5 +155,10 @@ def _text(use: BarUse) -> str:
         text += (
             f", {use.lateral_used:.0%} of {use.lateral.resistance_nm / 1e3:.0f} kN·m in lateral torsional buckling, "
             f"curve {use.lateral.curve}, χ_LT = {use.lateral.reduction:.2f}"
+        )
+    if use.web and use.web.buckles and (use.web_used or 0.0) >= _WEB_NAMED:
+        text += (
+            f", {use.web_used:.0%} of {use.web.resistance_n / 1e3:.0f} kN in shear of its web, which buckles, "
+            f"λ = {use.web.slenderness:.2f}, χ = {use.web.reduction:.2f}"
         )
     return text

@@ -168,7 +168,9 @@ def _with_poisson_effect(
     rows = np.flatnonzero((of_members[:, 0] == of_members[:, 1]) & (of_members[:, 0] >= 0))
     within = of_members[rows, 0]
     shards = np.bincount(cut.member_of_shard, minlength=len(cut.members))
-    chosen, shares = shapes.only(within), contraction_shares(shapes, shards)[within]
+    # What is cut in planes across its length has too few inclined faces for it.
+    contracts = np.array([not member.keeps_parts for member in cut.members])
+    chosen, shares = shapes.only(within), (contracts * contraction_shares(shapes, shards))[within]
     normals, young, shear, frames = connections.normals[rows], young_pa[rows], shear_pa[rows], sections[rows]
     moduli[rows] = in_axes(frames, shifting_moduli(chosen, shares, normals, young, shear))
     in_world = in_axes(np.swapaxes(frames, 1, 2), turning[rows])

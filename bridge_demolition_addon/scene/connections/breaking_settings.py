@@ -83,7 +83,7 @@ def keep_bars(connections: Sequence[bpy.types.Object], bars: FaceBars) -> None:
     for connection, numbers in zip(connections, columns.tolist(), strict=True):
         connection[_BARS] = numbers
     if bars.hinges is not None:
-        for row in np.flatnonzero(bars.are_hinges).tolist():
+        for row in np.flatnonzero(bars.have_own_law).tolist():
             connections[row][_HINGE] = bars.hinges[row].tolist()
 
 

@@ -177,7 +177,7 @@ class ElasticConnections:
             even = ductility.strength_share * given(breaking.strength).tension_pa * self._inventory.areas_m2
             if self._bearings:
                 even[self._bearings.rows] = 0.0  # no bars run through a bearing
-            even[bars.are_hinges] = 0.0
+            even[bars.have_own_law] = 0.0
             bars = bars.with_even(even, float(ductility.elongation_m))
         self._faces = CrackFaces(self._inventory.areas_m2, self._inventory.second_moments_m4, bars)
         self._cracks = self._faces.cracks(breaking.steel, left, self._axial_n_m)
