@@ -55,8 +55,10 @@ _THICKEST_FLAT_M = 0.1
 _THINNED = 0.03
 """Part of the area by which the middle of a body may differ from its section, beside that of roots and corners."""
 
-_BY_FACES = ("IfcFacetedBrep", "IfcAdvancedBrep", "IfcTriangulatedFaceSet", "IfcPolygonalFaceSet")
-_BY_FACES += ("IfcFaceBasedSurfaceModel", "IfcShellBasedSurfaceModel", "IfcFacetedBrepWithVoids")
+_BY_FACES = (
+    *("IfcFacetedBrep", "IfcFacetedBrepWithVoids", "IfcAdvancedBrep", "IfcTriangulatedFaceSet"),
+    *("IfcPolygonalFaceSet", "IfcFaceBasedSurfaceModel", "IfcShellBasedSurfaceModel"),
+)
 """Bodies that say nothing of how they are swept."""
 
 _FLAT, _PARALLEL = 0.99, 0.9999

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from ...engineering.geometry.vectors import transformed, unit
 from ...engineering.steelwork.bars import SteelBar, bar_axes, extruded, node_points, node_radius_m
 from ...errors import GeometryError
 from ..scenario.bearings import FIXED
-from ..scenario.steelwork import NODE_KIND, TURNS, SteelMember, SteelNode, Steelwork
+from ..scenario.steelwork import NODE_KIND, TURNS, SteelMember, SteelNode, Steelwork, axis_m
 from .member import Member, SteelPart
 
 _MOST_WITHIN = 0.45
@@ -25,8 +26,7 @@ def steelwork_members(steelwork: Steelwork | None) -> tuple[Member, ...]:
         return ()
     places = {node.name: np.array(node.place_m) for node in steelwork.all_nodes}
     axes = {
-        table.name: bar_axes(places[table.nodes[0]], places[table.nodes[1]], math.radians(table.roll_deg))
-        for table in steelwork.all_members
+        table.name: bar_axes(*axis_m(table, places), math.radians(table.roll_deg)) for table in steelwork.all_members
     }
     ends = {node.name: _ends_at(node, steelwork.all_members, axes) for node in steelwork.all_nodes}
     radii = {node.name: _radius_m(node, ends[node.name]) for node in steelwork.all_nodes}
@@ -36,25 +36,50 @@ def steelwork_members(steelwork: Steelwork | None) -> tuple[Member, ...]:
     return (*bars, *nodes)
 
 
-_End = tuple[SteelMember, np.ndarray, np.ndarray]
-"""A bar at a node, its direction away from that (3,), and the outline of its section about its axis (p, 3)."""
+@dataclass(frozen=True, slots=True, eq=False)
+class _End:
+    """A bar at a node.
+
+    Attributes
+    ----------
+    direction : (3,) float
+        Unit vector away from the node.
+    to_axis_m : (3,) float
+        From the node to the end of its axis.
+    outline : (p, 3) float
+        Corners of its section, about its axis.
+    """
+
+    table: SteelMember
+    direction: np.ndarray
+    to_axis_m: np.ndarray
+    outline: np.ndarray
+
+    @property
+    def at_node(self) -> np.ndarray:
+        """Outline (p, 3) about the node."""
+        return self.to_axis_m + self.outline
 
 
 def _ends_at(node: SteelNode, tables: Sequence[SteelMember], axes: dict[str, np.ndarray]) -> list[_End]:
     ends = []
     for table in tables:
         own = axes[table.name]
-        for name, sign in zip(table.nodes, (1.0, -1.0), strict=True):
+        for name, sign, to_axis_m in zip(table.nodes, (1.0, -1.0), table.from_nodes_m, strict=True):
             if name == node.name:
                 outline = transformed(own[:, 1:], np.concatenate(table.steel_section.rings))
-                ends.append((table, sign * own[:, 0], outline))
+                ends.append(_End(table, sign * own[:, 0], to_axis_m, outline))
     return ends
 
 
 def _radius_m(node: SteelNode, ends: Sequence[_End]) -> float:
     if node.radius_m is not None:
         return node.radius_m
-    return node_radius_m(np.array([direction for _, direction, _ in ends]), [outline for _, _, outline in ends])
+    return node_radius_m(
+        np.array([end.direction for end in ends]),
+        [end.outline for end in ends],
+        np.array([end.to_axis_m for end in ends]),
+    )
 
 
 def _held_end(node: SteelNode, tables: Sequence[SteelMember]) -> str | None:
@@ -76,7 +101,7 @@ def _bar(
     radii: dict[str, float],
     fixed: dict[str, str | None],
 ) -> Member:
-    begin, end = (places[name] for name in table.nodes)
+    begin, end = axis_m(table, places)
     within = np.array([radii[name] for name in table.nodes])
     turns = np.array(
         [
@@ -99,9 +124,9 @@ def _bar(
 
 
 def _node(steelwork: Steelwork, node: SteelNode, ends: Sequence[_End], radius_m: float) -> Member:
-    points = node_points([(unit(direction), outline) for _, direction, outline in ends], radius_m)
+    points = node_points([(unit(end.direction), end.at_node) for end in ends], radius_m)
     place = np.array(node.place_m)
     solid = from_manifold(hull(place + points))
-    steel_m3 = radius_m * math.fsum(table.steel_section.area_m2 for table, _, _ in ends)
+    steel_m3 = radius_m * math.fsum(end.table.steel_section.area_m2 for end in ends)
     mass_kg = steelwork.density_kg_m3 * steel_m3 + node.mass_kg
     return Member(node.name, NODE_KIND, solid, mass_kg / solid.volume, steel=SteelPart(place))

@@ -37,6 +37,7 @@ from .steelwork import (
     SteelConnections,
     joint_rows,
     node_supports,
+    on_supports,
     pins_of_supports,
     resisting_moments,
     steel_connections,
@@ -134,7 +135,8 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
     placed = placed_bearings(bearing_tables(scenario), members)
 
     def allowed(pairs: np.ndarray) -> np.ndarray:
-        return ~excluded[rules_of(pairs)] & ~have_bearing(placed, fractured.member_of_shard, pairs)
+        is_joined = ~excluded[rules_of(pairs)] & ~have_bearing(placed, fractured.member_of_shard, pairs)
+        return is_joined & ~on_supports(scenario.steelwork, members, fractured.member_of_shard, pairs)
 
     is_steel = np.array([member.steel is not None for member in members])[fractured.member_of_shard]
     connections = _connections(scenario.connections, shards, centres, faces, allowed, heights_at, ~is_steel)
