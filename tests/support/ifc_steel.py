@@ -90,3 +90,28 @@ class SteelFile(IfcBridge):
             body = self.cut(body, point, away)
         shape_type = "Clipping" if cuts else "SweptSolid"
         return self.element(kind, name, body, "SUPERSTRUCTURE", material=self.steel(steel), shape_type=shape_type)
+
+
+def warren_truss(panels=8, panel_m=4.0, height_m=3.0):
+    """Places on the plane of a Warren truss without posts, and its bars: chords from node to node, and diagonals."""
+    places = {f"L{number}": (number * panel_m, 0.0) for number in range(panels + 1)}
+    places |= {f"U{number}": ((number + 0.5) * panel_m, height_m) for number in range(panels)}
+    bars = {f"L{number}-L{number + 1}": (f"L{number}", f"L{number + 1}") for number in range(panels)}
+    bars |= {f"U{number}-U{number + 1}": (f"U{number}", f"U{number + 1}") for number in range(panels - 1)}
+    bars |= {f"L{number}-U{number}": (f"L{number}", f"U{number}") for number in range(panels)}
+    bars |= {f"U{number}-L{number + 1}": (f"U{number}", f"L{number + 1}") for number in range(panels)}
+    return places, bars
+
+
+def truss_file(schema="IFC4", short_m=0.2, above_m=5.0, **options):
+    """A Warren truss: one upper chord and one lower of HEB 200 over all panels, diagonals of tubes, cut short."""
+    made = SteelFile(schema=schema, **options)
+    places, bars = warren_truss()
+    at = {name: np.array((x, 0.0, above_m + z)) for name, (x, z) in places.items()}
+    made.bar("Lower chord", HEB_200, at["L0"], at["L8"], kind="IfcBeam")
+    made.bar("Upper chord", HEB_200, at["U0"], at["U7"], kind="IfcBeam")
+    for name, (one, other) in bars.items():
+        if one[0] != other[0]:
+            way = (at[other] - at[one]) / np.linalg.norm(at[other] - at[one])
+            made.bar(name, CHS_168, at[one] + short_m * way, at[other] - short_m * way)
+    return made

@@ -39,7 +39,7 @@ _WITHIN, _CAPPED = 0.45, 0.4
 smaller."""
 
 _STUB = 2.0
-"""Length of a piece of a bar by the size of its section up to which it goes with its nodes where these leave no room."""
+"""Length of a piece of a bar, by the size of its section, up to which nodes that leave it no room become one."""
 
 _MET_M = 5e-5
 """How far an axis may run beside a node that it is taken to meet."""

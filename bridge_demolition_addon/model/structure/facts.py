@@ -23,6 +23,7 @@ from ..reinforcement.design import all_layers
 from ..scenario import ConnectionBetween, ConnectionSettings, Scenario
 from ..scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
 from ..scenario.scenario import bearing_tables
+from ..scenario.steelwork import SteelNode
 from ..schema import given
 from .cracking import CrackedBridge, cracked_by_weight
 from .equilibrium import deflection_m, force_utilisations, loads_of, model_at_rest, overloaded
@@ -391,17 +392,26 @@ def _clamping_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
 def _bearing_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
     if not model.bearings:
         return
-    bearings = model.bearings
+    bearings, tables = model.bearings, bearing_tables(scenario)
     first_joint = 1 + len(scenario.connections.between)
+    of_nodes = {f"{node.name} on {node.held_by}": node.support for node in _nodes(scenario)}
     for number, name in enumerate(bearings.names):
         rows = bearings.rows_of(number)
-        if len(rows):
-            table = bearing_tables(scenario)[int(model.joint_of_connection[rows[0]]) - first_joint]
-            yield "bearing", f"{name}: {table.described}, {len(rows)} connections"
+        if not len(rows):
+            continue
+        row = int(model.joint_of_connection[rows[0]]) - first_joint
+        if row < len(tables):
+            yield "bearing", f"{name}: {tables[row].described}, {len(rows)} connections"
+        else:
+            yield "support", f"{name}: {of_nodes[name]}"
     if not scenario.connections.is_elastic:
         yield "", "with rigid connections they hold what is lifted, and slide without friction"
     if scenario.shards.start_deactivated:
         yield "", "while shards sleep, a run does not know their forces: shards.start_deactivated = false"
+
+
+def _nodes(scenario: Scenario) -> tuple[SteelNode, ...]:
+    return scenario.steelwork.all_nodes if scenario.steelwork else ()
 
 
 def _joint_text(rule: ConnectionBetween, joint: Joint) -> str:

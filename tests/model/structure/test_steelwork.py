@@ -28,6 +28,7 @@ from bridge_demolition_addon.model.structure.equilibrium import (
     loads_of,
     model_at_rest,
 )
+from bridge_demolition_addon.model.structure.facts import connection_facts
 from bridge_demolition_addon.model.structure.model import build_model
 from bridge_demolition_addon.model.structure.steel_bars import bar_uses
 
@@ -325,6 +326,8 @@ height_m = 4.0
     assert len(with_piers) == 2
     rest = model_at_rest(model, scenario.joints)
     by_bearing = {row.name: row.force_n for row in model.bearings.forces(loads_of(model, rest))}
+    said = dict.fromkeys(value for name, value in connection_facts(scenario, model) if name == "support")
+    assert list(said) == ["A on pier 1: pinned", "B on pier 2: rocker"]
     half = 0.5 * STANDARD_GRAVITY_M_S2 * DENSITY_KG_M3 * section_named("IPE 300").area_m2 * 8.0
     assert by_bearing["A on pier 1"] == pytest.approx((0.0, 0.0, half), rel=0.02, abs=1.0)
     assert by_bearing["B on pier 2"] == pytest.approx((0.0, 0.0, half), rel=0.02, abs=1.0)
