@@ -32,6 +32,7 @@ from .contacts import NearbyMembers
 from .element_materials import substances
 from .elements import Element, elements_of
 from .fineness import fracture_of
+from .joint_plates import leave_out_plates
 from .kinds_by_shape import with_kinds_by_shape
 from .light_bracing import leave_out_light_bracing
 from .likely_units import with_likely_unit
@@ -50,7 +51,6 @@ from .steel_frames import (
     SteelFrame,
     as_they_stand,
     cut_out,
-    leave_out_plates,
     steel_frame,
     supported,
     with_no_bearings_on,

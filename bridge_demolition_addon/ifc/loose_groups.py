@@ -24,8 +24,8 @@ def loose_groups(
     """Return the numbers of members that nothing holds, group by group.
 
     What touches belongs together, and what bearings or connections of the tables join. Held are piers and abutments,
-    what reaches the ground, and supports that were added. `bars` of steel, by their numbers, do not hold themselves, nor
-    join where they touch each other: pairs of names say what is `joined` there, of which the second may be the ground.
+    what reaches the ground, and supports that were added. `bars` of steel, by their numbers, do not hold themselves,
+    and are not joined where they touch each other: pairs of names say what is `joined`, to the ground, too.
     """
     rows = {member.name: row for row, (_, member) in enumerate(members)}
     group = list(range(len(members)))

@@ -1,4 +1,4 @@
-"""Bars of steel in an IFC file as the steelwork of a scenario: nodes where they meet, supports, and what is said of them.
+"""Bars of steel in an IFC file as the steelwork of a scenario: nodes where they meet, on supports.
 
 Bars keep their axes. A node lies where those of its bars meet; one that runs beside it has eccentricities.
 """
@@ -18,42 +18,24 @@ from ..engineering.geometry.solids import from_manifold, to_manifold
 from ..engineering.geometry.vectors import dot, length, transformed
 from ..engineering.steelwork.bar_frames import BarAxes, BarFrame, BarStation, bar_frame
 from ..engineering.steelwork.bars import bar_axes
-from ..engineering.units import mass_text
-from ..model.bridge.member import Member
 from ..model.bridge.steelwork import steelwork_members
 from ..model.scenario.steelwork import SteelMember, SteelNode, Steelwork
 from ..model.schema import given
 from .assembly import Assembly
 from .contacts import NearbyMembers
-from .outcome import BAR, CONNECTION, LEFT_OUT, MEMBER
-from .steel_elements import STEEL, SteelElement
+from .joint_plates import JOINT_GAP_M, JointPlate
+from .outcome import BAR, CONNECTION, MEMBER, Outcome
+from .steel_elements import SteelElement
+from .steel_notes import UNKNOWN_GRADE, SaidFrame, steel_notes
 from .steel_supports import BarSupport, bar_supports, stronger, supports_of_loose
 
-UNKNOWN_GRADE = "S235"
-"""Grade of bars whose material does not say it: that of most old bridges, and the weakest."""
-
 _PIECES, _PIECES_OF_BEAM, _LEAST_PIECES = 4, 8, 2
-"""Pieces of a bar, of one that carries the road and is not divided, and of each part of one that is."""
+"""Pieces of a bar, of a beam that is not divided, and of each part of one that is."""
 
-_PLATE, _PLATE_GAP_M, _PLATE_MASS = 2.5, 0.003, 0.5
-"""Longest extent of a plate at a joint by the size of the bar that it touches, its gap to that, and its mass by that of
-the bar."""
-
-_TOLD_M = 0.001
-"""How far an axis runs beside a node before it is told."""
+_BEAM = "IfcBeam"
 
 _DIGITS = 6
-_NAMED = 5
 _LEAST_M3 = 1e-6
-_SAME_DENSITY = 0.01
-
-
-@dataclass(frozen=True, slots=True)
-class JointPlate:
-    """A plate at a joint of bars: where it is (3,), and its mass."""
-
-    place_m: np.ndarray
-    mass_kg: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,29 +69,6 @@ def joined_names(frame: BarFrame, names: Sequence[str]) -> list[tuple[str, str]]
     return [(found[0], other) for found in at_node.values() for other in found[1:] if other != found[0]]
 
 
-def leave_out_plates(assembly: Assembly, bars: Mapping[int, SteelElement]) -> list[JointPlate]:
-    """Leave out plates and stubs of steel at joints of bars, and return them: their mass goes to the nodes."""
-    members = assembly.members()
-    own = [(number, member) for number, member in members if number in bars]
-    contacts = NearbyMembers([member.solid for _, member in own])
-    plates = []
-    for number, member in members:
-        substance = assembly.outcomes[number].substance
-        if number in bars or substance is None or substance.row.strength_name != STEEL:
-            continue
-        longest = float(np.ptp(member.solid.vertices, axis=0).max())
-        for gap, row in contacts.near_to(member.solid):
-            bar = bars[own[row][0]]
-            is_small = longest <= _PLATE * float(bar.steel_section.size_m.max())
-            if gap <= _PLATE_GAP_M and is_small and member.mass_kg <= _PLATE_MASS * own[row][1].mass_kg:
-                plates.append(JointPlate(member.solid.bounds.mean(axis=0), member.mass_kg))
-                outcome = assembly.outcomes[number]
-                why = "a plate or stub at a joint of bars: its mass is on the node that is nearest to it"
-                assembly.outcomes[number] = replace(outcome, member=None, substance=None, became=LEFT_OUT, why=why)
-                break
-    return plates
-
-
 def with_no_bearings_on(
     assembly: Assembly, bars: Mapping[int, SteelElement], bearings: Sequence[TriangleMesh]
 ) -> dict[int, SteelElement]:
@@ -118,7 +77,7 @@ def with_no_bearings_on(
     contacts = NearbyMembers([member.solid for _, member in members])
     carrying: set[int] = set()
     for solid in bearings:
-        down, up = contacts.reached(solid, -_PLATE_GAP_M), contacts.reached(solid, _PLATE_GAP_M)
+        down, up = contacts.reached(solid, -JOINT_GAP_M), contacts.reached(solid, JOINT_GAP_M)
         carrying |= {members[row][0] for row in down if down[row] > up.get(row, 0.0)}
     for number in carrying:
         outcome = assembly.outcomes[number]
@@ -197,7 +156,9 @@ def steel_frame(
         for row, place in enumerate(frame.places_m)
     )
     steelwork = Steelwork(grade=grade, density_kg_m3=steel_kg_m3, nodes=nodes, members=members)
-    lines = tuple(_lines(assembly, numbers, ordered, frame, names, node_names, of_nodes, plates, refused, axes))
+    lines = tuple(
+        steel_notes(assembly, SaidFrame(numbers, ordered, names, frame, axes, node_names, of_nodes, plates), refused)
+    )
     return SteelFrame(steelwork, tuple(member.solid for member in steelwork_members(steelwork)), lines)
 
 
@@ -284,7 +245,7 @@ def _tables(
                 grade=None if (bar.grade or UNKNOWN_GRADE) == grade else bar.grade or UNKNOWN_GRADE,
                 roll_deg=0.0 if roll == 0.0 else roll,
                 eccentricities_m=_eccentricities(piece.from_nodes_m),
-                pieces=_pieces(member, len(pieces)),
+                pieces=_pieces(outcome, len(pieces)),
             )
         notes = [outcome.why, f"{bar.section}, {bar.grade or f'grade not told, taken for {UNKNOWN_GRADE}'}"]
         if row in frame.within_nodes:
@@ -306,10 +267,10 @@ def _piece_names(name: str, pieces: int, taken: set[str]) -> list[str]:
     return names
 
 
-def _pieces(member: Member, parts: int) -> int:
+def _pieces(outcome: Outcome, parts: int) -> int:
     if parts > 1:
         return max(_LEAST_PIECES, math.ceil(_PIECES_OF_BEAM / parts))
-    return _PIECES_OF_BEAM if member.kind == "girder" else _PIECES
+    return _PIECES_OF_BEAM if _BEAM in outcome.facts.classes else _PIECES
 
 
 def _eccentricities(
@@ -323,92 +284,3 @@ def _eccentricities(
 def _rounded(place_m: np.ndarray) -> tuple[float, float, float]:
     x, y, z = (place_m.round(_DIGITS) + 0.0).tolist()
     return x, y, z
-
-
-def _lines(
-    assembly: Assembly,
-    numbers: Sequence[int],
-    bars: Sequence[SteelElement],
-    frame: BarFrame,
-    names: Sequence[str],
-    node_names: Sequence[str],
-    supports: Mapping[int, BarSupport],
-    plates: Sequence[JointPlate],
-    refused: Mapping[int, str],
-    axes: BarAxes,
-) -> Iterator[str]:
-    """Yield the lines of the report on bars: sections, nodes, how far axes run beside them, supports, and what is amiss."""
-    mass_kg = math.fsum(given(assembly.outcomes[number].member).mass_kg for number in numbers)
-    sections = ", ".join(f"{name} ({found})" for name, found in Counter(bar.section for bar in bars).most_common())
-    yield f"{len(bars)} elements, {mass_text(mass_kg).strip()}: {sections}"
-    divided = Counter(piece.bar for piece in frame.pieces)
-    more = sum(found > 1 for found in divided.values())
-    yield (
-        f"{len(frame.pieces)} bars between {len(frame.places_m)} nodes, with their axes as the file has them; {more} "
-        "elements are divided where others end in them, or where they are supported"
-    )
-    yield from _on_axes(frame, names)
-    for row, support in sorted(supports.items(), key=lambda item: float(frame.places_m[item[0]][0])):
-        assumed = ", as the file does not say it" if support.is_assumed else ""
-        yield f"{node_names[row]} on {support.held_by}: {support.kind}{assumed}"
-    unknown = sum(bar.grade is None for bar in bars)
-    if unknown:
-        yield f"the file tells no grade of {unknown} elements: taken for {UNKNOWN_GRADE}; say it in steelwork.grade"
-    if plates:
-        mass = math.fsum(plate.mass_kg for plate in plates)
-        yield f"{len(plates)} plates and stubs at joints are left out: their {mass_text(mass).strip()} are on nodes"
-    yield from _amiss(frame, names, axes)
-    for why, elements in _by_reason(assembly, refused).items():
-        yield f"no bar, and cut into shards: {_some(elements)}: {why}"
-
-
-def _on_axes(frame: BarFrame, names: Sequence[str]) -> Iterator[str]:
-    beside = {bar: apart for bar, apart in frame.eccentricities_m.items() if apart > _TOLD_M}
-    if not beside:
-        yield "all axes meet in their nodes"
-        return
-    order = sorted(beside, key=lambda bar: -beside[bar])
-    named = ", ".join(f"{names[bar]} by {1e3 * beside[bar]:.0f} mm" for bar in order[:_NAMED])
-    more = f" and {len(order) - _NAMED} more" if len(order) > _NAMED else ""
-    yield f"the axes of {len(beside)} elements run beside a node, and are joined to it by plates: {named}{more}"
-
-
-def _amiss(frame: BarFrame, names: Sequence[str], axes: BarAxes) -> Iterator[str]:
-    """Yield what may not be as it was meant: ends that meet nothing, bars that pass each other, and what is in a node."""
-    for bar, end in frame.free_ends:
-        yield f"{names[bar]} ends free {_where(axes, bar, end, names)}"
-    for one, other in frame.crossings[:_NAMED]:
-        yield f"{names[one]} and {names[other]} pass each other between their ends, and are not joined there"
-    if len(frame.crossings) > _NAMED:
-        yield f"and {len(frame.crossings) - _NAMED} more pairs pass each other so"
-    if frame.within_nodes:
-        yield f"too short beside what they join, and part of a node: {_some([names[bar] for bar in frame.within_nodes])}"
-    if frame.radii_m:
-        yield f"{len(frame.radii_m)} nodes are smaller than bars need to lie clear of each other: these overlap there"
-
-
-def _where(axes: BarAxes, bar: int, end: int, names: Sequence[str]) -> str:
-    """Return where the end of a bar is, and what is nearest to it."""
-    place = (axes.begins_m, axes.ends_m)[end][bar]
-    x, y, z = place.tolist()
-    along = np.clip(dot(place - axes.begins_m, axes.ways), 0.0, axes.lengths_m)
-    apart = length(axes.begins_m + along[:, None] * axes.ways - place)
-    apart[bar] = np.inf
-    where = f"at x = {x:.2f}, y = {y:.2f}, z = {z:.2f} m"
-    if len(axes) < 2:
-        return where
-    nearest = int(apart.argmin())
-    return f"{where}: the axis of {names[nearest]} is {apart[nearest]:.2f} m off"
-
-
-def _by_reason(assembly: Assembly, refused: Mapping[int, str]) -> dict[str, list[str]]:
-    found: dict[str, list[str]] = {}
-    for number, why in refused.items():
-        if assembly.outcomes[number].became != LEFT_OUT:
-            found.setdefault(why, []).append(assembly.outcomes[number].facts.name)
-    return found
-
-
-def _some(names: Sequence[str]) -> str:
-    more = f" and {len(names) - _NAMED} more" if len(names) > _NAMED else ""
-    return ", ".join(names[:_NAMED]) + more
