@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
 import numpy as np
@@ -153,7 +153,7 @@ def bar_frame(axes: BarAxes, supports: Sequence[BarStation] = ()) -> BarFrame:
         frame, clusters = _built(axes, joints, capped, crossings)
         tight = _tightest(axes, frame)
         if tight is None:
-            return frame
+            return replace(frame, radii_m=_given_radii(axes, frame))
         piece, limit_m = tight
         size = float(axes.sizes_m[piece.bar])
         both_held = set(piece.nodes) <= set(frame.node_of_support)
@@ -367,16 +367,7 @@ def _length_m(frame: BarFrame, piece: BarPiece) -> float:
 
 def _tightest(axes: BarAxes, frame: BarFrame) -> tuple[BarPiece, float] | None:
     """Return the piece of which too much lies within a node, the most of all, and how large nodes may be there, m."""
-    at_node: dict[int, list[tuple[int, FloatArray, FloatArray]]] = {}
-    for piece in frame.pieces:
-        for end, node in enumerate(piece.nodes):
-            way = axes.ways[piece.bar] * (1.0 if end == 0 else -1.0)
-            at_node.setdefault(node, []).append((piece.bar, way, piece.from_nodes_m[end]))
-    radii = dict(frame.radii_m)
-    for node, ends in at_node.items():
-        if node not in radii:
-            ways, offsets = (np.array([end[column] for end in ends]) for column in (1, 2))
-            radii[node] = node_radius_m(ways, [axes.outlines[bar] for bar, _, _ in ends], offsets)
+    radii = _radii(axes, frame)
     shares = [
         (max(radii[node] for node in piece.nodes) / _length_m(frame, piece), row)
         for row, piece in enumerate(frame.pieces)
@@ -386,3 +377,44 @@ def _tightest(axes: BarAxes, frame: BarFrame) -> tuple[BarPiece, float] | None:
         return None
     piece = frame.pieces[row]
     return piece, _CAPPED * _length_m(frame, piece)
+
+
+def _radii(axes: BarAxes, frame: BarFrame) -> dict[int, float]:
+    """Return how far from each node its bars begin; those that are given count."""
+    ends: dict[int, list[tuple[FloatArray, FloatArray, FloatArray]]] = {}
+    for piece in frame.pieces:
+        for end, node in enumerate(piece.nodes):
+            way = axes.ways[piece.bar] * (1.0 if end == 0 else -1.0)
+            ends.setdefault(node, []).append((way, axes.outlines[piece.bar], piece.from_nodes_m[end]))
+    return {node: frame.radii_m[node] if node in frame.radii_m else _radius_m(own) for node, own in ends.items()}
+
+
+def _given_radii(axes: BarAxes, frame: BarFrame) -> dict[int, float]:
+    """Return the radii of nodes that a scenario has to give: where bars leave each other no room."""
+    ways: dict[int, list[FloatArray]] = {}
+    for piece in frame.pieces:
+        for end, node in enumerate(piece.nodes):
+            ways.setdefault(node, []).append(axes.ways[piece.bar] * (1.0 if end == 0 else -1.0))
+    radii = _radii(axes, frame)
+    return {node: radii[node] for node in sorted(radii) if node in frame.radii_m or _has_side_by_side(ways[node])}
+
+
+def _radius_m(ends: Sequence[tuple[FloatArray, FloatArray, FloatArray]]) -> float:
+    """Return the radius of a node by the directions, outlines and offsets of its bars; those side by side overlap."""
+    radius = 0.0
+    for row, one in enumerate(ends):
+        for other in ends[row:]:
+            if other is not one and float(length(np.cross(one[0], other[0]))) <= _LEANS and dot(one[0], other[0]) > 0.0:
+                continue
+            ways, outlines, offsets = zip(one, other, strict=True)
+            radius = max(radius, node_radius_m(np.array(ways), list(outlines), np.array(offsets)))
+    return radius
+
+
+def _has_side_by_side(ways: Sequence[FloatArray]) -> bool:
+    """Return whether two bars leave a node in one direction."""
+    return any(
+        float(length(np.cross(one, other))) <= _LEANS and float(dot(one, other)) > 0.0
+        for row, one in enumerate(ways)
+        for other in ways[:row]
+    )

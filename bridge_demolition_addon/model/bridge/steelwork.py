@@ -25,9 +25,7 @@ def steelwork_members(steelwork: Steelwork | None) -> tuple[Member, ...]:
     if steelwork is None:
         return ()
     places = {node.name: np.array(node.place_m) for node in steelwork.all_nodes}
-    axes = {
-        table.name: bar_axes(*axis_m(table, places), math.radians(table.roll_deg)) for table in steelwork.all_members
-    }
+    axes = {table.name: _axes(table, places) for table in steelwork.all_members}
     ends = {node.name: _ends_at(node, steelwork.all_members, axes) for node in steelwork.all_nodes}
     radii = {node.name: _radius_m(node, ends[node.name]) for node in steelwork.all_nodes}
     fixed = {node.name: _held_end(node, steelwork.all_members) for node in steelwork.all_nodes}
@@ -59,6 +57,11 @@ class _End:
     def at_node(self) -> np.ndarray:
         """Outline (p, 3) about the node."""
         return self.to_axis_m + self.outline
+
+
+def _axes(table: SteelMember, places: dict[str, np.ndarray]) -> np.ndarray:
+    begin, end = axis_m(table, places)
+    return bar_axes(begin, end, math.radians(table.roll_deg))
 
 
 def _ends_at(node: SteelNode, tables: Sequence[SteelMember], axes: dict[str, np.ndarray]) -> list[_End]:
