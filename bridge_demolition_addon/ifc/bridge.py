@@ -38,7 +38,7 @@ from .light_bracing import leave_out_light_bracing
 from .likely_units import with_likely_unit
 from .map_place import ground_of, site_of
 from .materials import MaterialTable, material_table
-from .outcome import BAR, CONNECTION, LEFT_OUT, Outcome
+from .outcome import BAR, CONNECTION, LEFT_OUT, MEMBER, Outcome
 from .placement import Placement, placement_of
 from .quantities import quantities_of, units_of
 from .rule_bars import with_bars_by_rule
@@ -51,6 +51,7 @@ from .steel_frames import (
     SteelFrame,
     as_they_stand,
     cut_out,
+    fallen,
     steel_frame,
     supported,
     with_no_bearings_on,
@@ -170,10 +171,17 @@ def _put_together(
     result.close_gaps(gap_m)
     result.add_bearings(bearings, solids, placement, gap_m, table)
     leave_out_clamping_slabs(result)
-    supports = supported(result, as_they_stand(result, taken, before), gap_m)
+    hung = as_they_stand(result, taken, before)
+    supports = supported(result, hung, gap_m)
     result.hold(gap_m, table)
     standing = as_they_stand(result, taken, before)
-    frame = steel_frame(result, standing, supports, plates, steel.refused) if standing else None
+    stays = {
+        number: f"{why}: no bar, and cut into shards"
+        for number, why in steel.refused.items()
+        if result.outcomes[number].became == MEMBER
+    }
+    apart = {**fallen(result, hung, standing), **stays}
+    frame = steel_frame(result, standing, supports, plates, apart) if standing else None
     if frame:
         cut_out(result, frame)
     result.drop_consumed()

@@ -49,6 +49,9 @@ corners, and plates that are rounded to mm."""
 _CUT = 1.5
 """How far a bar's body may reach beyond its mean length, by the size of its section: ends that are cut at up to 45°."""
 
+_SQUARE = 1e-3
+"""Part of its length, from an end, at which a body that is cut square has its section, but for such a part of that."""
+
 _THICKEST_FLAT_M = 0.1
 """Thinner side up to which a solid rectangle of steel is a flat or square bar, and no block."""
 
@@ -207,11 +210,10 @@ def _bar(source: IfcSource, element: Element, solid: TriangleMesh, placement: Pl
         raise GeometryError(f"is a block, {size:.3g} x {least:.3g} m thick")
     _check_fit(placed, rings, area, size)
     mean_m = float(volumes[0]) / area
-    begin, end = middle - mean_m / 2.0, middle + mean_m / 2.0
-    if float(high[2] - low[2]) - mean_m > _CUT * size:
+    lowest, highest = float(low[2]), float(high[2])
+    if highest - lowest - mean_m > _CUT * size:
         raise GeometryError("has more cut out of it than its ends")
-    if sweep.depth_m is not None and abs(mean_m - sweep.depth_m) < 1e-3 * size:
-        begin, end = (0.0, sweep.depth_m) if middle > 0.0 else (-sweep.depth_m, 0.0)
+    begin, end = _ends(upright, (lowest, highest), middle, mean_m, area)
     if end - begin < _SHORTEST * size:
         raise GeometryError(f"is {end - begin:.2f} m long, no more than {_SHORTEST:g} times as long as its section")
     x, y = placed.centre_m
@@ -219,6 +221,28 @@ def _bar(source: IfcSource, element: Element, solid: TriangleMesh, placement: Pl
     along = sweep.axes[:, 2]
     y_axis = placed.y_axis[0] * sweep.axes[:, 0] + placed.y_axis[1] * sweep.axes[:, 1]
     return SteelElement(element.entity.id(), placed.name, centre + begin * along, centre + end * along, y_axis, None)
+
+
+def _ends(
+    upright: TriangleMesh, extent_m: tuple[float, float], middle_m: float, mean_m: float, area_m2: float
+) -> tuple[float, float]:
+    """Return where the axis of a body along z begins and ends.
+
+    An end that is cut square is where the body ends. One that is cut at an angle counts at its middle: that follows
+    from the volume, and where both are cut so, from the centre.
+    """
+    (lowest, highest), body = extent_m, to_manifold(upright)
+    within = _SQUARE * (highest - lowest)
+    square = [
+        float(body.slice(level).area()) > (1.0 - _SQUARE) * area_m2 for level in (lowest + within, highest - within)
+    ]
+    if all(square):
+        return lowest, highest
+    if square[0]:
+        return lowest, lowest + mean_m
+    if square[1]:
+        return highest - mean_m, highest
+    return middle_m - mean_m / 2.0, middle_m + mean_m / 2.0
 
 
 def _over(placed: PlacedSection, rings: Sequence[np.ndarray]) -> PlacedSection:

@@ -16,7 +16,7 @@ import numpy as np
 from ..engineering.geometry.mesh import TriangleMesh
 from ..engineering.geometry.solids import from_manifold, to_manifold
 from ..engineering.geometry.vectors import dot, length, transformed
-from ..engineering.steelwork.bar_frames import BarAxes, BarFrame, BarStation, bar_frame
+from ..engineering.steelwork.bar_frames import BarAxes, BarFrame, BarPiece, BarStation, bar_frame
 from ..engineering.steelwork.bars import bar_axes
 from ..model.bridge.steelwork import steelwork_members
 from ..model.scenario.steelwork import SteelMember, SteelNode, Steelwork
@@ -121,11 +121,11 @@ def steel_frame(
     bars: Mapping[int, SteelElement],
     supports: Sequence[BarSupport],
     plates: Sequence[JointPlate],
-    refused: Mapping[int, str],
+    apart: Mapping[int, str],
 ) -> SteelFrame:
     """Return the steelwork of bars on supports, with the mass of plates on its nodes.
 
-    `refused` says why other elements of steel are no bars. Outcomes of bars get notes.
+    `apart` says why other elements of steel are no bars, or fall. Outcomes of bars get notes.
     """
     numbers = sorted(bars)
     ordered = [bars[number] for number in numbers]
@@ -157,9 +157,35 @@ def steel_frame(
     )
     steelwork = Steelwork(grade=grade, density_kg_m3=steel_kg_m3, nodes=nodes, members=members)
     lines = tuple(
-        steel_notes(assembly, SaidFrame(numbers, ordered, names, frame, axes, node_names, of_nodes, plates), refused)
+        steel_notes(assembly, SaidFrame(numbers, ordered, names, frame, axes, node_names, of_nodes, plates), apart)
     )
     return SteelFrame(steelwork, tuple(member.solid for member in steelwork_members(steelwork)), lines)
+
+
+def fallen(assembly: Assembly, taken: Mapping[int, SteelElement], left: Mapping[int, SteelElement]) -> dict[int, str]:
+    """Return why bars that were taken are left out, by the numbers of their elements, with what is nearest to them."""
+    said = {}
+    for number in sorted(taken.keys() - left.keys()):
+        bar = taken[number]
+        begins, ends = (np.array([getattr(one, name) for one in left.values()]) for name in ("begin_m", "end_m"))
+        where = ""
+        if len(begins):
+            apart = min(
+                (float(length(_nearest(begins, ends, point) - point).min()), row)
+                for row, point in enumerate((bar.begin_m, bar.end_m))
+            )
+            x, y, z = (bar.begin_m, bar.end_m)[apart[1]].tolist()
+            at = f"x = {x:.2f}, y = {y:.2f}, z = {z:.2f} m"
+            where = f"; of its ends that at {at} is nearest to an axis, {apart[0]:.2f} m off"
+        said[number] = f"meets no other bar, and nothing holds it: left out{where}"
+    return said
+
+
+def _nearest(begins: np.ndarray, ends: np.ndarray, point: np.ndarray) -> np.ndarray:
+    """Return the points (n, 3) of lines that are nearest to a point (3,)."""
+    ways = ends - begins
+    share = np.clip(dot(point - begins, ways) / dot(ways, ways), 0.0, 1.0)
+    return np.asarray(begins + share[:, None] * ways)
 
 
 def cut_out(assembly: Assembly, frame: SteelFrame) -> None:
@@ -211,10 +237,26 @@ def _masses_kg(frame: BarFrame, axes: BarAxes, plates: Sequence[JointPlate], den
     for plate in plates:
         nearest = int(length(frame.places_m - plate.place_m).argmin())
         masses[nearest] = masses.get(nearest, 0.0) + plate.mass_kg
-    for bar, node in frame.within_nodes.items():
-        mass = density_kg_m3 * float(axes.areas_m2[bar] * axes.lengths_m[bar])
-        masses[node] = masses.get(node, 0.0) + mass
+    for bar, node, lost_m in _lost(frame, axes):
+        masses[node] = masses.get(node, 0.0) + density_kg_m3 * float(axes.areas_m2[bar]) * lost_m
     return masses
+
+
+def _lost(frame: BarFrame, axes: BarAxes) -> Iterator[tuple[int, int, float]]:
+    """Yield what of bars is within nodes, or reaches beyond the last one: the bar, the node, and the length, m."""
+    for bar, node in frame.within_nodes.items():
+        yield bar, node, float(axes.lengths_m[bar])
+    by_bar: dict[int, list[BarPiece]] = {}
+    for piece in frame.pieces:
+        by_bar.setdefault(piece.bar, []).append(piece)
+    for bar, pieces in by_bar.items():
+        for piece, end in ((pieces[0], 0), (pieces[-1], 1)):
+            node = piece.nodes[end]
+            foot = frame.places_m[node] + piece.from_nodes_m[end]
+            along = float(dot(foot - axes.begins_m[bar], axes.ways[bar]))
+            beyond_m = along if end == 0 else float(axes.lengths_m[bar]) - along
+            if beyond_m > 0.0:
+                yield bar, node, beyond_m
 
 
 def _tables(

@@ -15,7 +15,6 @@ from ..engineering.units import mass_text
 from ..model.schema import given
 from .assembly import Assembly
 from .joint_plates import JointPlate
-from .outcome import LEFT_OUT
 from .steel_elements import SteelElement
 from .steel_supports import BarSupport
 
@@ -43,10 +42,10 @@ class SaidFrame:
     plates: Sequence[JointPlate]
 
 
-def steel_notes(assembly: Assembly, said: SaidFrame, refused: Mapping[int, str]) -> Iterator[str]:
+def steel_notes(assembly: Assembly, said: SaidFrame, apart: Mapping[int, str]) -> Iterator[str]:
     """Yield the lines of the report on bars: sections, nodes, how far axes run beside these, supports, what is amiss.
 
-    `refused` says why other elements of steel are no bars.
+    `apart` says why other elements of steel are no bars, or fall.
     """
     bars, frame, names, plates = said.bars, said.frame, said.names, said.plates
     mass_kg = math.fsum(given(assembly.outcomes[number].member).mass_kg for number in said.numbers)
@@ -69,8 +68,8 @@ def steel_notes(assembly: Assembly, said: SaidFrame, refused: Mapping[int, str])
         mass = math.fsum(plate.mass_kg for plate in plates)
         yield f"{len(plates)} plates and stubs at joints are left out: their {mass_text(mass).strip()} are on nodes"
     yield from _amiss(frame, names, said.axes)
-    for why, elements in _by_reason(assembly, refused).items():
-        yield f"no bar, and cut into shards: {_some(elements)}: {why}"
+    for why, elements in _by_reason(assembly, apart).items():
+        yield f"{_some(elements)}: {why}"
 
 
 def _on_axes(frame: BarFrame, names: Sequence[str]) -> Iterator[str]:
@@ -113,11 +112,10 @@ def _where(axes: BarAxes, bar: int, end: int, names: Sequence[str]) -> str:
     return f"{where}: the axis of {names[nearest]} is {apart[nearest]:.2f} m off"
 
 
-def _by_reason(assembly: Assembly, refused: Mapping[int, str]) -> dict[str, list[str]]:
+def _by_reason(assembly: Assembly, apart: Mapping[int, str]) -> dict[str, list[str]]:
     found: dict[str, list[str]] = {}
-    for number, why in refused.items():
-        if assembly.outcomes[number].became != LEFT_OUT:
-            found.setdefault(why, []).append(assembly.outcomes[number].facts.name)
+    for number, why in apart.items():
+        found.setdefault(why, []).append(assembly.outcomes[number].facts.name)
     return found
 
 

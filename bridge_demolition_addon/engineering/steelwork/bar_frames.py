@@ -28,8 +28,9 @@ _TOUCH, _TOUCH_M = 0.55, 0.01
 _SPLICED = 0.3
 """The same of bars in one line."""
 
-_PLATE = 1.0
-"""How far the axis of a bar is made longer, by the size of its section, beyond where it would touch the other bar."""
+_PLATE, _PLATE_THERE = 1.0, 0.5
+"""How far the axis of a bar is made longer beyond where it would touch the other bar, by the sizes of both sections: as
+far as plates reach at which it ends."""
 
 _SAME_STATION = 0.5
 """Distance along a bar, by the size of the larger section, within which two joints are one."""
@@ -241,7 +242,9 @@ def _met(axes: BarAxes, bar: int, end: int) -> list[tuple[int, float]]:
         apart = length(to + beyond[:, None] * out - at[:, None] * axes.ways)
         meets = leans > _LEANS
         meets &= apart <= _TOUCH * (own + sizes) + _TOUCH_M
-        meets &= (beyond <= 0.5 * sizes / leans + _PLATE * own) & (beyond >= -0.5 * (sizes / leans + own))
+        meets &= (beyond <= 0.5 * sizes / leans + _PLATE * own + _PLATE_THERE * sizes) & (
+            beyond >= -0.5 * (sizes / leans + own)
+        )
         slack = 0.5 * own / leans + _SAME_STATION * sizes
         meets &= (at >= -slack) & (at <= axes.lengths_m + slack)
     meets[bar] = False
@@ -319,7 +322,7 @@ def _built(
 
 
 def _place(axes: BarAxes, joints: _Joints, rows: Sequence[int]) -> FloatArray:
-    """Return where a node lies: on the axis of its stoutest bar, where those of all others come nearest to that.
+    """Return where a node lies: on the axis of its stoutest bar, where those of others come nearest to it in the mean.
 
     A node on a support lies there, on the axis of the bar that it holds.
     """
@@ -330,17 +333,19 @@ def _place(axes: BarAxes, joints: _Joints, rows: Sequence[int]) -> FloatArray:
     bars = sorted({joints.stations[row].bar for row in rows}, key=lambda bar: (-stoutness(axes, bar), bar))
     main, *others = bars
     way, begin = axes.ways[main], axes.begins_m[main]
-    along = []
+    along, weights = [], []
     for other in others:
         cosine = float(dot(axes.ways[other], way))
         leans = 1.0 - cosine * cosine
         if leans > _LEANS * _LEANS:
             to = axes.begins_m[other] - begin
             along.append((float(dot(to, way)) - cosine * float(dot(to, axes.ways[other]))) / leans)
+            weights.append(stoutness(axes, other) * stoutness(axes, other))
     if not along:
         points = [axes.at(joints.stations[row].bar, joints.stations[row].along_m) for row in rows]
-        along = [float(dot(point - begin, way)) for point in points]
-    return axes.at(main, math.fsum(along) / len(along))
+        along, weights = [float(dot(point - begin, way)) for point in points], [1.0] * len(points)
+    mean = math.fsum(weight * value for weight, value in zip(weights, along, strict=True)) / math.fsum(weights)
+    return axes.at(main, mean)
 
 
 def stoutness(axes: BarAxes, bar: int) -> float:
@@ -396,25 +401,26 @@ def _given_radii(axes: BarAxes, frame: BarFrame) -> dict[int, float]:
         for end, node in enumerate(piece.nodes):
             ways.setdefault(node, []).append(axes.ways[piece.bar] * (1.0 if end == 0 else -1.0))
     radii = _radii(axes, frame)
-    return {node: radii[node] for node in sorted(radii) if node in frame.radii_m or _has_side_by_side(ways[node])}
+    return {
+        node: radii[node]
+        for node in sorted(radii)
+        if node in frame.radii_m
+        or any(_is_side_by_side(one, other) for row, one in enumerate(ways[node]) for other in ways[node][:row])
+    }
 
 
 def _radius_m(ends: Sequence[tuple[FloatArray, FloatArray, FloatArray]]) -> float:
     """Return the radius of a node by the directions, outlines and offsets of its bars; those side by side overlap."""
+    pairs = [
+        (one, other) for row, one in enumerate(ends) for other in ends[:row] if not _is_side_by_side(one[0], other[0])
+    ]
     radius = 0.0
-    for row, one in enumerate(ends):
-        for other in ends[row:]:
-            if other is not one and float(length(np.cross(one[0], other[0]))) <= _LEANS and dot(one[0], other[0]) > 0.0:
-                continue
-            ways, outlines, offsets = zip(one, other, strict=True)
-            radius = max(radius, node_radius_m(np.array(ways), list(outlines), np.array(offsets)))
+    for bars in [(end,) for end in ends] + pairs:
+        ways, outlines, offsets = zip(*bars, strict=True)
+        radius = max(radius, node_radius_m(np.array(ways), list(outlines), np.array(offsets)))
     return radius
 
 
-def _has_side_by_side(ways: Sequence[FloatArray]) -> bool:
-    """Return whether two bars leave a node in one direction."""
-    return any(
-        float(length(np.cross(one, other))) <= _LEANS and float(dot(one, other)) > 0.0
-        for row, one in enumerate(ways)
-        for other in ways[:row]
-    )
+def _is_side_by_side(one: FloatArray, other: FloatArray) -> bool:
+    """Return whether two bars leave a node in nearly one direction."""
+    return float(length(np.cross(one, other))) <= _LEANS and float(dot(one, other)) > 0.0

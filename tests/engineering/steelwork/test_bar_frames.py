@@ -47,6 +47,7 @@ def test_diagonals_that_end_at_gusset_plates_meet_in_the_chord():
     assert len(frame.pieces) == 7  # the lower chord is two
     assert not frame.free_ends
     assert max(frame.eccentricities_m.values()) == pytest.approx(0.0, abs=1e-9)
+    assert not frame.radii_m  # a scenario works them out
 
 
 def test_a_beam_that_lies_lower_keeps_its_axis_and_ends_beside_the_node():
