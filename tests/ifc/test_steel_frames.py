@@ -103,8 +103,8 @@ def test_a_frame_with_clipped_ends_is_joined_at_its_corners(tmp_path):
     feet = [node for node in steelwork.nodes if node.support]
     assert [(node.support, node.held_by) for node in feet] == [("fixed", "Footing 1"), ("fixed", "Footing 2")]
     corners = sorted(node.place_m for node in steelwork.nodes if not node.support)
-    # Feet stand on the footings, whose undersides are the ground; corners are where axes meet. The
-    # angle's runs 12 mm beside, and moves the node by its share, the square of (12.3 · 0.16) / (78.1 · 0.28), or 0.1 mm.
+    # Feet stand on the footings, whose undersides are the ground; corners are where axes meet. That of the angle runs
+    # 12 mm beside, and moves the node by its share, the square of (12.3 · 0.16) / (78.1 · 0.28), or 0.1 mm.
     assert [node.place_m[2] for node in feet] == pytest.approx([0.5, 0.5], abs=1e-5)
     assert np.array(corners)[:, 2] == pytest.approx(4.5, abs=2e-4)
     assert np.ptp(np.array(corners)[:, 0]) == pytest.approx(6.0, abs=2e-4)
