@@ -56,6 +56,7 @@ from .steel_frames import (
     supported,
     with_no_bearings_on,
 )
+from .steel_notes import by_reason, steel_notes
 from .supports import STANDING, loose_members, supports_of
 
 MESH_FOLDER = "members"
@@ -122,11 +123,12 @@ def _bridge(path: Path, table: MaterialTable, settings: ImportSettings, kept: Ke
     result.add_members(solids)
     bearings = [element for element in wanted if element.kind == "bearing" and element.entity.id() in solids]
     frame: SteelFrame | None = None
+    on_bars: tuple[str, ...] = ()
     gap_m = 0.0 if settings.strict else settings.bearing_gap_m
     if settings.strict:
         result.add_bearings(bearings, solids, placement, gap_m, table)
     else:
-        frame = _put_together(result, settings, steel, bearings, solids, placement, gap_m, table)
+        frame, on_bars = _put_together(result, settings, steel, bearings, solids, placement, gap_m, table)
     bars: list[BarLayer] = []
     if not settings.strict:
         bars, said = bar_layers(source, elements, dict(result.members()), placement)
@@ -147,7 +149,7 @@ def _bridge(path: Path, table: MaterialTable, settings: ImportSettings, kept: Ke
         site_source=site_source,
         notes=(*source.notes, *chosen.notes, *by_shape, *of_ground, *result.notes, *held),
         left_out=_left_out(result, bodies, placement, solids),
-        on_bars=frame.lines if frame else (),
+        on_bars=on_bars,
     )
 
 
@@ -160,8 +162,11 @@ def _put_together(
     placement: Placement,
     gap_m: float,
     table: MaterialTable,
-) -> SteelFrame | None:
-    """Put members together, and return the frame of those that are bars of steel; None where none is."""
+) -> tuple[SteelFrame | None, tuple[str, ...]]:
+    """Put members together, and return the frame of those that are bars of steel, if there are any, and notes on these.
+
+    Notes say of other elements of steel why they are no bars.
+    """
     taken = {number: bar for number, bar in steel.bars.items() if result.outcomes[number].became == BAR}
     taken = with_no_bearings_on(result, taken, [solids[bearing.entity.id()] for bearing in bearings])
     before = {number: given(result.outcomes[number].member).solid.vertices[0] for number in taken}
@@ -181,12 +186,15 @@ def _put_together(
         if result.outcomes[number].became == MEMBER
     }
     apart = {**fallen(result, hung, standing), **stays}
-    frame = steel_frame(result, standing, supports, plates, apart) if standing else None
-    if frame:
+    frame = None
+    lines = tuple(by_reason(result, apart))
+    if standing:
+        frame, said = steel_frame(result, standing, supports, plates)
+        lines = (*steel_notes(result, said), *lines)
         cut_out(result, frame)
     result.drop_consumed()
     result.make_writable()
-    return frame
+    return frame, lines
 
 
 def _left_out(

@@ -209,6 +209,7 @@ def _bar(source: IfcSource, element: Element, solid: TriangleMesh, placement: Pl
     if placed.name.startswith("FLAT") and least > _THICKEST_FLAT_M:
         raise GeometryError(f"is a block, {size:.3g} x {least:.3g} m thick")
     _check_fit(placed, rings, area, size)
+    _check_straight(placed, local, size)
     mean_m = float(volumes[0]) / area
     lowest, highest = float(low[2]), float(high[2])
     if highest - lowest - mean_m > _CUT * size:
@@ -262,6 +263,13 @@ def _check_fit(placed: PlacedSection, rings: Sequence[np.ndarray], area_m2: floa
     share = area_m2 / placed.section.area_m2 - 1.0
     if abs(share) > _roots(placed) + _THINNED:
         raise GeometryError(f"has {100.0 * share:+.0f} % of the area of {placed.name} more in its middle")
+
+
+def _check_straight(placed: PlacedSection, local_m: np.ndarray, size_m: float) -> None:
+    """Refuse a body with vertices (p, 3) beside the section that it has in its middle: curved, or of several parts."""
+    beyond = np.abs(np.array(_box(local_m[:, :2])) - np.array(_box(_corners(placed)))).max()
+    if float(beyond) > max(_BESIDE_M, _BESIDE * size_m):
+        raise GeometryError(f"is not straight, or reaches {1e3 * float(beyond):.0f} mm beside {placed.name}")
 
 
 def _roots(placed: PlacedSection) -> float:

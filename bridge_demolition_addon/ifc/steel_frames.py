@@ -26,7 +26,7 @@ from .contacts import NearbyMembers
 from .joint_plates import JOINT_GAP_M, JointPlate
 from .outcome import BAR, CONNECTION, MEMBER, Outcome
 from .steel_elements import SteelElement
-from .steel_notes import UNKNOWN_GRADE, SaidFrame, steel_notes
+from .steel_notes import UNKNOWN_GRADE, SaidFrame
 from .steel_supports import BarSupport, bar_supports, stronger, supports_of_loose
 
 _PIECES, _PIECES_OF_BEAM, _LEAST_PIECES = 4, 8, 2
@@ -40,11 +40,10 @@ _LEAST_M3 = 1e-6
 
 @dataclass(frozen=True, slots=True)
 class SteelFrame:
-    """Steelwork of a scenario, the solids of its bars and nodes, and the lines of the report on it."""
+    """Steelwork of a scenario, and the solids of its bars and nodes."""
 
     steelwork: Steelwork
     solids: tuple[TriangleMesh, ...]
-    lines: tuple[str, ...]
 
 
 def axes_of(bars: Sequence[SteelElement]) -> BarAxes:
@@ -121,11 +120,10 @@ def steel_frame(
     bars: Mapping[int, SteelElement],
     supports: Sequence[BarSupport],
     plates: Sequence[JointPlate],
-    apart: Mapping[int, str],
-) -> SteelFrame:
-    """Return the steelwork of bars on supports, with the mass of plates on its nodes.
+) -> tuple[SteelFrame, SaidFrame]:
+    """Return the steelwork of bars on supports, with the mass of plates on its nodes, and what is said of it.
 
-    `apart` says why other elements of steel are no bars, or fall. Outcomes of bars get notes.
+    Outcomes of bars get notes.
     """
     numbers = sorted(bars)
     ordered = [bars[number] for number in numbers]
@@ -156,10 +154,8 @@ def steel_frame(
         for row, place in enumerate(frame.places_m)
     )
     steelwork = Steelwork(grade=grade, density_kg_m3=steel_kg_m3, nodes=nodes, members=members)
-    lines = tuple(
-        steel_notes(assembly, SaidFrame(numbers, ordered, names, frame, axes, node_names, of_nodes, plates), apart)
-    )
-    return SteelFrame(steelwork, tuple(member.solid for member in steelwork_members(steelwork)), lines)
+    said = SaidFrame(numbers, ordered, names, frame, axes, node_names, of_nodes, plates)
+    return SteelFrame(steelwork, tuple(member.solid for member in steelwork_members(steelwork))), said
 
 
 def fallen(assembly: Assembly, taken: Mapping[int, SteelElement], left: Mapping[int, SteelElement]) -> dict[int, str]:

@@ -42,11 +42,8 @@ class SaidFrame:
     plates: Sequence[JointPlate]
 
 
-def steel_notes(assembly: Assembly, said: SaidFrame, apart: Mapping[int, str]) -> Iterator[str]:
-    """Yield the lines of the report on bars: sections, nodes, how far axes run beside these, supports, what is amiss.
-
-    `apart` says why other elements of steel are no bars, or fall.
-    """
+def steel_notes(assembly: Assembly, said: SaidFrame) -> Iterator[str]:
+    """Yield the lines of the report on bars: sections, nodes, how far axes run beside, supports, what is amiss."""
     bars, frame, names, plates = said.bars, said.frame, said.names, said.plates
     mass_kg = math.fsum(given(assembly.outcomes[number].member).mass_kg for number in said.numbers)
     sections = ", ".join(f"{name} ({found})" for name, found in Counter(bar.section for bar in bars).most_common())
@@ -68,8 +65,6 @@ def steel_notes(assembly: Assembly, said: SaidFrame, apart: Mapping[int, str]) -
         mass = math.fsum(plate.mass_kg for plate in plates)
         yield f"{len(plates)} plates and stubs at joints are left out: their {mass_text(mass).strip()} are on nodes"
     yield from _amiss(frame, names, said.axes)
-    for why, elements in _by_reason(assembly, apart).items():
-        yield f"{_some(elements)}: {why}"
 
 
 def _on_axes(frame: BarFrame, names: Sequence[str]) -> Iterator[str]:
@@ -112,11 +107,13 @@ def _where(axes: BarAxes, bar: int, end: int, names: Sequence[str]) -> str:
     return f"{where}: the axis of {names[nearest]} is {apart[nearest]:.2f} m off"
 
 
-def _by_reason(assembly: Assembly, apart: Mapping[int, str]) -> dict[str, list[str]]:
+def by_reason(assembly: Assembly, apart: Mapping[int, str]) -> Iterator[str]:
+    """Yield why elements of steel are no bars, or fall; `apart` has the reasons by their numbers in the file."""
     found: dict[str, list[str]] = {}
     for number, why in apart.items():
         found.setdefault(why, []).append(assembly.outcomes[number].facts.name)
-    return found
+    for why, elements in found.items():
+        yield f"{_some(elements)}: {why}"
 
 
 def _some(names: Sequence[str]) -> str:

@@ -232,6 +232,33 @@ def test_what_is_no_bar_says_why(tmp_path):
     assert "another outline than IPE 300, by 150 mm" in refused["Half"]
 
 
+def test_a_cambered_girder_is_no_bar(tmp_path):
+    """40 mm higher in the middle than at its ends, as two halves that meet at an angle."""
+    made = SteelFile()
+    make = made.file.create_entity
+    ring = section_named("I 900x300x12x25").rings[0]
+    stations = [(0.0, 0.0), (5.0, 0.04), (10.0, 0.0)]
+    points = [made.point(x, y, z + up) for x, up in stations for y, z in ring]
+    count = len(ring)
+
+    def face(*corners):
+        loop = make("IfcPolyLoop", [points[corner] for corner in corners])
+        return make("IfcFace", [make("IfcFaceOuterBound", loop, True)])
+
+    sides = [
+        face(first + row, first + (row + 1) % count, first + count + (row + 1) % count, first + count + row)
+        for first in (0, count)
+        for row in range(count)
+    ]
+    faces = [face(*reversed(range(count))), face(*range(2 * count, 3 * count)), *sides]
+    body = make("IfcFacetedBrep", make("IfcClosedShell", faces))
+    made.element("IfcBeam", "Girder", body, "SUPERSTRUCTURE", material=made.steel(), shape_type="Brep")
+    bars, refused = found(made, tmp_path)
+    assert not bars
+    # Along the half that it is taken to run, the other one falls by twice 40 mm.
+    assert "is not straight, or reaches 80 mm beside I 900" in refused["Girder"]
+
+
 @pytest.mark.parametrize(
     ("name", "grade"),
     [
