@@ -75,7 +75,7 @@ _OLDER = {
     **{"360": "S235", "430": "S275", "510": "S355"},
     **{"24": "S235", "28": "S275", "36": "S355"},
 }
-"""Grades that took the place of those of DIN 17100 (St), EN 10025:1990 (Fe) and NF A 35-501 (E)."""
+"""Grades that replaced those of DIN 17100 (St), EN 10025:1990 (Fe) and NF A 35-501 (E)."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -202,7 +202,7 @@ def _bar(source: IfcSource, element: Element, solid: TriangleMesh, placement: Pl
     if placed is None:
         placed = section_of_outline(rings) if rings else None
         if placed is None:
-            raise GeometryError("has an outline that is none of a bar's sections")
+            raise GeometryError("has an outline like that of no section of a bar")
     elif sweep.depth_m is None and rings:
         placed = _over(placed, rings)
     size, least = float(placed.section.size_m.max()), float(placed.section.size_m.min())

@@ -263,7 +263,7 @@ def _tables(
     node_names: Sequence[str],
     grade: str,
 ) -> Iterator[SteelMember]:
-    """Yield the bars of the scenario, and say in the outcomes of their elements what became of these."""
+    """Yield the bars of the scenario, and note the result in the outcomes of their elements."""
     taken = {member.name for _, member in assembly.members()} | set(node_names)
     for row, (number, bar) in enumerate(zip(numbers, bars, strict=True)):
         outcome = assembly.outcomes[number]
@@ -285,7 +285,7 @@ def _tables(
                 eccentricities_m=_eccentricities(piece.from_nodes_m),
                 pieces=_pieces(outcome, len(pieces)),
             )
-        notes = [outcome.why, f"{bar.section}, {bar.grade or f'grade not told, taken for {UNKNOWN_GRADE}'}"]
+        notes = [outcome.why, f"{bar.section}, {bar.grade or f'grade not known, taken for {UNKNOWN_GRADE}'}"]
         if row in frame.within_nodes:
             notes.append(f"it is shorter than the node it is in, {node_names[frame.within_nodes[row]]}, and part of it")
         elif len(pieces) > 1:

@@ -22,7 +22,7 @@ UNKNOWN_GRADE = "S235"
 """Grade of bars whose material does not say it: that of most old bridges, and the weakest."""
 
 _TOLD_M = 0.001
-"""How far an axis runs beside a node before it is told."""
+"""How far an axis runs beside a node before that is said."""
 
 _NAMED = 5
 
@@ -64,7 +64,7 @@ def steel_notes(assembly: Assembly, said: SaidFrame) -> Iterator[str]:
     if plates:
         mass = math.fsum(plate.mass_kg for plate in plates)
         yield f"{len(plates)} plates and stubs at joints are left out: their {mass_text(mass).strip()} are on nodes"
-    yield from _amiss(frame, names, said.axes)
+    yield from _amiss(frame, names, said.axes, set(said.supports))
 
 
 def _on_axes(frame: BarFrame, names: Sequence[str]) -> Iterator[str]:
@@ -78,10 +78,15 @@ def _on_axes(frame: BarFrame, names: Sequence[str]) -> Iterator[str]:
     yield f"the axes of {len(beside)} elements run beside a node, and are joined to it by plates: {named}{more}"
 
 
-def _amiss(frame: BarFrame, names: Sequence[str], axes: BarAxes) -> Iterator[str]:
-    """Yield what may not be as it was meant: free ends, bars that pass each other, and what is within a node."""
+def _amiss(frame: BarFrame, names: Sequence[str], axes: BarAxes, held: set[int]) -> Iterator[str]:
+    """Yield what may not be as it was meant: free ends, bars that pass each other, and what is within a node.
+
+    A bar with a support of its own, at the nodes that are `held`, may reach beyond it.
+    """
+    on_supports = {piece.bar for piece in frame.pieces if held & set(piece.nodes)}
     for bar, end in frame.free_ends:
-        yield f"{names[bar]} ends free {_where(axes, bar, end, names)}"
+        if bar not in on_supports:
+            yield f"{names[bar]} ends free {_where(axes, bar, end, names)}"
     for one, other in frame.crossings[:_NAMED]:
         yield f"{names[one]} and {names[other]} pass each other between their ends, and are not joined there"
     if len(frame.crossings) > _NAMED:

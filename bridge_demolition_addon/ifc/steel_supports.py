@@ -1,6 +1,6 @@
 """What bars of steel stand on: bearings and members below them, what their ends touch, and the ground.
 
-Each becomes the support of a node at that place. What lies on a bar is none: it touches the bar as members touch.
+Each becomes the support of a node there. What lies on a bar is none: it touches the bar as members touch.
 """
 
 from __future__ import annotations
@@ -232,7 +232,7 @@ def _ends_of_frame(bars: Sequence[SteelElement]) -> list[BarSupport]:
 
 
 def _end_near(bar: SteelElement, place_m: np.ndarray) -> np.ndarray | None:
-    """Return the end of a bar that a place is near; None for a place between its ends."""
+    """Return the end of a bar that a position is near; None for one between its ends."""
     along = float(dot(place_m - bar.begin_m, bar.along))
     size = float(bar.steel_section.size_m.max())
     if along < size:

@@ -3,7 +3,7 @@
 Bars of drawings and models end where they are cut, clear of what they are joined to by plates, and their axes do not
 always meet in one point. Two are joined where the axis of one, made longer at its end, passes the other near enough for
 their sections to touch. Bars keep their axes: nodes are where these meet, and how far an axis runs beside its node is
-told.
+part of the result.
 """
 
 from __future__ import annotations
