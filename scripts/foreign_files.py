@@ -28,7 +28,7 @@ PAGE = ROOT / "docs" / "foreign.md"
 COLUMNS = (
     *("file", "bridge", "written_by", "elements", "members", "bearings", "approach_slabs", "left_out", "lost", "added"),
     *("assumed", "bars_kg_m3", "mass_t", "file_mass_share", "said", "utilisation", "cracked_at_rest", "moved_m"),
-    *("cracked", "connections", "import_s"),
+    *("cracked", "connections", "import_s", "steel_bars"),
 )
 
 WRITTEN_BY = {
@@ -38,6 +38,7 @@ WRITTEN_BY = {
     "rickbrice_i405_flyover.ifc": "BridgeLink PGSuper 8.0, IFC4X3",
     "rickbrice_aashto_idm_template.ifc": "OpenBrIM v3, IFC4X3",
     "ifc2mct_bridge_test.ifc": "Xbim, IFC4X1",
+    "schependomlaan_staal.ifc": "ArchiCAD, IFC2X3",
 }
 
 CLAMPING = "which it would hold down"
@@ -92,6 +93,7 @@ def _from_folder(folder: Path, lines: tuple[str, ...]) -> dict[str, str]:
     return {
         "elements": str(len({row["global_id"] for row in elements if row["became"] != "added"})),
         "members": str(became.count("member")),
+        "steel_bars": str(became.count("bar")),
         "bearings": str(became.count("connection")),
         "approach_slabs": str(sum(row["kind"] == "approach slab" for row in elements) + len(slabs)),
         "left_out": str(len(left) - len(lost) - len(slabs)),
@@ -164,25 +166,27 @@ def page() -> str:
         "no geometry that can be used, beside what carries nothing anyway; *approach slabs* are left out where they",
         "lie on what moves on bearings, and members elsewhere; *assumed* counts the lines of `import.txt` on what was",
         "assumed and mended; *bars* are those [by rule](ifc.md#bars-by-rule), in members of concrete beside footings",
-        "and approach slabs; the mass is compared with that which the file gives its elements.",
+        "and approach slabs; the mass is compared with that which the file gives its elements. *Bars of steel* are",
+        "elements that become [steelwork](ifc.md#bars-of-steel), beside members.",
         "",
         "*By statics* is the largest utilisation under the bridge's own weight, of forces once what is overloaded has",
         "cracked, and how many connections that are; their bars hold them. *Awake* is the largest displacement of any",
         "shard in a run of 1.5 s, of which the bridge settles for half a second, and how many connections crack in it.",
         "",
-        "| file | written by | elements | members, bearings | approach slabs | left out, lost | supports added | "
-        "assumed | bars | mass | against the file | by statics | awake |",
-        "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |",
+        "| file | written by | elements | members, bearings | bars of steel | approach slabs | left out, lost | "
+        "supports added | assumed | bars | mass | against the file | by statics | awake |",
+        "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |",
     ]
     for row in rows():
         name = f"`{row['file']}`" + (f", {row['bridge']}" if row["bridge"] else "")
         if not row["members"]:
-            lines.append(f"| {name} | {row['written_by']} |{' |' * 9} | refused: {row['said']} |")
+            lines.append(f"| {name} | {row['written_by']} |{' |' * 10} | refused: {row['said']} |")
             continue
         bars = f"{row['bars_kg_m3']} kg/m³" if row["bars_kg_m3"] else "-"
         lines.append(
             f"| {name} | {row['written_by']} | {row['elements']} | {row['members']}, {row['bearings']} | "
-            f"{row['approach_slabs']} | {row['left_out']}, {row['lost']} | {row['added']} | {row['assumed']} | "
+            f"{row['steel_bars']} | {row['approach_slabs']} | {row['left_out']}, {row['lost']} | {row['added']} | "
+            f"{row['assumed']} | "
             f"{bars} | {row['mass_t']} t | {row['file_mass_share'] or '-'} | {_by_statics(row)} | {_awake(row)} |"
         )
     lines += [

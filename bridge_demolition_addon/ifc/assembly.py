@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import chain, count
 from unicodedata import category
@@ -26,12 +26,12 @@ from .element_materials import Substance
 from .elements import Element
 from .file_digits import is_sound, writable
 from .gaps import WAYS, brought_near, closed_gaps
-from .haunches import with_haunches
+from .haunches import grown_decks, with_haunches
 from .kinds import ElementFacts
 from .loose_groups import BELOW_GROUND_M, loose_groups
 from .materials import MaterialTable
 from .missing_bearings import pads_under, with_one_support_pinned
-from .outcome import ADDED, CONNECTION, LEFT_OUT, MEMBER, Outcome
+from .outcome import ADDED, BAR, CONNECTION, LEFT_OUT, MEMBER, Outcome
 from .placement import Placement
 from .quantities import Quantities
 from .settings import KINDS
@@ -63,6 +63,10 @@ class Assembly:
         What was assumed and mended.
     added
         Supports that the file lacks.
+    bars
+        Numbers of elements that are bars of steel.
+    joined
+        Pairs of names of members that bars join, or that hold bars, though they may not touch.
     """
 
     elements: Sequence[Element]
@@ -72,6 +76,8 @@ class Assembly:
     outcomes: dict[int, Outcome] = field(default_factory=dict)
     notes: list[str] = field(default_factory=list)
     added: list[Member] = field(default_factory=list)
+    bars: Collection[int] = ()
+    joined: list[tuple[str, str]] = field(default_factory=list)
     _bearings: list[tuple[BearingElement, str]] = field(default_factory=list)
     _more_bearings: list[Bearing] = field(default_factory=list)
     _on_pads: list[Bearing] = field(default_factory=list)
@@ -109,8 +115,9 @@ class Assembly:
             notes.append("cut off at the ground")
         member = Member(name, element.member_kind, kept, substance.density_kg_m3)
         why = "; ".join(filter(None, notes))
+        became = BAR if number in self.bars else MEMBER
         self.outcomes[number] = Outcome(
-            element.facts, member, substance, MEMBER, why, None, known.volume_m3, known.mass_kg
+            element.facts, member, substance, became, why, None, known.volume_m3, known.mass_kg
         )
 
     def _leave_out(self, element: Element, why: str, *, is_lost: bool = False) -> None:
@@ -157,7 +164,7 @@ class Assembly:
                 if volume > _SAME * max(own, others) and other < row:
                     gone.add(row)
                     self.leave_out(number, f"{members[other][1].name} takes all of its room")
-                elif volume > _WITHIN * own and own < others:
+                elif volume > _WITHIN * own and own < others and not {number, members[other][0]} <= set(self.bars):
                     inner.append(number)
                     self.notes.append(f"{member.name} lies within {members[other][1].name}: it is cut out of that")
         volumes = {number: member.volume_m3 for number, member in members}
@@ -175,7 +182,7 @@ class Assembly:
         taken: list[TriangleMesh] = []
         numbers = {id(outcome): number for number, outcome in self.outcomes.items()}
         for outcome in self.ordered():
-            if outcome.member is None or outcome.became == CONNECTION:
+            if outcome.member is None or outcome.became in (BAR, CONNECTION):
                 continue
             solid = outcome.member.solid
             rest = to_manifold(solid)
@@ -210,7 +217,7 @@ class Assembly:
     def make_writable(self) -> None:
         """Give all meshes coordinates that a file holds; what is no solid with them is simplified, or left out."""
         for number, outcome in list(self.outcomes.items()):
-            if outcome.member is None:
+            if outcome.member is None or outcome.became == BAR:
                 continue
             solid = writable(outcome.mesh or outcome.member.solid)
             if number in self._before and (solid is None or not is_sound(solid)):
@@ -240,9 +247,11 @@ class Assembly:
     def close_gaps(self, gap_m: float) -> None:
         """Bring members that end just above others down onto them."""
         members = self.members()
+        bars = {member.name for number, member in members if number in self.bars}
         done, haunches = with_haunches([member for _, member in members])
-        done, notes = closed_gaps(done, gap_m)
-        done, more = brought_near(done, gap_m)
+        done, notes = closed_gaps(done, gap_m, bars)
+        done = grown_decks([member for _, member in members], done, bars)
+        done, more = brought_near(done, gap_m, bars)
         for (number, before), after in zip(members, done, strict=True):
             if after is not before:
                 self._before[number] = before.solid
@@ -305,8 +314,10 @@ class Assembly:
     def hold(self, gap_m: float, table: MaterialTable) -> None:
         """Have all members held: what touches nothing is brought to what is near, put on supports, or left out."""
         for _ in range(2):
-            loose = loose_groups(self.members(), self.bearing_tables(), self.added)
+            loose = loose_groups(self.members(), self.bearing_tables(), self.added, self.joined, self.bars)
             for group in loose:
+                if set(group) <= set(self.bars):
+                    continue
                 if not self._move(group, gap_m) and not self._put_on_pads(group):
                     self._put_on_supports(group, table)
         if self._unheld:
@@ -319,7 +330,7 @@ class Assembly:
 
     def _lose_loose(self) -> None:
         """Leave out what touches nothing that is held."""
-        for group in loose_groups(self.members(), self.bearing_tables(), self.added):
+        for group in loose_groups(self.members(), self.bearing_tables(), self.added, self.joined, self.bars):
             for number in group:
                 self.leave_out(number, "it touches no other member that is held, and would fall at once")
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -204,6 +204,12 @@ class BearingTables:
         """Names of the members that they connect."""
         pairs = [table.members for table in self.bearings] + [table.members for table in self.connections]
         return {name for pair in pairs for name in pair}
+
+    def without(self, above: Collection[str]) -> BearingTables:
+        """Return the tables without those of members that lie on bearings, by their names."""
+        bearings = tuple(table for table in self.bearings if table.members[0] not in above)
+        connections = tuple(table for table in self.connections if table.members[0] not in above)
+        return BearingTables(bearings, connections, self.notes)
 
 
 def bearing_tables(found: Sequence[tuple[BearingElement, str]], names: Sequence[str]) -> BearingTables:

@@ -22,6 +22,7 @@ from ..model.scenario import (
     Site,
     TimeSettings,
 )
+from ..model.schema import given
 from .added_supports import CLEARANCE_M
 from .approach_slabs import leave_out_clamping_slabs
 from .assembly import Assembly, plain_text
@@ -31,12 +32,13 @@ from .contacts import NearbyMembers
 from .element_materials import substances
 from .elements import Element, elements_of
 from .fineness import fracture_of
+from .joint_plates import leave_out_plates
 from .kinds_by_shape import with_kinds_by_shape
 from .light_bracing import leave_out_light_bracing
 from .likely_units import with_likely_unit
 from .map_place import ground_of, site_of
 from .materials import MaterialTable, material_table
-from .outcome import CONNECTION, LEFT_OUT, Outcome
+from .outcome import BAR, CONNECTION, LEFT_OUT, MEMBER, Outcome
 from .placement import Placement, placement_of
 from .quantities import quantities_of, units_of
 from .rule_bars import with_bars_by_rule
@@ -44,6 +46,17 @@ from .settings import ImportSettings
 from .several_bridges import CARRYING, chosen_elements
 from .shapes import KeptShapes, shapes_of
 from .source import IfcSource, naming_contradictions, open_source
+from .steel_elements import STEEL, SteelElements, steel_elements
+from .steel_frames import (
+    SteelFrame,
+    as_they_stand,
+    cut_out,
+    fallen,
+    steel_frame,
+    supported,
+    with_no_bearings_on,
+)
+from .steel_notes import by_reason, steel_notes
 from .supports import STANDING, loose_members, supports_of
 
 MESH_FOLDER = "members"
@@ -72,6 +85,8 @@ class ImportedBridge:
     notes: tuple[str, ...]
     left_out: dict[str, TriangleMesh] = field(default_factory=dict)
     """Elements that have a shape, but are no members, where they stand, by different names."""
+    on_bars: tuple[str, ...] = ()
+    """What is said of bars of steel."""
 
 
 def read_bridge(path: Path, settings: ImportSettings, kept: KeptShapes | None = None) -> ImportedBridge:
@@ -101,26 +116,24 @@ def _bridge(path: Path, table: MaterialTable, settings: ImportSettings, kept: Ke
     placement, solids = _placed(path, wanted, bodies, ground_m)
     site, site_source = site_of(source, placement)
     ground, of_ground = ground_of(source, placement)
-    result = Assembly(elements, made_of, quantities, bodies)
+    steel = SteelElements({}, {})
+    if settings.takes_bars:
+        steel = steel_elements(source, wanted, solids, made_of, placement)
+    result = Assembly(elements, made_of, quantities, bodies, bars=frozenset(steel.bars))
     result.add_members(solids)
     bearings = [element for element in wanted if element.kind == "bearing" and element.entity.id() in solids]
+    frame: SteelFrame | None = None
+    on_bars: tuple[str, ...] = ()
     gap_m = 0.0 if settings.strict else settings.bearing_gap_m
     if settings.strict:
         result.add_bearings(bearings, solids, placement, gap_m, table)
     else:
-        leave_out_light_bracing(result, settings.shards)
-        result.fit_together()
-        result.close_gaps(gap_m)
-        result.add_bearings(bearings, solids, placement, gap_m, table)
-        leave_out_clamping_slabs(result)
-        result.hold(gap_m, table)
-        result.drop_consumed()
-        result.make_writable()
+        frame, on_bars = _put_together(result, settings, steel, bearings, solids, placement, gap_m, table)
     bars: list[BarLayer] = []
     if not settings.strict:
         bars, said = bar_layers(source, elements, dict(result.members()), placement)
         result.notes += said
-    scenario, meshes, held = _scenario(source, settings, result, site, chosen.title or _title(source))
+    scenario, meshes, held = _scenario(source, settings, result, site, chosen.title or _title(source), frame)
     if ground:
         scenario = replace(scenario, ground=ground)
     if bars:
@@ -136,7 +149,52 @@ def _bridge(path: Path, table: MaterialTable, settings: ImportSettings, kept: Ke
         site_source=site_source,
         notes=(*source.notes, *chosen.notes, *by_shape, *of_ground, *result.notes, *held),
         left_out=_left_out(result, bodies, placement, solids),
+        on_bars=on_bars,
     )
+
+
+def _put_together(
+    result: Assembly,
+    settings: ImportSettings,
+    steel: SteelElements,
+    bearings: Sequence[Element],
+    solids: Mapping[int, TriangleMesh],
+    placement: Placement,
+    gap_m: float,
+    table: MaterialTable,
+) -> tuple[SteelFrame | None, tuple[str, ...]]:
+    """Put members together, and return the frame of those that are bars of steel, if there are any, and notes on these.
+
+    Notes say of other elements of steel why they are no bars.
+    """
+    taken = {number: bar for number, bar in steel.bars.items() if result.outcomes[number].became == BAR}
+    taken = with_no_bearings_on(result, taken, [solids[bearing.entity.id()] for bearing in bearings])
+    before = {number: given(result.outcomes[number].member).solid.vertices[0] for number in taken}
+    leave_out_light_bracing(result, settings.shards)
+    result.fit_together()
+    plates = leave_out_plates(result, as_they_stand(result, taken, before))
+    result.close_gaps(gap_m)
+    result.add_bearings(bearings, solids, placement, gap_m, table)
+    leave_out_clamping_slabs(result)
+    hung = as_they_stand(result, taken, before)
+    supports = supported(result, hung, gap_m)
+    result.hold(gap_m, table)
+    standing = as_they_stand(result, taken, before)
+    stays = {
+        number: f"{why}: no bar, and cut into shards"
+        for number, why in steel.refused.items()
+        if result.outcomes[number].became == MEMBER
+    }
+    apart = {**fallen(result, hung, standing), **stays}
+    frame = None
+    lines = tuple(by_reason(result, apart))
+    if standing:
+        frame, said = steel_frame(result, standing, supports, plates)
+        lines = (*steel_notes(result, said), *lines)
+        cut_out(result, frame)
+    result.drop_consumed()
+    result.make_writable()
+    return frame, lines
 
 
 def _left_out(
@@ -213,17 +271,23 @@ def _placed(
 
 
 def _scenario(
-    source: IfcSource, settings: ImportSettings, result: Assembly, site: Site | None, title: str
+    source: IfcSource,
+    settings: ImportSettings,
+    result: Assembly,
+    site: Site | None,
+    title: str,
+    frame: SteelFrame | None,
 ) -> tuple[Scenario, dict[str, TriangleMesh], list[str]]:
-    kept = [outcome for outcome in result.ordered() if outcome.member]
+    kept = [outcome for outcome in result.ordered() if outcome.member and outcome.became != BAR]
     of_members = [outcome for outcome in kept if outcome.became != CONNECTION]
-    if not of_members:
+    bars = [outcome.part[0] for outcome in result.ordered() if outcome.became == BAR]
+    if not of_members and not bars:
         raise IfcError(f"{source.path}: nothing of it lies above the ground; put the ground lower by --ground")
     members = [outcome.part[0] for outcome in of_members]
-    contacts = NearbyMembers([member.solid for member in members])
+    contacts = NearbyMembers([member.solid for member in (*members, *bars)])
     supports, held = supports_of(members, contacts, [support.name for support in result.added])
-    # A member on a bearing touches the bearing, not the member below it.
-    tables = result.bearing_tables()
+    # A member on a bearing touches the bearing, not the member below it. Bars have supports of nodes instead.
+    tables = result.bearing_tables().without({bar.name for bar in bars})
     connected = {support.member for support in supports} | tables.members
     loose = loose_members(members, contacts, connected)
     parts = [outcome.part[0] for outcome in kept]
@@ -248,6 +312,7 @@ def _scenario(
         bearings=tables.bearings,
         supports=tuple(supports),
         site=site,
+        steelwork=frame.steelwork if frame else None,
     )
     return scenario, meshes, [*tables.notes, *held, *loose]
 
@@ -255,6 +320,8 @@ def _scenario(
 def _fracture(settings: ImportSettings, members: Sequence[Member], added: Sequence[str]) -> FractureSettings:
     if settings.strict:
         return FractureSettings(shards=max(settings.shards, len(members)))
+    if not members:
+        return FractureSettings(shards=1)
     return fracture_of(members, added, settings.shards)
 
 
@@ -278,7 +345,7 @@ def _strength_rules(kept: Sequence[Outcome]) -> tuple[str, list[ConnectionBetwee
     for member, substance in parts:
         strength = substance.row.strength_name
         volumes[strength] = volumes.get(strength, 0.0) + member.volume_m3
-    main = max(volumes, key=lambda strength: volumes[strength])
+    main = max(volumes, key=lambda strength: volumes[strength], default=STEEL)
     rules = []
     for kind, group in groupby(sorted(parts, key=lambda part: part[0].kind), key=lambda part: part[0].kind):
         of_kind = {member.name: substance.row.strength_name for member, substance in group}

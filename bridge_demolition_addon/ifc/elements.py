@@ -14,7 +14,7 @@ from .quantities import PropertySets, words_of
 from .settings import ImportSettings, matches
 from .source import IfcSource
 
-_NO_BODIES = (
+NO_BODIES = (
     *("Axis", "FootPrint", "Box", "Annotation", "Profile", "Survey", "Lighting", "Reference", "Clearance", "CoG"),
 )
 """Representations of an element that do not show its body."""
@@ -114,7 +114,7 @@ def _elements(model: Any, settings: ImportSettings) -> Iterator[Element]:
 
 def _has_body(entity: Any) -> bool:
     shapes = entity.Representation.Representations if entity.Representation else ()
-    return any(shape.RepresentationIdentifier not in _NO_BODIES for shape in shapes)
+    return any(shape.RepresentationIdentifier not in NO_BODIES for shape in shapes)
 
 
 def _read(entity: Any) -> Element:
@@ -124,7 +124,7 @@ def _read(entity: Any) -> Element:
     predefined = str(util.get_predefined_type(entity) or "").upper()
     words = (entity.Name, entity.ObjectType, getattr(kind, "Name", None), predefined, _named_class(entity))
     wholes = list(_wholes(entity))
-    psets = util.get_psets(entity)
+    psets = {name or "": values for name, values in util.get_psets(entity).items()}  # some are without a name
     facts = ElementFacts(
         name=(entity.Name or "").strip() or entity.is_a(),
         global_id=entity.GlobalId,

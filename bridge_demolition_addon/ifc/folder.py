@@ -23,7 +23,7 @@ from ..model.scenario.file import read_scenario
 from ..model.toml_tables import tables_text
 from ..system.disk import write_whole_text, writing
 from .bridge import MESH_FOLDER, ImportedBridge
-from .outcome import ADDED, CONNECTION, LEFT_OUT, MEMBER, Outcome
+from .outcome import ADDED, BAR, CONNECTION, LEFT_OUT, MEMBER, Outcome
 from .rule_bars import notes_on_bars
 
 SCENARIO_FILE = "scenario.toml"
@@ -123,6 +123,10 @@ def _report(bridge: ImportedBridge, cut_off: tuple[str, ...], on_bars: tuple[str
         yield _row(f"{len({member.name for member in of_kind})} {kind}", of_kind)
     yield _row("all", members)
     yield from _by_file(bridge.outcomes)
+    if bridge.on_bars:
+        yield ""
+        yield "Bars of steel"
+        yield from (f"  {line}" for line in bridge.on_bars)
     yield ""
     yield "Held and connected"
     connections = bridge.scenario.connections
@@ -166,7 +170,7 @@ def _of_cutting(notes: Sequence[str]) -> Iterator[str]:
 
 def _by_file(outcomes: Sequence[Outcome]) -> Iterator[str]:
     """Yield volume and mass of the members whose program says them, beside these."""
-    known = [outcome for outcome in outcomes if outcome.became == MEMBER and outcome.member]
+    known = [outcome for outcome in outcomes if outcome.became in (MEMBER, BAR) and outcome.member]
     for word, text, of_file, of_member in (
         ("volume", volume_text, "file_volume_m3", "volume_m3"),
         ("mass", mass_text, "file_mass_kg", "mass_kg"),

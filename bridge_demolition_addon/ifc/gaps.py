@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -72,11 +72,11 @@ def cut_by(solid: TriangleMesh, others: Sequence[TriangleMesh]) -> TriangleMesh:
     return from_manifold(rest.simplify(_SIMPLER_M))
 
 
-def closed_gaps(members: Sequence[Member], gap_m: float) -> tuple[list[Member], list[str]]:
+def closed_gaps(members: Sequence[Member], gap_m: float, bars: Collection[str] = ()) -> tuple[list[Member], list[str]]:
     """Return members of which those that nearly lie on another one touch it with their whole face, and notes on them.
 
     A pier or cap goes on upwards to what carries the road, and else downwards to what it stands on; a girder goes on
-    upwards to its deck.
+    upwards to its deck. Bars of steel, by their names, do that alone.
     """
     done, notes = list(members), []
     for upper in range(len(done)):
@@ -91,11 +91,18 @@ def closed_gaps(members: Sequence[Member], gap_m: float) -> tuple[list[Member], 
                 longer, other, way = lower, upper, 1.0
             else:
                 continue
+            if done[longer].name in bars and done[other].kind != "deck":
+                continue
             solid, reach_m = done[longer].solid, gap_m
             if done[longer].kind in _STANDING:
                 reach_m += min(STEEPEST * float(np.ptp(solid.vertices[:, :2], axis=0).max()), 2.0 * gap_m)
             made = largest_body(cut_by(lengthened(solid, way * reach_m), [done[other].solid]))
             done[longer] = replace(done[longer], solid=made)
+            if done[longer].name in bars:
+                notes.append(
+                    f"{done[other].name} has a haunch, up to {1e3 * reach_m:.0f} mm high, over {done[longer].name}"
+                )
+                continue
             verb = "carry" if way > 0.0 else "stand on"
             notes.append(
                 f"{done[longer].name} is made longer, by up to {1e3 * reach_m:.0f} mm, to {verb} {done[other].name}"
@@ -103,14 +110,17 @@ def closed_gaps(members: Sequence[Member], gap_m: float) -> tuple[list[Member], 
     return done, notes
 
 
-def brought_near(members: Sequence[Member], gap_m: float) -> tuple[list[Member], list[str]]:
+def brought_near(
+    members: Sequence[Member], gap_m: float, staying: Collection[str] = ()
+) -> tuple[list[Member], list[str]]:
     """Return members of which those that hardly touch what they lie beside are moved against it, and notes on them.
 
-    Such as an edge beam along a curved deck: both have chords, and meet at some corners only.
+    Such as an edge beam along a curved deck: both have chords, and meet at some corners only. Those of names that are
+    `staying` are not moved.
     """
     done, notes = list(members), []
     for index, member in enumerate(members):
-        if member.kind in _STAYING:
+        if member.kind in _STAYING or member.name in staying:
             continue
         others = [other.solid for row, other in enumerate(done) if row != index]
         contacts = NearbyMembers(others)

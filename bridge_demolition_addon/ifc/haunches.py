@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -82,6 +82,32 @@ def with_haunches(members: Sequence[Member]) -> tuple[list[Member], list[str]]:
                 f"{member.name} has a haunch, up to {1e3 * highest_m:.0f} mm high, under {deck.name}: {added:+.2g} m³"
             )
     return done, notes
+
+
+def grown_decks(before: Sequence[Member], after: Sequence[Member], bars: Collection[str]) -> list[Member]:
+    """Return members of which bars are as they were, and what bars have grown to touch a deck belongs to that.
+
+    A bar of steel has one section: its haunch is of its deck's concrete.
+    """
+    done = list(after)
+    for row, (old, new) in enumerate(zip(before, after, strict=True)):
+        if old.name not in bars or new is old:
+            continue
+        done[row] = old
+        grown = to_manifold(new.solid) - to_manifold(old.solid)
+        reached = [
+            (_shared_m3(grown.translate((0.0, 0.0, _LOW_M)), deck.solid), number)
+            for number, deck in enumerate(done)
+            if deck.kind == "deck"
+        ]
+        shared, number = max(reached, default=(0.0, -1))
+        if shared <= 0.0:
+            continue
+        whole = (to_manifold(done[number].solid) + grown).simplify(_SIMPLER_M).decompose()
+        sound = sound_simplified(from_manifold(max(whole, key=lambda body: body.volume())))
+        if sound is not None:
+            done[number] = replace(done[number], solid=sound)
+    return done
 
 
 def _haunched(

@@ -20,7 +20,7 @@ def leave_out_light_bracing(assembly: Assembly, shards: int) -> None:
 
     Between shards a hundred times as heavy it would say nothing of the bridge, and throw its pieces about.
     """
-    members, outcomes = assembly.members(), assembly.outcomes
+    members, outcomes = [one for one in assembly.members() if one[0] not in assembly.bars], assembly.outcomes
     limit_kg = _LIGHT * math.fsum(member.mass_kg for _, member in members) / shards
     light = [(number, member) for number, member in members if _is_light_bracing(member, limit_kg)]
     of_kinds = ([one for one in members if one[1].kind == kind] for kind in _BRACED)

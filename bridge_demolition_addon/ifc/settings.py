@@ -49,6 +49,9 @@ class ImportSettings:
         Whether what is missing or damaged is refused; otherwise it is assumed, mended or left out, and said.
     time_limit_s
         How long the geometry of an element may take.
+    bars
+        Whether straight bars of steel become `[steelwork]`; otherwise they are cut into shards as all else. None for
+        yes, but where this is strict, as bars need elastic connections, and supports that are assumed.
     """
 
     materials: Path | None = None
@@ -63,6 +66,7 @@ class ImportSettings:
     bearing_gap_m: float = 0.015
     strict: bool = False
     time_limit_s: float = 60.0
+    bars: bool | None = None
 
     def __post_init__(self) -> None:
         if self.unit is not None and self.unit not in UNITS:
@@ -70,6 +74,13 @@ class ImportSettings:
         for pattern, kind in self.kinds:
             if kind not in KINDS:
                 raise IfcError(f'kind of "{pattern}" is "{kind}": expected one of {", ".join(KINDS)}')
+        if self.strict and self.bars:
+            raise IfcError("bars and strict are both asked for: expected one of them, as supports of bars are assumed")
+
+    @property
+    def takes_bars(self) -> bool:
+        """Whether bars of steel become `[steelwork]`."""
+        return not self.strict if self.bars is None else self.bars
 
     def as_json(self) -> dict[str, Any]:
         """Return the settings as JSON can hold them."""

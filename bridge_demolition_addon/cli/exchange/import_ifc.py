@@ -75,6 +75,13 @@ def add_to(commands: argparse._SubParsersAction) -> None:
         help="gap up to which bearings and members are brought to what they lie on (0.015)",
     )
     parser.add_argument(
+        "--bars",
+        action=argparse.BooleanOptionalAction,
+        default=None,
+        help="make bars of [steelwork] of straight bars of steel, or cut them into shards as all else (bars, but with "
+        "--strict)",
+    )
+    parser.add_argument(
         "--strict", action="store_true", help="refuse what is missing or damaged; assume, mend and leave out nothing"
     )
     parser.add_argument(
@@ -112,6 +119,7 @@ def import_ifc(arguments: argparse.Namespace) -> None:
         bearing_gap_m=arguments.bearing_gap,
         strict=arguments.strict,
         time_limit_s=arguments.time_limit,
+        bars=arguments.bars,
     )
     progress = progress_on(sys.stderr, quiet=arguments.quiet or not sys.stderr.isatty())
     try:

@@ -36,7 +36,7 @@ class SteelBar:
     ----------
     section : SteelSection
     begin_m, end_m : (3,) float
-        Positions of its nodes.
+        Ends of its axis: positions of its nodes, or beside them where it is joined eccentrically.
     axes : (3, 3) float
         Along it and along y and z of its section, as columns.
     within_m : (2,) float
@@ -144,15 +144,18 @@ def extruded(section: SteelSection, bar_axes: FloatArray, begin_m: FloatArray, e
     return TriangleMesh(np.concatenate((begin_m + across, end_m + across)), triangles)
 
 
-def node_radius_m(directions: FloatArray, outlines: list[FloatArray]) -> float:
+def node_radius_m(directions: FloatArray, outlines: list[FloatArray], to_axes_m: FloatArray | None = None) -> float:
     """Return how far from a node its bars begin, so that none lies in another.
 
-    Bars (k,) leave it in directions (k, 3); `outlines` are the points (p, 3) of their sections about their axes. Two
-    that are as wide, at an angle θ, meet at half of their width by tan(θ / 2). A bar that goes on straight, or ends,
-    begins at half of the distance of its farthest edge.
+    Bars (k,) leave it in directions (k, 3); `outlines` are the points (p, 3) of their sections about their axes, which
+    run beside the node, by `to_axes_m` (k, 3), where they do not meet in it. Two that are as wide, at an angle θ, meet
+    at half of their width by tan(θ / 2). A bar that goes on straight, or ends, begins at half of the distance of its
+    farthest edge.
     """
     sizes = [float(np.sqrt(dot(points, points)).max()) for points in outlines]
     radius = 0.5 * max(sizes)
+    if to_axes_m is not None:
+        outlines = [outline + to_axis for outline, to_axis in zip(outlines, to_axes_m, strict=True)]
     for one in range(len(directions)):
         for other in range(one):
             alike = float(dot(directions[one], directions[other]))

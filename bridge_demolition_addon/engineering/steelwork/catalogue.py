@@ -65,12 +65,12 @@ def section_named(name: str) -> SteelSection:
 @cache
 def rolled_names() -> tuple[str, ...]:
     """Return the names of all rolled sections of the table."""
-    return tuple(_rolled_sizes())
+    return tuple(rolled_sizes_mm())
 
 
 @cache
 def _section(upper: str, name: str) -> SteelSection:
-    rolled = _rolled_sizes()
+    rolled = rolled_sizes_mm()
     if (same := _as_in_table(upper)) in rolled:
         return rolled_i(same, *(_MM * size for size in rolled[same]))
     sized = _SIZED.fullmatch(upper)
@@ -110,7 +110,8 @@ def _nearest(name: str) -> list[str]:
 
 
 @cache
-def _rolled_sizes() -> dict[str, tuple[float, ...]]:
+def rolled_sizes_mm() -> dict[str, tuple[float, ...]]:
+    """Return height, width, web, flange and root radius of all rolled sections by name, in mm."""
     with (resources.files(__package__) / "data" / "rolled_i_sections.csv").open(encoding="utf-8") as file:
         _, *rows = csv.reader(file)
     return {name: tuple(map(float, sizes)) for name, *sizes in rows}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
@@ -15,7 +16,7 @@ from ...engineering.steelwork.bars import SteelBar, bar_axes, extruded, node_poi
 from ...errors import GeometryError
 from ..scenario.bearings import FIXED
 from ..scenario.girders import DECK_KIND, GIRDER_KIND, GirderSpan
-from ..scenario.steelwork import NODE_KIND, TURNS, SteelMember, SteelNode, Steelwork
+from ..scenario.steelwork import NODE_KIND, TURNS, SteelMember, SteelNode, Steelwork, axis_m
 from ..schema import given
 from .member import Member, SteelPart
 
@@ -28,10 +29,7 @@ def steelwork_members(steelwork: Steelwork | None) -> tuple[Member, ...]:
     if steelwork is None:
         return ()
     places = {node.name: np.array(node.place_m) for node in steelwork.all_nodes}
-    axes = {
-        table.name: bar_axes(places[table.nodes[0]], places[table.nodes[1]], math.radians(table.roll_deg))
-        for table in steelwork.all_members
-    }
+    axes = {table.name: _axes(table, places) for table in steelwork.all_members}
     ends = {node.name: _ends_at(node, steelwork.all_members, axes) for node in steelwork.all_nodes}
     radii = {node.name: _radius_m(node, ends[node.name]) for node in steelwork.all_nodes}
     for span in steelwork.girders:  # pieces of girders side by side end in one plane, and so do shards of the deck
@@ -48,25 +46,55 @@ def steelwork_members(steelwork: Steelwork | None) -> tuple[Member, ...]:
     return (*decks, *bars, *nodes)
 
 
-_End = tuple[SteelMember, np.ndarray, np.ndarray]
-"""A bar at a node, its direction away from that (3,), and the outline of its section about its axis (p, 3)."""
+@dataclass(frozen=True, slots=True, eq=False)
+class _End:
+    """A bar at a node.
+
+    Attributes
+    ----------
+    direction : (3,) float
+        Unit vector away from the node.
+    to_axis_m : (3,) float
+        From the node to the end of its axis.
+    outline : (p, 3) float
+        Corners of its section, about its axis.
+    """
+
+    table: SteelMember
+    direction: np.ndarray
+    to_axis_m: np.ndarray
+    outline: np.ndarray
+
+    @property
+    def at_node(self) -> np.ndarray:
+        """Outline (p, 3) about the node."""
+        return self.to_axis_m + self.outline
+
+
+def _axes(table: SteelMember, places: dict[str, np.ndarray]) -> np.ndarray:
+    begin, end = axis_m(table, places)
+    return bar_axes(begin, end, math.radians(table.roll_deg))
 
 
 def _ends_at(node: SteelNode, tables: Sequence[SteelMember], axes: dict[str, np.ndarray]) -> list[_End]:
     ends = []
     for table in tables:
         own = axes[table.name]
-        for name, sign in zip(table.nodes, (1.0, -1.0), strict=True):
+        for name, sign, to_axis_m in zip(table.nodes, (1.0, -1.0), table.from_nodes_m, strict=True):
             if name == node.name:
-                outline = transformed(own[:, 1:], np.concatenate(table.steel_section.rings) + np.array(table.offset_m))
-                ends.append((table, sign * own[:, 0], outline))
+                outline = transformed(own[:, 1:], np.concatenate(table.steel_section.rings))
+                ends.append(_End(table, sign * own[:, 0], to_axis_m, outline))
     return ends
 
 
 def _radius_m(node: SteelNode, ends: Sequence[_End]) -> float:
     if node.radius_m is not None:
         return node.radius_m
-    return node_radius_m(np.array([direction for _, direction, _ in ends]), [outline for _, _, outline in ends])
+    return node_radius_m(
+        np.array([end.direction for end in ends]),
+        [end.outline for end in ends],
+        np.array([end.to_axis_m for end in ends]),
+    )
 
 
 def _held_end(node: SteelNode, tables: Sequence[SteelMember]) -> str | None:
@@ -88,8 +116,7 @@ def _bar(
     radii: dict[str, float],
     fixed: dict[str, str | None],
 ) -> Member:
-    beside = transformed(axes[:, 1:], np.array(table.offset_m))
-    begin, end = (places[name] + beside for name in table.nodes)
+    begin, end = axis_m(table, places)
     within = np.array([radii[name] for name in table.nodes])
     turns = np.array(
         [
@@ -131,12 +158,12 @@ def _deck_part(span: GirderSpan, begin_m: float, end_m: float) -> TriangleMesh:
 
 def _node(steelwork: Steelwork, node: SteelNode, ends: Sequence[_End], radius_m: float, *, goes_on: bool) -> Member:
     """Return a node; at the end of girders its plates go on behind it, so that the deck lies on their flanges there."""
-    plates = [(unit(direction), outline) for _, direction, outline in ends]
+    plates = [(unit(end.direction), end.at_node) for end in ends]
     if goes_on:
-        plates += [(-unit(direction), outline) for table, direction, outline in ends if table.kind == GIRDER_KIND]
+        plates += [(-unit(end.direction), end.at_node) for end in ends if end.table.kind == GIRDER_KIND]
     points = node_points(plates, radius_m)
     place = np.array(node.place_m)
     solid = from_manifold(hull(place + points))
-    steel_m3 = radius_m * math.fsum(table.steel_section.area_m2 for table, _, _ in ends)
+    steel_m3 = radius_m * math.fsum(end.table.steel_section.area_m2 for end in ends)
     mass_kg = steelwork.density_kg_m3 * steel_m3 + node.mass_kg
     return Member(node.name, NODE_KIND, solid, mass_kg / solid.volume, steel=SteelPart(place))

@@ -321,7 +321,7 @@ class GirderSpan(Table):
             "section": self.pier_section if is_over else self.section,
             "grade": self.grade,
             "pieces": self.pieces,
-            "offset_m": (0.0, top_of(own) - top_of(over_pier)) if is_over else (0.0, 0.0),
+            "eccentricities_m": ((0.0, 0.0, top_of(own) - top_of(over_pier)),) * 2 if is_over else None,
             "stiffener_spacing_m": self.stiffener_spacing_m,
             "rigid_end_posts": self.rigid_end_posts,
         }

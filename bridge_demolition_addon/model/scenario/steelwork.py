@@ -1,6 +1,6 @@
 """Steelwork: bars of steel between nodes, as a scenario gives them."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -87,13 +87,11 @@ class SteelMember(Table):
         at_least=-360,
         at_most=360,
     )
-    offset_m: tuple[float, float] = key(
-        "How far its axis lies beside the line between its nodes, along y and z of its section, such as for flanges "
-        "that are level where sections differ.",
-        default=(0.0, 0.0),
+    eccentricities_m: tuple[tuple[float, float, float], ...] | None = key(
+        "From each of its nodes to the end of its axis, along the road, across it and upwards: plates of the node join "
+        "what does not meet in one point. By default its axis ends in the nodes themselves.",
+        default=None,
         unit="m",
-        at_least=-10,
-        at_most=10,
     )
     ends: tuple[str, str] = key(
         "How it is joined to each node: `fixed`, `pinned`, which turns freely about both axes of its section, or "
@@ -130,9 +128,16 @@ class SteelMember(Table):
     def steel_section(self) -> SteelSection:
         return section_named(self.section)
 
+    @property
+    def from_nodes_m(self) -> np.ndarray:
+        """From each of its nodes to the end of its axis, (2, 3)."""
+        return np.zeros((2, 3)) if self.eccentricities_m is None else np.array(self.eccentricities_m)
+
     def _check_together(self) -> None:
         if self.nodes[0] == self.nodes[1]:
             raise self.unexpected("nodes", "two different nodes")
+        if self.eccentricities_m is not None and len(self.eccentricities_m) != 2:
+            raise self.unexpected("eccentricities_m", "two, one for each node, such as [[0, 0, 0.2], [0, 0, 0]]")
         try:
             section_named(self.section)
         except ScenarioError as error:
@@ -263,12 +268,19 @@ class Steelwork(Table):
     def _check_lengths(self) -> None:
         places = {node.name: np.array(node.place_m) for node in self.all_nodes}
         for member in self.all_members:
-            first, second = (places.get(name) for name in member.nodes)
-            if first is not None and second is not None and not np.abs(second - first).max() > SHORTEST_LENGTH_M:
+            if not set(member.nodes) <= places.keys():
+                continue
+            first, second = axis_m(member, places)
+            if not np.abs(second - first).max() > SHORTEST_LENGTH_M:
                 raise ScenarioError(
                     f"steelwork.members {shown(member.name)}: expected nodes that are more than {SHORTEST_LENGTH_M} m "
                     "apart"
                 )
+
+
+def axis_m(member: SteelMember, places: Mapping[str, np.ndarray]) -> np.ndarray:
+    """Return the ends (2, 3) of the axis of a bar between nodes at places (3,)."""
+    return np.array([places[name] for name in member.nodes]) + member.from_nodes_m
 
 
 def _first_twice(names: Iterable[str]) -> str | None:

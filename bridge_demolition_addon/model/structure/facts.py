@@ -395,24 +395,30 @@ def _bearing_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
     first_joint, tables = 1 + len(scenario.connections.between), bearing_tables(scenario)
     for number, name in enumerate(bearings.names):
         rows = bearings.rows_of(number)
-        if len(rows):
-            table = int(model.joint_of_connection[rows[0]]) - first_joint
-            described = tables[table].described if table < len(tables) else _of_steelwork(scenario, name)
-            yield "bearing", f"{name}: {described}, {len(rows)} connections"
+        if not len(rows):
+            continue
+        table = int(model.joint_of_connection[rows[0]]) - first_joint
+        if table < len(tables):
+            yield "bearing", f"{name}: {tables[table].described}, {len(rows)} connections"
+        else:
+            yield _of_steelwork(scenario, name, len(rows))
     if not scenario.connections.is_elastic:
         yield "", "with rigid connections they hold what is lifted, and slide without friction"
     if scenario.shards.start_deactivated:
         yield "", "while shards sleep, a run does not know their forces: shards.start_deactivated = false"
 
 
-def _of_steelwork(scenario: Scenario, name: str) -> str:
+def _of_steelwork(scenario: Scenario, name: str, connections: int) -> Fact:
     """Describe the support of a node, or how a deck lies on a girder, by the name of that bearing."""
     steelwork = given(scenario.steelwork)
     for span in steelwork.decks:
         if name.startswith(f"{span.deck_name} on "):
-            return f"without studs, with a friction of {span.deck_friction:g}"
+            return (
+                "bearing",
+                f"{name}: without studs, with a friction of {span.deck_friction:g}, {connections} connections",
+            )
     supports = {f"{node.name} on {node.held_by}": node.support for node in steelwork.all_nodes}
-    return f"{supports[name]}, holds against uplift"
+    return "support", f"{name}: {supports[name]}"
 
 
 def _joint_text(rule: ConnectionBetween, joint: Joint) -> str:

@@ -48,6 +48,7 @@ from .steelwork import (
     SteelConnections,
     joint_rows,
     node_supports,
+    on_supports,
     pins_of_supports,
     resisting_moments,
     steel_connections,
@@ -149,7 +150,8 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
 
     def allowed(pairs: np.ndarray) -> np.ndarray:
         of_decks = are_of_decks(scenario.steelwork, members, fractured.member_of_shard, pairs)
-        return ~excluded[rules_of(pairs)] & ~have_bearing(placed, fractured.member_of_shard, pairs) & ~of_decks
+        is_joined = ~excluded[rules_of(pairs)] & ~have_bearing(placed, fractured.member_of_shard, pairs) & ~of_decks
+        return is_joined & ~on_supports(scenario.steelwork, members, fractured.member_of_shard, pairs)
 
     is_steel = np.array([member.steel is not None for member in members])[fractured.member_of_shard]
     connections = _connections(scenario.connections, shards, centres, faces, allowed, heights_at, ~is_steel)

@@ -174,6 +174,31 @@ def node_supports(
     )
 
 
+def on_supports(
+    steelwork: Steelwork | None, members: Sequence[Member], member_of_shard: np.ndarray, pairs: np.ndarray
+) -> np.ndarray:
+    """Return which pairs of shards (m, 2) are a node on a support, or a bar that ends there, and what holds it.
+
+    Where these touch, the support is all that is between them.
+    """
+    is_held = np.zeros(len(pairs), bool)
+    if steelwork is None:
+        return is_held
+    of_pairs = np.where(pairs == GROUND, GROUND, member_of_shard[pairs])
+    for node in steelwork.all_nodes:
+        if node.support is None or node.held_by == GROUND_NAME:
+            continue
+        holding = members_named(node.held_by, members, "steelwork.nodes.held_by")
+        held = [
+            index
+            for index, member in enumerate(members)
+            if member.steel and (member.name == node.name or node.name in member.steel.nodes)
+        ]
+        for first, second in ((0, 1), (1, 0)):
+            is_held |= np.isin(of_pairs[:, first], held) & np.isin(of_pairs[:, second], holding)
+    return is_held
+
+
 def pins_of_supports(
     steelwork: Steelwork, members: Sequence[Member], nodes: np.ndarray, first_row: int, first_bearing: int
 ) -> tuple[PadSprings, tuple[str, ...]]:

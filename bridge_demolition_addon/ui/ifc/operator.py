@@ -19,7 +19,7 @@ from ..operators import Action, UndoableAction, absolute
 from ..scenario.values import show_scenario
 from ..sidebar import path_property
 from ..stepped_thread import SteppedThread
-from .prop import LEFT_OUT
+from .prop import BARS, BARS_HINT, LEFT_OUT
 
 _NO_LIBRARY = (lambda _context: missing_reason(),)
 
@@ -59,6 +59,7 @@ class BDA_OT_import_ifc(UndoableAction, ImportHelper, bpy.types.Operator):
     without: StringProperty(
         name="Without", description="Elements to leave out, by name, class or kind, with * for anything and ; between"
     )
+    bars: BoolProperty(name=BARS, description=BARS_HINT, default=True)
     _is_in_window = False
     kinds: StringProperty(
         name="Kinds", description="What elements are, as in Proxy*=deck;IfcPlate=girder, where the file does not say it"
@@ -73,7 +74,7 @@ class BDA_OT_import_ifc(UndoableAction, ImportHelper, bpy.types.Operator):
         row = layout.row()
         row.enabled = self.own_ground
         row.prop(self, "ground_m")
-        for name in ("shards", "without", "kinds"):
+        for name in ("shards", "bars", "without", "kinds"):
             layout.prop(self, name)
 
     def invoke(self, context: bpy.types.Context, event: bpy.types.Event) -> set[str]:
@@ -100,6 +101,7 @@ class BDA_OT_import_ifc(UndoableAction, ImportHelper, bpy.types.Operator):
             shards=self.shards,
             without=_parts(self.without),
             kinds=tuple(_kind(part) for part in _parts(self.kinds)),
+            bars=self.bars,
         )
 
 
@@ -217,6 +219,7 @@ def corrected(settings: bpy.types.PropertyGroup) -> ImportSettings:
             if row.kind not in (LEFT_OUT, "bearing") and row.material.strip() and row.material != row.material_of_file
         ),
         only=settings.ifc_only.strip() or None,
+        bars=settings.ifc_bars,
     )
 
 

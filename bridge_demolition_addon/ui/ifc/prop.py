@@ -1,12 +1,15 @@
 """Elements of an IFC file as the sidebar lists them, with kinds and materials that the user corrects."""
 
 import bpy
-from bpy.props import CollectionProperty, EnumProperty, IntProperty, StringProperty
+from bpy.props import BoolProperty, CollectionProperty, EnumProperty, IntProperty, StringProperty
 
 from ...ifc.settings import KINDS
 from ..sidebar import path_property
 
 LEFT_OUT = "left out"
+
+BARS = "Steel as Bars"
+BARS_HINT = "Make bars of [steelwork] of straight steel, with nodes where they meet, instead of cutting it into shards"
 
 
 def _label(kind: str) -> str:
@@ -40,5 +43,6 @@ class IfcProperties:
     ifc_only: StringProperty(
         name="Only", description="Bridge that is taken of a file with several; none for the one with the most members"
     )
+    ifc_bars: BoolProperty(name=BARS, description=BARS_HINT, default=True)
     ifc_elements: CollectionProperty(type=BDA_PG_ifc_element, description="Elements of the file")
     ifc_element_index: IntProperty(options={"HIDDEN"}, description="The chosen element")

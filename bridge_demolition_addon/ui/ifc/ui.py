@@ -43,4 +43,5 @@ class BDA_PT_ifc_elements(SidebarPanel, bpy.types.Panel):
             draw_sentence(layout, context, f"{element.ifc_class}, {why}", icon="INFO")
             layout.operator("bda.ifc_alike", icon="SORTALPHA")
         layout.prop(settings, "ifc_only")
+        layout.prop(settings, "ifc_bars")
         layout.operator("bda.import_ifc_elements", icon="IMPORT")

@@ -54,6 +54,7 @@ TYPICAL: dict[str, Any] = {
     "bridge.abutments.height_m": 5.0,
     "time.farthest_per_substep_m": 0.01,
     "steelwork.nodes.radius_m": 0.3,
+    "steelwork.members.eccentricities_m": [[0.0, 0.0, 0.2], [0.0, 0.0, 0.2]],
     "steelwork.members.pieces": 8,
     "steelwork.trusses.length_m": 32.0,
     "steelwork.trusses.panels": 8,

@@ -28,6 +28,7 @@ from bridge_demolition_addon.model.structure.equilibrium import (
     loads_of,
     model_at_rest,
 )
+from bridge_demolition_addon.model.structure.facts import connection_facts
 from bridge_demolition_addon.model.structure.model import build_model
 from bridge_demolition_addon.model.structure.steel_bars import bar_uses
 
@@ -282,3 +283,73 @@ def test_a_slender_cantilever_is_judged_in_lateral_buckling_about_its_strong_axi
     moment = DENSITY_KG_M3 * section.area_m2 * STANDARD_GRAVITY_M_S2 * 10.0**2 / 2.0
     resistance = lateral_buckling(section, 355e6, 10.0).resistance_nm
     assert use.lateral_used == pytest.approx(moment / resistance if turns else 0.0, rel=0.03, abs=1e-3)
+
+
+def test_a_bar_that_stands_on_concrete_is_held_by_its_support_alone():
+    """A girder on the tops of two piers: it touches these, and its supports leave it to turn there and to move.
+
+    Their forces are half of its weight each. Were it joined to the piers where it touches them, too, it would press
+    these apart as it is fixed at its ends.
+    """
+    blocks = """
+[bridge]
+span_lengths_m = [8.0]
+density_kg_m3 = 2500.0
+
+[bridge.deck]
+width_m = 1.0
+thickness_m = 0.5
+
+[bridge.piers]
+kind = "wall"
+column_length_m = 0.6
+column_width_m = 3.0
+height_m = 4.0
+"""
+    # IPE 300 is 0.3 m high, so that its underside lies on the piers beside the deck.
+    nodes = [
+        node("A", 0.0, 4.15, y=1.0, support="pinned", held_by="pier 1"),
+        node("B", 8.0, 4.15, y=1.0, support="rocker", held_by="pier 2"),
+    ]
+    girder = bar("girder", "A", "B", "IPE 300", pieces=8)
+    scenario = steel_scenario(nodes, [girder], blocks)
+    scenario = replace(scenario, fracture=replace(scenario.fracture, shards=24))
+    model = build_model(scenario)
+    names = [model.members[index].name for index in model.member_of_shard] + ["ground"]
+    with_piers = [pair for pair in model.connections.pairs.tolist() if names[pair[0]] in ("A", "B", "girder")]
+    with_piers = [pair for pair in with_piers if names[pair[1]].startswith("pier")]
+    with_piers += [
+        pair
+        for pair in model.connections.pairs.tolist()
+        if names[pair[1]] in ("A", "B", "girder") and names[pair[0]].startswith("pier")
+    ]
+    assert len(with_piers) == 2
+    rest = model_at_rest(model, scenario.joints)
+    by_bearing = {row.name: row.force_n for row in model.bearings.forces(loads_of(model, rest))}
+    said = dict.fromkeys(value for name, value in connection_facts(scenario, model) if name == "support")
+    assert list(said) == ["A on pier 1: pinned", "B on pier 2: rocker"]
+    half = 0.5 * STANDARD_GRAVITY_M_S2 * DENSITY_KG_M3 * section_named("IPE 300").area_m2 * 8.0
+    assert by_bearing["A on pier 1"] == pytest.approx((0.0, 0.0, half), rel=0.02, abs=1.0)
+    assert by_bearing["B on pier 2"] == pytest.approx((0.0, 0.0, half), rel=0.02, abs=1.0)
+
+
+@pytest.mark.parametrize("beside", [0.0, 0.3])
+def test_a_bar_that_ends_beside_its_node_bends_by_the_force_times_that(beside):
+    """A column of 4 m, HEB 200, fixed at its foot: 1 kN on a node beside its axis bends it by 300 N·m all along."""
+    nodes = [node("foot", 0.0, 0.0, support="fixed"), node("top", beside, 4.0)]
+    column = bar("column", "foot", "top", "HEB 200", eccentricities_m=[[0.0, 0.0, 0.0], [-beside, 0.0, 0.0]])
+    scenario = steel_scenario(nodes, [column], pieces=8)
+    model = build_model(scenario)
+    assert model.members[0].steel.bar.begin_m == pytest.approx((0.0, 0.0, 0.0), abs=1e-12)
+    assert model.members[0].steel.bar.end_m == pytest.approx((0.0, 0.0, 4.0), abs=1e-12)
+    rest = rest_under(model, scenario, {"top": (0.0, 0.0, -1e3)}, weight=False)
+    _, axial, bending = bar_loads(model, rest, "column")
+    # Sways by 0.2 mm, which moves the load by a thousandth of its arm.
+    assert axial == pytest.approx(np.full(9, -1e3), rel=1e-3)
+    assert abs(bending) == pytest.approx(np.full(9, 1e3 * beside), rel=1e-3, abs=0.01)
+
+
+def test_eccentricities_are_one_for_each_node():
+    column = bar("column", "foot", "top", "HEB 200", eccentricities_m=[[0.0, 0.0, 0.1]])
+    with pytest.raises(ScenarioError, match=r"eccentricities_m is .* expected two, one for each node"):
+        steel_scenario([node("foot", 0.0, 0.0, support="fixed"), node("top", 0.0, 4.0)], [column])
