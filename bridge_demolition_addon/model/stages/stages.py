@@ -58,6 +58,8 @@ class Criticality:
     member: str
     falls_kg: float  # mass that comes down then, without the member itself
     share: float  # part of the mass of all that was held
+    used: float  # highest utilisation of a connection of the others, before any breaks; nan where none is held
+    most_used: int | None  # that connection
 
 
 def stages_of(scenario: Scenario, bridge: StandingBridge, progress: Callable[[int, int], None]) -> list[Stage]:
@@ -95,18 +97,31 @@ def criticality(bridge: StandingBridge, progress: Callable[[int, int], None]) ->
     model = bridge.model
     count, ones = len(model.connections), np.ones(len(model.connections))
     nothing = np.zeros((6, len(model.shards)))
-    held = bridge.held(ones > 0.0)
+    held = bridge.unbroken(ones > 0.0).held
     effects = []
     for number, member in enumerate(model.members):
         own = model.member_of_shard == number
         gone = np.isin(model.connections.pairs, np.flatnonzero(own)).any(axis=1)
         intact = np.ones(count, bool) & ~gone
-        loose = held & ~own & ~bridge.held(intact)
+        without = bridge.unbroken(intact)
+        loose = held & ~own & ~without.held
         loose |= bridge.comes_down(intact, ones, nothing, 1.0) & ~own
         falls_kg = float(model.masses_kg[loose].sum())
-        effects.append(Criticality(member.name, falls_kg, falls_kg / float(model.masses_kg[held].sum() or 1.0)))
+        share = falls_kg / float(model.masses_kg[held].sum() or 1.0)
+        effects.append(Criticality(member.name, falls_kg, share, *_most_used(without, model)))
         progress(number + 1, len(model.members))
     return effects
+
+
+def _most_used(standing: Standing, model: Model) -> tuple[float, int | None]:
+    """Return the highest utilisation of a connection whose both sides are held, and which it is."""
+    used = np.fmin(standing.alone, standing.together)
+    there = np.append(standing.held | model.fixed, True)[model.connections.pairs].all(axis=1)
+    used = np.where(there, used, np.nan)
+    if not np.isfinite(used).any():
+        return np.nan, None
+    worst = int(np.nanargmax(used))
+    return float(used[worst]), worst
 
 
 def equipment_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
