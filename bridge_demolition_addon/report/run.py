@@ -34,6 +34,7 @@ from .sections.ground_motion import motion_section, touchdown_section
 from .sections.model import model_section
 from .sections.plan_contents import with_plan_contents
 from .sections.planned_sequence import sequence_section
+from .sections.pulls import pull_section
 from .sections.reinforcement import reinforcement_section
 from .sections.stages import has_stages, stages_section
 from .sections.summary import first_photo, run_summary
@@ -102,6 +103,8 @@ def run_document(
         sections.append(logged_section(run))
     if (tendons := tendon_section(run)) is not None:
         sections.append(tendons)
+    if (pulls := pull_section(run)) is not None:
+        sections.append(pulls)
     if stages is not None:
         sections.append(stages_section(stages))
     if run.scenario and (reinforcement := reinforcement_section(run.scenario)):

@@ -41,10 +41,11 @@ from .connections.elasticity import forget_elasticity, keep_elasticity
 from .connections.joints import set_joints
 from .connections.soil import keep_soil
 from .connections.tendons import keep_tendons
-from .structural_changes import keep_changes, keep_loads
+from .structural_changes import keep_changes, keep_loads, keep_pulls
 from .time_scale import animate_time_scale, stop_animation
 from .tools.ball import create_ball
 from .tools.build_site import BuildSite
+from .tools.cables import create_cables
 from .tools.ground_motion import keep_ground_motion, move_with_ground
 from .tools.jackhammer import create_jackhammer
 from .world import FIRST_STEP_FRAME, create_world, off_scene, remove_world, settings_restored_on_failure
@@ -55,7 +56,7 @@ TOOLS: dict[type[PlannedAction], Callable[[BuildSite, Any], object]] = {
 }
 """Makers of the actions that are bodies of their own, in the order of a scenario's actions."""
 
-KEEPERS: tuple[Callable[[bpy.types.Scene, Sequence[Any]], None], ...] = (keep_changes, keep_loads)
+KEEPERS: tuple[Callable[[bpy.types.Scene, Sequence[Any]], None], ...] = (keep_changes, keep_loads, keep_pulls)
 """What keeps actions on bodies that are there with the scene, all of a kind, until a recording applies them."""
 
 
@@ -96,6 +97,7 @@ def _build(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> list[bpy
     keep_breaking(scene, _breaking(scenario, joints[0].strength, model.bars))
     keep_changes(scene, (*scenario.changes, *zone_firings(scenario, model.members)))
     keep_loads(scene, scenario.loads)
+    keep_pulls(scene, scenario.pulls)
     with off_scene(scene) as (bodies, connections):
         surface = scenario.surface_of(scenario.shards)
         shards = create_shards(bodies, scenario.shards, surface, model.shards, model.centres_m, model.masses_kg)
@@ -127,6 +129,7 @@ def _build(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> list[bpy
         build_force_objects(scene, bodies_of(scene))
     animate_time_scale(scene, scenario.timeline, FIRST_STEP_FRAME)
     keep_built_bodies(scene)
+    create_cables(scene, scenario.pulls, model, shards)
     return shards
 
 

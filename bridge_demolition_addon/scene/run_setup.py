@@ -24,7 +24,7 @@ from ..model.blast.explosion import Explosion
 from ..model.blast.settings import BlastSettings
 from ..model.results.fingerprint import digest, known_parts
 from ..model.results.inventory import Inventory
-from ..model.scenario import Change, Load, Scenario
+from ..model.scenario import Change, Load, Pull, Scenario
 from ..model.sequence.events import Event, Structure, recorded_structure, schedule
 from ..model.sequence.loads import PlacedLoad, placed_loads
 from ..model.structure.tendons import ModelTendons
@@ -39,7 +39,7 @@ from .connections.soil import soil_of
 from .connections.tendons import tendons_of
 from .effective_scenario import with_bodies, with_duration, with_first_frame, with_speed, with_time_step
 from .inventory import take_inventory
-from .structural_changes import changes_of, loads_of
+from .structural_changes import changes_of, loads_of, pulls_of
 from .time_scale import TimeOfScene, time_of
 from .tools.ground_motion import GroundMotionOfScene, ground_motion_of
 
@@ -126,6 +126,14 @@ def _load_parts(setup: RunSetup) -> Parts:
         load = placed.load
         course = np.array((*load.direction, *load.times_s, *load.forces_n, *(load.point_m or ())))
         parts |= {f"load {number}": course, f"load {number} bears": np.stack((placed.bodies, placed.shares))}
+    return parts
+
+
+def _pull_parts(setup: RunSetup) -> Parts:
+    """Return no parts without cables: fingerprints of earlier runs do not have them."""
+    parts: dict[str, Any] = {}
+    for number, placed in enumerate(setup.placed_pulls):
+        parts |= {f"pull {number}": [repr(placed.load)], f"pull {number} bears": placed.bodies}
     return parts
 
 
@@ -272,6 +280,7 @@ class RunSetup:
     loads: tuple[Load, ...] = decides(
         hashed=_load_parts, compared={"loads": lambda setup: {"planned": repr(setup.loads)}}, written=_SAME_KEY
     )
+    pulls: tuple[Pull, ...] = decides(hashed=_pull_parts, compared={"pulls": _pull_parts}, written=_SAME_KEY)
     ground_motion: GroundMotionOfScene | None = decides(
         hashed=_ground_motion_parts, compared={"the motion of the ground": _record_parts}, written=_SAME_KEY
     )
@@ -351,12 +360,20 @@ class RunSetup:
         return schedule(self.changes, self._structure) if self.changes else ()
 
     @cached_property
-    def placed_loads(self) -> tuple[PlacedLoad, ...]:
+    def placed_loads(self) -> tuple[PlacedLoad[Load], ...]:
         """Loads on the bodies that carry them."""
         if not self.loads:
             return ()
         structure = self._structure
         return placed_loads(self.loads, structure, self.inventory.masses_kg, structure.boxes_m)
+
+    @cached_property
+    def placed_pulls(self) -> tuple[PlacedLoad[Pull], ...]:
+        """Cables on the bodies that they pull."""
+        if not self.pulls:
+            return ()
+        structure = self._structure
+        return placed_loads(self.pulls, structure, self.inventory.masses_kg, structure.boxes_m)
 
     @property
     def _structure(self) -> Structure:
@@ -383,6 +400,7 @@ def run_setup_of(scene: bpy.types.Scene, *, with_connections: bool = True) -> Ru
         start_motion=start_motion_of(bodies.objects),
         changes=changes_of(scene),
         loads=loads_of(scene),
+        pulls=pulls_of(scene),
         ground_motion=ground_motion_of(scene),
         soil=soil_of(connections.objects),
         bearings=bearings_of(connections.objects),

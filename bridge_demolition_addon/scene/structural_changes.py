@@ -8,13 +8,13 @@ from typing import TypeVar
 import bpy
 
 from ..errors import ScenarioError
-from ..model.scenario import Change, Load, Removal, SawCut, Severing, TendonCut, Weakening, ZoneFiring
+from ..model.scenario import Change, Load, Pull, Removal, SawCut, Severing, TendonCut, Weakening, ZoneFiring
 from ..model.scenario.kept import tables_from_text, tables_text
 from .custom_properties import edited, keep
 
-_CHANGES, _LOADS = "bda_changes", "bda_loads"
+_CHANGES, _LOADS, _PULLS = "bda_changes", "bda_loads", "bda_pulls"
 
-_Kept = TypeVar("_Kept", Change, Load)
+_Kept = TypeVar("_Kept", Change, Load, Pull)
 
 
 def keep_changes(scene: bpy.types.Scene, changes: Sequence[Change]) -> None:
@@ -27,6 +27,11 @@ def keep_loads(scene: bpy.types.Scene, loads: Sequence[Load]) -> None:
     keep(scene, _LOADS, tables_text(loads) if loads else None)
 
 
+def keep_pulls(scene: bpy.types.Scene, pulls: Sequence[Pull]) -> None:
+    """Keep cables in the scene, and so in its file; a recording of the scene pulls by them."""
+    keep(scene, _PULLS, tables_text(pulls) if pulls else None)
+
+
 def changes_of(scene: bpy.types.Scene) -> tuple[Change, ...]:
     """Return the changes that a scene keeps."""
     classes: tuple[type[Change], ...] = (Removal, SawCut, Severing, TendonCut, Weakening, ZoneFiring)
@@ -36,6 +41,11 @@ def changes_of(scene: bpy.types.Scene) -> tuple[Change, ...]:
 def loads_of(scene: bpy.types.Scene) -> tuple[Load, ...]:
     """Return the loads that a scene keeps."""
     return _kept_tables(scene, _LOADS, (Load,))
+
+
+def pulls_of(scene: bpy.types.Scene) -> tuple[Pull, ...]:
+    """Return the cables that a scene keeps."""
+    return _kept_tables(scene, _PULLS, (Pull,))
 
 
 def _kept_tables(scene: bpy.types.Scene, name: str, classes: Sequence[type[_Kept]]) -> tuple[_Kept, ...]:

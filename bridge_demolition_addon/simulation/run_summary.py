@@ -104,6 +104,8 @@ def run_summary(recording: Recording, results: Results, context: RunContext, *, 
     }
     if recording.tendons:
         summary["tendons"] = recording.tendons.summary()
+    if recording.pulls:
+        summary["pulls"] = recording.pulls.summary()
     return summary if scenario is None else summary | _of_scenario(scenario, recording, results, context.ground_motion)
 
 

@@ -22,8 +22,8 @@ from bridge_demolition_addon.report.sections.stages import stages_report
 
 DRILLED = read_scenario(EXAMPLES / "drilled" / "two_spans_in_100_shards.toml")
 OUTPUT = 'neighbours."House".touchdown_mm_s'
-FROM_ELSEWHERE = {"How far fragments fly", "Tendons"}
-"""Of studies with blast zones, and of bridges with tendons; tests of theirs look for these titles."""
+FROM_ELSEWHERE = {"How far fragments fly", "Tendons", "Pulls"}
+"""Of studies with blast zones, of bridges with tendons, and of cables that pull; tests of theirs look for these."""
 
 
 @pytest.fixture(scope="module")

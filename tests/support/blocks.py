@@ -67,7 +67,7 @@ class Blocks:
 
     def play(self, folder: Path, frames: int, *, every_substep: bool = True, contacts: bool = False) -> Results:
         """Simulate and record, from the start frame on."""
-        recording = Recording(self.scene, folder, every_substep=every_substep, contacts=contacts)
+        self.recording = recording = Recording(self.scene, folder, every_substep=every_substep, contacts=contacts)
         start_recording(recording)
         for frame in range(self.scene.frame_start, self.scene.frame_start + frames + 2):
             self.scene.frame_set(frame)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -27,6 +28,13 @@ _SOLUTIONS = 8
 
 _AT_REST = 1e-9
 """Unbalanced load, as a share of the largest weight, at which the structure rests."""
+
+_TAKEN_FOR_REST = 1e-3
+"""Unbalanced load, as that share, up to which they are taken for enough."""
+
+_SETTLES = 0.5
+"""Part of the unbalanced load that a solution leaves as long as they settle. Where bars are about to buckle or twist,
+later ones leave ever more: forces then change the stiffness by as much as there is, which the equations do not know."""
 
 _SOLUTIONS_ON_BEARINGS = 60
 _AT_REST_ON_BEARINGS = 1e-7
@@ -203,12 +211,14 @@ def _part_at_rest(
         weights[:, members] += loads[:, members]
     part = _Part(members, frames, stiffness, bodies, weights, pads, tendons)
     solutions, balanced = (_SOLUTIONS, _AT_REST) if pads is None else (_SOLUTIONS_ON_BEARINGS, _AT_REST_ON_BEARINGS)
+    settled = _Settled()
     for _ in range(solutions):
         own = bodies.mass_matrices(rotations, members)
         left = part.unbalanced(positions_m, rotations)
         part.factor(SLACK * own, positions_m, rotations)
         if abs(left[:3]).max() <= balanced * abs(weights).max():
             break
+        settled.follow(float(abs(left[:3]).max()), positions_m, rotations)
         moved = np.zeros((6, count))
         moved[:, members] = part.system.solve(left)
         if pads is not None and abs(moved[:3]).max() <= _ROUNDINGS * np.spacing(abs(positions_m).max()):
@@ -226,7 +236,30 @@ def _part_at_rest(
     else:
         if pads is not None:  # it rocks or slides, and comes to no rest
             return None
+        if abs(part.unbalanced(positions_m, rotations)[:3]).max() > _TAKEN_FOR_REST * abs(weights).max():
+            positions_m, rotations = settled.positions_m, settled.rotations
+            own = bodies.mass_matrices(rotations, members)
+            part.unbalanced(positions_m, rotations)
+            part.factor(SLACK * own, positions_m, rotations)
     return positions_m, rotations, first_frequency(part.system, own)
+
+
+class _Settled:
+    """The last of solutions, one after another, up to which they settled."""
+
+    def __init__(self) -> None:
+        self.positions_m, self.rotations = np.zeros((3, 0)), np.zeros((3, 3, 0))
+        self._least_n, self._solutions, self._settle = math.inf, 0, True
+
+    def follow(self, left_n: float, positions_m: FloatArray, rotations: FloatArray) -> None:
+        """Take over a solution that leaves so much unbalanced.
+
+        The first of all, from the unloaded shape, may leave any: what turns stretches then.
+        """
+        self._settle = self._settle and (self._solutions <= 1 or left_n <= _SETTLES * self._least_n)
+        if self._settle:
+            self.positions_m, self.rotations, self._least_n = positions_m, rotations, left_n
+        self._solutions += 1
 
 
 def _moved(positions_m: FloatArray, rotations: FloatArray, step: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -109,6 +109,11 @@ class RunSummary:
         return self.values.get("tendons", [])
 
     @property
+    def pulls(self) -> list[dict[str, Any]]:
+        """What each cable pulled with; empty without cables, and of runs that were recorded before."""
+        return self.values.get("pulls", [])
+
+    @property
     def came_to_rest_s(self) -> float | None:
         """When everything came to rest; None where it did not."""
         return self.values.get("came_to_rest_s")
@@ -197,6 +202,8 @@ def _checked(summary: Any) -> dict[str, Any]:
         _check_table(f"tendons[{number}]", tendon, _TENDON)
         for other, release in enumerate(tendon["released"]):
             _check_table(f"tendons[{number}].released[{other}]", release, _RELEASE)
+    for number, pull in enumerate(summary.get("pulls", ())):
+        _check_table(f"pulls[{number}]", pull, _PULL)
     for number, hit in enumerate(summary.get("hits_of_the_ball", ())):
         _check_table(f"hits_of_the_ball[{number}]", hit, _HIT, optional=_ESTIMATES)
     return summary
@@ -333,6 +340,16 @@ _LARGEST_USE = {
     "second_member": _is_text,
 }
 _TENDON = {"name": _is_text, "member": _is_text, "force_N": _is_number, "stored_J": _is_number, "released": _is_list}
+_PULL = {
+    "name": _is_text,
+    "largest_force_N": _is_number,
+    "largest_force_s": _is_number,
+    "paid_out_s": _is_number_or_none,
+    "ended": lambda value: value is None or _is_text(value),
+    "ended_s": _is_number_or_none,
+    "let_go_J": _is_number_or_none,
+    "work_J": _is_number,
+}
 _RELEASE = {"time_s": _is_number, "how": _is_text, "energy_J": _is_number}
 _LEVELLED = {"name": _is_text, "dug_m": _is_number, "filled_m": _is_number}
 _SUMMARY = {
@@ -354,6 +371,7 @@ _SUMMARY = {
     "bearings": _is_list,
     "reinforcement": _is_table_or_none,
     "tendons": _is_list,
+    "pulls": _is_list,
 }
 
 _ESTIMATES = {"half_sine_peak_force_N": _is_number, "hertz_peak_force_N": _is_number}

@@ -12,6 +12,7 @@ from ..blast.settings import BlastSettings
 from ..loads import Load
 from ..materials.bar_layers import BarLayer
 from ..materials.materials import Material
+from ..pulls import Pull
 from .ball import Ball, BallCable, BallHit
 from .bodies import Equipment, Ground, GroundSurface, ShardSettings, Support
 from .bridge import Abutments, BoxGirder, Bridge, Deck, Girders, PierCaps, Piers
@@ -69,6 +70,7 @@ __all__ = [
     "PictureSettings",
     "PierCaps",
     "Piers",
+    "Pull",
     "RatiosOfMember",
     "RecordingSettings",
     "Removal",

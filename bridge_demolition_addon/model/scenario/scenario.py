@@ -21,6 +21,7 @@ from ..ground_motion.sources import ground_record
 from ..loads import Load
 from ..materials.bar_layers import BarLayer
 from ..materials.materials import Material, check_materials
+from ..pulls import Pull, check_names
 from ..schema import (
     LARGEST_INTEGER,
     ROUNDING,
@@ -94,6 +95,7 @@ class Scenario(Table):
     weakenings: tuple[Weakening, ...] = ()
     tendon_cuts: tuple[TendonCut, ...] = ()
     loads: tuple[Load, ...] = ()
+    pulls: tuple[Pull, ...] = ()
     recording: RecordingSettings = field(default_factory=RecordingSettings)
     pictures: PictureSettings = field(default_factory=PictureSettings)
     zones: tuple[Zone, ...] = ()
@@ -218,6 +220,7 @@ class Scenario(Table):
         check_materials(self.materials)
         self._check_reinforcement()
         check_tendons(self.tendons, self.tendon_cuts, self.connections)
+        check_names(self.pulls)
         if not self.connections.is_elastic:
             for table in self.bearings:
                 table.check_rigid()

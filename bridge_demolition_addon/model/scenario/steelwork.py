@@ -8,6 +8,7 @@ import numpy as np
 
 from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.strength import Strength
+from ...engineering.steelwork.bolts import Bolts, bolts_named
 from ...engineering.steelwork.catalogue import section_named
 from ...engineering.steelwork.grades import DENSITY_KG_M3, GRADES, STEEL_MODULI, strengths_pa
 from ...engineering.steelwork.resistance import initial_bow_m, plastic_strength
@@ -105,6 +106,12 @@ class SteelMember(Table):
         above=0,
         at_most=10,
     )
+    end_bolts: tuple[str, str] | None = key(
+        "Bolts of its joint to each node, in place of `end_strengths`: number, size and grade, such as `8 M20 8.8`, "
+        "then ` in 4 lines` along the bar (2 by default) and ` in double shear` where they are; or `welded`, as strong "
+        "as the bar. Their shear or the section between their holes, whichever resists less, gives the part.",
+        default=None,
+    )
     pieces: int | None = key(
         "Pieces that it is cut into; by default as many as all.", default=None, at_least=1, at_most=_MOST_PIECES
     )
@@ -142,6 +149,37 @@ class SteelMember(Table):
             section_named(self.section)
         except ScenarioError as error:
             raise ScenarioError(f"{self.table}.section: {error}") from error
+        self._check_bolts()
+
+    def _check_bolts(self) -> None:
+        if self.end_bolts is None:
+            return
+        if self.end_strengths != (1.0, 1.0):
+            raise ScenarioError(
+                f"{self.table} {shown(self.name)}: end_bolts is given together with end_strengths: expected one of the "
+                "two"
+            )
+        for end in range(2):
+            try:
+                bolts = self.bolts(end)
+            except ScenarioError as error:
+                raise ScenarioError(f"{self.table} {shown(self.name)}: end_bolts.{end + 1}: {error}") from error
+            if bolts is None:
+                continue
+            if bolts.count == 1 and self.ends[end] == FIXED:
+                raise ScenarioError(
+                    f"{self.table} {shown(self.name)}: end_bolts.{end + 1} is {shown(self.end_bolts[end])}, one bolt, "
+                    f'which the bar turns about: expected "{PINNED}" or "{HINGED}" as ends.{end + 1}'
+                )
+            if bolts.net_area_m2(self.steel_section) <= 0.0:
+                raise ScenarioError(
+                    f"{self.table} {shown(self.name)}: end_bolts.{end + 1} is {shown(self.end_bolts[end])}, whose "
+                    f"holes leave nothing of {self.section}: expected fewer lines or smaller bolts"
+                )
+
+    def bolts(self, end: int) -> Bolts | None:
+        """Return the bolts at its first or last end, None without any."""
+        return None if self.end_bolts is None else bolts_named(self.end_bolts[end])
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -192,6 +230,14 @@ class Steelwork(Table):
     def yield_and_ultimate_pa(self, member: SteelMember) -> tuple[float, float]:
         return strengths_pa(self.grade_of(member), member.steel_section.thickest_m)
 
+    def end_share(self, member: SteelMember, end: int) -> float:
+        """Return the strength of the joint at the first or last end of a bar, as a part of that of the bar."""
+        bolts = member.bolts(end)
+        if bolts is None:
+            return member.end_strengths[end]
+        section, (yield_pa, ultimate_pa) = member.steel_section, self.yield_and_ultimate_pa(member)
+        return bolts.resistance_n(section, ultimate_pa) / (section.area_m2 * yield_pa)
+
     def bow_m(self, member: SteelMember, length_m: float) -> np.ndarray:
         """Return how far a bar is bowed in its middle along y and z of its section (2,), if bars are."""
         if not self.bowed:
@@ -213,7 +259,7 @@ class Steelwork(Table):
 
     def bar_key(self, member: SteelMember, end: int | None = None) -> tuple[str, ...]:
         """Return what the joints of a bar have in common, within it or at one of its ends."""
-        share = 1.0 if end is None else member.end_strengths[end]
+        share = 1.0 if end is None else self.end_share(member, end)
         return (self.grade_of(member), member.steel_section.name, repr(share))
 
     def support_key(self, node: SteelNode) -> tuple[str, ...]:
@@ -225,7 +271,7 @@ class Steelwork(Table):
         for member in self.all_members:
             for end in (None, 0, 1):
                 yield_pa, _ = self.yield_and_ultimate_pa(member)
-                share = 1.0 if end is None else member.end_strengths[end]
+                share = 1.0 if end is None else self.end_share(member, end)
                 strength = plastic_strength(member.steel_section, yield_pa).times(share)
                 kinds.setdefault(self.bar_key(member, end), (strength, "FIXED"))
         for node in self.all_nodes:

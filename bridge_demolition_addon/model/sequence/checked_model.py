@@ -17,6 +17,7 @@ from ..bridge.extent import surface_height
 from ..bridge.member import Member
 from ..loads import Load
 from ..materials.bar_layers import BarLayer
+from ..pulls import Pull
 from ..reinforcement.design import all_layers
 from ..scenario import Change, MemberCut, Scenario, TendonCut
 from ..scenario.structural_changes import severing
@@ -68,7 +69,7 @@ class ModelWorksite:
 
     def affected_by(self, action: PlannedAction) -> Affected:
         model = self.model
-        if isinstance(action, Load):
+        if isinstance(action, Load | Pull):
             shards = placed_on_model(action, self.number_of(action), model, self._structure).bodies
         else:
             assert isinstance(action, Change)

@@ -8,12 +8,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...engineering.geometry.vectors import unit
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...errors import ScenarioError
 from ..actions import Fact
+from ..pulls import Pull
 from ..scenario import Equipment, Scenario
 from ..schema import given
 from ..sequence.events import Event, model_structure, schedule
+from ..sequence.loads import placed_on_model
 from ..structure.blast_zones import zone_firings
 from ..structure.model import Model
 from .changed_bridge import ChangedBridge, PressedBars
@@ -21,7 +24,7 @@ from .changed_tendons import ReleasedTendon, released_tendons
 from .reactions import supports_of
 from .standing import Standing, StandingBridge
 
-_BUILT, _MACHINES = "as it was built", "equipment comes or goes"
+_BUILT, _MACHINES, _PULLS = "as it was built", "equipment comes or goes", "pull by {}"
 """Steps without an event."""
 
 _AT_THE_TOP = 0.05
@@ -58,6 +61,8 @@ class Criticality:
     member: str
     falls_kg: float  # mass that comes down then, without the member itself
     share: float  # part of the mass of all that was held
+    used: float  # highest utilisation of a connection of the others, before any breaks; nan where none is held
+    most_used: int | None  # that connection
 
 
 def stages_of(scenario: Scenario, bridge: StandingBridge, progress: Callable[[int, int], None]) -> list[Stage]:
@@ -69,17 +74,18 @@ def stages_of(scenario: Scenario, bridge: StandingBridge, progress: Callable[[in
     for number, (time_s, events) in enumerate(steps):
         before, changed = changed, changed.after(events)
         machines = [machine for machine in scenario.equipment if machine.stands_at(time_s)]
-        loads = equipment_loads(model, machines, changed.removed)
+        pulls = [pull for pull in scenario.pulls if pull.start_s <= time_s]
+        loads = equipment_loads(model, machines, changed.removed) + pull_loads(model, pulls, changed.removed)
         state = changed.intact, changed.left, loads
         standing = bridge.rest(*state, bare=changed.bare, cuts=changed.cuts)
         stages.append(
             Stage(
                 time_s=time_s,
-                step=", ".join(_described(event, model) for event in events) or (_MACHINES if number else _BUILT),
+                step=_described_step(scenario, time_s, events, model),
                 standing=standing,
                 removed=changed.removed,
                 loose=~standing.held & ~changed.removed & ~model.fixed,
-                equipment=tuple(machine.name for machine in machines),
+                equipment=(*(machine.name for machine in machines), *(pull.name for pull in pulls)),
                 equipment_n=STANDARD_GRAVITY_M_S2 * math.fsum(machine.mass_kg for machine in machines),
                 collapse_factor=bridge.collapse_factor(*state, changed.bare, changed.cuts),
                 bars=changed.pressed_bars(standing.bare_n),
@@ -95,18 +101,31 @@ def criticality(bridge: StandingBridge, progress: Callable[[int, int], None]) ->
     model = bridge.model
     count, ones = len(model.connections), np.ones(len(model.connections))
     nothing = np.zeros((6, len(model.shards)))
-    held = bridge.held(ones > 0.0)
+    held = bridge.unbroken(ones > 0.0).held
     effects = []
     for number, member in enumerate(model.members):
         own = model.member_of_shard == number
         gone = np.isin(model.connections.pairs, np.flatnonzero(own)).any(axis=1)
         intact = np.ones(count, bool) & ~gone
-        loose = held & ~own & ~bridge.held(intact)
+        without = bridge.unbroken(intact)
+        loose = held & ~own & ~without.held
         loose |= bridge.comes_down(intact, ones, nothing, 1.0) & ~own
         falls_kg = float(model.masses_kg[loose].sum())
-        effects.append(Criticality(member.name, falls_kg, falls_kg / float(model.masses_kg[held].sum() or 1.0)))
+        share = falls_kg / float(model.masses_kg[held].sum() or 1.0)
+        effects.append(Criticality(member.name, falls_kg, share, *_most_used(without, model)))
         progress(number + 1, len(model.members))
     return effects
+
+
+def _most_used(standing: Standing, model: Model) -> tuple[float, int | None]:
+    """Return the highest utilisation of a connection whose both sides are held, and which it is."""
+    used = np.fmin(standing.alone, standing.together)
+    there = np.append(standing.held | model.fixed, True)[model.connections.pairs].all(axis=1)
+    used = np.where(there, used, np.nan)
+    if not np.isfinite(used).any():
+        return np.nan, None
+    worst = int(np.nanargmax(used))
+    return float(used[worst]), worst
 
 
 def equipment_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
@@ -182,6 +201,26 @@ def _highest_under(point: np.ndarray, boxes: np.ndarray, removed: np.ndarray) ->
     return int(rows[np.argmin(np.square(middles - point).sum(axis=1))])
 
 
+def pull_loads(model: Model, pulls: Sequence[Pull], removed: np.ndarray) -> np.ndarray:
+    """Return forces and moments (6, n) on the shards by cables, each with the largest force that it comes to.
+
+    They pull towards their anchors from where the bridge was built; what was removed is not pulled.
+    """
+    loads = np.zeros((6, len(model.shards)))
+    if not pulls:
+        return loads
+    structure = model_structure(model)
+    for number, pull in enumerate(pulls, start=1):
+        placed = placed_on_model(pull, number, model, structure)
+        shard = int(placed.bodies[0])
+        if removed[shard]:
+            continue
+        force_n = pull.most_n * unit(np.subtract(pull.anchor_m, pull.point_m))
+        loads[:3, shard] += force_n
+        loads[3:, shard] += np.cross(given(placed.arm_m), force_n)
+    return loads
+
+
 def reactions_n(model: Model, stage: Stage) -> np.ndarray:
     """Return the sum (3,) of the forces of all supports on the bridge in a stage, N."""
     forces = [support.reaction(stage.standing.loads)[0] for support in supports_of(model)]
@@ -191,9 +230,16 @@ def reactions_n(model: Model, stage: Stage) -> np.ndarray:
 def _steps(scenario: Scenario, events: Sequence[Event]) -> list[tuple[float, list[Event]]]:
     """Return times at which something changes, from 0 on, and the changes."""
     times = {0.0, *(event.time_s for event in events)}
+    times |= {pull.start_s for pull in scenario.pulls}
     for machine in scenario.equipment:
         times |= {machine.from_s} | ({machine.until_s} if machine.until_s is not None else set())
     return [(time_s, [event for event in events if event.time_s == time_s]) for time_s in sorted(times)]
+
+
+def _described_step(scenario: Scenario, time_s: float, events: Sequence[Event], model: Model) -> str:
+    done = [_described(event, model) for event in events]
+    done += [_PULLS.format(pull.name) for pull in scenario.pulls if pull.start_s == time_s]
+    return ", ".join(done) or (_MACHINES if time_s > 0.0 else _BUILT)
 
 
 def _described(event: Event, model: Model) -> str:

@@ -115,10 +115,13 @@ class StandingBridge:
         cracked = self._cracked(intact, left, loads, factor, standing, cuts)
         return standing if cracked.fallen.any() else self._on_bars(cracked, left, standing)
 
-    def held(self, intact: np.ndarray) -> np.ndarray:
-        """Return which shards (n,) connections that are `intact` (m,) hold, as if none broke."""
+    def unbroken(self, intact: np.ndarray) -> Standing:
+        """Return the bridge under its weight, with the connections that are `intact` (m,), as if none broke.
+
+        Sections are judged where a connection is overloaded by itself.
+        """
         nothing = np.zeros((6, len(self.model.shards)))
-        return self._elastic(intact, np.ones(len(intact)), nothing, 1.0, every_section=False).held
+        return self._elastic(intact, np.ones(len(intact)), nothing, 1.0, every_section=False)
 
     def _elastic(
         self,

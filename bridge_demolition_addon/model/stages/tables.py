@@ -85,7 +85,7 @@ UTILISATION_COLUMNS = (
     "of_the_section",
     "governed_by",
 )
-CRITICALITY_COLUMNS = ("member", "stands", "falls_kg", "share_of_the_bridge")
+CRITICALITY_COLUMNS = ("member", "stands", "falls_kg", "share_of_the_bridge", "largest_utilisation", "between")
 
 SLOW_COLLAPSE = (
     "without bars a broken face carries nothing here; in a run its two sides press on each other, and what stands on "
@@ -118,7 +118,9 @@ def write_tables(
     write_table(folder / BEARINGS_FILE, BEARING_COLUMNS, bearing_rows(stages, bridge.model))
     used = (row for number, stage in enumerate(stages, start=1) for row in utilisation_rows(number, stage, bridge))
     write_table(folder / UTILISATION_FILE, UTILISATION_COLUMNS, used)
-    write_table(folder / CRITICALITY_FILE, CRITICALITY_COLUMNS, map(criticality_row, members))
+    write_table(
+        folder / CRITICALITY_FILE, CRITICALITY_COLUMNS, (criticality_row(effect, bridge.model) for effect in members)
+    )
     write_table(folder / MISFIRES_FILE, MISFIRE_COLUMNS, map(misfire_row, failures))
     return rows
 
@@ -191,10 +193,12 @@ def utilisation_rows(number: int, stage: Stage, bridge: StandingBridge) -> Itera
         yield dict(zip(UTILISATION_COLUMNS, values, strict=True))
 
 
-def criticality_row(effect: Criticality) -> dict[str, Any]:
+def criticality_row(effect: Criticality, model: Model) -> dict[str, Any]:
     """Return the row of a member."""
     stands = "true" if effect.falls_kg == 0.0 else "false"
-    return dict(zip(CRITICALITY_COLUMNS, (effect.member, stands, effect.falls_kg, effect.share), strict=True))
+    where = None if effect.most_used is None else between(model, effect.most_used)
+    values = effect.member, stands, effect.falls_kg, effect.share, effect.used, where
+    return dict(zip(CRITICALITY_COLUMNS, values, strict=True))
 
 
 def stage_sentences(stage: Stage, row: Mapping[str, Any]) -> list[str]:
@@ -235,9 +239,15 @@ def _of_tendon(tendon: ReleasedTendon) -> str:
 def criticality_sentences(members: Sequence[Criticality]) -> list[str]:
     """Return what comes down without which member, the most first."""
     falls = sorted((member for member in members if member.falls_kg), key=lambda member: -member.falls_kg)
+    sentences = [f"without {fall.member}: {mass_text(fall.falls_kg, 1)} come down, {fall.share:.0%}" for fall in falls]
     if not falls:
-        return ["without any one member the others stand"]
-    return [f"without {fall.member}: {mass_text(fall.falls_kg, 1)} come down, {fall.share:.0%}" for fall in falls]
+        sentences.append("without any one member the others stand")
+    standing = [member for member in members if not member.falls_kg and member.used > 0.0]
+    if standing:
+        worst = max(standing, key=lambda member: member.used)
+        which = f"of those without which the others stand, {worst.member}" if falls else worst.member
+        sentences.append(f"missed most, {which}: without it the others are used by {worst.used:.0%} before any breaks")
+    return sentences
 
 
 def reaction_sentences(rows: Sequence[Mapping[str, Any]]) -> list[str]:

@@ -15,6 +15,7 @@ from ...engineering.steelwork.resistance import Buckling, buckling
 from ...engineering.steelwork.web_shear import WebShear, web_shear
 from ..actions import Fact
 from ..scenario import Scenario
+from ..scenario.steelwork import SteelMember, Steelwork
 from ..schema import given
 from .equilibrium import loads_of
 from .model import Model
@@ -127,8 +128,10 @@ def steel_facts(scenario: Scenario, model: Model, rest: Equilibrium) -> Iterator
     if thin := [use for use in uses if use.web and use.web.buckles and (use.web_used or 0.0) > 1.0]:
         names = ", ".join(use.name for use in thin[:MOST_BARS_NAMED])
         yield "webs buckle", f"{names}: sheared by more than EN 1993-1-5, 5.3 lets them resist; a run does not show it"
+    tables = {table.name: table for table in given(scenario.steelwork).all_members}
     for use in uses[:MOST_BARS_NAMED]:
         yield use.name, _text(use)
+        yield from _bolt_facts(given(scenario.steelwork), tables[use.name])
     if len(uses) > MOST_BARS_NAMED:
         yield "", f"and {len(uses) - MOST_BARS_NAMED} more, used by {uses[MOST_BARS_NAMED].used:.0%} or less"
 
@@ -137,6 +140,20 @@ def sum_of_masses(model: Model) -> float:
     """Return the mass of all bars and nodes."""
     is_steel = np.array([member.steel is not None for member in model.members])[model.member_of_shard]
     return float(model.masses_kg[is_steel].sum())
+
+
+def _bolt_facts(steelwork: Steelwork, table: SteelMember) -> Iterator[Fact]:
+    """Yield what the bolts at the ends of a bar resist in axial force."""
+    _, ultimate_pa = steelwork.yield_and_ultimate_pa(table)
+    for end, node in enumerate(table.nodes):
+        bolts = table.bolts(end)
+        if bolts is not None:
+            net_n = bolts.net_section_n(table.steel_section, ultimate_pa)
+            yield (
+                "",
+                f"{given(table.end_bolts)[end]} at {node}: resist {bolts.shear_n / 1e3:.1f} kN in shear, the section "
+                f"between holes {net_n / 1e3:.1f} kN, {steelwork.end_share(table, end):.0%} of the bar",
+            )
 
 
 def _text(use: BarUse) -> str:

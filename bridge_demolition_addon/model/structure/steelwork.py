@@ -285,7 +285,7 @@ def with_steel_hinges(
         table, bar = tables[members[index].name], _bar(members[index])
         hinge = section_hinge(bar.section, steelwork.yield_and_ultimate_pa(table)[0])
         end = {0: 0, bar.pieces: 1}.get(number)
-        share = factor if end is None else factor * table.end_strengths[end]
+        share = factor if end is None else factor * steelwork.end_share(table, end)
         yields.append(share * hinge.yield_n)
         openings.append(hinge.opening_m)
         hinges.append((hinge.yield_strain, hinge.hardening, hinge.rupture_strain))

@@ -110,7 +110,7 @@ PLAN_ITEMS = (
     PlanItem(
         "Course of the collapse, and where debris lies",
         (f"{BS_6187}, 14 Structural demolition: principles, mechanisms and hazards",),
-        ("Findings", "Collapse", "Debris", "Tendons", "What this study says", "How far debris gets"),
+        ("Findings", "Collapse", "Debris", "Tendons", "Pulls", "What this study says", "How far debris gets"),
         "engineer",
         "judgement of the forecast",
     ),

@@ -73,6 +73,9 @@ _BEARINGS = (
 _SINCE_LATER = ("cracked", "bare_bars_used", "tendons_released_kJ", "falls_at_most_kg")
 """Columns that earlier versions did not write."""
 
+_CRITICALITY_AT_FIRST = 4
+"""Columns of members that they did write."""
+
 _MISFIRES = (
     "The bridge at rest after all changes but one blast zone: masses of what connections to supports held at first. "
     "Bare bars of zones that fired carry up to their force at yield or buckling, with their ends held sideways. At "
@@ -112,7 +115,7 @@ def stages_section(folder: Path) -> Section:
     """Return what the tables of stages in a folder say."""
     always = [name for name in STAGE_COLUMNS if name not in _SINCE_LATER]
     stages = _rows(folder / STAGES_FILE, always)
-    members = _rows(folder / CRITICALITY_FILE, CRITICALITY_COLUMNS)
+    members = _rows(folder / CRITICALITY_FILE, CRITICALITY_COLUMNS[:_CRITICALITY_AT_FIRST])
     try:
         table = DataTable.of("stages", "Stages", _COLUMNS, stages)
         falls = [(row["member"], float(row["falls_kg"]) / 1e3, float(row["share_of_the_bridge"])) for row in members]

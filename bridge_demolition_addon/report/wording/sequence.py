@@ -11,6 +11,7 @@ from ...model.actions import PlannedAction
 from ...model.blast.charges import Charge
 from ...model.ground_motion.settings import GroundMotion
 from ...model.loads import Load
+from ...model.pulls import Pull
 from ...model.scenario import Ball, BlastZone, Change, Equipment, Jackhammer, MemberCut, Scenario, TendonCut, Weakening
 from ...model.schema import given
 
@@ -56,6 +57,7 @@ def _means(scenario: Scenario) -> Iterator[str]:
         (scenario.tendon_cuts, "tendon cut"),
         (scenario.jackhammers, "jackhammer"),
         (scenario.loads, "load"),
+        (scenario.pulls, "pull"),
         (scenario.equipment, "machine"),
     )
     yield from (_count(len(tables), name) for tables, name in counted if tables)
@@ -107,6 +109,8 @@ def _described(action: PlannedAction) -> tuple[str, str]:
             return action.kind, action.where or "everywhere"
         case Load():
             return f"load of up to {max(action.forces_n) / 1e3:g} kN", action.where
+        case Pull():
+            return f"{action.name} pulls with up to {action.most_n / 1e3:g} kN", f"from {_point(action.anchor_m)}"
         case Jackhammer():
             return "jackhammer works", f"from {_point(action.path_m[0])} to {_point(action.path_m[-1])}"
         case GroundMotion():

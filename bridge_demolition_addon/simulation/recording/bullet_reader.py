@@ -31,6 +31,7 @@ from .ground_drive import GroundDrive
 from .loads import Loads
 from .meter import Meter
 from .motion_reader import unknown_loads
+from .pulls import Pulls
 from .ruptured_bars import bars_that_rupture
 from .substeps import SubstepRecorder, in_order
 from .tendons import Tendons
@@ -55,6 +56,8 @@ class BulletReader:
         Connections across whose cracks bars are followed; None where they are not.
     tendons : Tendons or None
         What presses bodies together; None without tendons, or where connections are rigid.
+    pulls : Pulls or None
+        Cables that pull bodies; None without any.
     rigid_because : LayoutError or None
         Why connections that should be elastic are rigid.
     """
@@ -92,6 +95,7 @@ class BulletReader:
         setup, world, inventory = self._setup, self._world, self._inventory
         breaking, constraints = setup.breaking, world.constraints
         self.tendons = tendons = _tendons_of(setup, world, elastic)
+        self.pulls = pulls = Pulls(world.bodies, setup.placed_pulls, inventory.masses_kg) if setup.pulls else None
         self._events = events = Events(world, inventory.pairs, inventory.masses_kg, setup.events, elastic, tendons)
         if setup.elasticity is None and breaking.ductility and np.any(breaking.ductility.strength_share):
             raise SimulationError(
@@ -116,6 +120,7 @@ class BulletReader:
                 ThresholdScale(constraints, setup.time.step.substep_s),
                 blast,
                 Loads(world.bodies, setup.placed_loads),
+                pulls,
                 tendons,
                 ElasticPrediction(elastic, breaker) if elastic else None,
                 Torques(world.bodies, np.array(setup.bodies.rigid["angular_damping"])),

@@ -8,6 +8,7 @@ import numpy as np
 
 from ...bullet.bodies import BodyTable
 from ...engineering.geometry.vectors import cross, transformed, transformed_back
+from ...model.loads import Load
 from ...model.sequence.loads import PlacedLoad
 from .drivers import Driver
 
@@ -15,7 +16,7 @@ from .drivers import Driver
 class Loads(Driver):
     """Pushes bodies with all loads."""
 
-    def __init__(self, bodies: BodyTable, loads: Sequence[PlacedLoad]):
+    def __init__(self, bodies: BodyTable, loads: Sequence[PlacedLoad[Load]]):
         self._table = bodies
         self._loads = [load.load for load in loads]
         counts = [len(load.bodies) for load in loads]

@@ -24,6 +24,7 @@ READING = "change of momentum between frames"
 _NEED_MEMORY: tuple[tuple[Callable[[RunSetup], Any], str, str], ...] = (
     (lambda setup: setup.start_motion.any(), "velocities to begin with need", "take them out of the scenario"),
     (lambda setup: setup.loads, "loads need", "take them out of the scenario"),
+    (lambda setup: setup.pulls, "pulls need", "take them out of the scenario"),
     (lambda setup: setup.tendons, "tendons need", "take them out of the scenario"),
     (lambda setup: setup.ground_motion, "a ground that moves needs", "take ground_motion out of the scenario"),
     (

@@ -26,6 +26,7 @@ from ...scene.connections.elasticity import is_elastic
 from ...scene.run_setup import RunSetup, run_setup_of
 from ...scene.time_scale import time_step_at
 from ...scene.tools.ball import begin_lifts, lifts_of
+from ...scene.tools.cables import hide_cables
 from .bars import RecordedBars
 from .bearings import RecordedBearings
 from .blast import Blast, check_blast
@@ -34,6 +35,7 @@ from .elastic_connections import RestingState
 from .logs import LogFiles, Logs
 from .motion_reader import READING as READING_OF_MOTION
 from .motion_reader import MomentumReader, check_motion_is_enough
+from .pulls import Pulls
 from .recordable import check_recordable
 from .recorded_frames import RecordedFrames
 from .run_timing import RunTiming
@@ -80,6 +82,8 @@ class Recording(RecordedFrames):
         Sub-steps of the frame played last.
     tendons : Tendons or None
         What each tendon let go so far; None without any.
+    pulls : Pulls or None
+        What each cable pulled with so far; None without any.
     """
 
     def __init__(
@@ -115,6 +119,7 @@ class Recording(RecordedFrames):
         self._lifted: list[bpy.types.Object] = []
         self._reader: BulletReader | None = None
         self.tendons: Tendons | None = None
+        self.pulls: Pulls | None = None
         self._momentum: MomentumReader | None = None
         self._logs: Logs | None = None
         self._blast: Blast | None = None
@@ -280,7 +285,7 @@ class Recording(RecordedFrames):
         self._reader = BulletReader(
             self.scene, setup, self.world, self._blast, every_substep=self._every_substep, loads=self.has_loads
         )
-        self.tendons = self._reader.tendons
+        self.tendons, self.pulls = self._reader.tendons, self._reader.pulls
         if self._logs and self._reader.have_bars is not None:
             self._bars = RecordedBars(setup.inventory, self._reader.have_bars)
             self._logs.begin_bars()
@@ -315,6 +320,9 @@ class Recording(RecordedFrames):
             blast_loads, impulses = self._blast.after_frame(frame.positions_m)
             frame = replace(frame, blast_impulses_ns=frame.blast_impulses_ns + impulses)
         self._append(frame, balls, contacts)
+        if self.pulls:
+            self.pulls.note(frame.time_s)
+            hide_cables(self.scene, [cable.pull.name for cable in self.pulls.cables if cable.ended])
         if self._logs:
             self._logs.write_frame(frame)
             self._write_bearings(self._logs, frame)

@@ -17,6 +17,7 @@ from .frame_sums import FrameSums, MeasuredSubstep
 from .ground_drive import GroundDrive
 from .loads import Loads
 from .meter import Meter
+from .pulls import Pulls
 from .tendons import Tendons
 from .torques import Torques
 
@@ -28,6 +29,7 @@ ORDER = (
     ThresholdScale,
     Blast,
     Loads,
+    Pulls,
     Tendons,
     ElasticPrediction,
     Torques,

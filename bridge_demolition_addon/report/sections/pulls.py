@@ -1,0 +1,36 @@
+"""Cables that pulled in a report of a run: the force of each, and the energy that it let go where it broke."""
+
+from __future__ import annotations
+
+from ..document.blocks import Column, DataTable, Paragraph, Section
+from ..run_folder import ReportedRun
+
+_KILO = 1000.0
+
+_DANGER = (
+    "A cable that breaks whips back, and kills. Keep everybody off its line, and farther from both of its ends than it "
+    "is long, as long as it has force; protect whoever works the winch. What is pulled over may fall farther than it "
+    "is high. The cable is straight here, has no weight, and touches nothing."
+)
+
+_COLUMNS = (
+    Column("Cable", "cable", "", lambda pull: pull["name"]),
+    Column("largest force (kN)", "largest_kN", ".1f", lambda pull: pull["largest_force_N"] / _KILO),
+    Column("at (s)", "at_s", ".3f", lambda pull: pull["largest_force_s"]),
+    Column("paid out from (s)", "paid_out_s", ".3f", lambda pull: pull["paid_out_s"]),
+    Column("work (kJ)", "work_kJ", ".1f", lambda pull: pull["work_J"] / _KILO),
+    Column("ended", "ended", "", lambda pull: pull["ended"] or "held to the end"),
+    Column("then (s)", "ended_s", ".3f", lambda pull: pull["ended_s"]),
+    Column(
+        "let go (kJ)", "let_go_kJ", ".1f", lambda pull: None if pull["let_go_J"] is None else pull["let_go_J"] / _KILO
+    ),
+)
+
+
+def pull_section(run: ReportedRun) -> Section | None:
+    """Return the section; None without cables."""
+    pulls = run.summary.pulls if run.summary else []
+    if not pulls:
+        return None
+    table = DataTable.of("pulls", "Cables that pulled in this run", _COLUMNS, pulls)
+    return Section("Pulls", (Paragraph(_DANGER, is_notice=True), table))
