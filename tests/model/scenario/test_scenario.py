@@ -103,6 +103,7 @@ def test_every_key_with_a_unit_carries_it_in_its_name():
         "m/s": "_m_s",
         "rad/s": "_rad_s",
         "1/s": "_per_second",
+        "1/m": "_per_m",
         "°": "_deg",
         "m³": "_m3",
         "mm": "_mm",
