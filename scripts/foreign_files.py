@@ -38,7 +38,6 @@ WRITTEN_BY = {
     "rickbrice_i405_flyover.ifc": "BridgeLink PGSuper 8.0, IFC4X3",
     "rickbrice_aashto_idm_template.ifc": "OpenBrIM v3, IFC4X3",
     "ifc2mct_bridge_test.ifc": "Xbim, IFC4X1",
-    "schependomlaan_staal.ifc": "ArchiCAD, IFC2X3",
 }
 
 CLAMPING = "which it would hold down"
@@ -195,6 +194,15 @@ def page() -> str:
         "stands: its statics alone were worked out, or nothing but the import for the box girder of IFC4X1: those of",
         "its 173 plates had not ended after eight minutes on two busy cores.",
         "A bridge of which much is lost, such as the abutments of an OpenBrIM file, stands on supports that are added.",
+        "",
+        "**Bars of steel.** None of these files has straight ones: the 68 ribs of the box girder are swept along",
+        "its alignment, and the girders of OpenBrIM are curved. Of the steel of a building that ArchiCAD wrote as",
+        "faces alone (IFC2X3, Schependomlaan), 46 of 77 elements are bars, of 5.9 t; volumes are those of the file",
+        "within 0.02 %, and axes run up to 0.27 m beside their nodes. Its walls are in another file: `import.txt`",
+        "names 21 ends that are free and what is left out as it meets nothing, and by statics it comes down. Of",
+        "single beams that buildingSMART and others give as examples, 18 of IPE 220 and T-sections, four of IPE 200",
+        "on different cardinal points, and those cut by half-spaces are bars; one that is revolved and one along a",
+        "curve are not.",
         "",
         *_damaged(),
         "Two of the files are in [tests/foreign/files](../tests/foreign/files), with their licences; the others may be",

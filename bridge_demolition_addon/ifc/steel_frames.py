@@ -18,6 +18,7 @@ from ..engineering.geometry.solids import from_manifold, to_manifold
 from ..engineering.geometry.vectors import dot, length, transformed
 from ..engineering.steelwork.bar_frames import BarAxes, BarFrame, BarPiece, BarStation, bar_frame
 from ..engineering.steelwork.bars import bar_axes
+from ..model.bridge.member import Member
 from ..model.bridge.steelwork import steelwork_members
 from ..model.scenario.steelwork import SteelMember, SteelNode, Steelwork
 from ..model.schema import given
@@ -34,16 +35,31 @@ _PIECES, _PIECES_OF_BEAM, _LEAST_PIECES = 4, 8, 2
 
 _BEAM = "IfcBeam"
 
+_MOST_ROUNDS = 6
+"""Attempts at having nodes at the ends of bars clear of what holds these: each moves what the one before left."""
+
+_CLEAR_M = 0.002
+"""Gap between the plates of a node and what holds it where a bar ends there: what touches is more than its support."""
+
 _DIGITS = 6
 _LEAST_M3 = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
 class SteelFrame:
-    """Steelwork of a scenario, and the solids of its bars and nodes."""
+    """Steelwork of a scenario, and the members that it has: bars and nodes."""
 
     steelwork: Steelwork
-    solids: tuple[TriangleMesh, ...]
+    members: tuple[Member, ...]
+
+    @property
+    def solids(self) -> tuple[TriangleMesh, ...]:
+        """Solids of bars and nodes."""
+        return tuple(member.solid for member in self.members)
+
+    def solid_of(self, name: str) -> TriangleMesh:
+        """Return the solid of a bar or node."""
+        return next(member.solid for member in self.members if member.name == name)
 
 
 def axes_of(bars: Sequence[SteelElement]) -> BarAxes:
@@ -126,10 +142,44 @@ def steel_frame(
     Outcomes of bars get notes.
     """
     numbers = sorted(bars)
-    ordered = [bars[number] for number in numbers]
     rows = {number: row for row, number in enumerate(numbers)}
     held = [support for support in supports if support.bar in rows]
-    stations = [_station(bars[support.bar], rows[support.bar], support) for support in held]
+    within_m = [0.0] * len(held)
+    for _ in range(_MOST_ROUNDS):
+        stations = [
+            _station(bars[support.bar], rows[support.bar], support, within)
+            for support, within in zip(held, within_m, strict=True)
+        ]
+        frame, said = _frame(assembly, bars, held, stations, plates)
+        reach = [
+            _reach_m(bars[support.bar], support, frame, said.node_names[node])
+            for support, node in zip(held, said.frame.node_of_support, strict=True)
+        ]
+        if max(reach, default=-_CLEAR_M) <= -_CLEAR_M / 2.0:
+            break
+        within_m = [within + max(further + _CLEAR_M, 0.0) for within, further in zip(within_m, reach, strict=True)]
+    _note(assembly, said)
+    return frame, said
+
+
+def _reach_m(bar: SteelElement, support: BarSupport, frame: SteelFrame, node: str) -> float:
+    """Return how far the plates of a node reach into what holds it at the end of a bar; other supports are clear."""
+    if support.end is None:
+        return -_CLEAR_M
+    out = bar.along * (1.0 if support.end else -1.0)
+    return float(dot(frame.solid_of(node).vertices - support.place_m, out).max())
+
+
+def _frame(
+    assembly: Assembly,
+    bars: Mapping[int, SteelElement],
+    held: Sequence[BarSupport],
+    stations: Sequence[BarStation],
+    plates: Sequence[JointPlate],
+) -> tuple[SteelFrame, SaidFrame]:
+    """Return the steelwork of bars that are held at stations, and what is said of it."""
+    numbers = sorted(bars)
+    ordered = [bars[number] for number in numbers]
     axes = axes_of(ordered)
     frame = bar_frame(axes, stations)
     names = [given(assembly.outcomes[number].member).name for number in numbers]
@@ -139,8 +189,7 @@ def steel_frame(
     for node, support in zip(frame.node_of_support, held, strict=True):
         of_nodes[node] = stronger(of_nodes[node], support) if node in of_nodes else support
     masses = _masses_kg(frame, axes, plates, steel_kg_m3)
-    grades = Counter(bar.grade or UNKNOWN_GRADE for bar in ordered)
-    grade = grades.most_common(1)[0][0]
+    grade = Counter(bar.grade or UNKNOWN_GRADE for bar in ordered).most_common(1)[0][0]
     members = tuple(_tables(assembly, numbers, ordered, frame, node_names, grade))
     nodes = tuple(
         SteelNode(
@@ -155,7 +204,7 @@ def steel_frame(
     )
     steelwork = Steelwork(grade=grade, density_kg_m3=steel_kg_m3, nodes=nodes, members=members)
     said = SaidFrame(numbers, ordered, names, frame, axes, node_names, of_nodes, plates)
-    return SteelFrame(steelwork, tuple(member.solid for member in steelwork_members(steelwork))), said
+    return SteelFrame(steelwork, steelwork_members(steelwork)), said
 
 
 def fallen(assembly: Assembly, taken: Mapping[int, SteelElement], left: Mapping[int, SteelElement]) -> dict[int, str]:
@@ -207,8 +256,9 @@ def cut_out(assembly: Assembly, frame: SteelFrame) -> None:
         )
 
 
-def _station(bar: SteelElement, row: int, support: BarSupport) -> BarStation:
-    along = float(dot(support.place_m - bar.begin_m, bar.along))
+def _station(bar: SteelElement, row: int, support: BarSupport, within_m: float) -> BarStation:
+    """Return where the node of a support is on a bar, so far within its end."""
+    along = float(dot(support.place_m - bar.begin_m, bar.along)) + within_m * (-1.0 if support.end else 1.0)
     return BarStation(row, min(max(along, 0.0), bar.length_m))
 
 
@@ -263,7 +313,7 @@ def _tables(
     node_names: Sequence[str],
     grade: str,
 ) -> Iterator[SteelMember]:
-    """Yield the bars of the scenario, and note the result in the outcomes of their elements."""
+    """Yield the bars of the scenario."""
     taken = {member.name for _, member in assembly.members()} | set(node_names)
     for row, (number, bar) in enumerate(zip(numbers, bars, strict=True)):
         outcome = assembly.outcomes[number]
@@ -285,11 +335,19 @@ def _tables(
                 eccentricities_m=_eccentricities(piece.from_nodes_m),
                 pieces=_pieces(outcome, len(pieces)),
             )
+
+
+def _note(assembly: Assembly, said: SaidFrame) -> None:
+    """Note in the outcomes of elements which bars they are."""
+    pieces = Counter(piece.bar for piece in said.frame.pieces)
+    for row, (number, bar) in enumerate(zip(said.numbers, said.bars, strict=True)):
+        outcome = assembly.outcomes[number]
         notes = [outcome.why, f"{bar.section}, {bar.grade or f'grade not known, taken for {UNKNOWN_GRADE}'}"]
-        if row in frame.within_nodes:
-            notes.append(f"it is shorter than the node it is in, {node_names[frame.within_nodes[row]]}, and part of it")
-        elif len(pieces) > 1:
-            notes.append(f"divided into {len(pieces)} bars by nodes")
+        if row in said.frame.within_nodes:
+            node = said.node_names[said.frame.within_nodes[row]]
+            notes.append(f"it is shorter than the node it is in, {node}, and part of it")
+        elif pieces[row] > 1:
+            notes.append(f"divided into {pieces[row]} bars by nodes")
         assembly.outcomes[number] = replace(outcome, why="; ".join(filter(None, notes)))
 
 

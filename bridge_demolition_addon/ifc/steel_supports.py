@@ -12,7 +12,7 @@ import numpy as np
 from manifold3d import Manifold
 
 from ..engineering.geometry.mesh import TriangleMesh
-from ..engineering.geometry.solids import to_manifold
+from ..engineering.geometry.solids import from_manifold, to_manifold
 from ..engineering.geometry.vectors import dot, length
 from ..model.bridge.member import Member
 from ..model.scenario.bearings import FIXED, PINNED, ROCKER, SLIDING, Bearing
@@ -49,7 +49,8 @@ _STRENGTH = {FIXED: 0, PINNED: 1, ROCKER: 2}
 class BarSupport:
     """A support of a bar, by the number of its element: where it is (3,), its kind, and the name of what holds it.
 
-    `is_assumed` says that the file does not tell its kind.
+    `is_assumed` says that the file does not have its kind. `end` is the end of the bar that touches what holds it, 0 or
+    1: its node lies so far within the bar that its plates are clear of that.
     """
 
     bar: int
@@ -57,6 +58,7 @@ class BarSupport:
     kind: str
     held_by: str
     is_assumed: bool = False
+    end: int | None = None
 
 
 def bar_supports(assembly: Assembly, bars: Mapping[int, SteelElement], gap_m: float) -> list[BarSupport]:
@@ -156,13 +158,13 @@ def _touching(bar: SteelElement, member: Member, other: Member, gap_m: float) ->
     common = solid ^ theirs
     if common.volume() > _EMBEDDED * solid.volume():
         end = _end_near(bar, _middle(common))
-        return None if end is None else BarSupport(bar.number, end, FIXED, other.name)
+        return None if end is None else _let_in(bar, common, end, other.name)
     down, up = ((solid.translate((0.0, 0.0, way * reach)) ^ theirs) for way in (-1.0, 1.0))
     is_below, is_above = down.volume() > up.volume() + _LEAST_M3, up.volume() > down.volume() + _LEAST_M3
     if abs(float(bar.along[2])) > _UPRIGHT:
         touching = down if is_below else up
         end = _end_near(bar, _middle(touching)) if is_below or is_above else None
-        return None if end is None else BarSupport(bar.number, end, FIXED, other.name)
+        return None if end is None else _at_end(bar, end, other.name)
     if is_below:
         return BarSupport(bar.number, _middle(down), ROCKER, other.name, is_assumed=True)
     if is_above:
@@ -170,13 +172,25 @@ def _touching(bar: SteelElement, member: Member, other: Member, gap_m: float) ->
     for way in (-1.0, 1.0):
         ahead = solid.translate(tuple((way * reach * bar.along).tolist())) ^ theirs
         if ahead.volume() > common.volume() + _LEAST_M3:
-            return BarSupport(bar.number, bar.begin_m if way < 0.0 else bar.end_m, FIXED, other.name)
+            return _at_end(bar, 0 if way < 0.0 else 1, other.name)
     return None
 
 
 def _on_ground(bar: SteelElement) -> BarSupport:
-    lowest = bar.begin_m if bar.begin_m[2] <= bar.end_m[2] else bar.end_m
-    return BarSupport(bar.number, lowest, FIXED, GROUND_NAME)
+    return _at_end(bar, 0 if bar.begin_m[2] <= bar.end_m[2] else 1, GROUND_NAME)
+
+
+def _at_end(bar: SteelElement, end: int, held_by: str) -> BarSupport:
+    return BarSupport(bar.number, (bar.begin_m, bar.end_m)[end], FIXED, held_by, end=end)
+
+
+def _let_in(bar: SteelElement, common: Manifold, end: int, held_by: str) -> BarSupport | None:
+    """Return the support of a bar that is let into a member, at its face; None for one that is within it altogether."""
+    along = dot(from_manifold(common).vertices - bar.begin_m, bar.along)
+    face = float(along.max() if end == 0 else along.min())
+    if not 0.0 < face < bar.length_m:
+        return None
+    return BarSupport(bar.number, bar.begin_m + face * bar.along, FIXED, held_by, end=end)
 
 
 def _with_one_pinned(found: Sequence[BarSupport]) -> list[BarSupport]:
@@ -231,13 +245,13 @@ def _ends_of_frame(bars: Sequence[SteelElement]) -> list[BarSupport]:
     return _with_one_pinned(found)
 
 
-def _end_near(bar: SteelElement, place_m: np.ndarray) -> np.ndarray | None:
-    """Return the end of a bar that a position is near; None for one between its ends."""
+def _end_near(bar: SteelElement, place_m: np.ndarray) -> int | None:
+    """Return the end of a bar, 0 or 1, that a position is near; None for one between its ends."""
     along = float(dot(place_m - bar.begin_m, bar.along))
     size = float(bar.steel_section.size_m.max())
     if along < size:
-        return bar.begin_m
-    return bar.end_m if along > bar.length_m - size else None
+        return 0
+    return 1 if along > bar.length_m - size else None
 
 
 def _moved_into(solid: TriangleMesh, other: TriangleMesh, shift: tuple[float, float, float]) -> np.ndarray | None:

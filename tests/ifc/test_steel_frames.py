@@ -9,6 +9,7 @@ import pytest
 from support.ifc_steel import CHS_168, HEB_200, IPE_300, SteelFile, truss_file, warren_truss
 from support.steelwork import truss_forces
 
+from bridge_demolition_addon.engineering.geometry.overlap import hulls, overlaps
 from bridge_demolition_addon.engineering.steelwork.catalogue import section_named
 from bridge_demolition_addon.engineering.steelwork.grades import DENSITY_KG_M3
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
@@ -103,13 +104,17 @@ def test_a_frame_with_clipped_ends_is_joined_at_its_corners(tmp_path):
     feet = [node for node in steelwork.nodes if node.support]
     assert [(node.support, node.held_by) for node in feet] == [("fixed", "Footing 1"), ("fixed", "Footing 2")]
     corners = sorted(node.place_m for node in steelwork.nodes if not node.support)
-    # Feet stand on the footings, whose undersides are the ground; corners are where axes meet. That of the angle runs
-    # 12 mm beside, and moves the node by its share, the square of (12.3 · 0.16) / (78.1 · 0.28), or 0.1 mm.
-    assert [node.place_m[2] for node in feet] == pytest.approx([0.5, 0.5], abs=1e-5)
+    # Plates of the feet are 2 mm clear of the footings: hulls that reach into each other are thrown apart in a run.
+    # Corners are where axes meet. That of the angle runs 12 mm beside, and moves the node by its share, the square of
+    # (12.3 · 0.16) / (78.1 · 0.28), or 0.1 mm.
+    model = build_model(scenario)
+    lowest = [member.solid.bounds[0, 2] for member in model.members if member.name in {node.name for node in feet}]
+    assert min(lowest) == pytest.approx(0.502, abs=1e-4)
+    assert max(lowest) < 0.6  # that of the foot from which the angle goes, too, whose plates reach lower
     assert np.array(corners)[:, 2] == pytest.approx(4.5, abs=2e-4)
     assert np.ptp(np.array(corners)[:, 0]) == pytest.approx(6.0, abs=2e-4)
     assert not any("ends free" in line for line in lines)
-    model = build_model(scenario)
+    assert not len(overlaps(hulls(model.shards)).pairs)
     rest = model_at_rest(model, scenario.joints)
     assert (rest.held[: len(model.shards)] | model.fixed).all()
 
