@@ -41,7 +41,7 @@ STUDIED = {
     "overbridge": "overbridge",
 }
 """Examples of which a study tells instead, in which more than the seed differs, by its name."""
-UNDRAWN = ("truss_severed", "beam_cut_in_stages")
+UNDRAWN = ("truss_severed", "tower_pulled_over", "beam_cut_in_stages")
 """Examples in which nothing is drawn by chance: bars are cut evenly, and the beam in prisms."""
 DOWN = 0.5
 """Part of a span's deck that has to be more than 2 m lower for the span to count as down."""

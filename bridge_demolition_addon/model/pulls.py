@@ -32,7 +32,7 @@ class Pull(Part):
         "Where the cable is fixed, as the bridge was built: to one shard, chosen as that of `loads.point_m`.", unit="m"
     )
     anchor_m: tuple[float, float, float] = key(
-        "Where its other end is: a winch, a machine, or a pulley on the ground. It stays there.", **POSITION
+        "Where its other end is: a winch, or a machine. It stays there.", **POSITION
     )
     start_s: float = key("When the winch starts; the cable has no force before.", unit="s", at_least=0)
     speed_m_s: float | None = key(

@@ -9,8 +9,8 @@ _KILO = 1000.0
 
 _DANGER = (
     "A cable that breaks whips back, and kills. Keep everybody off its line, and farther from both of its ends than it "
-    "is long, as long as it has force; protect whoever works the winch. What is pulled over may fall farther than it "
-    "is high. The cable is straight here, has no weight, and touches nothing."
+    "is long, as long as it has force; protect the one who works the winch. What is pulled over may fall farther than "
+    "it is high. The cable is straight here, has no weight, and touches nothing."
 )
 
 _COLUMNS = (

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import bpy
 import numpy as np
 
+from ...engineering.arithmetic import cosine, sine
 from ...engineering.geometry.mesh import TriangleMesh
 from ...model.pulls import Pull
 from ...model.sequence.events import model_structure
@@ -61,7 +62,7 @@ def hide_cables(scene: bpy.types.Scene, names: Sequence[str]) -> None:
 def _rod() -> TriangleMesh:
     """A rod of 1 m along y, which is stretched."""
     angles = 2.0 * math.pi * np.arange(_SIDES) / _SIDES
-    ring = _RADIUS_M * np.column_stack((np.cos(angles), np.zeros(_SIDES), np.sin(angles)))
+    ring = _RADIUS_M * np.column_stack((cosine(angles), np.zeros(_SIDES), sine(angles)))
     here = np.arange(_SIDES)
     after = np.roll(here, -1)
     sides = np.concatenate(

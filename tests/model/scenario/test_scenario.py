@@ -113,7 +113,14 @@ def test_every_key_with_a_unit_carries_it_in_its_name():
         "mm/s": "_mm_s",
         "dB": "_db",
     }
-    in_names |= {"N/mm²": "_n_mm2", "N/m": "_n_m", "N·s/m": "_ns_m", "N·m/rad": "_nm_rad", "N·m·s/rad": "_nms_rad"}
+    in_names |= {
+        "N/mm²": "_n_mm2",
+        "N/m": "_n_m",
+        "N/s": "_n_s",
+        "N·s/m": "_ns_m",
+        "N·m/rad": "_nm_rad",
+        "N·m·s/rad": "_nms_rad",
+    }
     in_names |= {"MN/m": "_mn_m", "MN·m/rad": "_mnm_rad"}
     in_names |= {"kN/m²": "_kn_m2", "kN": "_kn", "mm": "_mm", "%": "_percent"}
     in_names |= {"MN/m³": "_mn_m3", "kPa": "_kpa", "Hz": "_hz", "m/s²": "_m_s2"}
