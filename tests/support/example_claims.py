@@ -111,6 +111,16 @@ CLAIMS: dict[str, dict[str, tuple[float, float]]] = {
         "abutments_moved_m": (0.0, 0.0),
         "made_share": (0.0, 0.05),  # 0.003 to 0.030
     },
+    "composite_span_dropped": {  # over 20 seeds
+        # It stands as a composite section until the first girder is severed: by statics it deflects by 0.026 m.
+        "moved_before_m": (0.0, 0.03),  # 0.026
+        "broken_before": (0, 4),  # 0 or 1 of 222 to 228
+        # The span hinges at the cut, and its ends stay on the columns.
+        "span_1_share_fallen_2_m": (0.5, 1.0),  # 0.70
+        "span_1_median_fall_m": (2.5, 5.0),  # 3.28 to 3.35
+        "largest_throw_m": (0.0, 5.0),  # 2.0 to 2.5
+        "made_share": (0.0, 0.06),  # 0.005 to 0.036
+    },
     "drilled_misfire": {  # over 20 seeds, of which 6 come down
         # It stands by its bars until the first zone fires.
         "moved_before_m": (0.0, 0.05),  # 0.012 to 0.014
