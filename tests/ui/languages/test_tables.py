@@ -17,8 +17,6 @@ from bridge_demolition_addon.ui.languages.words import CONTEXT, translated
 UI = ROOT / "bridge_demolition_addon" / "ui"
 LANGUAGES = [path.stem for path in table_files()]
 PARTS = ("labels", "sentences", "tooltips")
-WITH_ALL_TOOLTIPS = {"de"}
-"""In others a new tooltip may stay English for a while."""
 PLACES = re.compile(r"\{[^}]*\}|%\w")
 TOOLTIPS_OF_ALL = "*"
 
@@ -46,7 +44,7 @@ def test_no_label_and_no_sentence_is_missing_and_nothing_is_stale(texts, languag
     for part in PARTS:
         missing, stale = differences(getattr(table(language), part), getattr(texts, part))
         assert stale == [], f"{part} of {language} that the window does not show (any more)"
-        assert missing == [] or (part == "tooltips" and language not in WITH_ALL_TOOLTIPS)
+        assert missing == []
 
 
 @pytest.mark.parametrize("language", LANGUAGES)
