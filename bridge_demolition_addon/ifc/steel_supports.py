@@ -5,7 +5,8 @@ Each becomes the support of a node there. What lies on a bar is none: it touches
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -41,6 +42,9 @@ _STANDS_ON = ("pier", "pier cap", "abutment", "wall", "wing wall", "footing")
 
 _NEAR_END_M, _NEAR_END = 0.5, 0.05
 """How far from the ends of a frame its supports may be, in m and by its length."""
+
+_LEAST_PART = 0.2
+"""Part of all steel that bars have to be which get supports that no file has: less is a part that meets nothing."""
 
 _STRENGTH = {FIXED: 0, PINNED: 1, ROCKER: 2}
 
@@ -106,7 +110,7 @@ def supports_of_loose(assembly: Assembly, bars: Mapping[int, SteelElement]) -> t
         own = [number for number in group if number in bars]
         if not own or not any(members[number].kind in CARRYING for number in group):
             continue
-        if sum(members[number].mass_kg for number in own) < _LEAST_PART * _mass_kg(members, bars):
+        if _mass_kg(members, own) < _LEAST_PART * _mass_kg(members, bars):
             continue
         below = _above_members(own, bars, members, set(group))
         if len({support.held_by for support in below}) > 1:
@@ -127,12 +131,8 @@ def supports_of_loose(assembly: Assembly, bars: Mapping[int, SteelElement]) -> t
     return more, notes
 
 
-_LEAST_PART = 0.2
-"""Part of all steel that bars have to be which get supports that no file has: less is a part that meets nothing."""
-
-
-def _mass_kg(members: Mapping[int, Member], bars: Mapping[int, SteelElement]) -> float:
-    return float(sum(member.mass_kg for number, member in members.items() if number in bars))
+def _mass_kg(members: Mapping[int, Member], bars: Iterable[int]) -> float:
+    return math.fsum(members[number].mass_kg for number in bars if number in members)
 
 
 def _on_bearing(assembly: Assembly, number: int, member: Member, below: str, table: Bearing) -> Iterator[BarSupport]:
