@@ -108,7 +108,7 @@ class SteelMember(Table):
     )
     end_bolts: tuple[str, str] | None = key(
         "Bolts of its joint to each node, in place of `end_strengths`: number, size and grade, such as `8 M20 8.8`, "
-        "then ` in 4 lines` along the bar (2 by default) and ` in double shear` where they are; or `welded`, as strong "
+        "then `in 4 lines` along the bar (2 by default) and `in double shear` where they are; or `welded`, as strong "
         "as the bar. Their shear or the section between their holes, whichever resists less, gives the part.",
         default=None,
     )
