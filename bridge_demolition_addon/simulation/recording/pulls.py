@@ -17,6 +17,9 @@ from .drivers import Driver
 _LEFT = 0.01
 """Part of the distance of its ends that a cable keeps as free length at least."""
 
+_AT_THE_ANCHOR_M = 1e-6
+"""Distance of its ends below which a cable has no direction."""
+
 BROKE, LET_GO = "broke", "its body was removed"
 
 _LEAST_SHARE = 0.25
@@ -113,7 +116,7 @@ class Pulls(Driver):
         arms = transformed(rotations[self._bodies], self._arms_in_bodies)
         towards = self._anchors - positions_m[self._bodies] - arms
         lengths_m = length(towards)
-        units = towards / lengths_m[:, None]
+        units = towards / np.maximum(lengths_m, _AT_THE_ANCHOR_M)[:, None]
         moving = self._table.velocities()[self._bodies] + cross(self._table.angular_velocities()[self._bodies], arms)
         parting_m_s = -dot(moving, units)
         forces_n = np.zeros(len(self.cables))
