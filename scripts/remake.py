@@ -22,7 +22,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests"))
 
 from deciding_version import deciding_version
-from ensembles import ENSEMBLES, answer, outputs_that_differ, picture, runs_table
+from ensembles import ENSEMBLES, answer, outputs_that_differ, picture, runs_table, settings_file
 from support.checkout import ROOT, SEEDED
 
 RANGES = ROOT / "docs" / "data" / "seeds"
@@ -102,7 +102,7 @@ def products() -> Iterator[Product]:
     by_shards = tuple(f"docs/data/shards/{shards}/drilled_two_spans.csv" for shards in (100, 400))
     yield Product("experiments/drilled_shards", (of_shards,), by_shards, ("examples/drilled/two_spans.toml", of_shards))
     for name, ensemble in ENSEMBLES.items():
-        example = f"examples/{ensemble.folder}/{name}.toml"
+        example = settings_file(name).relative_to(ROOT).as_posix()
         outputs = tuple(path.relative_to(ROOT).as_posix() for path in (runs_table(name), answer(name), picture(name)))
         yield Product(
             f"{ensemble.command}/{name}", ("scripts/ensembles.py", name), outputs, (example, "scripts/ensembles.py")
