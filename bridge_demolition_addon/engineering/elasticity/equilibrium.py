@@ -236,7 +236,8 @@ def _part_at_rest(
     else:
         if pads is not None:  # it rocks or slides, and comes to no rest
             return None
-        if abs(part.unbalanced(positions_m, rotations)[:3]).max() > _TAKEN_FOR_REST * abs(weights).max():
+        left_n = float(abs(part.unbalanced(positions_m, rotations)[:3]).max())
+        if left_n > max(_TAKEN_FOR_REST * abs(weights).max(), settled.least_n):
             positions_m, rotations = settled.positions_m, settled.rotations
             own = bodies.mass_matrices(rotations, members)
             part.unbalanced(positions_m, rotations)
@@ -249,16 +250,16 @@ class _Settled:
 
     def __init__(self) -> None:
         self.positions_m, self.rotations = np.zeros((3, 0)), np.zeros((3, 3, 0))
-        self._least_n, self._solutions, self._settle = math.inf, 0, True
+        self.least_n, self._solutions, self._settle = math.inf, 0, True
 
     def follow(self, left_n: float, positions_m: FloatArray, rotations: FloatArray) -> None:
         """Take over a solution that leaves so much unbalanced.
 
         The first of all, from the unloaded shape, may leave any: what turns stretches then.
         """
-        self._settle = self._settle and (self._solutions <= 1 or left_n <= _SETTLES * self._least_n)
+        self._settle = self._settle and (self._solutions <= 1 or left_n <= _SETTLES * self.least_n)
         if self._settle:
-            self.positions_m, self.rotations, self._least_n = positions_m, rotations, left_n
+            self.positions_m, self.rotations, self.least_n = positions_m, rotations, left_n
         self._solutions += 1
 
 
