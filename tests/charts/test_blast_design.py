@@ -27,6 +27,8 @@ from bridge_demolition_addon.engineering.blast.pulses import BlastModel, blast_w
 from bridge_demolition_addon.engineering.blast.wave import Burst
 from bridge_demolition_addon.errors import OutputError
 
+pytestmark = pytest.mark.slow
+
 KPA, RATIO = ChartSettings(), ChartSettings(as_ratio=True)
 SCALED = ChartSettings(scaled=True)
 GROUND = ChartSettings(model=BlastModel.KINNEY_GRAHAM, burst=Burst.SURFACE, as_ratio=True, scaled=True)
@@ -201,7 +203,6 @@ def test_units_are_said_on_the_axes():
     assert "Kinney-Graham, surface burst" in words(two_span_total(GROUND))
 
 
-@pytest.mark.slow
 def test_pictures_are_written_into_a_new_folder(tmp_path):
     paths = write_charts(tmp_path / "new" / "charts", KPA)
     assert [path.stem for path in paths] == list(CHARTS)

@@ -23,6 +23,8 @@ from bridge_demolition_addon.model.scenario import Ball, Geometry, Scenario
 from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_from_text, scenario_text
 from bridge_demolition_addon.model.structure.model import build_model
 
+pytestmark = pytest.mark.slow
+
 # Files keep single precision of some metres.
 SINGLE_M = 1e-6
 
@@ -85,7 +87,6 @@ def test_mass_gives_the_density(file_of):
     assert member.density_kg_m3 == pytest.approx(2000, rel=SINGLE_M)
 
 
-@pytest.mark.slow
 def test_files_of_the_same_name_become_one_solid(file_of):
     beside = member_of(file_of(), place_m=[3.5, 0, 0])
     (member,), _ = geometry_members([member_of(file_of()), beside])
@@ -156,7 +157,6 @@ def test_without_bridge_the_model_is_what_the_files_say(file_of):
     assert model.masses_kg.sum() == pytest.approx(7 * 2400, rel=SINGLE_M)
 
 
-@pytest.mark.slow
 def test_a_member_beside_the_bridge_is_cut_where_the_bridge_is(file_of):
     # A block of 2 m on the middle of the span, from 5.05 m upwards: the deck, 5.3 to 5.55 m, goes through it.
     block = member_of(file_of(box([2, 2, 2], [0, 0, 1])), name="ballast", place_m=[6.5, 0, 5.05], density_kg_m3=1800)

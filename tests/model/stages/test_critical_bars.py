@@ -14,6 +14,8 @@ from bridge_demolition_addon.model.stages.stages import criticality
 from bridge_demolition_addon.model.stages.standing import StandingBridge
 from bridge_demolition_addon.model.structure.model import build_model
 
+pytestmark = pytest.mark.slow
+
 FILE = EXAMPLES / "steel" / "truss_severed.toml"
 TABLE = ROOT / "docs" / "data" / "lost_bars_by_opensees.csv"
 

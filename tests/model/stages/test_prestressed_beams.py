@@ -26,6 +26,8 @@ from bridge_demolition_addon.model.stages.stages import criticality, stages_of
 from bridge_demolition_addon.model.stages.tables import stage_row, stage_sentences
 from bridge_demolition_addon.model.structure.equilibrium import model_at_rest
 
+pytestmark = pytest.mark.slow
+
 ECCENTRICITY_M = 0.3
 STRAIGHT = f"eccentricities_m = [{ECCENTRICITY_M}, {ECCENTRICITY_M}, {ECCENTRICITY_M}]"
 DRAPED = f"eccentricities_m = [0.0, {ECCENTRICITY_M}, 0.0]"

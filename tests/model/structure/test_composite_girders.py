@@ -37,6 +37,8 @@ from bridge_demolition_addon.model.structure.equilibrium import model_at_rest
 from bridge_demolition_addon.model.structure.model import build_model
 from bridge_demolition_addon.model.structure.utilisation import Utilisations
 
+pytestmark = pytest.mark.slow
+
 SPAN_M, LOAD_N_M = 24.0, 20e3
 STEEL = section_named(SECTION)
 CENTRE_M = -float(np.concatenate(STEEL.rings)[:, 1].min())

@@ -27,6 +27,8 @@ from bridge_demolition_addon.model.structure.equilibrium import at_rest, box_ine
 from bridge_demolition_addon.model.structure.model import build_model
 from bridge_demolition_addon.model.structure.stiffness import CutMembers, connection_stiffness
 
+pytestmark = pytest.mark.slow
+
 MODULI = ElasticModuli(30e9, 0.2)
 DENSITY_KG_M3, GRAVITY_M_S2 = 2400.0, 9.80665
 DEPTH_M, WIDTH_M, HEIGHT_M = 1.0, 4.0, 20.0
@@ -84,7 +86,6 @@ def sag_by_theory(shard_count, seed):
 # Where a shard is about as deep as the slab, its sag is a matter of how the cuts happen to lie: over 4 seeds each it
 # was 1.03 ± 0.08 of theory in 40 shards, 1.01 ± 0.02 in 200, and 0.99 in 1000. The means of four are as far off at most
 # as two of their own standard errors.
-@pytest.mark.slow
 @pytest.mark.parametrize(("count", "seeds", "within"), [(40, 4, 0.12), (200, 4, 0.04), (1000, 1, 0.03)])
 def test_a_slab_in_shards_is_as_stiff_as_the_slab(count, seeds, within):
     assert np.mean([sag_by_theory(count, seed) for seed in range(seeds)]) == pytest.approx(1.0, abs=within)
