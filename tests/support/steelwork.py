@@ -45,6 +45,45 @@ def bar(name: str, begin: str, end: str, section: str, **keys) -> dict:
     return {"name": name, "nodes": [begin, end], "section": section, **keys}
 
 
+PULLED_COLUMN = """
+[[pulls]]
+name = "cable"
+point_m = [0.0, 0.0, 6.0]
+anchor_m = [8.0, 0.0, 0.0]
+start_s = 0.5
+speed_m_s = 0.1
+largest_force_n = 5000.0
+breaking_force_n = 20000.0
+diameter_mm = 20.0
+"""
+"""A cable with 5 kN at most, from the head of a column of 6 m to the ground 8 m along the road."""
+
+
+def pulled_column(pieces: int) -> Scenario:
+    """Return a column that a cable pulls at its head."""
+    nodes = [node("foot", 0.0, 0.0, support="fixed"), node("head", 0.0, 6.0)]
+    return steel_scenario(nodes, [bar("column", "foot", "head", "HEB 300")], PULLED_COLUMN, pieces=pieces)
+
+
+def blocks_text(deck_width_m: float) -> str:
+    """Return a span of concrete on wall piers, beside or on which bars stand."""
+    return f"""
+[bridge]
+span_lengths_m = [8.0]
+density_kg_m3 = 2500.0
+
+[bridge.deck]
+width_m = {deck_width_m}
+thickness_m = 0.5
+
+[bridge.piers]
+kind = "wall"
+column_length_m = 0.6
+column_width_m = 3.0
+height_m = 4.0
+"""
+
+
 def rest_under(model: Model, scenario: Scenario, loads_n: dict[str, tuple[float, float, float]], *, weight: bool):
     """Return a model at rest under forces at nodes, with its own weight or without."""
     loads = np.zeros((6, len(model.shards)))

@@ -51,7 +51,9 @@ def create_cables(
 
 def hide_cables(scene: bpy.types.Scene, names: Sequence[str]) -> None:
     """Hide cables that have let go, from this frame on."""
-    for cable in scene.objects:
+    if not names:
+        return
+    for cable in collection_for(scene, _CABLES).objects:
         if cable.get(_NAME) in names and not cable.hide_render:
             for name in ("hide_render", "hide_viewport"):
                 cable.keyframe_insert(name, frame=scene.frame_current - 1)

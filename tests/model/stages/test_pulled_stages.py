@@ -3,7 +3,7 @@
 
 import numpy as np
 import pytest
-from support.steelwork import bar, node, steel_scenario
+from support.steelwork import pulled_column
 
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.model.stages.reactions import supports_of
@@ -11,23 +11,10 @@ from bridge_demolition_addon.model.stages.stages import stages_of
 from bridge_demolition_addon.model.stages.standing import StandingBridge
 from bridge_demolition_addon.model.structure.model import build_model
 
-PULL = """
-[[pulls]]
-name = "cable"
-point_m = [0.0, 0.0, 6.0]
-anchor_m = [8.0, 0.0, 0.0]
-start_s = 0.5
-speed_m_s = 0.1
-largest_force_n = 5000.0
-breaking_force_n = 20000.0
-diameter_mm = 20.0
-"""
-
 
 def test_it_pulls_with_its_largest_force_from_its_start_on():
     """5 kN along (4, -3) / 5: 4 kN along the road and 3 kN down, and 4 kN by 6 m about the foot."""
-    nodes = [node("foot", 0.0, 0.0, support="fixed"), node("head", 0.0, 6.0)]
-    scenario = steel_scenario(nodes, [bar("column", "foot", "head", "HEB 300")], PULL, pieces=8)
+    scenario = pulled_column(pieces=8)
     bridge = StandingBridge(build_model(scenario), scenario.joints)
     before, after = stages_of(scenario, bridge, lambda done, total: None)
     assert (before.step, after.step) == ("as it was built", "pull by cable")

@@ -9,6 +9,7 @@ import pytest
 from support.steelwork import (
     bar,
     bar_loads,
+    blocks_text,
     node,
     pratt_truss,
     rest_under,
@@ -234,21 +235,7 @@ def test_bars_are_judged_by_their_sections_and_as_struts(pratt):
 
 
 def test_concrete_beside_steelwork_is_as_it_was_and_may_hold_it():
-    concrete = """
-[bridge]
-span_lengths_m = [8.0]
-density_kg_m3 = 2500.0
-
-[bridge.deck]
-width_m = 3.0
-thickness_m = 0.5
-
-[bridge.piers]
-kind = "wall"
-column_length_m = 0.6
-column_width_m = 3.0
-height_m = 4.0
-"""
+    concrete = blocks_text(deck_width_m=3.0)
     nodes = [
         node("A", 0.0, 2.0, y=2.0, support="pinned", held_by="pier 1"),
         node("B", 6.0, 2.0, y=2.0, support="rocker"),
@@ -291,21 +278,7 @@ def test_a_bar_that_stands_on_concrete_is_held_by_its_support_alone():
     Their forces are half of its weight each. Were it joined to the piers where it touches them, too, it would press
     these apart as it is fixed at its ends.
     """
-    blocks = """
-[bridge]
-span_lengths_m = [8.0]
-density_kg_m3 = 2500.0
-
-[bridge.deck]
-width_m = 1.0
-thickness_m = 0.5
-
-[bridge.piers]
-kind = "wall"
-column_length_m = 0.6
-column_width_m = 3.0
-height_m = 4.0
-"""
+    blocks = blocks_text(deck_width_m=1.0)
     # IPE 300 is 0.3 m high, so that its underside lies on the piers beside the deck.
     nodes = [
         node("A", 0.0, 4.15, y=1.0, support="pinned", held_by="pier 1"),

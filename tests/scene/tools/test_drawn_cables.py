@@ -3,21 +3,9 @@
 
 import numpy as np
 import pytest
-from support.steelwork import bar, node, steel_scenario
+from support.steelwork import pulled_column
 
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
-
-PULL = """
-[[pulls]]
-name = "cable"
-point_m = [0.0, 0.0, 6.0]
-anchor_m = [8.0, 0.0, 0.0]
-start_s = 0.5
-speed_m_s = 0.1
-largest_force_n = 5000.0
-breaking_force_n = 20000.0
-diameter_mm = 20.0
-"""
 
 
 @pytest.fixture
@@ -26,8 +14,7 @@ def drawn(blender):
 
     from bridge_demolition_addon.scene.demolition import build_demolition
 
-    nodes = [node("foot", 0.0, 0.0, support="fixed"), node("head", 0.0, 6.0)]
-    scenario = steel_scenario(nodes, [bar("column", "foot", "head", "HEB 300")], PULL, pieces=2)
+    scenario = pulled_column(pieces=2)
     shards = build_demolition(bpy.context.scene, scenario, checked_model(scenario))
     return bpy.context.scene, shards
 
