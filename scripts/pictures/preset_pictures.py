@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Make the pictures of the menu Presets: from the gallery's, and from runs in runs/presets for those not there."""
+"""Make the pictures of the menu Presets: from the gallery's, and from runs in runs/presets for those not there.
+
+Those of steel, and the prestressed beam, are also in docs/pictures/steel_bridges.jpg, in the order of docs/steel.md.
+"""
 
 import subprocess
 import sys
@@ -10,6 +13,19 @@ from PIL import Image, ImageOps
 ROOT = Path(__file__).resolve().parents[2]
 PRESETS = ROOT / "bridge_demolition_addon" / "ui" / "scenario" / "presets"
 GALLERY, RUNS = ROOT / "docs" / "pictures" / "gallery", ROOT / "runs" / "presets"
+RUN = (PRESETS, PRESETS / "steel", ROOT / "examples" / "steel", ROOT / "examples" / "prestressed")
+"""Folders of presets that are not in the gallery."""
+
+STEEL_BRIDGES = (
+    "truss_severed",
+    "deck_truss_severed",
+    "composite_span_dropped",
+    "rolled_beams_severed",
+    "steel_box_girder_dropped",
+    "beam_cut_in_stages",
+)
+IN_DOCUMENTS, SIDE_BY_SIDE, LARGE_PX = ROOT / "docs" / "pictures" / "steel_bridges.jpg", 3, (480, 300)
+
 SIZE_PX, QUALITY = (256, 192), 85
 MOMENT, MOMENTS = 1, 3
 """Which of the gallery's pictures side by side: the impact, or the blast."""
@@ -21,11 +37,28 @@ def main() -> int:
         with Image.open(path) as strip:
             width = strip.width / MOMENTS
             keep(strip.crop((round(MOMENT * width), 0, round((MOMENT + 1) * width), strip.height)), path.stem)
-    for path in sorted(PRESETS.glob("*.toml")):
+    for path in sorted(path for folder in RUN for path in folder.glob("*.toml")):
         run(path, RUNS / path.stem)
-        with Image.open(RUNS / path.stem / "frames" / "impact.png") as picture:
+        with Image.open(picture_of(path.stem)) as picture:
             keep(picture, path.stem)
+    draw_steel_bridges()
     return 0
+
+
+def picture_of(name: str) -> Path:
+    """The picture of a run, at its impact or as its pieces come down."""
+    return RUNS / name / "frames" / "impact.png"
+
+
+def draw_steel_bridges() -> None:
+    """Put the pictures of bridges of steel side by side, for the documents."""
+    width, height = LARGE_PX
+    sheet = Image.new("RGB", (SIDE_BY_SIDE * width, len(STEEL_BRIDGES) // SIDE_BY_SIDE * height))
+    for number, name in enumerate(STEEL_BRIDGES):
+        row, column = divmod(number, SIDE_BY_SIDE)
+        with Image.open(picture_of(name)) as picture:
+            sheet.paste(ImageOps.fit(picture.convert("RGB"), LARGE_PX), (column * width, row * height))
+    sheet.save(IN_DOCUMENTS, quality=QUALITY)
 
 
 def keep(picture: Image.Image, name: str) -> None:

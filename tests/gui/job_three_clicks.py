@@ -10,7 +10,7 @@ PRESET = "reinforced_span_ball"
 FRAMES = 12
 ABOVE_PX = 30
 """From Build Scenario to Presets."""
-SECOND_PRESET_PX = (545, 464)
+SECOND_PRESET_PX = (695, 464)
 """Where the menu has its second name, in a window of 1280 x 800."""
 
 

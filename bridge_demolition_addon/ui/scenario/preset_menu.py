@@ -13,14 +13,14 @@ _PACKAGE = Path(__file__).parents[2]
 _EXAMPLES = (_PACKAGE / "examples", _PACKAGE.parent / "examples")
 """Where the examples are: in the extension, or beside the package in a checkout."""
 
-_REPORT_2019 = "report_2019"
-"""Folder of the examples with the settings of the 2019 report."""
+_STEEL, _PRESTRESSED, _REPORT_2019 = "steel", "prestressed", "report_2019"
+"""Folders of examples, and of presets for the sidebar, beside the bridges of concrete."""
 
 _EARLIER_NAMES = {"one_span_wrecking_ball": "span_of_2019_ball", "one_span_explosives": "span_of_2019_explosives"}
 """Presets that were renamed, by the names that scripts may still have."""
 
 _SUFFIX, _PICTURE_SUFFIX = ".toml", ".jpg"
-_COLUMNS = 5
+_COLUMNS = 4
 _PICTURE_SCALE = 5.0
 _COLUMN_UNITS = 9.0
 
@@ -34,21 +34,44 @@ class BDA_MT_presets(bpy.types.Menu):
     bl_label = "Presets"
 
     def draw(self, _context: bpy.types.Context) -> None:
-        pictures, files = loaded_pictures(), list(preset_files())
-        row = self.layout.row()
-        for number in range(_COLUMNS):
-            column = row.column()
-            column.ui_units_x = _COLUMN_UNITS
-            for name in files[number::_COLUMNS]:
-                column.template_icon(pictures[name].icon_id, scale=_PICTURE_SCALE)
-                column.operator("bda.load_preset", text=label_of_preset(name)).preset = name
+        of_2019 = presets_of_2019()
+        _draw_pictures(self.layout, [name for name in preset_files() if name not in of_2019])
+        if of_2019:
+            self.layout.separator()
+            self.layout.menu(BDA_MT_presets_of_2019.__name__)
+
+
+class BDA_MT_presets_of_2019(bpy.types.Menu):
+    """Scenarios with the settings of the report of 2019: of plain concrete, and without bearings."""
+
+    bl_label = "Settings of the Report of 2019"
+
+    def draw(self, _context: bpy.types.Context) -> None:
+        _draw_pictures(self.layout, presets_of_2019())
+
+
+def _draw_pictures(layout: bpy.types.UILayout, names: list[str]) -> None:
+    """Show presets in columns, each a picture above a button that loads it."""
+    pictures, row = loaded_pictures(), layout.row()
+    for number in range(_COLUMNS):
+        column = row.column()
+        column.ui_units_x = _COLUMN_UNITS
+        for name in names[number::_COLUMNS]:
+            column.template_icon(pictures[name].icon_id, scale=_PICTURE_SCALE)
+            column.operator("bda.load_preset", text=label_of_preset(name)).preset = name
 
 
 def preset_files() -> dict[str, Path]:
-    """Return the file of each preset by its name: those made for the sidebar, examples, and those of 2019."""
+    """Return the file of each preset by its name: those made for the sidebar, and examples."""
     examples = next((folder for folder in _EXAMPLES if folder.is_dir()), None)
-    folders = (PRESETS, examples, examples / _REPORT_2019) if examples else (PRESETS,)
+    of_examples = [examples / name for name in ("", _STEEL, _PRESTRESSED, _REPORT_2019)] if examples else []
+    folders = (PRESETS, *of_examples[:1], PRESETS / _STEEL, *of_examples[1:])
     return {path.stem: path for folder in folders for path in sorted(folder.glob("*" + _SUFFIX))}
+
+
+def presets_of_2019() -> list[str]:
+    """Return the names of the presets with the settings of the report of 2019."""
+    return [name for name, path in preset_files().items() if path.parent.name == _REPORT_2019]
 
 
 def preset_file(name: str) -> Path:

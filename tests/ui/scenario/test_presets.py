@@ -3,12 +3,14 @@
 
 import pytest
 from PIL import Image
-from support.checkout import DEMOLITIONS
+from support.checkout import DEMOLITIONS, EXAMPLES
 
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.ui.scenario.values import scenario_of
 
 SMALLEST_PX = (256, 192)
+KINDS = {path.stem: path for folder in ("steel", "prestressed") for path in (EXAMPLES / folder).glob("*.toml")}
+"""Examples of bridges of steel, and prestressed ones."""
 
 
 @pytest.fixture
@@ -21,8 +23,8 @@ def presets(extension):
 
 def test_it_holds_all_examples(presets):
     files = presets.preset_files()
-    assert set(DEMOLITIONS) < set(files)
-    assert len(files) == len(DEMOLITIONS) + 5
+    assert set(DEMOLITIONS) | set(KINDS) < set(files)
+    assert len(files) == len(DEMOLITIONS) + len(KINDS) + len(list(presets.PRESETS.rglob("*.toml")))
 
 
 def test_each_has_a_picture_that_shows_something(presets):
@@ -42,9 +44,10 @@ def test_blender_loads_the_pictures_and_lets_go_of_them(extension, presets):
 
 
 def test_an_example_is_shown_as_its_file_says(extension, settings, presets):
-    for name in ("i235_two_spans", "jackhammer_dismantling", "two_spans_20m_delays"):
+    shown = ("i235_two_spans", "jackhammer_dismantling", "two_spans_20m_delays", *KINDS)
+    for name in shown:
         assert extension.ops.bda.load_preset(preset=name) == {"FINISHED"}
-        assert scenario_of(settings) == read_scenario(DEMOLITIONS[name])
+        assert scenario_of(settings) == read_scenario((DEMOLITIONS | KINDS)[name])
 
 
 def test_the_first_has_bars_and_is_elastic(presets):

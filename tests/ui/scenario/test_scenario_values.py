@@ -17,7 +17,7 @@ from bridge_demolition_addon.ui.scenario.hints import breaking_note
 from bridge_demolition_addon.ui.scenario.prop import PRESETS, default_scenario
 from bridge_demolition_addon.ui.scenario.values import scenario_of, show_scenario
 
-FILES = sorted([*DEMOLITIONS.values(), *PRESETS.glob("*.toml"), SMALL])
+FILES = sorted([*DEMOLITIONS.values(), *PRESETS.rglob("*.toml"), SMALL])
 
 
 def test_a_new_scene_shows_the_default(settings):
