@@ -104,11 +104,8 @@ class Lift(Part):
             raise self.unexpected("members", "it, or the two corners of a box")
         if not self.from_s < self.lift_s:
             raise self.unexpected("lift_s", f"more than lifts.from_s, {self.from_s:g} (s)")
-        points = self.sling_points_m
-        if points is not None and not points:
-            raise self.unexpected("sling_points_m", "one point or more, or leave it out")
         if self.hook_m is not None:
-            for number, point in enumerate(points or (), start=1):
+            for number, point in enumerate(self.sling_points_m or (), start=1):
                 if not point[2] < self.hook_m[2]:
                     raise ScenarioError(
                         f"lifts.sling_points_m.{number} is {shown(point)}: expected a point below the hook, "
