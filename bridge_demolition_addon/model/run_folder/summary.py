@@ -114,11 +114,6 @@ class RunSummary:
         return self.values.get("pulls", [])
 
     @property
-    def lifts(self) -> list[dict[str, Any]]:
-        """The largest load on the hook of each lift; empty without lifts, and of runs that were recorded before."""
-        return self.values.get("lifts", [])
-
-    @property
     def came_to_rest_s(self) -> float | None:
         """When everything came to rest; None where it did not."""
         return self.values.get("came_to_rest_s")

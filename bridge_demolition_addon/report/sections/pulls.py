@@ -41,6 +41,6 @@ def pull_section(run: ReportedRun) -> Section | None:
     if not pulls:
         return None
     table = DataTable.of("pulls", "Cables that pulled in this run", _COLUMNS, pulls)
-    lifts = run.summary.lifts if run.summary else []
+    lifts = run.summary.values.get("lifts", []) if run.summary else []
     hooks = [DataTable.of("lifts", "Loads on the hooks of cranes in this run", _HOOKS, lifts)] if lifts else []
     return Section("Pulls", (Paragraph(_DANGER, is_notice=True), table, *hooks))

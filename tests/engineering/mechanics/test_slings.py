@@ -26,7 +26,11 @@ def test_two_slings_carry_what_the_lever_rule_says():
 
 def test_a_part_turns_until_its_centre_of_gravity_is_below_the_hook():
     """1 m beside the hook and 6 m below it: atan(1 / 6), and forces that are in equilibrium in that position."""
-    points, hook, centre = np.array([[0.0, 0.0, 0.0], [6.0, 0.0, 0.0]]), np.array([3.0, 0.0, 5.0]), np.array([2, 0, -1.0])
+    points, hook, centre = (
+        np.array([[0.0, 0.0, 0.0], [6.0, 0.0, 0.0]]),
+        np.array([3.0, 0.0, 5.0]),
+        np.array([2, 0, -1.0]),
+    )
     hangs = hanging(points, hook, centre, WEIGHT_N, EA_N)
     assert hangs.tilt_rad == pytest.approx(math.atan(1.0 / 6.0), rel=1e-9)
     total = (hangs.forces_n[:, None] * unit(hook - points)).sum(axis=0)

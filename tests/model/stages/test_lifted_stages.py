@@ -188,7 +188,10 @@ def test_slings_of_a_run_take_up_the_pretension():
     ("keys", "message"),
     [
         ({"lift_s": 0.1}, r"lifts\.lift_s is 0\.1: expected more than lifts\.from_s"),
-        ({"members": None, "lowest_corner_m": None, "highest_corner_m": None}, "lifts.members .*expected it, or the two"),
+        (
+            {"members": None, "lowest_corner_m": None, "highest_corner_m": None},
+            "lifts.members .*expected it, or the two",
+        ),
         ({"sling_points_m": ()}, "sling_points_m is a list of length 0: expected a list of one or more"),
         ({"hook_m": (6.0, 0.0, 5.0)}, r"sling_points_m\.1 is .*expected a point below the hook"),
         ({"pretension": 1.2}, "lifts.pretension is 1.2"),
