@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Lifts in the stages of a demolition, against hand statics: a beam held at both ends, whose middle a crane lifts out."""
+"""Lifts in the stages of a demolition, against hand statics: a crane lifts the middle out of a beam held at both ends."""
 
 import math
 
