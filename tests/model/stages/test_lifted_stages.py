@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Lifts in the stages of a demolition, against hand statics: a crane lifts the middle out of a beam held at both ends."""
+"""Lifts in the stages of a demolition, by hand statics: a crane lifts the middle out of a beam held at both ends."""
 
 import math
 
