@@ -38,7 +38,7 @@ def add_to(commands: argparse._SubParsersAction) -> None:
         help="say how the bridge stands between the steps of its demolition, and which members hold it",
         description="Work out the bridge at rest before each step of a scenario and after the last, by the stiffness "
         "of its connections and without a simulation, and write stages.csv, reactions.csv, bearings.csv, "
-        "utilisation.csv, criticality.csv and misfires.csv.",
+        "utilisation.csv, criticality.csv, misfires.csv and lifts.csv.",
         allow_abbrev=False,
     )
     parser.add_argument("scenario", metavar="SCENARIO.toml", type=Path, help="scenario file, see docs/stages.md")

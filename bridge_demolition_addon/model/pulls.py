@@ -68,6 +68,11 @@ class Pull(Part):
         return rope_stiffness_n(1e-3 * given(self.diameter_mm)) if self.stiffness_n is None else self.stiffness_n
 
     @property
+    def keeps_its_length(self) -> bool:
+        """Whether it has its largest force once, and keeps its length from then on, whatever its force."""
+        return False
+
+    @property
     def built_length_m(self) -> float:
         """Distance of its ends as the bridge was built."""
         return math.dist(self.point_m, self.anchor_m)

@@ -19,6 +19,7 @@ from ..model.blast.settings import Apply
 from ..model.bridge.extent import room_around, surface_height
 from ..model.scenario import Ball, Jackhammer, Scenario
 from ..model.sequence.checked_model import check_actions
+from ..model.sequence.lifts import slings_of
 from ..model.structure.blast_zones import zone_firings
 from ..model.structure.model import Model, start_motions
 from .as_built import keep_built_bodies
@@ -97,7 +98,8 @@ def _build(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> list[bpy
     keep_breaking(scene, _breaking(scenario, joints[0].strength, model.bars))
     keep_changes(scene, (*scenario.changes, *zone_firings(scenario, model.members)))
     keep_loads(scene, scenario.loads)
-    keep_pulls(scene, scenario.pulls)
+    cables = (*scenario.pulls, *slings_of(scenario.lifts, model))
+    keep_pulls(scene, cables)
     with off_scene(scene) as (bodies, connections):
         surface = scenario.surface_of(scenario.shards)
         shards = create_shards(bodies, scenario.shards, surface, model.shards, model.centres_m, model.masses_kg)
@@ -129,7 +131,7 @@ def _build(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> list[bpy
         build_force_objects(scene, bodies_of(scene))
     animate_time_scale(scene, scenario.timeline, FIRST_STEP_FRAME)
     keep_built_bodies(scene)
-    create_cables(scene, scenario.pulls, model, shards)
+    create_cables(scene, cables, model, shards)
     return shards
 
 

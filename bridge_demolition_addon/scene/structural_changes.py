@@ -8,7 +8,19 @@ from typing import TypeVar
 import bpy
 
 from ..errors import ScenarioError
-from ..model.scenario import Change, Load, Pull, Removal, SawCut, Severing, TendonCut, Weakening, ZoneFiring
+from ..model.scenario import (
+    Change,
+    LiftingAway,
+    Load,
+    Pull,
+    Removal,
+    SawCut,
+    Severing,
+    Sling,
+    TendonCut,
+    Weakening,
+    ZoneFiring,
+)
 from ..model.scenario.kept import tables_from_text, tables_text
 from .custom_properties import edited, keep
 
@@ -28,13 +40,21 @@ def keep_loads(scene: bpy.types.Scene, loads: Sequence[Load]) -> None:
 
 
 def keep_pulls(scene: bpy.types.Scene, pulls: Sequence[Pull]) -> None:
-    """Keep cables in the scene, and so in its file; a recording of the scene pulls by them."""
+    """Keep cables and slings in the scene, and so in its file; a recording of the scene pulls by them."""
     keep(scene, _PULLS, tables_text(pulls) if pulls else None)
 
 
 def changes_of(scene: bpy.types.Scene) -> tuple[Change, ...]:
     """Return the changes that a scene keeps."""
-    classes: tuple[type[Change], ...] = (Removal, SawCut, Severing, TendonCut, Weakening, ZoneFiring)
+    classes: tuple[type[Change], ...] = (
+        LiftingAway,
+        Removal,
+        SawCut,
+        Severing,
+        TendonCut,
+        Weakening,
+        ZoneFiring,
+    )
     return _kept_tables(scene, _CHANGES, classes)
 
 
@@ -44,8 +64,9 @@ def loads_of(scene: bpy.types.Scene) -> tuple[Load, ...]:
 
 
 def pulls_of(scene: bpy.types.Scene) -> tuple[Pull, ...]:
-    """Return the cables that a scene keeps."""
-    return _kept_tables(scene, _PULLS, (Pull,))
+    """Return the cables and the slings that a scene keeps."""
+    classes: tuple[type[Pull], ...] = (Pull, Sling)
+    return _kept_tables(scene, _PULLS, classes)
 
 
 def _kept_tables(scene: bpy.types.Scene, name: str, classes: Sequence[type[_Kept]]) -> tuple[_Kept, ...]:

@@ -106,6 +106,8 @@ def run_summary(recording: Recording, results: Results, context: RunContext, *, 
         summary["tendons"] = recording.tendons.summary()
     if recording.pulls:
         summary["pulls"] = recording.pulls.summary()
+        if lifts := recording.pulls.hooks.summary():
+            summary["lifts"] = lifts
     return summary if scenario is None else summary | _of_scenario(scenario, recording, results, context.ground_motion)
 
 

@@ -31,7 +31,7 @@ PULLS = [
 
 
 def run_with(pulls):
-    return SimpleNamespace(summary=SimpleNamespace(pulls=pulls))
+    return SimpleNamespace(summary=SimpleNamespace(pulls=pulls, values={}))
 
 
 def test_each_cable_has_a_row():

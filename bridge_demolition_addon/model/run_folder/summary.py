@@ -204,6 +204,8 @@ def _checked(summary: Any) -> dict[str, Any]:
             _check_table(f"tendons[{number}].released[{other}]", release, _RELEASE)
     for number, pull in enumerate(summary.get("pulls", ())):
         _check_table(f"pulls[{number}]", pull, _PULL)
+    for number, lift in enumerate(summary.get("lifts", ())):
+        _check_table(f"lifts[{number}]", lift, _LIFT)
     for number, hit in enumerate(summary.get("hits_of_the_ball", ())):
         _check_table(f"hits_of_the_ball[{number}]", hit, _HIT, optional=_ESTIMATES)
     return summary
@@ -350,6 +352,7 @@ _PULL = {
     "let_go_J": _is_number_or_none,
     "work_J": _is_number,
 }
+_LIFT = {"name": _is_text, "largest_hook_N": _is_number, "largest_hook_s": _is_number, "weight_N": _is_number}
 _RELEASE = {"time_s": _is_number, "how": _is_text, "energy_J": _is_number}
 _LEVELLED = {"name": _is_text, "dug_m": _is_number, "filled_m": _is_number}
 _SUMMARY = {
@@ -372,6 +375,7 @@ _SUMMARY = {
     "reinforcement": _is_table_or_none,
     "tendons": _is_list,
     "pulls": _is_list,
+    "lifts": _is_list,
 }
 
 _ESTIMATES = {"half_sine_peak_force_N": _is_number, "hertz_peak_force_N": _is_number}

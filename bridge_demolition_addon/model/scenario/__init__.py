@@ -9,6 +9,7 @@ from ..blast.blast_zones import BlastZone
 from ..blast.charges import Charge
 from ..blast.cuts import MemberCut
 from ..blast.settings import BlastSettings
+from ..lifts import Lift, Sling
 from ..loads import Load
 from ..materials.bar_layers import BarLayer
 from ..materials.materials import Material
@@ -27,7 +28,7 @@ from .reinforcement import BarRule, BridgeReinforcement, GeometryReinforcement, 
 from .scenario import Scenario
 from .site import Exclusion, Neighbour, Site, Zone
 from .steelwork import SteelMember, SteelNode, Steelwork
-from .structural_changes import Change, Removal, SawCut, Severing, TendonCut, Weakening, ZoneFiring
+from .structural_changes import Change, LiftingAway, Removal, SawCut, Severing, TendonCut, Weakening, ZoneFiring
 from .tendons import Tendon
 from .time import TimeSettings
 from .trusses import TrussSpan
@@ -62,6 +63,8 @@ __all__ = [
     "Ground",
     "GroundSurface",
     "Jackhammer",
+    "Lift",
+    "LiftingAway",
     "Load",
     "Material",
     "MemberCut",
@@ -79,6 +82,7 @@ __all__ = [
     "Severing",
     "ShardSettings",
     "Site",
+    "Sling",
     "SteelMember",
     "SteelNode",
     "Steelwork",

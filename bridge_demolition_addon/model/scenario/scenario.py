@@ -18,6 +18,7 @@ from ..blast.settings import BlastSettings
 from ..foundations import Foundation
 from ..ground_motion.settings import GroundMotion
 from ..ground_motion.sources import ground_record
+from ..lifts import Lift, check_lift_names
 from ..loads import Load
 from ..materials.bar_layers import BarLayer
 from ..materials.materials import Material, check_materials
@@ -47,7 +48,7 @@ from .recording import PictureSettings, RecordingSettings
 from .reinforcement import BarRule, BridgeReinforcement, GeometryReinforcement
 from .site import Exclusion, Neighbour, Site, Zone
 from .steelwork import Steelwork
-from .structural_changes import Change, Removal, SawCut, TendonCut, Weakening, severing
+from .structural_changes import Change, Removal, SawCut, TendonCut, Weakening, lifting_away, severing
 from .tendons import Tendon, check_tendons
 from .time import MOST_FRAMES, TimeSettings
 
@@ -96,6 +97,7 @@ class Scenario(Table):
     tendon_cuts: tuple[TendonCut, ...] = ()
     loads: tuple[Load, ...] = ()
     pulls: tuple[Pull, ...] = ()
+    lifts: tuple[Lift, ...] = ()
     recording: RecordingSettings = field(default_factory=RecordingSettings)
     pictures: PictureSettings = field(default_factory=PictureSettings)
     zones: tuple[Zone, ...] = ()
@@ -204,7 +206,8 @@ class Scenario(Table):
         """Changes to the structure, but for those of blast zones, which depend on its model."""
         fired = [cut for cut in self.cuts if cut.fires and self.blast.explosion]
         severed = (severing(cut, self.blast.start_s, self.seed) for cut in fired)
-        return (*self.removals, *self.saw_cuts, *self.weakenings, *severed, *self.tendon_cuts)
+        lifted = (lifting_away(lift) for lift in self.lifts)
+        return (*self.removals, *self.saw_cuts, *self.weakenings, *severed, *self.tendon_cuts, *lifted)
 
     def _check_together(self) -> None:
         self._settle_contacts()
@@ -221,6 +224,7 @@ class Scenario(Table):
         self._check_reinforcement()
         check_tendons(self.tendons, self.tendon_cuts, self.connections)
         check_names(self.pulls)
+        check_lift_names(self.lifts)
         if not self.connections.is_elastic:
             for table in self.bearings:
                 table.check_rigid()

@@ -9,6 +9,7 @@ from ...engineering.geometry.sides import AXES
 from ...errors import ScenarioError
 from ..actions import Fact, Plan, Worksite
 from ..blast.cuts import MemberCut
+from ..lifts import Lift
 from ..loads import Part
 from ..schema import key, shown
 
@@ -53,6 +54,29 @@ class Removal(Change):
         Change._check_together(self)
         if self.members is None and self.lowest_corner_m is None:
             raise self.unexpected("members", "it, or the two corners of a box")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LiftingAway(Removal):
+    """A part that a crane lifts away: it is taken out in one moment. It follows from a table of `[[lifts]]`, and is no
+    table of a scenario; a scene keeps it.
+    """
+
+    table: ClassVar[str] = "liftings_away"
+    kind: ClassVar[str] = "lifting away"
+
+    name: str = key("Name of the lift.")
+
+
+def lifting_away(lift: Lift) -> LiftingAway:
+    """Return the end of a lift as a change to the structure."""
+    return LiftingAway(
+        time_s=lift.lift_s,
+        name=lift.name,
+        members=lift.members,
+        lowest_corner_m=lift.lowest_corner_m,
+        highest_corner_m=lift.highest_corner_m,
+    )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -15,6 +15,7 @@ from ..actions import Affected, Fact, Place, PlannedAction, Point
 from ..blast.blast_zones import BlastZone
 from ..bridge.extent import surface_height
 from ..bridge.member import Member
+from ..lifts import Lift
 from ..loads import Load
 from ..materials.bar_layers import BarLayer
 from ..pulls import Pull
@@ -25,6 +26,7 @@ from ..schema import given
 from ..structure.blast_zones import one_member, placed_zone
 from ..structure.model import Model, build_model
 from .events import Structure, model_structure, schedule
+from .lifts import placed_lift
 from .loads import placed_on_model
 from .tendon_cuts import cut_text
 
@@ -71,6 +73,8 @@ class ModelWorksite:
         model = self.model
         if isinstance(action, Load | Pull):
             shards = placed_on_model(action, self.number_of(action), model, self._structure).bodies
+        elif isinstance(action, Lift):
+            shards = placed_lift(action, model, self._structure).shards
         else:
             assert isinstance(action, Change)
             (event,) = schedule((action,), self._structure)

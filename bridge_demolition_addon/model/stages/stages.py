@@ -13,18 +13,21 @@ from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...errors import ScenarioError
 from ..actions import Fact
 from ..pulls import Pull
-from ..scenario import Equipment, Scenario
+from ..scenario import Equipment, LiftingAway, Scenario
 from ..schema import given
 from ..sequence.events import Event, model_structure, schedule
+from ..sequence.lifts import placed_lifts
 from ..sequence.loads import placed_on_model
 from ..structure.blast_zones import zone_firings
 from ..structure.model import Model
 from .changed_bridge import ChangedBridge, PressedBars
 from .changed_tendons import ReleasedTendon, released_tendons
+from .lifted import CraneWork, PartOnHook
 from .reactions import supports_of
 from .standing import Standing, StandingBridge
 
 _BUILT, _MACHINES, _PULLS = "as it was built", "equipment comes or goes", "pull by {}"
+_SLINGS, _LIFTED = "slings of {} take up {:.0%}", "{} is lifted away"
 """Steps without an event."""
 
 _AT_THE_TOP = 0.05
@@ -52,6 +55,7 @@ class Stage:
     collapse_factor: float  # load factor at which it collapses
     bars: tuple[PressedBars, ...] = ()  # that stand bare
     tendons: tuple[ReleasedTendon, ...] = ()  # that let go in this step
+    lifts: tuple[PartOnHook, ...] = ()  # parts that a crane holds, or lifts away in this step
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,32 +72,50 @@ class Criticality:
 def stages_of(scenario: Scenario, bridge: StandingBridge, progress: Callable[[int, int], None]) -> list[Stage]:
     """Return the stages of a scenario; after each, call `progress` with the numbers of those done and of all."""
     model = bridge.model
-    changes = (*scenario.changes, *zone_firings(scenario, model.members))
-    steps = _steps(scenario, schedule(changes, model_structure(model)))
+    planned = (change for change in scenario.changes if not isinstance(change, LiftingAway))
+    changes, structure = (*planned, *zone_firings(scenario, model.members)), model_structure(model)
+    crane = CraneWork(placed_lifts(scenario.lifts, model), model, structure)
+    steps = _steps(scenario, schedule(changes, structure), crane.times())
     changed, stages = ChangedBridge.as_built(model), []
     for number, (time_s, events) in enumerate(steps):
         before, changed = changed, changed.after(events)
+        lifted = crane.lifted_at(time_s, changed)
+        gone = [crane.part(placed, changed, is_gone=True) for placed, _ in lifted]
+        changed = changed.after([event for _, event in lifted])
+        hanging, on_slings = crane.on_hooks(time_s, changed)
         machines = [machine for machine in scenario.equipment if machine.stands_at(time_s)]
         pulls = [pull for pull in scenario.pulls if pull.start_s <= time_s]
-        loads = equipment_loads(model, machines, changed.removed) + pull_loads(model, pulls, changed.removed)
+        loads = (
+            equipment_loads(model, machines, changed.removed) + pull_loads(model, pulls, changed.removed) + on_slings
+        )
         state = changed.intact, changed.left, loads
         standing = bridge.rest(*state, bare=changed.bare, cuts=changed.cuts)
         stages.append(
             Stage(
                 time_s=time_s,
-                step=_described_step(scenario, time_s, events, model),
+                step=_described_step(scenario, time_s, events, model, gone),
                 standing=standing,
                 removed=changed.removed,
-                loose=~standing.held & ~changed.removed & ~model.fixed,
+                loose=~standing.held & ~changed.removed & ~model.fixed & ~_among(hanging, model),
                 equipment=(*(machine.name for machine in machines), *(pull.name for pull in pulls)),
                 equipment_n=STANDARD_GRAVITY_M_S2 * math.fsum(machine.mass_kg for machine in machines),
                 collapse_factor=bridge.collapse_factor(*state, changed.bare, changed.cuts),
                 bars=changed.pressed_bars(standing.bare_n),
                 tendons=released_tendons(bridge, before, changed),
+                lifts=(*gone, *hanging),
             )
         )
         progress(number + 1, len(steps))
     return stages
+
+
+def _among(parts: Sequence[PartOnHook], model: Model) -> np.ndarray:
+    """Return which shards (n,) slings hold that nothing else does."""
+    held = np.zeros(len(model.shards), bool)
+    for part in parts:
+        if not part.held_by:
+            held[part.shards] = True
+    return held
 
 
 def criticality(bridge: StandingBridge, progress: Callable[[int, int], None]) -> list[Criticality]:
@@ -227,18 +249,22 @@ def reactions_n(model: Model, stage: Stage) -> np.ndarray:
     return np.sum(forces, axis=0) if forces else np.zeros(3)
 
 
-def _steps(scenario: Scenario, events: Sequence[Event]) -> list[tuple[float, list[Event]]]:
-    """Return times at which something changes, from 0 on, and the changes."""
-    times = {0.0, *(event.time_s for event in events)}
+def _steps(scenario: Scenario, events: Sequence[Event], lifts_s: set[float]) -> list[tuple[float, list[Event]]]:
+    """Return times at which something changes, from 0 on, and the changes; `lifts_s` are those of lifts."""
+    times = {0.0, *(event.time_s for event in events)} | lifts_s
     times |= {pull.start_s for pull in scenario.pulls}
     for machine in scenario.equipment:
         times |= {machine.from_s} | ({machine.until_s} if machine.until_s is not None else set())
     return [(time_s, [event for event in events if event.time_s == time_s]) for time_s in sorted(times)]
 
 
-def _described_step(scenario: Scenario, time_s: float, events: Sequence[Event], model: Model) -> str:
+def _described_step(
+    scenario: Scenario, time_s: float, events: Sequence[Event], model: Model, gone: Sequence[PartOnHook]
+) -> str:
     done = [_described(event, model) for event in events]
     done += [_PULLS.format(pull.name) for pull in scenario.pulls if pull.start_s == time_s]
+    done += [_LIFTED.format(part.lift.name) for part in gone]
+    done += [_SLINGS.format(lift.name, lift.pretension) for lift in scenario.lifts if lift.from_s == time_s]
     return ", ".join(done) or (_MACHINES if time_s > 0.0 else _BUILT)
 
 

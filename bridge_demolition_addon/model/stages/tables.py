@@ -16,18 +16,20 @@ from ..structure.model import Model
 from .bearing_rows import BEARING_COLUMNS, BEARINGS_FILE, bearing_rows
 from .changed_bridge import PressedBars
 from .changed_tendons import ReleasedTendon
+from .lifted import LIFT_COLUMNS, LIFTS_FILE, hook_cells, lift_rows, lift_sentences
 from .misfires import MISFIRE_COLUMNS, MISFIRES_FILE, Misfire, misfire_row
 from .reactions import SupportPoint, supports_of
 from .stages import Criticality, Stage, reactions_n
 from .standing import StandingBridge
 
-FILES = STAGES_FILE, REACTIONS_FILE, _, UTILISATION_FILE, CRITICALITY_FILE, _ = (
+FILES = STAGES_FILE, REACTIONS_FILE, _, UTILISATION_FILE, CRITICALITY_FILE, _, _ = (
     "stages.csv",
     "reactions.csv",
     BEARINGS_FILE,
     "utilisation.csv",
     "criticality.csv",
     MISFIRES_FILE,
+    LIFTS_FILE,
 )
 
 STAGE_COLUMNS = (
@@ -55,6 +57,8 @@ STAGE_COLUMNS = (
     "first_frequency_Hz",
     "bare_bars_used",
     "tendons_released_kJ",
+    "on_hooks_kN",
+    "hook_used",
 )
 REACTION_COLUMNS = (
     "stage",
@@ -122,6 +126,7 @@ def write_tables(
         folder / CRITICALITY_FILE, CRITICALITY_COLUMNS, (criticality_row(effect, bridge.model) for effect in members)
     )
     write_table(folder / MISFIRES_FILE, MISFIRE_COLUMNS, map(misfire_row, failures))
+    write_table(folder / LIFTS_FILE, LIFT_COLUMNS, lift_rows(stages))
     return rows
 
 
@@ -153,6 +158,7 @@ def stage_row(number: int, stage: Stage, bridge: StandingBridge) -> dict[str, An
         "tendons_released_kJ": math.fsum(tendon.released_j for tendon in stage.tendons) / _KILO
         if model.tendons
         else None,
+        **hook_cells(stage.lifts),
     }
     if np.isfinite(standing.used).any():
         worst = int(np.nanargmax(standing.used))
@@ -219,6 +225,7 @@ def stage_sentences(stage: Stage, row: Mapping[str, Any]) -> list[str]:
         sentences.append(f"{row['cracked']} connections have cracked, and hold by their bars")
     sentences += [_of_bare_bars(bars) for bars in stage.bars]
     sentences += [_of_tendon(tendon) for tendon in stage.tendons]
+    sentences += lift_sentences(stage.lifts, row["not_held_kg"])
     sentences.append(factor_in_words(stage.collapse_factor))
     if stage.collapse_factor < 1.0:
         sentences.append(SLOW_COLLAPSE)

@@ -26,6 +26,14 @@ _COLUMNS = (
     ),
 )
 
+_HOOKS = (
+    Column("Lift", "lift", "", lambda lift: lift["name"]),
+    Column("weight (kN)", "weight_kN", ".1f", lambda lift: lift["weight_N"] / _KILO),
+    Column("largest load on the hook (kN)", "largest_hook_kN", ".1f", lambda lift: lift["largest_hook_N"] / _KILO),
+    Column("by its weight", "by_weight", ".2f", lambda lift: lift["largest_hook_N"] / lift["weight_N"]),
+    Column("at (s)", "at_s", ".3f", lambda lift: lift["largest_hook_s"]),
+)
+
 
 def pull_section(run: ReportedRun) -> Section | None:
     """Return the section; None without cables."""
@@ -33,4 +41,6 @@ def pull_section(run: ReportedRun) -> Section | None:
     if not pulls:
         return None
     table = DataTable.of("pulls", "Cables that pulled in this run", _COLUMNS, pulls)
-    return Section("Pulls", (Paragraph(_DANGER, is_notice=True), table))
+    lifts = run.summary.values.get("lifts", []) if run.summary else []
+    hooks = [DataTable.of("lifts", "Loads on the hooks of cranes in this run", _HOOKS, lifts)] if lifts else []
+    return Section("Pulls", (Paragraph(_DANGER, is_notice=True), table, *hooks))

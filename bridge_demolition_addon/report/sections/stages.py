@@ -49,6 +49,12 @@ _COLUMNS = (
     Column("Collapse load factor", "falls_at", "", lambda row: _falls_at(_number(row["collapse_factor"]))),
     Column("Deflection (mm)", "sag_mm", ".1f", lambda row: _number(row["sag_mm"])),
 )
+_HOOKS = (
+    Column("On hooks (kN)", "on_hooks_kN", ".1f", lambda row: _number(row["on_hooks_kN"])),
+    Column("of the crane", "hook_used", ".0%", lambda row: _number(row["hook_used"])),
+)
+"""Columns where a crane lifts parts."""
+
 _SUPPORT = (
     Column("Support", "support", "", lambda rows: rows[0]["support"]),
     Column("at x (m)", "at_x_m", ".2f", lambda rows: float(rows[0]["at_x_m"])),
@@ -70,7 +76,7 @@ _BEARINGS = (
     "Bearings: least and largest forces (kN) on what lies above them over the stages, z upwards. They go on into the "
     "supports, and are no part of their sum"
 )
-_SINCE_LATER = ("cracked", "bare_bars_used", "tendons_released_kJ", "falls_at_most_kg")
+_SINCE_LATER = ("cracked", "bare_bars_used", "tendons_released_kJ", "falls_at_most_kg", "on_hooks_kN", "hook_used")
 """Columns that earlier versions did not write."""
 
 _CRITICALITY_AT_FIRST = 4
@@ -117,7 +123,8 @@ def stages_section(folder: Path) -> Section:
     stages = _rows(folder / STAGES_FILE, always)
     members = _rows(folder / CRITICALITY_FILE, CRITICALITY_COLUMNS[:_CRITICALITY_AT_FIRST])
     try:
-        table = DataTable.of("stages", "Stages", _COLUMNS, stages)
+        is_lifting = any(row.get("on_hooks_kN") for row in stages)
+        table = DataTable.of("stages", "Stages", (*_COLUMNS, *(_HOOKS if is_lifting else ())), stages)
         falls = [(row["member"], float(row["falls_kg"]) / 1e3, float(row["share_of_the_bridge"])) for row in members]
     except ValueError as error:
         raise OutputError(f"{folder}: the tables of stages are damaged ({error}); run bda stages again") from error

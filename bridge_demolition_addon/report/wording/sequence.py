@@ -10,6 +10,7 @@ from ...engineering.units import mass_text
 from ...model.actions import PlannedAction
 from ...model.blast.charges import Charge
 from ...model.ground_motion.settings import GroundMotion
+from ...model.lifts import Lift
 from ...model.loads import Load
 from ...model.pulls import Pull
 from ...model.scenario import Ball, BlastZone, Change, Equipment, Jackhammer, MemberCut, Scenario, TendonCut, Weakening
@@ -58,6 +59,7 @@ def _means(scenario: Scenario) -> Iterator[str]:
         (scenario.jackhammers, "jackhammer"),
         (scenario.loads, "load"),
         (scenario.pulls, "pull"),
+        (scenario.lifts, "lift"),
         (scenario.equipment, "machine"),
     )
     yield from (_count(len(tables), name) for tables, name in counted if tables)
@@ -111,6 +113,8 @@ def _described(action: PlannedAction) -> tuple[str, str]:
             return f"load of up to {max(action.forces_n) / 1e3:g} kN", action.where
         case Pull():
             return f"{action.name} pulls with up to {action.most_n / 1e3:g} kN", f"from {_point(action.anchor_m)}"
+        case Lift():
+            return f"{action.name}: slings hold with {action.pretension:.0%}, then it is lifted away", action.where
         case Jackhammer():
             return "jackhammer works", f"from {_point(action.path_m[0])} to {_point(action.path_m[-1])}"
         case GroundMotion():

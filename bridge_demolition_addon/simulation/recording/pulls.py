@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any
 
@@ -13,6 +14,7 @@ from ...engineering.mechanics.cables import cable_force_n, force_of_step_n, free
 from ...model.pulls import Pull
 from ...model.sequence.loads import PlacedLoad
 from .drivers import Driver
+from .hooks import Hooks
 
 _LEFT = 0.01
 """Part of the distance of its ends that a cable keeps as free length at least."""
@@ -45,6 +47,7 @@ class ReeledCable:
 
     def __init__(self, pull: Pull, mass_kg: float):
         self.pull, self._mass_kg, self.elastic_n = pull, mass_kg, pull.elastic_n
+        self._keeps_its_length = False
         self.force_n, self.largest_n, self.largest_s, self.work_j = 0.0, 0.0, pull.start_s, 0.0
         self.length_m: float | None = None
         self.free_m: float | None = None
@@ -67,10 +70,13 @@ class ReeledCable:
             reeled_m = pull.speed_m_s * min(step_s, time_s + step_s - pull.start_s)
             self.free_m = max(self.free_m - reeled_m, _LEFT * length_m)
             most_n = pull.largest_force_n
+        elif self._keeps_its_length:
+            most_n = math.inf
         else:
             grown_n = (time_s + step_s - pull.start_s) * (pull.growth_n_s or 0.0)
             most_n = min(grown_n, pull.largest_force_n)
             self.free_m = min(self.free_m, free_length_m(self.elastic_n, most_n, length_m + lengthens_m_s * step_s))
+            self._keeps_its_length = pull.keeps_its_length and grown_n >= pull.largest_force_n
         force_n = force_of_step_n(self.elastic_n, self.free_m, length_m, lengthens_m_s, before_n, step_s, self._mass_kg)
         if force_n > most_n:
             if most_n == pull.largest_force_n and self.held_s is None:
@@ -107,6 +113,7 @@ class Pulls(Driver):
         self._anchors = np.array([placed.load.anchor_m for placed in pulls]).reshape(-1, 3)
         self._arms_in_bodies = transformed_back(bodies.positions()[1][self._bodies], arms)
         self._begins_s = 0.0
+        self.hooks = Hooks([placed.load for placed in pulls])
 
     def before_substep(self, elapsed_s: float, substep_s: float) -> None:
         """Pull with the forces of this sub-step; simulated time is known once a frame at least."""
@@ -124,6 +131,7 @@ class Pulls(Driver):
             if self._table.removed[self._bodies[row]]:
                 cable.end(LET_GO, time_s)
             forces_n[row] = cable.step(time_s, substep_s, float(lengths_m[row]), float(parting_m_s[row]))
+        self.hooks.measure(time_s, forces_n * units[:, 2])
         pulled = np.flatnonzero(forces_n > 0.0)
         if len(pulled):
             forces = forces_n[pulled, None] * units[pulled]

@@ -1,0 +1,165 @@
+"""Lifts: a crane holds a part of the bridge by slings while it is cut free, and lifts it away."""
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ..engineering.mechanics.cables import rope_stiffness_n
+from ..engineering.units import mass_text
+from ..errors import ScenarioError
+from .actions import Fact, HeightAt, Plan, Point, Worksite
+from .loads import Part
+from .pulls import Pull
+from .schema import POSITION, key, shown
+
+_TAKES_UP_S = 1.0
+"""Slings take up their share of the weight within this time, or half of the time until the part is lifted away."""
+
+_LEAST_N = 1.0
+"""Force of a sling that is just taut."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Lift(Part):
+    """A part of the bridge that a crane takes away: slings hold it, saw cuts or removals set it free, it hangs, and is
+    lifted away. The part is chosen as that of `[[removals]]`. Slings only pull, and end in one hook, which stays where
+    it is. `bda stages` says the load on the hook and what stands meanwhile; in a run slings are cables, and the part is
+    taken out when it is lifted away.
+    """
+
+    table: ClassVar[str] = "lifts"
+    heading: ClassVar[str] = "Lifts"
+
+    name: str = key("Name of the lift.")
+    from_s: float = key("When slings hold the part, and begin to take up its weight.", unit="s", at_least=0)
+    lift_s: float = key("When it is lifted away; it has to be cut free before.", unit="s", above=0)
+    capacity_kg: float = key(
+        "What the crane lifts at this radius, by its load chart, less hook block and slings.", unit="kg", above=0
+    )
+    pretension: float = key(
+        "Share of the weight of the part that slings take up before it is cut free.", default=1.0, at_least=0, at_most=1
+    )
+    sling_points_m: tuple[tuple[float, float, float], ...] | None = key(
+        "Where slings hold it, as the bridge was built; by default one above its centre of gravity, at its top.",
+        default=None,
+        unit="m",
+    )
+    hook_m: tuple[float, float, float] | None = key(
+        "Where the hook is; by default above its centre of gravity, so high that slings are at least as steep as 60°.",
+        default=None,
+        **POSITION,
+    )
+    crane_m: tuple[float, float] | None = key(
+        "Where the crane turns: x, y. Then its radius is reported.", default=None, unit="m"
+    )
+    diameter_mm: float = key(
+        "Diameter of each sling, a wire rope of usual stiffness.", default=40.0, unit="mm", above=0, at_most=200
+    )
+
+    @property
+    def elastic_n(self) -> float:
+        """Stiffness EA of each sling."""
+        return rope_stiffness_n(1e-3 * self.diameter_mm)
+
+    @property
+    def taken_up_s(self) -> float:
+        """Time within which slings take up the weight."""
+        return min(_TAKES_UP_S, 0.5 * (self.lift_s - self.from_s))
+
+    def begins_s(self, plan: Plan) -> float:
+        return self.from_s
+
+    def ends_s(self, plan: Plan) -> float:
+        return self.lift_s
+
+    def points_of_interest(self, height_at: HeightAt) -> Iterator[Point]:
+        yield from self.sling_points_m or ()
+        if self.hook_m is not None:
+            yield self.hook_m
+
+    def facts(self, site: Worksite) -> Iterator[Fact]:
+        part = site.affected_by(self)
+        used = part.mass_kg / self.capacity_kg
+        yield (
+            self.name,
+            f"{mass_text(part.mass_kg)} of {', '.join(part.members)}, {used:.0%} of what the crane lifts; slings hold "
+            f"from {self.from_s:g} s with {self.pretension:.0%} of it, lifted away at {self.lift_s:g} s",
+        )
+        if used > 1.0:
+            yield "", "heavier than the crane lifts: cut it into smaller parts, or choose a larger crane"
+
+    def check_plan(self, plan: Plan) -> None:
+        latest_s = plan.time.duration_s - plan.time.step.frame_s
+        if not plan.warm_up_s <= self.lift_s < latest_s:
+            latest = f"less than {latest_s:.6g} (s), a frame before time.duration_s is over"
+            raise self.unexpected("lift_s", f"at least connections.warm_up_s, {plan.warm_up_s} (s), and {latest}")
+
+    def check_model(self, site: Worksite) -> None:
+        site.affected_by(self)
+
+    def _check_together(self) -> None:
+        Part._check_together(self)
+        if self.members is None and self.lowest_corner_m is None:
+            raise self.unexpected("members", "it, or the two corners of a box")
+        if not self.from_s < self.lift_s:
+            raise self.unexpected("lift_s", f"more than lifts.from_s, {self.from_s:g} (s)")
+        if self.hook_m is not None:
+            for number, point in enumerate(self.sling_points_m or (), start=1):
+                if not point[2] < self.hook_m[2]:
+                    raise ScenarioError(
+                        f"lifts.sling_points_m.{number} is {shown(point)}: expected a point below the hook, "
+                        f"lifts.hook_m {shown(self.hook_m)}"
+                    )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sling(Pull):
+    """A sling of a lift, as a cable of a run: it takes up a force, and keeps its length from then on. It follows from
+    a table of `[[lifts]]`, and is no table of a scenario; a scene keeps it.
+    """
+
+    table: ClassVar[str] = "slings"
+
+    lift: str = key("Name of its lift.")
+    part_kg: float = key("Mass of the part.", unit="kg", above=0)
+
+    @property
+    def keeps_its_length(self) -> bool:
+        return True
+
+    def _check_together(self) -> None:
+        Part._check_together(self)
+
+
+def sling_of(lift: Lift, number: int, point_m: Point, hook_m: Point, force_n: float, part_kg: float) -> Sling:
+    """Return a sling of a lift, counted from 1, with the force that it takes up."""
+    taken_up_n = max(force_n, _LEAST_N)
+    return Sling(
+        name=f"{lift.name}, sling {number}",
+        members=lift.members,
+        lowest_corner_m=lift.lowest_corner_m,
+        highest_corner_m=lift.highest_corner_m,
+        point_m=point_m,
+        anchor_m=hook_m,
+        start_s=lift.from_s,
+        growth_n_s=taken_up_n / lift.taken_up_s,
+        largest_force_n=taken_up_n,
+        breaking_force_n=lift.elastic_n,  # never
+        stiffness_n=lift.elastic_n,
+        lift=lift.name,
+        part_kg=part_kg,
+    )
+
+
+def check_lift_names(lifts: Sequence[Lift]) -> None:
+    """Check that each lift has a name of its own."""
+    names = [lift.name for lift in lifts]
+    for number, name in enumerate(names):
+        if name in names[:number]:
+            raise ScenarioError(f"lifts.name is {shown(name)} twice: expected a name of its own for each lift")
+
+
+def radius_m(lift: Lift, hook_m: Sequence[float]) -> float | None:
+    """Return the distance on plan of the hook from where the crane turns; None where that is not given."""
+    return None if lift.crane_m is None else math.dist(lift.crane_m, hook_m[:2])

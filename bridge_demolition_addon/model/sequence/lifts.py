@@ -1,0 +1,167 @@
+"""What each lift of a scenario does to a model: its part, where slings hold it, and what they carry."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...engineering.elasticity.equations import connected_parts
+from ...engineering.geometry.vectors import cross, length, unit
+from ...engineering.mechanics.slings import Hanging, hanging, sling_forces_n
+from ...engineering.structure.connections import GROUND
+from ...engineering.units import STANDARD_GRAVITY_M_S2
+from ...errors import ScenarioError
+from ..lifts import Lift, Sling, radius_m, sling_of
+from ..schema import given
+from ..structure.model import Model
+from .events import Structure, in_box, model_structure, of_members
+from .loads import placed_on_model
+
+_STEEP = math.sqrt(3.0)
+"""Height of a hook over its slings by how far they are from it on plan: they are as steep as 60°."""
+
+_LEAST_HEIGHT_M = 3.0
+"""Height of the hook over slings that are closer together."""
+
+_GROUND = "ground"
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PlacedLift:
+    """A lift on the shards of a model as it was built.
+
+    Attributes
+    ----------
+    shards : (s,) int
+        Its part.
+    mass_kg, centre_m : float, (3,) float
+        Of the part.
+    points_m, hook_m : (k, 3), (3,) float
+        Where slings hold the part, and where they end.
+    carriers : (k,) int
+        Shard that each sling holds.
+    """
+
+    lift: Lift
+    shards: np.ndarray
+    mass_kg: float
+    centre_m: np.ndarray
+    points_m: np.ndarray
+    hook_m: np.ndarray
+    carriers: np.ndarray
+
+    @property
+    def radius_m(self) -> float | None:
+        """Radius of the crane; None where its place is not given."""
+        return radius_m(self.lift, self.hook_m.tolist())
+
+    @property
+    def taken_up_n(self) -> np.ndarray:
+        """Forces (k,) of slings that have taken up their share of the weight: upright at the hook."""
+        weight_n = self.lift.pretension * STANDARD_GRAVITY_M_S2 * self.mass_kg
+        return sling_forces_n(self.points_m, self.hook_m, np.array((0.0, 0.0, weight_n)), self.lift.elastic_n)
+
+    def vertical_n(self, forces_n: np.ndarray) -> float:
+        """Return what slings with forces (k,) carry upright, as they were placed."""
+        return math.fsum((forces_n * unit(self.hook_m - self.points_m)[:, 2]).tolist())
+
+    def hanging(self, held: np.ndarray, model: Model) -> Hanging:
+        """Return how those of its shards (h,) hang that are cut free with slings on them."""
+        mass_kg, centre_m = _gravity(model, held)
+        weight_n = STANDARD_GRAVITY_M_S2 * mass_kg
+        return hanging(self.points_m, self.hook_m, centre_m, weight_n, self.lift.elastic_n)
+
+    def loads(self, model: Model, forces_n: np.ndarray) -> np.ndarray:
+        """Return forces and moments (6, n) on the shards by slings with forces (k,)."""
+        loads = np.zeros((6, len(model.shards)))
+        forces = forces_n[:, None] * unit(self.hook_m - self.points_m)
+        moments = cross(self.points_m - model.centres_m[self.carriers], forces)
+        for carrier, force, moment in zip(self.carriers.tolist(), forces, moments, strict=True):
+            loads[:3, carrier] += force
+            loads[3:, carrier] += moment
+        return loads
+
+    def on_slings(self, model: Model, intact: np.ndarray) -> np.ndarray:
+        """Return which of its shards (h,) hang on a sling by the connections that are intact (m,), within the part."""
+        count = len(model.shards)
+        moves = np.zeros(count + 1, bool)
+        moves[self.shards] = True
+        first, second = (model.connections.pairs[intact] % (count + 1)).T
+        parts = connected_parts(moves, first, second)
+        return self.shards[np.isin(parts[self.shards], parts[self.carriers])]
+
+    def held_by(self, model: Model, intact: np.ndarray, *, when_lifted: bool = False) -> tuple[str, ...]:
+        """Return the names of what intact connections (m,) hold the part to; none where it is free.
+
+        When it is lifted, it only lies on bearings that hold no uplift.
+        """
+        inside = np.append(np.isin(np.arange(len(model.shards)), self.shards), False)
+        pairs = model.connections.pairs
+        ends = inside[pairs]
+        crossing = intact & (ends[:, 0] != ends[:, 1])
+        if when_lifted and model.bearings:
+            springs = model.bearings.springs
+            crossing[springs.rows[~springs.pulls]] = False
+        beyond = np.where(ends[crossing, 0], pairs[crossing, 1], pairs[crossing, 0])
+        names = (_GROUND if shard == GROUND else model.members[model.member_of_shard[shard]].name for shard in beyond)
+        return tuple(sorted(set(names)))
+
+
+def placed_lifts(lifts: Sequence[Lift], model: Model) -> tuple[PlacedLift, ...]:
+    """Return lifts on the shards of a model."""
+    structure = model_structure(model) if lifts else None
+    return tuple(placed_lift(lift, model, given(structure)) for lift in lifts)
+
+
+def placed_lift(lift: Lift, model: Model, structure: Structure) -> PlacedLift:
+    """Return a lift on the shards of a model with a structure; refuse one whose slings cannot hold its part."""
+    shards = shards_of_lift(lift, structure)
+    mass_kg, centre_m = _gravity(model, shards)
+    boxes_m = np.array([model.shards[shard].bounds for shard in shards.tolist()])
+    points_m = np.array(lift.sling_points_m or ((*centre_m[:2].tolist(), float(boxes_m[:, 1, 2].max())),))
+    aside_m = float(length(points_m[:, :2] - centre_m[:2]).max())
+    above_m = float(points_m[:, 2].max()) + max(_STEEP * aside_m, _LEAST_HEIGHT_M)
+    hook_m = np.array((*centre_m[:2].tolist(), above_m) if lift.hook_m is None else lift.hook_m)
+    slings = _slings(lift, points_m, hook_m, np.ones(len(points_m)), mass_kg)
+    carriers = [int(placed_on_model(sling, 1, model, structure).bodies[0]) for sling in slings]
+    return PlacedLift(lift, shards, mass_kg, centre_m, points_m, hook_m, np.array(carriers))
+
+
+def shards_of_lift(lift: Lift, structure: Structure) -> np.ndarray:
+    """Return the shards (s,) that a lift takes away; refuse one without any."""
+    inside = of_members(lift, structure) & in_box(lift, structure.centres_m)
+    if not (inside & structure.is_shard).any():
+        raise ScenarioError(
+            f"lifts {lift.name!r}: no shard that can move is there; expected members or a box with some that no "
+            "support holds"
+        )
+    return np.flatnonzero(inside & structure.is_shard)
+
+
+def slings_of(lifts: Sequence[Lift], model: Model) -> tuple[Sling, ...]:
+    """Return the slings of lifts as cables of a run."""
+    return tuple(
+        sling
+        for placed in placed_lifts(lifts, model)
+        for sling in _slings(placed.lift, placed.points_m, placed.hook_m, placed.taken_up_n, placed.mass_kg)
+    )
+
+
+def _slings(lift: Lift, points_m: np.ndarray, hook_m: np.ndarray, forces_n: np.ndarray, mass_kg: float) -> list[Sling]:
+    """Return the slings of a lift, with the forces (k,) that they take up."""
+    x, y, z = hook_m.tolist()
+    return [
+        sling_of(lift, number, (point[0], point[1], point[2]), (x, y, z), force_n, mass_kg)
+        for number, (point, force_n) in enumerate(zip(points_m.tolist(), forces_n.tolist(), strict=True), start=1)
+    ]
+
+
+def _gravity(model: Model, shards: np.ndarray) -> tuple[float, np.ndarray]:
+    """Return mass and centre of gravity (3,) of shards (s,)."""
+    masses_kg = model.masses_kg[shards]
+    mass_kg = math.fsum(masses_kg.tolist())
+    moments = [math.fsum((masses_kg * model.centres_m[shards, axis]).tolist()) for axis in range(3)]
+    return mass_kg, np.array(moments) / mass_kg

@@ -1,0 +1,234 @@
+"""Parts on the hook of a crane in the stages of a demolition: load on the hook, forces of slings, what holds them.
+
+Until a part is free, slings pull with the share of its weight that they took up; with the load factor of a collapse
+this share grows as the weight does. Once no connection holds it, it hangs, and the hook carries all of its weight.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from ...engineering.units import STANDARD_GRAVITY_M_S2, mass_text, with_digits
+from ..lifts import Lift
+from ..scenario.structural_changes import lifting_away
+from ..sequence.events import Event, Structure, schedule
+from ..sequence.lifts import PlacedLift
+from ..structure.cracking import FALLEN_SHARE
+from ..structure.model import Model
+from .changed_bridge import ChangedBridge
+
+if TYPE_CHECKING:
+    from .stages import Stage
+
+STATES = HELD, HANGS, GONE = "held", "hangs free", "lifted away"
+"""Whether connections still hold a part beside its slings, none do, or it was lifted away in this stage."""
+
+LIFTS_FILE = "lifts.csv"
+LIFT_COLUMNS = (
+    "stage",
+    "time_s",
+    "lift",
+    "state",
+    "part_kg",
+    "hook_kN",
+    "hook_t",
+    "capacity_t",
+    "hook_used",
+    "radius_m",
+    "slings_kN",
+    "tilt_deg",
+    "held_by",
+    "not_on_slings_kg",
+)
+
+_KILO = 1000.0
+
+_LEVEL_DEG = 1.0
+"""Tilt up to which a part hangs as it was built."""
+
+_SLACK = 1e-6
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class PartOnHook:
+    """A part that a crane holds in a stage, or lifts away at its beginning.
+
+    Attributes
+    ----------
+    state : str
+        One of `STATES`.
+    shards : (h,) int
+        Those that slings hold.
+    forces_n : (k,) float
+        Forces of the slings.
+    hook_n, tilt_rad : float
+        Load on the hook, and the angle by which the part turns until it hangs at rest.
+    held_by : tuple of str
+        Members that hold it, or the ground.
+    overdue : bool
+        Whether it should have been lifted away by now, and is held.
+    not_on_slings_kg : float
+        Mass of what was cut free of the slings.
+    """
+
+    lift: Lift
+    state: str
+    shards: np.ndarray
+    part_kg: float
+    forces_n: np.ndarray
+    hook_n: float
+    tilt_rad: float
+    radius_m: float | None
+    held_by: tuple[str, ...]
+    overdue: bool
+    not_on_slings_kg: float
+
+    @property
+    def used(self) -> float:
+        """Load on the hook, by what the crane lifts."""
+        return self.hook_n / (STANDARD_GRAVITY_M_S2 * self.lift.capacity_kg)
+
+
+class CraneWork:
+    """Lifts of a scenario, stage by stage."""
+
+    def __init__(self, lifts: Sequence[PlacedLift], model: Model, structure: Structure):
+        self._model = model
+        self._waiting = list(lifts)
+        self._leaves = {placed.lift.name: schedule((lifting_away(placed.lift),), structure)[0] for placed in lifts}
+
+    def times(self) -> set[float]:
+        """Return when slings begin to hold, and when parts are lifted away."""
+        return {time_s for placed in self._waiting for time_s in (placed.lift.from_s, placed.lift.lift_s)}
+
+    def lifted_at(self, time_s: float, changed: ChangedBridge) -> list[tuple[PlacedLift, Event]]:
+        """Return the parts that are lifted away at a time, as nothing holds them any more, and take them off the list.
+
+        What is held stays, and is lifted away in the first stage after it is free.
+        """
+        lifted = [
+            placed
+            for placed in self._waiting
+            if placed.lift.lift_s <= time_s and not placed.held_by(self._model, changed.intact, when_lifted=True)
+        ]
+        self._waiting = [placed for placed in self._waiting if placed not in lifted]
+        return [(placed, self._leaves[placed.lift.name]) for placed in lifted]
+
+    def on_hooks(self, time_s: float, changed: ChangedBridge) -> tuple[list[PartOnHook], np.ndarray]:
+        """Return the parts that slings hold at a time, and forces and moments (6, n) on those that are not free."""
+        loads, parts = np.zeros((6, len(self._model.shards))), []
+        for placed in self._waiting:
+            if placed.lift.from_s > time_s:
+                continue
+            part = self.part(placed, changed, is_overdue=placed.lift.lift_s <= time_s)
+            if part.state == HELD:
+                loads += placed.loads(self._model, part.forces_n)
+            parts.append(part)
+        return parts, loads
+
+    def part(
+        self, placed: PlacedLift, changed: ChangedBridge, *, is_gone: bool = False, is_overdue: bool = False
+    ) -> PartOnHook:
+        """Return a part on the hook of a bridge after some changes."""
+        model, lift = self._model, placed.lift
+        held_by = () if is_gone else placed.held_by(model, changed.intact)
+        on_slings, tilt_rad = placed.shards, 0.0
+        if held_by:
+            forces_n = placed.taken_up_n
+            hook_n, not_on_slings_kg = placed.vertical_n(forces_n), 0.0
+        else:
+            on_slings = placed.on_slings(model, changed.intact)
+            hangs = placed.hanging(on_slings, model)
+            forces_n, tilt_rad = hangs.forces_n, hangs.tilt_rad
+            held_kg = math.fsum(model.masses_kg[on_slings].tolist())
+            hook_n, not_on_slings_kg = STANDARD_GRAVITY_M_S2 * held_kg, placed.mass_kg - held_kg
+        return PartOnHook(
+            lift=lift,
+            state=GONE if is_gone else HELD if held_by else HANGS,
+            shards=on_slings,
+            part_kg=placed.mass_kg,
+            forces_n=forces_n,
+            hook_n=hook_n,
+            tilt_rad=tilt_rad,
+            radius_m=placed.radius_m,
+            held_by=held_by,
+            overdue=is_overdue,
+            not_on_slings_kg=not_on_slings_kg,
+        )
+
+
+def lift_rows(stages: Sequence[Stage]) -> Iterator[dict[str, Any]]:
+    """Yield a row for each part on a hook in each stage."""
+    for number, stage in enumerate(stages, start=1):
+        for part in stage.lifts:
+            yield _row(number, stage.time_s, part)
+
+
+def _row(number: int, time_s: float, part: PartOnHook) -> dict[str, Any]:
+    values = (
+        number,
+        time_s,
+        part.lift.name,
+        part.state,
+        part.part_kg,
+        part.hook_n / _KILO,
+        part.hook_n / STANDARD_GRAVITY_M_S2 / _KILO,
+        part.lift.capacity_kg / _KILO,
+        part.used,
+        part.radius_m,
+        " ".join(f"{force_n / _KILO:.1f}" for force_n in part.forces_n.tolist()),
+        math.degrees(part.tilt_rad),
+        ", ".join(part.held_by),
+        part.not_on_slings_kg,
+    )
+    return dict(zip(LIFT_COLUMNS, values, strict=True))
+
+
+def hook_cells(parts: Sequence[PartOnHook]) -> Mapping[str, Any]:
+    """Return what the row of a stage says of all hooks together; nothing is known where there are none."""
+    on_hooks = [part for part in parts if part.state != GONE]
+    if not on_hooks:
+        return {"on_hooks_kN": None, "hook_used": None}
+    return {
+        "on_hooks_kN": math.fsum(part.hook_n for part in on_hooks) / _KILO,
+        "hook_used": max(part.used for part in on_hooks),
+    }
+
+
+def lift_sentences(parts: Sequence[PartOnHook], fallen_kg: float) -> list[str]:
+    """Return what is said of parts on hooks in a stage, and of a mass that neither connections nor slings hold."""
+    sentences = [sentence for part in parts for sentence in _of_part(part)]
+    if parts and fallen_kg:
+        sentences.append(
+            f"{mass_text(fallen_kg, 1)} are held by no connection and by no sling: sling them before they are cut "
+            "free, or make sure of what they lie on"
+        )
+    return sentences
+
+
+def _of_part(part: PartOnHook) -> Iterator[str]:
+    load = f"{with_digits(part.hook_n / _KILO, 0)} kN ({part.hook_n / STANDARD_GRAVITY_M_S2 / _KILO:.1f} t)"
+    radius = "" if part.radius_m is None else f" at {part.radius_m:.1f} m"
+    slings = " and ".join(with_digits(force_n / _KILO, 0) for force_n in part.forces_n.tolist())
+    many = len(part.forces_n) > 1
+    state = "lifted away, " if part.state == GONE else "hangs free, " if part.state == HANGS else ""
+    shares = f"; slings carry {slings} kN" if many else ""
+    yield f"{part.lift.name}: {state}{load} on the hook, {part.used:.0%} of what the crane lifts{radius}{shares}"
+    if part.used > 1.0:
+        yield f"{part.lift.name} is too heavy for the crane: cut it into smaller parts, or choose a larger crane"
+    if part.overdue:
+        yield (
+            f"{part.lift.name} cannot be lifted away at {part.lift.lift_s:g} s: it still holds to "
+            f"{', '.join(part.held_by)}; cut it first"
+        )
+    if (tilt_deg := math.degrees(part.tilt_rad)) > _LEVEL_DEG:
+        yield f"{part.lift.name} turns by {tilt_deg:.0f}° as it comes free: move slings or hook over its middle"
+    if many and float(part.forces_n.min()) < _SLACK * float(part.forces_n.max()):
+        yield f"a sling of {part.lift.name} is slack"
+    if part.not_on_slings_kg > FALLEN_SHARE * part.part_kg:
+        yield f"{mass_text(part.not_on_slings_kg, 1)} of {part.lift.name} are cut off from its slings"

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A block on a sling, in Blender's own simulation, whose support is taken away: the load on the hook of the crane."""
+
+import math
+
+import numpy as np
+import pytest
+from support.blocks import Blocks
+
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.model.lifts import sling_of
+from bridge_demolition_addon.model.scenario import Lift, LiftingAway, Removal
+from bridge_demolition_addon.scene.bodies import mark_member
+from bridge_demolition_addon.scene.structural_changes import changes_of, keep_changes, keep_pulls, pulls_of
+
+MASS_KG = 1000.0
+WEIGHT_N = MASS_KG * STANDARD_GRAVITY_M_S2
+FREE_S, LIFT_S = 1.5, 3.5
+
+
+def lifted_block(folder, pretension):
+    """Return hooks and cable of a block on another one that is taken away at 1.5 s; it is lifted away at 3.5 s."""
+    blocks = Blocks(substeps_per_frame=20, solver_iterations=50)
+    blocks.block((0, 0, -0.5), size_m=(10, 10, 1))
+    names = {"below": blocks.block((0, 0, 0.5), MASS_KG), "part": blocks.block((0, 0, 1.5), MASS_KG)}
+    for name, body in names.items():
+        mark_member(body, name, "block")
+    lift = Lift(
+        name="pick",
+        members=("part",),
+        from_s=0.0,
+        lift_s=LIFT_S,
+        capacity_kg=2000.0,
+        pretension=pretension,
+        diameter_mm=10.0,
+    )
+    sling = sling_of(lift, 1, (0.0, 0.0, 2.0), (0.0, 0.0, 12.0), pretension * WEIGHT_N, MASS_KG)
+    keep_pulls(blocks.scene, [sling])
+    away = LiftingAway(time_s=LIFT_S, name="pick", members=("part",))
+    changes = (Removal(time_s=FREE_S, members=("below",)), away)
+    keep_changes(blocks.scene, changes)
+    assert pulls_of(blocks.scene) == (sling,) and changes_of(blocks.scene) == changes
+    blocks.play(folder, 24 * 4)
+    return blocks.recording.pulls, lift
+
+
+@pytest.mark.parametrize("pretension", [0.0, 0.5, 1.0])
+def test_a_part_that_comes_free_suddenly_pulls_with_up_to_twice_what_it_had_not_taken_up(blender, tmp_path, pretension):
+    """A linear spring: W (2 - p) at most, and p W before. 5 %: its steps damp it."""
+    pulls, lift = lifted_block(tmp_path, pretension)
+    (hook,) = pulls.hooks.summary()
+    assert hook["name"] == lift.name and hook["weight_N"] == pytest.approx(WEIGHT_N)
+    assert hook["largest_hook_N"] / WEIGHT_N == pytest.approx(2.0 - pretension, rel=0.05)
+    (cable,) = pulls.cables
+    course = np.array(cable.course)
+    before = course[(course[:, 0] > 1.2) & (course[:, 0] < FREE_S - 0.05)]
+    np.testing.assert_allclose(before[:, 1], pretension * WEIGHT_N, rtol=0.02, atol=20.0)
+    # It swings by its weight, with the first half of a period until the largest: π √(m L / EA).
+    if pretension < 1.0:
+        half_s = math.pi * math.sqrt(MASS_KG * 10.0 / lift.elastic_n)
+        assert hook["largest_hook_s"] == pytest.approx(FREE_S + half_s, abs=0.05)
+    assert cable.ended == "its body was removed" and cable.ended_s == pytest.approx(LIFT_S, abs=0.05)
