@@ -59,7 +59,7 @@ class Snapshot:
 class BodyHistory:
     """States of n bodies after each of s sub-steps: vectors (s, n, 3), rotations (s, n, 3, 3).
 
-    `can_move` (s, n) marks those that are free: neither passive nor moved by animation.
+    `can_move` (s, n) marks those that are free: neither passive, nor moved by animation, nor taken out of the simulation.
     """
 
     positions_m: np.ndarray
@@ -74,7 +74,7 @@ class BodyHistory:
         values = np.stack([snapshot.body_components for snapshot in snapshots], axis=1)
         rotations = np.moveaxis(values[:9].reshape(3, 3, *values.shape[1:]), (0, 1), (-2, -1))
         positions, velocities, angular = (np.moveaxis(values[start : start + 3], 0, -1) for start in (9, 12, 15))
-        return cls(positions, rotations, velocities, angular, values[18] > 0.0)
+        return cls(positions, rotations, velocities, angular, (values[18] > 0.0) & ~_removed(snapshots))
 
 
 class SnapshotTaker:
@@ -114,9 +114,7 @@ class SnapshotTaker:
         if all(snapshot.removed is None for snapshot in snapshots):
             return contacts
         # Two bodies that rest on each other keep their last contact when both are removed.
-        none = np.zeros(len(self._removed), bool)
-        removed = np.stack([none if snapshot.removed is None else snapshot.removed for snapshot in snapshots])
-        return contacts.without(removed)
+        return contacts.without(_removed(snapshots))
 
     def _find_existing(self) -> None:
         self._existed = self._exists.copy()
@@ -131,3 +129,9 @@ class SnapshotTaker:
         of_all = np.zeros(len(self._existed), values.dtype)
         of_all[self._existed] = values
         return of_all
+
+
+def _removed(snapshots: Sequence[Snapshot]) -> np.ndarray:
+    """Return which bodies (s, n) were taken out of the simulation, which leaves them a velocity that moves nothing."""
+    none = np.zeros(snapshots[0].body_components.shape[1], bool)
+    return np.stack([none if snapshot.removed is None else snapshot.removed for snapshot in snapshots])

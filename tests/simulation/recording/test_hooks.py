@@ -19,7 +19,7 @@ FREE_S, LIFT_S = 1.5, 3.5
 
 
 def lifted_block(folder, pretension):
-    """Return hooks and cable of a block on another one that is taken away at 1.5 s; it is lifted away at 3.5 s."""
+    """Return hooks and cable, lift and results of a block on another one that is taken away at 1.5 s; it is lifted away at 3.5 s."""
     blocks = Blocks(substeps_per_frame=20, solver_iterations=50)
     blocks.block((0, 0, -0.5), size_m=(10, 10, 1))
     names = {"below": blocks.block((0, 0, 0.5), MASS_KG), "part": blocks.block((0, 0, 1.5), MASS_KG)}
@@ -40,14 +40,14 @@ def lifted_block(folder, pretension):
     changes = (Removal(time_s=FREE_S, members=("below",)), away)
     keep_changes(blocks.scene, changes)
     assert pulls_of(blocks.scene) == (sling,) and changes_of(blocks.scene) == changes
-    blocks.play(folder, 24 * 4)
-    return blocks.recording.pulls, lift
+    results = blocks.play(folder, 24 * 4)
+    return blocks.recording.pulls, lift, results
 
 
 @pytest.mark.parametrize("pretension", [0.0, 0.5, 1.0])
 def test_a_part_that_comes_free_suddenly_pulls_with_up_to_twice_what_it_had_not_taken_up(blender, tmp_path, pretension):
     """A linear spring: W (2 - p) at most, and p W before. 5 %: its steps damp it."""
-    pulls, lift = lifted_block(tmp_path, pretension)
+    pulls, lift, _ = lifted_block(tmp_path, pretension)
     (hook,) = pulls.hooks.summary()
     assert hook["name"] == lift.name and hook["weight_N"] == pytest.approx(WEIGHT_N)
     assert hook["largest_hook_N"] / WEIGHT_N == pytest.approx(2.0 - pretension, rel=0.05)
@@ -60,3 +60,11 @@ def test_a_part_that_comes_free_suddenly_pulls_with_up_to_twice_what_it_had_not_
         half_s = math.pi * math.sqrt(MASS_KG * 10.0 / lift.elastic_n)
         assert hook["largest_hook_s"] == pytest.approx(FREE_S + half_s, abs=0.05)
     assert cable.ended == "its body was removed" and cable.ended_s == pytest.approx(LIFT_S, abs=0.05)
+
+
+def test_what_is_lifted_away_does_no_work_any_more(blender, tmp_path):
+    """It keeps the velocity of the sub-step before, by which its weight of 9.8 kN would work 200 J in each sub-step."""
+    _, _, results = lifted_block(tmp_path, 1.0)
+    after, work = results.frames.time_s > LIFT_S + 0.1, results.frames.work
+    for energy_j in (work.gravity_j, work.loads_j, work.made_by_contacts_j, work.made_by_lifting_j):
+        assert np.abs(energy_j[after]).sum() < 0.1
