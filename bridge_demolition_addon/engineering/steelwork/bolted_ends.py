@@ -25,7 +25,7 @@ _MOST_BEARING = 2.5
 """k_1 at most: EN 1993-1-8:2005, table 3.4."""
 
 _ONE_ROW = 1.5
-"""Most of f_u d t that one row of bolts in single shear bears with: 3.6.1 (10)."""
+"""Most of f_u d t that a bolt resists in bearing, of one row in single shear: 3.6.1 (10)."""
 
 _LONG, _SHORTENS, _LEAST_LONG = 15.0, 200.0, 0.75
 """Joints longer than 15 d resist less, by 1 / 200 d of what they are longer, but 0.75 at least: 3.8 (1)."""
@@ -41,7 +41,7 @@ _ONE_SIDED = 0.5
 
 @dataclass(frozen=True, slots=True)
 class Plate:
-    """What bolts bear on."""
+    """What bolts press on."""
 
     thickness_m: float
     yield_pa: float
@@ -74,7 +74,7 @@ class BoltedEnd:
 
     @property
     def bearing_n(self) -> FloatArray:
-        """Bearing of each bolt (rows, lines) along the bar, in what bears less: k_1 α_b f_u d t, table 3.4."""
+        """Bearing of each bolt (rows, lines) along the bar, in what resists less: k_1 α_b f_u d t, table 3.4."""
         rows = (self.pattern.rows, self.pattern.pitch_m, self.pattern.end_m)
         lines = (self.pattern.lines, self.pattern.gauge_m, self.pattern.edge_m)
         return self._bearing_n(_towards_the_end(*rows, self._hole_m), _beside(*lines, self._hole_m, edges=2))

@@ -247,14 +247,6 @@ class Steelwork(Table):
         bolts = member.bolts(end)
         return None if bolts is None else bolted_end(bolts, member.steel_section, self.grade_of(member))
 
-    def leverage(self, member: SteelMember, end: int | None) -> tuple[float, float]:
-        """Return by how much more than in axial force a joint of a bar resists in bending about y and z, by the bar."""
-        by_pattern = None if end is None else self.bolted_end(member, end)
-        if by_pattern is None or end is None:
-            return 1.0, 1.0
-        yield_pa, _ = self.yield_and_ultimate_pa(member)
-        return by_pattern.leverage(yield_pa, self.end_share(member, end))
-
     def bow_m(self, member: SteelMember, length_m: float) -> np.ndarray:
         """Return how far a bar is bowed in its middle along y and z of its section (2,), if bars are."""
         if not self.bowed:
@@ -285,19 +277,11 @@ class Steelwork(Table):
         """Return what supports that are alike have in common."""
         return ("support", "FIXED" if node.support == FIXED else "GENERIC")
 
-    def _joint_strength(self, member: SteelMember, end: int | None) -> Strength:
-        yield_pa, _ = self.yield_and_ultimate_pa(member)
-        share = 1.0 if end is None else self.end_share(member, end)
-        by_pattern = None if end is None else self.bolted_end(member, end)
-        if by_pattern is not None:
-            return by_pattern.strength(yield_pa, share)
-        return plastic_strength(member.steel_section, yield_pa).times(share)
-
     def _kinds(self) -> dict[tuple[str, ...], tuple[Strength | None, str]]:
         kinds: dict[tuple[str, ...], tuple[Strength | None, str]] = {}
         for member in self.all_members:
             for end in (None, 0, 1):
-                kinds.setdefault(self.bar_key(member, end), (self._joint_strength(member, end), "FIXED"))
+                kinds.setdefault(self.bar_key(member, end), (_strength(self, member, end), "FIXED"))
         for node in self.all_nodes:
             if node.support is not None:
                 key_of_support = self.support_key(node)
@@ -306,7 +290,7 @@ class Steelwork(Table):
 
     def _check_together(self) -> None:
         faults = Faults()
-        for check in (self._check_names, self._check_ends, self._check_lengths, self._check_patterns):
+        for check in (self._check_names, self._check_ends, self._check_lengths):
             with faults.noted():
                 check()
         faults.check()
@@ -331,19 +315,11 @@ class Steelwork(Table):
                         f"steelwork.members {shown(member.name)}: nodes has {shown(name)}: expected the name of one of "
                         "[[steelwork.nodes]]"
                     )
+        for member in self.members:
+            _check_patterns(member, self)
         used = {name for member in self.all_members for name in member.nodes}
         if unused := [node.name for node in self.all_nodes if node.name not in used]:
             raise ScenarioError(f"steelwork.nodes {shown(unused[0])}: expected a bar that ends in it")
-
-    def _check_patterns(self) -> None:
-        for member in self.members:
-            for end in range(2):
-                try:
-                    self.bolted_end(member, end)
-                except ScenarioError as error:
-                    raise ScenarioError(
-                        f"steelwork.members {shown(member.name)}: end_bolts.{end + 1}: {error}"
-                    ) from error
 
     def _check_lengths(self) -> None:
         places = {node.name: np.array(node.place_m) for node in self.all_nodes}
@@ -361,6 +337,35 @@ class Steelwork(Table):
 def axis_m(member: SteelMember, places: Mapping[str, np.ndarray]) -> np.ndarray:
     """Return the ends (2, 3) of the axis of a bar between nodes at places (3,)."""
     return np.array([places[name] for name in member.nodes]) + member.from_nodes_m
+
+
+def leverage_of(steelwork: Steelwork, member: SteelMember, end: int | None) -> tuple[float, float]:
+    """Return by how much more than in axial force a joint of a bar resists in bending about y and z, by the bar.
+
+    The joint is that at its first or last end, or one within it.
+    """
+    by_pattern = None if end is None else steelwork.bolted_end(member, end)
+    if by_pattern is None or end is None:
+        return 1.0, 1.0
+    yield_pa, _ = steelwork.yield_and_ultimate_pa(member)
+    return by_pattern.leverage(yield_pa, steelwork.end_share(member, end))
+
+
+def _strength(steelwork: Steelwork, member: SteelMember, end: int | None) -> Strength:
+    yield_pa, _ = steelwork.yield_and_ultimate_pa(member)
+    share = 1.0 if end is None else steelwork.end_share(member, end)
+    by_pattern = None if end is None else steelwork.bolted_end(member, end)
+    if by_pattern is not None:
+        return by_pattern.strength(yield_pa, share)
+    return plastic_strength(member.steel_section, yield_pa).times(share)
+
+
+def _check_patterns(member: SteelMember, steelwork: Steelwork) -> None:
+    for end in range(2):
+        try:
+            steelwork.bolted_end(member, end)
+        except ScenarioError as error:
+            raise ScenarioError(f"steelwork.members {shown(member.name)}: end_bolts.{end + 1}: {error}") from error
 
 
 def _first_twice(names: Iterable[str]) -> str | None:

@@ -24,7 +24,7 @@ from ..scenario import Scenario
 from ..scenario.bearings import FIXED, ROCKER, UNYIELDING_MN_M
 from ..scenario.connections import GROUND_NAME
 from ..scenario.scenario import joints_of_faces
-from ..scenario.steelwork import Steelwork
+from ..scenario.steelwork import Steelwork, leverage_of
 from ..schema import given
 
 _TRAVEL_M = 0.2
@@ -256,7 +256,7 @@ def resisting_moments(
     tables = {table.name: table for table in steelwork.all_members}
     own = np.array(
         [
-            plastic_second_moments(bar.section, steelwork.leverage(tables[name], {0: 0, bar.pieces: 1}.get(number)))
+            plastic_second_moments(bar.section, leverage_of(steelwork, tables[name], {0: 0, bar.pieces: 1}.get(number)))
             for name, bar, number in (
                 (members[index].name, _bar(members[index]), number)
                 for index, number in zip(steel.joints.members.tolist(), steel.joints.numbers.tolist(), strict=True)

@@ -7,6 +7,7 @@ from support.steelwork import bar, node, steel_scenario
 
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.errors import ScenarioError
+from bridge_demolition_addon.model.scenario.steelwork import leverage_of
 from bridge_demolition_addon.model.stages.standing import StandingBridge
 from bridge_demolition_addon.model.structure.equilibrium import model_at_rest
 from bridge_demolition_addon.model.structure.model import build_model
@@ -46,7 +47,7 @@ def facts_of(scenario):
     return [text for _, text in steel_facts(scenario, model, model_at_rest(model, scenario.joints))]
 
 
-def test_a_tie_comes_down_at_the_load_that_its_bolts_bear():
+def test_a_tie_comes_down_at_the_load_that_its_bolts_resist_in_bearing():
     scenario = tie(10_000.0, end_bolts=[TWO, "welded"])
     weight_n = float(build_model(scenario).masses_kg.sum()) * STANDARD_GRAVITY_M_S2
     assert factor(scenario) == pytest.approx(218.2e3 / weight_n, rel=0.015)  # found within 1 %
@@ -91,11 +92,11 @@ def test_the_farthest_bolt_has_a_moment_and_a_shear_by_hand():
 def test_out_of_the_plane_of_the_gusset_an_end_is_as_weak_as_along_the_bar():
     """A flat bar that lies has its pattern in the level plane."""
     upright, lying = (cantilever(1000.0, SIX, section).steelwork for section in ("FLAT 200x20", "FLAT 20x200"))
-    of_upright, of_lying = (steelwork.leverage(steelwork.members[0], 0) for steelwork in (upright, lying))
+    of_upright, of_lying = (leverage_of(steelwork, steelwork.members[0], 0) for steelwork in (upright, lying))
     share = upright.end_share(upright.members[0], 0)
     assert of_upright == (pytest.approx(40.50 / 71.0 / share, rel=1e-3), 1.0)
     assert of_lying == (1.0, pytest.approx(of_upright[0], rel=1e-9))
-    assert upright.leverage(upright.members[0], 1) == (1.0, 1.0)
+    assert leverage_of(upright, upright.members[0], 1) == (1.0, 1.0)
 
 
 def test_overloaded_bolts_are_named():
