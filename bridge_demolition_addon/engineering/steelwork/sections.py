@@ -38,6 +38,20 @@ class Web:
     thickness_m: float
 
 
+FLAT_BAR, WEB, LEG, STEM = "flat bar", "web", "leg", "stem"
+"""What of a section lies on a gusset."""
+
+
+@dataclass(frozen=True, slots=True)
+class FlatPart:
+    """The part of a section that lies on a gusset."""
+
+    kind: str  # one of the above
+    width_m: float
+    thickness_m: float
+    along: int = 1  # which of y and z (0, 1) it is wide along
+
+
 @dataclass(frozen=True, eq=False)
 class SteelSection:
     """A section of a steel bar.
@@ -66,6 +80,8 @@ class SteelSection:
         Whether it is of a rolled I-section.
     web : Web or None
         Its webs; None of sections without one between two flanges.
+    flat : FlatPart or None
+        What lies on a gusset, of sections without such webs.
     """
 
     name: str
@@ -79,6 +95,14 @@ class SteelSection:
     flanges_apart_m: float | None = None
     is_rolled: bool = False
     web: Web | None = None
+    flat: FlatPart | None = None
+
+    @property
+    def on_gusset(self) -> FlatPart | None:
+        """What of it lies on a gusset; None of hollow sections."""
+        if self.web is not None and self.web.count == 1:
+            return FlatPart(WEB, self.web.height_m, self.web.thickness_m)
+        return self.flat
 
     @cached_property
     def shape(self) -> PlaneShape:
@@ -265,6 +289,7 @@ def channel(name: str, height: float, width: float, web: float, flange: float) -
         _plates_modulus(plates),
         max(web, flange),
         ("c", "c"),
+        flat=FlatPart(WEB, 2.0 * inner, web),
     )
 
 
@@ -282,6 +307,7 @@ def angle(name: str, height: float, width: float, plate: float) -> SteelSection:
         _plates_modulus(plates),
         plate,
         ("b", "b"),
+        flat=FlatPart(LEG, height, plate),
     )
 
 
@@ -305,6 +331,7 @@ def tee(name: str, height: float, width: float, web: float, flange: float) -> St
         _plates_modulus(plates),
         max(web, flange),
         ("c", "c"),
+        flat=FlatPart(STEM, below, web),
     )
 
 
@@ -323,6 +350,7 @@ def solid_bar(name: str, height: float, width: float) -> SteelSection:
         short * short * (3.0 * long - short) / 6.0,  # Nadai's analogy of sand
         short,
         ("c", "c"),
+        flat=FlatPart(FLAT_BAR, long, short, along=1 if height >= width else 0),
     )
 
 

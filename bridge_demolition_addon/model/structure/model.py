@@ -207,7 +207,7 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
         shards, connections.pairs[:, 0], connections.areas, connections.points, connections.normals
     )
     if steel:
-        moments[steel.rows] = resisting_moments(steel, connections, members)
+        moments[steel.rows] = resisting_moments(steel, connections, given(scenario.steelwork), members)
     if decks:
         moments[decks.rows] = contact_moments(decks)
         across, of_rectangles = faces_across_decks(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -9,7 +10,10 @@ import numpy as np
 
 from ...engineering.elasticity.equilibrium import Equilibrium
 from ...engineering.geometry.vectors import dot
+from ...engineering.mechanics.section_cuts import ConnectionLoads
 from ...engineering.mechanics.section_forces import section_forces
+from ...engineering.steelwork.bars import SteelBar
+from ...engineering.steelwork.bolted_ends import BoltedEnd
 from ...engineering.steelwork.lateral_buckling import LateralBuckling, lateral_buckling
 from ...engineering.steelwork.resistance import Buckling, buckling
 from ...engineering.steelwork.web_shear import WebShear, web_shear
@@ -22,6 +26,8 @@ from .model import Model
 from .utilisation import Utilisations
 
 MOST_BARS_NAMED = 40
+
+_KILO = 1e3
 
 _WEB_NAMED = 0.05
 """Part of the resistance of a web that buckles from which on it is named."""
@@ -46,6 +52,8 @@ class BarUse:
         judged.
     web_used : float or None
         Shear along the webs by what these resist as they buckle; None of sections without a web between flanges.
+    bolts_used : tuple of float or None
+        Force on the farthest bolt of each end, by what a bolt resists; None of ends without a pattern.
     """
 
     name: str
@@ -61,10 +69,12 @@ class BarUse:
     lateral: LateralBuckling | None
     web_used: float | None
     web: WebShear | None
+    bolts_used: tuple[float | None, float | None]
 
     @property
     def used(self) -> float:
-        return max(self.section_used, self.buckling_used, self.lateral_used or 0.0, self.web_used or 0.0)
+        by_bolts = [used or 0.0 for used in self.bolts_used]
+        return max(self.section_used, self.buckling_used, self.lateral_used or 0.0, self.web_used or 0.0, *by_bolts)
 
 
 def bar_uses(scenario: Scenario, model: Model, rest: Equilibrium) -> list[BarUse]:
@@ -78,8 +88,10 @@ def bar_uses(scenario: Scenario, model: Model, rest: Equilibrium) -> list[BarUse
     uses = []
     rows_of_joints = steel.rows[: len(steel.joints.members)]
     for index in np.unique(steel.joints.members).tolist():
-        rows = rows_of_joints[steel.joints.members == index]
+        is_mine = steel.joints.members == index
+        rows, numbers = rows_of_joints[is_mine], steel.joints.numbers[is_mine]
         table, bar = tables[model.members[index].name], given(given(model.members[index].steel).bar)
+        ends = (rows[numbers == 0], rows[numbers == bar.pieces])
         axial = forces.axial_n[rows]
         largest = float(axial[np.abs(axial).argmax()])
         yield_pa, _ = steelwork.yield_and_ultimate_pa(table)
@@ -106,6 +118,7 @@ def bar_uses(scenario: Scenario, model: Model, rest: Equilibrium) -> list[BarUse
                 lateral=sideways,
                 web_used=along_web / webs.resistance_n if webs else None,
                 web=webs,
+                bolts_used=_bolts_used(steelwork, table, bar, loads, ends),
             )
         )
     return sorted(uses, key=lambda use: -use.used)
@@ -128,10 +141,13 @@ def steel_facts(scenario: Scenario, model: Model, rest: Equilibrium) -> Iterator
     if thin := [use for use in uses if use.web and use.web.buckles and (use.web_used or 0.0) > 1.0]:
         names = ", ".join(use.name for use in thin[:MOST_BARS_NAMED])
         yield "webs buckle", f"{names}: sheared by more than EN 1993-1-5, 5.3 lets them resist; a run does not show it"
+    if sheared := [use for use in uses if max(used or 0.0 for used in use.bolts_used) > 1.0]:
+        names = ", ".join(use.name for use in sheared[:MOST_BARS_NAMED])
+        yield "bolts", f"{names}: a bolt carries more than EN 1993-1-8, table 3.4 lets it resist"
     tables = {table.name: table for table in given(scenario.steelwork).all_members}
     for use in uses[:MOST_BARS_NAMED]:
         yield use.name, _text(use)
-        yield from _bolt_facts(given(scenario.steelwork), tables[use.name])
+        yield from _bolt_facts(given(scenario.steelwork), tables[use.name], use)
     if len(uses) > MOST_BARS_NAMED:
         yield "", f"and {len(uses) - MOST_BARS_NAMED} more, used by {uses[MOST_BARS_NAMED].used:.0%} or less"
 
@@ -142,18 +158,51 @@ def sum_of_masses(model: Model) -> float:
     return float(model.masses_kg[is_steel].sum())
 
 
-def _bolt_facts(steelwork: Steelwork, table: SteelMember) -> Iterator[Fact]:
-    """Yield what the bolts at the ends of a bar resist in axial force."""
+def _bolts_used(
+    steelwork: Steelwork, table: SteelMember, bar: SteelBar, loads: ConnectionLoads, ends: tuple[np.ndarray, np.ndarray]
+) -> tuple[float | None, float | None]:
+    """Return the force on the farthest bolt of each end of a bar, whose joints are given, by what a bolt resists."""
+    used: list[float | None] = [None, None]
+    for end, rows in enumerate(ends):
+        joint = steelwork.bolted_end(table, end)
+        if joint is not None and len(rows):
+            along, across = bar.axes[:, 0], bar.axes[:, 1 + joint.part.along]
+            axis = joint.bending_axis
+            moment = np.zeros(1) if bar.turns[end, axis] else dot(loads.moments_nm[rows], bar.axes[:, 1 + axis])
+            forces = (dot(loads.forces_n[rows], along), dot(loads.forces_n[rows], across), moment)
+            used[end] = joint.farthest_bolt_used(*(float(force[0]) for force in forces))
+    return used[0], used[1]
+
+
+def _bolt_facts(steelwork: Steelwork, table: SteelMember, use: BarUse) -> Iterator[Fact]:
+    """Yield what the bolts at the ends of a bar resist."""
     _, ultimate_pa = steelwork.yield_and_ultimate_pa(table)
     for end, node in enumerate(table.nodes):
-        bolts = table.bolts(end)
-        if bolts is not None:
+        bolts, by_pattern = table.bolts(end), steelwork.bolted_end(table, end)
+        if by_pattern is not None:
+            share = steelwork.end_share(table, end)
+            yield (
+                "",
+                f"{given(table.end_bolts)[end]} at {node}: {_pattern_text(by_pattern, share, use.bolts_used[end])}",
+            )
+        elif bolts is not None:
             net_n = bolts.net_section_n(table.steel_section, ultimate_pa)
             yield (
                 "",
                 f"{given(table.end_bolts)[end]} at {node}: resist {bolts.shear_n / 1e3:.1f} kN in shear, the section "
                 f"between holes {net_n / 1e3:.1f} kN, {steelwork.end_share(table, end):.0%} of the bar",
             )
+
+
+def _pattern_text(joint: BoltedEnd, share: float, used: float | None) -> str:
+    block = "" if joint.block_n == math.inf else f", a block {joint.block_n / _KILO:.1f} kN"
+    moment = f" and {joint.moment_nm / _KILO:.2f} kN·m" if joint.moment_nm else ""
+    farthest = "" if used is None else f"; the farthest bolt is used by {used:.0%}"
+    return (
+        f"resist {joint.bolts_n / _KILO:.1f} kN in shear and bearing, the section between holes "
+        f"{joint.net_n / _KILO:.1f} kN{block}, {share:.0%} of the bar; across it {joint.shear_n / _KILO:.1f} kN{moment}"
+        f"{farthest}"
+    )
 
 
 def _text(use: BarUse) -> str:

@@ -24,7 +24,7 @@ from ..scenario import Scenario
 from ..scenario.bearings import FIXED, ROCKER, UNYIELDING_MN_M
 from ..scenario.connections import GROUND_NAME
 from ..scenario.scenario import joints_of_faces
-from ..scenario.steelwork import Steelwork
+from ..scenario.steelwork import Steelwork, leverage_of
 from ..schema import given
 
 _TRAVEL_M = 0.2
@@ -246,12 +246,23 @@ def joint_rows(steel: SteelConnections, scenario: Scenario, members: Sequence[Me
     return np.array([first + rows[key] for key in keys], int)
 
 
-def resisting_moments(steel: SteelConnections, connections: Connections, members: Sequence[Member]) -> np.ndarray:
+def resisting_moments(
+    steel: SteelConnections, connections: Connections, steelwork: Steelwork, members: Sequence[Member]
+) -> np.ndarray:
     """Return second moments (s, 2, 2) of the rectangles that stand for sections, in the axes of the connections."""
     count = len(steel.joints.members)
     areas = connections.areas[steel.rows]
     moments = np.square(areas)[:, None, None] / 12.0 * np.eye(2)
-    own = np.array([plastic_second_moments(_bar(members[index]).section) for index in steel.joints.members.tolist()])
+    tables = {table.name: table for table in steelwork.all_members}
+    own = np.array(
+        [
+            plastic_second_moments(bar.section, leverage_of(steelwork, tables[name], {0: 0, bar.pieces: 1}.get(number)))
+            for name, bar, number in (
+                (members[index].name, _bar(members[index]), number)
+                for index, number in zip(steel.joints.members.tolist(), steel.joints.numbers.tolist(), strict=True)
+            )
+        ]
+    )
     if count:
         across = _turns(steel, connections, members)[:, 1:, 1:]
         moments[:count] = product(np.swapaxes(across, 1, 2), product(own, across))
