@@ -59,7 +59,8 @@ class Snapshot:
 class BodyHistory:
     """States of n bodies after each of s sub-steps: vectors (s, n, 3), rotations (s, n, 3, 3).
 
-    `can_move` (s, n) marks those that are free: neither passive, nor moved by animation, nor taken out of the simulation.
+    `can_move` (s, n) marks those that are free: neither passive, nor moved by animation, nor taken out of the
+    simulation.
     """
 
     positions_m: np.ndarray

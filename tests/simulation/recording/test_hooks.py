@@ -19,7 +19,7 @@ FREE_S, LIFT_S = 1.5, 3.5
 
 
 def lifted_block(folder, pretension):
-    """Return hooks and cable, lift and results of a block on another one that is taken away at 1.5 s; it is lifted away at 3.5 s."""
+    """Return the cable, the lift and the results of a block on another one that is taken away before it is lifted."""
     blocks = Blocks(substeps_per_frame=20, solver_iterations=50)
     blocks.block((0, 0, -0.5), size_m=(10, 10, 1))
     names = {"below": blocks.block((0, 0, 0.5), MASS_KG), "part": blocks.block((0, 0, 1.5), MASS_KG)}
