@@ -25,6 +25,7 @@ from ..model.stages.standing import made_elastic
 from ..model.structure.blast_zones import placed_zones, zone_totals
 from ..model.structure.deck_facts import deck_facts
 from ..model.structure.equilibrium import model_at_rest
+from ..model.structure.convergence import convergence_facts
 from ..model.structure.facts import accuracy_facts, connection_facts, foundation_facts, overlap_facts, rest_facts
 from ..model.structure.model import Model
 from ..model.structure.steel_bars import steel_facts
@@ -111,7 +112,8 @@ def scenario_facts(scenario: Scenario, *, stand: bool = False) -> Iterator[str]:
         yield from _section("Fineness", accuracy_facts(scenario, elastic))
     elif model.stiffness is not None:
         yield from _section("At rest", rest_facts(scenario, model))
-        yield from _section("Fineness", accuracy_facts(scenario, model))
+        convergence = convergence_facts(scenario, len(model.member_of_shard))
+        yield from _section("Fineness", (*accuracy_facts(scenario, model), *convergence))
     if model.steel:
         rest = model_at_rest(model, scenario.joints)
         yield from _section("Steelwork", (*steel_facts(scenario, model, rest), *deck_facts(scenario, model, rest)))

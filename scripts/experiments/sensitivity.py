@@ -257,10 +257,11 @@ def effects_of(name: str, output: str) -> dict[str, np.ndarray]:
     """Return SALib's effects of all inputs on an output: `mu_star`, its confidence `mu_star_conf`, and `sigma`."""
     demolition = DEMOLITIONS[name]
     values = np.array([float(row[output]) for row in rows(name)])
+    whole = len(values) - len(values) % (len(demolition.inputs) + 2)
     return effects.analyze(
         demolition.problem,
-        demolition.samples()[: len(values)],
-        values,
+        demolition.samples()[:whole],
+        values[:whole],
         num_levels=LEVELS,
         num_resamples=1000,
         seed=SEED,

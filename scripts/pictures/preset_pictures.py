@@ -13,7 +13,8 @@ from PIL import Image, ImageOps
 ROOT = Path(__file__).resolve().parents[2]
 PRESETS = ROOT / "bridge_demolition_addon" / "ui" / "scenario" / "presets"
 GALLERY, RUNS = ROOT / "docs" / "pictures" / "gallery", ROOT / "runs" / "presets"
-RUN = (PRESETS, PRESETS / "steel", ROOT / "examples" / "steel", ROOT / "examples" / "prestressed")
+EXAMPLES = ROOT / "examples"
+RUN = (PRESETS, PRESETS / "steel", EXAMPLES / "arches_and_frames", EXAMPLES / "steel", EXAMPLES / "prestressed")
 """Folders of presets that are not in the gallery."""
 
 STEEL_BRIDGES = (

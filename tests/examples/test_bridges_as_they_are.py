@@ -16,7 +16,7 @@ from bridge_demolition_addon.model.stages.standing import StandingBridge
 IMPORTED = EXAMPLES / "imported"
 """Bridges from files that have no bars."""
 
-WITHOUT_BARS_OF_TRAFFIC = (REPORT_2019, IMPORTED, EXAMPLES / "steel", EXAMPLES / "prestressed")
+WITHOUT_BARS_OF_TRAFFIC = (REPORT_2019, IMPORTED, EXAMPLES / "steel", EXAMPLES / "prestressed", PRESETS / "steel")
 """Folders of bridges with other bars, or none, than a design for traffic gives."""
 
 

@@ -13,7 +13,7 @@ _PACKAGE = Path(__file__).parents[2]
 _EXAMPLES = (_PACKAGE / "examples", _PACKAGE.parent / "examples")
 """Where the examples are: in the extension, or beside the package in a checkout."""
 
-_STEEL, _PRESTRESSED, _REPORT_2019 = "steel", "prestressed", "report_2019"
+_ARCHES, _STEEL, _PRESTRESSED, _REPORT_2019 = "arches_and_frames", "steel", "prestressed", "report_2019"
 """Folders of examples, and of presets for the sidebar, beside the bridges of concrete."""
 
 _EARLIER_NAMES = {"one_span_wrecking_ball": "span_of_2019_ball", "one_span_explosives": "span_of_2019_explosives"}
@@ -64,8 +64,8 @@ def _draw_pictures(layout: bpy.types.UILayout, names: list[str]) -> None:
 def preset_files() -> dict[str, Path]:
     """Return the file of each preset by its name: those made for the sidebar, and examples."""
     examples = next((folder for folder in _EXAMPLES if folder.is_dir()), None)
-    of_examples = [examples / name for name in ("", _STEEL, _PRESTRESSED, _REPORT_2019)] if examples else []
-    folders = (PRESETS, *of_examples[:1], PRESETS / _STEEL, *of_examples[1:])
+    of_examples = [examples / name for name in ("", _ARCHES, _STEEL, _PRESTRESSED, _REPORT_2019)] if examples else []
+    folders = (PRESETS, *of_examples[:2], PRESETS / _STEEL, *of_examples[2:])
     return {path.stem: path for folder in folders for path in sorted(folder.glob("*" + _SUFFIX))}
 
 

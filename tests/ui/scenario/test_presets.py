@@ -9,8 +9,9 @@ from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.ui.scenario.values import scenario_of
 
 SMALLEST_PX = (256, 192)
-KINDS = {path.stem: path for folder in ("steel", "prestressed") for path in (EXAMPLES / folder).glob("*.toml")}
-"""Examples of bridges of steel, and prestressed ones."""
+FOLDERS = ("arches_and_frames", "steel", "prestressed")
+KINDS = {path.stem: path for folder in FOLDERS for path in (EXAMPLES / folder).glob("*.toml")}
+"""Examples of arches, frames, bridges of steel, and prestressed ones."""
 
 
 @pytest.fixture

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What pages and `bda check` say of other numbers of shards and sub-steps, and of inputs, is what the runs gave."""
+
+import statistics
+import sys
+
+import pytest
+from support.checkout import EXAMPLES, ROOT
+
+sys.path.insert(0, str(ROOT / "scripts" / "experiments"))
+
+import convergence
+import reinforced_deck
+import sensitivity
+
+from bridge_demolition_addon.model.scenario.file import read_scenario
+from bridge_demolition_addon.model.structure.convergence import DEBRIS_M, SAG_M, convergence_facts
+
+PAGE = ROOT / "docs" / "choosing.md"
+
+
+def of_setting(*setting):
+    return [row for row in convergence.rows() if convergence.case_of(row)[:3] == setting]
+
+
+def median(rows, key):
+    return statistics.median(float(row[key]) for row in rows)
+
+
+def test_the_page_has_the_tables_of_all_runs():
+    text = PAGE.read_text(encoding="utf-8")
+    assert [line for line in convergence.tables() if line not in text] == []
+    assert {setting: len(of_setting(*setting)) for setting in convergence.SEEDS} == convergence.SEEDS
+
+
+def test_how_it_comes_down_does_not_hang_on_shards_sub_steps_or_iterations():
+    times_s = [float(row["collapse_s"]) for row in convergence.rows()]
+    assert all(float(row["fallen_share"]) > 0.99 for row in convergence.rows())
+    assert max(times_s) - min(times_s) <= 0.1
+
+
+def test_energy_that_the_solver_makes_grows_with_shards_and_with_long_sub_steps():
+    by_shards = [median(of_setting(shards, 0.02, 20), "made_share") for shards in (50, 100, 200, 400)]
+    by_substeps = [median(of_setting(100, way_m, 20), "made_share") for way_m in (0.005, 0.02, 0.04)]
+    assert by_shards == sorted(by_shards) and by_substeps == sorted(by_substeps)
+
+
+def test_what_bda_check_says_is_the_median_of_the_runs():
+    found = {shards: round(median(of_setting(shards, 0.02, 20), "reach_m"), 1) for shards in DEBRIS_M}
+    assert found == DEBRIS_M
+    decks = [row for row in reinforced_deck.rows() if (row["ball_kg"], row["bars"]) == ("10000", "1")]
+    own = [row for row in decks if (float(row["finer"]), float(row["rupture_m"])) == (1.0, 0.0)]
+    sags = {shards: [row for row in own if row["shards"] == str(shards)] for shards in SAG_M}
+    assert {shards: round(median(rows, "sag_m"), 3) for shards, rows in sags.items()} == SAG_M
+
+
+def test_bda_check_says_it_of_charges_and_balls_alone():
+    drilled = read_scenario(EXAMPLES / "drilled" / "two_spans.toml")
+    ball = read_scenario(EXAMPLES / "two_spans_13m_ball.toml")
+    assert [fact for fact, _ in convergence_facts(drilled, 200)][:1] == ["debris distance"]
+    assert dict(convergence_facts(drilled, 200))[""].startswith("here 100 shards a span")
+    assert [fact for fact, _ in convergence_facts(ball, 200)][:1] == ["dent of a ball"]
+    assert list(convergence_facts(read_scenario(EXAMPLES / "stages" / "excavator_on_the_deck.toml"), 200)) == []
+
+
+@pytest.mark.parametrize("name", sensitivity.DEMOLITIONS)
+def test_the_page_has_the_effects_of_all_inputs(name):
+    text = PAGE.read_text(encoding="utf-8")
+    assert [line for line in sensitivity.table(name) if line not in text] == []
+
+
+@pytest.mark.parametrize("name", sensitivity.DEMOLITIONS)
+def test_samples_are_those_that_were_run_and_make_scenarios(name):
+    """A trajectory changes one input at a time; each makes a scenario that is taken as a whole."""
+    demolition = sensitivity.DEMOLITIONS[name]
+    samples, steps = demolition.samples(), len(demolition.inputs) + 2
+    assert len(sensitivity.rows(name)) <= len(samples) == sensitivity.TRAJECTORIES * steps
+    assert ((samples[1:steps] != samples[: steps - 1]).sum(axis=1) == 1).all()
+    scenario = sensitivity.scenario_with(demolition, samples[1])
+    assert scenario.connections.strength_factor == samples[1][0] and scenario.seed == round(samples[1][-1])
