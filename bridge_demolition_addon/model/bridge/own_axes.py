@@ -10,7 +10,7 @@ from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.own_axes import OwnAxes, lying_axes, standing_axes
 from .member import Member
 
-_LYING = ("deck", "girder", "pier cap", "parapet", "bracing", "footing", "approach slab")
+_LYING = ("deck", "girder", "arch", "pier cap", "parapet", "bracing", "footing", "approach slab")
 _STANDING = ("pier",)
 
 _ROAD = (1.0, 0.0)

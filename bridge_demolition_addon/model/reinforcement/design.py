@@ -143,6 +143,11 @@ def _notes(bridge: Bridge, rule: BridgeReinforcement, bars: Sequence[ScheduledBa
             f"skew of {bridge.skew_deg:g}°: strips along the road are designed; bars for twisting and for the obtuse "
             "corners are not covered"
         )
+    if bridge.arch and not rule.ratios:
+        yield (
+            "the deck is designed on supports that do not give way; arch and thrust blocks have no bars by the rule: "
+            "give them [[reinforcement]], of the arch with own_axes = true"
+        )
     yield from _dense(bars)
 
 

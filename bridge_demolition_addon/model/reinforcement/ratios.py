@@ -6,7 +6,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from ..bridge.arch import ARCH
 from ..bridge.member import Member, members_named
+from ..bridge.own_axes import own_axes
 from ..materials.bar_layers import BarLayer
 from ..scenario import RatiosOfMember
 from .design_basis import DesignBasis
@@ -35,7 +37,7 @@ def ratio_bars(basis: DesignBasis) -> Iterator[ScheduledBars | ScheduledLinks]:
 
 
 def _of_member(basis: DesignBasis, member: Member, table: RatiosOfMember) -> Iterator[ScheduledBars | ScheduledLinks]:
-    extents = np.ptp(member.without_skew(member.solid.vertices), axis=0)
+    extents = _sizes(member)
     outside = basis.rule.cover_m + basis.link_m + 0.5 * basis.bar_m
     for name, (side, along) in _SIDES.items():
         if ratio := getattr(table, name):
@@ -46,6 +48,14 @@ def _of_member(basis: DesignBasis, member: Member, table: RatiosOfMember) -> Ite
             yield _layer(basis, member, side, "z", outside, 0.25 * _PERCENT * table.upright_percent, extents)
     if table.links_percent:
         yield _links(basis, member, _PERCENT * table.links_percent, extents)
+
+
+def _sizes(member: Member) -> np.ndarray:
+    """Return length, width and height (3,) of a member as it would be without skew; of an arch along its own axes."""
+    if member.kind == ARCH:
+        axes = own_axes(member)
+        return np.array([axes.length_m, axes.width_m, axes.height_m])
+    return np.ptp(member.without_skew(member.solid.vertices), axis=0)
 
 
 def _layer(
@@ -67,6 +77,7 @@ def _layer(
         area_mm2=ratio * section * _MM2,
         yield_n_mm2=basis.yield_pa / _MM2,
         diameter_mm=basis.rule.bar_diameter_mm,
+        own_axes=member.kind == ARCH,
     )
     return ScheduledBars(layer, member.kind, None, section, ratio * section, _REASON, length)
 
