@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -9,9 +10,12 @@ import numpy as np
 
 from ..arrays import FloatArray
 from .road_profiles import RoadProfile
+from .vectors import length
 
 _PIECES = 12
 """Span of an arch by that of its longest straight piece: a parabola is off its chord by 1/144 of the rise."""
+
+_SIDES = 1000
 
 _STEPS = 40
 """Steps to where a section ends at a position on top; each leaves less than half of what is missing, of arches whose
@@ -41,6 +45,12 @@ class ArchAxis:
     def radius_m(self) -> float:
         """Radius of the circle through springings and crown."""
         return 0.5 * (self.rise_m + 0.25 * self.span_m * self.span_m / self.rise_m)
+
+    @property
+    def length_m(self) -> float:
+        """Length of the axis, as of a polygon of many sides."""
+        points = self.points_m(np.linspace(self.begin_m, self.end_m, _SIDES + 1), 0.0)
+        return math.fsum(length(np.diff(points, axis=0)).tolist())
 
     def points_m(self, x_m: FloatArray, side: float) -> FloatArray:
         """Return points (n, 2) of the sections at positions (n,) of the axis: 0 on it, 1 on top, -1 underneath."""

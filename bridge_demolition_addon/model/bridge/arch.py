@@ -8,11 +8,10 @@ import numpy as np
 
 from ...engineering.geometry.road_profiles import RoadProfile, across_road
 from ..scenario import Bridge
+from ..scenario.arch import ARCH_KIND, BLOCK_KIND
 from ..schema import given
 from .ground import GroundHeight, foot_m
 from .member import Member
-
-ARCH, THRUST_BLOCK = "arch", "thrust block"
 
 
 def arch_members(bridge: Bridge, ground: GroundHeight) -> list[Member]:
@@ -39,8 +38,8 @@ def _ribs(bridge: Bridge, profile: RoadProfile) -> Iterator[Member]:
     directions = tuple((along, up) for along, up in profile.directions.tolist())
     for number, across in enumerate(bridge.rib_axes_m, start=1):
         yield Member(
-            ARCH if arch.ribs == 1 else f"{ARCH} rib {number}",
-            ARCH,
+            ARCH_KIND if arch.ribs == 1 else f"{ARCH_KIND} rib {number}",
+            ARCH_KIND,
             profile.solid(arch.width_m, across),
             parts=profile.pieces(arch.width_m, across),
             is_in_pieces=True,
@@ -50,10 +49,10 @@ def _ribs(bridge: Bridge, profile: RoadProfile) -> Iterator[Member]:
 
 def _thrust_block(bridge: Bridge, number: int, section_m: np.ndarray, ground: GroundHeight) -> Member:
     """Return the block behind the first or the last section of the arch, its underside and top (2, 2)."""
-    arch, axis, name = given(bridge.arch), bridge.springing_axes_m[number], f"{THRUST_BLOCK} {number + 1}"
+    arch, axis, name = given(bridge.arch), bridge.springing_axes_m[number], f"{BLOCK_KIND} {number + 1}"
     (inside, underside), (top_x, top) = section_m
     foot = foot_m(name, axis, 0.0, float(underside), ground)
     outside = inside - arch.block_length_m if number == 0 else inside + arch.block_length_m
     corners = [(outside, foot), (inside, foot), (inside, underside), (top_x, top), (outside, top)]
     width = bridge.rib_axes_m[-1] - bridge.rib_axes_m[0] + arch.width_m
-    return Member(name, THRUST_BLOCK, across_road(np.array(corners if number == 0 else corners[::-1]), width))
+    return Member(name, BLOCK_KIND, across_road(np.array(corners if number == 0 else corners[::-1]), width))

@@ -12,11 +12,10 @@ from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.solids import union
 from ...errors import ScenarioError
 from ..scenario import Bridge
-from ..scenario.arch import Arch
+from ..scenario.arch import ARCH_KIND, BLOCK_KIND, Arch
 from ..scenario.bridge import Abutments, Deck, Girders, PierCaps, Piers
 from ..scenario.frame import Frame
 from ..schema import given
-from .arch import ARCH, THRUST_BLOCK
 from .frame import LEG
 from .ground import GroundHeight, level_ground
 from .layout import deck_top, deck_underside, slab_underside
@@ -67,8 +66,8 @@ def _own_density(bridge: Bridge, kind: str) -> float | None:
         "pier cap": bridge.pier_caps,
         "pier": bridge.piers,
         "abutment": bridge.abutments,
-        ARCH: bridge.arch,
-        THRUST_BLOCK: bridge.arch,
+        ARCH_KIND: bridge.arch,
+        BLOCK_KIND: bridge.arch,
         LEG: bridge.frame,
     }
     part = parts.get(kind)

@@ -13,6 +13,7 @@ from ..schema import DENSITY, ROUNDING, SIZE, Table, key
 SHORTEST_COLUMN_M = 0.1
 """Least height of a column on an arch, and of the thrust blocks below it."""
 
+ARCH_KIND, BLOCK_KIND = "arch", "thrust block"
 PARABOLA, CIRCLE = "parabola", "circle"
 
 _STEEPEST = 0.45
@@ -44,6 +45,12 @@ class Arch(Table):
     density_kg_m3: float | None = key(
         "Density of arch and thrust blocks, where it is not that of the whole bridge.", **DENSITY
     )
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Return names and kinds of its members, which no design gives bars."""
+        ribs = tuple(f"{ARCH_KIND} rib {number + 1}" for number in range(self.ribs)) if self.ribs > 1 else ()
+        return (ARCH_KIND, *ribs, BLOCK_KIND, f"{BLOCK_KIND} 1", f"{BLOCK_KIND} 2")
 
     @property
     def is_circle(self) -> bool:

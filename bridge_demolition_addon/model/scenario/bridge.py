@@ -391,6 +391,9 @@ class Bridge(Table):
                 "bridge.reinforcement is given: expected none with bridge.merge, where no member is left"
             )
         reinforcement.check_deck(self.deck.width_m)
+        reinforcement.check_ratios(self.arch.names if self.arch else ())
+        if self.frame:
+            reinforcement.check_frame()
 
     def _check_bearings(self, bearings: BridgeBearings) -> None:
         if self.merge:

@@ -1,5 +1,6 @@
 """Bars by a rule: designed for traffic, or by ratios of steel, of a parametric bridge or of members from files."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -177,8 +178,9 @@ class BarRule(Table):
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BridgeReinforcement(BarRule):
     """Bars by a rule, for a bridge without drawings: designed by EN 1992-1-1 for its own weight and traffic, or by
-    ratios. Give one of `designed_for`, traffic of your own and `ratios`. `[[reinforcement]]` of a member replaces what
-    this gives it. Needs what `[[reinforcement]]` needs. `bda check` prints the schedule of bars."""
+    ratios. Give one of `designed_for`, traffic of your own and `ratios`. A frame has ratios alone. Over an arch, deck
+    and piers may be designed; `ratios` then give the bars of arch and thrust blocks. `[[reinforcement]]` of a member
+    replaces what this gives it. Needs what `[[reinforcement]]` needs. `bda check` prints the schedule of bars."""
 
     table: ClassVar[str] = "bridge.reinforcement"
 
@@ -187,7 +189,30 @@ class BridgeReinforcement(BarRule):
     @property
     def described(self) -> str:
         """What the bars follow from, for a heading."""
-        return "ratios of steel" if self.ratios else BarRule.described.__get__(self)
+        return BarRule.described.__get__(self) if self.is_designed else "ratios of steel"
+
+    @property
+    def is_designed(self) -> bool:
+        """Return whether bars follow from loads, and not from ratios alone."""
+        return self.designed_for is not None or self.traffic_kn_m2 is not None or self.axles_kn is not None
+
+    def check_frame(self) -> None:
+        """Check that bars of a frame are not designed."""
+        if self.is_designed and self.has_bars:
+            raise self.refused(
+                "expected [[bridge.reinforcement.ratios]] with bridge.frame, or [[reinforcement]]: moments at the "
+                "corners of a frame and in its legs are not designed for"
+            )
+
+    def check_ratios(self, members: Sequence[str]) -> None:
+        """Check that ratios beside a design are of no other than these members, which it leaves out."""
+        if not self.is_designed or not self.ratios:
+            return
+        if not members or not self.has_bars:
+            BarRule._check_one_route(self, dict.fromkeys(("designed_for", _OWN, "ratios"), True))
+        for table in self.ratios:
+            if table.member not in members:
+                raise table.unexpected("member", f"one of {', '.join(members)}, as the rule designs all others")
 
     def check_deck(self, width_m: float) -> None:
         """Check that the carriageway is on the deck."""
@@ -195,7 +220,7 @@ class BridgeReinforcement(BarRule):
             raise self.unexpected("carriageway_m", f"at most bridge.deck.width_m, {width_m:g} (m)")
 
     def _check_one_route(self, routes: dict[str, bool]) -> None:
-        BarRule._check_one_route(self, {**routes, "ratios": bool(self.ratios)})
+        BarRule._check_one_route(self, routes if any(routes.values()) else {**routes, "ratios": bool(self.ratios)})
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
