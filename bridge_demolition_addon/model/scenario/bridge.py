@@ -358,6 +358,8 @@ class Bridge(Table):
             raise ScenarioError("bridge.arch is given: expected none with bridge.merge, where no member is left")
         if self.skew_deg != 0.0:
             raise ScenarioError(f"bridge.skew_deg is {self.skew_deg:g}: expected 0 with bridge.arch")
+        if len(self.axes_m) < 3:
+            raise ScenarioError("bridge.span_lengths_m has one span: expected two spans at least with bridge.arch")
         arch.check_supports(len(self.axes_m), given(self.piers).columns)
         piers, axis = given(self.piers), self.arch_axis
         arch.check_room(axis, self.axes_on_arch_m, piers.column_length_m, piers.height_m)
