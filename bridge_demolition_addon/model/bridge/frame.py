@@ -7,6 +7,7 @@ import numpy as np
 from ...engineering.geometry.road_profiles import RoadProfile, across_road
 from ...engineering.geometry.vectors import unit
 from ..scenario import Bridge
+from ..scenario.bridge import leg_axes_m
 from ..schema import given
 from .ground import GroundHeight, foot_m
 from .layout import deck_top
@@ -17,7 +18,7 @@ LEG = "leg"
 
 def frame_legs(bridge: Bridge, ground: GroundHeight) -> list[Member]:
     """Return every leg, down to the ground under the middle of its foot. They are numbered along the road."""
-    frame, axes = given(bridge.frame), bridge.leg_axes_m
+    frame, axes = given(bridge.frame), leg_axes_m(bridge)
     members = []
     for number, (axis, lean) in enumerate(zip(axes, frame.leans_m(len(axes)), strict=True), start=1):
         for leg in range(frame.legs):
@@ -34,7 +35,7 @@ def deck_profile(bridge: Bridge, begin_m: float, end_m: float) -> RoadProfile:
     away = half + frame.haunch_length_m
     corners = [
         (axis + side, frame.clear_height_m - (frame.haunch_depth_m if abs(side) == half else 0.0))
-        for axis in bridge.leg_axes_m
+        for axis in leg_axes_m(bridge)
         for side in (-away, -half, half, away)
     ]
     along, heights = (np.array(column) for column in zip(*corners, strict=True))

@@ -14,7 +14,7 @@ from ...errors import ScenarioError
 from ..scenario import Bridge
 from ..scenario.arch import ARCH_KIND, BLOCK_KIND, Arch
 from ..scenario.bridge import Abutments, Deck, Girders, PierCaps, Piers
-from ..scenario.frame import Frame
+from ..scenario.frame import RigidFrame
 from ..schema import given
 from .frame import LEG
 from .ground import GroundHeight, level_ground
@@ -60,7 +60,7 @@ def bridge_density(bridge: Bridge, members: Sequence[Member]) -> float:
 
 
 def _own_density(bridge: Bridge, kind: str) -> float | None:
-    parts: dict[str, Deck | Girders | PierCaps | Piers | Abutments | Arch | Frame | None] = {
+    parts: dict[str, Deck | Girders | PierCaps | Piers | Abutments | Arch | RigidFrame | None] = {
         "deck": bridge.deck,
         "girder": bridge.girders,
         "pier cap": bridge.pier_caps,

@@ -145,7 +145,7 @@ def _notes(bridge: Bridge, rule: BridgeReinforcement, bars: Sequence[ScheduledBa
         )
     if bridge.arch and rule.is_designed:
         yield (
-            "the deck is designed on columns that do not give way, and arch and thrust blocks are not: they have the "
+            "the deck is designed on rigid supports, and arch and thrust blocks are not: they have the "
             "bars of [[bridge.reinforcement.ratios]] and [[reinforcement]] alone"
         )
     yield from _dense(bars)

@@ -11,6 +11,7 @@ from ..bridge.own_axes import own_axes
 from ..materials.bar_layers import BarLayer
 from ..scenario import RatiosOfMember
 from ..scenario.arch import ARCH_KIND
+from ..scenario.bridge import arch_axis
 from .design_basis import DesignBasis
 from .schedule import ScheduledBars, ScheduledLinks
 
@@ -57,7 +58,7 @@ def _sizes(basis: DesignBasis, member: Member) -> np.ndarray:
     if not member.is_in_pieces:
         return np.ptp(member.without_skew(member.solid.vertices), axis=0)
     axes = own_axes(member)
-    length = basis.bridge.arch_axis.length_m if member.kind == ARCH_KIND else axes.length_m
+    length = arch_axis(basis.bridge).length_m if member.kind == ARCH_KIND else axes.length_m
     return np.array([length, axes.width_m, axes.height_m])
 
 

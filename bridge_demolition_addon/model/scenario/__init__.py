@@ -20,7 +20,7 @@ from .bridge import Abutments, BoxGirder, Bridge, Deck, Girders, PierCaps, Piers
 from .connections import ConnectionBetween, ConnectionSettings
 from .contacts import ContactSettings, SurfaceValues
 from .fracture import Finer, FracturePoint, FractureSettings, MemberFracture
-from .frame import Frame
+from .frame import RigidFrame
 from .geometry import Geometry
 from .girders import GirderSpan
 from .jackhammer import Jackhammer
@@ -58,7 +58,6 @@ __all__ = [
     "Finer",
     "FracturePoint",
     "FractureSettings",
-    "Frame",
     "Geometry",
     "GeometryReinforcement",
     "GirderSpan",
@@ -78,6 +77,7 @@ __all__ = [
     "RatiosOfMember",
     "RecordingSettings",
     "Removal",
+    "RigidFrame",
     "SawCut",
     "Scenario",
     "Severing",

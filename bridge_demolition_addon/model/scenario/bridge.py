@@ -11,7 +11,7 @@ from ...errors import ScenarioError
 from ..schema import DENSITY, FARTHEST_M, ROUNDING, SIZE, Table, check_exactly_one, given, key
 from .arch import Arch
 from .bearings import PINNED, ROCKER, SLIDING, BearingOfBridge
-from .frame import Frame
+from .frame import RigidFrame
 from .reinforcement import BridgeReinforcement
 
 _OWN_DENSITY = "Density of {}, where it is not that of the whole bridge."
@@ -229,7 +229,7 @@ class Bridge(Table):
     pier_caps: PierCaps | None = None
     abutments: Abutments | None = None
     arch: Arch | None = None
-    frame: Frame | None = None
+    frame: RigidFrame | None = None
     bearings: BridgeBearings | None = None
     reinforcement: BridgeReinforcement | None = None
 
@@ -296,39 +296,6 @@ class Bridge(Table):
             return self.box_girder.width_m
         return self.girders.number * self.girder_spacing_m if self.girders else self.deck.width_m
 
-    @property
-    def axes_m(self) -> list[float]:
-        """Return the positions along the road of the axes of all supports, in the middle of the road."""
-        return list(accumulate(self.span_lengths_m, initial=0.0))
-
-    @property
-    def arch_axis(self) -> ArchAxis:
-        """Return the axis of the arch."""
-        return given(self.arch).axis_between(*self.springing_axes_m)
-
-    @property
-    def rib_axes_m(self) -> list[float]:
-        """Return the positions across the road of the ribs of the arch."""
-        ribs = given(self.arch).ribs
-        return [self.carried_width_m * ((rib + 0.5) / ribs - 0.5) for rib in range(ribs)]
-
-    @property
-    def leg_axes_m(self) -> list[float]:
-        """Return the positions along the road of the legs of the frame, where they meet the deck."""
-        return self.axes_m[1:-1] if self.abutments else self.axes_m
-
-    @property
-    def axes_on_arch_m(self) -> list[float]:
-        """Return the positions along the road of the piers that stand on the arch."""
-        arch, axes = given(self.arch), self.axes_m
-        return axes[arch.from_support : arch.last_support(len(axes)) - 1]
-
-    @property
-    def springing_axes_m(self) -> tuple[float, float]:
-        """Return the positions along the road of the piers on the thrust blocks of the arch."""
-        arch, axes = given(self.arch), self.axes_m
-        return axes[arch.from_support - 1], axes[arch.last_support(len(axes)) - 1]
-
     def _check_together(self) -> None:
         if self.density_kg_m3 is not None and self.mass_kg is not None:
             check_exactly_one(self, "density_kg_m3", "mass_kg")
@@ -345,47 +312,13 @@ class Bridge(Table):
         if self.merge:
             self._check_one_density()
         if self.arch:
-            self._check_arch(self.arch)
+            _check_arch(self, self.arch)
         if self.frame:
-            self._check_frame(self.frame)
+            _check_frame(self, self.frame)
         if self.bearings:
             self._check_bearings(self.bearings)
         if self.reinforcement:
             self._check_reinforcement(self.reinforcement)
-
-    def _check_arch(self, arch: Arch) -> None:
-        if self.merge:
-            raise ScenarioError("bridge.arch is given: expected none with bridge.merge, where no member is left")
-        if self.skew_deg != 0.0:
-            raise ScenarioError(f"bridge.skew_deg is {self.skew_deg:g}: expected 0 with bridge.arch")
-        if len(self.axes_m) < 3:
-            raise ScenarioError("bridge.span_lengths_m has one span: expected two spans at least with bridge.arch")
-        arch.check_supports(len(self.axes_m), given(self.piers).columns)
-        piers, axis = given(self.piers), self.arch_axis
-        arch.check_room(axis, self.axes_on_arch_m, piers.column_length_m, piers.height_m)
-        arch.check_width(self.carried_width_m / piers.columns, piers.columns, piers.column_width_m)
-        lengths = [piers.column_length_m]
-        if self.abutments and set(self.springing_axes_m) & {self.axes_m[0], self.axes_m[-1]}:
-            lengths.append(self.abutments.length_m)
-        arch.check_blocks(axis, self.springing_axes_m[0], max(lengths))
-
-    def _check_frame(self, frame: Frame) -> None:
-        for name in ("piers", "pier_caps", "girders", "box_girder", "arch"):
-            if getattr(self, name):
-                raise ScenarioError(f"bridge.{name} is given: expected none with bridge.frame, of a slab on legs")
-        if self.deck.per_span:
-            raise self.deck.unexpected("per_span", "false with bridge.frame, whose deck is of one piece with all legs")
-        if self.merge:
-            raise ScenarioError("bridge.frame is given: expected none with bridge.merge, where no member is left")
-        if self.skew_deg != 0.0:
-            raise ScenarioError(f"bridge.skew_deg is {self.skew_deg:g}: expected 0 with bridge.frame")
-        if not self.leg_axes_m:
-            raise ScenarioError(
-                "bridge.abutments are given: expected none with bridge.frame and one span, or no leg is left"
-            )
-        ends = -self.deck.overhang_m, self.spans_m + self.deck.overhang_m
-        frame.check_room(self.leg_axes_m, ends, ends_on_legs=self.abutments is None)
-        frame.check_width(self.deck.width_m)
 
     def _check_reinforcement(self, reinforcement: BridgeReinforcement) -> None:
         if self.merge and reinforcement.has_bars:
@@ -509,3 +442,72 @@ class Bridge(Table):
         for part in (self.deck, self.girders, self.piers, self.pier_caps, self.abutments):
             if part and part.density_kg_m3 is not None:
                 raise part.unexpected("density_kg_m3", "none where bridge.merge is true, as one solid has one density")
+
+
+def axes_m(bridge: Bridge) -> list[float]:
+    """Return the positions along the road of the axes of all supports, in the middle of the road."""
+    return list(accumulate(bridge.span_lengths_m, initial=0.0))
+
+
+def arch_axis(bridge: Bridge) -> ArchAxis:
+    """Return the axis of the arch."""
+    return given(bridge.arch).axis_between(*springing_axes_m(bridge))
+
+
+def rib_axes_m(bridge: Bridge) -> list[float]:
+    """Return the positions across the road of the ribs of the arch."""
+    ribs = given(bridge.arch).ribs
+    return [bridge.carried_width_m * ((rib + 0.5) / ribs - 0.5) for rib in range(ribs)]
+
+
+def leg_axes_m(bridge: Bridge) -> list[float]:
+    """Return the positions along the road of the legs of the frame, where they meet the deck."""
+    return axes_m(bridge)[1:-1] if bridge.abutments else axes_m(bridge)
+
+
+def axes_on_arch_m(bridge: Bridge) -> list[float]:
+    """Return the positions along the road of the piers that stand on the arch."""
+    arch, axes = given(bridge.arch), axes_m(bridge)
+    return axes[arch.from_support : arch.last_support(len(axes)) - 1]
+
+
+def springing_axes_m(bridge: Bridge) -> tuple[float, float]:
+    """Return the positions along the road of the piers on the thrust blocks of the arch."""
+    arch, axes = given(bridge.arch), axes_m(bridge)
+    return axes[arch.from_support - 1], axes[arch.last_support(len(axes)) - 1]
+
+
+def _check_arch(bridge: Bridge, arch: Arch) -> None:
+    if bridge.merge:
+        raise ScenarioError("bridge.arch is given: expected none with bridge.merge, where no member is left")
+    if bridge.skew_deg != 0.0:
+        raise ScenarioError(f"bridge.skew_deg is {bridge.skew_deg:g}: expected 0 with bridge.arch")
+    if len(axes_m(bridge)) < 3:
+        raise ScenarioError("bridge.span_lengths_m has one span: expected two spans at least with bridge.arch")
+    arch.check_supports(len(axes_m(bridge)), given(bridge.piers).columns)
+    piers, axis = given(bridge.piers), arch_axis(bridge)
+    arch.check_room(axis, axes_on_arch_m(bridge), piers.column_length_m, piers.height_m)
+    arch.check_width(bridge.carried_width_m / piers.columns, piers.columns, piers.column_width_m)
+    lengths = [piers.column_length_m]
+    if bridge.abutments and set(springing_axes_m(bridge)) & {axes_m(bridge)[0], axes_m(bridge)[-1]}:
+        lengths.append(bridge.abutments.length_m)
+    arch.check_blocks(axis, springing_axes_m(bridge)[0], max(lengths))
+
+
+def _check_frame(bridge: Bridge, frame: RigidFrame) -> None:
+    for name in ("piers", "pier_caps", "girders", "box_girder", "arch"):
+        if getattr(bridge, name):
+            raise ScenarioError(f"bridge.{name} is given: expected none with bridge.frame, of a slab on legs")
+    if bridge.deck.per_span:
+        raise bridge.deck.unexpected("per_span", "false with bridge.frame, whose deck is of one piece with all legs")
+    if bridge.merge:
+        raise ScenarioError("bridge.frame is given: expected none with bridge.merge, where no member is left")
+    if bridge.skew_deg != 0.0:
+        raise ScenarioError(f"bridge.skew_deg is {bridge.skew_deg:g}: expected 0 with bridge.frame")
+    if not leg_axes_m(bridge):
+        raise ScenarioError(
+            "bridge.abutments are given: expected none with bridge.frame and one span, or no leg is left"
+        )
+    ends = -bridge.deck.overhang_m, bridge.spans_m + bridge.deck.overhang_m
+    frame.check_room(leg_axes_m(bridge), ends, ends_on_legs=bridge.abutments is None)
+    frame.check_width(bridge.deck.width_m)

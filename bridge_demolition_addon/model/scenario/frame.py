@@ -11,7 +11,7 @@ _SHORTEST_LEG_M = 0.1
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Frame(Table):
+class RigidFrame(Table):
     """A frame of concrete: legs on the ground that are of one piece with the deck, a slab, instead of piers. There is
     one at each support, or one at each inner support with abutments. Spans are measured between the axes of legs where
     they meet the deck. Where members have bars, those of a leg go on into the deck. A frame has no skew."""

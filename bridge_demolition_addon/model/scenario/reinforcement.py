@@ -19,6 +19,9 @@ USUAL_COVER_M = 0.045
 """Nominal cover where the user says none."""
 
 _KILO = 1e3
+_LEFT_OUT = ("arch", "thrust block")
+"""Members that no design gives bars, by the beginnings of their names."""
+
 _OWN = "traffic of your own (traffic_kn_m2, axles_kn)"
 _PERCENT = {"default": None, "unit": "%", "at_least": 0, "at_most": 8}
 
@@ -206,13 +209,8 @@ class BridgeReinforcement(BarRule):
 
     def check_ratios(self, members: Sequence[str]) -> None:
         """Check that ratios beside a design are of no other than these members, which it leaves out."""
-        if not self.is_designed or not self.ratios:
-            return
-        if not members or not self.has_bars:
-            BarRule._check_one_route(self, dict.fromkeys(("designed_for", _OWN, "ratios"), True))
-        for table in self.ratios:
-            if table.member not in members:
-                raise table.unexpected("member", f"one of {', '.join(members)}, as the rule designs all others")
+        if self.is_designed and any(table.member not in members for table in self.ratios):
+            self._refuse_both()
 
     def check_deck(self, width_m: float) -> None:
         """Check that the carriageway is on the deck."""
@@ -220,7 +218,15 @@ class BridgeReinforcement(BarRule):
             raise self.unexpected("carriageway_m", f"at most bridge.deck.width_m, {width_m:g} (m)")
 
     def _check_one_route(self, routes: dict[str, bool]) -> None:
-        BarRule._check_one_route(self, routes if any(routes.values()) else {**routes, "ratios": bool(self.ratios)})
+        if not any(routes.values()):
+            routes = {**routes, "ratios": bool(self.ratios)}
+        elif not self.has_bars or any(not table.member.startswith(_LEFT_OUT) for table in self.ratios):
+            self._refuse_both()
+        BarRule._check_one_route(self, routes)
+
+    def _refuse_both(self) -> None:
+        if self.ratios:
+            BarRule._check_one_route(self, dict.fromkeys(("designed_for", _OWN, "ratios"), True))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

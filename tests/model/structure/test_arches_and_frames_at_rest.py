@@ -19,6 +19,7 @@ from support.arches_and_frames import (
 from support.plane_frames import PlaneFrame
 
 from bridge_demolition_addon.engineering.geometry.mesh import volumes_and_centres
+from bridge_demolition_addon.model.scenario.bridge import arch_axis, axes_m, axes_on_arch_m
 
 # Of the portal: axes of legs and deck, load of the deck, relative stiffness.
 SPAN_M, HEIGHT_M = 15.0, 5.5 + 0.35
@@ -85,9 +86,9 @@ def test_slanted_legs_have_the_thrust_of_a_plane_frame():
 
 def arch_frame(bridge, arch, weights):
     """An arch bridge as a plane frame: arch, columns and deck on their axes, with the weights of pieces and members."""
-    axis, frame, deck_m = bridge.arch_axis, PlaneFrame(), 9.5 + 0.2
+    axis, frame, deck_m = arch_axis(bridge), PlaneFrame(), 9.5 + 0.2
     volumes, centres = volumes_and_centres(arch.parts)
-    x = np.concatenate((np.linspace(axis.begin_m, axis.end_m, 141), bridge.axes_on_arch_m, centres[:, 0]))
+    x = np.concatenate((np.linspace(axis.begin_m, axis.end_m, 141), axes_on_arch_m(bridge), centres[:, 0]))
     points = axis.points_m(np.unique(np.round(x, 6)), 0.0)
     frame.line(points, 0.7, 5.0)
     for volume, point in zip(volumes, axis.points_m(np.round(centres[:, 0], 6), 0.0), strict=True):
@@ -96,8 +97,8 @@ def arch_frame(bridge, arch, weights):
     along = np.unique(np.concatenate(([-0.4, 37.4], np.linspace(0.0, 37.0, 75))))
     frame.line([(position, deck_m) for position in along], 0.4, 6.0, weights["deck"] / 37.8)
     block_m = float(axis.points_m(np.array([axis.begin_m]), 1.0)[0, 1])
-    for number, position in enumerate(bridge.axes_m, start=1):
-        on_arch = position in bridge.axes_on_arch_m
+    for number, position in enumerate(axes_m(bridge), start=1):
+        on_arch = position in axes_on_arch_m(bridge)
         foot_m = float(axis.points_m(np.array([round(position, 6)]), 0.0)[0, 1]) if on_arch else block_m
         foot, top = frame.node(position, foot_m), frame.node(position, deck_m)
         frame.line([frame.nodes[foot], frame.nodes[top]], 0.4, 5.0)
@@ -120,7 +121,7 @@ def test_an_arch_has_the_thrust_of_its_weight(more, tolerance, shards, seed):
     make the arch stiffer than its axis: it carries 1 to 5 % less as thrust, a circle up to 7 %.
     """
     at_rest = AtRest(scenario_of(ARCH + more, ARCH_SPANS, shards=shards, seed=seed))
-    bridge, axis = at_rest.scenario.bridge, at_rest.scenario.bridge.arch_axis
+    bridge, axis = at_rest.scenario.bridge, arch_axis(at_rest.scenario.bridge)
     weights = {member.name: member.mass_kg * 9.80665 for member in at_rest.model.members}
     arch = next(member for member in at_rest.model.members if member.kind == "arch")
     frame = arch_frame(bridge, arch, weights)
