@@ -23,9 +23,9 @@ from ..model.stages.stability_by_statics import stability_of
 from ..model.stages.stages import equipment_facts
 from ..model.stages.standing import made_elastic
 from ..model.structure.blast_zones import placed_zones, zone_totals
+from ..model.structure.convergence import convergence_facts
 from ..model.structure.deck_facts import deck_facts
 from ..model.structure.equilibrium import model_at_rest
-from ..model.structure.convergence import convergence_facts
 from ..model.structure.facts import accuracy_facts, connection_facts, foundation_facts, overlap_facts, rest_facts
 from ..model.structure.model import Model
 from ..model.structure.steel_bars import steel_facts

@@ -4,8 +4,8 @@
 The demolition is convergence_span.toml beside this script. Each setting is run with several seeds, which cut the bridge
 otherwise: what differs between settings by less than between seeds is no trend.
 
-Usage: convergence.py [RUNS_AT_ONCE] writes docs/data/convergence.csv, and goes on where it stopped, an hour and a half of
-one core; convergence.py --one SHARDS FARTHEST_M ITERATIONS SEED prints one row; convergence.py --table prints what
+Usage: convergence.py [RUNS_AT_ONCE] writes docs/data/convergence.csv, and goes on where it stopped, an hour of one
+core; convergence.py --one SHARDS FARTHEST_M ITERATIONS SEED prints one row; convergence.py --table prints what
 docs/choosing.md says of all.
 """
 

@@ -16,7 +16,7 @@ DRILLED = {f"drilled_{path.stem}": path for path in sorted((EXAMPLES / "drilled"
 
 OTHERS = {
     path.stem: path
-    for folder in ("ground_motion", "stages", "imported", "steel", "prestressed")
+    for folder in ("ground_motion", "stages", "imported", "steel", "prestressed", "arches_and_frames")
     for path in sorted((EXAMPLES / folder).glob("*.toml"))
 }
 """Files of the other examples that are run, by their names."""

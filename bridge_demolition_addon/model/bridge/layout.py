@@ -14,6 +14,7 @@ from ...engineering.geometry.rotations import turn_in_plane
 from ...engineering.geometry.vectors import transformed
 from ..actions import Fact
 from ..scenario import Bridge
+from ..scenario.bridge import arch_axis, leg_axes_m
 from ..schema import given
 
 
@@ -24,6 +25,8 @@ def pier_axes(bridge: Bridge) -> np.ndarray:
 
 def deck_underside(bridge: Bridge) -> float:
     """Height above the ground of what lies on piers and abutments, m: slab, girders or box girder."""
+    if bridge.frame:
+        return bridge.frame.clear_height_m
     if bridge.piers is None:
         return given(given(bridge.abutments).height_m)
     cap_height = bridge.pier_caps.height_m if bridge.pier_caps else 0.0
@@ -56,6 +59,12 @@ def bridge_facts(bridge: Bridge, *, is_flat: bool) -> Iterator[Fact]:
     """Yield what a planner wants to know of a bridge before a run."""
     yield "length", f"{bridge.length_m:.2f} m"
     yield "spans", " + ".join(f"{span:.2f}" for span in bridge.span_lengths_m) + " m"
+    if bridge.arch:
+        arch = arch_axis(bridge)
+        yield "arch", f"span {arch.span_m:.2f} m, rise {arch.rise_m:.2f} m"
+    if bridge.frame and len(leg_axes_m(bridge)) > 1:
+        clear = (after - before - bridge.frame.leg_thickness_m for before, after in pairwise(leg_axes_m(bridge)))
+        yield "frame", f"clear {' + '.join(f'{span:.2f}' for span in clear)} m at the deck"
     yield "deck top above ground" if is_flat else "height of deck top", f"{deck_top(bridge):.2f} m"
 
 

@@ -58,6 +58,9 @@ class Member:
     unskewed: Rows = SQUARE  # by which positions on plan are as they would be without skew
     steel: SteelPart | None = None  # of steelwork alone, which is cut and connected by itself
     keeps_parts: bool = False  # whether each of its parts takes a shard at least, as of a deck on pieces of girders
+    is_in_pieces: bool = False  # the same of what is cut into its parts first, as an arch
+    # Of inclined parts: what each runs along, along the road and upwards, of length 1. They are cut square to it.
+    directions: tuple[tuple[float, float], ...] = ()
 
     @property
     def volume_m3(self) -> float:

@@ -10,8 +10,8 @@ from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.own_axes import OwnAxes, lying_axes, standing_axes
 from .member import Member
 
-_LYING = ("deck", "girder", "pier cap", "parapet", "bracing", "footing", "approach slab")
-_STANDING = ("pier",)
+_LYING = ("deck", "girder", "arch", "pier cap", "parapet", "bracing", "footing", "approach slab")
+_STANDING = ("pier", "leg")
 
 _ROAD = (1.0, 0.0)
 _MOST_WIDE = 3.0
@@ -19,8 +19,9 @@ _MOST_WIDE = 3.0
 
 
 def own_axes(member: Member) -> OwnAxes:
-    """Return the axes of a member: along the road of a deck, else along its longer side on plan."""
-    return _axes(member.solid, is_standing(member), member.kind == "deck")
+    """Return the axes of a member: along the road of a deck or a whole arch, else along its longer side on plan."""
+    is_along_road = member.kind == "deck" or (member.kind == "arch" and member.is_in_pieces)
+    return _axes(member.solid, is_standing(member), is_along_road)
 
 
 def is_standing(member: Member) -> bool:
@@ -32,10 +33,10 @@ def is_standing(member: Member) -> bool:
 
 
 @lru_cache(maxsize=64)
-def _axes(solid: TriangleMesh, is_upright: bool, is_deck: bool) -> OwnAxes:
+def _axes(solid: TriangleMesh, is_upright: bool, is_along_road: bool) -> OwnAxes:
     if is_upright:
         return standing_axes(solid)
-    axes = lying_axes(solid, np.array(_ROAD)) if is_deck else lying_axes(solid)
-    if is_deck and axes.width_m > _MOST_WIDE * axes.length_m:
+    axes = lying_axes(solid, np.array(_ROAD)) if is_along_road else lying_axes(solid)
+    if is_along_road and axes.width_m > _MOST_WIDE * axes.length_m:
         return lying_axes(solid)
     return axes

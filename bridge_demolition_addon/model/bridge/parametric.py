@@ -12,11 +12,15 @@ from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.solids import union
 from ...errors import ScenarioError
 from ..scenario import Bridge
+from ..scenario.arch import ARCH_KIND, BLOCK_KIND, Arch
 from ..scenario.bridge import Abutments, Deck, Girders, PierCaps, Piers
+from ..scenario.frame import RigidFrame
 from ..schema import given
+from .frame import LEG
+from .ground import GroundHeight, level_ground
 from .layout import deck_top, deck_underside, slab_underside
 from .member import Member
-from .substructure import GroundHeight, level_ground, substructure
+from .substructure import substructure
 from .superstructure import superstructure
 
 _SAME_LEVEL_M = 1e-9
@@ -24,7 +28,7 @@ _SAME_LEVEL_M = 1e-9
 
 
 def bridge_members(bridge: Bridge, ground: GroundHeight = level_ground) -> tuple[Member, ...]:
-    """Return all members, touching without overlap: decks and girders, abutments, each pier's cap and columns."""
+    """Return all members, touching without overlap: decks and girders, abutments, arch, piers or legs."""
     members = [*superstructure(bridge), *substructure(bridge, ground)]
     if bridge.merge:
         convex = tuple(part for member in members for part in member.parts or (member.solid,))
@@ -56,12 +60,15 @@ def bridge_density(bridge: Bridge, members: Sequence[Member]) -> float:
 
 
 def _own_density(bridge: Bridge, kind: str) -> float | None:
-    parts: dict[str, Deck | Girders | PierCaps | Piers | Abutments | None] = {
+    parts: dict[str, Deck | Girders | PierCaps | Piers | Abutments | Arch | RigidFrame | None] = {
         "deck": bridge.deck,
         "girder": bridge.girders,
         "pier cap": bridge.pier_caps,
         "pier": bridge.piers,
         "abutment": bridge.abutments,
+        ARCH_KIND: bridge.arch,
+        BLOCK_KIND: bridge.arch,
+        LEG: bridge.frame,
     }
     part = parts.get(kind)
     return part.density_kg_m3 if part else None

@@ -6,6 +6,7 @@ from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.solids import box, difference, union
 from ..scenario import Bridge
 from ..schema import given
+from .frame import deck_profile
 from .layout import deck_ends, deck_top, deck_underside, skewed, slab_underside, without_shear
 from .member import Member
 
@@ -27,6 +28,9 @@ def superstructure(bridge: Bridge) -> list[Member]:
 
 
 def _deck(bridge: Bridge, name: str, begin: float, end: float) -> Member:
+    if bridge.frame and bridge.frame.is_haunched:
+        profile, width = deck_profile(bridge, begin, end), bridge.deck.width_m
+        return Member(name, "deck", profile.solid(width), parts=profile.pieces(width), is_in_pieces=True)
     if not bridge.box_girder:
         return Member(name, "deck", skewed(bridge, _slab(bridge, begin, end)), unskewed=without_shear(bridge))
     plates = (skewed(bridge, plate) for plate in _plates(bridge, begin, end))

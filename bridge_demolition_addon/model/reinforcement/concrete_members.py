@@ -97,11 +97,19 @@ def _kind_or_name(member: Named, plain: Sequence[Named], members: Iterable[Named
     return member.kind if all(any(other is one for one in plain) for other in alike) else member.name
 
 
+def _designed(scenario: Scenario) -> set[str]:
+    """Return the names of the members that a rule designs."""
+    arch = scenario.bridge.arch if scenario.bridge else None
+    return names_of_bridge(scenario) - set(arch.names if arch else ())
+
+
 def names_with_bars(scenario: Scenario) -> set[str]:
     """Return names and kinds of members with bars."""
     named = {name for layer in scenario.reinforcement for name in layer.members}
     if rule := bars_by_rule(scenario):
-        named |= {table.member for table in rule.ratios} or names_of_bridge(scenario)
+        named |= {table.member for table in rule.ratios}
+        if rule.is_designed:
+            named |= _designed(scenario)
     if scenario.geometry_reinforcement and scenario.geometry_reinforcement.has_bars:
         named |= {table.name for table in scenario.geometry if is_concrete(scenario, table)}
     return named

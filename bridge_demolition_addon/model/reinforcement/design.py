@@ -70,7 +70,7 @@ def _of_bridge_by_rule(scenario: Scenario, members: Sequence[Member]) -> Schedul
         _of_bridge(scenario, members),
         rule.traffic(bridge.deck.width_m),
     )
-    rows = list(ratio_bars(basis) if rule.ratios else _designed(basis))
+    rows = [*(_designed(basis) if rule.is_designed else ()), *ratio_bars(basis)]
     bars = _merged([row for row in rows if isinstance(row, ScheduledBars)])
     links = _merged([row for row in rows if isinstance(row, ScheduledLinks)])
     return Schedule(tuple(bars), tuple(links), tuple(_notes(bridge, rule, bars)))
@@ -138,10 +138,15 @@ def _designed(basis: DesignBasis) -> Iterator[ScheduledBars | ScheduledLinks]:
 
 
 def _notes(bridge: Bridge, rule: BridgeReinforcement, bars: Sequence[ScheduledBars]) -> Iterator[str]:
-    if abs(bridge.skew_deg) > _LARGEST_SKEW_DEG and not rule.ratios:
+    if abs(bridge.skew_deg) > _LARGEST_SKEW_DEG and rule.is_designed:
         yield (
             f"skew of {bridge.skew_deg:g}°: strips along the road are designed; bars for twisting and for the obtuse "
             "corners are not covered"
+        )
+    if bridge.arch and rule.is_designed:
+        yield (
+            "the deck is designed on rigid supports, and arch and thrust blocks are not: they have the "
+            "bars of [[bridge.reinforcement.ratios]] and [[reinforcement]] alone"
         )
     yield from _dense(bars)
 

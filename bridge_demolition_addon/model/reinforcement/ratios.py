@@ -7,8 +7,11 @@ from collections.abc import Iterator
 import numpy as np
 
 from ..bridge.member import Member, members_named
+from ..bridge.own_axes import own_axes
 from ..materials.bar_layers import BarLayer
 from ..scenario import RatiosOfMember
+from ..scenario.arch import ARCH_KIND
+from ..scenario.bridge import arch_axis
 from .design_basis import DesignBasis
 from .schedule import ScheduledBars, ScheduledLinks
 
@@ -35,17 +38,28 @@ def ratio_bars(basis: DesignBasis) -> Iterator[ScheduledBars | ScheduledLinks]:
 
 
 def _of_member(basis: DesignBasis, member: Member, table: RatiosOfMember) -> Iterator[ScheduledBars | ScheduledLinks]:
-    extents = np.ptp(member.without_skew(member.solid.vertices), axis=0)
+    extents = _sizes(basis, member)
     outside = basis.rule.cover_m + basis.link_m + 0.5 * basis.bar_m
     for name, (side, along) in _SIDES.items():
         if ratio := getattr(table, name):
             inside = outside + (basis.bar_m if along == "y" else 0.0)
             yield _layer(basis, member, side, along, inside, _PERCENT * ratio, extents)
-    if table.upright_percent:
+    if table.upright_percent and member.directions:
+        yield _inclined(basis, member, _PERCENT * table.upright_percent, extents)
+    elif table.upright_percent:
         for side in _UPRIGHT_SIDES:
             yield _layer(basis, member, side, "z", outside, 0.25 * _PERCENT * table.upright_percent, extents)
     if table.links_percent:
         yield _links(basis, member, _PERCENT * table.links_percent, extents)
+
+
+def _sizes(basis: DesignBasis, member: Member) -> np.ndarray:
+    """Return length, width and height (3,) of a member without skew; along its own axes of an arch and haunches."""
+    if not member.is_in_pieces:
+        return np.ptp(member.without_skew(member.solid.vertices), axis=0)
+    axes = own_axes(member)
+    length = arch_axis(basis.bridge).length_m if member.kind == ARCH_KIND else axes.length_m
+    return np.array([length, axes.width_m, axes.height_m])
 
 
 def _layer(
@@ -67,8 +81,24 @@ def _layer(
         area_mm2=ratio * section * _MM2,
         yield_n_mm2=basis.yield_pa / _MM2,
         diameter_mm=basis.rule.bar_diameter_mm,
+        own_axes=member.is_in_pieces,
     )
     return ScheduledBars(layer, member.kind, None, section, ratio * section, _REASON, length)
+
+
+def _inclined(basis: DesignBasis, member: Member, ratio: float, extents: np.ndarray) -> ScheduledBars:
+    """Return the upright bars of an inclined leg: spread, as of both faces, and as many across its slope."""
+    _, up = member.directions[0]
+    height = float(extents[2])
+    section = member.volume_m3 / height
+    layer = BarLayer(
+        members=(member.name,),
+        along="z",
+        spread_mm2_m2=ratio / up * _MM2,
+        yield_n_mm2=basis.yield_pa / _MM2,
+        diameter_mm=basis.rule.bar_diameter_mm,
+    )
+    return ScheduledBars(layer, member.kind, None, section, ratio / up * section, _REASON, height)
 
 
 def _links(basis: DesignBasis, member: Member, ratio: float, extents: np.ndarray) -> ScheduledLinks:

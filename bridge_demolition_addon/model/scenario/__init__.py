@@ -14,12 +14,14 @@ from ..loads import Load
 from ..materials.bar_layers import BarLayer
 from ..materials.materials import Material
 from ..pulls import Pull
+from .arch import Arch
 from .ball import Ball, BallCable, BallHit
 from .bodies import Equipment, Ground, GroundSurface, ShardSettings, Support
 from .bridge import Abutments, BoxGirder, Bridge, Deck, Girders, PierCaps, Piers
 from .connections import ConnectionBetween, ConnectionSettings
 from .contacts import ContactSettings, SurfaceValues
 from .fracture import Finer, FracturePoint, FractureSettings, MemberFracture
+from .frame import RigidFrame
 from .geometry import Geometry
 from .girders import GirderSpan
 from .jackhammer import Jackhammer
@@ -35,6 +37,7 @@ from .trusses import TrussSpan
 
 __all__ = [
     "Abutments",
+    "Arch",
     "Ball",
     "BallCable",
     "BallHit",
@@ -77,6 +80,7 @@ __all__ = [
     "RatiosOfMember",
     "RecordingSettings",
     "Removal",
+    "RigidFrame",
     "SawCut",
     "Scenario",
     "Severing",

@@ -2,12 +2,16 @@
 
 import math
 from dataclasses import dataclass
+from itertools import accumulate
 from typing import ClassVar
 
 from ...engineering.arithmetic import cosine, sine
+from ...engineering.geometry.arches import ArchAxis
 from ...errors import ScenarioError
 from ..schema import DENSITY, FARTHEST_M, ROUNDING, SIZE, Table, check_exactly_one, given, key
+from .arch import Arch
 from .bearings import PINNED, ROCKER, SLIDING, BearingOfBridge
+from .frame import RigidFrame
 from .reinforcement import BridgeReinforcement
 
 _OWN_DENSITY = "Density of {}, where it is not that of the whole bridge."
@@ -224,6 +228,8 @@ class Bridge(Table):
     piers: Piers | None = None
     pier_caps: PierCaps | None = None
     abutments: Abutments | None = None
+    arch: Arch | None = None
+    frame: RigidFrame | None = None
     bearings: BridgeBearings | None = None
     reinforcement: BridgeReinforcement | None = None
 
@@ -233,6 +239,8 @@ class Bridge(Table):
         if self.bearings is None:
             return ()
         above, supports = "girder" if self.girders else "deck", self._support_names()
+        if self.frame:
+            return tuple(self.bearings.between(above, below, is_pinned=False) for below in (supports[0], supports[-1]))
         if not self.deck.per_span or len(self.span_lengths_m) == 1:
             pinned = (self.bearings.pinned_at or 1) - 1
             return tuple(
@@ -253,6 +261,8 @@ class Bridge(Table):
         return [self._pier_name(number) for number in range(1, count + 1)]
 
     def _pier_name(self, number: int) -> str:
+        if self.frame:
+            return f"leg {number}"
         if self.pier_caps:
             return f"pier {number} cap"
         return f"pier {number}" if given(self.piers).columns == 1 else f"pier {number} column *"
@@ -301,6 +311,10 @@ class Bridge(Table):
             self._check_room_across(self.piers)
         if self.merge:
             self._check_one_density()
+        if self.arch:
+            _check_arch(self, self.arch)
+        if self.frame:
+            _check_frame(self, self.frame)
         if self.bearings:
             self._check_bearings(self.bearings)
         if self.reinforcement:
@@ -312,13 +326,20 @@ class Bridge(Table):
                 "bridge.reinforcement is given: expected none with bridge.merge, where no member is left"
             )
         reinforcement.check_deck(self.deck.width_m)
+        reinforcement.check_ratios(self.arch.names if self.arch else ())
+        if self.frame:
+            reinforcement.check_frame()
 
     def _check_bearings(self, bearings: BridgeBearings) -> None:
         if self.merge:
             raise ScenarioError("bridge.bearings is given: expected none with bridge.merge, where no member is left")
         supports, spans = len(self.span_lengths_m) + 1, len(self.span_lengths_m)
+        if self.frame and self.abutments is None:
+            raise ScenarioError("bridge.bearings is given: expected none with bridge.frame without abutments")
         if bearings.pinned_at is None:
             return
+        if self.frame:
+            raise bearings.unexpected("pinned_at", "none with bridge.frame, whose legs hold the deck along the road")
         if self.deck.per_span and spans > 1:
             raise bearings.unexpected(
                 "pinned_at", "none with bridge.deck.per_span: each deck is pinned at its first end"
@@ -330,7 +351,9 @@ class Bridge(Table):
         if self.girders and self.box_girder:
             raise ScenarioError("bridge.girders and bridge.box_girder are given together: expected at most one")
         between_abutments = self.abutments is not None and len(self.span_lengths_m) == 1
-        if not between_abutments and self.piers is None:
+        if self.frame:
+            between_abutments = False
+        elif not between_abutments and self.piers is None:
             raise ScenarioError("bridge.piers is missing: expected a table")
         for name in ("piers", "pier_caps"):
             if between_abutments and getattr(self, name):
@@ -338,7 +361,8 @@ class Bridge(Table):
                     f"bridge.{name} is given: expected none with bridge.abutments and one span, which has no piers"
                 )
         if self.abutments and between_abutments != (self.abutments.height_m is not None):
-            wanted = "a number (m) with one span" if between_abutments else "none with piers, which give it"
+            carrying = "bridge.frame" if self.frame else "piers"
+            wanted = "a number (m) with one span" if between_abutments else f"none with {carrying}, which give it"
             raise self.abutments.unexpected("height_m", wanted)
 
     def _check_superstructure(self) -> None:
@@ -418,3 +442,72 @@ class Bridge(Table):
         for part in (self.deck, self.girders, self.piers, self.pier_caps, self.abutments):
             if part and part.density_kg_m3 is not None:
                 raise part.unexpected("density_kg_m3", "none where bridge.merge is true, as one solid has one density")
+
+
+def axes_m(bridge: Bridge) -> list[float]:
+    """Return the positions along the road of the axes of all supports, in the middle of the road."""
+    return list(accumulate(bridge.span_lengths_m, initial=0.0))
+
+
+def arch_axis(bridge: Bridge) -> ArchAxis:
+    """Return the axis of the arch."""
+    return given(bridge.arch).axis_between(*springing_axes_m(bridge))
+
+
+def rib_axes_m(bridge: Bridge) -> list[float]:
+    """Return the positions across the road of the ribs of the arch."""
+    ribs = given(bridge.arch).ribs
+    return [bridge.carried_width_m * ((rib + 0.5) / ribs - 0.5) for rib in range(ribs)]
+
+
+def leg_axes_m(bridge: Bridge) -> list[float]:
+    """Return the positions along the road of the legs of the frame, where they meet the deck."""
+    return axes_m(bridge)[1:-1] if bridge.abutments else axes_m(bridge)
+
+
+def axes_on_arch_m(bridge: Bridge) -> list[float]:
+    """Return the positions along the road of the piers that stand on the arch."""
+    arch, axes = given(bridge.arch), axes_m(bridge)
+    return axes[arch.from_support : arch.last_support(len(axes)) - 1]
+
+
+def springing_axes_m(bridge: Bridge) -> tuple[float, float]:
+    """Return the positions along the road of the piers on the thrust blocks of the arch."""
+    arch, axes = given(bridge.arch), axes_m(bridge)
+    return axes[arch.from_support - 1], axes[arch.last_support(len(axes)) - 1]
+
+
+def _check_arch(bridge: Bridge, arch: Arch) -> None:
+    if bridge.merge:
+        raise ScenarioError("bridge.arch is given: expected none with bridge.merge, where no member is left")
+    if bridge.skew_deg != 0.0:
+        raise ScenarioError(f"bridge.skew_deg is {bridge.skew_deg:g}: expected 0 with bridge.arch")
+    if len(axes_m(bridge)) < 3:
+        raise ScenarioError("bridge.span_lengths_m has one span: expected two spans at least with bridge.arch")
+    arch.check_supports(len(axes_m(bridge)), given(bridge.piers).columns)
+    piers, axis = given(bridge.piers), arch_axis(bridge)
+    arch.check_room(axis, axes_on_arch_m(bridge), piers.column_length_m, piers.height_m)
+    arch.check_width(bridge.carried_width_m / piers.columns, piers.columns, piers.column_width_m)
+    lengths = [piers.column_length_m]
+    if bridge.abutments and set(springing_axes_m(bridge)) & {axes_m(bridge)[0], axes_m(bridge)[-1]}:
+        lengths.append(bridge.abutments.length_m)
+    arch.check_blocks(axis, springing_axes_m(bridge)[0], max(lengths))
+
+
+def _check_frame(bridge: Bridge, frame: RigidFrame) -> None:
+    for name in ("piers", "pier_caps", "girders", "box_girder", "arch"):
+        if getattr(bridge, name):
+            raise ScenarioError(f"bridge.{name} is given: expected none with bridge.frame, of a slab on legs")
+    if bridge.deck.per_span:
+        raise bridge.deck.unexpected("per_span", "false with bridge.frame, whose deck is of one piece with all legs")
+    if bridge.merge:
+        raise ScenarioError("bridge.frame is given: expected none with bridge.merge, where no member is left")
+    if bridge.skew_deg != 0.0:
+        raise ScenarioError(f"bridge.skew_deg is {bridge.skew_deg:g}: expected 0 with bridge.frame")
+    if not leg_axes_m(bridge):
+        raise ScenarioError(
+            "bridge.abutments are given: expected none with bridge.frame and one span, or no leg is left"
+        )
+    ends = -bridge.deck.overhang_m, bridge.spans_m + bridge.deck.overhang_m
+    frame.check_room(leg_axes_m(bridge), ends, ends_on_legs=bridge.abutments is None)
+    frame.check_width(bridge.deck.width_m)

@@ -1,5 +1,6 @@
 """Bars by a rule: designed for traffic, or by ratios of steel, of a parametric bridge or of members from files."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -18,6 +19,9 @@ USUAL_COVER_M = 0.045
 """Nominal cover where the user says none."""
 
 _KILO = 1e3
+_LEFT_OUT = ("arch", "thrust block")
+"""Members that no design gives bars, by the beginnings of their names."""
+
 _OWN = "traffic of your own (traffic_kn_m2, axles_kn)"
 _PERCENT = {"default": None, "unit": "%", "at_least": 0, "at_most": 8}
 
@@ -177,8 +181,9 @@ class BarRule(Table):
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BridgeReinforcement(BarRule):
     """Bars by a rule, for a bridge without drawings: designed by EN 1992-1-1 for its own weight and traffic, or by
-    ratios. Give one of `designed_for`, traffic of your own and `ratios`. `[[reinforcement]]` of a member replaces what
-    this gives it. Needs what `[[reinforcement]]` needs. `bda check` prints the schedule of bars."""
+    ratios. Give one of `designed_for`, traffic of your own and `ratios`. A frame has ratios alone. Over an arch, deck
+    and piers may be designed; `ratios` then give the bars of arch and thrust blocks. `[[reinforcement]]` of a member
+    replaces what this gives it. Needs what `[[reinforcement]]` needs. `bda check` prints the schedule of bars."""
 
     table: ClassVar[str] = "bridge.reinforcement"
 
@@ -187,7 +192,25 @@ class BridgeReinforcement(BarRule):
     @property
     def described(self) -> str:
         """What the bars follow from, for a heading."""
-        return "ratios of steel" if self.ratios else BarRule.described.__get__(self)
+        return BarRule.described.__get__(self) if self.is_designed else "ratios of steel"
+
+    @property
+    def is_designed(self) -> bool:
+        """Return whether bars follow from loads, and not from ratios alone."""
+        return self.designed_for is not None or self.traffic_kn_m2 is not None or self.axles_kn is not None
+
+    def check_frame(self) -> None:
+        """Check that bars of a frame are not designed."""
+        if self.is_designed and self.has_bars:
+            raise self.refused(
+                "expected [[bridge.reinforcement.ratios]] with bridge.frame, or [[reinforcement]]: moments at the "
+                "corners of a frame and in its legs are not designed for"
+            )
+
+    def check_ratios(self, members: Sequence[str]) -> None:
+        """Check that ratios beside a design are of no other than these members, which it leaves out."""
+        if self.is_designed and any(table.member not in members for table in self.ratios):
+            self._refuse_both()
 
     def check_deck(self, width_m: float) -> None:
         """Check that the carriageway is on the deck."""
@@ -195,7 +218,15 @@ class BridgeReinforcement(BarRule):
             raise self.unexpected("carriageway_m", f"at most bridge.deck.width_m, {width_m:g} (m)")
 
     def _check_one_route(self, routes: dict[str, bool]) -> None:
-        BarRule._check_one_route(self, {**routes, "ratios": bool(self.ratios)})
+        if not any(routes.values()):
+            routes = {**routes, "ratios": bool(self.ratios)}
+        elif not self.has_bars or any(not table.member.startswith(_LEFT_OUT) for table in self.ratios):
+            self._refuse_both()
+        BarRule._check_one_route(self, routes)
+
+    def _refuse_both(self) -> None:
+        if self.ratios:
+            BarRule._check_one_route(self, dict.fromkeys(("designed_for", _OWN, "ratios"), True))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -76,7 +76,7 @@ def load_cases(scenario: Scenario, model: Model) -> Iterator[tuple[str, np.ndarr
     Weight and these together, times 1.35, are 1.35 G + 1.5 Q.
     """
     rule = bars_by_rule(scenario)
-    if rule is None or rule.ratios:
+    if rule is None or not rule.is_designed:
         return
     bridge = given(scenario.weighed_bridge)
     traffic = rule.traffic(bridge.deck.width_m)
@@ -89,6 +89,9 @@ def load_cases(scenario: Scenario, model: Model) -> Iterator[tuple[str, np.ndarr
     loaded = [[number] for number in range(len(spans))]
     if not bridge.deck.per_span:
         loaded += [[number, number + 1] for number in range(len(spans) - 1)]
+    if bridge.arch:
+        first, last = bridge.arch.from_support - 1, bridge.arch.last_support(len(axes)) - 1
+        loaded.append(list(range(first, (first + last + 1) // 2)))
     for numbers in loaded:
         name = f"{_described(rule)} on span {' and '.join(str(number + 1) for number in numbers)}"
         lengths = [spans[number] for number in numbers]

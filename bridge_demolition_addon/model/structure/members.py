@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import chain
 from pathlib import Path
 
 import numpy as np
 
 from ...engineering.fracture.gaps import with_gaps
+from ...engineering.fracture.inclined import inclined_fracture
 from ...engineering.fracture.options import (
     FractureOptions,
     PointDensity,
@@ -106,7 +108,7 @@ def fractured_members(scenario: Scenario, members: Sequence[Member]) -> Fracture
         whole = member if len(own_points[index]) else _in_convex_parts(member, int(counts[index]))
         cut = _cut_for_blasting(whole, zones, cuts, own_points[index]) if zones or cuts else whole
         # Each part takes one shard at least, but of those that a bridge is made of by rule.
-        as_planned = cut is member and not member.keeps_parts
+        as_planned = cut is member and not (member.keeps_parts or member.is_in_pieces)
         count = int(counts[index]) if as_planned else max(int(counts[index]), len(cut.parts))
         parts.append(_fractured(cut, count, own_points[index], int(seeds[index]), options))
     shards = tuple(shard for part in parts for shard in part.shards)
@@ -221,7 +223,7 @@ def _fractured(member: Member, count: int, points: np.ndarray, seed: int, option
     try:
         if len(points):
             return voronoi_cells(member.solid, points, seed, options)
-        if 1 < len(member.parts) <= count:
+        if 1 < len(member.parts) <= count or member.directions:
             return _fractured_in_parts(member, count, seed, options)
         return fracture(member.solid, count, seed, options)
     except GeometryError as error:
@@ -240,9 +242,10 @@ def _cut_for_blasting(
         )
     axis = AXES.index(zones[0].along if zones else cuts[0].along)
     planes = [*(end_m for zone in zones for end_m in zone.ends_along_m), *(cut.position_m for cut in cuts)]
-    return replace(
-        member, parts=tuple(slab for part in member.parts or (member.solid,) for slab in slabs(part, axis, planes))
-    )
+    pieces = [slabs(part, axis, planes) for part in member.parts or (member.solid,)]
+    columns = zip(pieces, member.directions, strict=True) if member.directions else ()
+    directions = tuple(direction for own, direction in columns for _ in own)
+    return replace(member, parts=tuple(chain.from_iterable(pieces)), directions=directions)
 
 
 def _fractured_in_parts(member: Member, count: int, seed: int, options: FractureOptions) -> Fracture:
@@ -250,18 +253,29 @@ def _fractured_in_parts(member: Member, count: int, seed: int, options: Fracture
     amounts = np.array([_amount(part, options.density, seed) for part in member.parts])
     seeds = np.random.SeedSequence(seed).generate_state(len(member.parts))
     counts = shards_per_member(amounts, count)
-    columns = zip(member.parts, counts.tolist(), seeds.tolist(), strict=True)
-    return joined_fractures([_fractured_part(part, number, part_seed, options) for part, number, part_seed in columns])
+    directions = member.directions or (None,) * len(member.parts)
+    columns = zip(member.parts, counts.tolist(), seeds.tolist(), directions, strict=True)
+    return joined_fractures([_fractured_part(*column, options) for column in columns])
 
 
-def _fractured_part(part: TriangleMesh, count: int, seed: int, options: FractureOptions) -> Fracture:
+def _fractured_part(
+    part: TriangleMesh, count: int, seed: int, direction: tuple[float, float] | None, options: FractureOptions
+) -> Fracture:
     """Cut a convex part; at other points where those of its seed meet what is left of a warped face."""
     for attempt in range(_MOST_ATTEMPTS - 1):
         try:
-            return fracture(part, count, seed + attempt, options)
+            return _fractured_once(part, count, seed + attempt, direction, options)
         except GeometryError:
             continue
-    return fracture(part, count, seed + _MOST_ATTEMPTS - 1, options)
+    return _fractured_once(part, count, seed + _MOST_ATTEMPTS - 1, direction, options)
+
+
+def _fractured_once(
+    part: TriangleMesh, count: int, seed: int, direction: tuple[float, float] | None, options: FractureOptions
+) -> Fracture:
+    if direction is None:
+        return fracture(part, count, seed, options)
+    return inclined_fracture(part, count, seed, options, direction)
 
 
 def _masses(member: Member, part: Fracture, mass: str) -> np.ndarray:

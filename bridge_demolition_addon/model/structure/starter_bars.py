@@ -1,4 +1,5 @@
-"""Bars from one member into the next, where members from files that have bars by a rule meet without a bearing."""
+"""Bars from one member into the next, where members meet without a bearing: those from files that have bars by a rule,
+and those of arches and frames."""
 
 from __future__ import annotations
 
@@ -16,8 +17,9 @@ from ...engineering.structure.connections import Connections
 from ..bridge.member import Member
 from ..bridge.own_axes import own_axes
 from ..materials.bar_layers import BarLayer
-from ..reinforcement.concrete_members import is_concrete
+from ..reinforcement.concrete_members import is_concrete, names_of_bridge
 from ..scenario import Scenario
+from ..scenario.scenario import bars_by_rule
 
 _LEAST_RATIO = 0.002
 """As of the upright bars of a wall: EN 1992-1-1:2004, 9.6.2 (1)."""
@@ -42,41 +44,83 @@ def starter_bars(
     joint_of_connection: np.ndarray,
     of_bearings: np.ndarray,
 ) -> StarterBars | None:
-    """Return the bars between members from files; None without a rule for these.
+    """Return the bars between members from files, and of an arch or a frame; None where neither has any.
 
     Either member's bars that run across the face go on into the other: as many as those of the one with more, and
-    0.2 % at least. Connections `of_bearings` have none, nor have those that leave something free.
+    0.2 % at least by a rule. Connections `of_bearings` have none, nor have those that leave something free.
     """
+    groups = [group for group in (_of_files(scenario, members), _of_bridge(scenario, members)) if group]
+    if not groups:
+        return None
+    yield_n, openings = np.zeros((2, len(connections)))
+    by_member = [_ratios(layers, member) for member in members]
+    pairs = np.append(member_of_shard, -1)[connections.pairs].tolist()
+    for group in groups:
+        for row in _rows(scenario, group, member_of_shard, connections, joint_of_connection, of_bearings):
+            normal, point = connections.normals[row], connections.points[row]
+            crossing = [_crossing(by_member[index], members[index], point, normal) for index in pairs[row]]
+            ratio = max(group.least_ratio, *crossing)
+            if ratio == 0.0:
+                continue
+            yield_n[row] = scenario.connections.strength_factor * ratio * group.steel.yield_pa * connections.areas[row]
+            openings[row] = _own_opening_m(scenario, joint_of_connection[row], ratio, group.steel)
+    return StarterBars(yield_n, openings)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Meeting:
+    """Members (k,) between which bars go on, the steel of these, and their least ratio."""
+
+    members: np.ndarray
+    steel: Steel
+    least_ratio: float
+
+
+def _of_files(scenario: Scenario, members: Sequence[Member]) -> _Meeting | None:
     rule = scenario.geometry_reinforcement
     if rule is None or not rule.has_bars:
         return None
     names = {table.name for table in scenario.geometry}
-    meets = np.array(
-        [member.name in names and member.kind != "fill" and is_concrete(scenario, member) for member in members]
-    )
+    meets = [member.name in names and member.kind != "fill" and is_concrete(scenario, member) for member in members]
+    return _Meeting(np.array(meets), replace(scenario.steel, yield_pa=rule.grade.yield_pa), _LEAST_RATIO)
+
+
+def _of_bridge(scenario: Scenario, members: Sequence[Member]) -> _Meeting | None:
+    """Return the members of an arch or a frame, which are of one piece; those of other bridges lie on each other."""
+    if scenario.bridge is None or not (scenario.bridge.arch or scenario.bridge.frame):
+        return None
+    names, rule = names_of_bridge(scenario), bars_by_rule(scenario)
+    meets = [member.name in names and is_concrete(scenario, member) for member in members]
+    if rule is None:
+        return _Meeting(np.array(meets), scenario.steel, 0.0)
+    return _Meeting(np.array(meets), replace(scenario.steel, yield_pa=rule.grade.yield_pa), _LEAST_RATIO)
+
+
+def _rows(
+    scenario: Scenario,
+    group: _Meeting,
+    member_of_shard: np.ndarray,
+    connections: Connections,
+    joint_of_connection: np.ndarray,
+    of_bearings: np.ndarray,
+) -> list[int]:
+    """Return the connections between two members of a group, as indices, that bars go across."""
     of_pair = np.append(member_of_shard, -1)[connections.pairs]
     rows = np.flatnonzero(
         (of_pair[:, 0] != of_pair[:, 1])
         & (of_pair >= 0).all(axis=1)
-        & np.append(meets, False)[of_pair].all(axis=1)
+        & np.append(group.members, False)[of_pair].all(axis=1)
         & (connections.areas > 0.0)
     )
     rows = rows[~np.isin(rows, of_bearings)]
-    rows = np.array([row for row in rows.tolist() if _is_tight(scenario.joints[joint_of_connection[row]])], int)
-    yield_n, openings = np.zeros((2, len(connections)))
-    factor, steel = scenario.connections.strength_factor, replace(scenario.steel, yield_pa=rule.grade.yield_pa)
-    by_member = [_ratios(layers, member) for member in members]
-    for row in rows.tolist():
-        normal, point = connections.normals[row], connections.points[row]
-        crossing = [_crossing(by_member[index], members[index], point, normal) for index in of_pair[row].tolist()]
-        ratio = max(_LEAST_RATIO, *crossing)
-        yield_n[row] = factor * ratio * steel.yield_pa * connections.areas[row]
-        strength = scenario.joints[joint_of_connection[row]].strength
-        own_m = scenario.connections.ductile_elongation_m
-        if own_m is None and strength is not None:
-            own_m = _opening_m(ratio, float(strength.compression_pa), steel)
-        openings[row] = own_m or 0.0
-    return StarterBars(yield_n, openings)
+    return [row for row in rows.tolist() if _is_tight(scenario.joints[joint_of_connection[row]])]
+
+
+def _own_opening_m(scenario: Scenario, joint: int, ratio: float, steel: Steel) -> float:
+    strength, own_m = scenario.joints[joint].strength, scenario.connections.ductile_elongation_m
+    if own_m is None and strength is not None:
+        own_m = _opening_m(ratio, float(strength.compression_pa), steel)
+    return own_m or 0.0
 
 
 def _is_tight(joint: Joint) -> bool:

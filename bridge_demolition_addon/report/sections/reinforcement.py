@@ -63,7 +63,7 @@ def _schedule_blocks(scenario: Scenario, members: Sequence[Member], schedule: Sc
     for rule in rules_of_bars(scenario):
         design = (
             ""
-            if isinstance(rule, BridgeReinforcement) and rule.ratios
+            if isinstance(rule, BridgeReinforcement) and not rule.is_designed
             else f" Designed by EN 1992-1-1 with {PERMANENT_FACTOR:g} G + {VARIABLE_FACTOR:g} Q, "
             f"γ_c = {CONCRETE_FACTOR:g}, γ_s = {STEEL_FACTOR:g}; elastic moments, traffic at its worst."
         )
