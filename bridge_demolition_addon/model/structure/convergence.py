@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from ..actions import Fact
 from ..scenario import Scenario
 
-DEBRIS_M = {50: 2.4, 100: 3.5, 200: 3.8, 400: 7.0}
+DEBRIS_M = {50: 2.6, 100: 3.5, 200: 3.8, 400: 7.0}
 """Debris distance of a drilled span of 13 m by its shards, the median of the seeds in docs/data/convergence.csv."""
 
 SAG_M = {100: 0.055, 200: 0.058, 400: 0.064}
