@@ -86,8 +86,13 @@ class Demolition:
         names = [known.words for known in self.inputs] + [CUT]
         return {"num_vars": len(names), "names": names, "bounds": ranges}
 
+    @property
+    def keys(self) -> list[str]:
+        """Return the names of the inputs in the rows."""
+        return [f"in.{known.key}" for known in self.inputs] + ["in.scenario.seed"]
+
     def samples(self) -> np.ndarray:
-        """Return the inputs (r, i) of all runs."""
+        """Return the inputs (r, i) of all runs; another version of SALib draws others."""
         return design.sample(self.problem, TRAJECTORIES, num_levels=LEVELS, seed=SEED)
 
 
@@ -185,7 +190,8 @@ def path_of(name: str) -> Path:
 
 def measure_missing(name: str, at_once: int) -> None:
     """Run what the table has not, each in a process of its own, and write it after each."""
-    samples = DEMOLITIONS[name].samples()
+    demolition = DEMOLITIONS[name]
+    samples = demolition.samples()
     done = rows(name) if path_of(name).exists() else []
 
     def alone(number: int) -> dict[str, str]:
@@ -193,7 +199,8 @@ def measure_missing(name: str, at_once: int) -> None:
         environment = os.environ | {"OPENBLAS_NUM_THREADS": "1"}
         answer = subprocess.run(command, capture_output=True, text=True, check=True, env=environment).stdout
         found = json.loads(answer.splitlines()[-1])
-        return {key: f"{value:.6g}" for key, value in ({"run": number} | found).items()}
+        drawn = dict(zip(demolition.keys, samples[number].tolist(), strict=True))
+        return {key: f"{value:.10g}" for key, value in ({"run": number} | drawn | found).items()}
 
     with ThreadPoolExecutor(at_once) as threads:
         for row in threads.map(alone, range(len(done), len(samples))):
@@ -253,6 +260,11 @@ def own_value(scenario: Scenario, steps: Sequence[str | int]) -> float:
     return float(value or 0.0)
 
 
+def drawn_of(name: str) -> np.ndarray:
+    """Return the inputs (r, i) of the runs that are done."""
+    return np.array([[float(row[key]) for key in DEMOLITIONS[name].keys] for row in rows(name)])
+
+
 def effects_of(name: str, output: str) -> dict[str, np.ndarray]:
     """Return SALib's effects of all inputs on an output: `mu_star`, its confidence `mu_star_conf`, and `sigma`."""
     demolition = DEMOLITIONS[name]
@@ -260,7 +272,7 @@ def effects_of(name: str, output: str) -> dict[str, np.ndarray]:
     whole = len(values) - len(values) % (len(demolition.inputs) + 2)
     return effects.analyze(
         demolition.problem,
-        demolition.samples()[:whole],
+        drawn_of(name)[:whole],
         values[:whole],
         num_levels=LEVELS,
         num_resamples=1000,

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Make the pictures of the menu Presets: from the gallery's, and from runs in runs/presets for those not there.
 
-Those of steel, and the prestressed beam, are also in docs/pictures/steel_bridges.jpg, in the order of docs/steel.md.
+Those of steel, and the prestressed beam, are also in docs/pictures, and so are those of an arch and a frame.
 """
 
 import subprocess
@@ -25,7 +25,8 @@ STEEL_BRIDGES = (
     "steel_box_girder_dropped",
     "beam_cut_in_stages",
 )
-IN_DOCUMENTS, SIDE_BY_SIDE, LARGE_PX = ROOT / "docs" / "pictures" / "steel_bridges.jpg", 3, (480, 300)
+ARCHES = ("arch_severed", "frame_leg_blasted")
+IN_DOCUMENTS, LARGE_PX = ROOT / "docs" / "pictures", (480, 300)
 
 SIZE_PX, QUALITY = (256, 192), 85
 MOMENT, MOMENTS = 1, 3
@@ -42,7 +43,8 @@ def main() -> int:
         run(path, RUNS / path.stem)
         with Image.open(picture_of(path.stem)) as picture:
             keep(picture, path.stem)
-    draw_steel_bridges()
+    side_by_side(STEEL_BRIDGES, 3, IN_DOCUMENTS / "steel_bridges.jpg")
+    side_by_side(ARCHES, 2, IN_DOCUMENTS / "arches_and_frames.jpg")
     return 0
 
 
@@ -51,15 +53,15 @@ def picture_of(name: str) -> Path:
     return RUNS / name / "frames" / "impact.png"
 
 
-def draw_steel_bridges() -> None:
-    """Put the pictures of bridges of steel side by side, for the documents."""
+def side_by_side(names: tuple[str, ...], columns: int, path: Path) -> None:
+    """Put the pictures of runs side by side, for the documents."""
     width, height = LARGE_PX
-    sheet = Image.new("RGB", (SIDE_BY_SIDE * width, len(STEEL_BRIDGES) // SIDE_BY_SIDE * height))
-    for number, name in enumerate(STEEL_BRIDGES):
-        row, column = divmod(number, SIDE_BY_SIDE)
+    sheet = Image.new("RGB", (columns * width, len(names) // columns * height))
+    for number, name in enumerate(names):
+        row, column = divmod(number, columns)
         with Image.open(picture_of(name)) as picture:
             sheet.paste(ImageOps.fit(picture.convert("RGB"), LARGE_PX), (column * width, row * height))
-    sheet.save(IN_DOCUMENTS, quality=QUALITY)
+    sheet.save(path, quality=QUALITY)
 
 
 def keep(picture: Image.Image, name: str) -> None:
