@@ -16,8 +16,15 @@ from bridge_demolition_addon.model.stages.standing import StandingBridge
 IMPORTED = EXAMPLES / "imported"
 """Bridges from files that have no bars."""
 
-WITHOUT_BARS_OF_TRAFFIC = (REPORT_2019, IMPORTED, EXAMPLES / "steel", EXAMPLES / "prestressed", PRESETS / "steel")
-"""Folders of bridges with other bars, or none, than a design for traffic gives."""
+WITHOUT_BARS_OF_TRAFFIC = (
+    REPORT_2019,
+    IMPORTED,
+    EXAMPLES / "arches_and_frames",
+    EXAMPLES / "steel",
+    EXAMPLES / "prestressed",
+    PRESETS / "steel",
+)
+"""Folders of bridges with other bars, or none, than a design for traffic gives, or of one piece without bearings."""
 
 
 def is_as_it_is(path):

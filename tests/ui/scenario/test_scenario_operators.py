@@ -79,7 +79,7 @@ def test_a_place_that_cannot_be_written_is_refused(extension, settings, tmp_path
     assert settings.scenario_path == ""
 
 
-@pytest.mark.parametrize("path", sorted(PRESETS.rglob("*.toml")), ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", sorted(PRESETS.glob("*.toml")), ids=lambda path: path.stem)
 def test_presets_are_shown_and_can_be_built(extension, settings, path):
     extension.ops.bda.load_preset(preset=path.stem)
     assert scenario_of(settings) == read_scenario(path)
