@@ -25,7 +25,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
-from convergence import fallen_shares, largest_reaction, time_of
+from convergence import Quantity, fallen_shares, largest_reaction, time_of
 from SALib.analyze import morris as effects
 from SALib.sample import morris as design
 
@@ -60,23 +60,13 @@ class Input:
 
 
 @dataclass(frozen=True)
-class Output:
-    """What is measured: its name, its words, its factor and unit in the table, and the decimals there."""
-
-    key: str
-    words: str
-    factor: float = 1.0
-    digits: int = 1
-
-
-@dataclass(frozen=True)
 class Demolition:
     """A demolition: its scenario, its shards, its inputs and what is measured of a run."""
 
     scenario: Path
     shards: int
     inputs: tuple[Input, ...]
-    outputs: tuple[Output, ...]
+    outputs: tuple[Quantity, ...]
     measures: Callable[[Scenario, Mapping, Results], dict[str, float]]
 
     @property
@@ -140,9 +130,9 @@ DEMOLITIONS = {
             Input("contacts.shards.friction", "friction of debris, 0.5 to 0.7", 0.5, 0.7),
         ),
         (
-            Output("reach_m", "debris distance, m"),
-            Output("collapse_s", "half of it down after, s", digits=2),
-            Output("reaction_over_weight", "largest reaction over weight"),
+            Quantity("reach_m", "debris distance, m"),
+            Quantity("collapse_s", "half of it down after, s", digits=2),
+            Quantity("reaction_over_weight", "largest reaction over weight"),
         ),
         of_collapse,
     ),
@@ -159,8 +149,8 @@ DEMOLITIONS = {
             Input("ball.target_m.1", "where it hits along the span, ± 0.5 m", 6.0, 7.0),
         ),
         (
-            Output("sag_m", "deflection under the ball, mm", factor=1000.0, digits=0),
-            Output("broken", "cracked connections", digits=0),
+            Quantity("sag_m", "deflection under the ball, mm", factor=1000.0, digits=0),
+            Quantity("broken", "cracked connections", digits=0),
         ),
         of_dent,
     ),
