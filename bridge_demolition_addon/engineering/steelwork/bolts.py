@@ -61,6 +61,13 @@ _PATTERN = re.compile(
 _LEAST_BY_HOLE = {"e1": 1.2, "e2": 1.2, "p1": 2.2, "p2": 2.4}
 """Least distances by the diameter of the holes: EN 1993-1-8:2005, table 3.3."""
 
+RUPTURE_M = 8.6e-3
+"""By how far a joint of bolts has opened, in shear and bearing, as they rupture: 0.34 in, A325 bolts of 3/4 in.
+
+S. F. Crawford and G. L. Kulak, 1971, Eccentrically loaded bolted connections, Journal of the Structural Division
+97(ST3), 765-783. AISC's manual takes it for all sizes.
+"""
+
 WELDED = "welded"
 """In place of bolts: a joint as strong as the bar."""
 

@@ -46,12 +46,15 @@ class SectionHinge:
     opening_m: float  # by which it has opened as it ruptures
 
 
-def section_hinge(section: SteelSection, yield_pa: float) -> SectionHinge:
-    """Return how a section yields: on a plateau, until a length as long as it is deep has stretched too far."""
+def section_hinge(section: SteelSection, yield_pa: float, most_m: float = math.inf) -> SectionHinge:
+    """Return how a section yields: on a plateau, until a length as long as it is deep has stretched too far.
+
+    It opens by `most_m` at most.
+    """
     yield_strain = yield_pa / STEEL_MODULI.young_pa
     hardening = 1.0 + _PLATEAU * (RUPTURE_STRAIN - yield_strain) / yield_strain
-    opening = RUPTURE_STRAIN * _HINGE_BY_DEPTH * float(section.size_m.max())
-    return SectionHinge(section.area_m2 * yield_pa, yield_strain, hardening, RUPTURE_STRAIN, opening)
+    opening_m = min(RUPTURE_STRAIN * _HINGE_BY_DEPTH * float(section.size_m.max()), most_m)
+    return SectionHinge(section.area_m2 * yield_pa, yield_strain, hardening, RUPTURE_STRAIN, opening_m)
 
 
 def plastic_second_moments(section: SteelSection, leverage: tuple[float, float] = (1.0, 1.0)) -> FloatArray:

@@ -1,5 +1,6 @@
 """Steelwork: bars of steel between nodes, as a scenario gives them."""
 
+import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import ClassVar
@@ -9,7 +10,7 @@ import numpy as np
 from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.strength import Strength
 from ...engineering.steelwork.bolted_ends import BoltedEnd, bolted_end
-from ...engineering.steelwork.bolts import Bolts, bolts_named
+from ...engineering.steelwork.bolts import RUPTURE_M, Bolts, bolts_named
 from ...engineering.steelwork.catalogue import section_named
 from ...engineering.steelwork.grades import DENSITY_KG_M3, GRADES, STEEL_MODULI, strengths_pa
 from ...engineering.steelwork.resistance import initial_bow_m, plastic_strength
@@ -246,6 +247,11 @@ class Steelwork(Table):
         """Return the first or last end of a bar by the pattern of its bolts; None where that is not given."""
         bolts = member.bolts(end)
         return None if bolts is None else bolted_end(bolts, member.steel_section, self.grade_of(member))
+
+    def end_opening_m(self, member: SteelMember, end: int) -> float:
+        """Return by how much that joint opens at most until it ruptures: of bolts that are weaker than the bar."""
+        is_bolted = member.bolts(end) is not None and self.end_share(member, end) < 1.0
+        return RUPTURE_M if is_bolted else math.inf
 
     def bow_m(self, member: SteelMember, length_m: float) -> np.ndarray:
         """Return how far a bar is bowed in its middle along y and z of its section (2,), if bars are."""

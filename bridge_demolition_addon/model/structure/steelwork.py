@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -294,9 +295,10 @@ def with_steel_hinges(
     yields, openings, hinges = [], [], []
     for index, number in zip(steel.joints.members.tolist(), steel.joints.numbers.tolist(), strict=True):
         table, bar = tables[members[index].name], _bar(members[index])
-        hinge = section_hinge(bar.section, steelwork.yield_and_ultimate_pa(table)[0])
         end = {0: 0, bar.pieces: 1}.get(number)
         share = factor if end is None else factor * steelwork.end_share(table, end)
+        most_m = math.inf if end is None else steelwork.end_opening_m(table, end)
+        hinge = section_hinge(bar.section, steelwork.yield_and_ultimate_pa(table)[0], most_m)
         yields.append(share * hinge.yield_n)
         openings.append(hinge.opening_m)
         hinges.append((hinge.yield_strain, hinge.hardening, hinge.rupture_strain))
