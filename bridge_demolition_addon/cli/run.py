@@ -20,6 +20,7 @@ from ..model.run_folder.folder import check_folder, numbered_folder, remove_repo
 from ..model.scenario import Scenario
 from ..model.scenario.file import read_scenario
 from ..model.sequence.checked_model import checked_model
+from ..model.sequence.held_parts import held_parts_text
 from ..model.sequence.undisturbed import self_collapse_text
 from ..model.stages.stability import stability_texts
 from ..model.structure.model import Model
@@ -178,9 +179,13 @@ def _report(folders: Sequence[Path], output: Path | None, progress: Progress) ->
     return write_report(folders, output, progress=progress)
 
 
+def _doubts(summary: Mapping[str, Any]) -> tuple[str, ...]:
+    return self_collapse_text(summary), held_parts_text(summary), moving_text(summary)
+
+
 def _print_results(summary: Mapping[str, Any], output: Path, report: Sequence[Path], plain: str) -> None:
     print()
-    for doubt in (plain, *stability_texts(summary), self_collapse_text(summary), moving_text(summary)):
+    for doubt in (plain, *stability_texts(summary), *_doubts(summary)):
         if doubt:
             print(f"{doubt}.\n")
     for name, value in _result_facts(summary):

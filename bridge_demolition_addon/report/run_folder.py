@@ -26,6 +26,7 @@ from ..model.run_folder.summary import RunSummary, read_summary
 from ..model.scenario import Scenario
 from ..model.scenario.file import read_scenario
 from ..model.schema import given
+from ..model.sequence.held_parts import held_parts_text
 from ..model.sequence.undisturbed import self_collapse_text
 from ..system.reading import MEGABYTE, check_file
 
@@ -97,8 +98,9 @@ def read_run(folder: Path) -> ReportedRun:
     summary = _summary(folder, shortcomings)
     if summary and not summary.completed:
         shortcomings.append("The run was stopped before its time: everything here ends where it was stopped.")
-    if summary and (fall := self_collapse_text(summary.values)):
-        shortcomings.append(f"{fall}.")
+    if summary:
+        doubts = self_collapse_text(summary.values), held_parts_text(summary.values)
+        shortcomings.extend(f"{doubt}." for doubt in doubts if doubt)
     if summary and summary.made_by_hand:
         shortcomings.append(
             "The scene was changed in Blender after it was built. The scenario of the run does not hold these changes: "

@@ -16,7 +16,7 @@ from ...engineering.geometry.vectors import dot
 from ...errors import ScenarioError
 from ..loads import Part
 from ..results.inventory import Inventory
-from ..scenario import Change, Removal, SawCut, TendonCut, Weakening, ZoneFiring
+from ..scenario import Change, LiftingAway, Removal, SawCut, TendonCut, Weakening, ZoneFiring
 from ..structure.model import Model
 from ..structure.tendons import ModelTendons
 from .bare_bars import StandingBars, standing_bars
@@ -53,6 +53,7 @@ class Event:
     bars: StandingBars | None = None  # those that stay in it
     pressed: float = 1.0  # factor on the strength in compression, beside the factor on all strengths
     tendons: tuple[CutTendon, ...] = ()  # that are cut, and where
+    lift: str = ""  # name of the lift that takes the bodies away
 
 
 def model_structure(model: Model) -> Structure:
@@ -140,7 +141,8 @@ def _event(change: Change, structure: Structure) -> Event:
             change.left_by_compression,
             tendons,
         )
-    return Event(change.time_s, change.kind, bodies, connections, factor, tendons=tendons)
+    lift = change.name if isinstance(change, LiftingAway) else ""
+    return Event(change.time_s, change.kind, bodies, connections, factor, tendons=tendons, lift=lift)
 
 
 def _cut_with(structure: Structure, connections: np.ndarray, bodies: np.ndarray) -> tuple[CutTendon, ...]:

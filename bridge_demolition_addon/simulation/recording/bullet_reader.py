@@ -24,7 +24,7 @@ from ...scene.tools.ground_motion import rows_on_moving_ground
 from .blast import Blast
 from .breaking import Breaker, Breaks, ElasticPrediction, Resistance
 from .drivers import LastSubstepLoads, ThresholdScale, WarmUp
-from .elastic_connections import ElasticConnections, SupportSprings
+from .elastic_connections import ElasticConnections, RestingState, SupportSprings
 from .events import AppliedEvent, Events
 from .frame_sums import FrameSums
 from .ground_drive import GroundDrive
@@ -96,7 +96,15 @@ class BulletReader:
         breaking, constraints = setup.breaking, world.constraints
         self.tendons = tendons = _tendons_of(setup, world, elastic)
         self.pulls = pulls = Pulls(world.bodies, setup.placed_pulls, inventory.masses_kg) if setup.pulls else None
-        self._events = events = Events(world, inventory.pairs, inventory.masses_kg, setup.events, elastic, tendons)
+        self._events = events = Events(
+            world,
+            inventory.pairs,
+            inventory.masses_kg,
+            setup.events,
+            elastic,
+            tendons,
+            _lifting_off(setup, self.resting_state),
+        )
         if setup.elasticity is None and breaking.ductility and np.any(breaking.ductility.strength_share):
             raise SimulationError(
                 "the connections of this scene are rigid and have bars by ductile_share: expected elastic ones, as "
@@ -189,10 +197,9 @@ class BulletReader:
         named, inventory, elastic = self._named_bearings, self._inventory, self._setup.bearings
         if named is None:
             return None
-        sideways_n_m, lifts_off = np.full((len(inventory.pairs), 2), np.inf), np.zeros(len(inventory.pairs), bool)
+        sideways_n_m = np.full((len(inventory.pairs), 2), np.inf)
         if elastic and self.resting_state:
             sideways_n_m[elastic.springs.rows] = elastic.springs.sideways_of_connections()
-            lifts_off[elastic.springs.rows] = ~elastic.springs.pulls
         return BearingPads.as_built(
             named.rows,
             named.bearings,
@@ -200,7 +207,7 @@ class BulletReader:
             inventory.points_m[named.rows],
             inventory.areas_m2[named.rows],
             sideways_n_m[named.rows],
-            lifts_off[named.rows],
+            _lifting_off(self._setup, self.resting_state)[named.rows],
             self._built_positions_m,
             self._built_rotations,
         )
@@ -305,3 +312,11 @@ def _tendons_of(setup: RunSetup, world: BulletWorld, elastic: ElasticConnections
     if setup.tendons is None or elastic is None or elastic.tendons is None:
         return None
     return Tendons(world.bodies, setup.tendons, elastic.tendons)
+
+
+def _lifting_off(setup: RunSetup, resting_state: RestingState | None) -> np.ndarray:
+    """Return which connections (m,) are bearings that hold nothing that is lifted: none where all are rigid."""
+    lifts_off = np.zeros(len(setup.inventory.pairs), bool)
+    if setup.bearings and resting_state:
+        lifts_off[setup.bearings.springs.rows] = ~setup.bearings.springs.pulls
+    return lifts_off

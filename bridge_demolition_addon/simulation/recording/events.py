@@ -33,6 +33,8 @@ class AppliedEvent:
     zone: ZoneFiring | None = None
     bars: np.ndarray = field(default_factory=lambda: _NONE)  # numbers (g,) of groups of bars that stand bare since then
     law: Cages | None = None  # of all such bars
+    lift: str = ""  # name of the lift that took the bodies away
+    held_by: np.ndarray = field(default_factory=lambda: _NONE)  # bodies (h,) that still held them
 
     def bars_so_far(self) -> dict[str, float]:
         """Return the largest force that pressed its bars, and how far they folded; nothing where none stand bare."""
@@ -57,7 +59,7 @@ class Events(Driver):
     The connections are between pairs (m, 2) of bodies with masses (n,); `remaining_strength` (m,) is the part of its
     strength that each has left, and `remaining_bars` (m,) that of its bars, which is less where tendons among them are
     cut. Bars of blast zones stand bare where connections are elastic. `pressed` (m,) is by how
-    much more strength each has left in compression.
+    much more strength each has left in compression. `lifts_off` (m,) are bearings that hold nothing that is lifted.
     """
 
     def __init__(
@@ -68,12 +70,13 @@ class Events(Driver):
         events: Sequence[Event],
         elastic: ElasticConnections | None = None,
         tendons: Tendons | None = None,
+        lifts_off: np.ndarray | None = None,
     ):
         self.remaining_strength = np.ones(len(pairs))
         self.remaining_bars = self.remaining_strength if tendons is None else np.ones(len(pairs))
         self._tendons = tendons
         self.pressed = np.ones(len(pairs)) if any(event.pressed != 1.0 for event in events) else None
-        self._elastic = elastic
+        self._elastic, self._lifts_off = elastic, np.zeros(len(pairs), bool) if lifts_off is None else lifts_off
         self.applied: list[AppliedEvent] = []
         self._world, self._pairs, self._masses_kg = world, pairs, masses_kg
         self._impulses_ns = np.zeros((len(masses_kg), 3))
@@ -97,6 +100,7 @@ class Events(Driver):
         return impulses
 
     def _apply(self, event: Event) -> None:
+        held_by = self._bodies_holding(event) if event.lift else _NONE
         connections = event.connections[self._world.constraints.intact()[event.connections]]
         bars = _NONE
         if self._elastic and event.bars:
@@ -126,7 +130,18 @@ class Events(Driver):
             until_s = self._begins_s + event.departure.duration_s
             self._leaving.append(_Leaving(event.bodies, event.departure, until_s))
         law = self._elastic.bare_bars.law if self._elastic else None
-        self.applied.append(AppliedEvent(self._begins_s, event.kind, bodies, connections, event.zone, bars, law))
+        self.applied.append(
+            AppliedEvent(self._begins_s, event.kind, bodies, connections, event.zone, bars, law, event.lift, held_by)
+        )
+
+    def _bodies_holding(self, event: Event) -> np.ndarray:
+        """Bodies (h,) that hold the part that a lift takes away, by connections or by bars across cracks."""
+        holding = self._world.constraints.intact()
+        if self._elastic:
+            holding = self._elastic.holding(holding) & (self.remaining_strength > 0.0)
+        ends = np.isin(self._pairs, event.bodies)
+        crossing = holding & ~self._lifts_off & (ends[:, 0] != ends[:, 1])
+        return np.unique(self._pairs[crossing][~ends[crossing]])
 
     def _goes_on(self, leaving: _Leaving, substep_s: float) -> bool:
         """Move bodies that leave their member for one more sub-step, or let them go; return whether they go on."""

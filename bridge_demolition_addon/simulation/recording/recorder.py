@@ -15,6 +15,7 @@ from ...bullet.time_control import time_stands_still
 from ...bullet.world import BulletWorld, WorldState
 from ...errors import LayoutError, OutputError, SimulationError
 from ...model.results.frames import BallHistory, ContactHistory, Frame
+from ...model.results.inventory import Inventory
 from ...model.scenario import ZoneFiring
 from ...model.schema import given
 from ...scene.as_built import changed_bodies, check_start
@@ -191,6 +192,11 @@ class Recording(RecordedFrames):
                 "shards": [str(names[body]) for body in event.bodies],
                 "connections": len(event.connections),
                 **(_of_zone(event.zone) | event.bars_so_far() if event.zone else {}),
+                **(
+                    {"lift": event.lift, "held_by": _members_of(event.held_by, given(self.inventory))}
+                    if event.lift
+                    else {}
+                ),
             }
             for event in (self._reader.applied_events if self._reader else ())
         ]
@@ -357,3 +363,9 @@ def _of_zone(zone: ZoneFiring) -> dict[str, Any]:
         "cage_tension_n": zone.cage_tension_n,
         "cage_compression_n": zone.cage_compression_n,
     }
+
+
+def _members_of(bodies: np.ndarray, inventory: Inventory) -> list[str]:
+    """Return the names of the members of bodies (b,), or of bodies that are of none, such as the ground."""
+    members, names = inventory.body_members[bodies].tolist(), inventory.body_names[bodies].tolist()
+    return sorted({str(member or name) for member, name in zip(members, names, strict=True)})

@@ -14,6 +14,7 @@ from ...model.run_folder.folder import check_folder, keep_scenario, lock_in_plac
 from ...model.run_folder.summary import RunSummary
 from ...model.scenario import RecordingSettings, Scenario
 from ...model.scenario.recording import PictureSettings
+from ...model.sequence.held_parts import held_parts_text
 from ...model.sequence.rest import Rest
 from ...model.sequence.undisturbed import self_collapse_text
 from ...scene.as_built import manual_edits
@@ -160,6 +161,7 @@ def end_with_results(operator: bpy.types.Operator, recording: Recording, *, stop
     warnings = [
         f"The recording ended early: {recording.error}" if recording.error else stopped,
         self_collapse_text(session.last_recording().summary.values),
+        held_parts_text(session.last_recording().summary.values),
         moving_text(session.last_recording().summary.values),
         creep_text(session.last_recording().summary.values),
         _changed_bodies_text(recording),

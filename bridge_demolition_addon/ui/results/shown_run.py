@@ -15,6 +15,7 @@ from ...model.results.bar_extremes import bars_text, largest_use_text
 from ...model.results.moving import moving_text
 from ...model.run_folder.files import SUMMARY_FILE
 from ...model.run_folder.summary import RunSummary, read_summary
+from ...model.sequence.held_parts import held_parts_text
 from ...model.sequence.undisturbed import self_collapse_text
 from ...model.stages.stability import stability_texts
 from ...simulation.kept_run import digest_of_run, folder_of_run, has_run, results_of_run
@@ -82,6 +83,7 @@ class ShownRun:
                         (
                             *stability_texts(summary.values),
                             self_collapse_text(summary.values),
+                            held_parts_text(summary.values),
                             moving_text(summary.values),
                         ),
                     )
