@@ -209,8 +209,13 @@ def _followed(corners: FloatArray, line: FloatArray) -> OwnAxes:
     if not inner:
         inner = [(0.5 * stations[-1], line.mean(axis=0), ways[0])]
     cuts = [_cut(corners, point, way) for _, point, way in inner]
-    width = float(np.median([np.ptp(cut[..., 0]) for cut in cuts]))
+    width = float(np.median([np.ptp(cut[..., 0]) for cut in cuts if len(cut)]))
     near = [cut[(np.abs(cut[..., 0]) <= 0.75 * width).any(axis=1)] for cut in cuts]
+    # Where a member has a gap, or lies beside the line, nothing is cut near it.
+    met = [row for row, cut in enumerate(near) if len(cut)]
+    if len(line) > 2:
+        line = line[[0, *(row + 1 for row in met), -1]]
+    inner, near = [inner[row] for row in met], [near[row] for row in met]
     across = 0.5 * _INSIDE * width * np.linspace(-1.0, 1.0, _ACROSS)
     surfaces = [_surfaces(cut, across) for cut in near]
     at = np.array([station for station, _, _ in inner])
@@ -221,7 +226,7 @@ def _followed(corners: FloatArray, line: FloatArray) -> OwnAxes:
     ends_at, undersides = _to_the_ends(at, undersides, 0.0, total)
     _, slopes = _to_the_ends(at, slopes, 0.0, total)
     _, tops = _to_the_ends(at, tops, 0.0, total)
-    points = line if len(ends_at) == len(stations) else np.array([line[0], line[-1]])
+    points = line if len(ends_at) == len(line) else np.array([line[0], line[-1]])
     depths = tops - undersides[:, None] - slopes[:, None] * across
     height = float(np.median(depths[:, 1:-1]))
     axes = OwnAxes(ends_at, points, total, width, 0.0, height, undersides, slopes, across, tops, ())

@@ -84,3 +84,15 @@ def test_a_column_has_the_axes_of_its_plan():
     own = axes.from_world(points)
     assert np.ptp(own, axis=0) == pytest.approx((0.6, 0.4, 5.0))
     assert axes.to_world(own) == pytest.approx(points)
+
+
+def test_a_member_with_two_arms_has_axes_too():
+    """Its line runs from one arm to the middle of the other, where nothing is cut near it."""
+    arms = box((10.0, 1.0, 1.0), (0.0, 0.0, 0.0)), box((1.0, 8.0, 1.0), (4.5, 4.0, 0.0))
+    count = len(arms[0].vertices)
+    both = TriangleMesh(
+        np.concatenate([arm.vertices for arm in arms]),
+        np.concatenate((arms[0].triangles, arms[1].triangles + count)),
+    )
+    axes = lying_axes(both)
+    assert (axes.width_m, axes.height_m) == pytest.approx((1.0, 1.0))
