@@ -24,7 +24,7 @@ from ..scenario.values import scenario_of
 from ..viewport import redraw_views
 from .decorator import is_wanted_in
 
-_LOOK_EVERY_S = 0.15
+LOOK_EVERY_S = 0.15
 _MOST_KEPT = 20
 """Previews of scenarios that were shown before: undo brings these back at once."""
 
@@ -59,7 +59,7 @@ class RunBeside:
     @is_on.setter
     def is_on(self, wanted: bool) -> None:
         if wanted and not self._is_on and not bpy.app.timers.is_registered(look_in):
-            bpy.app.timers.register(look_in, first_interval=_LOOK_EVERY_S, persistent=True)
+            bpy.app.timers.register(look_in, first_interval=LOOK_EVERY_S, persistent=True)
         if not wanted:
             self.forget()
         self._is_on = wanted
@@ -169,7 +169,7 @@ def look_in() -> float | None:
         beside.end()
         beside.shown = Preview(None, True, reason=f"{type(error).__name__}: {error}")
         redraw_views()
-    return _LOOK_EVERY_S
+    return LOOK_EVERY_S
 
 
 def _settings_shown() -> Iterator[bpy.types.PropertyGroup]:
