@@ -90,6 +90,11 @@ class AnsweringProgram:
             self._requests.write(json.dumps(request) + "\n")
             self._requests.flush()
 
+    @property
+    def process_id(self) -> int:
+        """The system's number of the process."""
+        return self._process.pid
+
     def memory_mb(self) -> float:
         """Memory that the process has now; 0 once it has ended."""
         try:

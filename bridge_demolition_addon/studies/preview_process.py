@@ -6,6 +6,7 @@ import queue
 import tempfile
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from ..display.preview_outcome import PreviewOutcome
@@ -60,19 +61,27 @@ class PreviewProcess:
         """Whether a run is asked for that has not ended yet."""
         return self._is_running
 
+    @property
+    def process_id(self) -> int | None:
+        """The system's number of the process; None before it is first needed, and once it has ended."""
+        return self._program.process_id if self._program else None
+
     def ask(self, scenario: str) -> None:
         """Have a scenario run, in TOML; this ends the run before. A program that cannot start raises SimulationError.
+        A full disk raises OSError.
 
         Parameters
         ----------
         scenario
             Text of its file.
         """
-        program = self._ready_program()
-        assert self._folder  # of the program
+        program, folder = self._ready_program()
+        (folder / f"{self._number}.toml").unlink(missing_ok=True)
         self._number += 1
+        path = folder / f"{self._number}.toml"
+        path.write_text(scenario, encoding="utf-8")  # a pipe that is full would have Blender wait
         self._is_running = True
-        program.ask({"number": self._number, "folder": self._folder.name, "scenario": scenario})
+        program.ask({"number": self._number, "folder": str(folder), "scenario": str(path)})
 
     def stop(self) -> None:
         """End the run under way; the process stays."""
@@ -117,11 +126,11 @@ class PreviewProcess:
         if folder:
             folder.cleanup()
 
-    def _ready_program(self) -> AnsweringProgram:
-        if self._program is None:
+    def _ready_program(self) -> tuple[AnsweringProgram, Path]:
+        if self._program is None or self._folder is None:
             self._program = AnsweringProgram(self._command)
             self._folder = tempfile.TemporaryDirectory(prefix="bda-preview-", ignore_cleanup_errors=True)
-        return self._program
+        return self._program, Path(self._folder.name)
 
 
 def _preview_of(answer: dict[str, Any]) -> Preview:

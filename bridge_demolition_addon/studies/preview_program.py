@@ -1,8 +1,8 @@
 """The program that makes previews in Blender: ``python -m bridge_demolition_addon.studies.preview_program``.
 
 It answers requests as `answering_program` asks them, and of several the last one alone: a newer request ends the run
-under way at its next frame. A request has a scenario, or nothing to have no run made. It is answered while its run goes
-on, every few seconds, and at its end.
+under way at its next frame. A request has the file of a scenario, or none to have no run made. The program answers
+while a run goes on, every few seconds, and at its end.
 """
 
 from __future__ import annotations
@@ -69,7 +69,7 @@ def play(service: RunService, request: Mapping[str, Any], folder: Path) -> dict[
     from ..simulation.motion_run import motion_run
 
     answer_at_s = time.monotonic() + FIRST_ANSWER_S
-    scenario = scenario_from_text(request["scenario"])
+    scenario = scenario_from_text(Path(request["scenario"]).read_text(encoding="utf-8"))
     members = prepared_members(scenario).members
     scenario = preview_scenario(scenario, members)
     model = checked_model(scenario, members)

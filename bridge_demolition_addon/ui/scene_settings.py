@@ -10,7 +10,7 @@ from .ensemble.prop import EnsembleProperties, read_earlier_files
 from .ground.prop import GroundProperties
 from .ifc.prop import BDA_PG_ifc_element, IfcProperties
 from .languages.words import in_own_context
-from .preview.run_beside import PreviewRunProperties
+from .preview.prop import PreviewRunProperties
 from .scenario import prop as scenario_properties
 from .scenario.earlier import mark_defaults, read_earlier_bodies, read_earlier_defaults
 from .sidebar import path_property, tooltip

@@ -12,7 +12,6 @@ from dataclasses import dataclass, field
 
 import bpy
 from bpy.app.handlers import persistent
-from bpy.props import BoolProperty
 
 from ...errors import DemolitionError, text_of
 from ...model.scenario import Scenario
@@ -81,7 +80,7 @@ class RunBeside:
             return True
         try:
             self._ready_process().ask(text)
-        except DemolitionError as error:
+        except (DemolitionError, OSError) as error:
             self._leave(Preview(None, True, reason=text_of(error)), scenario)
             return True
         self.is_of_before = self.shown is not None
@@ -115,6 +114,12 @@ class RunBeside:
         if process:
             process.end()
 
+    def fail(self, reason: str) -> None:
+        """End the process for a reason, and begin again with another scenario only."""
+        asked = self._asked
+        self.end()
+        self._asked, self.shown, self.is_of_before = asked, Preview(None, True, reason=reason), False
+
     def forget(self) -> None:
         """End the process, and forget all that it found."""
         self.end()
@@ -139,21 +144,6 @@ beside = RunBeside()
 atexit.register(beside.end)
 
 
-class PreviewRunProperties:
-    """Part of the settings of a scene."""
-
-    preview_run: BoolProperty(
-        name="Preview While Dragging",
-        description="While you drag the ball, a charge or a blast zone, or change a value, run the scenario of the "
-        "panels in some 50 to 80 shards in a process of its own, and show the outline of its debris, what falls and "
-        "what stands. It is one coarse run and no forecast, takes a processor and about 0.5 GB of memory, and changes "
-        "nothing in the file. Off again with the next file",
-        get=lambda _settings: beside.is_on,
-        set=lambda _settings, wanted: _switch(wanted),
-        options={"SKIP_SAVE"},
-    )
-
-
 def look_in() -> float | None:
     """Follow what the panels show, and return when Blender's timer calls again, s; None once it is off."""
     if not beside.is_on:
@@ -166,8 +156,7 @@ def look_in() -> float | None:
         if is_new:
             redraw_views()
     except Exception as error:  # a timer that raises is heard in the console alone, and called no more
-        beside.end()
-        beside.shown = Preview(None, True, reason=f"{type(error).__name__}: {error}")
+        beside.fail(f"{type(error).__name__}: {error}")
         redraw_views()
     return LOOK_EVERY_S
 
@@ -179,11 +168,6 @@ def _settings_shown() -> Iterator[bpy.types.PropertyGroup]:
             if is_wanted_in(window.scene, window.screen):
                 yield window.scene.bda
                 return
-
-
-def _switch(wanted: bool) -> None:
-    beside.is_on = wanted
-    redraw_views()
 
 
 @persistent
