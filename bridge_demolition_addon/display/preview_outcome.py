@@ -8,6 +8,7 @@ from typing import Any, Self
 
 import numpy as np
 
+from ..engineering.geometry.plan_areas import without_gaps
 from ..engineering.geometry.vectors import transformed, transformed_back
 from ..model.debris.throws import debris_of
 from ..model.results.arrays import Results
@@ -16,6 +17,9 @@ from .ground_lines import draped, outline_lines
 
 _DECIMALS = 3
 """Of a metre, of lines that are handed from process to process as text."""
+
+GAP_M = 2.0
+"""Shards that lie less apart are in one outline: a ring around each would not show where debris ends."""
 
 _LINES = ("debris_lines_m", "fallen_lines_m", "standing_lines_m")
 
@@ -33,7 +37,7 @@ class PreviewOutcome:
     time_s, duration_s : float
         Simulated time so far, and that of the whole scenario.
     debris_lines_m : (2 k, 3) float
-        Outline of the debris on the ground.
+        Outline of the debris on the ground, around what lies less than `GAP_M` apart.
     fallen_lines_m, standing_lines_m : (2 k, 3) float
         Edges of the shards that are debris, and of all others, where they are.
     """
@@ -81,7 +85,7 @@ class PreviewOutcome:
             farthest_m=float(debris.reaches_m.max(initial=0.0)),
             time_s=float(results.frames.time_s[-1]),
             duration_s=duration_s,
-            debris_lines_m=draped(outline_lines(debris.area), debris.ground),
+            debris_lines_m=draped(outline_lines(without_gaps(debris.area, GAP_M)), debris.ground),
             fallen_lines_m=_joined([moved[rows[body]] for body in shards.tolist() if body in fallen]),
             standing_lines_m=_joined([moved[rows[body]] for body in shards.tolist() if body not in fallen]),
         )

@@ -29,16 +29,16 @@ def sentences() -> list[str]:
         return [translated("Preview: one coarse run begins")] if beside.is_running else []
     if shown.outcome is None:
         return [translated("No preview: {}").format(shown.reason)]
-    lines = _of_outcome(shown.outcome)
+    lines = _of_outcome(shown.outcome, shown.is_over)
     if beside.is_of_before:
         return [*lines, translated("These are the values before; a new run goes on")]
     return [*lines, _progress(shown, shown.outcome)]
 
 
-def _of_outcome(outcome: PreviewOutcome) -> list[str]:
+def _of_outcome(outcome: PreviewOutcome, is_over: bool) -> list[str]:
     heading = translated("Preview in {} shards: one coarse run, no forecast").format(outcome.shards)
     if not outcome.fallen:
-        return [heading, translated("All shards stand")]
+        return [heading, translated("All shards stand" if is_over else "All shards stand so far")]
     fallen = translated("{} shards ({}) fall, {} stand").format(
         outcome.fallen, mass_text(outcome.fallen_kg), outcome.standing
     )
