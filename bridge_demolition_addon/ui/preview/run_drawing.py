@@ -1,4 +1,4 @@
-"""Drawing the preview of a run in the 3D view: debris on the ground, what falls, what stands, and in words."""
+"""Drawing the preview of a run in the 3D view: debris on the ground, what falls, what stands, and sentences on it."""
 
 from __future__ import annotations
 
