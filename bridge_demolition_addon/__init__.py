@@ -269,8 +269,8 @@ def _interface() -> tuple:
     from .ui.ensemble import study
     from .ui.ground import decorator as ground_decorator
     from .ui.languages import tables
-    from .ui.preview import bars
+    from .ui.preview import bars, run_beside, run_drawing
     from .ui.preview import decorator as preview_decorator
 
-    drawings = (module.drawing for module in (decorator, ground_decorator, study, preview_decorator, bars))
-    return (blender_events, tables, scene_settings, registration, *drawings)
+    drawings = (module.drawing for module in (decorator, ground_decorator, study, preview_decorator, bars, run_drawing))
+    return (blender_events, tables, scene_settings, registration, run_beside, *drawings)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -16,17 +16,19 @@ from ..model.sequence.undisturbed import left_alone
 from ..model.structure.model import Model, build_model
 from ..scene.demolition import build_demolition
 from ..system.signals import interrupted_afterwards
-from .playback import play_alone
+from .playback import Playing, play_alone
 from .recording.recorder import Recording
 from .run_summary import RunContext, rest_watch, run_summary
 
 
 @contextmanager
-def motion_run(scenario: Scenario, model: Model, folder: Path) -> Iterator[tuple[Results, dict[str, Any]]]:
+def motion_run(
+    scenario: Scenario, model: Model, folder: Path, after_frame: Callable[[Playing], None] | None = None
+) -> Iterator[tuple[Results, dict[str, Any]]]:
     """Simulate a scenario in an otherwise empty Blender file, and return results and summary, which last for the block.
 
     Motion and breaking have the same bits as those of `run_scenario`; loads and work are unknown. Frames are kept in an
-    existing folder during the block.
+    existing folder during the block. `after_frame` looks on after each frame; what it raises ends the run.
     """
     with interrupted_afterwards():
         bpy.ops.wm.read_homefile(use_factory_startup=True, use_empty=True)  # add-ons stay, one of which this may be
@@ -36,7 +38,7 @@ def motion_run(scenario: Scenario, model: Model, folder: Path) -> Iterator[tuple
     rest = rest_watch(scenario, context.ground_motion) if scenario.time.stop_at_rest else None
     recording = Recording(scene, folder, every_substep=scenario.recording.every_substep, loads=False)
     try:
-        play_alone(recording, stop_at=rest)
+        play_alone(recording, rest, after_frame)
         results = recording.results()
         yield results, run_summary(recording, results, context, completed=True)
     finally:

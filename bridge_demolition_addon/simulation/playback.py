@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 
 import bpy
 import numpy as np
@@ -128,12 +129,19 @@ class Playing:
             raise SimulationError("another program ended the recording")
 
 
-def play_alone(recording: Recording, stop_at: Rest | None = None) -> None:
-    """Play all frames of a scene that cannot be edited meanwhile, and end the recording."""
+def play_alone(
+    recording: Recording, stop_at: Rest | None = None, after_frame: Callable[[Playing], None] | None = None
+) -> None:
+    """Play all frames of a scene that cannot be edited meanwhile, and end the recording.
+
+    `after_frame` looks on after each; what it raises ends the run.
+    """
     playing = Playing(recording, stop_at, alone=True)
     try:
         while not playing.finished:
             playing.step()
+            if after_frame:
+                after_frame(playing)
     finally:
         playing.end()
     if recording.error:

@@ -62,8 +62,18 @@ class RunService:
         """Answer requests until there are no more: say which versions are run, then play each request."""
         self.say({"versions": dict(versions)})
         while True:
-            request = json.loads(self._requests.get())
-            self.say(_answer(request, play))
+            request = self.next_request()
+            self.say(answer_of(request, play))
+
+    @property
+    def is_asked(self) -> bool:
+        """Whether another request waits."""
+        return not self._requests.empty()
+
+    def next_request(self) -> dict[str, Any]:
+        """Return the next request; wait for it."""
+        request: dict[str, Any] = json.loads(self._requests.get())
+        return request
 
     def _listen(self) -> None:
         for line in sys.stdin:
@@ -71,7 +81,8 @@ class RunService:
         os._exit(0)  # whatever is at work
 
 
-def _answer(request: Mapping[str, Any], play: Play) -> Mapping[str, Any]:
+def answer_of(request: Mapping[str, Any], play: Play) -> Mapping[str, Any]:
+    """Return the answer to a request: what its run gives, or why it gives nothing, as ``status`` and ``reason``."""
     try:
         return {"status": DONE, **play(request, Path(request["folder"]))}
     except (BlastError, GeometryError, ScenarioError) as error:

@@ -10,6 +10,7 @@ from .ensemble.prop import EnsembleProperties, read_earlier_files
 from .ground.prop import GroundProperties
 from .ifc.prop import BDA_PG_ifc_element, IfcProperties
 from .languages.words import in_own_context
+from .preview.prop import PreviewRunProperties
 from .scenario import prop as scenario_properties
 from .scenario.earlier import mark_defaults, read_earlier_bodies, read_earlier_defaults
 from .sidebar import path_property, tooltip
@@ -27,6 +28,7 @@ class BDA_PG_settings(
     EnsembleProperties,
     StageProperties,
     IfcProperties,
+    PreviewRunProperties,
     bpy.types.PropertyGroup,
 ):
     """Settings that the panels show; those from the schema are added when they are made."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import blf
 import bpy
@@ -17,6 +17,7 @@ FONT_PX = 12.0
 PANEL_COLOUR = (0.1, 0.1, 0.1, 0.8)
 TEXT_COLOUR = (1.0, 1.0, 1.0, 1.0)
 _FONT = 0
+_LINE, _FOOT_PX = 1.5, 40.0
 
 Draw = Callable[[bpy.types.Context], None]
 
@@ -125,3 +126,18 @@ def write_at(context: bpy.types.Context, position_m: tuple, text: str, dot: tupl
         draw_rectangle(point.x - edge, point.y - edge, point.x + edge, point.y + edge, dot)
     draw_rectangle(x - edge, y - edge, x + width + edge, y + height + edge, PANEL_COLOUR)
     write(context, x, y, text)
+
+
+def write_at_foot(context: bpy.types.Context, lines: Sequence[str]) -> None:
+    """Write lines on a dark ground at the foot of the view, in the middle of what tools and sidebar leave of it."""
+    if not lines:
+        return
+    scale = context.preferences.system.ui_scale
+    blf.size(_FONT, FONT_PX * scale)
+    widths = [blf.dimensions(_FONT, line)[0] for line in lines]
+    line_px, edge, foot = _LINE * FONT_PX * scale, FONT_PX * scale, _FOOT_PX * scale
+    left, right = covered_px(context, "TOOLS"), context.region.width - covered_px(context, "UI")
+    x = max((left + right - max(widths)) / 2.0, left + edge)
+    draw_rectangle(x - edge, foot, x + max(widths) + edge, foot + len(lines) * line_px + edge, PANEL_COLOUR)
+    for number, line in enumerate(reversed(lines)):
+        write(context, x, foot + edge + number * line_px, line)

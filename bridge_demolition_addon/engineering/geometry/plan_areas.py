@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 import numpy as np
-from manifold3d import CrossSection, OpType
+from manifold3d import CrossSection, JoinType, OpType
 
 from ..arrays import FloatArray, IntArray
 from .vectors import cross_2d, distance, dot
@@ -13,6 +13,7 @@ from .vectors import cross_2d, distance, dot
 FEWEST_CORNERS = 3
 
 _UNITED_AT_ONCE = 8
+_CIRCLE_SEGMENTS = 32
 
 PAIRS_PER_BLOCK = 200_000
 """Pairs of point and side that `distances_outside` looks at in one go; bounds its memory to some tens of megabytes."""
@@ -33,6 +34,15 @@ def united(areas: Iterable[CrossSection]) -> CrossSection:
         groups = range(0, len(areas), _UNITED_AT_ONCE)
         areas = [CrossSection.batch_boolean(areas[first : first + _UNITED_AT_ONCE], OpType.Add) for first in groups]
     return areas[0] if areas else CrossSection()
+
+
+def without_gaps(area: CrossSection, gap_m: float) -> CrossSection:
+    """Area with all gaps and holes in it that are narrower than `gap_m`: one outline around parts that lie close."""
+    if area.is_empty():
+        return area
+    wide = area.offset(gap_m / 2.0, JoinType.Round, circular_segments=_CIRCLE_SEGMENTS)
+    closed = wide.offset(-gap_m / 2.0, JoinType.Round, circular_segments=_CIRCLE_SEGMENTS)
+    return united([area, closed])  # rounded corners would cut off some millimetres of it
 
 
 def outlines(area: CrossSection) -> list[FloatArray]:

@@ -24,7 +24,12 @@ _FIELDS = {item.name: item for item in shown_tables(Scenario) if item.name in ("
 
 def is_wanted(context: bpy.types.Context) -> bool:
     """Return whether a preview and its handles are shown: while the tab is open, and nothing plays."""
-    return context.scene.bda.show_preview and not context.screen.is_animation_playing and _tab_is_open(context.screen)
+    return is_wanted_in(context.scene, context.screen)
+
+
+def is_wanted_in(scene: bpy.types.Scene, screen: bpy.types.Screen) -> bool:
+    """Return whether previews are shown of a scene on a screen."""
+    return scene.bda.show_preview and not screen.is_animation_playing and _tab_is_open(screen)
 
 
 def preview_lines(settings: bpy.types.PropertyGroup) -> np.ndarray:

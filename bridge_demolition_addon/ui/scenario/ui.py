@@ -108,6 +108,7 @@ class BDA_PT_scenario(SidebarPanel, bpy.types.Panel):
         draw_run(column, settings, has_changed=bool(changes(settings)))
         draw_messages(layout, context)
         draw_stability(layout, context)
+        layout.prop(settings, "preview_run")
         layout.prop(settings, "scenario_path", text="", placeholder=translated("Scenario file"))
         row = layout.row(align=True)
         row.operator("bda.load_scenario", text="Load")

@@ -6,7 +6,7 @@ import pytest
 from manifold3d import CrossSection
 
 from bridge_demolition_addon.engineering.geometry import plan_areas
-from bridge_demolition_addon.engineering.geometry.plan_areas import distances_outside, united
+from bridge_demolition_addon.engineering.geometry.plan_areas import distances_outside, united, without_gaps
 
 SQUARE = CrossSection.square((1.0, 1.0))
 
@@ -30,3 +30,14 @@ def test_many_points_are_measured_as_single_ones(monkeypatch):
     in_hole = np.maximum(x, y) < 0.25
     expected[in_hole] = 0.25 - np.maximum(x, y)[in_hole]
     assert np.array(singly)[alone] == pytest.approx(expected[alone])
+
+
+def test_gaps_are_closed_where_they_are_narrower_and_nothing_is_lost():
+    near, far = SQUARE + SQUARE.translate((1.5, 0.0)), SQUARE + SQUARE.translate((2.5, 0.0))
+    closed = without_gaps(near, 1.0)
+    assert closed.num_contour() == 1
+    assert 2.0 < closed.area() <= 2.5 + 1e-6  # rounded where it was closed
+    assert (near - closed).area() == pytest.approx(0.0, abs=1e-9)
+    assert without_gaps(far, 1.0).area() == pytest.approx(2.0, abs=1e-3)
+    assert without_gaps(far, 1.0).num_contour() == 2
+    assert without_gaps(CrossSection(), 1.0).is_empty()

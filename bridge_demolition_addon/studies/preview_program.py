@@ -1,0 +1,91 @@
+"""The program that makes previews in Blender: ``python -m bridge_demolition_addon.studies.preview_program``.
+
+It answers requests as `answering_program` asks them, and of several the last one alone: a newer request ends the run
+under way at its next frame. A request has the file of a scenario, or none to have no run made. The program answers
+while a run goes on, every few seconds, and at its end.
+"""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Mapping
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NoReturn
+
+from ..display.bridge_preview import sharp_edges
+from ..display.preview_outcome import PreviewOutcome
+from ..model.bridge.preparation import prepared_members
+from ..model.scenario.file import scenario_from_text
+from ..model.sequence.checked_model import checked_model
+from ..model.study.preview_scenario import preview_scenario
+from ..system.programs import program_command
+from .run_service import RunService, answer_of
+from .versions import versions_with
+
+if TYPE_CHECKING:
+    from ..simulation.playback import Playing
+
+FIRST_ANSWER_S = 2.0
+"""After a request; the run may go on."""
+
+_NEXT_ANSWERS_S = 1.0
+
+
+class _SupersededError(BaseException):
+    """A newer request waits; no `except Exception` keeps the older one going."""
+
+
+def preview_program_command(blender: str = "") -> list[str]:
+    """Return the command of this program, run by this Python or by a program of Blender."""
+    return program_command("studies.preview_program", blender)
+
+
+def main() -> NoReturn:
+    """Answer requests until there are no more."""
+    service = RunService()
+    try:
+        import bpy
+
+        from ..simulation import motion_run  # noqa: F401, loaded before anything is asked
+    except ModuleNotFoundError as error:
+        service.say({"error": f"Blender is not there: install the bpy package or run inside Blender ({error})"})
+        os._exit(1)
+    service.say({"versions": versions_with(".".join(map(str, bpy.app.version)))})
+    while True:
+        request = service.next_request()
+        if service.is_asked or "scenario" not in request:
+            continue
+        try:
+            answer = answer_of(request, partial(play, service))
+        except _SupersededError:
+            continue
+        service.say({"number": request["number"], "is_over": True, **answer})
+
+
+def play(service: RunService, request: Mapping[str, Any], folder: Path) -> dict[str, Any]:
+    """Make the run of a request, whose frames are kept in a folder meanwhile, and return its outcome."""
+    from ..simulation.motion_run import motion_run
+
+    answer_at_s = time.monotonic() + FIRST_ANSWER_S
+    scenario = scenario_from_text(Path(request["scenario"]).read_text(encoding="utf-8"))
+    members = prepared_members(scenario).members
+    scenario = preview_scenario(scenario, members)
+    model = checked_model(scenario, members)
+    edges = [sharp_edges(shard) for shard in model.shards]
+    duration_s = scenario.time.duration_s
+
+    def look_on(playing: Playing) -> None:
+        nonlocal answer_at_s
+        if service.is_asked:
+            raise _SupersededError
+        if time.monotonic() < answer_at_s or not playing.recording.recorded_frames:
+            return
+        outcome = PreviewOutcome.of(playing.recording.results(), edges, duration_s)
+        so_far = {"outcome": outcome.stored(), "left_s": playing.left_s}
+        service.say({"number": request["number"], "is_over": False, "status": "running", **so_far})
+        answer_at_s = time.monotonic() + _NEXT_ANSWERS_S
+
+    with motion_run(scenario, model, folder, look_on) as (results, _):
+        return {"outcome": PreviewOutcome.of(results, edges, duration_s).stored()}
