@@ -66,7 +66,7 @@ def next_step(scene: bpy.types.Scene) -> str:
         return "Next: values have changed; Build Again and Run"
     if not has_run(scene):
         return "Next: Run, and watch it"
-    return "Next: see Results and Post Processing below, and make a Report"
+    return "Next: see Results below, and make a Report"
 
 
 def breaking_note(scenario: bpy.types.PropertyGroup) -> str:
