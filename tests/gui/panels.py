@@ -2,6 +2,7 @@
 """The panels of the tab: opening and closing them by their headers, and making the sidebar wider."""
 
 from collections.abc import Iterator
+from itertools import pairwise
 
 import bpy
 from person import NOTCHES, Person, Steps
@@ -44,7 +45,7 @@ class Panels:
         yield from self._person.scroll_to_top()
         yield from self._show_group(way[0])
         y = self._top_header(way[0])
-        for outer, inner in zip(way, way[1:], strict=False):
+        for outer, inner in pairwise(way):
             shown = self._shown_in(outer)
             y -= BELOW_HEADER_PX
             for above in shown[: shown.index(inner)]:

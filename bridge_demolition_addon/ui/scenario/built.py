@@ -86,6 +86,12 @@ def changes(settings: bpy.types.PropertyGroup) -> list[ChangedValue]:
     return [] if kept is None else list(changes_in(settings.scenario, Scenario, kept))
 
 
+def is_emptied(scene: bpy.types.Scene) -> bool:
+    """Return whether the user has deleted all bodies that were built in a scene: it can be built in once more."""
+    world = scene.rigidbody_world
+    return bool(scene.bda.built_scenario and world and world.collection and not world.collection.all_objects)
+
+
 def has_changed(settings: bpy.types.PropertyGroup, tables: Collection[str]) -> bool:
     """Return whether a value in some tables of the scenario has changed since the scene was built."""
     kept = built_values(settings)
