@@ -33,7 +33,7 @@ def results_come_into_view(person: Person, panels: Panels, drawn: set[str]) -> S
     """Before a run there is no panel of results; after it there is one, and it is open."""
     yield from panels.show_only("Scenario")
     yield from build(person)
-    yield from panels.show_only("Run and Results")
+    yield from panels.show_only("Run")
     yield from person.picture("built")
     drawn.clear()
     person.sidebar.tag_redraw()

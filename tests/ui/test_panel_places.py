@@ -71,9 +71,7 @@ def test_advanced_is_last_and_closed_from_the_start(panels):
 
 def test_open_from_the_start_is_the_way_to_a_run(panels):
     opened = [panel.bl_label for panel in panels.values() if "DEFAULT_CLOSED" not in panel.bl_options]
-    assert opened == [
-        *("Scenario", "Run and Results", "IFC Elements", "Sizes", "Run", "Results", "Report", "Findings")
-    ]
+    assert opened == [*("Scenario", "Run and Results", "IFC Elements", "Sizes", "Run", "Results", "Report", "Findings")]
 
 
 def test_results_and_report_come_into_view_open_when_a_run_has_ended(built, panels):

@@ -261,6 +261,8 @@ def can_report(scene: bpy.types.Scene) -> bool:
 
 def report_of(scene: bpy.types.Scene) -> Path | None:
     """Return the page of the report of the results; None where none was made."""
+    if not can_report(scene):
+        return None
     try:
         path = folder_to_report(scene) / REPORT_PAGE
     except OutputError:  # the panel Results says so

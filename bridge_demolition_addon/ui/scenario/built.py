@@ -87,7 +87,7 @@ def changes(settings: bpy.types.PropertyGroup) -> list[ChangedValue]:
 
 
 def is_emptied(scene: bpy.types.Scene) -> bool:
-    """Return whether the user has deleted all bodies that were built in a scene: it can be built in once more."""
+    """Return whether the user has deleted all bodies that were built in a scene: it can be built in again."""
     world = scene.rigidbody_world
     return bool(scene.bda.built_scenario and world and world.collection and not world.collection.all_objects)
 
