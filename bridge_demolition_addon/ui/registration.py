@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
+from collections.abc import Sequence
 from functools import cache
 from types import ModuleType
 
 import bpy
 
-from . import messages, modal_task, workspace
+from . import messages, modal_task, panel_groups, workspace
 from .blast import operator as blast_operator
 from .blast import ui as blast_ui
 from .contours import operator as contour_operator
@@ -42,8 +44,11 @@ _OPERATORS = (
     *(recording_operator, run, paths, blast_operator, contour_operator, ground_operator),
     *(results_operator, stages_operator, preview_operator, gizmos),
 )
-_PANELS = (ifc_ui, blast_ui, recording_ui, contour_ui, ground_ui, results_ui, stages_ui, study, search, optimise)
-"""Below those of the scenario, in the order of the work."""
+_PANELS = (
+    *(panel_groups, scenario_ui, ifc_ui, blast_ui, recording_ui, contour_ui, ground_ui, results_ui, stages_ui),
+    *(study, search, optimise),
+)
+"""Where they stand in the tab is in `panel_places`."""
 
 
 def classes_of(module: ModuleType) -> tuple[type, ...]:
@@ -55,12 +60,26 @@ def classes_of(module: ModuleType) -> tuple[type, ...]:
 @cache
 def classes() -> tuple[type, ...]:
     """Return all classes; a panel comes after the one that it stands in."""
+    drawn = [cls for module in _PANELS for cls in classes_of(module)]
+    panels = [*(cls for cls in drawn if issubclass(cls, bpy.types.Panel)), *scenario_ui.table_panels()]
     return (
         *(cls for module in _OPERATORS for cls in classes_of(module)),
-        *scenario_ui.panels(),
-        *(cls for module in _PANELS for cls in classes_of(module)),
-        *scenario_ui.inner_panels(),
+        *(cls for cls in drawn if not issubclass(cls, bpy.types.Panel)),
+        *outer_first(panels),
     )
+
+
+def outer_first(panels: Sequence[type[bpy.types.Panel]]) -> list[type[bpy.types.Panel]]:
+    """Return panels from the outermost to the innermost, those of a panel in the order in which it shows them."""
+    inside = defaultdict(list)
+    for panel in panels:
+        inside[getattr(panel, "bl_parent_id", "")].append(panel)
+    ordered, outer = [], [""]
+    for name in outer:
+        shown = sorted(inside[name], key=lambda panel: getattr(panel, "bl_order", 0))
+        ordered += shown
+        outer += [panel.__name__ for panel in shown]
+    return ordered
 
 
 def register() -> None:

@@ -10,6 +10,7 @@ import bpy
 from bpy.props import StringProperty
 
 from .languages.words import translated
+from .panel_places import order_of, parent_of
 
 _LETTER_PX = 6.5
 _EDGES_PX = 75
@@ -27,7 +28,10 @@ def tooltip(text: str) -> str:
 
 
 class SidebarPanel:
-    """Base of all panels in the tab BDA of the 3D view's sidebar; their docstrings are their tooltips."""
+    """Base of all panels in the tab BDA of the 3D view's sidebar; their docstrings are their tooltips.
+
+    They stand where `panel_places` says; those that it does not place name the panel that they stand in themselves.
+    """
 
     bl_space_type = "VIEW_3D"
     bl_region_type = "UI"
@@ -37,6 +41,11 @@ class SidebarPanel:
     def __init_subclass__(cls, **keywords: object) -> None:
         super().__init_subclass__(**keywords)
         cls.bl_description = tooltip(cls.__doc__ or "")
+        parent = parent_of(cls.__name__)
+        if parent is not None:
+            cls.bl_order = order_of(cls.__name__)
+        if parent:
+            cls.bl_parent_id = parent
 
 
 def letters_of(context: bpy.types.Context) -> int:

@@ -67,9 +67,9 @@ def save_and_compare(person: Person) -> Steps:
 
 
 def change_values(person: Person, panels: Panels) -> Steps:
-    """Type into fields of Bridge, Fracture and Connections."""
+    """Type into fields of Sizes, Fracture and Connections."""
     scenario = person.scene.bda.scenario
-    yield from panels.show_only("Bridge")
+    yield from panels.show_only("Sizes")
     yield from person.fill_in("density_kg_m3", f"{DENSITY_KG_M3:g}")
     yield from person.picture("bridge")
     person.expect("the density is as typed", scenario.bridge.density_kg_m3, DENSITY_KG_M3)
@@ -86,7 +86,7 @@ def change_values(person: Person, panels: Panels) -> Steps:
 
 def build_bridge(person: Person, panels: Panels) -> Steps:
     """Delete the charges of the preset, and build the bridge."""
-    yield from panels.show_only("Explosion")
+    yield from panels.show_only("Charges in the Open")
     for _ in range(3):
         yield from person.click("bda.delete_source_point")
     person.expect("Delete deletes the charges", charges(person.scene), ())
@@ -121,7 +121,7 @@ def out_of_sight(person: Person) -> list[tuple[float, ...]]:
 def place_charges(person: Person, panels: Panels) -> Steps:
     """Add Charge, at the 3D cursor; edit the row of the list; drag it; a second; and a third, to be deleted."""
     scene = person.scene
-    yield from panels.show_only("Explosion")
+    yield from panels.show_only("Charges in the Open")
     yield from person.click("bda.add_source_point")
     person.expect("a charge is at the 3D cursor", charges(scene)[0].place_m, tuple(scene.cursor.location))
     yield from rename(person, "Charge 1", WEST)
@@ -219,23 +219,25 @@ def type_place(person: Person) -> Steps:
 
 def choose_logs(person: Person, panels: Panels) -> Steps:
     """Choose Debris Log and Choose Force Log, in the file browser."""
-    yield from panels.show_only("Post Processing")
+    yield from panels.show_only("Log Files")
     for name in ("debris", "force"):
         file = person.folder / f"my_{name}_log.csv"
         yield from person.click(f"bda.set_{name}_log")
         yield from choose_file(person, file)
         person.expect(f"the {name} log's file is as chosen", getattr(person.scene.bda, f"{name}_log_path"), str(file))
+    yield from person.picture("log_files")
+    yield from panels.show_only("Contours")
     yield from person.click("contours")
     yield 0.5
     person.expect("Contours is ticked", person.scene.bda.contours)
     person.expect("Logarithmic is ticked from the start", person.scene.bda.contour_logarithmic)
-    yield from person.picture("post_processing")
+    yield from person.picture("contours")
     person.expect_reports("nothing is reported")
 
 
 def record(person: Person, panels: Panels) -> Steps:
     """Start Recording, and play; contours and colour bar meanwhile."""
-    yield from panels.show_only("Record")
+    yield from panels.show_only("Record by Hand")
     yield from register(person, person.folder / "results")
     person.expect_reports("nothing but the registering is reported", "Recording to")
     yield 1.0  # Blender moves the panels below slowly
@@ -303,7 +305,7 @@ def turn_view(person: Person) -> Steps:
 
 def hide_and_undo(person: Person, panels: Panels) -> Steps:
     """Show Connections and Forces; undo that; show them again, and hide them."""
-    yield from panels.toggle_inner(0, "bda.load_results")
+    yield from panels.show_only("Vectors and Charges")
     every = hidden_symbols(person)
     person.expect("connections and force fields are hidden at first", len(every) > SHARDS)
     person.expect("charges are seen", all(bpy.data.objects[name].visible_get() for name in (WEST, EAST)))
@@ -322,7 +324,6 @@ def hide_and_undo(person: Person, panels: Panels) -> Steps:
     yield 0.5
     person.expect("they are hidden again", hidden_symbols(person), every)
     person.expect_reports("nothing is reported")
-    yield from panels.toggle_inner(0, "bda.load_results")
 
 
 def hidden_symbols(person: Person) -> set[str]:

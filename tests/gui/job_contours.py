@@ -4,7 +4,7 @@
 import bpy
 from habits import build, go_to_start, play_or_pause, register
 from panels import Panels
-from person import TO_THE_END, Person, Steps
+from person import Person, Steps
 from traces import colours, module, recording_runs
 
 
@@ -17,12 +17,12 @@ def steps(person: Person) -> Steps:
     bpy.data.objects["Cube"].hide_set(True)  # of Blender's start-up file, it stands in the bridge
     yield from person.picture("built")
     own = colours(person)
-    yield from panels.show_only("Post Processing")
+    yield from panels.show_only("Contours")
     yield from person.click("contours")
     yield 0.5
     person.expect("the box is ticked", person.scene.bda.contours)
     results = person.folder / "results"
-    yield from panels.show_only("Record")
+    yield from panels.show_only("Record by Hand")
     yield from register(person, results)
     person.expect_reports("nothing but the registering is reported", "Recording to")
     yield from play_or_pause(person)
@@ -33,7 +33,7 @@ def steps(person: Person) -> Steps:
     yield from person.click("bda.unregister_handler")
     yield 1.0
     person.expect_reports("nothing but the results is reported", f"Results are in {results}")
-    yield from panels.show_only("Post Processing")
+    yield from panels.show_only("Contours")
     yield from go_to_start(person)
     yield from person.picture("start")
     shown = {}
@@ -76,12 +76,11 @@ def steps(person: Person) -> Steps:
 
 
 def inner_panels(person: Person, panels: Panels) -> Steps:
-    """Open each sub-panel by its header, below the last button, look at its lower end, and close it again."""
-    for number, name in enumerate(("vectors_and_charges", "film")):
-        yield from panels.toggle_inner(number, "bda.load_results")
-        yield from person.scroll(TO_THE_END)
-        yield from person.picture(f"panel_{name}")
-        yield from panels.toggle_inner(number, "bda.load_results")
+    """Open each of the other panels, and look at it."""
+    for name in ("Film", "Vectors and Charges", "Earlier Run"):
+        yield from panels.show_only(name)
+        yield from person.picture("panel_" + name.replace(" ", "_"))
+    yield from panels.show_only("Contours")
 
 
 def film(person: Person) -> Steps:

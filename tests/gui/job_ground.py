@@ -38,8 +38,7 @@ def steps(person: Person) -> Steps:
     person.expect("all was drawn", module("ui.ground.decorator").drawing.error, "")
     yield from person.picture("after_the_run")
     yield from dust(person)
-    yield from panels.show_only("Post Processing")
-    yield from panels.toggle_inner(3, "bda.load_results")
+    yield from panels.show_only("Ground and Air")
     yield from person.scroll(30)
     yield from person.picture("panel")
 

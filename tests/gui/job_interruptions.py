@@ -3,13 +3,16 @@
 
 import bpy
 from habits import build, go_to_start, play_or_pause, play_until, register
+from panels import Panels
 from person import Person, Steps
 from traces import EXTENSION, handlers, recording_runs, rows
 
 
 def steps(person: Person) -> Steps:
     yield from person.open_sidebar()
+    panels = Panels(person)
     yield from build(person)
+    yield from panels.show_only("Record by Hand")
     yield from restart_while_recording(person)
     yield from load_while_recording(person)
     yield from switch_off_while_playing(person)

@@ -4,20 +4,23 @@
 import math
 
 from habits import build, play_or_pause, play_until
+from panels import Panels
 from person import Person, Steps
 from traces import SCENARIO, everything, recording_runs, rows
 
 
 def steps(person: Person) -> Steps:
     yield from person.open_sidebar()
-    yield from press_greyed_buttons(person)
+    panels = Panels(person)
+    yield from press_greyed_buttons(person, panels)
     yield from build_what_is_not_there(person)
     yield from build_and_undo(person)
+    yield from panels.show_only("Record by Hand")
     yield from record_into_a_folder_in_use(person)
     yield from record_after_playing_alone(person)
 
 
-def press_greyed_buttons(person: Person) -> Steps:
+def press_greyed_buttons(person: Person, panels: Panels) -> Steps:
     before = everything()
     reasons = {
         "bda.load_scenario": "Choose a scenario file first",
@@ -26,11 +29,13 @@ def press_greyed_buttons(person: Person) -> Steps:
         "bda.unregister_handler": "No recording runs",
     }
     for button, reason in reasons.items():
+        yield from panels.show_only("Record by Hand" if button.endswith("_handler") else "Scenario")
         person.expect(f"{button} is greyed with a reason", reason in person.refusal(button))
         yield from person.hover(button)
         yield 1.5
         yield from person.picture(f"greyed_{button.partition('.')[2]}")
         yield from person.press("LEFTMOUSE")
+    yield from panels.show_only("Scenario")
     person.expect("greyed buttons do nothing", (everything(), recording_runs()), (before, False))
 
 

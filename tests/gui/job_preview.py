@@ -38,7 +38,7 @@ def steps(person: Person) -> Steps:
     without = screen(person)
     person.expect("the preview is seen", (with_it != without).any(axis=1).mean() > 0.002)
     settings.show_preview = True
-    yield from panels.show_only("Bridge")
+    yield from panels.show_only("Sizes")
     width = settings.scenario.bridge.deck.width_m
     lines = preview(person)
     yield from person.picture("bridge_panel")

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 from habits import build, go_to_start, play_or_pause, register
+from panels import Panels
 from person import Person, Steps
 from traces import handlers, recording_runs, rows
 
@@ -15,7 +16,9 @@ FILES = ("summary.json", "force_log.csv", "debris_log.csv", "results.npz", "forc
 def steps(person: Person) -> Steps:
     yield from person.open_sidebar()
     yield from person.picture("sidebar")
+    panels = Panels(person)
     yield from build(person)
+    yield from panels.show_only("Record by Hand")
     yield from person.picture("built")
     check_scene(person)
 

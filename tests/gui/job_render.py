@@ -6,6 +6,7 @@ Blender alone crashes where a render simulates what has not been played.
 
 import bpy
 from habits import build, go_to_start, play_or_pause, play_until, register
+from panels import Panels
 from person import Person, Steps
 from traces import recording_runs
 
@@ -14,7 +15,9 @@ LAST_FRAME = 20
 
 def steps(person: Person) -> Steps:
     yield from person.open_sidebar()
+    panels = Panels(person)
     yield from build(person)
+    yield from panels.show_only("Record by Hand")
     person.take_reports()
     set_up(person)
     world = person.scene.rigidbody_world

@@ -21,11 +21,12 @@ def steps(person: Person) -> Steps:
     yield from delete_all(person)
     yield from panels.widen(160)
     yield from build(person, SCENARIO)
-    yield from panels.show_only("Record")
+    yield from panels.show_only("Run")
     person.expect_reports("nothing but the building is reported", "Deleted 3 object", f"{SHARDS} shards")
     yield from stop_with_escape(person)
     yield from run_to_the_end(person)
-    yield from bake(person)
+    yield from bake(person, panels)
+    yield from panels.show_only("Run")
     yield from switch_off_while_it_runs(person)
 
 
@@ -87,7 +88,8 @@ def run_to_the_end(person: Person) -> Steps:
     )
 
 
-def bake(person: Person) -> Steps:
+def bake(person: Person, panels: Panels) -> Steps:
+    yield from panels.show_only("Record by Hand")
     yield from person.click("bda.bake")
     yield 0.5
     world = person.scene.rigidbody_world

@@ -19,7 +19,7 @@ RUNS, QUANTILE, CONFIDENCE, RANK = 24, 0.5, 0.9, 1
 """Enough runs to pause them in the middle."""
 HEIGHT_KEY, LOWEST_M, HIGHEST_M = "ball.drop_height_m", 2.0, 8.0
 
-RUNS_PANEL, VARY_PANEL, FINDINGS_PANEL = 0, 1, 3
+RUNS_PANEL, VARY_PANEL = 0, 1
 """Their places among the sub-panels."""
 
 CHECK_BOX_PX = 23
@@ -48,7 +48,7 @@ def steps(person: Person) -> Steps:
     yield from refuse_without_a_folder(person)
     yield from set_up(person, panels)
     yield from run_beside_the_work(person)
-    yield from look_at_the_findings(person, panels)
+    yield from look_at_the_findings(person)
     yield from run_the_worst_draw(person, panels)
     yield from quit_in_the_middle(person, panels)
 
@@ -149,9 +149,8 @@ def run_beside_the_work(person: Person) -> Steps:
     person.expect_reports("nothing is reported of its end")
 
 
-def look_at_the_findings(person: Person, panels: Panels) -> Steps:
-    """The sentence, the map on the ground, and the limit around the bridge."""
-    yield from panels.toggle_inner(FINDINGS_PANEL, "bda.start_study")
+def look_at_the_findings(person: Person) -> Steps:
+    """The sentence, in a panel that is open by itself, the map on the ground, and the limit around the bridge."""
     yield from person.move_to_view()
     for _ in range(2):  # away from the bridge
         yield from person.press("WHEELDOWNMOUSE")
@@ -187,7 +186,7 @@ def run_the_worst_draw(person: Person, panels: Panels) -> Steps:
     person.expect_reports("the worst draw is reported", f"Run {worst['run']}, whose debris distance is")
     height = person.scene.bda.scenario.ball.drop_height_m
     person.expect("the panels show its height", math.isclose(height, float(worst[f"in.{HEIGHT_KEY}"]), rel_tol=1e-6))
-    yield from panels.show_only("Record")
+    yield from panels.show_only("Run")
     results = person.folder / "worst"
     yield from person.fill_in("output_directory", str(results))
     yield from person.click("bda.run")

@@ -6,13 +6,16 @@ this job looks at what becomes of the recording.
 """
 
 from habits import build, play_or_pause, play_until, register
+from panels import Panels
 from person import Person, Steps
 from traces import recording_runs
 
 
 def steps(person: Person) -> Steps:
     yield from person.open_sidebar()
+    panels = Panels(person)
     yield from build(person)
+    yield from panels.show_only("Record by Hand")
     yield from register(person, person.folder / "undone")
     yield from play_until(person, 10)
     yield from play_or_pause(person)

@@ -117,9 +117,9 @@ def save_and_compare(person: Person) -> Steps:
 
 
 def change_density(person: Person, panels: Panels) -> Steps:
-    """Type into a field of Bridge."""
+    """Type into a field of Sizes."""
     bridge = person.scene.bda.scenario.bridge
-    yield from panels.show_only("Bridge")
+    yield from panels.show_only("Sizes")
     yield from person.fill_in("density_kg_m3", f"{DENSITY_KG_M3:g}")
     yield from person.illustrate("bridge", person.sidebar)
     person.expect("the density is as typed", bridge.density_kg_m3, DENSITY_KG_M3)
@@ -186,7 +186,7 @@ def move_a_zone(person: Person) -> Steps:
 
 
 def show_contours(person: Person, panels: Panels) -> Steps:
-    yield from panels.show_only("Post Processing")
+    yield from panels.show_only("Contours")
     yield from person.click("contours")
     yield 0.5
     person.expect("Contours is ticked", person.scene.bda.contours)
@@ -197,7 +197,7 @@ def show_contours(person: Person, panels: Panels) -> Steps:
 
 def run(person: Person, panels: Panels) -> Steps:
     """Choose a folder and click Run; contours and progress meanwhile; pictures at its end."""
-    yield from panels.show_only("Record")
+    yield from panels.show_only("Run")
     yield from person.fill_in("output_directory", str(person.folder / "results"))
     yield from person.click("bda.run")
     yield from person.wait_for("it runs", recording_runs, 20.0)

@@ -3,12 +3,14 @@
 
 import bpy
 from habits import build
+from panels import Panels
 from person import Person, Steps
 from traces import module, opened, recording_runs, something_goes_on
 
 
 def steps(person: Person) -> Steps:
     yield from person.open_sidebar()
+    panels = Panels(person)
     yield from person.picture("first_help")
     yield from person.click("bda.open_walkthrough")
     yield 0.5
@@ -23,6 +25,7 @@ def steps(person: Person) -> Steps:
     with person.in_sidebar():
         bpy.ops.bda.draw_charts("INVOKE_DEFAULT")
     yield from person.wait_for("the chart is drawn", lambda: module("ui.task_progress").going_on() is None, 60.0)
+    yield from panels.show_only("Advanced")  # of Scenario
     yield from person.click("bda.make_workspace")
     yield from person.wait_for("the workspace opens at the tab BDA", lambda: tab(person) == "BDA", 20.0)
     person.expect("the workspace is shown", person.window.workspace.name, "BDA")

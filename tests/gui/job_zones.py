@@ -135,7 +135,7 @@ def change_after_building(person: Person) -> Steps:
 
 def see_them_fire(person: Person, panels: Panels) -> Steps:
     """Run past the last zone, stop, and look at each frame again."""
-    yield from panels.show_only("Record")
+    yield from panels.show_only("Run")
     yield from person.fill_in("output_directory", str(person.folder / "run"))
     yield from person.click("bda.run")
     yield from person.wait_for("it runs", recording_runs, 20.0)

@@ -1,4 +1,4 @@
-"""The panel Explosion, with the list of charges."""
+"""The panel Charges in the Open, with the list of charges."""
 
 from __future__ import annotations
 
@@ -38,9 +38,9 @@ class BDA_UL_charges(bpy.types.UIList):
 
 
 class BDA_PT_explosion(SidebarPanel, bpy.types.Panel):
-    """Charges, and whether they go off."""
+    """Charges that lie bare, and whether they go off; called Explosion in 2019."""
 
-    bl_label = "Explosion"
+    bl_label = "Charges in the Open"
 
     def draw(self, context: bpy.types.Context) -> None:
         layout, settings = self.layout, context.scene.bda

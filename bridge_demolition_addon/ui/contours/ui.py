@@ -1,4 +1,4 @@
-"""Panels of contours, vectors and charges, and films, in the panel Post Processing."""
+"""Panels of contours, films, vectors and charges, and of earlier runs."""
 
 import bpy
 
@@ -15,8 +15,6 @@ class BDA_PT_contours(SidebarPanel, bpy.types.Panel):
     """Contours of the recorded bodies."""
 
     bl_label = "Contours"
-    bl_options = set()
-    bl_parent_id = "BDA_PT_post_processing"
 
     def draw(self, context: bpy.types.Context) -> None:
         settings, layout = context.scene.bda, self.layout
@@ -43,19 +41,14 @@ class BDA_PT_contours(SidebarPanel, bpy.types.Panel):
             column.prop(settings, "contour_percentile")
         for name in ("contour_map", "contour_shaded", "contour_magnification", "colour_bar"):
             column.prop(settings, name)
-        layout.prop(settings, "results_path", text="", placeholder=translated("results.npz of an earlier run"))
-        layout.operator("bda.load_results")
         if shown_results(context.scene).are_loaded:
-            text = "Shown is what was recorded, until something new is. Blender plays it on its own:"
-            draw_sentence(layout, context, text, icon="INFO")
-            layout.operator("bda.forget_results")
+            _draw_loaded(layout, context)
 
 
 class BDA_PT_overlay(SidebarPanel, bpy.types.Panel):
     """Force vectors and charges over the 3D view."""
 
     bl_label = "Vectors and Charges"
-    bl_parent_id = "BDA_PT_post_processing"
 
     def draw(self, context: bpy.types.Context) -> None:
         settings, layout = context.scene.bda, self.layout
@@ -78,7 +71,6 @@ class BDA_PT_film(SidebarPanel, bpy.types.Panel):
     """Contours as a film or as pictures."""
 
     bl_label = "Film"
-    bl_parent_id = "BDA_PT_post_processing"
 
     def draw(self, context: bpy.types.Context) -> None:
         settings, layout = context.scene.bda, self.layout
@@ -93,3 +85,22 @@ class BDA_PT_film(SidebarPanel, bpy.types.Panel):
             column.prop(settings, "film_rate")
             column.prop(settings, "film_slowness")
         layout.operator("bda.render_contours")
+
+
+class BDA_PT_earlier_run(SidebarPanel, bpy.types.Panel):
+    """Contours of an earlier run, from its folder."""
+
+    bl_label = "Earlier Run"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        settings, layout = context.scene.bda, self.layout
+        layout.prop(settings, "results_path", text="", placeholder=translated("results.npz of an earlier run"))
+        layout.operator("bda.load_results")
+        if shown_results(context.scene).are_loaded:
+            _draw_loaded(layout, context)
+
+
+def _draw_loaded(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
+    text = "Shown is what was recorded, until something new is. Blender plays it on its own:"
+    draw_sentence(layout, context, text, icon="INFO")
+    layout.operator("bda.forget_results")

@@ -221,6 +221,11 @@ class BDA_PT_study_findings(SidebarPanel, bpy.types.Panel):
 
     bl_label = "Findings"
     bl_parent_id = "BDA_PT_study"
+    bl_options = set()  # open: it is there only once there may be a study
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return bool(context.scene.bda.study_directory) or WORK.result is not None
 
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout

@@ -11,7 +11,6 @@ class BDA_PT_ground_and_air(SidebarPanel, bpy.types.Panel):
     """Drawings on the ground and in the air."""
 
     bl_label = "Ground and Air"
-    bl_parent_id = "BDA_PT_post_processing"
 
     def draw(self, context: bpy.types.Context) -> None:
         settings, layout = context.scene.bda, self.layout

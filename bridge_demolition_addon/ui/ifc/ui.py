@@ -26,8 +26,7 @@ class BDA_PT_ifc_elements(SidebarPanel, bpy.types.Panel):
     """What the elements of an IFC file become."""
 
     bl_label = "IFC Elements"
-    bl_parent_id = "BDA_PT_scenario"  # with the button that lists them: below all other panels it is not found
-    bl_options = set()  # open: it is there only once a file was looked into
+    bl_options = set()  # open, and up there with its button: it is there only once a file was looked into
 
     @classmethod
     def poll(cls, context: bpy.types.Context) -> bool:

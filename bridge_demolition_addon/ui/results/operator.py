@@ -182,8 +182,11 @@ class BDA_OT_export_run(ModalTask, bpy.types.Operator):
 
 
 def _nothing_to_report(context: bpy.types.Context) -> str | None:
-    is_there = context.scene.bda.output_directory or has_run(context.scene)
-    return None if is_there else "Run the scene first, or choose the folder with the results"
+    return None if can_report(context.scene) else "Run the scene first, or choose the folder with the results"
+
+
+def _no_report(context: bpy.types.Context) -> str | None:
+    return None if report_of(context.scene) else "There is no report of these results yet: make one first"
 
 
 writes_word_files = cache(word_is_there)
@@ -245,13 +248,26 @@ class BDA_OT_open_report(Action, bpy.types.Operator):
 
     bl_label = "Open Report"
     changes_scene = False
-    blocked_by = BDA_OT_make_report.blocked_by
+    blocked_by = (*BDA_OT_make_report.blocked_by, _no_report)
 
     def act(self, context: bpy.types.Context) -> None:
-        path = folder_to_report(context.scene) / REPORT_PAGE
-        if not path.is_file():
-            raise OutputError(f"{path}: is not there; make the report first")
-        open_path(path)
+        open_path(folder_to_report(context.scene) / REPORT_PAGE)
+
+
+def can_report(scene: bpy.types.Scene) -> bool:
+    """Return whether there may be results to make a report of: those of the scene's run, or of a folder."""
+    return bool(scene.bda.output_directory) or has_run(scene)
+
+
+def report_of(scene: bpy.types.Scene) -> Path | None:
+    """Return the page of the report of the results; None where none was made."""
+    if not can_report(scene):
+        return None
+    try:
+        path = folder_to_report(scene) / REPORT_PAGE
+    except OutputError:  # the panel Results says so
+        return None
+    return path if path.is_file() else None
 
 
 def folder_to_report(scene: bpy.types.Scene) -> Path:

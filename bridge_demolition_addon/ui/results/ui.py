@@ -1,10 +1,15 @@
 """The panels Results, with the results of the last recording, and Report."""
 
+from pathlib import Path
+
 import bpy
 
 from ...errors import OutputError
+from ...simulation.kept_run import has_run
 from ..languages.words import translated
+from ..recording.session import last_recording
 from ..sidebar import SidebarPanel, draw_sentence
+from .operator import can_report, report_of
 from .shown_run import LargestValue, shown_run
 
 
@@ -12,6 +17,11 @@ class BDA_PT_results(SidebarPanel, bpy.types.Panel):
     """Results of the last recording."""
 
     bl_label = "Results"
+    bl_options = set()  # open: it is there only once something was recorded
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return last_recording() is not None or has_run(context.scene)
 
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout
@@ -21,7 +31,6 @@ class BDA_PT_results(SidebarPanel, bpy.types.Panel):
             draw_sentence(layout, context, str(error))
             return
         if run is None:
-            draw_sentence(layout, context, "Nothing was recorded yet: click Run above.", icon="INFO")
             return
         draw_sentence(layout, context, run.title, icon="NONE")
         for doubt in run.doubts:
@@ -60,6 +69,11 @@ class BDA_PT_report(SidebarPanel, bpy.types.Panel):
     """The report of a run."""
 
     bl_label = "Report"
+    bl_options = set()  # open: it is there only once there may be something to report
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return can_report(context.scene)
 
     def draw(self, context: bpy.types.Context) -> None:
         column = self.layout.column(align=True)
@@ -67,3 +81,6 @@ class BDA_PT_report(SidebarPanel, bpy.types.Panel):
         column.operator("bda.make_word_report")
         column.operator("bda.open_report")
         column.operator("bda.show_survey", icon="POINTCLOUD_DATA")
+        if path := report_of(context.scene):
+            text = translated("Made: {}").format(Path(path.parent.name, path.name))
+            draw_sentence(self.layout, context, text, icon="CHECKMARK")

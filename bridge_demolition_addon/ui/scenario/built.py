@@ -5,7 +5,7 @@ A run takes the values that were built, and as the panels show them those that d
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import Field, dataclass, replace
 from functools import cache, lru_cache
 from typing import Any
@@ -84,6 +84,19 @@ def changes(settings: bpy.types.PropertyGroup) -> list[ChangedValue]:
     """Return all values that have changed since the scene was built; none where it was not."""
     kept = built_values(settings)
     return [] if kept is None else list(changes_in(settings.scenario, Scenario, kept))
+
+
+def is_emptied(scene: bpy.types.Scene) -> bool:
+    """Return whether the user has deleted all bodies that were built in a scene: it can be built in again."""
+    world = scene.rigidbody_world
+    return bool(scene.bda.built_scenario and world and world.collection and not world.collection.all_objects)
+
+
+def has_changed(settings: bpy.types.PropertyGroup, tables: Collection[str]) -> bool:
+    """Return whether a value in some tables of the scenario has changed since the scene was built."""
+    kept = built_values(settings)
+    items = () if kept is None else (item for item in _built_tables(Scenario) if item.name in tables)
+    return any(True for item in items for _ in changes_of_table(settings.scenario, item, kept))
 
 
 def changes_in(group: bpy.types.PropertyGroup, table_class: type[Table], kept: Kept) -> Iterator[ChangedValue]:

@@ -14,7 +14,7 @@ from ..languages.words import translated
 from ..operators import Action
 from ..results.operator import open_path
 from ..sidebar import draw_sentence
-from .built import changes
+from .built import changes, is_emptied
 from .prop import USE
 
 _PACKAGE = Path(__file__).parents[2]
@@ -62,11 +62,13 @@ def next_step(scene: bpy.types.Scene) -> str:
         return "It is being recorded: wait, or stop it"
     if not settings.built_scenario:
         return "Next: choose one of the Presets, or change values below; then Build Scenario"
+    if is_emptied(scene):
+        return "Next: nothing is left of what was built; Build Scenario builds it again"
     if changes(settings):
         return "Next: values have changed; Build Again and Run"
     if not has_run(scene):
         return "Next: Run, and watch it"
-    return "Next: see Results and Post Processing below, and make a Report"
+    return "Next: see Results below, and make a Report"
 
 
 def breaking_note(scenario: bpy.types.PropertyGroup) -> str:

@@ -28,7 +28,7 @@ from ..operators import (
     write_file,
 )
 from ..viewport import look_at_shards
-from .built import forget_built, keep_built, show_built
+from .built import forget_built, is_emptied, keep_built, show_built
 from .preset_menu import preset_file
 from .prop import default_scenario
 from .values import scenario_of, show_scenario
@@ -97,9 +97,9 @@ class BDA_OT_load_preset(UndoableAction, bpy.types.Operator):
         _show(context.scene.bda, read_scenario(preset_file(self.preset)))
 
 
-def _has_world(context: bpy.types.Context) -> str | None:
-    if context.scene.rigidbody_world:
-        return "This scene has a rigid-body world already: build it again, or use a new scene"
+def _has_bodies(context: bpy.types.Context) -> str | None:
+    if context.scene.rigidbody_world and not is_emptied(context.scene):
+        return "This scene has bodies already: build again, or use a new scene"
     return None
 
 
@@ -108,7 +108,7 @@ class BDA_OT_build_scenario(UndoableAction, bpy.types.Operator):
 
     bl_label = "Build Scenario"
     changes_objects = True
-    blocked_by = (_has_world,)
+    blocked_by = (_has_bodies,)
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         """Build it, and let the view show the bridge."""
@@ -118,7 +118,8 @@ class BDA_OT_build_scenario(UndoableAction, bpy.types.Operator):
         return done
 
     def act(self, context: bpy.types.Context) -> str:
-        return build(context.scene)
+        stop_playing(context)
+        return build(context.scene, again=context.scene.rigidbody_world is not None)
 
 
 def _nothing_built(context: bpy.types.Context) -> str | None:

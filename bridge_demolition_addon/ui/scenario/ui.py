@@ -14,6 +14,7 @@ from ...model.schema import Table, holds_many, is_optional, key_name, subtable_c
 from ...scene.visibility import has_symbols, symbols_are_hidden
 from ..languages.words import CONTEXT, translated
 from ..messages import draw_messages
+from ..panel_places import DEMOLITION_ADVANCED, PREFIX, parent_of
 from ..preview.bars import shown_bars
 from ..sidebar import SidebarPanel, draw_sentence, letters_of, width_of
 from ..task_progress import draw_task_progress, going_on
@@ -24,29 +25,23 @@ from .prop import INDEX, USE, label_of, shown_keys, shown_tables, title_of, vect
 from .stability import draw_stability
 from .table_list import draw_list
 
-_MAIN = {"bridge": "Bridge", "fracture": "Fracture", "connections": "Connections", "shards": "Shards"}
-"""Tables with a panel of their own, in the order of the work."""
-
-_PARENTS = {
-    "time": "BDA_PT_scenario",
-    "pictures": "BDA_PT_scenario",
-    "geometry": "BDA_PT_bridge",
-    "supports": "BDA_PT_bridge",
-    "materials": "BDA_PT_connections",
-    "reinforcement": "BDA_PT_connections",
-    "geometry_reinforcement": "BDA_PT_bridge",
-    "ground": "BDA_PT_shards",
-    "contacts": "BDA_PT_shards",
-    "blast": "BDA_PT_explosion",
-    "recording": "BDA_PT_handler",
-    "site": "BDA_PT_scenario",
-    "zones": "BDA_PT_scenario",
-    "exclusion": "BDA_PT_scenario",
-    "neighbours": "BDA_PT_scenario",
+_LABELS = {
+    "bridge": "Sizes",
+    "geometry": "Own Model",
+    "exclusion": "Exclusion Zone",
+    "cuts": "Severed Members",
+    "recording": "What Is Recorded",
 }
-"""Panels that other tables stand in; those not named here belong to the sequence."""
+"""What panels of tables are called where the name of the table does not say what is in it."""
 
-_BUTTONS = {"geometry": "bda.add_selected_members", "fracture": "bda.use_paint"}
+_OPEN = {"bridge"}
+"""Tables whose panels are open from the start."""
+
+_BUTTONS = {
+    "geometry": "bda.add_selected_members",
+    "fracture": "bda.use_paint",
+    "zones": "bda.draw_zone",
+}
 """Operators that fill in a table of a scenario."""
 
 _ELSEWHERE = {"blast.explosion", "study.scenario"}
@@ -64,8 +59,6 @@ _PROMINENT = 1.5
 
 CHANGED = "ERROR"
 """Icon of values that have changed since the scene was built."""
-
-_PANEL = "BDA_PT_"
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,22 +110,24 @@ class BDA_PT_scenario(SidebarPanel, bpy.types.Panel):
         row = layout.row(align=True)
         row.operator("bda.import_ifc", icon="IMPORT")
         row.operator("bda.look_into_ifc", icon="VIEWZOOM")
+        draw_first_help(layout, context)
+
+
+class BDA_PT_advanced_scenario(SidebarPanel, bpy.types.Panel):
+    """Title and seed, taking away what was built, and a workspace with charts."""
+
+    bl_label = "Advanced"
+
+    def draw(self, context: Context) -> None:
+        layout, settings = self.layout, context.scene.bda
         draw_keys(layout, context, settings.scenario, Scenario, built_values(settings))
         column = layout.column(align=True)
         column.operator("bda.build_anew")
         column.operator("bda.remove_demolition")
         column.operator("bda.remove_loose_connections")
-        draw_first_help(layout, context)
-        layout.operator("bda.make_workspace", icon="WORKSPACE")
-
-
-class BDA_PT_sequence(SidebarPanel, bpy.types.Panel):
-    """Ball, charges and other actions on the bridge."""
-
-    bl_label = "Ball and Sequence"
-
-    def draw(self, _context: Context) -> None:
-        """Draw nothing: its sub-panels have everything."""
+        column = layout.column(align=True)
+        column.operator("bda.look_at_bridge", icon="LOOP_BACK")
+        column.operator("bda.make_workspace", icon="WORKSPACE")
 
 
 class _TablePanel(SidebarPanel):
@@ -278,22 +273,13 @@ def rows_of(table_class: type[Table]) -> tuple[Row, ...]:
     )
 
 
-def panels() -> tuple[type[bpy.types.Panel], ...]:
-    """Return the panel of the scenario and those of its main tables, in the order of the work."""
-    fields = {item.name: item for item in shown_tables(Scenario)}
-    main = [_panel(fields[name], (), None, label) for name, label in _MAIN.items()]
-    return (BDA_PT_scenario, *main, BDA_PT_sequence)
-
-
-def inner_panels() -> tuple[type[bpy.types.Panel], ...]:
-    """Return the panels of all other tables, to be registered after those that they stand in."""
+def table_panels() -> tuple[type[bpy.types.Panel], ...]:
+    """Return the panels of all tables; one for a table that has no place among the panels stands with rare actions."""
     panels: list[type[bpy.types.Panel]] = []
     for item in shown_tables(Scenario):
-        if item.name in _MAIN:
-            panels += _inner(item, (item.name,), _PANEL + item.name)
-        else:
-            panel = _panel(item, (), _PARENTS.get(item.name, BDA_PT_sequence.__name__), label_of(Scenario, item))
-            panels += [panel, *_inner(item, (item.name,), panel.__name__)]
+        parent = None if parent_of(PREFIX + item.name) else DEMOLITION_ADVANCED
+        panel = _panel(item, (), parent, _LABELS.get(item.name, label_of(Scenario, item)))
+        panels += [panel, *_inner(item, (item.name,), panel.__name__)]
     return tuple(panels)
 
 
@@ -317,7 +303,9 @@ def _panel(item: Field, names: tuple[str, ...], parent: str | None, label: str) 
     }
     if parent:
         contents["bl_parent_id"] = parent
-    return type(_PANEL + "_".join((*names, item.name)), (_TablePanel, bpy.types.Panel), contents)
+    if not names and item.name in _OPEN:
+        contents["bl_options"] = set()
+    return type(PREFIX + "_".join((*names, item.name)), (_TablePanel, bpy.types.Panel), contents)
 
 
 def _draw_key(layout: UILayout, letters: int, group: PropertyGroup, row: Row) -> None:

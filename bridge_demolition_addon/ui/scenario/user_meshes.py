@@ -39,7 +39,7 @@ class BDA_OT_add_selected_members(UndoableAction, bpy.types.Operator):
     )
     with_bridge: BoolProperty(
         name="Keep Bridge Too",
-        description="Build the bridge of the panel Bridge as well; otherwise it is switched off there, and only the "
+        description="Build the bridge of the panel Sizes as well; otherwise it is switched off there, and only the "
         "meshes are built",
         default=False,
     )
@@ -68,7 +68,7 @@ class BDA_OT_add_selected_members(UndoableAction, bpy.types.Operator):
             for repair in repaired.repairs:
                 self.report({"INFO"}, f"{name}: {repair}")
         done = f"{len(files)} members added from the selected meshes, which are hidden now"
-        return f"{done}; the panel Bridge is switched off" if switched_off else done
+        return f"{done}; the panel Sizes is switched off" if switched_off else done
 
 
 def _no_paint(context: bpy.types.Context) -> str | None:
