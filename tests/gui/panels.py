@@ -91,9 +91,9 @@ class Panels:
         if group in self._open and not others:
             return
         first = self._shown_in(TAB)[0]
-        yield from self._toggle(first, self._top_header(first), ctrl=True)  # now those above any other are closed
-        if first not in self._open:  # Ctrl and a click opens or closes it as a click does
-            yield from self._toggle(first, self._top_header(first), ctrl=True)
+        if first in self._open:
+            yield from self._toggle(first, self._top_header(first))
+        yield from self._toggle(first, self._top_header(first), ctrl=True)  # now all others are closed
         if group != first:
             yield from self._toggle(first, self._top_header(first))
             yield from self._toggle(group, self._top_header(group))
