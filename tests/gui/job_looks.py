@@ -31,7 +31,7 @@ def steps(person: Person) -> Steps:
     person.expect("the eye shows them", all(seen(person, empty.name) for empty in empties))
     yield from person.click("bda.toggle_symbols")
     yield from by_f12(person)
-    yield from panels.show_only("Advanced")  # of Scenario
+    yield from panels.toggle_inner(0, "bda.import_ifc")  # Advanced
     yield from remove(person)
     person.expect("the start-up objects are seen again", [seen(person, name) for name in STARTUP], [True] * 3)
     person.expect("the scene has its own camera again", person.scene.camera.name, "Camera")

@@ -25,7 +25,8 @@ def steps(person: Person) -> Steps:
     with person.in_sidebar():
         bpy.ops.bda.draw_charts("INVOKE_DEFAULT")
     yield from person.wait_for("the chart is drawn", lambda: module("ui.task_progress").going_on() is None, 60.0)
-    yield from panels.show_only("Advanced")  # of Scenario
+    yield from panels.show_only("Scenario")
+    yield from panels.toggle_inner(0, "bda.import_ifc")  # Advanced
     yield from person.click("bda.make_workspace")
     yield from person.wait_for("the workspace opens at the tab BDA", lambda: tab(person) == "BDA", 20.0)
     person.expect("the workspace is shown", person.window.workspace.name, "BDA")

@@ -39,7 +39,8 @@ class Panels:
     def show_only(self, panel: str) -> Steps:
         """Open a panel, named by its label, and what it stands in; close what is open above it and beside it.
 
-        One of the tab itself is opened by Ctrl and a click on its header, which closes the others.
+        What it stands in has to draw nothing itself, as the groups and their panels Advanced do: for others there is
+        `toggle_inner`. One of the tab itself is opened by Ctrl and a click on its header, which closes the others.
         """
         way = way_to(panel)
         yield from self._person.scroll_to_top()
@@ -148,7 +149,7 @@ def found_panels() -> Iterator[tuple[str, type]]:
 def way_to(label: str) -> list[str]:
     """The names of the panels from one of the tab to one in it, which is named by its label.
 
-    Several have labels such as Advanced: then it is the outermost.
+    Of several with a label it is the outermost.
     """
     panels = dict(found_panels())
     way = [next(name for name, panel in panels.items() if panel.bl_label == label)]
