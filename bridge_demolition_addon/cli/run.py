@@ -13,15 +13,13 @@ from ..model.reinforcement.concrete_members import plain_concrete_text
 from ..model.results.bar_extremes import bars_text, largest_use_text
 from ..model.results.creep import creep_text
 from ..model.results.fingerprint import SHORT
-from ..model.results.moving import moving_text
 from ..model.results.summary import first_hit_s
 from ..model.run_folder.files import RESULT_FILES
 from ..model.run_folder.folder import check_folder, numbered_folder, remove_report
 from ..model.scenario import Scenario
 from ..model.scenario.file import read_scenario
 from ..model.sequence.checked_model import checked_model
-from ..model.sequence.held_parts import held_parts_text
-from ..model.sequence.undisturbed import self_collapse_text
+from ..model.sequence.doubts import doubts_of_run
 from ..model.stages.stability import stability_texts
 from ..model.structure.model import Model
 from ..system.progress import Progress
@@ -179,13 +177,9 @@ def _report(folders: Sequence[Path], output: Path | None, progress: Progress) ->
     return write_report(folders, output, progress=progress)
 
 
-def _doubts(summary: Mapping[str, Any]) -> tuple[str, ...]:
-    return self_collapse_text(summary), held_parts_text(summary), moving_text(summary)
-
-
 def _print_results(summary: Mapping[str, Any], output: Path, report: Sequence[Path], plain: str) -> None:
     print()
-    for doubt in (plain, *stability_texts(summary), *_doubts(summary)):
+    for doubt in (plain, *stability_texts(summary), *doubts_of_run(summary)):
         if doubt:
             print(f"{doubt}.\n")
     for name, value in _result_facts(summary):

@@ -7,7 +7,6 @@ while a run goes on, every few seconds, and at its end.
 
 from __future__ import annotations
 
-import os
 import time
 from collections.abc import Mapping
 from functools import partial
@@ -21,8 +20,8 @@ from ..model.scenario.file import scenario_from_text
 from ..model.sequence.checked_model import checked_model
 from ..model.study.preview_scenario import preview_scenario
 from ..system.programs import program_command
+from .own_blender import versions_here
 from .run_service import RunService, answer_of
-from .versions import versions_with
 
 if TYPE_CHECKING:
     from ..simulation.playback import Playing
@@ -45,14 +44,10 @@ def preview_program_command(blender: str = "") -> list[str]:
 def main() -> NoReturn:
     """Answer requests until there are no more."""
     service = RunService()
-    try:
-        import bpy
+    versions = versions_here(service)
+    from ..simulation import motion_run  # noqa: F401, loaded before anything is asked
 
-        from ..simulation import motion_run  # noqa: F401, loaded before anything is asked
-    except ModuleNotFoundError as error:
-        service.say({"error": f"Blender is not there: install the bpy package or run inside Blender ({error})"})
-        os._exit(1)
-    service.say({"versions": versions_with(".".join(map(str, bpy.app.version)))})
+    service.say({"versions": versions})
     while True:
         request = service.next_request()
         if service.is_asked or "scenario" not in request:

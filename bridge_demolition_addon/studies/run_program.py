@@ -6,7 +6,6 @@ what is recorded, both in TOML: motion alone, or everything as `bda run` does.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, NoReturn
@@ -25,8 +24,8 @@ from ..model.toml_tables import table_of_document, toml_document
 from ..system.disk import whole_file
 from ..system.programs import program_command
 from ..system.progress import Progress
+from .own_blender import versions_here
 from .run_service import RunService
-from .versions import versions_with
 
 
 def run_program_command(blender: str = "") -> list[str]:
@@ -37,12 +36,7 @@ def run_program_command(blender: str = "") -> list[str]:
 def main() -> NoReturn:
     """Answer requests until there are no more."""
     service = RunService()
-    try:
-        import bpy
-    except ModuleNotFoundError as error:
-        service.say({"error": f"Blender is not there: install the bpy package or run inside Blender ({error})"})
-        os._exit(1)
-    service.serve(versions_with(".".join(map(str, bpy.app.version))), play)
+    service.serve(versions_here(service), play)
 
 
 def play(request: Mapping[str, Any], folder: Path) -> dict[str, Any]:

@@ -32,7 +32,7 @@ def steps(person: Person) -> Steps:
     yield from play_or_pause(person)
     yield from person.click("bda.unregister_handler")
     yield 1.0
-    person.expect_reports("nothing but the results is reported", f"Results are in {results}")
+    person.expect_reports("what creeps and the results are reported", "creeps at the end", f"Results are in {results}")
     yield from panels.show_only("Contours")
     yield from go_to_start(person)
     yield from person.picture("start")

@@ -96,7 +96,7 @@ def check_recorded(person: Person, log: list[dict[str, str]]) -> None:
 def check_results(person: Person, folder) -> None:
     person.expect("no recording runs", recording_runs(), False)
     person.expect("all files are there", [name for name in FILES if not (folder / name).exists()], [])
-    person.expect_reports("nothing but the results is reported", f"Results are in {folder}")
+    person.expect_reports("what creeps and the results are reported", "creeps at the end", f"Results are in {folder}")
     if not (folder / "results.npz").exists():
         return
     with np.load(folder / "results.npz") as arrays:

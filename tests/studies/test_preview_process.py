@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from support.checkout import EXAMPLES
-from support.processes import run_program
+from support.processes import is_alive, run_program
 from support.scenarios import I235, SHORT_RUN
 
 from bridge_demolition_addon.display.bridge_preview import sharp_edges
@@ -62,14 +62,6 @@ def wait_for(process, happens=lambda preview: preview.is_over):
                 return seen
         time.sleep(0.02)
     raise TimeoutError
-
-
-def is_alive(process_id):
-    try:
-        os.kill(process_id, 0)
-    except ProcessLookupError:
-        return False
-    return True
 
 
 def test_its_outcome_is_that_of_the_run_of_the_same_shards_and_seed(kept, blender, tmp_path):

@@ -34,6 +34,15 @@ def start_program(name: str, *arguments: object, **environment: str) -> subproce
     return start(_command(name, *arguments), **_environment(environment))
 
 
+def is_alive(process_id: int) -> bool:
+    """Return whether the system knows a process by this number."""
+    try:
+        os.kill(process_id, 0)
+    except ProcessLookupError:
+        return False
+    return True
+
+
 class ProgramAtWork:
     """A program of `tests/programs` that does what it is asked for, line by line, as long as it lives.
 

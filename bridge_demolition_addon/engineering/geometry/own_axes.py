@@ -211,7 +211,9 @@ def _followed(corners: FloatArray, line: FloatArray) -> OwnAxes:
     cuts = [_cut(corners, point, way) for _, point, way in inner]
     width = float(np.median([np.ptp(cut[..., 0]) for cut in cuts if len(cut)]))
     near = [cut[(np.abs(cut[..., 0]) <= 0.75 * width).any(axis=1)] for cut in cuts]
-    # Where a member has a gap, or lies beside the line, nothing is cut near it.
+    if not any(len(cut) for cut in near):  # all of it lies beside the line
+        near = cuts
+    # At a gap in a member, and where it lies beside the line, there is no section.
     met = [row for row, cut in enumerate(near) if len(cut)]
     if len(line) > 2:
         line = line[[0, *(row + 1 for row in met), -1]]

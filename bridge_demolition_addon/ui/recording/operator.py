@@ -9,14 +9,12 @@ import bpy
 
 from ...errors import DemolitionError, OutputError, SimulationError
 from ...model.results.creep import creep_text
-from ...model.results.moving import moving_text
 from ...model.run_folder.folder import check_folder, keep_scenario, lock_in_place, prepare_folder, withdraw_folder
 from ...model.run_folder.summary import RunSummary
 from ...model.scenario import RecordingSettings, Scenario
 from ...model.scenario.recording import PictureSettings
-from ...model.sequence.held_parts import held_parts_text
+from ...model.sequence.doubts import doubts_of_run
 from ...model.sequence.rest import Rest
-from ...model.sequence.undisturbed import self_collapse_text
 from ...scene.as_built import manual_edits
 from ...scene.run_setup import run_setup_of
 from ...scene.world import start_over
@@ -158,12 +156,11 @@ def end_with_results(operator: bpy.types.Operator, recording: Recording, *, stop
         folder = _keep_recording(recording, completed=not (recording.error or stopped))
     except (DemolitionError, OSError) as error:  # a full disk, for one
         return refused(operator, recording.error or error)
+    summary = session.last_recording().summary.values
     warnings = [
         f"The recording ended early: {recording.error}" if recording.error else stopped,
-        self_collapse_text(session.last_recording().summary.values),
-        held_parts_text(session.last_recording().summary.values),
-        moving_text(session.last_recording().summary.values),
-        creep_text(session.last_recording().summary.values),
+        *doubts_of_run(summary),
+        creep_text(summary),
         _changed_bodies_text(recording),
     ]
     if by_hand := _contexts[recording].made_by_hand:

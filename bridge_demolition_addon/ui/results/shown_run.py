@@ -12,11 +12,9 @@ import bpy
 from ...errors import DemolitionError, OutputError, UnreadableError
 from ...model.results.arrays import Results
 from ...model.results.bar_extremes import bars_text, largest_use_text
-from ...model.results.moving import moving_text
 from ...model.run_folder.files import SUMMARY_FILE
 from ...model.run_folder.summary import RunSummary, read_summary
-from ...model.sequence.held_parts import held_parts_text
-from ...model.sequence.undisturbed import self_collapse_text
+from ...model.sequence.doubts import doubts_of_run
 from ...model.stages.stability import stability_texts
 from ...simulation.kept_run import digest_of_run, folder_of_run, has_run, results_of_run
 from ..languages.words import translated
@@ -77,17 +75,7 @@ class ShownRun:
                 folder=folder,
                 title=str(summary.values["title"]),
                 summary=summary,
-                doubts=tuple(
-                    filter(
-                        None,
-                        (
-                            *stability_texts(summary.values),
-                            self_collapse_text(summary.values),
-                            held_parts_text(summary.values),
-                            moving_text(summary.values),
-                        ),
-                    )
-                ),
+                doubts=tuple(filter(None, (*stability_texts(summary.values), *doubts_of_run(summary.values)))),
                 lines=tuple(lines_of(summary.values)),
                 peak_force=force and LargestValue(f"{force.value / _N_PER_KN:,.0f} kN", force.body, force.frame),
                 largest_throw=throw and LargestValue(_throw_text(throw.value, summary.values), throw.body, last_frame),

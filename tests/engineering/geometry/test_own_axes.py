@@ -96,3 +96,14 @@ def test_a_member_with_two_arms_has_axes_too():
     )
     axes = lying_axes(both)
     assert (axes.width_m, axes.height_m) == pytest.approx((1.0, 1.0))
+
+
+def test_boxes_anywhere_have_axes():
+    """Members of meshes and files are not always what a deck is: axes of such need no meaning, but have to be there."""
+    random = np.random.default_rng(7)
+    for _ in range(300):
+        boxes = [box(random.uniform(0.3, 10.0, 3), random.uniform((-15, -15, -1), (15, 15, 1))) for _ in range(5)]
+        counts = np.cumsum([0, *(len(part.vertices) for part in boxes)])
+        triangles = [part.triangles + count for part, count in zip(boxes, counts, strict=False)]
+        axes = lying_axes(TriangleMesh(np.concatenate([part.vertices for part in boxes]), np.concatenate(triangles)))
+        assert np.isfinite(axes.line_m).all() and axes.height_m > 0.0

@@ -5,6 +5,7 @@ import os
 import time
 
 import pytest
+from support.processes import is_alive
 from support.scenarios import SHORT_RUN
 
 import bridge_demolition_addon
@@ -37,14 +38,6 @@ def said():
     from bridge_demolition_addon.ui.preview.run_drawing import sentences
 
     return sentences()
-
-
-def is_alive(process_id):
-    try:
-        os.kill(process_id, 0)
-    except ProcessLookupError:
-        return False
-    return True
 
 
 def follow_to_end(beside, settings):
