@@ -65,7 +65,7 @@ def handlers() -> Counter[str]:
     """How often each handler of the extension is registered."""
     lists = {name: getattr(bpy.app.handlers, name) for name in dir(bpy.app.handlers)}
     return Counter(
-        f"{name}: {handler.__qualname__}"
+        f"{name}: {handler.__module__}.{handler.__qualname__}"
         for name, functions in lists.items()
         if isinstance(functions, list)
         for handler in functions
