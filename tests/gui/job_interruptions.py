@@ -60,7 +60,9 @@ def load_while_recording(person: Person) -> Steps:
         yield from person.click("bda.unregister_handler")
         yield 2.0
         yield from person.picture("file_loaded_and_unregistered")
-        person.expect_reports("loading ends the recording with a warning", "loading a file", "Results are in")
+        person.expect_reports(
+            "loading ends the recording with a warning", "loading a file", "still move at the end", "Results are in"
+        )
     person.expect("no recording runs after loading", recording_runs(), False)
 
 
