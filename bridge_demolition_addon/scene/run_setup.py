@@ -117,6 +117,8 @@ def _breaking_parts(setup: RunSetup) -> Parts:
     if not bars:
         return parts
     parts |= {"bars": np.column_stack((bars.yield_n, bars.offsets_m, bars.directions, bars.openings_m))}
+    if bars.yield_shares is not None:
+        parts |= {"yield_shares": np.nan_to_num(bars.yield_shares)}
     return parts if bars.hinges is None else parts | {"hinges": np.nan_to_num(bars.hinges)}
 
 

@@ -105,15 +105,20 @@ class Cracks:
         positions_m: FloatArray,
         rotations: FloatArray,
         pulls_n: FloatArray | None = None,
+        parted_m: FloatArray | None = None,
     ) -> None:
         """Let bars hold in place of connections `rows` (r,), whose bodies are `first` and `second`.
 
         The cracks are still closed: bars cross them at `places_m` (3, 4, r), along `directions` (3, r). These and the
         `normals` (3, r) point from the first to the second bodies. Bars begin without force, or with `pulls_n`
-        (3, 4, r) on the first bodies.
+        (3, 4, r) on the first bodies. Sides that have already parted did so by `parted_m` (3, 4, r).
         """
         ends = [np.tile(bodies, _COUNT) for bodies in (first, second)]
-        anchors = [turned_back(rotations[..., end], places_m.reshape(3, -1) - positions_m[:, end]) for end in ends]
+        sides = [places_m, places_m if parted_m is None else places_m + parted_m]
+        anchors = [
+            turned_back(rotations[..., end], side.reshape(3, -1) - positions_m[:, end])
+            for end, side in zip(ends, sides, strict=True)
+        ]
         count = len(ends[0])
         self.rows = np.concatenate((self.rows, rows))
         self._first, self._second = _joined(self._first, ends[0]), _joined(self._second, ends[1])
@@ -132,6 +137,10 @@ class Cracks:
         self._rests = _joined(self._rests, np.zeros((3, count)))
         self._grips_n = _joined(self._grips_n, np.zeros(count))
         self._solved_for = _joined(self._solved_for, np.full((3, 3, count), np.nan))
+
+    def pressed_n_m(self, rows: IntArray) -> FloatArray:
+        """Return the stiffness (r,) with which the sides of connections press on each other at each corner."""
+        return self._pressed_n_m[rows]
 
     def settle(self, positions_m: FloatArray, rotations: FloatArray) -> IntArray:
         """Take over how far bars have yielded by now; return the connections (d,) that no bar replaces any more."""

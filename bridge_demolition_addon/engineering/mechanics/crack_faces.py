@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -51,14 +51,17 @@ class CrackFaces:
 
     def cracks(self, steel: Steel, left: FloatArray, pressed_n_m: FloatArray) -> Cracks:
         """Return the cracks, none at first; `left` (m,) and `pressed_n_m` (m,) are as in `Cracks`."""
-        are_hinges, have_own_law, hinges = self._bars.are_hinges, self._bars.have_own_law, self._bars.hinges
-        if hinges is None:
-            return Cracks(steel, self._bars.openings_m, self._yield_n, left, pressed_n_m)
-        alike = SteelOfBars.alike(steel, len(left))
-        columns = zip((alike.yield_strain, alike.hardening, alike.rupture_strain), hinges.T, strict=True)
-        of_each = SteelOfBars(*(np.where(have_own_law, own, usual) for usual, own in columns))
-        pressed_n_m = np.where(are_hinges, 0.0, pressed_n_m)
-        return Cracks(of_each, self._bars.openings_m, self._yield_n, left, pressed_n_m)
+        bars = self._bars
+        if bars.hinges is None and bars.yield_shares is None:
+            return Cracks(steel, bars.openings_m, self._yield_n, left, pressed_n_m)
+        of_each = SteelOfBars.alike(steel, len(left))
+        if bars.yield_shares is not None:
+            by_share = bars.yield_shares * of_each.rupture_strain
+            of_each = replace(of_each, yield_strain=np.where(np.isnan(by_share), of_each.yield_strain, by_share))
+        if bars.hinges is not None:
+            columns = zip((of_each.yield_strain, of_each.hardening, of_each.rupture_strain), bars.hinges.T, strict=True)
+            of_each = SteelOfBars(*(np.where(bars.have_own_law, own, usual) for usual, own in columns))
+        return Cracks(of_each, bars.openings_m, self._yield_n, left, np.where(bars.are_hinges, 0.0, pressed_n_m))
 
     def tear(self, cracks: Cracks, torn: TornFaces, positions_m: FloatArray, rotations: FloatArray) -> None:
         """Add cracks in place of faces, with bodies at positions (3, n) in rotations (3, 3, n)."""
@@ -69,10 +72,35 @@ class CrackFaces:
         along = torn.signs * components_first(transformed(axes, self._bars.directions[rows]))
         ends = torn.first, torn.second
         pulls_n = self._pulls_n(torn, places) if self._bars.hinges is not None else None
-        cracks.add(rows, *ends, places, outwards, along, positions_m, rotations, pulls_n)
+        parted_m = None
+        if self._bars.yield_shares is not None:
+            stretch = ~np.isnan(self._bars.yield_shares[rows])
+            parted_m = np.where(stretch, self._parted_m(torn, places, cracks.pressed_n_m(rows)), 0.0)
+        cracks.add(rows, *ends, places, outwards, along, positions_m, rotations, pulls_n, parted_m)
+
+    def _parted_m(self, torn: TornFaces, places_m: FloatArray, pressed_n_m: FloatArray) -> FloatArray:
+        """By how much (3, 4, r) corners of shards part with what these had stretched before they cracked within.
+
+        Whole sections bend by I = A h² / 12, where corners that are as stiff as they in all bend by A h² / 4.
+        """
+        normal = torn.signs * components_first(torn.axes[:, :, 0])
+        pulls = np.where(
+            pressed_n_m > 0.0, self._shared(torn, places_m, 3.0) / np.where(pressed_n_m > 0.0, pressed_n_m, 1.0), 0.0
+        )
+        parted: FloatArray = normal[:, None] * (pulls * normal[:, None]).sum(axis=0)
+        return parted
 
     def _pulls_n(self, torn: TornFaces, places_m: FloatArray) -> FloatArray:
         """Forces (3, 4, r) at the corners that sections of steel and studs begin with: what they carried."""
+        pulls = self._shared(torn, places_m)
+        forces = components_first(torn.signs[:, None] * torn.forces_n)
+        normal = components_first(torn.axes[:, :, 0])
+        along = forces - dot_products(forces, normal) * normal
+        of_studs = np.where(self._bars.are_studs[torn.rows], np.repeat(0.25 * along[:, None], 4, axis=1), 0.0)
+        return np.where(self._bars.are_hinges[torn.rows], pulls, of_studs)
+
+    def _shared(self, torn: TornFaces, places_m: FloatArray, of_moments: float = 1.0) -> FloatArray:
+        """Forces (3, 4, r) at the corners that come to the forces of faces, and to their moments times a factor."""
         count = len(torn.rows)
         forces, moments = (components_first(torn.signs[:, None] * loads) for loads in (torn.forces_n, torn.moments_nm))
         arms = places_m - places_m.mean(axis=1, keepdims=True)
@@ -88,9 +116,6 @@ class CrackFaces:
             (beside[1] / sides[1], squares[0]),
         ):
             about += axis * dot_products(axis, moments) / turning
-        pulls = 0.25 * forces[:, None] + np.stack(
+        return 0.25 * forces[:, None] + of_moments * np.stack(
             [cross_products(about, arms[:, corner]) for corner in range(4)], axis=1
         )
-        along = forces - dot_products(forces, normal) * normal
-        of_studs = np.where(self._bars.are_studs[torn.rows], np.repeat(0.25 * along[:, None], 4, axis=1), 0.0)
-        return np.where(self._bars.are_hinges[torn.rows], pulls, of_studs)

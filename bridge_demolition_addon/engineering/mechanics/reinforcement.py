@@ -24,6 +24,9 @@ class FaceBars:
     hinges: FloatArray | None = None
     """(m, 3), of sections of steel that yield as a whole, and of studs along a face: strain at yield, hardening and
     strain at rupture; nan of the others."""
+    yield_shares: FloatArray | None = None
+    """(m,), part of `openings_m` at which bars yield, where these stretch along cracked shards; nan of the others,
+    which yield as their steel says."""
 
     def with_even(self, even_n: FloatArray, opening_m: float | FloatArray) -> FaceBars:
         """Return them together with bars (m,) that are spread evenly over the faces, and pull across these.
@@ -42,6 +45,7 @@ class FaceBars:
             np.divide(forces, whole[:, None], out=along, where=whole[:, None] > 0.0),
             share * self.openings_m + (1.0 - share) * opening_m,
             self.hinges,
+            self.yield_shares,
         )
 
     def with_pulls(
@@ -69,6 +73,7 @@ class FaceBars:
             np.divide(forces, whole[:, None], out=self.directions.copy(), where=whole[:, None] > 0.0),
             np.divide(by_opening, parts, out=np.zeros_like(parts), where=has_bars),
             self.hinges,
+            self.yield_shares,
         )
 
     @property
@@ -119,7 +124,7 @@ class FaceBars:
         all_laws = np.full((len(all_yield_n), 3), np.nan) if self.hinges is None else self.hinges.copy()
         all_yield_n[rows], openings[rows], all_laws[rows] = yield_n, openings_m, laws
         offsets_m[rows], directions[rows] = 0.0, direction
-        return FaceBars(all_yield_n, offsets_m, directions, openings, all_laws)
+        return FaceBars(all_yield_n, offsets_m, directions, openings, all_laws, self.yield_shares)
 
     @classmethod
     def none(cls, count: int) -> FaceBars:

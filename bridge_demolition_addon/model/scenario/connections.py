@@ -281,6 +281,12 @@ class ConnectionSettings(JointSettings):
         above=0,
         at_most=0.5,
     )
+    cracks_within_shards: bool = key(
+        "Whether concrete cracks within shards as it does between them, with `stiffness` `elastic` and bars in layers "
+        "or by a rule. Bars then stretch from the middle of a shard to that of the next, as in the fully cracked state "
+        "of EN 1992-1-1, 7.4.3, or of EN 1994-1-1, 5.4.2.3. Otherwise they stretch at the cracks between shards alone.",
+        default=False,
+    )
     warm_up_s: float = key(
         "Time from the start in which no connection breaks, so that the bridge settles under its own weight; shards "
         "that start deactivated do not settle.",
@@ -395,6 +401,12 @@ class ConnectionSettings(JointSettings):
             if getattr(self, name) is not None:
                 wanted = "none where connections.ductile_share is 0 and there is no [[reinforcement]]"
                 raise self.unexpected(name, wanted)
+        self.check_no_layers()
+
+    def check_no_layers(self) -> None:
+        """Check that nothing is said of cracks in shards where no layers of bars run through these."""
+        if self.cracks_within_shards:
+            raise self.unexpected("cracks_within_shards", "false where there is no [[reinforcement]]")
 
     def _check_steel(self) -> None:
         """Check that the steel is described only where it counts, and yields before it ruptures."""

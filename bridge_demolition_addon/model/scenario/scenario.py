@@ -304,6 +304,7 @@ class Scenario(Table):
             elif not connections.is_elastic:
                 wanted = f'"elastic" with a connections.ductile_share above 0: {_RIGID_WITH_BARS}'
                 raise connections.unexpected("stiffness", wanted)
+            connections.check_no_layers()
             return
         if connections.material is None:
             raise ScenarioError(f"connections.material is missing: expected it with {table}")

@@ -16,7 +16,7 @@ from ...engineering.elasticity.bar_rupture import (
     rupture_opening_m,
     tensile_strength_pa,
 )
-from ...engineering.elasticity.steel_bars import Steel
+from ...engineering.elasticity.steel_bars import MODULUS_PA, Steel
 from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.own_axes import OwnAxes
 from ...engineering.geometry.plane_cuts import plane_cuts
@@ -32,6 +32,9 @@ from ..bridge.member import Member
 from ..bridge.own_axes import is_standing, own_axes
 from ..materials.bar_layers import BarLayer, ReinforcedSection
 from .spread_bars import spread_bars
+
+_LEAST_STRETCH = 0.1
+"""What bars stretch at least until they yield, by what they do beside one crack: faces along them have no length."""
 
 _LEVEL_M = 1e-9
 """Cuts whose ends are no farther apart along the bars than this are square to these."""
@@ -72,6 +75,25 @@ class LayersOfMember:
             [factor * layer.yield_pa for layer in self.layers],
         )
 
+    def pulled_strains(self, forces_n: Sequence[float]) -> list[float]:
+        """Return strains at which layers have such forces, pulled as a whole: they stretch by E A."""
+        return [force / (MODULUS_PA * layer.area_m2) for layer, force in zip(self.layers, forces_n, strict=True)]
+
+    def bent_strains(self, factor: float, young_pa: float) -> list[float]:
+        """Return by what the edge beside each layer stretches as that yields, in a section of concrete that is bent.
+
+        It is d - x that bars stretch by their strain, with x pressed elastically: b x² / 2 = α A (d - x), of each layer
+        alone. This is the fully cracked state of EN 1992-1-1:2004, 7.4.3 (3).
+        """
+        strains = []
+        for layer, level, width in zip(self.layers, self.levels_m, self.widths_m, strict=True):
+            depth = max(self.highest - level, level - self.lowest)
+            by_width = MODULUS_PA / young_pa * layer.area_m2 / width
+            pressed = math.sqrt(by_width * by_width + 2.0 * by_width * depth) - by_width
+            height = self.highest - self.lowest
+            strains.append(factor * layer.yield_pa / MODULUS_PA * height / (depth - pressed))
+        return strains
+
     def openings_m(self, compressive_pa: float, steel: Steel) -> list[float]:
         """Return the opening of a crack at which the bars of each layer rupture."""
         depth_m, tensile_pa = self.highest - self.lowest, tensile_strength_pa(compressive_pa)
@@ -84,6 +106,20 @@ class LayersOfMember:
                 rupture_opening_m(mean_strain_at_rupture(own, layer.diameter_m, spacing, tensile_pa), depth_m)
             )
         return openings
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CrackedShards:
+    """Shards (n,) that crack within as they do between each other, so that bars stretch from middle to middle."""
+
+    middles_m: np.ndarray  # (n, 3)
+    pulled: frozenset[int] = frozenset()  # members that are pulled as a whole, as decks over supports of girders are
+
+    def between_m(self, pairs: np.ndarray, along: np.ndarray) -> np.ndarray:
+        """Return the lengths (k,) between the middles of pairs (k, 2) of shards, along directions (3,) or (k, 3)."""
+        first, second = self.middles_m[pairs].swapaxes(0, 1)
+        lengths: np.ndarray = abs(dot(second - first, np.broadcast_to(along, first.shape)))
+        return lengths
 
 
 def layers_of_members(layers: Sequence[BarLayer], members: Sequence[Member]) -> Iterator[LayersOfMember]:
@@ -204,16 +240,19 @@ def face_bars(
     factor: float,
     steel: Steel,
     opening_m: float | None,
+    cracked_shards: CrackedShards | None = None,
 ) -> FaceBars:
     """Return the bars of layers that cross the faces of m connections; bars end where their member does.
 
     `member_of_shard` (n,) and `joint_of_connection` (m,) are indices, `shards` have no gaps yet, and bars are `factor`
-    times as strong as their layers say. They rupture at an opening, or without one as their steel and bond say. Bars
+    times as strong as their layers say. They rupture at an opening, or without one as their steel and bond say; where
+    shards crack within, this opening has in it what bars stretch along these as they yield. Bars
     that run different ways pull together in one direction, with which they do the same work where a crack opens:
     as yield lines in slabs do (K. W. Johansen, 1943, Brudlinieteorier).
     """
     count = len(connections)
     pulled_n, forces, by_position, by_opening = np.zeros(count), *np.zeros((2, count, 3)), np.zeros(count)
+    by_stretch = np.zeros(count)
     of_pair = np.append(member_of_shard, -1)[connections.pairs]
     is_within = _are_within(of_pair) & (connections.areas > 0.0)
     for group in layers_of_members(layers, members):
@@ -234,8 +273,12 @@ def face_bars(
                 corners = group.own.from_world(corners)
                 along = group.own.directions(group.own.from_world(connections.points[rows]), group.axes[0])
             signs = np.where(dot(connections.normals[rows], along) < 0.0, -1.0, 1.0)
-            columns = zip(group.layers, layer_forces, openings, group.levels_m, group.widths_m, strict=True)
-            for layer, force, opening, level, width in columns:
+            strains = [0.0] * len(openings)
+            if cracked_shards:
+                is_pulled, young_pa = group.member in cracked_shards.pulled, joints[joint].moduli.young_pa
+                strains = group.pulled_strains(layer_forces) if is_pulled else group.bent_strains(factor, young_pa)
+            columns = zip(group.layers, layer_forces, openings, strains, group.levels_m, group.widths_m, strict=True)
+            for layer, force, opening, strain, level, width in columns:
                 pulls, positions = _pulls(face, corners, group, level, force / width, len(rows))
                 if not layer.anchored and group.own is None:
                     held = _anchored(layer, member, tensile_strength_pa(strength.compression_pa), pulls, positions)
@@ -244,6 +287,8 @@ def face_bars(
                 forces[rows] += (signs * pulls)[:, None] * along
                 by_position[rows] += member.with_skew(positions) if group.own is None else positions
                 by_opening[rows] += (opening if opening_m is None else opening_m) * pulls
+                if cracked_shards:
+                    by_stretch[rows] += strain * cracked_shards.between_m(connections.pairs[rows], along) * pulls
     for spread in spread_bars(layers, members):
         own = is_within & (of_pair[:, 0] == spread.member)
         for joint in np.unique(joint_of_connection[own]):
@@ -257,15 +302,27 @@ def face_bars(
             forces[rows, spread.along] += np.where(connections.normals[rows, spread.along] < 0.0, -pulls, pulls)
             by_position[rows] += pulls[:, None] * connections.points[rows]
             by_opening[rows] += opening * pulls
+            if cracked_shards:
+                stretched_m = cracked_shards.between_m(connections.pairs[rows], np.eye(3)[spread.along])
+                by_stretch[rows] += factor * spread.layer.yield_pa / MODULUS_PA * stretched_m * pulls
     has_bars = pulled_n > 0.0
     positions = np.divide(by_position, pulled_n[:, None], out=connections.points.copy(), where=has_bars[:, None])
     axes, yield_n = section_axes(connections.normals), length(forces)
     directions = np.divide(forces, yield_n[:, None], out=axes[:, :, 0].copy(), where=has_bars[:, None])
+    openings_m = np.divide(by_opening, pulled_n, out=np.zeros(count), where=has_bars)
+    yield_shares = None
+    if cracked_shards:
+        at_crack_m = steel.yield_strain / steel.rupture_strain * openings_m
+        yields_m = np.divide(by_stretch, pulled_n, out=np.zeros(count), where=has_bars)
+        yields_m = np.maximum(yields_m, _LEAST_STRETCH * at_crack_m)
+        openings_m += yields_m - at_crack_m
+        yield_shares = np.divide(yields_m, openings_m, out=np.full(count, np.nan), where=has_bars)
     return FaceBars(
         yield_n,
         transformed_back(axes[:, :, 1:], positions - connections.points),
         transformed_back(axes, directions),
-        np.divide(by_opening, pulled_n, out=np.zeros(count), where=has_bars),
+        openings_m,
+        yield_shares=yield_shares,
     )
 
 

@@ -155,9 +155,10 @@ def _bar_texts(scenario: Scenario, group: LayersOfMember) -> tuple[str, str]:
     own_m = scenario.connections.ductile_elongation_m
     openings = group.openings_m(compression_pa, scenario.steel) if own_m is None else [own_m]
     ranged = " to ".join(dict.fromkeys(f"{1000.0 * opening:.3g}" for opening in (min(openings), max(openings))))
+    more = " more than what shards beside it stretch" if scenario.connections.cracks_within_shards else ""
     return (
         f"along {AXES[along]}{_between_text(group.between_m)}: {resisted}",
-        f"These bars rupture once a crack has opened by {ranged} mm.",
+        f"These bars rupture once a crack has opened by {ranged} mm{more}.",
     )
 
 

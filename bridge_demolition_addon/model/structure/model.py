@@ -40,7 +40,7 @@ from .composite_decks import (
 )
 from .connection_rules import rules_of_pairs
 from .crack_bars import CrackBars, even_bars_n
-from .face_bars import face_bars, within_reinforced
+from .face_bars import CrackedShards, face_bars, within_reinforced
 from .footings import on_footings, second_moments_of, soil_springs, with_soil
 from .members import FracturedMembers, fractured_members, shards_with_gaps
 from .starter_bars import starter_bars
@@ -236,6 +236,7 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
             scenario.connections.strength_factor,
             scenario.steel,
             scenario.connections.ductile_elongation_m,
+            _cracked_shards(scenario, fractured, connections, decks),
         )
         if starters:
             bars = bars.with_even(starters.yield_n, starters.openings_m)
@@ -281,6 +282,16 @@ def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> 
         decks=decks,
         tendons=tendons,
     )
+
+
+def _cracked_shards(
+    scenario: Scenario, fractured: FracturedMembers, connections: Connections, decks: DeckContacts | None
+) -> CrackedShards | None:
+    """Return how far bars stretch where shards crack within, as the scenario says; None where they do not."""
+    if not scenario.connections.cracks_within_shards:
+        return None
+    on_girders = connections.pairs[decks.rows, 0] if decks else np.zeros(0, int)
+    return CrackedShards(fractured.centres_m, frozenset(fractured.member_of_shard[on_girders].tolist()))
 
 
 def _stiffness(

@@ -23,6 +23,7 @@ _DUCTILITY = "bda_ductility"
 _STEEL = "bda_steel"
 _BARS = "bda_bars"
 _HINGE = "bda_hinge"
+_YIELD_SHARE = "bda_yield_share"
 _FORCE = "bda_breaking_force_n"
 
 _NO_BARS = (0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0)
@@ -85,6 +86,9 @@ def keep_bars(connections: Sequence[bpy.types.Object], bars: FaceBars) -> None:
     if bars.hinges is not None:
         for row in np.flatnonzero(bars.have_own_law).tolist():
             connections[row][_HINGE] = bars.hinges[row].tolist()
+    if bars.yield_shares is not None:
+        for row in np.flatnonzero(~np.isnan(bars.yield_shares)).tolist():
+            connections[row][_YIELD_SHARE] = float(bars.yield_shares[row])
 
 
 def _bars_of(connections: Sequence[bpy.types.Object]) -> FaceBars | None:
@@ -97,7 +101,15 @@ def _bars_of(connections: Sequence[bpy.types.Object]) -> FaceBars | None:
         hinges = np.array(
             [kept_numbers(connection, _HINGE, none) if _HINGE in connection else none for connection in connections]
         )
-    return FaceBars(numbers[:, 0], numbers[:, 1:3], numbers[:, 3:6], numbers[:, 6], hinges)
+    shares = None
+    if any(_YIELD_SHARE in connection for connection in connections):
+        shares = np.array(
+            [
+                kept_number(connection, _YIELD_SHARE, 0.0) if _YIELD_SHARE in connection else np.nan
+                for connection in connections
+            ]
+        )
+    return FaceBars(numbers[:, 0], numbers[:, 1:3], numbers[:, 3:6], numbers[:, 6], hinges, shares)
 
 
 def breaking_of(scene: bpy.types.Scene, connections: Sequence[bpy.types.Object] = ()) -> Breaking:
