@@ -3,7 +3,8 @@
 
 The I-235 span is cut into more and more shards, connected where they share a face, awake from the start and as strong
 as large models are by default. Each number has a process of its own, which prints one row of the CSV. All times are CPU
-time, which other programs disturb least. Usage: growth.py measure | draw
+time, which other programs disturb least. With elastic connections they are a hundred times as strong, so that all of
+them stand. Usage: growth.py measure [elastic] | draw
 """
 
 import csv
@@ -22,6 +23,7 @@ from bridge_demolition_addon.model.scenario.file import read_scenario
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLE = ROOT / "examples" / "report_2019" / "i235_one_span.toml"
 DATA = ROOT / "docs" / "data" / "growth.csv"
+ELASTIC_DATA = DATA.with_name("growth_elastic.csv")
 PICTURE = ROOT / "docs" / "pictures" / "growth.png"
 SHARDS = (1000, 2000, 5000, 10_000)
 FRAMES = 8
@@ -60,7 +62,7 @@ class Growth:
     peak_mb: float
 
 
-def growth_of(shards: int) -> Growth:
+def growth_of(shards: int, *, is_elastic: bool = False) -> Growth:
     """Build, simulate and save the bridge in so many shards, in this process."""
     import bpy
 
@@ -72,7 +74,7 @@ def growth_of(shards: int) -> Growth:
     from bridge_demolition_addon.simulation.recording.recorder import Recording
     from bridge_demolition_addon.simulation.run_summary import RunContext, run_summary
 
-    scenario = _scenario(shards)
+    scenario = _scenario(shards, is_elastic)
     watch = _Watch()
     model = checked_model(scenario)
     model_s = watch.lap()
@@ -116,16 +118,16 @@ def growth_of(shards: int) -> Growth:
     )
 
 
-def measure() -> None:
+def measure(path: Path, *way: str) -> None:
     """Measure all numbers of shards, each in a process of its own, and write the CSV."""
-    DATA.parent.mkdir(exist_ok=True)
+    path.parent.mkdir(exist_ok=True)
     rows = []
     for shards in SHARDS:
-        command = [sys.executable, str(Path(__file__).resolve()), "one", str(shards)]
+        command = [sys.executable, str(Path(__file__).resolve()), "one", str(shards), *way]
         rows.append(subprocess.run(command, check=True, capture_output=True, text=True).stdout.splitlines()[-1])
         print(rows[-1], flush=True)
         names = ",".join(item.name for item in fields(Growth))
-        DATA.write_text("\n".join((names, *rows, "")), encoding="utf-8")
+        path.write_text("\n".join((names, *rows, "")), encoding="utf-8")
 
 
 def read_growth(path: Path) -> list[Growth]:
@@ -187,7 +189,7 @@ class _Watch:
         return passed
 
 
-def _scenario(shards: int):
+def _scenario(shards: int, is_elastic: bool):
     example = read_scenario(EXAMPLE)
     return replace(
         example,
@@ -200,6 +202,8 @@ def _scenario(shards: int):
             search_radius_m=None,
             breaking_force_kgf=None,
             material=MATERIAL_OF_LARGE_MODELS,
+            stiffness="elastic" if is_elastic else "rigid",
+            strength_factor=100.0 if is_elastic else 1.0,
         ),
         shards=replace(example.shards, start_deactivated=False, use_deactivation=False),
         ball=None,
@@ -214,17 +218,19 @@ def _memory_mb() -> float:
 def main(arguments: list[str]) -> None:
     """Do as asked."""
     match arguments:
-        case ["one", shards]:
-            row = asdict(growth_of(int(shards)))
+        case ["one", shards, *way]:
+            row = asdict(growth_of(int(shards), is_elastic=way == ["elastic"]))
             print(",".join(f"{value:.4g}" if isinstance(value, float) else str(value) for value in row.values()))
             sys.stdout.flush()
             os._exit(0)  # Blender's own end takes longer than the run
         case ["measure"]:
-            measure()
+            measure(DATA)
+        case ["measure", "elastic"]:
+            measure(ELASTIC_DATA, "elastic")
         case ["draw"]:
             draw(read_growth(DATA), PICTURE)
         case _:
-            sys.exit("usage: growth.py measure | draw")
+            sys.exit("usage: growth.py measure [elastic] | draw")
 
 
 if __name__ == "__main__":
