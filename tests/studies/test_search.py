@@ -27,11 +27,11 @@ frames_per_second = 24
 shards = 2
 [[geometry]]
 name = "hook"
-file = "hook.stl"
+file = "hook.obj"
 density_kg_m3 = 2400
 [[geometry]]
 name = "block"
-file = "block.stl"
+file = "block.obj"
 density_kg_m3 = 2400
 [connections]
 type = "FIXED"
@@ -73,7 +73,7 @@ def search_file(folder, trials=40, lowest=800, highest=16000, more=""):
     for name, size, height in (("hook", NECK_M, 10.0 + NECK_M / 2.0), ("block", SIDE_M, 10.0 - SIDE_M / 2.0)):
         mesh = trimesh.creation.box((size, size, size))
         mesh.apply_translation((0.0, 0.0, height))
-        mesh.export(folder / f"{name}.stl")
+        mesh.export(folder / f"{name}.obj")
     (folder / "scenario.toml").write_text(SCENARIO, encoding="utf-8")
     path = folder / "search.toml"
     path.write_text(SEARCH.format(trials=trials, lowest=lowest, highest=highest, more=more), encoding="utf-8")
