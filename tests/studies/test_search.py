@@ -113,7 +113,7 @@ def test_median_and_spread_of_a_known_strength_are_found(tmp_path, capfd):
 
 
 def test_a_search_goes_on_where_it_was_stopped_and_does_not_depend_on_how_many_run(tmp_path):
-    path = search_file(tmp_path, trials=12)
+    path = search_file(tmp_path, trials=8)
     whole = tmp_path / "whole"
     assert main(["search", str(path), "--output", str(whole), "--jobs", "1", "--quiet"]) == 0
     halved = tmp_path / "halved"
@@ -128,10 +128,10 @@ def test_a_search_goes_on_where_it_was_stopped_and_does_not_depend_on_how_many_r
 
 def test_what_never_or_always_happens_is_said_after_the_opening_trials(tmp_path, capfd):
     never = search_file(tmp_path / "never", lowest=10, highest=100)
-    assert main(["search", str(never), "--output", str(tmp_path / "a")]) == 0
+    assert main(["search", str(never), "--output", str(tmp_path / "a"), "--jobs", "1"]) == 0
     assert "0 of 8 runs met all criteria: the criteria were never met in the range" in capfd.readouterr().out
     always = search_file(tmp_path / "always", lowest=50000, highest=90000)
-    assert main(["search", str(always), "--output", str(tmp_path / "b")]) == 0
+    assert main(["search", str(always), "--output", str(tmp_path / "b"), "--jobs", "1"]) == 0
     said = capfd.readouterr().out
     assert "8 of 8 runs met all criteria: the criteria were always met in the range" in said
     assert "Runs went from 50000 to 90000: move search.lowest" in said
@@ -139,7 +139,7 @@ def test_what_never_or_always_happens_is_said_after_the_opening_trials(tmp_path,
 
 def test_a_search_stops_when_its_limit_is_close_enough(tmp_path):
     path = search_file(tmp_path, trials=40, more="within = 6000.0")
-    assert main(["search", str(path), "--output", str(tmp_path / "out"), "--quiet"]) == 0
+    assert main(["search", str(path), "--output", str(tmp_path / "out"), "--quiet", "--jobs", "1"]) == 0
     answer = json.loads((tmp_path / "out" / "search.json").read_text(encoding="utf-8"))
     assert answer["ended_as"] == "the limit is as close as was asked for" and answer["trials"] < 40
     assert answer["limit"] - answer["value"] <= 6000.0
