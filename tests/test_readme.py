@@ -18,7 +18,7 @@ MOST_LINES = 120
 
 SMALLER = (
     ("duration_s = 4.0", "duration_s = 0.7"),
-    ("shards = 160", "shards = 40"),
+    ("shards = 160", "shards = 24"),
 )
 """Changes to the scenario that `bda new` writes: the pier goes at 0.5 s."""
 

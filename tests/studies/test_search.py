@@ -113,7 +113,7 @@ def test_median_and_spread_of_a_known_strength_are_found(tmp_path, capfd):
 
 
 def test_a_search_goes_on_where_it_was_stopped_and_does_not_depend_on_how_many_run(tmp_path):
-    path = search_file(tmp_path, trials=8)
+    path = search_file(tmp_path, trials=12)
     whole = tmp_path / "whole"
     assert main(["search", str(path), "--output", str(whole), "--jobs", "1", "--quiet"]) == 0
     halved = tmp_path / "halved"
