@@ -99,7 +99,7 @@ type = "GENERIC"
 free = ["move z"]
 material = "of the ends"
 {RIGID_BODIES.format(shards=0.25, ground=0.25)}"""
-    results = simulated(folder, "beam", scenario, solids)
+    results = simulated(folder, "beam", scenario, {f"{name}.obj": solid for name, solid in solids.items()})
     inventory, frames = results.inventory, results.frames
     halves = np.flatnonzero((inventory.body_kinds == "shard") & (inventory.body_members == "beam"))
     assert len(halves) == 2

@@ -107,7 +107,7 @@ def test_straight_bars_have_less_near_their_ends(tmp_path, half_m, share):
     for anchored in ("true", "false"):
         path = tmp_path / f"{anchored}.toml"
         layer = f"[[reinforcement]]\ndiameter_mm = 40.0\nanchored = {anchored}\n"
-        text = beam.scenario.replace("[[reinforcement]]\n", layer)
+        text = beam.scenario.replace(".stl", ".obj").replace("[[reinforcement]]\n", layer)
         path.write_text(f'[scenario]\ntitle = "beam"\n[time]\nduration_s = 1.0\n{text}', encoding="utf-8")
         pulls.append(build_model(read_scenario(path)).bars.yield_n.sum())
     assert pulls[1] / pulls[0] == pytest.approx(share, rel=0.002)
