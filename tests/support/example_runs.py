@@ -128,7 +128,7 @@ BEGINNINGS = {
     "single_span_explosives": 13,
     "three_span_box_girder": 39,
     "two_spans_13m_ball": 29,
-    "two_spans_13m_explosives": 32,
+    "two_spans_13m_explosives": 46,
     "two_spans_20m_at_once": 12,
     "two_spans_20m_delays": 14,
 }
