@@ -22,7 +22,7 @@ SMALLER = (
 )
 """Changes to the scenario that `bda new` writes: the pier goes at 0.5 s."""
 
-FEWER = (("runs = 93", "runs = 2\nquantile = 0.5\nconfidence = 0.5\nrank = 1"),)
+FEWER = (("runs = 93", "runs = 1\nquantile = 0.5\nconfidence = 0.5\nrank = 1"),)
 
 
 def blocks(language):
