@@ -23,7 +23,11 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 sys.path.insert(1, str(Path(__file__).resolve().parent.parent / "tests"))
 
 from support.checkout import SEEDED
-from support.example_runs import MEASURED_S, VERSIONS, example
+from support.example_claims import CLAIMS, beyond_claims
+from support.example_runs import BEGINNINGS, MEASURED_S, VERSIONS, example
+
+DIGESTS = ("motion", "beginning")
+"""Of all of a run, and of as much of it as tests run."""
 
 
 def main() -> int:
@@ -31,6 +35,8 @@ def main() -> int:
     options = arguments()
     if options.measure is not None:
         print_measured(options.names[0], options.measure, options.duration, options.shards)
+    if options.own:
+        return any([is_another(name) for name in options.names])  # all of them, also after one that is
     seeds = range(options.first, options.first + options.seeds)
     for name in options.names:
         duration_s = options.duration or MEASURED_S.get(name)
@@ -39,7 +45,10 @@ def main() -> int:
         if options.csv:
             keep(options.csv / f"{name}.csv", rows)
             own = run_alone(name, example(name).seed, duration_s, options.shards)
-            note_version(options.csv / VERSIONS.name, name, own["motion"])
+            # Claims are of the example as it is.
+            if not options.shards and name in CLAIMS and (beyond := beyond_claims(name, own)):
+                sys.exit(f"seeds: {name} with its own seed: {'; '.join(beyond)}")
+            note_version(options.csv / VERSIONS.name, name, {part: own[part] for part in DIGESTS if own[part]})
     return 0
 
 
@@ -54,8 +63,21 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--shards", type=int, metavar="N", help="cut the bridge into so many (the example's own)")
     parser.add_argument("--at-once", type=int, default=2, metavar="N", help="runs side by side, each on a core (2)")
     parser.add_argument("--csv", type=Path, metavar="DIR", help="also keep a row for each run in DIR/NAME.csv")
+    parser.add_argument("--own", action="store_true", help="run each once, as it is, and compare it with what was kept")
     parser.add_argument("--measure", type=int, metavar="SEED", help="run this seed alone and print JSON")
     return parser.parse_args()
+
+
+def is_another(name: str) -> bool:
+    """Run an example with its own seed, print whether it is the run that was kept, and return whether it is not.
+
+    Tests compare no more than the beginning.
+    """
+    own = run_alone(name, example(name).seed, MEASURED_S.get(name), None)
+    kept = json.loads(VERSIONS.read_text(encoding="utf-8"))[name]
+    found = [f"its {part} is another one" for part in DIGESTS if own[part] != kept[part]] + beyond_claims(name, own)
+    print(f"{name}: {'; '.join(found) or 'as it was kept'}", flush=True)
+    return bool(found)
 
 
 def measured(
@@ -65,7 +87,7 @@ def measured(
 
     def run(seed: int) -> dict[str, float | None]:
         found = run_alone(name, seed, duration_s, shards)
-        return {"seed": seed} | {quantity: value for quantity, value in found.items() if quantity != "motion"}
+        return {"seed": seed} | {quantity: value for quantity, value in found.items() if quantity not in DIGESTS}
 
     with ThreadPoolExecutor(at_once) as threads:
         for row in threads.map(run, seeds):
@@ -74,7 +96,7 @@ def measured(
 
 
 def run_alone(name: str, seed: int, duration_s: float | None, shards: int | None) -> dict[str, Any]:
-    """What was measured in the run of a seed, which has a process of its own, and the digest of its motion."""
+    """What was measured in the run of a seed, which has a process of its own, and the digests of its motion."""
     command = [sys.executable, __file__, name, *(["--duration", str(duration_s)] if duration_s else [])]
     command += ["--shards", str(shards)] if shards else []
     alone = [*command, "--measure", str(seed)]
@@ -87,11 +109,12 @@ def run_alone(name: str, seed: int, duration_s: float | None, shards: int | None
 def print_measured(name: str, seed: int, duration_s: float | None, shards: int | None) -> None:
     """Run an example with a seed in this process, print what was measured, and end the process."""
     from support.example_measures import measures_of
-    from support.example_runs import example, motion_of, run_example
+    from support.example_runs import example, motion_of, motion_of_beginning, run_example
 
     with tempfile.TemporaryDirectory() as folder:
         run = run_example(replace(example(name, duration_s, shards), seed=seed), Path(folder))
-        print(json.dumps(measures_of(name, run) | {"motion": motion_of(run)}), flush=True)
+        digests = (motion_of(run), motion_of_beginning(name, run) if name in BEGINNINGS else None)
+        print(json.dumps(measures_of(name, run) | dict(zip(DIGESTS, digests, strict=True))), flush=True)
     os._exit(0)  # Blender's own end may hang.
 
 
@@ -115,10 +138,10 @@ def columns(rows: Iterable[dict[str, float | None]]) -> list[str]:
     return list(dict.fromkeys(quantity for row in rows for quantity in row))
 
 
-def note_version(path: Path, name: str, motion: str) -> None:
+def note_version(path: Path, name: str, digests: dict[str, str]) -> None:
     """Keep how the example moves with its own seed, by which its test finds that ranges are of an earlier version."""
     versions = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
-    text = json.dumps(versions | {name: motion}, indent=1, sort_keys=True) + "\n"
+    text = json.dumps(versions | {name: digests}, indent=1, sort_keys=True) + "\n"
     path.write_text(text, encoding="utf-8", newline="\n")
 
 

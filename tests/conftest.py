@@ -54,9 +54,26 @@ def settings(extension: ModuleType):
     return extension.context.scene.bda
 
 
-_SLOW = ("examples", "studies", "simulation", "cli", "report")
-"""Folders whose files take longest: they come first, so that no process is left alone with one at the end."""
+_LONGEST = (
+    "test_beginnings",
+    "test_validation",
+    "test_search",
+    "test_foreign_files",
+    "test_same_run",
+    "test_optimise",
+    "test_i235",
+    "test_explosives",
+    "test_three_span_box_girder",
+    "test_drilled_columns",
+    "test_ensemble_versions",
+    "test_reinforced_cracks",
+    "test_tutorials",
+    "test_pybullet",
+)
+"""Files that take longest, the longest first: no process is left alone with one of them at the end."""
 
+_SLOW = ("extension", "examples", "studies", "simulation", "model", "cli", "report", "ui", "ifc")
+"""Folders whose files take longest, and come after these: at the end all processes have short ones."""
 
 _QUICK = ("engineering", "model", "charts", "display", "system")
 """Folders of those tests that `--quick` leaves: none needs a run in Blender, as few of these are quick."""
@@ -69,11 +86,13 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    def rank_of_folder(item: pytest.Item) -> int:
+    def rank(item: pytest.Item) -> int:
+        if item.path.stem in _LONGEST:
+            return _LONGEST.index(item.path.stem)
         folder = item.path.relative_to(config.rootpath / "tests").parts[0]
-        return _SLOW.index(folder) if folder in _SLOW else len(_SLOW)
+        return len(_LONGEST) + (_SLOW.index(folder) if folder in _SLOW else len(_SLOW))
 
-    items.sort(key=rank_of_folder)
+    items.sort(key=rank)
     if config.getoption("quick"):
         left_out = [item for item in items if item.get_closest_marker("slow") or "blender" in item.fixturenames]
         config.hook.pytest_deselected(items=left_out)

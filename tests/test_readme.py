@@ -18,11 +18,11 @@ MOST_LINES = 120
 
 SMALLER = (
     ("duration_s = 4.0", "duration_s = 0.7"),
-    ("shards = 160", "shards = 40"),
+    ("shards = 160", "shards = 24"),
 )
 """Changes to the scenario that `bda new` writes: the pier goes at 0.5 s."""
 
-FEWER = (("runs = 93", "runs = 2\nquantile = 0.5\nconfidence = 0.5\nrank = 1"),)
+FEWER = (("runs = 93", "runs = 1\nquantile = 0.5\nconfidence = 0.5\nrank = 1"),)
 
 
 def blocks(language):

@@ -14,9 +14,9 @@ from bridge_demolition_addon.cli.main import main
 
 PAGES = ("from_drawings", "first_charges", "exclusion_zone")
 SMALLER = {
-    "overpass.toml": (("duration_s = 5.0", "duration_s = 0.7"), ("shards = 120", "shards = 40")),
+    "overpass.toml": (("duration_s = 5.0", "duration_s = 0.7"), ("shards = 120", "shards = 24")),
     "overpass_charges.toml": (),
-    "overpass_study.toml": (("runs = 93", "runs = 2"), ("= 0.95\n", "= 0.5\n"), ("rank = 2", "rank = 1")),
+    "overpass_study.toml": (("runs = 93", "runs = 1"), ("= 0.95\n", "= 0.5\n"), ("rank = 2", "rank = 1")),
 }
 """Changes to the files of the pages before anything is run."""
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tempfile
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -23,6 +24,9 @@ _TEXT_FILES = (".obj",)
 """Files that are read here: Python reads their text, and an imported bridge has hundreds of them."""
 
 _LIMIT_S = 600.0
+
+_REMEMBERED_BYTES = 10 * MEGABYTE
+"""Size up to which a binary mesh is remembered: the runs of a study read the same files again and again."""
 _FROM_Y_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 
 
@@ -45,6 +49,20 @@ def _read(path: Path, *, is_cloud: bool) -> tuple[np.ndarray, np.ndarray]:
     check_file(path, MOST_BYTES)
     if path.suffix.lower() in _TEXT_FILES:
         return loaded(path, is_cloud=is_cloud)
+    found = path.stat()
+    if found.st_size > _REMEMBERED_BYTES:
+        return _read_apart(path, is_cloud=is_cloud)
+    vertices, triangles = _remembered(path.absolute(), found.st_mtime_ns, found.st_size, is_cloud=is_cloud)
+    return vertices.copy(), triangles.copy()
+
+
+@lru_cache(maxsize=64)
+def _remembered(path: Path, changed_ns: int, size: int, *, is_cloud: bool) -> tuple[np.ndarray, np.ndarray]:
+    """Return what a file holds; one that was changed since is read again."""
+    return _read_apart(path, is_cloud=is_cloud)
+
+
+def _read_apart(path: Path, *, is_cloud: bool) -> tuple[np.ndarray, np.ndarray]:
     with tempfile.TemporaryDirectory(prefix="bda-mesh-") as folder:
         kept = Path(folder) / "mesh.npz"
         request = {"path": str(path.absolute()), "kept": str(kept), "is_cloud": is_cloud}

@@ -66,7 +66,7 @@ def test_more_contacts_than_fit_into_the_pool_of_bullet(blender, tmp_path):
     for row in range(side):
         for column in range(side):
             blocks.block((3.0 * row - 99.0, 3.0 * column - 99.0, 0.5), mass)
-    results = blocks.play(tmp_path, 24)
+    results = blocks.play(tmp_path, 10)
     np.testing.assert_allclose(results.frames.loads.body_forces_n[-1, 1:, 2], mass * GRAVITY, rtol=1e-2)
     assert results.frames.loads.body_forces_n[-1, 0, 2] == pytest.approx(-(side**2) * mass * GRAVITY, rel=RESTING)
 

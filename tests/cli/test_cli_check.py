@@ -207,8 +207,8 @@ def test_how_a_bridge_that_breaks_by_a_force_would_stand_is_said_too(tmp_path, c
 
 def test_how_much_of_one_breaking_force_the_weight_uses_is_said(tmp_path):
     """A wall of 1 m × 1 m × 4 m on the ground, whose weight its foundation bears along one axis, and nothing else."""
-    (tmp_path / "wall.stl").write_bytes(exported(box((1, 1, 4), (0, 0, 2)), ".stl"))
-    wall = Geometry(name="wall", file=str(tmp_path / "wall.stl"), density_kg_m3=2400.0)
+    (tmp_path / "wall.obj").write_bytes(exported(box((1, 1, 4), (0, 0, 2)), ".obj"))
+    wall = Geometry(name="wall", file=str(tmp_path / "wall.obj"), density_kg_m3=2400.0)
     weight_n = 2400.0 * 4.0 * 9.80665
     for between, told in (
         ((), "47.1% used at most, 47.1% in the mean of 1"),
@@ -261,8 +261,8 @@ def test_how_a_rigid_bridge_would_stand_is_said_when_asked_for(tmp_path, capsys)
 
 
 def test_a_ball_swings_beside_a_member_of_ones_own(tmp_path):
-    (tmp_path / "wall.stl").write_bytes(exported(box((4, 1, 3), (2, 0.5, 1.5)), ".stl"))
-    wall = Geometry(name="wall", file=str(tmp_path / "wall.stl"), density_kg_m3=2400.0)
+    (tmp_path / "wall.obj").write_bytes(exported(box((4, 1, 3), (2, 0.5, 1.5)), ".obj"))
+    wall = Geometry(name="wall", file=str(tmp_path / "wall.obj"), density_kg_m3=2400.0)
     cable = BallCable(crane_point_m=(-3.0, 0.5, 12.0), length_m=10.0, angle_degrees=45, azimuth_degrees=180)
     swinging = Ball(mass_kg=1000.0, diameter_m=1.0, cable=cable)
     few = replace(I235.fracture, shards=20)
@@ -496,8 +496,8 @@ def test_a_bridge_in_pieces_is_said():
 
 def test_a_bridge_that_nothing_holds_is_not_said_to_stand(tmp_path):
     """A block of 2 m × 1 m × 1 m in the air, of 4.8 t: none of its connections is overloaded, and all of it falls."""
-    (tmp_path / "block.stl").write_bytes(exported(box((2, 1, 1), (0, 0, 3)), ".stl"))
-    block = Geometry(name="block", file=str(tmp_path / "block.stl"), density_kg_m3=2400.0)
+    (tmp_path / "block.obj").write_bytes(exported(box((2, 1, 1), (0, 0, 3)), ".obj"))
+    block = Geometry(name="block", file=str(tmp_path / "block.obj"), density_kg_m3=2400.0)
     floating = replace(
         I235,
         bridge=None,
@@ -511,8 +511,8 @@ def test_a_bridge_that_nothing_holds_is_not_said_to_stand(tmp_path):
     assert found["does not stand"].startswith(
         "4 of 4 shards, 4.800 t, 100% of what can move, are held by no connection"
     )
-    (tmp_path / "foot.stl").write_bytes(exported(box((1, 1, 1), (5, 0, 0.5)), ".stl"))
-    foot = Geometry(name="foot", file=str(tmp_path / "foot.stl"), density_kg_m3=2400.0)
+    (tmp_path / "foot.obj").write_bytes(exported(box((1, 1, 1), (5, 0, 0.5)), ".obj"))
+    foot = Geometry(name="foot", file=str(tmp_path / "foot.obj"), density_kg_m3=2400.0)
     found = facts(replace(floating, geometry=(block, foot)), stand=True)
     assert found["overloaded"].endswith("by the bridge's own weight alone, where it is held")
     assert ", 4.800 t, 67% of what can move" in found["not held"]

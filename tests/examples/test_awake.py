@@ -4,13 +4,13 @@
 from dataclasses import replace
 
 import pytest
-from support.example_claims import assert_claims
-from support.example_runs import example, run_example
+from support.example_claims import assert_begins
+from support.example_runs import begun, example, run_example
 
 
 @pytest.fixture(scope="module")
-def awake(tmp_path_factory):
-    return run_example(example("single_span_awake"), tmp_path_factory.mktemp("awake"))
+def awake(session_folder):
+    return begun("single_span_awake", session_folder)
 
 
 def test_nothing_happens_to_it_but_its_own_weight(awake):
@@ -21,7 +21,7 @@ def test_nothing_happens_to_it_but_its_own_weight(awake):
 
 
 def test_awake_it_breaks_under_its_own_weight(awake):
-    assert_claims("single_span_awake", awake)
+    assert_begins("single_span_awake", awake)
 
 
 def test_deactivated_it_stands(blender, tmp_path):

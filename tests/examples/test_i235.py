@@ -1,22 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The examples of the I-235 bridge: what the 2019 report shows of each, and what their headers say.
 
-They are run for 3 s instead of 5 or 8 s: the ball hits at 1.51 s, and a deck takes about a second to fall.
+They are run for 2 s instead of 5 or 8 s: the ball hits at 1.51 s. What becomes of that is kept of whole runs.
 """
 
+import csv
 import math
 from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
-from support.example_claims import assert_claims
-from support.example_runs import ExampleRun, example, run_example
+from support.example_claims import assert_begins
+from support.example_runs import VERSIONS, ExampleRun, begun, example, run_example
 
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.model.bridge import deck_top
-from bridge_demolition_addon.model.debris.throws import debris_of
-
-DURATION_S = 3.0
 
 
 @dataclass(frozen=True)
@@ -54,10 +52,10 @@ class Demolition(ExampleRun):
         return self.at(self.summary["impact"]["time_s"])
 
 
-@pytest.fixture(scope="module", params=CASES)
-def demolition(request, tmp_path_factory):
+@pytest.fixture(params=CASES)
+def demolition(request, session_folder):
     """Each example, run once for all tests that look at it."""
-    done = run_example(example(request.param, DURATION_S), tmp_path_factory.mktemp(request.param))
+    done = begun(request.param, session_folder)
     return Demolition(done.scenario, done.summary, done.results, request.param)
 
 
@@ -101,24 +99,29 @@ def test_nothing_moves_and_nothing_breaks_before_the_ball_arrives(demolition):
     assert 0.0 <= fallen - free <= demolition.scenario.time.step.frame_s
 
 
-def test_the_ball_goes_through_the_deck_that_it_hits(demolition):
+def test_the_ball_hits_the_deck_that_it_is_to_hit(demolition):
     assert demolition.hit_deck == demolition.case.hit
-    assert_claims(demolition.name, demolition)
+    assert_begins(demolition.name, demolition)
 
 
 def test_the_other_spans_are_awake_while_they_stay(demolition):
     hit, deck = demolition.impact, demolition.of_members("deck")
     staying = np.setdiff1d(deck, demolition.members_of(demolition.hit_deck))
-    assert not demolition.results.frames.asleep[hit : hit + 24, staying].any()
+    assert len(demolition.results.frames.time_s) >= hit + 12
+    assert not demolition.results.frames.asleep[hit : hit + 12, staying].any()
 
 
-def test_debris_stays_nearer_than_what_flies_off_with_the_speed_of_the_ball(demolition):
+@pytest.mark.parametrize("name", CASES)
+def test_debris_stays_nearer_than_what_flies_off_with_the_speed_of_the_ball(name):
     """Without restitution nothing is pushed faster than the ball falls, and what flies falls for sqrt(2 h / g)."""
-    ball, top = demolition.scenario.ball, deck_top(demolition.scenario.bridge)
+    scenario = example(name)
+    ball, top = scenario.ball, deck_top(scenario.bridge)
     speed = math.sqrt(2.0 * STANDARD_GRAVITY_M_S2 * ball.drop_height_m)
     farthest = speed * math.sqrt(2.0 * top / STANDARD_GRAVITY_M_S2)
     assert farthest == pytest.approx(10.5, abs=0.05)  # as the headers say
-    assert debris_of(demolition.results).throws_m.max() < farthest
+    with VERSIONS.with_name(f"{name}.csv").open(encoding="utf-8", newline="") as file:
+        throws_m = [float(row["largest_throw_m"]) for row in csv.DictReader(file)]
+    assert len(throws_m) >= 20 and max(throws_m) < farthest
 
 
 def test_forces_are_largest_where_the_ball_hits(demolition):

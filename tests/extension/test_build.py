@@ -12,9 +12,9 @@ from support.checkout import ROOT
 
 SCRIPT = ROOT / "scripts" / "build_extension"
 OF_EACH = {
-    "3.11": "bridge_demolition_addon-{}-blender-4.2-to-5.0.zip",
-    "3.13": "bridge_demolition_addon-{}-blender-5.1-and-later.zip",
-    "3.14": "bridge_demolition_addon-{}-python-3.14.zip",
+    "3.11": "bridge_demolition_addon-{}-blender-4.2-to-5.0-*.zip",
+    "3.13": "bridge_demolition_addon-{}-blender-5.1-and-later-*.zip",
+    "3.14": "bridge_demolition_addon-{}-python-3.14-*.zip",
 }
 NATIVE = {"contourpy", "kiwisolver", "manifold3d", "matplotlib", "pillow", "qdldl", "scipy"}
 """Packages with compiled code, of which each Python needs its own."""
@@ -22,14 +22,6 @@ NATIVE = {"contourpy", "kiwisolver", "manifold3d", "matplotlib", "pillow", "qdld
 
 def build(*options: object) -> subprocess.CompletedProcess:
     return subprocess.run([sys.executable, SCRIPT, *map(str, options)], capture_output=True, text=True)
-
-
-@pytest.fixture(scope="module")
-def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("dist")
-    result = build("--output", folder, "--platform", "linux-x64")
-    assert (result.returncode, result.stderr) == (0, "")
-    return folder
 
 
 @pytest.mark.parametrize("python", OF_EACH)

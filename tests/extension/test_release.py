@@ -23,21 +23,9 @@ NEXT = "99.0.0"
 """A version after any that this will have."""
 
 PLATFORM = {"linux": "linux-x64", "darwin": "macos-arm64", "win32": "windows-x64"}[sys.platform]
+PYTHON = "{}.{}".format(*sys.version_info)
 COPIED = ("bridge_demolition_addon", "examples", "scripts", "docs/pictures/walkthrough")
 COPIED_FILES = ("blender_manifest.toml", "pyproject.toml", "README.md", "LICENSE", "docs/walkthrough.md")
-
-
-def draft(checkout: Path, output: Path) -> Path:
-    """Build the files of a checkout as they are, for this system, and return the folder of the release."""
-    command = [sys.executable, checkout / "scripts" / "release.py", "--draft", "--output", output]
-    subprocess.run([*command, "--platform", PLATFORM], check=True)
-    (folder,) = output.iterdir()
-    return folder
-
-
-@pytest.fixture(scope="module")
-def built(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return draft(ROOT, tmp_path_factory.mktemp("releases"))
 
 
 @pytest.fixture(scope="module")
@@ -48,7 +36,7 @@ def listed(built: Path) -> list[dict[str, Any]]:
 
 @pytest.fixture(scope="module")
 def next_built(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The release of a later version."""
+    """The repository of a later version, with the zip for this Python and system."""
     checkout = tmp_path_factory.mktemp("checkout")
     for name in COPIED:
         shutil.copytree(ROOT / name, checkout / name, ignore=shutil.ignore_patterns("__pycache__"))
@@ -60,7 +48,10 @@ def next_built(tmp_path_factory: pytest.TempPathFactory) -> Path:
     # Wheels that are here already are not downloaded again.
     (ROOT / "build" / "wheels").mkdir(parents=True, exist_ok=True)
     (checkout / "build").symlink_to(ROOT / "build", target_is_directory=True)
-    return draft(checkout, tmp_path_factory.mktemp("releases"))
+    output = tmp_path_factory.mktemp("next")
+    command = [sys.executable, checkout / "scripts" / "build_extension", "--repository", "--output", output]
+    subprocess.run([*command, "--python", PYTHON, "--platform", PLATFORM, "--split-platforms"], check=True)
+    return output
 
 
 def test_checksums_are_those_of_all_files(built: Path) -> None:

@@ -9,7 +9,7 @@ from fuzzing.blender_steps import BlenderPlayer
 from fuzzing.players import PLAYERS
 from fuzzing.sequences import REFUSED, Drawn
 
-LENGTHS = {"blender": (4, 12), "scenarios": (8, 5), "folders": (1, 3)}
+LENGTHS = {"blender": (3, 10), "scenarios": (6, 5), "folders": (1, 2)}
 """How many sequences of how many steps each plays."""
 
 

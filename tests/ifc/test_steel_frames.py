@@ -42,13 +42,18 @@ def bar_between(steelwork, one, other):
     return next(member.name for member in steelwork.members if set(member.nodes) == {one, other})
 
 
-def test_forces_of_a_truss_of_files_are_those_of_the_method_of_joints(tmp_path):
+@pytest.fixture(scope="module")
+def plain_truss(tmp_path_factory):
+    return imported(truss_file(), tmp_path_factory.mktemp("truss"))
+
+
+def test_forces_of_a_truss_of_files_are_those_of_the_method_of_joints(plain_truss):
     """Warren truss of 8 panels, chords of one HEB 200 each, diagonals of tubes that end 0.2 m before the axes.
 
     20 t hang at each lower node between the supports, 150 times what a bar weighs: bars of nodes that are fixed then
     carry what pinned ones do, but for the bending that plates cause, 0.5 % of the largest force here.
     """
-    lines, scenario, _ = imported(truss_file(), tmp_path)
+    lines, scenario, _ = plain_truss
     assert "  all axes meet in their nodes" in lines
     places, bars = warren_truss()
     steelwork = scenario.steelwork
@@ -76,8 +81,8 @@ def test_forces_of_a_truss_of_files_are_those_of_the_method_of_joints(tmp_path):
     assert found == pytest.approx(by_statics, rel=0.01, abs=0.005 * largest)
 
 
-def test_supports_of_a_truss_on_nothing_are_under_its_lowest_ends(tmp_path):
-    lines, scenario, _ = imported(truss_file(), tmp_path)
+def test_supports_of_a_truss_on_nothing_are_under_its_lowest_ends(plain_truss):
+    lines, scenario, _ = plain_truss
     held = {
         round(node.place_m[0], 4): (node.support, node.held_by) for node in scenario.steelwork.nodes if node.support
     }
@@ -208,10 +213,20 @@ def test_masses_of_bars_are_those_of_the_file(on_bearings):
     assert "I 800x300x12x25, S355" in girder["why"]
 
 
-def test_bars_that_meet_nothing_are_named_and_do_not_fall_silently(tmp_path):
+@pytest.fixture(scope="module")
+def odd_truss(tmp_path_factory):
+    """The truss with a bar that meets nothing, one that misses a node, and plates at seven joints."""
     made = truss_file()
     made.bar("Stray", CHS_168, (10.0, 0.0, 6.5), (12.0, 1.5, 6.0))
-    lines, scenario, _ = imported(made, tmp_path)
+    made.bar("Short", CHS_168, (4.1, 0.1, 5.0), (5.0, 1.6, 5.0))
+    for number in range(1, 8):
+        plate = (0.4, 0.01, 0.3), (4.0 * number, 0.0, 5.12)
+        made.box("IfcPlate", f"Gusset {number}", *plate, "SUPERSTRUCTURE", material=made.steel())
+    return imported(made, tmp_path_factory.mktemp("odd"))
+
+
+def test_bars_that_meet_nothing_are_named_and_do_not_fall_silently(odd_truss):
+    lines, scenario, _ = odd_truss
     assert "Stray" not in {member.name for member in scenario.steelwork.members}
     assert any("would fall at once" in line and "IfcMember" in line for line in lines)
     (line,) = (line for line in lines if line.startswith("  Stray: meets no other bar, and nothing holds it"))
@@ -219,23 +234,16 @@ def test_bars_that_meet_nothing_are_named_and_do_not_fall_silently(tmp_path):
     assert line.endswith("m is nearest to an axis, 0.42 m off") or "m off" in line
 
 
-def test_a_diagonal_that_misses_a_node_is_said_to_end_free(tmp_path):
-    made = truss_file()
-    made.bar("Short", CHS_168, (4.1, 0.1, 5.0), (5.0, 1.6, 5.0))
-    lines, _, _ = imported(made, tmp_path)
+def test_a_diagonal_that_misses_a_node_is_said_to_end_free(odd_truss):
+    lines, _, _ = odd_truss
     (line,) = (line for line in lines if "ends free" in line)
     assert line.startswith("  Short ends free at x = ")
     assert "m off" in line
 
 
-def test_plates_at_joints_are_mass_on_nodes(tmp_path):
-    made, plain = truss_file(), truss_file()
-    for number in range(1, 8):
-        plate = (0.4, 0.01, 0.3), (4.0 * number, 0.0, 5.12)
-        made.box("IfcPlate", f"Gusset {number}", *plate, "SUPERSTRUCTURE", material=made.steel())
-    (tmp_path / "plain").mkdir()
-    lines, scenario, _ = imported(made, tmp_path)
-    _, without, _ = imported(plain, tmp_path / "plain")
+def test_plates_at_joints_are_mass_on_nodes(plain_truss, odd_truss):
+    lines, scenario, _ = odd_truss
+    _, without, _ = plain_truss
     assert not scenario.geometry
     mass = sum(node.mass_kg for node in scenario.steelwork.nodes)
     # To 0.1 kg for each of seven nodes.

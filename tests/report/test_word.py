@@ -2,8 +2,10 @@
 """The Word file of a report, read again by python-docx: the same headings, tables and pictures as the page."""
 
 import re
+import shutil
 from datetime import datetime
 from html import unescape
+from pathlib import Path
 
 import docx
 import pytest
@@ -79,17 +81,18 @@ def test_lines_of_a_listing_stay_lines(tmp_path):
     assert "a = 1\n  b = 2" in [paragraph.text for paragraph in docx.Document(str(tmp_path / "a.docx")).paragraphs]
 
 
-def test_the_same_run_gives_the_same_file(made, tmp_path):
+def test_the_command_writes_it_and_the_same_run_gives_the_same_file(made, tmp_path, capsys):
     folder, _, _ = made
-    written = write_report([folder], tmp_path, word=True, pages=["crew"], progress=Silence())
+    assert main(["report", str(folder), "--output", str(tmp_path), "--docx", "--pages", "crew"]) == 0
+    written = [Path(line) for line in capsys.readouterr().out.splitlines() if line.startswith(str(tmp_path))]
+    assert tmp_path / "report.docx" in written
     for path in written:
         assert path.read_bytes() == (folder / path.relative_to(tmp_path)).read_bytes(), path.name
 
 
-def test_a_file_that_was_changed_by_hand_is_not_overwritten(tmp_path):
-    folder = keep_run(tmp_path / "run", flying_shards(6, 13), TOLD)
-    path = tmp_path / "run" / "report.docx"
-    write_report([folder], None, word=True, progress=Silence())
+def test_a_file_that_was_changed_by_hand_is_not_overwritten(made, tmp_path):
+    folder = shutil.copytree(made[0], tmp_path / "run")
+    path = folder / "report.docx"
     write_report([folder], None, word=True, progress=Silence())
     file = docx.Document(str(path))
     file.paragraphs[0].text, file.core_properties.modified = "Filled in", datetime(2026, 1, 2)
@@ -103,9 +106,3 @@ def test_without_the_library_the_message_names_it(tmp_path, monkeypatch):
     monkeypatch.setattr(word_library, "WORD_LIBRARY", "no_such_library")
     with pytest.raises(MissingLibraryError, match=r"python-docx, .* pip install 'bridge-demolition-addon\[word\]'"):
         write_report([tmp_path], None, word=True, progress=Silence())
-
-
-def test_the_command_writes_it(made, tmp_path, capsys):
-    folder, _, _ = made
-    assert main(["report", str(folder), "--output", str(tmp_path), "--docx"]) == 0
-    assert str(tmp_path / "report.docx") in capsys.readouterr().out.splitlines()

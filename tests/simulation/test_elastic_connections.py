@@ -133,7 +133,7 @@ def released(blender, tmp_path, damping_ratio):
 
     blender.app.handlers.frame_change_pre.append(without_weight)
     try:
-        heights, _, _ = beam.play(tmp_path, 192)
+        heights, _, _ = beam.play(tmp_path, 128)
     finally:
         blender.app.handlers.frame_change_pre.remove(without_weight)
     return heights[4:, -1]

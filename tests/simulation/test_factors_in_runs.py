@@ -29,12 +29,12 @@ shards = 1
 [[geometry]]
 name = "upper"
 kind = "deck"
-file = "{folder}/upper.stl"
+file = "{folder}/upper.obj"
 mass_kg = 1000.0
 [[geometry]]
 name = "lower"
 kind = "pier"
-file = "{folder}/lower.stl"
+file = "{folder}/lower.obj"
 mass_kg = {lower_kg}
 [[supports]]
 member = "upper"
@@ -75,7 +75,7 @@ def fallen_m(folder, connections, work):
 
     for name, height in (("upper", 11.0), ("lower", 9.0)):
         box = trimesh.creation.box((1.0, AREA_M2, 2.0)).apply_translation((0.0, 0.0, height))
-        box.export(folder / f"{name}.stl")
+        box.export(folder / f"{name}.obj")
     text = HANGING.format(folder=folder.as_posix(), lower_kg=LOWER_KG, connections=connections)
     scenario = scenario_from_text(text)
     with motion_run(scenario, checked_model(scenario), work) as (results, _):
@@ -106,7 +106,7 @@ def test_a_breaking_force_grows_with_the_factor(blender, tmp_path, factor, share
 def test_twice_the_pressure_throws_a_block_twice_as_fast(blender, tmp_path, apply):
     from bridge_demolition_addon.simulation.motion_run import motion_run
 
-    trimesh.creation.box((1.0, 1.0, 1.0)).apply_translation((0.0, 0.0, 200.0)).export(tmp_path / "block.stl")
+    trimesh.creation.box((1.0, 1.0, 1.0)).apply_translation((0.0, 0.0, 200.0)).export(tmp_path / "block.obj")
     impulses = {}
     for factor in (1.0, 2.0):
         scenario = scenario_from_text(
@@ -120,7 +120,7 @@ def test_twice_the_pressure_throws_a_block_twice_as_fast(blender, tmp_path, appl
             [[geometry]]
             name = "block"
             kind = "deck"
-            file = "{(tmp_path / "block.stl").as_posix()}"
+            file = "{(tmp_path / "block.obj").as_posix()}"
             mass_kg = 1000.0
             [shards]
             start_deactivated = false

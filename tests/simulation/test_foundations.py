@@ -30,7 +30,7 @@ substeps_per_frame = 10
 
 [[geometry]]
 name = "pier"
-file = "pier.stl"
+file = "pier.obj"
 density_kg_m3 = 2400.0
 
 [fracture]
@@ -62,7 +62,7 @@ def run(blender, tmp_path):
 
     mesh = trimesh.creation.box(SIZE_M)
     mesh.apply_translation((0.0, 0.0, SIZE_M[2] / 2.0))
-    mesh.export(tmp_path / "pier.stl")
+    mesh.export(tmp_path / "pier.obj")
 
     def ran(duration_s, more=""):
         path = tmp_path / "pier.toml"

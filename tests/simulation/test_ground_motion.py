@@ -89,7 +89,7 @@ substeps_per_frame = 10
 
 [[geometry]]
 name = "column"
-file = "column.stl"
+file = "column.obj"
 density_kg_m3 = 2400.0
 
 [fracture]
@@ -123,7 +123,7 @@ def column(tmp_path):
 
     mesh = trimesh.creation.box((1.0, 1.0, 3.0))
     mesh.apply_translation((0.0, 0.0, 1.5))
-    mesh.export(tmp_path / "column.stl")
+    mesh.export(tmp_path / "column.obj")
     times = np.linspace(0.0, 9.0, 901)
     rising = np.minimum(times / 0.4, 1.0) * (times < 2.0)
     falling = np.interp(times, [4.0, 4.4, 6.0, 6.4], [0.0, 1.0, 1.0, 0.0])

@@ -35,7 +35,7 @@ def sheared_beam(folder, links_share):
         "right": block((LENGTH_M, -WIDTH_M / 2, BOTTOM_M), (LENGTH_M + 0.5, WIDTH_M / 2, BOTTOM_M + HEIGHT_M)),
     }
     members = "".join(
-        f'[[geometry]]\nname = "{name}"\nkind = "{kind}"\nfile = "{name}.stl"\ndensity_kg_m3 = {DENSITY_KG_M3}\n'
+        f'[[geometry]]\nname = "{name}"\nkind = "{kind}"\nfile = "{name}.obj"\ndensity_kg_m3 = {DENSITY_KG_M3}\n'
         for name, kind in (("beam", "beam"), ("left", "wall"), ("right", "guide"))
     )
     # The plane half-way between two points rises to the right: the right half hangs below it.
@@ -99,7 +99,7 @@ type = "GENERIC"
 free = ["move z"]
 material = "of the ends"
 {RIGID_BODIES.format(shards=0.25, ground=0.25)}"""
-    results = simulated(folder, "beam", scenario, solids)
+    results = simulated(folder, "beam", scenario, {f"{name}.obj": solid for name, solid in solids.items()})
     inventory, frames = results.inventory, results.frames
     halves = np.flatnonzero((inventory.body_kinds == "shard") & (inventory.body_members == "beam"))
     assert len(halves) == 2

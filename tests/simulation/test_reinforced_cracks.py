@@ -62,18 +62,18 @@ def test_a_block_stretches_its_bars_as_the_bilinear_law_says(blender, tmp_path):
     yield_n = mass_kg * GRAVITY / most
     reinforced(blocks, connection, (0.0, 0.0, -1.0), (1.0, 1.0), yield_n, elongation_m, steel)
     blocks.scene.gravity[0] = 1e-3
-    weigh(blocks.scene, {1: SMALL, 3: SMALL, 50: 0.7, 120: 0.97, 200: 1.0, 230: 1.0, 270: 0.4})
-    results = blocks.play(tmp_path, 290)
+    weigh(blocks.scene, {1: SMALL, 3: SMALL, 35: 0.7, 80: 0.97, 130: 1.0, 150: 1.0, 180: 0.4})
+    results = blocks.play(tmp_path, 195)
     assert not results.frames.intact[-1].any()
     fallen = 9.0 - results.frames.positions_m[:, 1, 2]
     at_yield_m = elongation_m * steel.yield_strain / steel.rupture_strain
-    elastic, hardened, let_go = fallen[48], fallen[228], fallen[-1]
+    elastic, hardened, let_go = fallen[33], fallen[148], fallen[-1]
     # Steps of damped swinging, and places in single precision at a height of 10 m: 1e-6 m.
     assert elastic == pytest.approx(0.7 * most * at_yield_m, rel=0.02)
     assert hardened == pytest.approx(at_yield_m + 0.5 * (elongation_m - at_yield_m), rel=0.02)
     assert hardened - let_go == pytest.approx(0.6 * most * at_yield_m, rel=0.02)
     forces = abs(results.frames.loads.connection_forces_n[:, 0, 2])
-    np.testing.assert_allclose(forces[[228, -1]], [mass_kg * GRAVITY, 0.4 * mass_kg * GRAVITY], rtol=1e-3)
+    np.testing.assert_allclose(forces[[148, -1]], [mass_kg * GRAVITY, 0.4 * mass_kg * GRAVITY], rtol=1e-3)
     # Work of yielding by hand: the force grows evenly from where bars yield to the weight, over what stays of the
     # opening. Elastic deformation came back, so it is about all that was lost between the bodies.
     work = results.frames.work
@@ -136,7 +136,7 @@ class CrackedCantilever:
         self.opening_m = -self.results.frames.rotations[:, 1, 2, 0] * DEPTH_M
 
 
-@pytest.mark.parametrize(("substeps", "iterations"), [(10, 1), (20, 50)])
+@pytest.mark.parametrize(("substeps", "iterations"), [(10, 1), (15, 20)])
 def test_a_cantilever_turns_in_a_plastic_hinge_at_the_moment_of_plastic_theory(blender, tmp_path, substeps, iterations):
     """Bars that do not harden hold it up to A_s f_y z, and not beyond."""
     steel, elongation_m = Steel(hardening=1.0), 0.2
@@ -189,14 +189,14 @@ def test_a_block_that_is_pushed_off_slides_beyond_friction_and_dowels(blender, t
     of_dowels = 0.9 * np.sqrt(35.0 * 500.0) / 500.0
     yield_n = 0.5 * mass_kg * GRAVITY / of_dowels
     reinforced(blocks, connection, (0.0, 0.0, 1.0), (side_m, side_m), yield_n, elongation_m, steel)
-    pushes = {1: 0.0, 3: SMALL, 300: 1.5}
+    pushes = {1: 0.0, 3: SMALL, 60: 1.0, 130: 1.3}
     for frame, share in pushes.items():
         blocks.scene.gravity[0] = share * GRAVITY
         blocks.scene.keyframe_insert("gravity", index=0, frame=frame)
     for curve in curves_of(blocks.scene.animation_data):
         for keyframe_point in curve.keyframe_points:
             keyframe_point.interpolation = "LINEAR"
-    results = blocks.play(tmp_path, 300)
+    results = blocks.play(tmp_path, 130)
     moved_m = results.frames.positions_m[:, 1, 0] - results.frames.positions_m[0, 1, 0]
     elastic_m = elongation_m * steel.yield_strain / steel.rupture_strain / of_dowels
     shares = np.interp(1 + np.arange(len(moved_m)), list(pushes), list(pushes.values()))

@@ -14,7 +14,7 @@ from support.processes import run_program
 
 SCENARIOS = {
     "blast": TESTS / "simulation" / "same_run" / "blast.toml",
-    "everything": TESTS / "simulation" / "everything.toml",  # strength, reinforcement, saw cut, charge
+    "everything": TESTS / "simulation" / "same_run" / "everything.toml",  # strength, reinforcement, saw cut, charge
     "i235": TESTS / "simulation" / "same_run" / "i235.toml",
 }
 NUMPY_AS_OLD = {

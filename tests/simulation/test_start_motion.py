@@ -25,7 +25,7 @@ substeps_per_frame = 20
 
 [[geometry]]
 name = "block"
-file = "block.stl"
+file = "block.obj"
 place_m = [0.0, 0.0, {height_m}]
 density_kg_m3 = 1000.0
 {more}
@@ -50,7 +50,7 @@ use_deactivation = {deactivated}
 def write(tmp_path):
     import trimesh
 
-    trimesh.creation.box((4.0, 1.0, 1.0)).export(tmp_path / "block.stl")
+    trimesh.creation.box((4.0, 1.0, 1.0)).export(tmp_path / "block.obj")
 
     def written(more, *, shards=1, deactivated="false", height_m=20.0, duration_s=0.5):
         path = tmp_path / "scenario.toml"

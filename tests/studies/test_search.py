@@ -27,11 +27,11 @@ frames_per_second = 24
 shards = 2
 [[geometry]]
 name = "hook"
-file = "hook.stl"
+file = "hook.obj"
 density_kg_m3 = 2400
 [[geometry]]
 name = "block"
-file = "block.stl"
+file = "block.obj"
 density_kg_m3 = 2400
 [connections]
 type = "FIXED"
@@ -73,7 +73,7 @@ def search_file(folder, trials=40, lowest=800, highest=16000, more=""):
     for name, size, height in (("hook", NECK_M, 10.0 + NECK_M / 2.0), ("block", SIDE_M, 10.0 - SIDE_M / 2.0)):
         mesh = trimesh.creation.box((size, size, size))
         mesh.apply_translation((0.0, 0.0, height))
-        mesh.export(folder / f"{name}.stl")
+        mesh.export(folder / f"{name}.obj")
     (folder / "scenario.toml").write_text(SCENARIO, encoding="utf-8")
     path = folder / "search.toml"
     path.write_text(SEARCH.format(trials=trials, lowest=lowest, highest=highest, more=more), encoding="utf-8")
@@ -128,10 +128,10 @@ def test_a_search_goes_on_where_it_was_stopped_and_does_not_depend_on_how_many_r
 
 def test_what_never_or_always_happens_is_said_after_the_opening_trials(tmp_path, capfd):
     never = search_file(tmp_path / "never", lowest=10, highest=100)
-    assert main(["search", str(never), "--output", str(tmp_path / "a")]) == 0
+    assert main(["search", str(never), "--output", str(tmp_path / "a"), "--jobs", "1"]) == 0
     assert "0 of 8 runs met all criteria: the criteria were never met in the range" in capfd.readouterr().out
     always = search_file(tmp_path / "always", lowest=50000, highest=90000)
-    assert main(["search", str(always), "--output", str(tmp_path / "b")]) == 0
+    assert main(["search", str(always), "--output", str(tmp_path / "b"), "--jobs", "1"]) == 0
     said = capfd.readouterr().out
     assert "8 of 8 runs met all criteria: the criteria were always met in the range" in said
     assert "Runs went from 50000 to 90000: move search.lowest" in said
@@ -139,7 +139,7 @@ def test_what_never_or_always_happens_is_said_after_the_opening_trials(tmp_path,
 
 def test_a_search_stops_when_its_limit_is_close_enough(tmp_path):
     path = search_file(tmp_path, trials=40, more="within = 6000.0")
-    assert main(["search", str(path), "--output", str(tmp_path / "out"), "--quiet"]) == 0
+    assert main(["search", str(path), "--output", str(tmp_path / "out"), "--quiet", "--jobs", "1"]) == 0
     answer = json.loads((tmp_path / "out" / "search.json").read_text(encoding="utf-8"))
     assert answer["ended_as"] == "the limit is as close as was asked for" and answer["trials"] < 40
     assert answer["limit"] - answer["value"] <= 6000.0

@@ -6,7 +6,7 @@ one is a function of a run that returns values by name, None for what did not ha
 belongs to some examples, in `OF_EXAMPLES`.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from itertools import accumulate, pairwise
 
 import numpy as np
@@ -231,7 +231,7 @@ def slot_of_the_jackhammer(run: ExampleRun) -> dict[str, float | None]:
         "volume_along_path_over_elsewhere": volumes_m3[apart_m < 0.5].mean() / volumes_m3[apart_m > 2.0].mean(),
         "fallen_under_chisel_share": fallen[apart_m < radius_m].mean(),
         "fallen_shards": fallen.sum(),
-        "fallen_from_path_m": apart_m[fallen].max(),
+        "fallen_from_path_m": apart_m[fallen].max() if fallen.any() else None,
         "shards_beyond": len(beyond),
         "beyond_moved_m": run.moved_m(beyond).max(),
         "carriers_moved_m": run.moved_m(run.of_members("girder", "abutment")).max(),
@@ -257,19 +257,24 @@ def course_of_the_steps(run: ExampleRun) -> dict[str, float | None]:
     }
 
 
+def load_around_the_ball(run: ExampleRun) -> dict[str, float | None]:
+    """How much more the deck that is hit is loaded near the ball than farther away."""
+    deck = run.members_of(run.hit_deck)
+    impact = run.at(run.summary["impact"]["time_s"])
+    apart_m = np.linalg.norm(run.results.frames.positions_m[0, deck, :2] - run.scenario.ball.target_m, axis=1)
+    loads_n = run.results.frames.loads.body_peak_sums_n[impact, deck]
+    return {"load_near_over_far": loads_n[apart_m < 2.0].mean() / loads_n[apart_m > 4.0].mean()}
+
+
 def i235_deck_that_is_hit(run: ExampleRun) -> dict[str, float | None]:
     """How much of the deck that is hit comes down, and how the ball goes through it."""
-    deck, first_m = run.members_of(run.hit_deck), run.results.frames.positions_m[0]
+    deck = run.members_of(run.hit_deck)
     masses_kg = run.results.inventory.masses_kg[deck]
     (ball,) = run.results.inventory.of_kind("ball")
     heights_m, underside_m = run.results.frames.positions_m[:, ball, 2], deck_underside(run.scenario.bridge)
     below = np.flatnonzero(heights_m < underside_m / 2.0)
-    impact = run.at(run.summary["impact"]["time_s"])
-    apart_m = np.linalg.norm(first_m[deck, :2] - run.scenario.ball.target_m, axis=1)
-    loads_n = run.results.frames.loads.body_peak_sums_n[impact, deck]
     found = {
         "hit_deck_down_share": masses_kg[run.fallen_m(deck) > 1.0].sum() / masses_kg.sum(),
-        "load_near_over_far": loads_n[apart_m < 2.0].mean() / loads_n[apart_m > 4.0].mean(),
         "largest_reach_m": debris_of(run.results).reaches_m.max(),
         "hit_deck_highest_m": run.results.frames.positions_m[-1, deck, 2].max(),
         "lowest_shard_m": run.results.frames.positions_m[-1, run.shards, 2].min(),
@@ -305,9 +310,9 @@ OF_EVERY_RUN: tuple[Measure, ...] = (
     solver_energy,
     before_it_begins,
 )
-I235_SPANS = (hit_of_the_ball, i235_deck_that_is_hit, i235_decks_that_stay)
+I235_SPANS = (hit_of_the_ball, load_around_the_ball, i235_deck_that_is_hit, i235_decks_that_stay)
 OF_EXAMPLES: dict[str, tuple[Measure, ...]] = {
-    "i235_one_span": (hit_of_the_ball, i235_deck_that_is_hit),
+    "i235_one_span": (hit_of_the_ball, load_around_the_ball, i235_deck_that_is_hit),
     "i235_steps": (course_of_the_steps,),
     "i235_three_spans_between_decks": I235_SPANS,
     "i235_three_spans_mid_span": I235_SPANS,
@@ -325,9 +330,31 @@ OF_EXAMPLES: dict[str, tuple[Measure, ...]] = {
 """More of single examples, by their names."""
 
 
+OF_BEGINNINGS: tuple[Measure, ...] = (
+    before_it_begins,
+    hit_of_the_ball,
+    load_around_the_ball,
+    outward_in_slow_motion,
+    outward_in_the_next_frame,
+    fall_by_its_own_weight,
+    slot_of_the_jackhammer,
+)
+"""Those that look no further than a few frames after something is done to an example."""
+
+
 def measures_of(name: str, run: ExampleRun) -> dict[str, float | None]:
     """All quantities of a run of an example, by name."""
+    return _measured((*OF_EVERY_RUN, *OF_EXAMPLES.get(name, ())), run)
+
+
+def measures_of_beginning(name: str, run: ExampleRun) -> dict[str, float | None]:
+    """Those of its quantities that are known after the beginning of its run."""
+    of_example = (*OF_EVERY_RUN, *OF_EXAMPLES.get(name, ()))
+    return _measured([measure for measure in of_example if measure in OF_BEGINNINGS], run)
+
+
+def _measured(measures: Iterable[Measure], run: ExampleRun) -> dict[str, float | None]:
     found = {}
-    for measure in (*OF_EVERY_RUN, *OF_EXAMPLES.get(name, ())):
+    for measure in measures:
         found |= {quantity: None if value is None else float(value) for quantity, value in measure(run).items()}
     return found

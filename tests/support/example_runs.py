@@ -1,7 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs of the examples, whole or cut short, and what the tests of them measure."""
 
-from dataclasses import dataclass, replace
+import json
+import os
+import signal
+from contextlib import suppress
+from dataclasses import dataclass, fields, is_dataclass, replace
 
 import numpy as np
 from support.checkout import ROOT, SEEDED
@@ -12,6 +16,7 @@ from bridge_demolition_addon.model.results.fingerprint import SHORT, motion_dige
 from bridge_demolition_addon.model.scenario import Scenario
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.sequence.undisturbed import first_event_s
+from bridge_demolition_addon.system.signals import Interrupted
 
 
 @dataclass(frozen=True)
@@ -100,10 +105,37 @@ MEASURED_S = {
     "two_spans_20m_at_once": 1.5,
     "two_spans_20m_delays": 1.5,
 }
-"""How much of an example its ranges over seeds are of, and its test runs; the others run whole."""
+"""How much of an example its ranges over seeds are of; the others run whole."""
+
+BEGINNINGS = {
+    "arch_severed": 17,
+    "composite_span_dropped": 15,
+    "drilled_misfire": 22,
+    "drilled_two_spans": 22,
+    "drilled_two_spans_in_100_shards": 22,
+    "drilled_viaduct_pier": 17,
+    "excavator_on_the_deck": 27,
+    "frame_leg_blasted": 17,
+    "i235_one_span": 48,
+    "i235_steps": 8,
+    "i235_three_spans_between_decks": 48,
+    "i235_three_spans_mid_span": 48,
+    "i235_three_spans_near_end": 48,
+    "i235_three_spans_neighbouring_deck": 48,
+    "i235_two_spans": 48,
+    "jackhammer_dismantling": 16,
+    "single_span_awake": 12,
+    "single_span_explosives": 13,
+    "three_span_box_girder": 39,
+    "two_spans_13m_ball": 29,
+    "two_spans_13m_explosives": 46,
+    "two_spans_20m_at_once": 12,
+    "two_spans_20m_delays": 14,
+}
+"""How many frames of an example its tests run: until what is done to it has begun, and something came of it."""
 
 VERSIONS = ROOT / "docs" / "data" / "seeds" / "versions.json"
-"""How each example moved with its own seed as its ranges were measured."""
+"""How each example moved with its own seed as its ranges were measured: all of its run, and the beginning of it."""
 
 FALL_S = 0.7
 """How long what a jackhammer has loosened has to fall, where an example is cut short."""
@@ -124,8 +156,53 @@ def example(name, duration_s=None, shards=None):
 
 
 def motion_of(run):
-    """The beginning of the digest of how everything moved and what broke."""
+    """The first digits of the digest of how everything moved and what broke."""
     return motion_digest(run.results)[:SHORT]
+
+
+def motion_of_beginning(name, run):
+    """The same of the beginning of an example, which may have run on."""
+    frames = run.results.frames
+    series = {field.name: getattr(frames, field.name) for field in fields(frames)}
+    rows = slice(BEGINNINGS[name] + 1)
+    cut = {part: values[rows] for part, values in series.items() if values is not None and not is_dataclass(values)}
+    return motion_of(replace(run, results=replace(run.results, frames=replace(frames, **cut))))
+
+
+def begun(name, session_folder):
+    """The beginning of an example; what is measured of it is measured up to then.
+
+    Its results are in the session's folder once a test has run it.
+    """
+    folder = session_folder / f"beginning of {name}"
+    if not folder.exists():
+        # Two processes may run it at once; the first that is done gives its folder the name.
+        running = session_folder / f"{folder.name}, by {os.getpid()}"
+        run_beginning(example(name, MEASURED_S.get(name)), BEGINNINGS[name], running)
+        with suppress(OSError):
+            running.rename(folder)
+    summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+    return ExampleRun(example(name, MEASURED_S.get(name)), summary, load_results(folder / "results.npz"))
+
+
+class _Stopping(Silence):
+    """Ends a run after so many frames, as a system does that shuts down; Ctrl-C is ignored in the background."""
+
+    def __init__(self, frames):
+        super().__init__()
+        self._frames = frames
+
+    def frame(self, done, total, broken, left_s):
+        if done >= self._frames:
+            signal.raise_signal(signal.SIGTERM)
+
+
+def run_beginning(scenario, frames, folder):
+    """Run so many frames of a scenario without pictures, and keep them in a folder."""
+    from bridge_demolition_addon.simulation.run import run_scenario
+
+    with suppress(Interrupted):
+        run_scenario(scenario, folder, overwrite=True, pictures=False, progress=_Stopping(frames))
 
 
 def run_example(scenario, folder):

@@ -13,11 +13,11 @@ frames_per_second = 24
 shards = 2
 [[geometry]]
 name = "hook"
-file = "hook.stl"
+file = "hook.obj"
 density_kg_m3 = 2400
 [[geometry]]
 name = "block"
-file = "block.stl"
+file = "block.obj"
 density_kg_m3 = 400
 [connections]
 type = "FIXED"
@@ -90,7 +90,7 @@ def optimise_file(folder, *changes):
     for name, size_m, height_m in (("hook", 0.1, 10.05), ("block", 1.0, 9.5)):
         mesh = trimesh.creation.box((size_m, size_m, size_m))
         mesh.apply_translation((0.0, 0.0, height_m))
-        mesh.export(folder / f"{name}.stl")
+        mesh.export(folder / f"{name}.obj")
     (folder / "scenario.toml").write_text(SCENARIO, encoding="utf-8")
     text = OPTIMISE
     for before, after in changes:

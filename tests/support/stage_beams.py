@@ -47,8 +47,8 @@ def beam_file(folder, length_m, held=("start",), shards=60, more=""):
     for name, (low, high) in positions.items():
         mesh = trimesh.creation.box((high - low, WIDTH_M, DEPTH_M))
         mesh.apply_translation(((low + high) / 2.0, 0.0, HEIGHT_M))
-        mesh.export(folder / f"{name}.stl")
-        text += f'[[geometry]]\nname = "{name}"\nfile = "{name}.stl"\ndensity_kg_m3 = {DENSITY_KG_M3}\n'
+        mesh.export(folder / f"{name}.obj")
+        text += f'[[geometry]]\nname = "{name}"\nfile = "{name}.obj"\ndensity_kg_m3 = {DENSITY_KG_M3}\n'
         text += f'[[supports]]\nmember = "{name}"\n' if name != "beam" else ""
     path = folder / "beam.toml"
     path.write_text(text + more, encoding="utf-8")
@@ -71,8 +71,8 @@ def add_block(folder, name, size_m, centre_m, *, fixed=False):
     """Write a box, and return its tables of the scenario."""
     mesh = trimesh.creation.box(size_m)
     mesh.apply_translation(centre_m)
-    mesh.export(folder / f"{name}.stl")
-    table = f'[[geometry]]\nname = "{name}"\nfile = "{name}.stl"\ndensity_kg_m3 = {DENSITY_KG_M3}\n'
+    mesh.export(folder / f"{name}.obj")
+    table = f'[[geometry]]\nname = "{name}"\nfile = "{name}.obj"\ndensity_kg_m3 = {DENSITY_KG_M3}\n'
     return table + (f'[[supports]]\nmember = "{name}"\n' if fixed else "")
 
 

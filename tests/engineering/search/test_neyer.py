@@ -45,6 +45,7 @@ def search(median, spread, rng, trials, pending=0):
     return LevelOutcomes(np.array(levels), np.array(outcomes))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("pending", [0, 3])
 @pytest.mark.parametrize("spread", [0.03, 0.1])
 def test_limits_hold_as_often_as_they_say(pending, spread):

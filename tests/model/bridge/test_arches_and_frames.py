@@ -92,6 +92,7 @@ def test_a_frame_of_three_spans_has_legs_between_abutments():
     ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("tables", "spans"),
     [
@@ -162,6 +163,7 @@ def test_what_does_not_fit_is_refused_with_its_key(tables, spans, message):
 RATIOS = "[[bridge.reinforcement.ratios]]\nmember = '{}'\n{}\n"
 
 
+@pytest.mark.slow
 def test_frames_are_not_designed_and_over_arches_only_deck_and_piers_are():
     designed = "[bridge.reinforcement]\ndesigned_for = 'LM1'\n"
     with pytest.raises(ScenarioError, match=r"expected \[\[bridge.reinforcement.ratios\]\] with bridge.frame"):

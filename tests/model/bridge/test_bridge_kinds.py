@@ -272,6 +272,7 @@ def test_no_density_is_left_to_find_where_all_members_have_one():
         bridge_members(bridge)
 
 
+@pytest.mark.slow
 def test_check_reports_masses_of_every_kind():
     bridge = replace(BRIDGES["girders"], girders=replace(GIRDERS, density_kg_m3=7850))
     lines = [line.split() for line in scenario_facts(scenario_of(bridge))]

@@ -34,7 +34,7 @@ L_SHAPE = union([box([4, 1, 1], [0, 0, 0.5]), box([1, 1, 4], [-1.5, 0, 2])])
 
 @pytest.fixture
 def file_of(tmp_path):
-    def write(solid=L_SHAPE, name="part.stl"):
+    def write(solid=L_SHAPE, name="part.obj"):
         path = tmp_path / name
         as_trimesh(solid).export(path)
         return str(path)
@@ -195,7 +195,7 @@ def test_height_under_the_ball(file_of):
 def test_height_of_a_slope():
     corners = [[0, 0, 0], [4, 0, 0], [0, 3, 0], [4, 3, 0], [4, 0, 2], [4, 3, 2]]
     wedge = from_manifold(Manifold.hull_points(np.array(corners, dtype=float)))
-    scenario = scenario_of(Geometry(name="wedge", file="none.stl", density_kg_m3=1))
+    scenario = scenario_of(Geometry(name="wedge", file="none.obj", density_kg_m3=1))
     height = surface_height(scenario, [Member("wedge", "member", wedge, 1.0)], (3.0, 1.0))
     assert height == pytest.approx(1.5, abs=1e-12)
 
@@ -209,13 +209,13 @@ def test_extent_and_ground(file_of):
 
 
 def test_paths_start_from_the_scenario_file(tmp_path, file_of, monkeypatch, capsys):
-    file_of(name="part.stl")
-    text = scenario_text(scenario_of(member_of("part.stl")))
-    assert scenario_from_text(text).geometry[0].file == "part.stl"
+    file_of(name="part.obj")
+    text = scenario_text(scenario_of(member_of("part.obj")))
+    assert scenario_from_text(text).geometry[0].file == "part.obj"
     (tmp_path / "scenario.toml").write_text(text, encoding="utf-8")
     monkeypatch.chdir(tmp_path.parent)
     scenario = read_scenario(tmp_path.name + "/scenario.toml")
-    assert scenario.geometry[0].file == str((tmp_path / "part.stl").resolve())
+    assert scenario.geometry[0].file == str((tmp_path / "part.obj").resolve())
     assert main(["check", f"{tmp_path.name}/scenario.toml"]) == 0
     assert "part                        7.000 m³     16.800 t" in capsys.readouterr().out
 

@@ -20,7 +20,7 @@ from bridge_demolition_addon.model.optimise.settings import ChosenQuantity, Opti
 from bridge_demolition_addon.model.study.criteria import Criterion
 from bridge_demolition_addon.studies.proposals import OptunaProposals
 
-QUANTILE, SEEDS = 0.9, 20
+QUANTILE, SEEDS = 0.9, 8
 BEST = np.array([0.3, 0.6, 0.45, 0.8, 0.2])
 
 
@@ -89,11 +89,12 @@ def test_it_finds_better_values_than_as_many_by_chance():
         better += reaches[0] < reaches[1]
         found.append(reaches)
         assert bowl.chance(ours.candidates[ours.chosen].shares) > 0.8
-    assert better >= 19
+    assert better == SEEDS  # by chance one of 256 times
     away = np.mean(found, axis=0) - 5.0
     assert away[0] < 0.4 * away[1]
 
 
+@pytest.mark.slow
 def test_what_is_confirmed_is_true_in_the_mean_and_what_was_seen_in_the_search_is_too_good():
     # 200 optimisations by chance, which choose as any other does. The error of a mean of 200 is 0.07 of one.
     errors = {SEARCH: [], FINAL: [], CONFIRMATION: []}

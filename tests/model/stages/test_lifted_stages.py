@@ -18,6 +18,8 @@ from bridge_demolition_addon.model.stages.stages import stages_of
 from bridge_demolition_addon.model.stages.standing import StandingBridge
 from bridge_demolition_addon.model.stages.tables import stage_row, stage_sentences
 
+pytestmark = pytest.mark.slow
+
 SPAN_M, PART_M = 12.0, (4.0, 8.0)
 KEYS = {
     "name": "middle",

@@ -62,7 +62,7 @@ def test_masses_of_members_stay():
 def test_members_around_hollows_are_cut_into_convex_shards(tmp_path):
     """A trough of the user's own: hulls of shards around its corners would reach into its inside."""
     trough = union([box([12, 4, 0.4]), box([12, 0.4, 2], [0, 1.8, 1.2]), box([12, 0.4, 2], [0, -1.8, 1.2])])
-    trimesh.Trimesh(trough.vertices, trough.triangles).export(tmp_path / "trough.stl")
+    trimesh.Trimesh(trough.vertices, trough.triangles).export(tmp_path / "trough.obj")
     text = f"""
 [scenario]
 title = "A trough"
@@ -71,7 +71,7 @@ duration_s = 1
 [[geometry]]
 name = "trough"
 place_m = [0.0, 0.0, 0.2]
-file = "{(tmp_path / "trough.stl").as_posix()}"
+file = "{(tmp_path / "trough.obj").as_posix()}"
 density_kg_m3 = 2400
 [connections]
 method = "face"

@@ -102,12 +102,12 @@ def test_straight_bars_have_less_near_their_ends(tmp_path, half_m, share):
     """A beam cut in its middle: φ 40 mm, f_y 500 N/mm², C30: l_b = 40 / 4 × 500 / (2.25 × 2.896) = 767 mm by hand."""
     beam = Beam(2.0 * half_m, 0.3, 0.3, 2.0, "bottom", 0.25, 500.0, 500.0, 30.0, 0.05, 0.002)
     for name, solid in beam.solids.items():
-        (tmp_path / f"{name}.stl").write_bytes(exported(solid, ".stl"))
+        (tmp_path / f"{name}.obj").write_bytes(exported(solid, ".obj"))
     pulls = []
     for anchored in ("true", "false"):
         path = tmp_path / f"{anchored}.toml"
         layer = f"[[reinforcement]]\ndiameter_mm = 40.0\nanchored = {anchored}\n"
-        text = beam.scenario.replace("[[reinforcement]]\n", layer)
+        text = beam.scenario.replace(".stl", ".obj").replace("[[reinforcement]]\n", layer)
         path.write_text(f'[scenario]\ntitle = "beam"\n[time]\nduration_s = 1.0\n{text}', encoding="utf-8")
         pulls.append(build_model(read_scenario(path)).bars.yield_n.sum())
     assert pulls[1] / pulls[0] == pytest.approx(share, rel=0.002)

@@ -142,8 +142,8 @@ def test_members_that_are_not_cut_give_way_evenly_to_both_sides(tmp_path):
     """Three blocks of 2 m in a row, the first of them held: E A / L over 1 m to the second, and 2 m to the third."""
     tables = ""
     for number in range(3):
-        (tmp_path / f"{number}.stl").write_bytes(exported(box((2.0, 1.0, 1.0), (2.0 * number, 0.0, 5.0)), ".stl"))
-        tables += f'[[geometry]]\nname = "block {number}"\nfile = "{number}.stl"\ndensity_kg_m3 = 2400.0\n'
+        (tmp_path / f"{number}.obj").write_bytes(exported(box((2.0, 1.0, 1.0), (2.0 * number, 0.0, 5.0)), ".obj"))
+        tables += f'[[geometry]]\nname = "block {number}"\nfile = "{number}.obj"\ndensity_kg_m3 = 2400.0\n'
     path = tmp_path / "scenario.toml"
     path.write_text(
         f"""

@@ -128,8 +128,8 @@ def test_ground_is_dug_away_from_what_reaches_into_it(slope_file, tmp_path):
     """A footing of one's own from 2 m below the ground to 1 m above it; beside it the ground stays."""
     from bridge_demolition_addon.model.bridge.mesh_files import exported
 
-    footing = tmp_path / "footing.stl"
-    footing.write_bytes(exported(box((3.0, 3.0, 3.0), (-30.0, 0.0, -6.5)), ".stl"))
+    footing = tmp_path / "footing.obj"
+    footing.write_bytes(exported(box((3.0, 3.0, 3.0), (-30.0, 0.0, -6.5)), ".obj"))
     part = Geometry(name="footing", file=str(footing), density_kg_m3=2400.0, kind="pier")
     scenario = replace(on_slope(slope_file), bridge=None, geometry=(part,), fracture=replace(BRIDGE.fracture, shards=4))
     model = build_model(scenario)

@@ -23,11 +23,12 @@ FIRED_S = 0.301
 """A millisecond after the detonation."""
 
 
-def run(folder, zone, shards=40):
+def run(folder, zone, shards=40, duration_s=0.65):
     """Times and heights of the block on the column (k,), and the summary of a run."""
     from bridge_demolition_addon.simulation.motion_run import motion_run
 
     scenario = column_scenario(folder, zone, shards=shards)
+    scenario = replace(scenario, time=replace(scenario.time, duration_s=duration_s))
     with motion_run(scenario, column_model(scenario), folder) as (results, summary):
         block = results.inventory.body_members == "block"
         masses = results.inventory.masses_kg[block]
@@ -37,7 +38,7 @@ def run(folder, zone, shards=40):
 
 def test_it_stands_with_a_tenth_of_a_kilogram_a_cubic_metre(tmp_path):
     times, heights, summary, _ = run(tmp_path, replace(ZONE, charge_g=7.35))
-    assert times[-1] == pytest.approx(1.0, abs=1e-3)
+    assert times[-1] == pytest.approx(0.65, abs=1.0 / 24.0)
     assert abs(heights - heights[0]).max() < 1e-3
     assert summary["events"] == []
     assert summary["connections"]["broken"] == 0
@@ -63,11 +64,11 @@ LOAD_N = 500e3 + 0.49 * 1.75 * 2400.0 * STANDARD_GRAVITY_M_S2
 """The block, and the column above the zone."""
 
 
-@pytest.mark.parametrize("shards", [40, 200])
+@pytest.mark.parametrize("shards", [40, 120])
 def test_bars_hold_what_they_resist_twice(tmp_path, shards):
     """8 bars of 25 mm over 0.9 m resist 1.5 MN, and 520 kN that come at once press them with 1.04 MN at most."""
     zone = replace(ZONE, height_m=0.9, holes_a_row=3, bars=8, bar_diameter_mm=25.0)
-    _, heights, summary, _ = run(tmp_path, zone, shards)
+    _, heights, summary, _ = run(tmp_path, zone, shards, duration_s=0.8)
     (event,) = summary["events"]
     assert event["effect"] == "thrown out"
     assert LOAD_N < event["cage_pressed_n"] < 2.05 * LOAD_N
@@ -99,10 +100,10 @@ def fall_on_bars_m(mass_kg, count, diameter_m, bared_m, until_s):
     return fallen
 
 
-@pytest.mark.parametrize("shards", [40, 200])
+@pytest.mark.parametrize("shards", [40, 120])
 def test_bars_that_hold_the_column_at_rest_fold_where_it_comes_upon_them_at_once(tmp_path, shards):
     """Over 1.5 m they resist 538 kN: more than 520 kN, and less than twice that."""
-    times, heights, summary, _ = run(tmp_path, replace(ZONE, bars=8, bar_diameter_mm=25.0), shards)
+    times, heights, summary, _ = run(tmp_path, replace(ZONE, bars=8, bar_diameter_mm=25.0), shards, 0.85)
     (event,) = summary["events"]
     assert event["cage_pressed_n"] == pytest.approx(538.3e3, rel=0.01)
     assert event["cage_folded_m"] > 0.5
@@ -137,7 +138,7 @@ def test_what_is_thrown_flies_and_rubble_stays_at_the_foot(tmp_path):
     for debris in ("rubble", "thrown"):
         folder = tmp_path / debris
         folder.mkdir()
-        *_, summary, results = run(folder, replace(ZONE, debris=debris))
+        *_, summary, results = run(folder, replace(ZONE, debris=debris), duration_s=1.0)
         names = summary["events"][0]["shards"]
         rows = np.isin(results.inventory.body_names, names)
         reached[debris] = np.hypot(*results.frames.positions_m[-1, rows, :2].T)
@@ -149,7 +150,7 @@ def test_what_is_thrown_flies_and_rubble_stays_at_the_foot(tmp_path):
 
 def test_rubble_in_the_cage_stays_stacked(tmp_path):
     """Concrete that is broken but not thrown out goes on carrying by contact: no connection of it is left."""
-    _, heights, summary, _ = run(tmp_path, replace(ZONE, charge_g=40.0))
+    _, heights, summary, _ = run(tmp_path, replace(ZONE, charge_g=40.0), duration_s=1.0)
     assert heights[0] - heights[-1] < 0.3
     (event,) = summary["events"]
     assert event["effect"] == "rubble in the cage" and event["shards"] == [] and event["connections"] > 0
