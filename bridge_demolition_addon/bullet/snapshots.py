@@ -109,6 +109,10 @@ class SnapshotTaker:
             removed=self._removed.copy() if self._removed.any() else None,
         )
 
+    def bodies(self) -> np.ndarray:
+        """Return the state of the bodies alone, the `body_components` (19, n) of a snapshot."""
+        return self._bodies.copy()
+
     def contacts(self, snapshots: Sequence[Snapshot]) -> Contacts:
         """Return the contacts in s snapshots."""
         contacts = self._contacts.contacts([snapshot.contacts for snapshot in snapshots])

@@ -11,7 +11,7 @@ from ...bullet.contacts import Contacts
 from ...bullet.snapshots import BodyHistory, Snapshot
 from ...bullet.world import BulletWorld
 from ...engineering.geometry.rotations import axes_in_bodies, carried_axes, carried_points
-from ...engineering.geometry.vectors import by_component, length, taken, transformed, transformed_back
+from ...engineering.geometry.vectors import by_component, length, product, taken, transformed, transformed_back
 from ...engineering.mechanics.forces import moments_at
 from ...engineering.mechanics.frame_loads import Moment, SubstepLoads
 from ...engineering.mechanics.section_forces import SectionForces, section_axes, section_forces
@@ -93,6 +93,23 @@ class Meter:
         """Return the loads of connections (r,) in their own axes."""
         axes = self.section_axes(loads.rotations, rows)
         return section_forces(axes, loads.connection_forces_n[rows], loads.connection_moments_nm[rows])
+
+    def bodies(self) -> np.ndarray:
+        """Return the state (19, n) of the bodies now, as a snapshot has it."""
+        return self._snapshots.bodies()
+
+    def forces_at(self, rows: np.ndarray, loads: np.ndarray, bodies: np.ndarray) -> SectionForces:
+        """Return the loads of connections (r,) in their own axes, of loads (6, m), with bodies in a state (19, n).
+
+        They have the bits that `section_forces` has for them, and others are not worked out.
+        """
+        of_bodies = np.moveaxis(bodies.take(self._bodies[rows], axis=1), 0, -1)
+        rotations, centres = of_bodies[:, :9].reshape(-1, 3, 3), of_bodies[:, 9:12]
+        loads = np.moveaxis(loads.take(rows, axis=1), 0, -1)
+        force, torque, sign = loads[:, :3], loads[:, 3:], self._sign[rows]
+        points = carried_points(self._local_points[rows], centres, rotations)
+        axes = product(rotations, self._local_axes[rows])
+        return section_forces(axes, sign * force, sign * moments_at(points, force, torque, centres))
 
     def normals(self, rotations: np.ndarray) -> np.ndarray:
         """Return the unit normals (m, 3) of the connections, rotated with their bodies."""
