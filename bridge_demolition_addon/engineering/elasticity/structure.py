@@ -22,10 +22,11 @@ from ..arrays import BoolArray, FloatArray, IntArray
 from .bearings import Bearings
 from .crack_state import CrackState
 from .cracks import CrackJoints, Cracks, CrackStep
-from .equations import RigidBodies, connected_parts, stiffness_blocks, stressed, summed_on_bodies, without
+from .equations import RigidBodies, connected_parts, stiffness_blocks, without
 from .frequencies import SLACK, first_frequency
 from .guesses import GuessedForces, next_shares
-from .joint_rows import JointFrames, JointPositions, JointRows, joint_positions
+from .joint_forces import ActingJoints, begun, blocks, deformations, rows_at, slowed, stored
+from .joint_rows import JointFrames, JointRows, joint_positions
 from .sparse_system import BlockSystem
 
 _MOST_GUESSES = 40
@@ -33,6 +34,10 @@ _MOST_GUESSES = 40
 
 TURNED_RAD = 1e-4
 """Rotation of bodies after which rows and equations are made again: loads are then off by as much, relative."""
+
+
+_CHOICES = 2
+"""Sets of connections of which a copy is kept: those that act, and those that are intact, also where bodies sleep."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -123,12 +128,11 @@ class _Part:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _RowCache:
-    """Positions of connections (r,), in order, and of their bodies, as they were last."""
+    """Deformations (6, r) of connections (r,), in order, and where their bodies were then."""
 
     positions_m: FloatArray
     rotations: FloatArray
     rows: IntArray
-    places: JointPositions
     deformations: FloatArray
 
     def has(self, rows: IntArray, positions_m: FloatArray, rotations: FloatArray) -> bool:
@@ -136,8 +140,25 @@ class _RowCache:
         return (
             np.array_equal(positions_m, self.positions_m)
             and np.array_equal(rotations, self.rotations)
-            and bool(np.isin(rows, self.rows, assume_unique=True).all())
+            and (np.array_equal(rows, self.rows) or bool(np.isin(rows, self.rows, assume_unique=True).all()))
         )
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Chosen:
+    """Connections (k,), in order, with what does not change of them; all of them without a copy."""
+
+    numbers: IntArray
+    frames: JointFrames
+    stiffness: FloatArray  # (6, 6, k)
+    offsets: FloatArray  # (6, k)
+
+    @classmethod
+    def of(cls, numbers: IntArray, frames: JointFrames, stiffness: FloatArray, offsets: FloatArray) -> _Chosen:
+        """Return some connections (k,) of m."""
+        if len(numbers) == len(frames):
+            return cls(numbers, frames, stiffness, offsets)
+        return cls(numbers, frames.only(numbers), stiffness.take(numbers, axis=-1), offsets.take(numbers, axis=-1))
 
 
 class ElasticStructure:
@@ -175,6 +196,8 @@ class ElasticStructure:
         self._substep_s = 0.0
         self._cracks, self._has_broken = cracks, False
         self._cache: _RowCache | None = None
+        self._chosen: list[_Chosen] = []  # those that were asked for last
+        self._acting: ActingJoints | None = None  # None where rows, damping or the length of sub-steps have changed
         self._parts: list[_Part] = []
         self._part_of_body = np.full(self._count, -1)
         self._partition()
@@ -184,7 +207,7 @@ class ElasticStructure:
     def damp(self, damping_s: FloatArray) -> None:
         """Take over damping over stiffness, β (m,), from the next sub-step on."""
         changed = np.flatnonzero(damping_s != self._damping_s)
-        self._damping_s = damping_s
+        self._damping_s, self._acting = damping_s, None
         self._stale[self.part_of_connection[changed]] = True
         self._stale[-1] = False
 
@@ -220,38 +243,29 @@ class ElasticStructure:
         """Return what connections do in a sub-step of a length in s, of those (m,) that are intact."""
         self._follow_breaks(intact)
         if substep_s != self._substep_s:
-            self._substep_s = substep_s
+            self._substep_s, self._acting = substep_s, None
             self._stale[:-1] = True
         awake = self._awake_parts(start)
         are_awake = awake[self.part_of_connection]
         acts = self._intact & are_awake[: len(self._frames)]
-        acting = np.flatnonzero(acts)
-        frames = self._frames.only(acting)
-        positions, deformations = self._deformed(acting, start.positions_m, start.rotations)
+        chosen = self._choose(np.flatnonzero(acts))
+        acting = chosen.numbers
+        deformed = self._deformed(chosen, start.positions_m, start.rotations)
         cracks = self._acting_terms(self._cracks, are_awake, start)
         assert cracks is None or isinstance(cracks, CrackStep)
         springs = [terms for law in self._springs if (terms := self._acting_terms(law, acts, start)) is not None]
         cages = self._acting_terms(self._bare_bars, are_awake, start)
         nonlinear = [terms for terms in (cracks, *springs, cages) if terms is not None]
-        self._refresh(start, awake, acting, positions, nonlinear)
-        rows, stiffness = self._rows.only(acting), self._stiffness[..., acting]
-        first, second = (start.velocities.take(ends, axis=1) for ends in (frames.first, frames.second))
-        rates = rows.rates(first, second)
-        implicit = substep_s * (substep_s + self._damping_s[acting])
-        strains = substep_s * (deformations - self._offsets[:, acting]) - implicit * rates
-        amounts = stressed(stiffness, strains)
-        loads = summed_on_bodies(frames.first, frames.second, rows.loads(amounts), self._count)
+        self._refresh(start, awake, acting, nonlinear)
+        joints = self._acting_joints(chosen)
+        rates, amounts, loads = begun(joints, deformed - chosen.offsets, substep_s, start.velocities)
         changes = self._solved(awake, self._with_nonlinear(loads, nonlinear, start.velocities))
         for _ in range(_MOST_GUESSES if nonlinear else 0):
             if not self._guess_again(nonlinear, start.velocities + changes):
                 break
-            self._refresh(start, awake, acting, positions, nonlinear)
+            self._refresh(start, awake, acting, nonlinear)
             changes = self._solved(awake, self._with_nonlinear(loads, nonlinear, start.velocities))
-        first, second = (changes.take(ends, axis=1) for ends in (frames.first, frames.second))
-        slowing = rows.rates(first, second)
-        amounts -= stressed(stiffness, implicit * slowing)
-        of_first, of_second = rows.loads(amounts)
-        of_bodies = summed_on_bodies(frames.first, frames.second, (of_first, of_second), self._count)
+        rates, of_first, of_second, of_bodies = slowed(joints, rates, amounts, changes)
         of_cracks = np.zeros((6, 0)), np.zeros((6, 0))
         if cracks is not None:
             of_cracks = cracks.loads(start.velocities + changes)
@@ -266,8 +280,8 @@ class ElasticStructure:
             of_bodies = of_bodies + cages.of_bodies(cages.loads(start.velocities + changes), self._count)
         return ElasticStep(
             acting=acting,
-            deformations=deformations,
-            rates=rates + slowing,
+            deformations=deformed,
+            rates=rates,
             of_first=of_first,
             of_second=of_second,
             cracks=np.zeros(0, int) if cracks is None else cracks.rows,
@@ -287,17 +301,15 @@ class ElasticStructure:
 
         Bodies are at positions (3, n) in rotations (3, 3, n).
         """
-        rows = np.flatnonzero(self._intact)
-        deformations = self._deformed(rows, positions_m, rotations)[1] - self._offsets[:, rows]
-        amounts = stressed(self._stiffness[..., rows], deformations)
-        stored = np.zeros(len(self._frames))
-        for amount, deformation in zip(amounts, deformations, strict=True):
-            stored[rows] += 0.5 * amount * deformation
+        chosen = self._choose(np.flatnonzero(self._intact))
+        strains = self._deformed(chosen, positions_m, rotations) - chosen.offsets
+        stored_j = np.zeros(len(self._frames))
+        stored_j[chosen.numbers] = stored(chosen.stiffness, strains)
         if cracks is not None:
-            stored[cracks.rows] = cracks.stored_j
+            stored_j[cracks.rows] = cracks.stored_j
         for law in self._springs:
-            stored[law.rows] = law.stored_j(positions_m, rotations) * self._intact[law.rows]
-        return stored
+            stored_j[law.rows] = law.stored_j(positions_m, rotations) * self._intact[law.rows]
+        return stored_j
 
     def settle(self, positions_m: FloatArray, rotations: FloatArray) -> IntArray:
         """Take over, before a sub-step, how far springs and bars have yielded; return what ruptured (d,), let go."""
@@ -324,18 +336,32 @@ class ElasticStructure:
         if self._has_broken:
             self._partition()
 
-    def _deformed(
-        self, rows: IntArray, positions_m: FloatArray, rotations: FloatArray
-    ) -> tuple[JointPositions, FloatArray]:
-        """Places and deformations (6, r) of connections (r,), in order; again only where bodies have moved."""
-        cached = self._cache
-        if cached is None or not cached.has(rows, positions_m, rotations):
-            positions = joint_positions(self._frames.only(rows), positions_m, rotations)
-            self._cache = cached = _RowCache(positions_m, rotations, rows, positions, positions.deformations())
-        if np.array_equal(rows, cached.rows):
-            return cached.places, cached.deformations
-        chosen = np.searchsorted(cached.rows, rows)
-        return cached.places.only(chosen), cached.deformations[:, chosen]
+    def _choose(self, numbers: IntArray) -> _Chosen:
+        """What does not change of connections (k,), in order; found again only where others are asked for."""
+        for chosen in self._chosen:
+            if np.array_equal(numbers, chosen.numbers):
+                return chosen
+        chosen = _Chosen.of(numbers, self._frames, self._stiffness, self._offsets)
+        self._chosen = [chosen, *self._chosen[: _CHOICES - 1]]
+        return chosen
+
+    def _acting_joints(self, chosen: _Chosen) -> ActingJoints:
+        """Connections (k,) with their rows as they are now."""
+        if self._acting is None or self._acting.frames is not chosen.frames:
+            rows = self._rows.only(chosen.numbers)
+            implicit = self._substep_s * (self._substep_s + self._damping_s[chosen.numbers])
+            self._acting = ActingJoints(chosen.frames, rows, chosen.stiffness, implicit)
+        return self._acting
+
+    def _deformed(self, chosen: _Chosen, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
+        """Deformations (6, k) of connections (k,); again only where bodies have moved."""
+        cached, numbers = self._cache, chosen.numbers
+        if cached is None or not cached.has(numbers, positions_m, rotations):
+            found = deformations(chosen.frames, positions_m, rotations)
+            self._cache = cached = _RowCache(positions_m, rotations, numbers, found)
+        if np.array_equal(numbers, cached.rows):
+            return cached.deformations
+        return cached.deformations[:, np.searchsorted(cached.rows, numbers)]
 
     def _partition(self) -> None:
         """Find the parts, and leave out bodies that never move."""
@@ -413,7 +439,6 @@ class ElasticStructure:
         start: StepInput,
         awake: BoolArray,
         acting: IntArray,
-        positions: JointPositions,
         nonlinear: Sequence[GuessedForces],
     ) -> None:
         """Make rows of parts again that have turned or lost a connection; factor these, and those with new guesses."""
@@ -422,29 +447,30 @@ class ElasticStructure:
         self._stale[self._part_of_body[turned]] = True
         unsolved = self._stale & awake
         if unsolved.any():
-            self._assemble(start, unsolved, acting, positions)
+            self._assemble(start, unsolved, acting)
         for terms in nonlinear:
             unsolved[self.part_of_connection[terms.rows[terms.changed()]]] = True
         unsolved[-1] = False
         if unsolved.any():
             self._factor(unsolved, nonlinear)
 
-    def _assemble(self, start: StepInput, stale: BoolArray, acting: IntArray, positions: JointPositions) -> None:
+    def _assemble(self, start: StepInput, stale: BoolArray, acting: IntArray) -> None:
         """Make rows and equations of some parts (p + 1,), but for what is guessed."""
         bodies = stale[self._part_of_body]
         self._rotations[..., bodies] = start.rotations[..., bodies]
-        chosen = np.flatnonzero(stale[self.part_of_connection[acting]])
-        connections = acting[chosen]
-        rows = positions.only(chosen).rows()
+        connections = acting[stale[self.part_of_connection[acting]]]
+        rows = rows_at(joint_positions(self._frames.only(connections), start.positions_m, start.rotations))
         self._rows.set(connections, rows)
+        self._acting = None
         implicit = self._substep_s * (self._substep_s + self._damping_s[connections])
-        blocks = stiffness_blocks(rows, implicit * self._stiffness[..., connections])
+        of_connections = blocks(rows, self._stiffness[..., connections], implicit)
         own = self._bodies.mass_matrices(start.rotations, np.flatnonzero(bodies))
         row_of_body, of_part = np.cumsum(bodies) - 1, self.part_of_connection[connections]
         for number in np.flatnonzero(stale).tolist():
             part, mine = self._parts[number], np.flatnonzero(of_part == number)
             within = np.searchsorted(part.connections, connections[mine])
-            part.system.assemble(own[..., row_of_body[part.bodies]], within, *(block[..., mine] for block in blocks))
+            added = [block[..., mine] for block in of_connections]
+            part.system.assemble(own[..., row_of_body[part.bodies]], within, *added)
         self._stale[stale] = False
 
     def _factor(self, unsolved: BoolArray, nonlinear: Sequence[GuessedForces]) -> None:

@@ -1,0 +1,349 @@
+"""Elastic connections as loops, which Numba compiles: import this only where it is installed.
+
+The loops give the same bits as `joint_rows` and `equations`, as those of cracks do: see `crack_loops`. All arrays have
+their components first, and their names are those of the dataclasses that they come from.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from ..arithmetic import ARCTANGENT, ARCTANGENT_LIMITS, ARCTANGENT_STARTS, PI_REST
+from .crack_loops import compiled, crossed
+
+_COEFFICIENTS = np.array(ARCTANGENT)
+
+
+@compiled
+def deformations(
+    first: Any,
+    second: Any,
+    first_axes: Any,
+    second_axes: Any,
+    first_points: Any,
+    second_points: Any,
+    positions: Any,
+    rotations: Any,
+) -> Any:
+    """`JointPositions.deformations` at once with `joint_positions`."""
+    count = len(first)
+    found = np.empty((6, count))
+    for row in range(count):
+        a, b = first[row], second[row]
+        one, other = _axes(rotations, a, first_axes, row), _axes(rotations, b, second_axes, row)
+        lever, lever_of_second = _lever(rotations, a, first_points, row), _lever(rotations, b, second_points, row)
+        shift = (
+            positions[0, b] - positions[0, a] + lever_of_second[0] - lever[0],
+            positions[1, b] - positions[1, a] + lever_of_second[1] - lever[1],
+            positions[2, b] - positions[2, a] + lever_of_second[2] - lever[2],
+        )
+        for axis in range(3):
+            found[axis, row] = one[axis][0] * shift[0] + one[axis][1] * shift[1] + one[axis][2] * shift[2]
+        about_y = _dot(one[0], other[2])
+        upright = np.sqrt(max(1.0 - about_y * about_y, 0.0))
+        found[3, row] = _angle(-_dot(one[1], other[2]), _dot(one[2], other[2]))
+        found[4, row] = _angle(about_y, upright)
+        found[5, row] = _angle(-_dot(one[0], other[1]), _dot(one[0], other[0]))
+    return found
+
+
+@compiled
+def _axes(rotations: Any, body: int, axes: Any, row: int) -> Any:
+    """Axes of a frame in the world, one after another, as `joint_rows.matrix_products` has them in columns."""
+    return (
+        _turned(rotations, body, axes[0, 0, row], axes[1, 0, row], axes[2, 0, row]),
+        _turned(rotations, body, axes[0, 1, row], axes[1, 1, row], axes[2, 1, row]),
+        _turned(rotations, body, axes[0, 2, row], axes[1, 2, row], axes[2, 2, row]),
+    )
+
+
+@compiled
+def _lever(rotations: Any, body: int, points: Any, row: int) -> Any:
+    """From the centre of a body to a frame, in the world."""
+    return _turned(rotations, body, points[0, row], points[1, row], points[2, row])
+
+
+@compiled
+def _turned(rotations: Any, body: int, x: float, y: float, z: float) -> Any:
+    """`joint_rows.turned` of one vector with a body."""
+    return (
+        rotations[0, 0, body] * x + rotations[0, 1, body] * y + rotations[0, 2, body] * z,
+        rotations[1, 0, body] * x + rotations[1, 1, body] * y + rotations[1, 2, body] * z,
+        rotations[2, 0, body] * x + rotations[2, 1, body] * y + rotations[2, 2, body] * z,
+    )
+
+
+@compiled
+def _dot(one: Any, other: Any) -> Any:
+    """`joint_rows.dot_products`."""
+    return one[0] * other[0] + one[1] * other[1] + one[2] * other[2]
+
+
+@compiled
+def _angle(y: float, x: float) -> float:
+    """`arithmetic.arctangent` of one point."""
+    slope = abs(y / x) if y != 0.0 else 0.0
+    region = 0
+    while region < 4 and not slope < ARCTANGENT_LIMITS[region]:
+        region += 1
+    if region == 0:
+        shorter = slope
+    elif region == 1:
+        shorter = (2.0 * slope - 1.0) / (2.0 + slope)
+    elif region == 2:
+        shorter = (slope - 1.0) / (slope + 1.0)
+    elif region == 3:
+        shorter = (slope - 1.5) / (1.0 + 1.5 * slope)
+    else:
+        shorter = -1.0 / slope
+    square = shorter * shorter
+    value = _COEFFICIENTS[-1]
+    for number in range(len(_COEFFICIENTS) - 2, -1, -1):
+        value = _COEFFICIENTS[number] + square * value
+    less = shorter * square * value
+    angle = ARCTANGENT_STARTS[region, 0] - ((less - ARCTANGENT_STARTS[region, 1]) - shorter)
+    if math.copysign(1.0, x) < 0.0 and slope < np.inf:
+        angle = np.pi - (angle - PI_REST)
+    return math.copysign(angle, y)
+
+
+@compiled
+def begun(
+    first: Any,
+    second: Any,
+    along: Any,
+    first_turning: Any,
+    second_turning: Any,
+    turning: Any,
+    stiffness: Any,
+    implicit: Any,
+    strains: Any,
+    substep_s: float,
+    velocities: Any,
+) -> tuple[Any, Any, Any]:
+    """`joint_forces.begun`."""
+    count = len(first)
+    rates, amounts = np.empty((6, count)), np.empty((6, count))
+    of_first, of_second = np.empty((6, count)), np.empty((6, count))
+    strain = np.empty(6)
+    for row in range(count):
+        _rates(first[row], second[row], along, first_turning, second_turning, turning, velocities, rates, row)
+        for axis in range(6):
+            strain[axis] = substep_s * strains[axis, row] - implicit[row] * rates[axis, row]
+        for axis in range(6):
+            amounts[axis, row] = _stressed(stiffness, strain, axis, row)
+        _loads(along, first_turning, second_turning, turning, amounts, of_first, of_second, row)
+    return rates, amounts, _summed(first, second, of_first, of_second, velocities.shape[1])
+
+
+@compiled
+def slowed(
+    first: Any,
+    second: Any,
+    along: Any,
+    first_turning: Any,
+    second_turning: Any,
+    turning: Any,
+    stiffness: Any,
+    implicit: Any,
+    rates: Any,
+    amounts: Any,
+    changes: Any,
+) -> tuple[Any, Any, Any, Any]:
+    """`joint_forces.slowed`."""
+    count = len(first)
+    slowing, left = np.empty((6, count)), np.empty((6, count))
+    of_first, of_second = np.empty((6, count)), np.empty((6, count))
+    strain = np.empty(6)
+    for row in range(count):
+        _rates(first[row], second[row], along, first_turning, second_turning, turning, changes, slowing, row)
+        for axis in range(6):
+            strain[axis] = implicit[row] * slowing[axis, row]
+        for axis in range(6):
+            left[axis, row] = amounts[axis, row] - _stressed(stiffness, strain, axis, row)
+            slowing[axis, row] = rates[axis, row] + slowing[axis, row]
+        _loads(along, first_turning, second_turning, turning, left, of_first, of_second, row)
+    return slowing, of_first, of_second, _summed(first, second, of_first, of_second, changes.shape[1])
+
+
+@compiled
+def _rates(
+    a: int,
+    b: int,
+    along: Any,
+    first_turning: Any,
+    second_turning: Any,
+    turning: Any,
+    velocities: Any,
+    rates: Any,
+    row: int,
+) -> None:
+    """`JointRows.rates` of one connection."""
+    x, y, z = (
+        velocities[0, a] - velocities[0, b],
+        velocities[1, a] - velocities[1, b],
+        velocities[2, a] - velocities[2, b],
+    )
+    p, q, r = velocities[3, a], velocities[4, a], velocities[5, a]
+    s, t, u = velocities[3, b], velocities[4, b], velocities[5, b]
+    for axis in range(3):
+        shifting = along[axis, 0, row] * x + along[axis, 1, row] * y + along[axis, 2, row] * z
+        shifting += first_turning[axis, 0, row] * p + first_turning[axis, 1, row] * q + first_turning[axis, 2, row] * r
+        shifting += (
+            second_turning[axis, 0, row] * s + second_turning[axis, 1, row] * t + second_turning[axis, 2, row] * u
+        )
+        rates[axis, row] = shifting
+        rates[3 + axis, row] = (
+            turning[axis, 0, row] * (p - s) + turning[axis, 1, row] * (q - t) + turning[axis, 2, row] * (r - u)
+        )
+
+
+@compiled
+def _stressed(stiffness: Any, strain: Any, axis: int, row: int) -> Any:
+    """One of the amounts of `equations.stressed`."""
+    amount = stiffness[axis, 0, row] * strain[0]
+    for column in range(1, 6):
+        amount += stiffness[axis, column, row] * strain[column]
+    return amount
+
+
+@compiled
+def _loads(
+    along: Any,
+    first_turning: Any,
+    second_turning: Any,
+    turning: Any,
+    amounts: Any,
+    of_first: Any,
+    of_second: Any,
+    row: int,
+) -> None:
+    """`JointRows.loads` of one connection."""
+    x, y, z = amounts[0, row], amounts[1, row], amounts[2, row]
+    p, q, r = amounts[3, row], amounts[4, row], amounts[5, row]
+    for axis in range(3):
+        force = along[0, axis, row] * x + along[1, axis, row] * y + along[2, axis, row] * z
+        torque = turning[0, axis, row] * p + turning[1, axis, row] * q + turning[2, axis, row] * r
+        of_first[axis, row], of_second[axis, row] = force, -force
+        of_first[3 + axis, row] = (
+            first_turning[0, axis, row] * x + first_turning[1, axis, row] * y + first_turning[2, axis, row] * z
+        ) + torque
+        of_second[3 + axis, row] = (
+            second_turning[0, axis, row] * x + second_turning[1, axis, row] * y + second_turning[2, axis, row] * z
+        ) - torque
+
+
+@compiled
+def _summed(first: Any, second: Any, of_first: Any, of_second: Any, count: int) -> Any:
+    """`equations.summed_on_bodies`."""
+    sums = np.zeros((6, count))
+    for axis in range(6):
+        for row in range(len(first)):
+            sums[axis, first[row]] += of_first[axis, row]
+        for row in range(len(second)):
+            sums[axis, second[row]] += of_second[axis, row]
+    return sums
+
+
+@compiled
+def stored(stiffness: Any, strains: Any) -> Any:
+    """`joint_forces.stored`."""
+    count = strains.shape[1]
+    energies = np.zeros(count)
+    strain = np.empty(6)
+    for row in range(count):
+        for axis in range(6):
+            strain[axis] = strains[axis, row]
+        for axis in range(6):
+            energies[row] += 0.5 * _stressed(stiffness, strain, axis, row) * strain[axis]
+    return energies
+
+
+@compiled
+def rows(first_axes: Any, second_axes: Any, first_levers: Any, second_levers: Any) -> tuple[Any, Any, Any, Any]:
+    """`JointPositions.rows`."""
+    count = first_axes.shape[2]
+    along, first_turning = np.empty((3, 3, count)), np.empty((3, 3, count))
+    second_turning, turning = np.empty((3, 3, count)), np.empty((3, 3, count))
+    for row in range(count):
+        lever = first_levers[0, row], first_levers[1, row], first_levers[2, row]
+        lever_of_second = second_levers[0, row], second_levers[1, row], second_levers[2, row]
+        for axis in range(3):
+            line = first_axes[0, axis, row], first_axes[1, axis, row], first_axes[2, axis, row]
+            by_first, by_second = crossed(lever, line), crossed(line, lever_of_second)
+            for other in range(3):
+                along[axis, other, row] = line[other]
+                first_turning[axis, other, row], second_turning[axis, other, row] = by_first[other], by_second[other]
+        first_z = first_axes[0, 2, row], first_axes[1, 2, row], first_axes[2, 2, row]
+        second_x = second_axes[0, 0, row], second_axes[1, 0, row], second_axes[2, 0, row]
+        y = crossed(first_z, second_x)
+        _put_unit(turning, 0, row, crossed(y, first_z))
+        _put_unit(turning, 1, row, y)
+        _put_unit(turning, 2, row, crossed(second_x, y))
+    return along, first_turning, second_turning, turning
+
+
+@compiled
+def _put_unit(turning: Any, axis: int, row: int, vector: Any) -> None:
+    """Write a vector with length 1; 0 where it has no length."""
+    size = np.sqrt(_dot(vector, vector))
+    for other in range(3):
+        turning[axis, other, row] = vector[other] / size if size > 0.0 else 0.0
+
+
+@compiled
+def blocks(
+    along: Any, first_turning: Any, second_turning: Any, turning: Any, stiffness: Any, implicit: Any
+) -> tuple[Any, Any, Any]:
+    """`equations.stiffness_blocks`, with stiffness times `implicit`."""
+    count = along.shape[2]
+    of_first, of_second, between = np.empty((6, 6, count)), np.empty((6, 6, count)), np.empty((6, 6, count))
+    one, other = np.zeros((6, 6)), np.zeros((6, 6))
+    hard, by_one, by_other = np.empty((6, 6)), np.empty((6, 6)), np.empty((6, 6))
+    for row in range(count):
+        for line in range(6):
+            for column in range(6):
+                hard[line, column] = implicit[row] * stiffness[line, column, row]
+        for line in range(3):
+            for column in range(3):
+                one[line, column], other[line, column] = along[line, column, row], -along[line, column, row]
+                one[line, 3 + column] = first_turning[line, column, row]
+                other[line, 3 + column] = second_turning[line, column, row]
+                one[3 + line, 3 + column] = turning[line, column, row]
+                other[3 + line, 3 + column] = -turning[line, column, row]
+        _multiply(hard, one, by_one)
+        _multiply(hard, other, by_other)
+        for line in range(6):
+            for column in range(6):
+                here, there, across = 0.0, 0.0, 0.0
+                for middle in range(6):
+                    here += one[middle, line] * by_one[middle, column]
+                    there += other[middle, line] * by_other[middle, column]
+                    across += one[middle, line] * by_other[middle, column]
+                of_first[line, column, row] = here
+                of_second[line, column, row] = there
+                between[line, column, row] = across
+    return of_first, of_second, between
+
+
+@compiled
+def _multiply(one: Any, other: Any, product: Any) -> None:
+    """`joint_rows.matrix_products` of two matrices; a sum that begins with 0 differs at most in the sign of a 0."""
+    for line in range(6):
+        for column in range(6):
+            product[line, column] = 0.0
+        for middle in range(6):
+            for column in range(6):
+                product[line, column] += one[line, middle] * other[middle, column]
+
+
+@compiled
+def summed(places: Any, values: Any, totals: Any) -> None:
+    """Add values (6, 6, c) to totals at places alike, row after row of these."""
+    for line in range(6):
+        for column in range(6):
+            for row in range(values.shape[2]):
+                totals[places[line, column, row]] += values[line, column, row]
