@@ -7,13 +7,11 @@ components first.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
-from importlib.util import find_spec
-from typing import Any
 
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
+from .compiled_joints import joint_loops
 from .equations import stiffness_blocks, stressed, summed_on_bodies
 from .joint_rows import JointFrames, JointPositions, JointRows, joint_positions
 
@@ -121,13 +119,3 @@ def _arrays(joints: ActingJoints) -> tuple[IntArray | FloatArray, ...]:
     frames, rows = joints.frames, joints.rows
     of_rows = rows.along, rows.first_turning, rows.second_turning, rows.turning
     return (frames.first, frames.second, *of_rows, joints.stiffness, joints.implicit_s2)
-
-
-@cache
-def joint_loops() -> Any | None:
-    """Return the module of compiled loops, loaded when connections first need it; None without Numba."""
-    if find_spec("numba") is None:
-        return None
-    from . import joint_loops  # it takes a third of a second, and most calls of the program need none
-
-    return joint_loops

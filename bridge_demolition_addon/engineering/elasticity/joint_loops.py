@@ -341,9 +341,9 @@ def _multiply(one: Any, other: Any, product: Any) -> None:
 
 
 @compiled
-def summed(places: Any, values: Any, totals: Any) -> None:
-    """Add values (6, 6, c) to totals at places alike, row after row of these."""
+def add(totals: Any, places: Any, at: Any, values: Any, chosen: Any) -> None:
+    """Add chosen values (k,) of (6, 6, c) to totals, whose places are (6, 6, d) at (k,), number after number."""
     for line in range(6):
         for column in range(6):
-            for row in range(values.shape[2]):
-                totals[places[line, column, row]] += values[line, column, row]
+            for row in range(len(at)):
+                totals[places[line, column, at[row]]] += values[line, column, chosen[row]]

@@ -32,7 +32,9 @@ class JointFrames:
         return len(self.first)
 
     def only(self, rows: IntArray) -> JointFrames:
-        """Return the frames of some connections (r,)."""
+        """Return the frames of some connections (r,), in order; not copied where these are all."""
+        if len(rows) == len(self):
+            return self
         return JointFrames(*(getattr(self, item.name).take(rows, axis=-1) for item in fields(self)))
 
 
@@ -101,7 +103,7 @@ class JointRows:
             getattr(self, item.name)[..., connections] = getattr(rows, item.name)
 
     def only(self, connections: IntArray) -> JointRows:
-        """Return the rows of some connections (r,), not copied where these are all."""
+        """Return the rows of some connections (r,), in order; not copied where these are all."""
         if len(connections) == self.along.shape[-1]:
             return self
         return JointRows(*(getattr(self, item.name).take(connections, axis=-1) for item in fields(self)))

@@ -463,14 +463,15 @@ class ElasticStructure:
         self._rows.set(connections, rows)
         self._acting = None
         implicit = self._substep_s * (self._substep_s + self._damping_s[connections])
-        of_connections = blocks(rows, self._stiffness[..., connections], implicit)
+        are_all = len(connections) == len(self._frames)
+        stiffness = self._stiffness if are_all else self._stiffness.take(connections, axis=-1)
+        of_connections = blocks(rows, stiffness, implicit)
         own = self._bodies.mass_matrices(start.rotations, np.flatnonzero(bodies))
         row_of_body, of_part = np.cumsum(bodies) - 1, self.part_of_connection[connections]
         for number in np.flatnonzero(stale).tolist():
             part, mine = self._parts[number], np.flatnonzero(of_part == number)
             within = np.searchsorted(part.connections, connections[mine])
-            added = [block[..., mine] for block in of_connections]
-            part.system.assemble(own[..., row_of_body[part.bodies]], within, *added)
+            part.system.assemble(own[..., row_of_body[part.bodies]], within, *of_connections, chosen=mine)
         self._stale[stale] = False
 
     def _factor(self, unsolved: BoolArray, nonlinear: Sequence[GuessedForces]) -> None:
@@ -486,7 +487,7 @@ class ElasticStructure:
         for number in np.flatnonzero(unsolved).tolist():
             part, mine = self._parts[number], np.flatnonzero(of_part == number)
             within = np.searchsorted(part.connections, rows[mine])
-            part.system.factor(within, *(block[..., mine] for block in all_blocks))
+            part.system.factor(within, *all_blocks, chosen=mine)
 
     def _guess_again(self, nonlinear: Sequence[GuessedForces], velocities: FloatArray) -> bool:
         """Return whether forces do not agree with velocities (6, n) that solve the equations; then guess others."""

@@ -73,7 +73,7 @@ class Breaker:
         """Break connections (b,) that a sub-step has overloaded, and return them, without those broken by Bullet."""
         snapshot = reading.snapshot
         rows = self._candidates(snapshot.load_components)
-        if not self._overload_any(rows, snapshot.load_components, snapshot.body_components):
+        if not self._overload_any(rows, snapshot.load_components, *snapshot.places):
             return _NONE
         loads = self._meter.moment(reading)
         rows = self._overloaded(rows, loads)
@@ -84,7 +84,7 @@ class Breaker:
         """Break the connections (b,) that predicted loads (2, 6, m) on their bodies overload, and return them."""
         loads = self._meter.predicted_loads(both_sides)
         rows, failed = self._candidates(loads), self._failed_bearings()
-        if len(rows) and not self._overload_any(rows, loads, self._meter.bodies()):
+        if not self._overload_any(rows, loads, *given(self._resistance.elastic).places):
             rows = _NONE
         if not len(rows) and not len(failed):
             return _NONE
@@ -122,16 +122,19 @@ class Breaker:
         elastic, left = self._resistance.elastic, self._resistance.remaining_strength
         return elastic.failed_bearings(self._intact, left) if elastic and self._warm_up.is_over else _NONE
 
-    def _overload_any(self, rows: np.ndarray, loads: np.ndarray, bodies: np.ndarray) -> bool:
-        """Whether loads (6, m) overload one of connections (r,) alone, with bodies in a state (19, n).
+    def _overload_any(
+        self, rows: np.ndarray, loads: np.ndarray, positions_m: np.ndarray, rotations: np.ndarray
+    ) -> bool:
+        """Whether loads (6, m) overload one of connections (r,) alone, with bodies at positions in rotations.
 
         What all connections carry, which judges them with others, is worked out only then: mostly nothing breaks.
         """
         if not len(rows):
             return False
         resistance = self._resistance
-        used = given(resistance.overloads).of_forces(rows, self._meter.forces_at(rows, loads, bodies))
-        return bool((used / resistance.remaining_strength[rows] > 1.0).any())
+        return given(resistance.overloads).overload_any(
+            rows, self._meter.sections, loads, positions_m, rotations, resistance.remaining_strength
+        )
 
     def _overloaded(self, rows: np.ndarray, moment: Moment) -> np.ndarray:
         """Which of connections (r,) break (k,)."""

@@ -162,7 +162,7 @@ class ElasticConnections:
         self._cracks: Cracks | None = None
         self.bare_bars = StandingBarsOfZones(self._reader, motion, self._masses, len(self._frames))
         self._built = motion
-        self._substep_s = 0.0
+        self._substep_s, self._left = 0.0, np.ones_like(self._left_per_second)
         self._loads = np.zeros((2, 6, len(self._frames)))
         world.constraints.hold_thresholds(held=True)
 
@@ -235,7 +235,7 @@ class ElasticConnections:
         if self.bare_bars.take_added():
             given(self._structure).stand_bare(self.bare_bars.law)
         self._follow_frequencies(motion)
-        left = np.where(motion.inverse_masses > 0.0, power(self._left_per_second, substep_s), 1.0)
+        left = np.where(motion.inverse_masses > 0.0, self._left, 1.0)
         velocities = left * motion.velocity_components
         velocities += substep_s * _accelerations(
             motion, self._reader.inverse_inertia_components(), motion.load_components
@@ -289,12 +289,19 @@ class ElasticConnections:
         rates = lines.rates(*(step.velocities[:, bodies] for bodies in ends))
         self._rows.expect(rows, -substep_s * rates)
 
-    def energy(self, intact: np.ndarray) -> ElasticEnergy:
-        """Return what is stored now in connections (m,) that are intact, or in their reinforcement, and its state."""
-        motion, structure = self._reader.read(), given(self._structure)
-        bodies = motion.position_components_m, motion.rotation_components
-        cracks = structure.crack_state(*bodies)
-        return ElasticEnergy(structure.stored_j(*bodies, cracks) * self.holding(intact), cracks)
+    @property
+    def places(self) -> tuple[np.ndarray, np.ndarray]:
+        """Positions (3, n) and rotations (3, 3, n) of all bodies as the sub-step began."""
+        return self._motion.position_components_m, self._motion.rotation_components
+
+    def energy(self, intact: np.ndarray, positions_m: np.ndarray, rotations: np.ndarray) -> ElasticEnergy:
+        """Return what is stored in connections (m,) that are intact, or in their reinforcement, and its state.
+
+        Bodies are at positions (3, n) in rotations (3, 3, n).
+        """
+        structure = given(self._structure)
+        cracks = structure.crack_state(positions_m, rotations)
+        return ElasticEnergy(structure.stored_j(positions_m, rotations, cracks) * self.holding(intact), cracks)
 
     @property
     def have_bars(self) -> np.ndarray | None:
@@ -331,7 +338,7 @@ class ElasticConnections:
 
     def _prepare(self, motion: BodyMotion, substep_s: float) -> None:
         """Take over the length of sub-steps."""
-        self._substep_s = substep_s
+        self._substep_s, self._left = substep_s, power(self._left_per_second, substep_s)
         if self._structure is None:
             bodies = RigidBodies(
                 self._masses, self._inertias, self._built.position_components_m, self._built.rotation_components
