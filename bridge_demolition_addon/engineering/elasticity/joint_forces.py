@@ -7,16 +7,18 @@ components first.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
 
 import numpy as np
 
-from ..arrays import FloatArray, IntArray
+from ..arrays import FloatArray
 from .compiled_joints import joint_loops
 from .equations import stiffness_blocks, stressed, summed_on_bodies
 from .joint_rows import JointFrames, JointPositions, JointRows, joint_positions
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class ActingJoints:
     """k connections that act, with how strongly impulses follow rates: dt (dt + β), s²."""
 
@@ -24,6 +26,14 @@ class ActingJoints:
     rows: JointRows
     stiffness: FloatArray  # (6, 6, k)
     implicit_s2: FloatArray  # (k,)
+
+    @cached_property
+    def packed(self) -> FloatArray:
+        """Rows and stiffness (k, 72) as compiled loops take them."""
+        rows = self.rows
+        of_rows = rows.along, rows.first_turning, rows.second_turning, rows.turning
+        packed: FloatArray = _loops().packed(*of_rows, self.stiffness)
+        return packed
 
 
 def deformations(frames: JointFrames, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
@@ -54,7 +64,7 @@ def begun(
     loops, frames, rows = joint_loops(), joints.frames, joints.rows
     if loops is not None:
         found: tuple[FloatArray, FloatArray, FloatArray] = loops.begun(
-            *_arrays(joints), strains, substep_s, np.ascontiguousarray(velocities)
+            frames.first, frames.second, joints.packed, joints.implicit_s2, strains, substep_s, velocities
         )
         return found
     rates = rows.rates(*(velocities.take(ends, axis=1) for ends in (frames.first, frames.second)))
@@ -73,7 +83,7 @@ def slowed(
     loops, frames, rows = joint_loops(), joints.frames, joints.rows
     if loops is not None:
         found: tuple[FloatArray, FloatArray, FloatArray, FloatArray] = loops.slowed(
-            *_arrays(joints), rates, amounts, changes
+            frames.first, frames.second, joints.packed, joints.implicit_s2, rates, amounts, changes
         )
         return found
     slowing = rows.rates(*(changes.take(ends, axis=1) for ends in (frames.first, frames.second)))
@@ -115,7 +125,7 @@ def blocks(
     return found
 
 
-def _arrays(joints: ActingJoints) -> tuple[IntArray | FloatArray, ...]:
-    frames, rows = joints.frames, joints.rows
-    of_rows = rows.along, rows.first_turning, rows.second_turning, rows.turning
-    return (frames.first, frames.second, *of_rows, joints.stiffness, joints.implicit_s2)
+def _loops() -> Any:
+    loops = joint_loops()
+    assert loops is not None, "only compiled loops take connections one after another"
+    return loops

@@ -111,141 +111,115 @@ def _angle(y: float, x: float) -> float:
 
 
 @compiled
+def packed(along: Any, first_turning: Any, second_turning: Any, turning: Any, stiffness: Any) -> Any:
+    """All of a connection in a row (72,), so that it lies together in memory: rows, 9 numbers each, and stiffness."""
+    count = along.shape[2]
+    found = np.empty((count, 72))
+    for row in range(count):
+        for line in range(3):
+            for column in range(3):
+                at = 3 * line + column
+                found[row, at] = along[line, column, row]
+                found[row, 9 + at] = first_turning[line, column, row]
+                found[row, 18 + at] = second_turning[line, column, row]
+                found[row, 27 + at] = turning[line, column, row]
+        for line in range(6):
+            for column in range(6):
+                found[row, 36 + 6 * line + column] = stiffness[line, column, row]
+    return found
+
+
+@compiled
 def begun(
-    first: Any,
-    second: Any,
-    along: Any,
-    first_turning: Any,
-    second_turning: Any,
-    turning: Any,
-    stiffness: Any,
-    implicit: Any,
-    strains: Any,
-    substep_s: float,
-    velocities: Any,
+    first: Any, second: Any, joints: Any, implicit: Any, strains: Any, substep_s: float, velocities: Any
 ) -> tuple[Any, Any, Any]:
-    """`joint_forces.begun`."""
+    """`joint_forces.begun`, with joints (k, 72) as `packed`."""
     count = len(first)
     rates, amounts = np.empty((6, count)), np.empty((6, count))
-    of_first, of_second = np.empty((6, count)), np.empty((6, count))
-    strain = np.empty(6)
+    of_first, of_second, of_bodies = np.empty(6), np.empty((count, 6)), np.zeros((velocities.shape[1], 6))
+    moving, rate, strain, amount = np.ascontiguousarray(velocities.T), np.empty(6), np.empty(6), np.empty(6)
     for row in range(count):
-        _rates(first[row], second[row], along, first_turning, second_turning, turning, velocities, rates, row)
+        joint = joints[row]
+        _rates(joint, moving[first[row]], moving[second[row]], rate)
         for axis in range(6):
-            strain[axis] = substep_s * strains[axis, row] - implicit[row] * rates[axis, row]
+            rates[axis, row] = rate[axis]
+            strain[axis] = substep_s * strains[axis, row] - implicit[row] * rate[axis]
         for axis in range(6):
-            amounts[axis, row] = _stressed(stiffness, strain, axis, row)
-        _loads(along, first_turning, second_turning, turning, amounts, of_first, of_second, row)
-    return rates, amounts, _summed(first, second, of_first, of_second, velocities.shape[1])
+            amounts[axis, row] = amount[axis] = _stressed(joint, strain, axis)
+        _loads(joint, amount, of_first, of_second[row])
+        for axis in range(6):
+            of_bodies[first[row], axis] += of_first[axis]
+    _add_seconds(second, of_second, of_bodies)
+    return rates, amounts, np.ascontiguousarray(of_bodies.T)
 
 
 @compiled
 def slowed(
-    first: Any,
-    second: Any,
-    along: Any,
-    first_turning: Any,
-    second_turning: Any,
-    turning: Any,
-    stiffness: Any,
-    implicit: Any,
-    rates: Any,
-    amounts: Any,
-    changes: Any,
+    first: Any, second: Any, joints: Any, implicit: Any, rates: Any, amounts: Any, changes: Any
 ) -> tuple[Any, Any, Any, Any]:
-    """`joint_forces.slowed`."""
+    """`joint_forces.slowed`, with joints (k, 72) as `packed`."""
     count = len(first)
-    slowing, left = np.empty((6, count)), np.empty((6, count))
-    of_first, of_second = np.empty((6, count)), np.empty((6, count))
-    strain = np.empty(6)
+    slowing, on_first, on_second = np.empty((6, count)), np.empty((6, count)), np.empty((6, count))
+    of_first, of_second, of_bodies = np.empty(6), np.empty((count, 6)), np.zeros((changes.shape[1], 6))
+    moving, rate, strain, amount = np.ascontiguousarray(changes.T), np.empty(6), np.empty(6), np.empty(6)
     for row in range(count):
-        _rates(first[row], second[row], along, first_turning, second_turning, turning, changes, slowing, row)
+        joint = joints[row]
+        _rates(joint, moving[first[row]], moving[second[row]], rate)
         for axis in range(6):
-            strain[axis] = implicit[row] * slowing[axis, row]
+            strain[axis] = implicit[row] * rate[axis]
+            slowing[axis, row] = rates[axis, row] + rate[axis]
         for axis in range(6):
-            left[axis, row] = amounts[axis, row] - _stressed(stiffness, strain, axis, row)
-            slowing[axis, row] = rates[axis, row] + slowing[axis, row]
-        _loads(along, first_turning, second_turning, turning, left, of_first, of_second, row)
-    return slowing, of_first, of_second, _summed(first, second, of_first, of_second, changes.shape[1])
+            amount[axis] = amounts[axis, row] - _stressed(joint, strain, axis)
+        _loads(joint, amount, of_first, of_second[row])
+        for axis in range(6):
+            on_first[axis, row], on_second[axis, row] = of_first[axis], of_second[row, axis]
+            of_bodies[first[row], axis] += of_first[axis]
+    _add_seconds(second, of_second, of_bodies)
+    return slowing, on_first, on_second, np.ascontiguousarray(of_bodies.T)
 
 
 @compiled
-def _rates(
-    a: int,
-    b: int,
-    along: Any,
-    first_turning: Any,
-    second_turning: Any,
-    turning: Any,
-    velocities: Any,
-    rates: Any,
-    row: int,
-) -> None:
-    """`JointRows.rates` of one connection."""
-    x, y, z = (
-        velocities[0, a] - velocities[0, b],
-        velocities[1, a] - velocities[1, b],
-        velocities[2, a] - velocities[2, b],
-    )
-    p, q, r = velocities[3, a], velocities[4, a], velocities[5, a]
-    s, t, u = velocities[3, b], velocities[4, b], velocities[5, b]
+def _rates(joint: Any, first: Any, second: Any, rates: Any) -> None:
+    """`JointRows.rates` of one connection, by the velocities (6,) of its bodies."""
+    x, y, z = first[0] - second[0], first[1] - second[1], first[2] - second[2]
+    p, q, r = first[3] - second[3], first[4] - second[4], first[5] - second[5]
     for axis in range(3):
-        shifting = along[axis, 0, row] * x + along[axis, 1, row] * y + along[axis, 2, row] * z
-        shifting += first_turning[axis, 0, row] * p + first_turning[axis, 1, row] * q + first_turning[axis, 2, row] * r
-        shifting += (
-            second_turning[axis, 0, row] * s + second_turning[axis, 1, row] * t + second_turning[axis, 2, row] * u
-        )
-        rates[axis, row] = shifting
-        rates[3 + axis, row] = (
-            turning[axis, 0, row] * (p - s) + turning[axis, 1, row] * (q - t) + turning[axis, 2, row] * (r - u)
-        )
+        at = 3 * axis
+        shifting = joint[at] * x + joint[at + 1] * y + joint[at + 2] * z
+        shifting += joint[at + 9] * first[3] + joint[at + 10] * first[4] + joint[at + 11] * first[5]
+        shifting += joint[at + 18] * second[3] + joint[at + 19] * second[4] + joint[at + 20] * second[5]
+        rates[axis] = shifting
+        rates[3 + axis] = joint[at + 27] * p + joint[at + 28] * q + joint[at + 29] * r
 
 
 @compiled
-def _stressed(stiffness: Any, strain: Any, axis: int, row: int) -> Any:
+def _stressed(joint: Any, strain: Any, axis: int) -> Any:
     """One of the amounts of `equations.stressed`."""
-    amount = stiffness[axis, 0, row] * strain[0]
+    at = 36 + 6 * axis
+    amount = joint[at] * strain[0]
     for column in range(1, 6):
-        amount += stiffness[axis, column, row] * strain[column]
+        amount += joint[at + column] * strain[column]
     return amount
 
 
 @compiled
-def _loads(
-    along: Any,
-    first_turning: Any,
-    second_turning: Any,
-    turning: Any,
-    amounts: Any,
-    of_first: Any,
-    of_second: Any,
-    row: int,
-) -> None:
+def _loads(joint: Any, amount: Any, of_first: Any, of_second: Any) -> None:
     """`JointRows.loads` of one connection."""
-    x, y, z = amounts[0, row], amounts[1, row], amounts[2, row]
-    p, q, r = amounts[3, row], amounts[4, row], amounts[5, row]
+    x, y, z, p, q, r = amount[0], amount[1], amount[2], amount[3], amount[4], amount[5]
     for axis in range(3):
-        force = along[0, axis, row] * x + along[1, axis, row] * y + along[2, axis, row] * z
-        torque = turning[0, axis, row] * p + turning[1, axis, row] * q + turning[2, axis, row] * r
-        of_first[axis, row], of_second[axis, row] = force, -force
-        of_first[3 + axis, row] = (
-            first_turning[0, axis, row] * x + first_turning[1, axis, row] * y + first_turning[2, axis, row] * z
-        ) + torque
-        of_second[3 + axis, row] = (
-            second_turning[0, axis, row] * x + second_turning[1, axis, row] * y + second_turning[2, axis, row] * z
-        ) - torque
+        force = joint[axis] * x + joint[axis + 3] * y + joint[axis + 6] * z
+        torque = joint[axis + 27] * p + joint[axis + 30] * q + joint[axis + 33] * r
+        of_first[axis], of_second[axis] = force, -force
+        of_first[3 + axis] = (joint[axis + 9] * x + joint[axis + 12] * y + joint[axis + 15] * z) + torque
+        of_second[3 + axis] = (joint[axis + 18] * x + joint[axis + 21] * y + joint[axis + 24] * z) - torque
 
 
 @compiled
-def _summed(first: Any, second: Any, of_first: Any, of_second: Any, count: int) -> Any:
-    """`equations.summed_on_bodies`."""
-    sums = np.zeros((6, count))
-    for axis in range(6):
-        for row in range(len(first)):
-            sums[axis, first[row]] += of_first[axis, row]
-        for row in range(len(second)):
-            sums[axis, second[row]] += of_second[axis, row]
-    return sums
+def _add_seconds(second: Any, of_second: Any, of_bodies: Any) -> None:
+    """Add loads (k, 6) on second bodies to those (n, 6) that have all of first ones, as `summed_on_bodies` does."""
+    for row in range(len(second)):
+        for axis in range(6):
+            of_bodies[second[row], axis] += of_second[row, axis]
 
 
 @compiled
@@ -253,12 +227,12 @@ def stored(stiffness: Any, strains: Any) -> Any:
     """`joint_forces.stored`."""
     count = strains.shape[1]
     energies = np.zeros(count)
-    strain = np.empty(6)
     for row in range(count):
         for axis in range(6):
-            strain[axis] = strains[axis, row]
-        for axis in range(6):
-            energies[row] += 0.5 * _stressed(stiffness, strain, axis, row) * strain[axis]
+            amount = stiffness[axis, 0, row] * strains[0, row]
+            for column in range(1, 6):
+                amount += stiffness[axis, column, row] * strains[column, row]
+            energies[row] += 0.5 * amount * strains[axis, row]
     return energies
 
 
