@@ -112,7 +112,7 @@ def rows_at(positions: JointPositions) -> JointRows:
     return JointRows(*loops.rows(*axes, positions.first_levers_m, positions.second_levers_m))
 
 
-def blocks(
+def added_blocks(
     rows: JointRows, stiffness: FloatArray, implicit_s2: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return what connections (r,) add to the equations of their bodies, and between; zeros have any sign."""

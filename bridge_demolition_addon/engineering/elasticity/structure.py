@@ -25,8 +25,9 @@ from .cracks import CrackJoints, Cracks, CrackStep
 from .equations import RigidBodies, connected_parts, stiffness_blocks, without
 from .frequencies import SLACK, first_frequency
 from .guesses import GuessedForces, next_shares
-from .joint_forces import ActingJoints, begun, blocks, deformations, rows_at, slowed, stored
-from .joint_rows import JointFrames, JointRows, joint_positions
+from .joint_forces import added_blocks, begun, rows_at, slowed, stored
+from .joint_rows import JointFrames, joint_positions
+from .kept_joints import KeptJoints
 from .sparse_system import BlockSystem
 
 _MOST_GUESSES = 40
@@ -34,10 +35,6 @@ _MOST_GUESSES = 40
 
 TURNED_RAD = 1e-4
 """Rotation of bodies after which rows and equations are made again: loads are then off by as much, relative."""
-
-
-_CHOICES = 2
-"""Sets of connections of which a copy is kept: those that act, and those that are intact, also where bodies sleep."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -126,41 +123,6 @@ class _Part:
         return self._system
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _RowCache:
-    """Deformations (6, r) of connections (r,), in order, and where their bodies were then."""
-
-    positions_m: FloatArray
-    rotations: FloatArray
-    rows: IntArray
-    deformations: FloatArray
-
-    def has(self, rows: IntArray, positions_m: FloatArray, rotations: FloatArray) -> bool:
-        """Whether these connections were among them, with bodies at these positions."""
-        return (
-            np.array_equal(positions_m, self.positions_m)
-            and np.array_equal(rotations, self.rotations)
-            and (np.array_equal(rows, self.rows) or bool(np.isin(rows, self.rows, assume_unique=True).all()))
-        )
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class _Chosen:
-    """Connections (k,), in order, with what does not change of them; all of them without a copy."""
-
-    numbers: IntArray
-    frames: JointFrames
-    stiffness: FloatArray  # (6, 6, k)
-    offsets: FloatArray  # (6, k)
-
-    @classmethod
-    def of(cls, numbers: IntArray, frames: JointFrames, stiffness: FloatArray, offsets: FloatArray) -> _Chosen:
-        """Return some connections (k,) of m."""
-        if len(numbers) == len(frames):
-            return cls(numbers, frames, stiffness, offsets)
-        return cls(numbers, frames.only(numbers), stiffness.take(numbers, axis=-1), offsets.take(numbers, axis=-1))
-
-
 class ElasticStructure:
     """Bodies with elastic connections between them.
 
@@ -185,19 +147,14 @@ class ElasticStructure:
         self._springs = [springs for springs in (soil, bearings) if springs is not None]
         self._bearings = bearings
         self._with_soil = stiffness if bearings is None else without(stiffness, bearings.rows)
-        self._stiffness = stiffness
         for springs in self._springs:
-            self._stiffness = without(self._stiffness, springs.rows)
+            stiffness = without(stiffness, springs.rows)
         self._count, self._moves = len(bodies), bodies.moves
         positions = joint_positions(frames, bodies.positions_m, bodies.rotations)
-        self._offsets = positions.deformations()
-        self._rows = JointRows.empty(len(frames))
+        self._joints = KeptJoints(frames, stiffness, positions.deformations())
         self._intact = np.ones(len(frames), bool)
         self._substep_s = 0.0
         self._cracks, self._has_broken = cracks, False
-        self._cache: _RowCache | None = None
-        self._chosen: list[_Chosen] = []  # those that were asked for last
-        self._acting: ActingJoints | None = None  # None where rows, damping or the length of sub-steps have changed
         self._parts: list[_Part] = []
         self._part_of_body = np.full(self._count, -1)
         self._partition()
@@ -207,7 +164,7 @@ class ElasticStructure:
     def damp(self, damping_s: FloatArray) -> None:
         """Take over damping over stiffness, β (m,), from the next sub-step on."""
         changed = np.flatnonzero(damping_s != self._damping_s)
-        self._damping_s, self._acting = damping_s, None
+        self._damping_s = damping_s
         self._stale[self.part_of_connection[changed]] = True
         self._stale[-1] = False
 
@@ -243,21 +200,21 @@ class ElasticStructure:
         """Return what connections do in a sub-step of a length in s, of those (m,) that are intact."""
         self._follow_breaks(intact)
         if substep_s != self._substep_s:
-            self._substep_s, self._acting = substep_s, None
+            self._substep_s = substep_s
             self._stale[:-1] = True
         awake = self._awake_parts(start)
         are_awake = awake[self.part_of_connection]
         acts = self._intact & are_awake[: len(self._frames)]
-        chosen = self._choose(np.flatnonzero(acts))
+        chosen = self._joints.choose(np.flatnonzero(acts))
         acting = chosen.numbers
-        deformed = self._deformed(chosen, start.positions_m, start.rotations)
+        deformed = self._joints.deformations(chosen, start.positions_m, start.rotations)
         cracks = self._acting_terms(self._cracks, are_awake, start)
         assert cracks is None or isinstance(cracks, CrackStep)
         springs = [terms for law in self._springs if (terms := self._acting_terms(law, acts, start)) is not None]
         cages = self._acting_terms(self._bare_bars, are_awake, start)
         nonlinear = [terms for terms in (cracks, *springs, cages) if terms is not None]
         self._refresh(start, awake, acting, nonlinear)
-        joints = self._acting_joints(chosen)
+        joints = self._joints.acting(chosen, substep_s, self._damping_s)
         rates, amounts, loads = begun(joints, deformed - chosen.offsets, substep_s, start.velocities)
         changes = self._solved(awake, self._with_nonlinear(loads, nonlinear, start.velocities))
         for _ in range(_MOST_GUESSES if nonlinear else 0):
@@ -301,8 +258,8 @@ class ElasticStructure:
 
         Bodies are at positions (3, n) in rotations (3, 3, n).
         """
-        chosen = self._choose(np.flatnonzero(self._intact))
-        strains = self._deformed(chosen, positions_m, rotations) - chosen.offsets
+        chosen = self._joints.choose(np.flatnonzero(self._intact))
+        strains = self._joints.deformations(chosen, positions_m, rotations) - chosen.offsets
         stored_j = np.zeros(len(self._frames))
         stored_j[chosen.numbers] = stored(chosen.stiffness, strains)
         if cracks is not None:
@@ -335,33 +292,6 @@ class ElasticStructure:
         """Find the parts again, if a connection broke since this was done last."""
         if self._has_broken:
             self._partition()
-
-    def _choose(self, numbers: IntArray) -> _Chosen:
-        """What does not change of connections (k,), in order; found again only where others are asked for."""
-        for chosen in self._chosen:
-            if np.array_equal(numbers, chosen.numbers):
-                return chosen
-        chosen = _Chosen.of(numbers, self._frames, self._stiffness, self._offsets)
-        self._chosen = [chosen, *self._chosen[: _CHOICES - 1]]
-        return chosen
-
-    def _acting_joints(self, chosen: _Chosen) -> ActingJoints:
-        """Connections (k,) with their rows as they are now."""
-        if self._acting is None or self._acting.frames is not chosen.frames:
-            rows = self._rows.only(chosen.numbers)
-            implicit = self._substep_s * (self._substep_s + self._damping_s[chosen.numbers])
-            self._acting = ActingJoints(chosen.frames, rows, chosen.stiffness, implicit)
-        return self._acting
-
-    def _deformed(self, chosen: _Chosen, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
-        """Deformations (6, k) of connections (k,); again only where bodies have moved."""
-        cached, numbers = self._cache, chosen.numbers
-        if cached is None or not cached.has(numbers, positions_m, rotations):
-            found = deformations(chosen.frames, positions_m, rotations)
-            self._cache = cached = _RowCache(positions_m, rotations, numbers, found)
-        if np.array_equal(numbers, cached.rows):
-            return cached.deformations
-        return cached.deformations[:, np.searchsorted(cached.rows, numbers)]
 
     def _partition(self) -> None:
         """Find the parts, and leave out bodies that never move."""
@@ -460,12 +390,9 @@ class ElasticStructure:
         self._rotations[..., bodies] = start.rotations[..., bodies]
         connections = acting[stale[self.part_of_connection[acting]]]
         rows = rows_at(joint_positions(self._frames.only(connections), start.positions_m, start.rotations))
-        self._rows.set(connections, rows)
-        self._acting = None
+        self._joints.set_rows(connections, rows)
         implicit = self._substep_s * (self._substep_s + self._damping_s[connections])
-        are_all = len(connections) == len(self._frames)
-        stiffness = self._stiffness if are_all else self._stiffness.take(connections, axis=-1)
-        of_connections = blocks(rows, stiffness, implicit)
+        of_connections = added_blocks(rows, self._joints.stiffness_of(connections), implicit)
         own = self._bodies.mass_matrices(start.rotations, np.flatnonzero(bodies))
         row_of_body, of_part = np.cumsum(bodies) - 1, self.part_of_connection[connections]
         for number in np.flatnonzero(stale).tolist():

@@ -84,7 +84,8 @@ class Breaker:
         """Break the connections (b,) that predicted loads (2, 6, m) on their bodies overload, and return them."""
         loads = self._meter.predicted_loads(both_sides)
         rows, failed = self._candidates(loads), self._failed_bearings()
-        if not self._overload_any(rows, loads, *given(self._resistance.elastic).places):
+        motion = given(self._resistance.elastic).motion
+        if not self._overload_any(rows, loads, motion.position_components_m, motion.rotation_components):
             rows = _NONE
         if not len(rows) and not len(failed):
             return _NONE

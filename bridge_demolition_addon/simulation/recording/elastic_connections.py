@@ -104,6 +104,11 @@ class ElasticConnections:
     ground yields, and pads of bearings press, lift off and slide. Tendons press as the bodies are put at rest; later
     they are among the loads on the bodies.
 
+    Attributes
+    ----------
+    motion : BodyMotion
+        How all bodies moved as the sub-step began.
+
     Raises
     ------
     LayoutError
@@ -128,7 +133,7 @@ class ElasticConnections:
         pairs = np.where(is_first[:, None], inventory.pairs, inventory.pairs[:, ::-1])
         (axes_a, points_a), (axes_b, points_b) = self._rows.frame_components()
         self._frames = JointFrames(pairs[:, 0], pairs[:, 1], axes_a, axes_b, points_a, points_b)
-        motion = self._reader.read()
+        self.motion = motion = self._reader.read()
         _check_frames(self._frames, world, motion)
         positions = joint_positions(self._frames, motion.position_components_m, motion.rotation_components)
         sections = components_first(section_axes(inventory.normals))
@@ -229,7 +234,7 @@ class ElasticConnections:
 
     def begin_substep(self, substep_s: float) -> None:
         """Read the bodies before a sub-step of a length in s, after all other loads on them."""
-        self._motion = motion = self._reader.read()
+        self.motion = motion = self._reader.read()
         if substep_s != self._substep_s:
             self._prepare(motion, substep_s)
         if self.bare_bars.take_added():
@@ -261,7 +266,7 @@ class ElasticConnections:
 
     def apply(self) -> None:
         """Put the predicted sub-step into Bullet."""
-        motion, step = self._motion, self._coming
+        motion, step = self.motion, self._coming
         moved = np.flatnonzero(step.of_bodies.any(axis=0) & (motion.inverse_masses > 0.0))
         self._reader.set_loads(moved, motion.load_components[:, moved] + step.of_bodies[:, moved] / self._substep_s)
         self._rows.expect(step.acting, step.deformations - self._substep_s * step.rates)
@@ -288,11 +293,6 @@ class ElasticConnections:
         self._rows.soften(rows, np.divide(1.0, hardness, out=np.full_like(hardness, np.inf), where=hardness > 0.0))
         rates = lines.rates(*(step.velocities[:, bodies] for bodies in ends))
         self._rows.expect(rows, -substep_s * rates)
-
-    @property
-    def places(self) -> tuple[np.ndarray, np.ndarray]:
-        """Positions (3, n) and rotations (3, 3, n) of all bodies as the sub-step began."""
-        return self._motion.position_components_m, self._motion.rotation_components
 
     def energy(self, intact: np.ndarray, positions_m: np.ndarray, rotations: np.ndarray) -> ElasticEnergy:
         """Return what is stored in connections (m,) that are intact, or in their reinforcement, and its state.
