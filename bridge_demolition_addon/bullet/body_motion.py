@@ -9,7 +9,7 @@ import numpy as np
 
 from ..errors import LayoutError
 from .layout import SLEEPING, Layout
-from .memory import DOUBLES, INTEGERS, Fields
+from .memory import DOUBLES, INTEGERS, Fields, field_loops
 
 _VECTOR = 8 * np.arange(3)
 
@@ -51,20 +51,19 @@ class BodyMotionReader:
         self._inertia = Fields(bodies, np.concatenate([body.inverse_inertia + 32 * row + _VECTOR for row in range(3)]))
         self._torques = Fields(bodies, body.total_torque + _VECTOR)
         self._spins = Fields(bodies, body.angular_velocity + _VECTOR)
+        self._states = Fields(bodies, [body.activation], INTEGERS)
 
     def read(self) -> BodyMotion:
         """Return how all bodies move."""
         values = self._motion.copy()
-        states = INTEGERS.gather(self._bodies + np.uint64(self._body.activation))
-        rotations, asleep = values[:9].reshape(3, 3, -1), np.isin(states, list(SLEEPING))
-        return BodyMotion(values[9:12], rotations, values[12:18], values[24], values[18:24], asleep)
+        rotations = values[:9].reshape(3, 3, -1)
+        return BodyMotion(values[9:12], rotations, values[12:18], values[24], values[18:24], self._asleep())
 
     def inverse_inertia_components(self) -> np.ndarray:
         """Return the inverse tensors of inertia (3, 3, n) in the axes of the world, 1/(kg·m²)."""
         tensors = self._inertia.copy().reshape(3, 3, -1)
-        largest = abs(tensors).max(axis=(0, 1))
-        is_symmetric = abs(tensors - np.swapaxes(tensors, 0, 1)).max(axis=(0, 1)) <= _SYMMETRIC * largest
-        if not (is_symmetric & (tensors[[0, 1, 2], [0, 1, 2]] >= 0.0).all(axis=0) & np.isfinite(largest)).all():
+        loops = field_loops()
+        if not (_are_inertias(tensors) if loops is None else loops.are_inertias(tensors, _SYMMETRIC)):
             raise LayoutError("the inertia of a body is not as expected")
         return tensors
 
@@ -78,13 +77,13 @@ class BodyMotionReader:
 
         To be called before a sub-step: Bullet forgets torques after it. Where a time is infinite they stay.
         """
-        torques, states = self._torques.copy(), INTEGERS.gather(self._bodies + np.uint64(self._body.activation))
-        rows = np.flatnonzero(torques.any(axis=0) & ~np.isin(states, list(SLEEPING)) & np.isfinite(times_s))
+        torques = self._torques.copy()
+        rows = np.flatnonzero(torques.any(axis=0) & ~self._asleep() & np.isfinite(times_s))
         if not len(rows):
             return
-        acting, inverse = torques[:, rows], self.inverse_inertia_components()[..., rows]
+        acting, inverse = torques.take(rows, axis=-1), self.inverse_inertia_components().take(rows, axis=-1)
         changes = inverse[:, 0] * acting[0] + inverse[:, 1] * acting[1] + inverse[:, 2] * acting[2]
-        body, spins = self._body, self._spins.copy()[:, rows] + times_s[rows] * changes
+        body, spins = self._body, self._spins.copy().take(rows, axis=-1) + times_s[rows] * changes
         fields = [body.angular_velocity + _VECTOR, body.total_torque + _VECTOR]
         self._write(fields, rows, np.concatenate((spins, np.zeros_like(acting))))
 
@@ -95,5 +94,18 @@ class BodyMotionReader:
         transform = np.concatenate((rotation_components.reshape(9, -1), position_components_m))
         self._write([self._body.transform + 32 * row + _VECTOR for row in range(4)], rows, transform)
 
+    def _asleep(self) -> np.ndarray:
+        """Whether each body (n,) is not simulated."""
+        states = self._states.copy()[0]
+        one, other = SLEEPING
+        return (states == one) | (states == other)
+
     def _write(self, offsets: list[np.ndarray], rows: np.ndarray, values: np.ndarray) -> None:
-        DOUBLES.write(np.concatenate(offsets).astype(np.uint64)[:, None] + self._bodies[rows], values)
+        DOUBLES.write_fields(self._bodies[rows], np.concatenate(offsets), values)
+
+
+def _are_inertias(tensors: np.ndarray) -> bool:
+    """Whether all tensors (3, 3, n) are finite, symmetric and not negative on their diagonals."""
+    largest = abs(tensors).max(axis=(0, 1))
+    is_symmetric = abs(tensors - np.swapaxes(tensors, 0, 1)).max(axis=(0, 1)) <= _SYMMETRIC * largest
+    return bool((is_symmetric & (tensors[[0, 1, 2], [0, 1, 2]] >= 0.0).all(axis=0) & np.isfinite(largest)).all())

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..errors import LayoutError
 from .layout import ALL_ROWS_SET, SPRING_CORRECTION, SPRING_TYPE, Layout
-from .memory import DOUBLES, INTEGERS, gather_doubles, read, read_value
+from .memory import DOUBLES, INTEGERS, field_loops, gather_doubles, read, read_value
 
 _ROTATION = 1e-4
 """How far elements of two rotation matrices in single precision may differ."""
@@ -91,8 +91,14 @@ class ConstraintRows:
         self._hold_at(rows, deformations * _SIGNS)
 
     def _hold_at(self, rows: np.ndarray, limits: np.ndarray) -> None:
-        held, resists = self.held[:, rows], self._resists[:, rows]
-        for offsets, when_free in ((self._layout.spring.lower, 1.0), (self._layout.spring.upper, -1.0)):
+        held, resists = self.held.take(rows, axis=-1), self._resists.take(rows, axis=-1)
+        spring, loops = self._layout.spring, field_loops()
+        if loops is not None:
+            starts = DOUBLES.indices(self._addresses[rows])
+            lower, upper = (np.array(offsets, np.int64) // DOUBLES.size for offsets in (spring.lower, spring.upper))
+            loops.write_limits(DOUBLES.everywhere, starts, lower, upper, held, resists, np.ascontiguousarray(limits))
+            return
+        for offsets, when_free in ((spring.lower, 1.0), (spring.upper, -1.0)):
             DOUBLES.write(self._fields(offsets, rows)[held], np.where(resists, limits, when_free)[held])
 
     def _write(self, rows: np.ndarray, correction: float, softness: np.ndarray | float, flags: int) -> None:

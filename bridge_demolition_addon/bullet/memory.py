@@ -11,6 +11,8 @@ import os
 import struct
 import sys
 from collections.abc import Callable, Sequence
+from functools import cache
+from importlib.util import find_spec
 from typing import Any
 
 import numpy as np
@@ -77,6 +79,14 @@ class Values:
         """Write values to addresses."""
         self.everywhere[self.indices(addresses)] = values
 
+    def write_fields(self, addresses: np.ndarray, offsets: np.ndarray, values: np.ndarray) -> None:
+        """Write values (c, n) to fields at offsets (c,) in bytes of structures at addresses (n,)."""
+        starts, fields, loops = self.indices(addresses), np.asarray(offsets, np.int64) // self.size, field_loops()
+        if loops is None:
+            self.everywhere[fields[:, None] + starts] = values
+        else:
+            loops.write(self.everywhere, starts, fields, np.ascontiguousarray(values))
+
 
 DOUBLES, FLOATS, BYTES, SHORTS, INTEGERS, POINTERS = map(Values, ("<f8", "<f4", "|u1", "<i2", "<i4", "<u8"))
 
@@ -116,6 +126,10 @@ class Fields:
 
     def copy(self) -> np.ndarray:
         """Return the values (c, n) as they are now."""
+        loops = field_loops()
+        if loops is not None:
+            found: np.ndarray = loops.copied(self._values, self._starts, self._offsets[:, 0])
+            return found
         if self._indices is None:
             self._indices = self._starts + self._offsets
         return self._values.take(self._indices)
@@ -123,6 +137,16 @@ class Fields:
     def copy_at(self, rows: np.ndarray, further: np.ndarray | int = 0) -> np.ndarray:
         """Return the values (c, k) in structures (k,), each so many bytes (k,) behind the offsets."""
         return self._values.take(self._starts.take(rows) + further // self._size + self._offsets)
+
+
+@cache
+def field_loops() -> Any | None:
+    """Return the module of compiled loops over structures, loaded when a world is first read; None without Numba."""
+    if find_spec("numba") is None:
+        return None
+    from . import field_loops  # it takes a third of a second, and most calls of the program read no world
+
+    return field_loops
 
 
 def _linux_reader() -> Callable[[int, int], bytes | None]:

@@ -49,6 +49,11 @@ class Snapshot:
     removed: np.ndarray | None
 
     @property
+    def places(self) -> tuple[np.ndarray, np.ndarray]:
+        """Positions (3, n) of the bodies, m, and their rotations (3, 3, n)."""
+        return self.body_components[9:12], self.body_components[:9].reshape(3, 3, -1)
+
+    @property
     def size(self) -> int:
         """Its bytes in memory."""
         arrays = (self.body_components, self.load_components, self.applied_impulses)

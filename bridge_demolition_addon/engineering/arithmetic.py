@@ -31,7 +31,7 @@ def coefficients(text: str) -> tuple[float, ...]:
 # Upper parts end in zeros, so that their products with small integers are exact.
 _LN2_PARTS = 6.93147180369123816490e-01, 1.90821492927058770002e-10
 _HALF_PI_PARTS = 1.57079632673412561417e00, 6.07710050630396597660e-11, 2.02226624879595063154e-21
-_PI_REST = 1.2246467991473531772e-16
+PI_REST = 1.2246467991473531772e-16
 
 _EXPONENTIAL = coefficients(
     "1.66666666666666019037e-01 -2.77777777770155933842e-03 6.61375632143793436117e-05 -1.65339022054652515390e-06 "
@@ -49,13 +49,13 @@ _COSINE = coefficients(
     "4.16666666666666019037e-02 -1.38888888888741095749e-03 2.48015872894767294178e-05 -2.75573143513906633035e-07 "
     "2.08757232129817482790e-09 -1.13596475577881948265e-11"
 )
-_ARCTANGENT = coefficients(
+ARCTANGENT = coefficients(
     "3.33333333333329318027e-01 -1.99999999998764832476e-01 1.42857142725034663711e-01 -1.11111104054623557880e-01 "
     "9.09088713343650656196e-02 -7.69187620504482999495e-02 6.66107313738753120669e-02 -5.83357013379057348645e-02 "
     "4.97687799461593236017e-02 -3.65315727442169155270e-02 1.62858201153657823623e-02"
 )
-_ARCTANGENT_LIMITS = np.array([7.0, 11.0, 19.0, 39.0]) / 16.0
-_ARCTANGENT_STARTS = np.array(
+ARCTANGENT_LIMITS = np.array([7.0, 11.0, 19.0, 39.0]) / 16.0
+ARCTANGENT_STARTS = np.array(
     [
         (0.0, 0.0),
         (4.63647609000806093515e-01, 2.26987774529616870924e-17),
@@ -115,7 +115,7 @@ def arctangent(y: ArrayLike, x: ArrayLike = 1.0) -> FloatArray:
     y, x = np.broadcast_arrays(np.asarray(y, float), np.asarray(x, float))
     with np.errstate(divide="ignore", over="ignore"):
         slope = np.abs(np.divide(y, x, out=np.zeros(y.shape), where=y != 0.0))
-        region = np.searchsorted(_ARCTANGENT_LIMITS, slope, side="right")
+        region = np.searchsorted(ARCTANGENT_LIMITS, slope, side="right")
         conditions = [region == 0, region == 1, region == 2, region == 3]
         finite = np.minimum(slope, 4.0)  # where the slope is larger, its reciprocal is taken
         shorter = np.select(
@@ -128,12 +128,12 @@ def arctangent(y: ArrayLike, x: ArrayLike = 1.0) -> FloatArray:
             ],
             -1.0 / slope,
         )
-    upper, lower = np.moveaxis(_ARCTANGENT_STARTS[region], -1, 0)
+    upper, lower = np.moveaxis(ARCTANGENT_STARTS[region], -1, 0)
     square = shorter * shorter
-    less = shorter * square * _polynomial(square, _ARCTANGENT)
+    less = shorter * square * _polynomial(square, ARCTANGENT)
     angle = upper - ((less - lower) - shorter)
     left = np.signbit(x) & (slope < np.inf)
-    signed: FloatArray = np.copysign(np.where(left, np.pi - (angle - _PI_REST), angle), y)[()]
+    signed: FloatArray = np.copysign(np.where(left, np.pi - (angle - PI_REST), angle), y)[()]
     return signed
 
 

@@ -32,8 +32,10 @@ class JointFrames:
         return len(self.first)
 
     def only(self, rows: IntArray) -> JointFrames:
-        """Return the frames of some connections (r,)."""
-        return JointFrames(*(getattr(self, item.name)[..., rows] for item in fields(self)))
+        """Return the frames of some connections (r,), in order; not copied where these are all."""
+        if len(rows) == len(self):
+            return self
+        return JointFrames(*(getattr(self, item.name).take(rows, axis=-1) for item in fields(self)))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -48,7 +50,7 @@ class JointPositions:
 
     def only(self, rows: IntArray) -> JointPositions:
         """Return the positions of some connections (r,)."""
-        return JointPositions(*(getattr(self, item.name)[..., rows] for item in fields(self)))
+        return JointPositions(*(getattr(self, item.name).take(rows, axis=-1) for item in fields(self)))
 
     def deformations(self) -> FloatArray:
         """Return the shifts in m and turns in rad (6, m) of the second frames against the first."""
@@ -101,8 +103,10 @@ class JointRows:
             getattr(self, item.name)[..., connections] = getattr(rows, item.name)
 
     def only(self, connections: IntArray) -> JointRows:
-        """Return the rows of some connections (r,)."""
-        return JointRows(*(getattr(self, item.name)[..., connections] for item in fields(self)))
+        """Return the rows of some connections (r,), in order; not copied where these are all."""
+        if len(connections) == self.along.shape[-1]:
+            return self
+        return JointRows(*(getattr(self, item.name).take(connections, axis=-1) for item in fields(self)))
 
     def rates(self, first: FloatArray, second: FloatArray) -> FloatArray:
         """Return how fast deformations shrink (6, m), from velocities and angular velocities (6, m) of both bodies."""

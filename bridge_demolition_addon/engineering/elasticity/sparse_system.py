@@ -13,6 +13,7 @@ import qdldl
 from scipy.sparse import csc_matrix
 
 from ..arrays import FloatArray, IntArray
+from .compiled_joints import joint_loops
 
 _BLOCK = 6
 
@@ -31,19 +32,32 @@ class BlockSystem:
         self._find_positions(((bodies, bodies), (first, first), (second, second), (first, second)))
         self._assembled = np.zeros(self._size)
 
-    def assemble(self, of_bodies: FloatArray, connections: IntArray, *blocks: FloatArray) -> None:
+    def assemble(
+        self, of_bodies: FloatArray, connections: IntArray, *blocks: FloatArray, chosen: IntArray | None = None
+    ) -> None:
         """Take over the numbers of each body (6, 6, b), and what some connections (k,) add, three (6, 6, k).
 
-        A connection adds to its first body, its second, and between them, with rows for the first body.
+        A connection adds to its first body, its second, and between them, with rows for the first body. Where blocks
+        are of more connections (6, 6, m), `chosen` (k,) are those of these.
         """
-        places = (self._of_bodies, *(of_all[..., connections] for of_all in self._of_connections))
-        self._assembled = self._summed(places, (of_bodies, *blocks))
+        bodies = np.arange(self._count)
+        which = np.arange(len(connections)) if chosen is None else chosen
+        terms = [
+            (places, connections, values, which) for places, values in zip(self._of_connections, blocks, strict=True)
+        ]
+        self._assembled = self._summed([(self._of_bodies, bodies, of_bodies, bodies), *terms])
 
-    def factor(self, connections: IntArray | None = None, *blocks: FloatArray) -> None:
+    def factor(self, connections: IntArray | None = None, *blocks: FloatArray, chosen: IntArray | None = None) -> None:
         """Factor what was assembled, with what other connections (k,) add; the next time that is forgotten."""
         data = self._assembled
-        if connections is not None:
-            data = data + self._summed([of_all[..., connections] for of_all in self._of_connections], blocks)
+        if connections is not None and len(connections):
+            which = np.arange(len(connections)) if chosen is None else chosen
+            data = data + self._summed(
+                [
+                    (places, connections, values, which)
+                    for places, values in zip(self._of_connections, blocks, strict=True)
+                ]
+            )
         if self._matrix is None or self._solver is None:
             self._matrix = csc_matrix((data, self._indices, self._starts), shape=(_BLOCK * self._count,) * 2)
             self._solver = qdldl.Solver(self._matrix, upper=True)
@@ -57,10 +71,17 @@ class BlockSystem:
         unknowns: FloatArray = self._solver.solve(np.ascontiguousarray(right.T).reshape(-1))
         return unknowns.reshape(-1, _BLOCK).T
 
-    def _summed(self, places: Sequence[IntArray], blocks: Sequence[FloatArray]) -> FloatArray:
-        """Return numbers of the upper triangle, from blocks (6, 6, …) at places alike."""
-        all_places, values = (np.concatenate([part.reshape(-1) for part in parts]) for parts in (places, blocks))
-        return np.bincount(all_places, values, self._size + 1)[: self._size]
+    def _summed(self, terms: Sequence[tuple[IntArray, IntArray, FloatArray, IntArray]]) -> FloatArray:
+        """Return numbers of the upper triangle: terms have places and which of them (k,), blocks and which of them."""
+        loops = joint_loops()
+        if loops is not None:
+            totals = np.zeros(self._size + 1)
+            for term in terms:
+                loops.add(totals, *term)
+            return totals[: self._size]
+        places = np.concatenate([places[..., at].reshape(-1) for places, at, _, _ in terms])
+        values = np.concatenate([blocks[..., chosen].reshape(-1) for _, _, blocks, chosen in terms])
+        return np.bincount(places, values, self._size + 1)[: self._size]
 
     def _find_positions(self, kinds: Sequence[tuple[IntArray, IntArray]]) -> None:
         """Find where each number of blocks with rows and columns (k,) belongs in the upper triangle, column by column.
@@ -87,7 +108,8 @@ class BlockSystem:
         places[rows > columns] = np.swapaxes(places[rows > columns], 1, 2)
         places[is_known] = self._size
         ends = np.cumsum([len(of_kind) for of_kind, _ in kinds])[:-1]
-        self._of_bodies, *self._of_connections = np.split(np.moveaxis(places, 0, 2), ends, axis=2)
+        split = np.split(np.moveaxis(places, 0, 2), ends, axis=2)
+        self._of_bodies, *self._of_connections = (np.ascontiguousarray(part) for part in split)
         self._indices = all_rows[upper][order].astype(np.int32)
         per_column = np.bincount(all_columns[upper], minlength=_BLOCK * self._count)
         self._starts = np.concatenate(([0], np.cumsum(per_column))).astype(np.int32)

@@ -22,10 +22,12 @@ from ..arrays import BoolArray, FloatArray, IntArray
 from .bearings import Bearings
 from .crack_state import CrackState
 from .cracks import CrackJoints, Cracks, CrackStep
-from .equations import RigidBodies, connected_parts, stiffness_blocks, stressed, summed_on_bodies, without
+from .equations import RigidBodies, connected_parts, stiffness_blocks, without
 from .frequencies import SLACK, first_frequency
 from .guesses import GuessedForces, next_shares
-from .joint_rows import JointFrames, JointPositions, JointRows, joint_positions
+from .joint_forces import added_blocks, begun, rows_at, slowed, stored
+from .joint_rows import JointFrames, joint_positions
+from .kept_joints import KeptJoints
 from .sparse_system import BlockSystem
 
 _MOST_GUESSES = 40
@@ -121,25 +123,6 @@ class _Part:
         return self._system
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _RowCache:
-    """Positions of connections (r,), in order, and of their bodies, as they were last."""
-
-    positions_m: FloatArray
-    rotations: FloatArray
-    rows: IntArray
-    places: JointPositions
-    deformations: FloatArray
-
-    def has(self, rows: IntArray, positions_m: FloatArray, rotations: FloatArray) -> bool:
-        """Whether these connections were among them, with bodies at these positions."""
-        return (
-            np.array_equal(positions_m, self.positions_m)
-            and np.array_equal(rotations, self.rotations)
-            and bool(np.isin(rows, self.rows, assume_unique=True).all())
-        )
-
-
 class ElasticStructure:
     """Bodies with elastic connections between them.
 
@@ -164,17 +147,14 @@ class ElasticStructure:
         self._springs = [springs for springs in (soil, bearings) if springs is not None]
         self._bearings = bearings
         self._with_soil = stiffness if bearings is None else without(stiffness, bearings.rows)
-        self._stiffness = stiffness
         for springs in self._springs:
-            self._stiffness = without(self._stiffness, springs.rows)
+            stiffness = without(stiffness, springs.rows)
         self._count, self._moves = len(bodies), bodies.moves
         positions = joint_positions(frames, bodies.positions_m, bodies.rotations)
-        self._offsets = positions.deformations()
-        self._rows = JointRows.empty(len(frames))
+        self._joints = KeptJoints(frames, stiffness, positions.deformations())
         self._intact = np.ones(len(frames), bool)
         self._substep_s = 0.0
         self._cracks, self._has_broken = cracks, False
-        self._cache: _RowCache | None = None
         self._parts: list[_Part] = []
         self._part_of_body = np.full(self._count, -1)
         self._partition()
@@ -225,33 +205,24 @@ class ElasticStructure:
         awake = self._awake_parts(start)
         are_awake = awake[self.part_of_connection]
         acts = self._intact & are_awake[: len(self._frames)]
-        acting = np.flatnonzero(acts)
-        frames = self._frames.only(acting)
-        positions, deformations = self._deformed(acting, start.positions_m, start.rotations)
+        chosen = self._joints.choose(np.flatnonzero(acts))
+        acting = chosen.numbers
+        deformed = self._joints.deformations(chosen, start.positions_m, start.rotations)
         cracks = self._acting_terms(self._cracks, are_awake, start)
         assert cracks is None or isinstance(cracks, CrackStep)
         springs = [terms for law in self._springs if (terms := self._acting_terms(law, acts, start)) is not None]
         cages = self._acting_terms(self._bare_bars, are_awake, start)
         nonlinear = [terms for terms in (cracks, *springs, cages) if terms is not None]
-        self._refresh(start, awake, acting, positions, nonlinear)
-        rows, stiffness = self._rows.only(acting), self._stiffness[..., acting]
-        first, second = (start.velocities.take(ends, axis=1) for ends in (frames.first, frames.second))
-        rates = rows.rates(first, second)
-        implicit = substep_s * (substep_s + self._damping_s[acting])
-        strains = substep_s * (deformations - self._offsets[:, acting]) - implicit * rates
-        amounts = stressed(stiffness, strains)
-        loads = summed_on_bodies(frames.first, frames.second, rows.loads(amounts), self._count)
+        self._refresh(start, awake, acting, nonlinear)
+        joints = self._joints.acting(chosen, substep_s, self._damping_s)
+        rates, amounts, loads = begun(joints, deformed - chosen.offsets, substep_s, start.velocities)
         changes = self._solved(awake, self._with_nonlinear(loads, nonlinear, start.velocities))
         for _ in range(_MOST_GUESSES if nonlinear else 0):
             if not self._guess_again(nonlinear, start.velocities + changes):
                 break
-            self._refresh(start, awake, acting, positions, nonlinear)
+            self._refresh(start, awake, acting, nonlinear)
             changes = self._solved(awake, self._with_nonlinear(loads, nonlinear, start.velocities))
-        first, second = (changes.take(ends, axis=1) for ends in (frames.first, frames.second))
-        slowing = rows.rates(first, second)
-        amounts -= stressed(stiffness, implicit * slowing)
-        of_first, of_second = rows.loads(amounts)
-        of_bodies = summed_on_bodies(frames.first, frames.second, (of_first, of_second), self._count)
+        rates, of_first, of_second, of_bodies = slowed(joints, rates, amounts, changes)
         of_cracks = np.zeros((6, 0)), np.zeros((6, 0))
         if cracks is not None:
             of_cracks = cracks.loads(start.velocities + changes)
@@ -266,8 +237,8 @@ class ElasticStructure:
             of_bodies = of_bodies + cages.of_bodies(cages.loads(start.velocities + changes), self._count)
         return ElasticStep(
             acting=acting,
-            deformations=deformations,
-            rates=rates + slowing,
+            deformations=deformed,
+            rates=rates,
             of_first=of_first,
             of_second=of_second,
             cracks=np.zeros(0, int) if cracks is None else cracks.rows,
@@ -287,17 +258,15 @@ class ElasticStructure:
 
         Bodies are at positions (3, n) in rotations (3, 3, n).
         """
-        rows = np.flatnonzero(self._intact)
-        deformations = self._deformed(rows, positions_m, rotations)[1] - self._offsets[:, rows]
-        amounts = stressed(self._stiffness[..., rows], deformations)
-        stored = np.zeros(len(self._frames))
-        for amount, deformation in zip(amounts, deformations, strict=True):
-            stored[rows] += 0.5 * amount * deformation
+        chosen = self._joints.choose(np.flatnonzero(self._intact))
+        strains = self._joints.deformations(chosen, positions_m, rotations) - chosen.offsets
+        stored_j = np.zeros(len(self._frames))
+        stored_j[chosen.numbers] = stored(chosen.stiffness, strains)
         if cracks is not None:
-            stored[cracks.rows] = cracks.stored_j
+            stored_j[cracks.rows] = cracks.stored_j
         for law in self._springs:
-            stored[law.rows] = law.stored_j(positions_m, rotations) * self._intact[law.rows]
-        return stored
+            stored_j[law.rows] = law.stored_j(positions_m, rotations) * self._intact[law.rows]
+        return stored_j
 
     def settle(self, positions_m: FloatArray, rotations: FloatArray) -> IntArray:
         """Take over, before a sub-step, how far springs and bars have yielded; return what ruptured (d,), let go."""
@@ -323,19 +292,6 @@ class ElasticStructure:
         """Find the parts again, if a connection broke since this was done last."""
         if self._has_broken:
             self._partition()
-
-    def _deformed(
-        self, rows: IntArray, positions_m: FloatArray, rotations: FloatArray
-    ) -> tuple[JointPositions, FloatArray]:
-        """Places and deformations (6, r) of connections (r,), in order; again only where bodies have moved."""
-        cached = self._cache
-        if cached is None or not cached.has(rows, positions_m, rotations):
-            positions = joint_positions(self._frames.only(rows), positions_m, rotations)
-            self._cache = cached = _RowCache(positions_m, rotations, rows, positions, positions.deformations())
-        if np.array_equal(rows, cached.rows):
-            return cached.places, cached.deformations
-        chosen = np.searchsorted(cached.rows, rows)
-        return cached.places.only(chosen), cached.deformations[:, chosen]
 
     def _partition(self) -> None:
         """Find the parts, and leave out bodies that never move."""
@@ -413,7 +369,6 @@ class ElasticStructure:
         start: StepInput,
         awake: BoolArray,
         acting: IntArray,
-        positions: JointPositions,
         nonlinear: Sequence[GuessedForces],
     ) -> None:
         """Make rows of parts again that have turned or lost a connection; factor these, and those with new guesses."""
@@ -422,29 +377,28 @@ class ElasticStructure:
         self._stale[self._part_of_body[turned]] = True
         unsolved = self._stale & awake
         if unsolved.any():
-            self._assemble(start, unsolved, acting, positions)
+            self._assemble(start, unsolved, acting)
         for terms in nonlinear:
             unsolved[self.part_of_connection[terms.rows[terms.changed()]]] = True
         unsolved[-1] = False
         if unsolved.any():
             self._factor(unsolved, nonlinear)
 
-    def _assemble(self, start: StepInput, stale: BoolArray, acting: IntArray, positions: JointPositions) -> None:
+    def _assemble(self, start: StepInput, stale: BoolArray, acting: IntArray) -> None:
         """Make rows and equations of some parts (p + 1,), but for what is guessed."""
         bodies = stale[self._part_of_body]
         self._rotations[..., bodies] = start.rotations[..., bodies]
-        chosen = np.flatnonzero(stale[self.part_of_connection[acting]])
-        connections = acting[chosen]
-        rows = positions.only(chosen).rows()
-        self._rows.set(connections, rows)
+        connections = acting[stale[self.part_of_connection[acting]]]
+        rows = rows_at(joint_positions(self._frames.only(connections), start.positions_m, start.rotations))
+        self._joints.set_rows(connections, rows)
         implicit = self._substep_s * (self._substep_s + self._damping_s[connections])
-        blocks = stiffness_blocks(rows, implicit * self._stiffness[..., connections])
+        of_connections = added_blocks(rows, self._joints.stiffness_of(connections), implicit)
         own = self._bodies.mass_matrices(start.rotations, np.flatnonzero(bodies))
         row_of_body, of_part = np.cumsum(bodies) - 1, self.part_of_connection[connections]
         for number in np.flatnonzero(stale).tolist():
             part, mine = self._parts[number], np.flatnonzero(of_part == number)
             within = np.searchsorted(part.connections, connections[mine])
-            part.system.assemble(own[..., row_of_body[part.bodies]], within, *(block[..., mine] for block in blocks))
+            part.system.assemble(own[..., row_of_body[part.bodies]], within, *of_connections, chosen=mine)
         self._stale[stale] = False
 
     def _factor(self, unsolved: BoolArray, nonlinear: Sequence[GuessedForces]) -> None:
@@ -460,7 +414,7 @@ class ElasticStructure:
         for number in np.flatnonzero(unsolved).tolist():
             part, mine = self._parts[number], np.flatnonzero(of_part == number)
             within = np.searchsorted(part.connections, rows[mine])
-            part.system.factor(within, *(block[..., mine] for block in all_blocks))
+            part.system.factor(within, *all_blocks, chosen=mine)
 
     def _guess_again(self, nonlinear: Sequence[GuessedForces], velocities: FloatArray) -> bool:
         """Return whether forces do not agree with velocities (6, n) that solve the equations; then guess others."""

@@ -9,6 +9,10 @@ Arrays whose components lie together in memory, all x and then all y, are worked
 `length` and `transformed` keep that order, `by_component`, `cross_by_component` and `taken` give it.
 """
 
+from functools import cache
+from importlib.util import find_spec
+from typing import Any
+
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
@@ -104,7 +108,21 @@ def outer(first: FloatArray, second: FloatArray) -> FloatArray:
 
 def symmetric_eigenvalues(matrices: FloatArray) -> FloatArray:
     """Eigenvalues (..., 3), ascending, of symmetric matrices (..., 3, 3)."""
-    return np.sort(_diagonalised(matrices)[0], axis=-1)
+    loops = eigenvalue_loops()
+    if loops is None:
+        return np.sort(_diagonalised(matrices)[0], axis=-1)
+    stacked = np.ascontiguousarray(matrices, float).reshape(-1, 3, 3)
+    return np.sort(loops.diagonals(stacked, _SWEEPS).reshape(matrices.shape[:-1]), axis=-1)
+
+
+@cache
+def eigenvalue_loops() -> Any | None:
+    """Return the module of the compiled loop, loaded when eigenvalues are first asked for; None without Numba."""
+    if find_spec("numba") is None:
+        return None
+    from . import eigenvalue_loops  # it takes a third of a second, and most calls of the program need none
+
+    return eigenvalue_loops
 
 
 def symmetric_eigenvectors(matrices: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import fields, replace
+from functools import cache
+from importlib.util import find_spec
+from typing import Any
 
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..geometry.vectors import length
+from .carried_sections import CarriedSections
 from .member_sections import MemberSections
 from .section_cuts import ConnectedFaces, ConnectionLoads, SectionCuts, worst_around
 from .section_forces import SectionForces
@@ -52,6 +56,11 @@ class Overloads:
         self._sections = rectangular_sections(faces.areas_m2, faces.second_moments_m4)
         self._largest_utilisations = largest_utilisations(self._sections, strength)
         self._cuts = SectionCuts.through(faces, moves)
+        of_all = [
+            np.broadcast_to(np.asarray(getattr(strength, item.name), float), len(faces.pairs))
+            for item in fields(strength)
+        ]
+        self._strengths_pa = np.stack(of_all)
 
     def candidates(self, loads: FloatArray, lever_arms_m: FloatArray, left: FloatArray) -> IntArray:
         """Return the connections (k,) whose loads are large enough to break them, whatever they act on.
@@ -97,6 +106,39 @@ class Overloads:
             return rows, alone
         used = self.together(rows, alone, loads, axes, intact, left, parts)
         return rows[used > 1.0], used[used > 1.0]
+
+    def overload_any(
+        self,
+        rows: IntArray,
+        sections: CarriedSections,
+        loads: FloatArray,
+        positions_m: FloatArray,
+        rotations: FloatArray,
+        left: FloatArray,
+    ) -> bool:
+        """Return whether loads (6, m), about the centres of bodies, overload one of some connections alone.
+
+        Bodies are at positions (3, n) in rotations (3, 3, n).
+        """
+        loops = overload_loops()
+        if loops is None:
+            used = self.of_forces(rows, sections.forces(rows, loads, positions_m, rotations))
+            return bool((used / left[rows] > 1.0).any())
+        everywhere = np.ones(len(left)) if self._pressed is None else self._pressed
+        return bool(
+            loops.overload_any(
+                rows,
+                loads,
+                positions_m,
+                rotations,
+                *(getattr(sections, item.name) for item in fields(sections)),
+                *(getattr(self._sections, item.name) for item in fields(self._sections)),
+                self._strengths_pa,
+                everywhere,
+                np.zeros(0) if self._friction is None else self._friction,
+                left,
+            )
+        )
 
     def alone(self, rows: IntArray, loads: ConnectionLoads, axes: FloatArray, left: FloatArray) -> FloatArray:
         """Utilisations (r,) of some connections, each by itself."""
@@ -161,3 +203,13 @@ class Overloads:
         if not whole.all():
             used[~whole] = self._in_cuts(rows[~whole], loads, axes[~whole], intact)
         return used
+
+
+@cache
+def overload_loops() -> Any | None:
+    """Return the module of the compiled loop, loaded when connections are first judged; None without Numba."""
+    if find_spec("numba") is None:
+        return None
+    from . import overload_loops  # it takes a third of a second, and most calls of the program need none
+
+    return overload_loops

@@ -71,8 +71,9 @@ class Breaker:
 
     def break_overloaded(self, reading: Reading) -> np.ndarray:
         """Break connections (b,) that a sub-step has overloaded, and return them, without those broken by Bullet."""
-        rows = self._candidates(reading.snapshot.load_components)
-        if not len(rows):
+        snapshot = reading.snapshot
+        rows = self._candidates(snapshot.load_components)
+        if not self._overload_any(rows, snapshot.load_components, *snapshot.places):
             return _NONE
         loads = self._meter.moment(reading)
         rows = self._overloaded(rows, loads)
@@ -83,6 +84,9 @@ class Breaker:
         """Break the connections (b,) that predicted loads (2, 6, m) on their bodies overload, and return them."""
         loads = self._meter.predicted_loads(both_sides)
         rows, failed = self._candidates(loads), self._failed_bearings()
+        motion = given(self._resistance.elastic).motion
+        if not self._overload_any(rows, loads, motion.position_components_m, motion.rotation_components):
+            rows = _NONE
         if not len(rows) and not len(failed):
             return _NONE
         moment = self._meter.moment(self._meter.predicted(loads, substep_s, begin_s))
@@ -118,6 +122,20 @@ class Breaker:
         """Connections (b,) at pads of bearings that break by their force, or whose bodies have left each other."""
         elastic, left = self._resistance.elastic, self._resistance.remaining_strength
         return elastic.failed_bearings(self._intact, left) if elastic and self._warm_up.is_over else _NONE
+
+    def _overload_any(
+        self, rows: np.ndarray, loads: np.ndarray, positions_m: np.ndarray, rotations: np.ndarray
+    ) -> bool:
+        """Whether loads (6, m) overload one of connections (r,) alone, with bodies at positions in rotations.
+
+        What all connections carry, which judges them with others, is worked out only then: mostly nothing breaks.
+        """
+        if not len(rows):
+            return False
+        resistance = self._resistance
+        return given(resistance.overloads).overload_any(
+            rows, self._meter.sections, loads, positions_m, rotations, resistance.remaining_strength
+        )
 
     def _overloaded(self, rows: np.ndarray, moment: Moment) -> np.ndarray:
         """Which of connections (r,) break (k,)."""

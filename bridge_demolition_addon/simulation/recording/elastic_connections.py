@@ -104,6 +104,11 @@ class ElasticConnections:
     ground yields, and pads of bearings press, lift off and slide. Tendons press as the bodies are put at rest; later
     they are among the loads on the bodies.
 
+    Attributes
+    ----------
+    motion : BodyMotion
+        How all bodies moved as the sub-step began.
+
     Raises
     ------
     LayoutError
@@ -128,7 +133,7 @@ class ElasticConnections:
         pairs = np.where(is_first[:, None], inventory.pairs, inventory.pairs[:, ::-1])
         (axes_a, points_a), (axes_b, points_b) = self._rows.frame_components()
         self._frames = JointFrames(pairs[:, 0], pairs[:, 1], axes_a, axes_b, points_a, points_b)
-        motion = self._reader.read()
+        self.motion = motion = self._reader.read()
         _check_frames(self._frames, world, motion)
         positions = joint_positions(self._frames, motion.position_components_m, motion.rotation_components)
         sections = components_first(section_axes(inventory.normals))
@@ -162,7 +167,7 @@ class ElasticConnections:
         self._cracks: Cracks | None = None
         self.bare_bars = StandingBarsOfZones(self._reader, motion, self._masses, len(self._frames))
         self._built = motion
-        self._substep_s = 0.0
+        self._substep_s, self._left = 0.0, np.ones_like(self._left_per_second)
         self._loads = np.zeros((2, 6, len(self._frames)))
         world.constraints.hold_thresholds(held=True)
 
@@ -229,13 +234,13 @@ class ElasticConnections:
 
     def begin_substep(self, substep_s: float) -> None:
         """Read the bodies before a sub-step of a length in s, after all other loads on them."""
-        self._motion = motion = self._reader.read()
+        self.motion = motion = self._reader.read()
         if substep_s != self._substep_s:
             self._prepare(motion, substep_s)
         if self.bare_bars.take_added():
             given(self._structure).stand_bare(self.bare_bars.law)
         self._follow_frequencies(motion)
-        left = np.where(motion.inverse_masses > 0.0, power(self._left_per_second, substep_s), 1.0)
+        left = np.where(motion.inverse_masses > 0.0, self._left, 1.0)
         velocities = left * motion.velocity_components
         velocities += substep_s * _accelerations(
             motion, self._reader.inverse_inertia_components(), motion.load_components
@@ -261,7 +266,7 @@ class ElasticConnections:
 
     def apply(self) -> None:
         """Put the predicted sub-step into Bullet."""
-        motion, step = self._motion, self._coming
+        motion, step = self.motion, self._coming
         moved = np.flatnonzero(step.of_bodies.any(axis=0) & (motion.inverse_masses > 0.0))
         self._reader.set_loads(moved, motion.load_components[:, moved] + step.of_bodies[:, moved] / self._substep_s)
         self._rows.expect(step.acting, step.deformations - self._substep_s * step.rates)
@@ -289,12 +294,14 @@ class ElasticConnections:
         rates = lines.rates(*(step.velocities[:, bodies] for bodies in ends))
         self._rows.expect(rows, -substep_s * rates)
 
-    def energy(self, intact: np.ndarray) -> ElasticEnergy:
-        """Return what is stored now in connections (m,) that are intact, or in their reinforcement, and its state."""
-        motion, structure = self._reader.read(), given(self._structure)
-        bodies = motion.position_components_m, motion.rotation_components
-        cracks = structure.crack_state(*bodies)
-        return ElasticEnergy(structure.stored_j(*bodies, cracks) * self.holding(intact), cracks)
+    def energy(self, intact: np.ndarray, positions_m: np.ndarray, rotations: np.ndarray) -> ElasticEnergy:
+        """Return what is stored in connections (m,) that are intact, or in their reinforcement, and its state.
+
+        Bodies are at positions (3, n) in rotations (3, 3, n).
+        """
+        structure = given(self._structure)
+        cracks = structure.crack_state(positions_m, rotations)
+        return ElasticEnergy(structure.stored_j(positions_m, rotations, cracks) * self.holding(intact), cracks)
 
     @property
     def have_bars(self) -> np.ndarray | None:
@@ -331,7 +338,7 @@ class ElasticConnections:
 
     def _prepare(self, motion: BodyMotion, substep_s: float) -> None:
         """Take over the length of sub-steps."""
-        self._substep_s = substep_s
+        self._substep_s, self._left = substep_s, power(self._left_per_second, substep_s)
         if self._structure is None:
             bodies = RigidBodies(
                 self._masses, self._inertias, self._built.position_components_m, self._built.rotation_components

@@ -12,6 +12,7 @@ from ...bullet.snapshots import BodyHistory, Snapshot
 from ...bullet.world import BulletWorld
 from ...engineering.geometry.rotations import axes_in_bodies, carried_axes, carried_points
 from ...engineering.geometry.vectors import by_component, length, taken, transformed, transformed_back
+from ...engineering.mechanics.carried_sections import CarriedSections
 from ...engineering.mechanics.forces import moments_at
 from ...engineering.mechanics.frame_loads import Moment, SubstepLoads
 from ...engineering.mechanics.section_forces import SectionForces, section_axes, section_forces
@@ -31,7 +32,8 @@ class Reading:
 class Meter:
     """Reads a world that was bound just now, before any time passes.
 
-    `lever_arms_m` (m,) reach from the centres of the bodies on which loads are read to the connections.
+    `lever_arms_m` (m,) reach from the centres of the bodies on which loads are read to the connections, whose
+    `sections` turn with these bodies.
     """
 
     def __init__(self, world: BulletWorld, inventory: Inventory, elastic: ElasticConnections | None):
@@ -51,6 +53,9 @@ class Meter:
         self._local_points = by_component(*levers.T)
         self.lever_arms_m = length(self._local_points)
         self._local_axes = axes_in_bodies(section_axes(inventory.normals), bodies, rotations)
+        self.sections = CarriedSections(
+            bodies, self._sign[:, 0], np.ascontiguousarray(self._local_points), np.ascontiguousarray(self._local_axes)
+        )
 
     def read(self, substep_s: float, end_s: float) -> Reading:
         """Return Bullet's state after a sub-step; of elastic connections Bullet knows only what contacts change."""
@@ -67,9 +72,9 @@ class Meter:
         """Return Bullet's state before a sub-step, with the loads (6, m) that connections will have in it."""
         return Reading(replace(self._snapshots.take(), load_components=loads), substep_s, begin_s)
 
-    def elastic_energy(self, intact: np.ndarray) -> ElasticEnergy | None:
-        """Return the energy that is now in elastic connections (m,) that are intact or reinforced."""
-        return self._elastic.energy(intact) if self._elastic else None
+    def elastic_energy(self, reading: Reading, intact: np.ndarray) -> ElasticEnergy | None:
+        """Return the energy after a sub-step in elastic connections (m,) that are intact or reinforced."""
+        return self._elastic.energy(intact, *reading.snapshot.places) if self._elastic else None
 
     def loads(self, readings: Sequence[Reading]) -> tuple[BodyHistory, SubstepLoads]:
         """Return the states of all bodies after sub-steps, and the loads in these."""

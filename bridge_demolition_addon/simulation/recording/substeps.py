@@ -113,7 +113,7 @@ class SubstepRecorder:
         intact = reading.snapshot.intact.copy()
         intact[self._breaker.break_overloaded(reading)] = False
         broken = self._breaker.follow(intact)
-        energy = self._meter.elastic_energy(intact)
+        energy = self._meter.elastic_energy(reading, intact)
         sums.add(MeasuredSubstep(reading, broken, self._breaker.take_broken_before(), energy))
 
     def _follow(self, substep_s: float) -> None:

@@ -23,9 +23,12 @@ class Torques(Driver):
 
     def __init__(self, bodies: BodyTable, angular_damping: np.ndarray):
         self._motion, self._left_per_second = bodies.motion(), 1.0 - angular_damping
+        self._substep_s, self._times_s = 0.0, np.zeros_like(self._left_per_second)
 
     def before_substep(self, elapsed_s: float, substep_s: float) -> None:
         """Turn the bodies; to be called after all torques are there."""
-        left = power(self._left_per_second, substep_s)
-        times_s = np.divide(substep_s, left, out=np.full_like(left, np.inf), where=left > 0.0)
-        self._motion.turn_by_torques(times_s)
+        if substep_s != self._substep_s:
+            left = power(self._left_per_second, substep_s)
+            self._times_s = np.divide(substep_s, left, out=np.full_like(left, np.inf), where=left > 0.0)
+            self._substep_s = substep_s
+        self._motion.turn_by_torques(self._times_s)

@@ -4,6 +4,7 @@
 import numpy as np
 import pytest
 
+from bridge_demolition_addon.engineering.geometry import vectors
 from bridge_demolition_addon.engineering.geometry.vectors import (
     cross_2d,
     distance,
@@ -71,3 +72,13 @@ def test_principal_axes_that_lie_along_the_axes(matrix):
     values, vectors = symmetric_eigenvectors_2d(matrix)
     assert values.tolist() == sorted(np.diag(matrix))
     close(matrix @ vectors, vectors * values)
+
+
+@pytest.mark.parametrize("matrix", [MATRICES + np.swapaxes(MATRICES, 1, 2), np.zeros((4, 2, 3, 3)), 1e200 * np.eye(3)])
+def test_compiled_eigenvalues_have_the_same_bits(matrix, monkeypatch):
+    compiled = symmetric_eigenvalues(matrix)
+    assert vectors.eigenvalue_loops() is not None
+    monkeypatch.setattr(vectors, "eigenvalue_loops", lambda: None)
+    plain = symmetric_eigenvalues(matrix)
+    assert compiled.shape == plain.shape
+    np.testing.assert_array_equal(compiled.view(np.int64), plain.view(np.int64))

@@ -1,0 +1,323 @@
+"""Elastic connections as loops, which Numba compiles: import this only where it is installed.
+
+The loops give the same bits as `joint_rows` and `equations`, as those of cracks do: see `crack_loops`. All arrays have
+their components first, and their names are those of the dataclasses that they come from.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from ..arithmetic import ARCTANGENT, ARCTANGENT_LIMITS, ARCTANGENT_STARTS, PI_REST
+from .crack_loops import compiled, crossed
+
+_COEFFICIENTS = np.array(ARCTANGENT)
+
+
+@compiled
+def deformations(
+    first: Any,
+    second: Any,
+    first_axes: Any,
+    second_axes: Any,
+    first_points: Any,
+    second_points: Any,
+    positions: Any,
+    rotations: Any,
+) -> Any:
+    """`JointPositions.deformations` at once with `joint_positions`."""
+    count = len(first)
+    found = np.empty((6, count))
+    for row in range(count):
+        a, b = first[row], second[row]
+        one, other = _axes(rotations, a, first_axes, row), _axes(rotations, b, second_axes, row)
+        lever, lever_of_second = _lever(rotations, a, first_points, row), _lever(rotations, b, second_points, row)
+        shift = (
+            positions[0, b] - positions[0, a] + lever_of_second[0] - lever[0],
+            positions[1, b] - positions[1, a] + lever_of_second[1] - lever[1],
+            positions[2, b] - positions[2, a] + lever_of_second[2] - lever[2],
+        )
+        for axis in range(3):
+            found[axis, row] = one[axis][0] * shift[0] + one[axis][1] * shift[1] + one[axis][2] * shift[2]
+        about_y = _dot(one[0], other[2])
+        upright = np.sqrt(max(1.0 - about_y * about_y, 0.0))
+        found[3, row] = _angle(-_dot(one[1], other[2]), _dot(one[2], other[2]))
+        found[4, row] = _angle(about_y, upright)
+        found[5, row] = _angle(-_dot(one[0], other[1]), _dot(one[0], other[0]))
+    return found
+
+
+@compiled
+def _axes(rotations: Any, body: int, axes: Any, row: int) -> Any:
+    """Axes of a frame in the world, one after another, as `joint_rows.matrix_products` has them in columns."""
+    return (
+        _turned(rotations, body, axes[0, 0, row], axes[1, 0, row], axes[2, 0, row]),
+        _turned(rotations, body, axes[0, 1, row], axes[1, 1, row], axes[2, 1, row]),
+        _turned(rotations, body, axes[0, 2, row], axes[1, 2, row], axes[2, 2, row]),
+    )
+
+
+@compiled
+def _lever(rotations: Any, body: int, points: Any, row: int) -> Any:
+    """From the centre of a body to a frame, in the world."""
+    return _turned(rotations, body, points[0, row], points[1, row], points[2, row])
+
+
+@compiled
+def _turned(rotations: Any, body: int, x: float, y: float, z: float) -> Any:
+    """`joint_rows.turned` of one vector with a body."""
+    return (
+        rotations[0, 0, body] * x + rotations[0, 1, body] * y + rotations[0, 2, body] * z,
+        rotations[1, 0, body] * x + rotations[1, 1, body] * y + rotations[1, 2, body] * z,
+        rotations[2, 0, body] * x + rotations[2, 1, body] * y + rotations[2, 2, body] * z,
+    )
+
+
+@compiled
+def _dot(one: Any, other: Any) -> Any:
+    """`joint_rows.dot_products`."""
+    return one[0] * other[0] + one[1] * other[1] + one[2] * other[2]
+
+
+@compiled
+def _angle(y: float, x: float) -> float:
+    """`arithmetic.arctangent` of one point."""
+    slope = abs(y / x) if y != 0.0 else 0.0
+    region = 0
+    while region < 4 and not slope < ARCTANGENT_LIMITS[region]:
+        region += 1
+    if region == 0:
+        shorter = slope
+    elif region == 1:
+        shorter = (2.0 * slope - 1.0) / (2.0 + slope)
+    elif region == 2:
+        shorter = (slope - 1.0) / (slope + 1.0)
+    elif region == 3:
+        shorter = (slope - 1.5) / (1.0 + 1.5 * slope)
+    else:
+        shorter = -1.0 / slope
+    square = shorter * shorter
+    value = _COEFFICIENTS[-1]
+    for number in range(len(_COEFFICIENTS) - 2, -1, -1):
+        value = _COEFFICIENTS[number] + square * value
+    less = shorter * square * value
+    angle = ARCTANGENT_STARTS[region, 0] - ((less - ARCTANGENT_STARTS[region, 1]) - shorter)
+    if math.copysign(1.0, x) < 0.0 and slope < np.inf:
+        angle = np.pi - (angle - PI_REST)
+    return math.copysign(angle, y)
+
+
+@compiled
+def packed(along: Any, first_turning: Any, second_turning: Any, turning: Any, stiffness: Any) -> Any:
+    """All of a connection in a row (72,), so that it lies together in memory: rows, 9 numbers each, and stiffness."""
+    count = along.shape[2]
+    found = np.empty((count, 72))
+    for row in range(count):
+        for line in range(3):
+            for column in range(3):
+                at = 3 * line + column
+                found[row, at] = along[line, column, row]
+                found[row, 9 + at] = first_turning[line, column, row]
+                found[row, 18 + at] = second_turning[line, column, row]
+                found[row, 27 + at] = turning[line, column, row]
+        for line in range(6):
+            for column in range(6):
+                found[row, 36 + 6 * line + column] = stiffness[line, column, row]
+    return found
+
+
+@compiled
+def begun(
+    first: Any, second: Any, joints: Any, implicit: Any, strains: Any, substep_s: float, velocities: Any
+) -> tuple[Any, Any, Any]:
+    """`joint_forces.begun`, with joints (k, 72) as `packed`."""
+    count = len(first)
+    rates, amounts = np.empty((6, count)), np.empty((6, count))
+    of_first, of_second, of_bodies = np.empty(6), np.empty((count, 6)), np.zeros((velocities.shape[1], 6))
+    moving, rate, strain, amount = np.ascontiguousarray(velocities.T), np.empty(6), np.empty(6), np.empty(6)
+    for row in range(count):
+        joint = joints[row]
+        _rates(joint, moving[first[row]], moving[second[row]], rate)
+        for axis in range(6):
+            rates[axis, row] = rate[axis]
+            strain[axis] = substep_s * strains[axis, row] - implicit[row] * rate[axis]
+        for axis in range(6):
+            amounts[axis, row] = amount[axis] = _stressed(joint, strain, axis)
+        _loads(joint, amount, of_first, of_second[row])
+        for axis in range(6):
+            of_bodies[first[row], axis] += of_first[axis]
+    _add_seconds(second, of_second, of_bodies)
+    return rates, amounts, np.ascontiguousarray(of_bodies.T)
+
+
+@compiled
+def slowed(
+    first: Any, second: Any, joints: Any, implicit: Any, rates: Any, amounts: Any, changes: Any
+) -> tuple[Any, Any, Any, Any]:
+    """`joint_forces.slowed`, with joints (k, 72) as `packed`."""
+    count = len(first)
+    slowing, on_first, on_second = np.empty((6, count)), np.empty((6, count)), np.empty((6, count))
+    of_first, of_second, of_bodies = np.empty(6), np.empty((count, 6)), np.zeros((changes.shape[1], 6))
+    moving, rate, strain, amount = np.ascontiguousarray(changes.T), np.empty(6), np.empty(6), np.empty(6)
+    for row in range(count):
+        joint = joints[row]
+        _rates(joint, moving[first[row]], moving[second[row]], rate)
+        for axis in range(6):
+            strain[axis] = implicit[row] * rate[axis]
+            slowing[axis, row] = rates[axis, row] + rate[axis]
+        for axis in range(6):
+            amount[axis] = amounts[axis, row] - _stressed(joint, strain, axis)
+        _loads(joint, amount, of_first, of_second[row])
+        for axis in range(6):
+            on_first[axis, row], on_second[axis, row] = of_first[axis], of_second[row, axis]
+            of_bodies[first[row], axis] += of_first[axis]
+    _add_seconds(second, of_second, of_bodies)
+    return slowing, on_first, on_second, np.ascontiguousarray(of_bodies.T)
+
+
+@compiled
+def _rates(joint: Any, first: Any, second: Any, rates: Any) -> None:
+    """`JointRows.rates` of one connection, by the velocities (6,) of its bodies."""
+    x, y, z = first[0] - second[0], first[1] - second[1], first[2] - second[2]
+    p, q, r = first[3] - second[3], first[4] - second[4], first[5] - second[5]
+    for axis in range(3):
+        at = 3 * axis
+        shifting = joint[at] * x + joint[at + 1] * y + joint[at + 2] * z
+        shifting += joint[at + 9] * first[3] + joint[at + 10] * first[4] + joint[at + 11] * first[5]
+        shifting += joint[at + 18] * second[3] + joint[at + 19] * second[4] + joint[at + 20] * second[5]
+        rates[axis] = shifting
+        rates[3 + axis] = joint[at + 27] * p + joint[at + 28] * q + joint[at + 29] * r
+
+
+@compiled
+def _stressed(joint: Any, strain: Any, axis: int) -> Any:
+    """One of the amounts of `equations.stressed`."""
+    at = 36 + 6 * axis
+    amount = joint[at] * strain[0]
+    for column in range(1, 6):
+        amount += joint[at + column] * strain[column]
+    return amount
+
+
+@compiled
+def _loads(joint: Any, amount: Any, of_first: Any, of_second: Any) -> None:
+    """`JointRows.loads` of one connection."""
+    x, y, z, p, q, r = amount[0], amount[1], amount[2], amount[3], amount[4], amount[5]
+    for axis in range(3):
+        force = joint[axis] * x + joint[axis + 3] * y + joint[axis + 6] * z
+        torque = joint[axis + 27] * p + joint[axis + 30] * q + joint[axis + 33] * r
+        of_first[axis], of_second[axis] = force, -force
+        of_first[3 + axis] = (joint[axis + 9] * x + joint[axis + 12] * y + joint[axis + 15] * z) + torque
+        of_second[3 + axis] = (joint[axis + 18] * x + joint[axis + 21] * y + joint[axis + 24] * z) - torque
+
+
+@compiled
+def _add_seconds(second: Any, of_second: Any, of_bodies: Any) -> None:
+    """Add loads (k, 6) on second bodies to those (n, 6) that have all of first ones, as `summed_on_bodies` does."""
+    for row in range(len(second)):
+        for axis in range(6):
+            of_bodies[second[row], axis] += of_second[row, axis]
+
+
+@compiled
+def stored(stiffness: Any, strains: Any) -> Any:
+    """`joint_forces.stored`."""
+    count = strains.shape[1]
+    energies = np.zeros(count)
+    for row in range(count):
+        for axis in range(6):
+            amount = stiffness[axis, 0, row] * strains[0, row]
+            for column in range(1, 6):
+                amount += stiffness[axis, column, row] * strains[column, row]
+            energies[row] += 0.5 * amount * strains[axis, row]
+    return energies
+
+
+@compiled
+def rows(first_axes: Any, second_axes: Any, first_levers: Any, second_levers: Any) -> tuple[Any, Any, Any, Any]:
+    """`JointPositions.rows`."""
+    count = first_axes.shape[2]
+    along, first_turning = np.empty((3, 3, count)), np.empty((3, 3, count))
+    second_turning, turning = np.empty((3, 3, count)), np.empty((3, 3, count))
+    for row in range(count):
+        lever = first_levers[0, row], first_levers[1, row], first_levers[2, row]
+        lever_of_second = second_levers[0, row], second_levers[1, row], second_levers[2, row]
+        for axis in range(3):
+            line = first_axes[0, axis, row], first_axes[1, axis, row], first_axes[2, axis, row]
+            by_first, by_second = crossed(lever, line), crossed(line, lever_of_second)
+            for other in range(3):
+                along[axis, other, row] = line[other]
+                first_turning[axis, other, row], second_turning[axis, other, row] = by_first[other], by_second[other]
+        first_z = first_axes[0, 2, row], first_axes[1, 2, row], first_axes[2, 2, row]
+        second_x = second_axes[0, 0, row], second_axes[1, 0, row], second_axes[2, 0, row]
+        y = crossed(first_z, second_x)
+        _put_unit(turning, 0, row, crossed(y, first_z))
+        _put_unit(turning, 1, row, y)
+        _put_unit(turning, 2, row, crossed(second_x, y))
+    return along, first_turning, second_turning, turning
+
+
+@compiled
+def _put_unit(turning: Any, axis: int, row: int, vector: Any) -> None:
+    """Write a vector with length 1; 0 where it has no length."""
+    size = np.sqrt(_dot(vector, vector))
+    for other in range(3):
+        turning[axis, other, row] = vector[other] / size if size > 0.0 else 0.0
+
+
+@compiled
+def blocks(
+    along: Any, first_turning: Any, second_turning: Any, turning: Any, stiffness: Any, implicit: Any
+) -> tuple[Any, Any, Any]:
+    """`equations.stiffness_blocks`, with stiffness times `implicit`."""
+    count = along.shape[2]
+    of_first, of_second, between = np.empty((6, 6, count)), np.empty((6, 6, count)), np.empty((6, 6, count))
+    one, other = np.zeros((6, 6)), np.zeros((6, 6))
+    hard, by_one, by_other = np.empty((6, 6)), np.empty((6, 6)), np.empty((6, 6))
+    for row in range(count):
+        for line in range(6):
+            for column in range(6):
+                hard[line, column] = implicit[row] * stiffness[line, column, row]
+        for line in range(3):
+            for column in range(3):
+                one[line, column], other[line, column] = along[line, column, row], -along[line, column, row]
+                one[line, 3 + column] = first_turning[line, column, row]
+                other[line, 3 + column] = second_turning[line, column, row]
+                one[3 + line, 3 + column] = turning[line, column, row]
+                other[3 + line, 3 + column] = -turning[line, column, row]
+        _multiply(hard, one, by_one)
+        _multiply(hard, other, by_other)
+        for line in range(6):
+            for column in range(6):
+                here, there, across = 0.0, 0.0, 0.0
+                for middle in range(6):
+                    here += one[middle, line] * by_one[middle, column]
+                    there += other[middle, line] * by_other[middle, column]
+                    across += one[middle, line] * by_other[middle, column]
+                of_first[line, column, row] = here
+                of_second[line, column, row] = there
+                between[line, column, row] = across
+    return of_first, of_second, between
+
+
+@compiled
+def _multiply(one: Any, other: Any, product: Any) -> None:
+    """`joint_rows.matrix_products` of two matrices; a sum that begins with 0 differs at most in the sign of a 0."""
+    for line in range(6):
+        for column in range(6):
+            product[line, column] = 0.0
+        for middle in range(6):
+            for column in range(6):
+                product[line, column] += one[line, middle] * other[middle, column]
+
+
+@compiled
+def add(totals: Any, places: Any, at: Any, values: Any, chosen: Any) -> None:
+    """Add chosen values (k,) of (6, 6, c) to totals, whose places are (6, 6, d) at (k,), number after number."""
+    for line in range(6):
+        for column in range(6):
+            for row in range(len(at)):
+                totals[places[line, column, at[row]]] += values[line, column, chosen[row]]

@@ -1,0 +1,126 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Compiled loops of elastic connections give the bits of numpy, at all angles, with numbers of all sizes."""
+
+from dataclasses import fields
+
+import numpy as np
+import pytest
+
+from bridge_demolition_addon.engineering.elasticity import joint_forces
+from bridge_demolition_addon.engineering.elasticity.joint_forces import (
+    ActingJoints,
+    added_blocks,
+    begun,
+    deformations,
+    rows_at,
+    slowed,
+    stored,
+)
+from bridge_demolition_addon.engineering.elasticity.joint_rows import JointFrames, joint_positions
+from bridge_demolition_addon.engineering.geometry.rotations import rotated
+
+CONNECTIONS, BODIES = 300, 90
+
+
+@pytest.fixture(params=range(4))
+def rng(request):
+    return np.random.default_rng(request.param)
+
+
+@pytest.fixture
+def by_numpy(monkeypatch):
+    """What a function gives without Numba."""
+
+    def called(function, *arguments):
+        with monkeypatch.context() as without:
+            without.setattr(joint_forces, "joint_loops", lambda: None)
+            return function(*arguments)
+
+    return called
+
+
+def rotations(rng, count):
+    """Rotations (3, 3, count) by angles of all sizes; the first by none."""
+    angles = rng.normal(size=(count, 3)) * 10.0 ** rng.uniform(-9.0, 1.0, (count, 1))
+    angles[0] = 0.0
+    return np.ascontiguousarray(np.moveaxis(rotated(np.tile(np.eye(3), (count, 1, 1)), angles), 0, -1))
+
+
+def frames(rng):
+    points = rng.normal(size=(2, 3, CONNECTIONS))
+    axes = [rotations(rng, CONNECTIONS) for _ in range(2)]
+    return JointFrames(*rng.integers(0, BODIES, (2, CONNECTIONS)), *axes, *points)
+
+
+def bodies(rng):
+    return rng.normal(size=(3, BODIES)), rotations(rng, BODIES)
+
+
+def joints(rng):
+    of = frames(rng)
+    stiffness = rng.normal(size=(6, 6, CONNECTIONS)) * 10.0 ** rng.uniform(0.0, 9.0, CONNECTIONS)
+    stiffness[..., 5] = 0.0
+    rows = joint_positions(of, *bodies(rng)).rows()
+    return ActingJoints(of, rows, stiffness, rng.uniform(0.0, 1e-4, CONNECTIONS))
+
+
+def strains(rng):
+    return rng.normal(size=(6, CONNECTIONS)) * 10.0 ** rng.uniform(-12.0, 0.0, (6, CONNECTIONS))
+
+
+def assert_same_bits(one, other):
+    for first, second in zip(one, other, strict=True):
+        np.testing.assert_array_equal(first, second)
+        np.testing.assert_array_equal(np.signbit(first), np.signbit(second))
+
+
+@pytest.mark.slow
+def test_deformations_have_the_same_bits(rng, by_numpy):
+    given = frames(rng), *bodies(rng)
+    assert_same_bits([deformations(*given)], [by_numpy(deformations, *given)])
+
+
+def test_deformations_at_right_angles_have_the_same_bits(by_numpy):
+    """Where a sine or a cosine is 0, the angle is decided by its sign."""
+    quarter = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
+    turns = np.stack([np.eye(3), quarter, quarter @ quarter, quarter.T, -np.eye(3)], axis=-1)
+    count = turns.shape[-1]
+    first, second = (ends.ravel() for ends in np.meshgrid(np.arange(count), np.arange(count)))
+    axes, points = np.repeat(np.eye(3)[..., None], len(first), axis=-1), np.zeros((3, len(first)))
+    given = JointFrames(first, second, axes, axes, points, points), np.zeros((3, count)), turns
+    assert_same_bits([deformations(*given)], [by_numpy(deformations, *given)])
+
+
+@pytest.mark.slow
+def test_rows_have_the_same_bits(rng, by_numpy):
+    places = joint_positions(frames(rng), *bodies(rng))
+    both = rows_at(places), by_numpy(rows_at, places)
+    assert_same_bits(*([getattr(rows, item.name) for item in fields(rows)] for rows in both))
+
+
+@pytest.mark.slow
+def test_impulses_have_the_same_bits(rng, by_numpy):
+    acting, stretched, velocities, changes = joints(rng), strains(rng), *rng.normal(size=(2, 6, BODIES))
+    velocities[:, 3] = 0.0
+    first = begun(acting, stretched, 1.0 / 240.0, velocities)
+    assert_same_bits(first, by_numpy(begun, acting, stretched, 1.0 / 240.0, velocities))
+    given = acting, *first[:2], changes
+    assert_same_bits(slowed(*given), by_numpy(slowed, *given))
+
+
+@pytest.mark.slow
+def test_stored_energy_has_the_same_bits(rng, by_numpy):
+    given = joints(rng).stiffness, strains(rng)
+    assert_same_bits([stored(*given)], [by_numpy(stored, *given)])
+
+
+@pytest.mark.slow
+def test_equations_have_the_same_numbers(rng, by_numpy):
+    acting = joints(rng)
+    given = acting.rows, acting.stiffness, acting.implicit_s2
+    for one, other in zip(added_blocks(*given), by_numpy(added_blocks, *given), strict=True):
+        np.testing.assert_array_equal(one, other)  # sums that begin with 0 take no notice of the sign of a 0
+
+
+def test_loops_are_used_where_numba_is_installed():
+    assert joint_forces.joint_loops() is not None
