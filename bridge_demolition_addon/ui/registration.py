@@ -12,6 +12,8 @@ import bpy
 from . import messages, modal_task, panel_groups, workspace
 from .blast import operator as blast_operator
 from .blast import ui as blast_ui
+from .comparison import operator as comparison_operator
+from .comparison import ui as comparison_ui
 from .contours import operator as contour_operator
 from .contours import ui as contour_ui
 from .contours import view as contour_view
@@ -34,6 +36,8 @@ from .scenario import hints, number_rows, preset_menu, table_list, user_meshes
 from .scenario import operator as scenario_operator
 from .scenario import stability as scenario_stability
 from .scenario import ui as scenario_ui
+from .sections import operator as section_operator
+from .sections import ui as section_ui
 from .stages import operator as stages_operator
 from .stages import shown as shown_stages
 from .stages import ui as stages_ui
@@ -42,11 +46,11 @@ _OPERATORS = (
     *(scenario_operator, ifc_operator, preset_menu, number_rows, messages, hints, workspace),
     *(user_meshes, table_list, scenario_stability),
     *(recording_operator, run, paths, blast_operator, contour_operator, ground_operator),
-    *(results_operator, stages_operator, preview_operator, gizmos),
+    *(results_operator, stages_operator, preview_operator, gizmos, comparison_operator, section_operator),
 )
 _PANELS = (
     *(panel_groups, scenario_ui, ifc_ui, blast_ui, recording_ui, contour_ui, ground_ui, results_ui, stages_ui),
-    *(study, search, optimise),
+    *(comparison_ui, section_ui, study, search, optimise),
 )
 """Where they stand in the tab is in `panel_places`."""
 

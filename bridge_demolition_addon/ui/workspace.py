@@ -69,7 +69,8 @@ def arrange(screen: bpy.types.Screen) -> None:
     for area, kind in ((largest, _LARGEST), (below, _BELOW), (beside, _BESIDE)):
         if area.ui_type != kind:
             area.ui_type = kind
-    largest.spaces.active.show_region_ui = True
+    view = largest.spaces.active
+    view.show_region_ui, view.show_region_toolbar = True, False  # the tools would cover the colour bar's side
 
 
 def open_tab(screen: bpy.types.Screen) -> bool:
@@ -99,13 +100,13 @@ def show_chart(window: bpy.types.Window) -> None:
 
 
 def chart_of(scene: bpy.types.Scene) -> Path | None:
-    """Return the chart of forces of the shown run; None where none was drawn."""
+    """Return the chart of forces of the shown run, that of Draw Charts before that of the run; None without one."""
     try:
         run = shown_run(scene)
     except OutputError:  # the panel Results says so
         return None
-    path = run.folder / CHARTS / FORCE_CHART if run else None
-    return path if path and path.is_file() else None
+    folders = (run.folder / CHARTS, run.folder) if run else ()
+    return next((path for folder in folders if (path := folder / FORCE_CHART).is_file()), None)
 
 
 def _size(area: bpy.types.Area) -> int:
