@@ -9,7 +9,7 @@ from types import ModuleType
 
 import bpy
 
-from . import messages, modal_task, panel_groups, workspace
+from . import chart_pictures, messages, modal_task, panel_groups, workspace
 from .blast import operator as blast_operator
 from .blast import ui as blast_ui
 from .comparison import operator as comparison_operator
@@ -30,6 +30,7 @@ from .recording import operator as recording_operator
 from .recording import paths, run, session
 from .recording import ui as recording_ui
 from .results import operator as results_operator
+from .results import placed
 from .results import shown_run
 from .results import ui as results_ui
 from .scenario import hints, number_rows, preset_menu, table_list, user_meshes
@@ -43,7 +44,7 @@ from .stages import shown as shown_stages
 from .stages import ui as stages_ui
 
 _OPERATORS = (
-    *(scenario_operator, ifc_operator, preset_menu, number_rows, messages, hints, workspace),
+    *(scenario_operator, ifc_operator, preset_menu, number_rows, messages, hints, workspace, chart_pictures),
     *(user_meshes, table_list, scenario_stability),
     *(recording_operator, run, paths, blast_operator, contour_operator, ground_operator),
     *(results_operator, stages_operator, preview_operator, gizmos, comparison_operator, section_operator),
@@ -105,4 +106,5 @@ def unregister() -> None:
     preset_menu.unregister()
     shown_run.forget_shown()
     messages.clear_all()
+    placed.unregister()
     contour_view.unregister()

@@ -7,7 +7,8 @@ import pytest
 from support.checkout import ROOT, SMALL
 
 from bridge_demolition_addon.ui.scenario.hints import SENTENCES, walkthrough
-from bridge_demolition_addon.ui.workspace import arrange, chart_of
+from bridge_demolition_addon.ui.chart_pictures import chart_of, pictures_of
+from bridge_demolition_addon.ui.workspace import arrange
 
 
 @pytest.fixture

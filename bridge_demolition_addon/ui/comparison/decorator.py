@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import bpy
 
+from ..results import placed
 from ..view_drawing import ViewDrawing, draw_triangles, write_at
 from . import shown
 
@@ -13,6 +14,7 @@ _texts: list[tuple[tuple[float, float, float], str]] = []
 
 def _draw_in_space(context: bpy.types.Context) -> None:
     _texts.clear()
+    placed.follow_later(context.scene)
     run = shown.drawn_run(context.scene)
     if run is None:
         return

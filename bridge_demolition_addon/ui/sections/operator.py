@@ -4,16 +4,20 @@ from __future__ import annotations
 
 import bpy
 import numpy as np
+from mathutils import Quaternion
 
 from ...model.debris.pile_sections import Direction
 from ...scene.bodies import bodies_of
 from ..operators import Action, UndoableAction, recording_runs
 from ..results.shown_run import shown_run
-from ..viewport import region_of
+from ..viewport import look_at_box
 from .decorator import section_of
 
-_SEEN_FROM = {Direction.ACROSS.name: "RIGHT", Direction.ALONG.name: "FRONT"}
-"""Views of Blender that see a plane from before it: widths to the right, heights upwards."""
+_SEEN_FROM = {
+    Direction.ACROSS.name: Quaternion((0.5, 0.5, 0.5, 0.5)),
+    Direction.ALONG.name: Quaternion((0.5**0.5, 0.5**0.5, 0.0, 0.0)),
+}
+"""Rotations of a view that sees a plane from before it: widths to the right, heights upwards."""
 
 
 def no_section(context: bpy.types.Context) -> str | None:
@@ -64,11 +68,11 @@ class BDA_OT_look_at_section(UndoableAction, bpy.types.Operator):
 
     def act(self, context: bpy.types.Context) -> None:
         context.scene.bda.show_section = True
-        area = context.area
-        if not area or area.type != "VIEW_3D":
-            return
-        with context.temp_override(region=region_of(area, "WINDOW")):
-            bpy.ops.view3d.view_axis(type=_SEEN_FROM[context.scene.bda.section_direction])
+        section = section_of(context.scene)
+        bounds = [area.bounds() for area in (section.debris, section.standing) if not area.is_empty()]
+        corners = np.array(bounds or [(*section.ground_m[0], *section.ground_m[-1])]).reshape(-1, 2)
+        box_m = section.in_space(np.array((corners.min(axis=0), corners.max(axis=0))))
+        look_at_box(context, box_m, _SEEN_FROM[context.scene.bda.section_direction])
 
 
 class BDA_OT_write_section(Action, bpy.types.Operator):
