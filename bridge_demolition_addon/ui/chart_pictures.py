@@ -3,8 +3,6 @@
 The workspace BDA has such an editor.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import bpy
