@@ -18,6 +18,9 @@ _BESIDE_M = 1.0
 
 _TICK_M = 0.3
 
+_SUNK_SHARE = 0.1
+"""Part of a step by which shards may have sunk into the ground without one more mark below it."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class HeightScale:
@@ -67,7 +70,7 @@ def height_scale(section: PileSection) -> HeightScale | None:
 def _heights(low_m: float, high_m: float) -> Iterator[float]:
     """Give round heights from one at or below the lowest to one at or above the highest, few of them."""
     step = _step_of(high_m - low_m, _STEPS_M)
-    first, last = int(np.floor(low_m / step + 1e-6)), int(np.ceil(high_m / step - 1e-6))
+    first, last = int(np.floor(low_m / step + _SUNK_SHARE)), int(np.ceil(high_m / step - 1e-6))
     for number in range(first, max(last, first + 1) + 1):
         yield round(number * step, 6)
 

@@ -3,7 +3,7 @@
 
 import numpy as np
 import pytest
-from support.sample_results import hanging_chain
+from support.sample_results import changed, hanging_chain
 
 from bridge_demolition_addon.display.section_lines import (
     ground_line,
@@ -43,3 +43,11 @@ def test_the_scale_has_round_heights_from_the_ground_to_the_top(section):
 
 def test_where_nothing_is_cut_there_is_no_scale():
     assert height_scale(pile_section(hanging_chain(), Direction.ALONG, 50.0)) is None
+
+
+def test_a_shard_that_sank_in_by_millimetres_gives_no_mark_below_the_ground():
+    results = hanging_chain()
+    positions = np.array(results.frames.positions_m)
+    positions[4, 2, 2] -= 0.02
+    scale = height_scale(pile_section(changed(results, places_m=positions), Direction.ACROSS, 3.1))
+    assert min(height for _, height in scale.marks) == 0.0

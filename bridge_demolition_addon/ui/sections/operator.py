@@ -6,6 +6,7 @@ import bpy
 import numpy as np
 from mathutils import Quaternion
 
+from ...display.section_lines import height_scale
 from ...model.debris.pile_sections import Direction
 from ...scene.bodies import bodies_of
 from ..operators import Action, UndoableAction, recording_runs
@@ -69,10 +70,11 @@ class BDA_OT_look_at_section(UndoableAction, bpy.types.Operator):
     def act(self, context: bpy.types.Context) -> None:
         context.scene.bda.show_section = True
         section = section_of(context.scene)
+        scale = height_scale(section)
         bounds = [area.bounds() for area in (section.debris, section.standing) if not area.is_empty()]
-        corners = np.array(bounds or [(*section.ground_m[0], *section.ground_m[-1])]).reshape(-1, 2)
-        box_m = section.in_space(np.array((corners.min(axis=0), corners.max(axis=0))))
-        look_at_box(context, box_m, _SEEN_FROM[context.scene.bda.section_direction])
+        corners = section.in_space(np.array(bounds or [section.ground_m[[0, -1]].ravel()]).reshape(-1, 2))
+        corners = np.concatenate([corners, scale.lines]) if scale else corners
+        look_at_box(context, np.array((corners.min(axis=0), corners.max(axis=0))), _SEEN_FROM[context.scene.bda.section_direction])
 
 
 class BDA_OT_write_section(Action, bpy.types.Operator):
