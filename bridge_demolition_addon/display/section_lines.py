@@ -64,7 +64,9 @@ def height_scale(section: PileSection) -> HeightScale | None:
     ticks = [((left - _TICK_M, height), (left, height)) for height in heights]
     lines = section.in_space(np.concatenate([ends, np.array(ticks).reshape(-1, 2)]))
     places = section.in_space(np.array([(left - _TICK_M, height) for height in heights]))
-    return HeightScale(lines, tuple((tuple(place), height) for place, height in zip(places.tolist(), heights, strict=True)))
+    return HeightScale(
+        lines, tuple((tuple(place), height) for place, height in zip(places.tolist(), heights, strict=True))
+    )
 
 
 def _heights(low_m: float, high_m: float) -> Iterator[float]:

@@ -97,7 +97,7 @@ def _no_chart(context: bpy.types.Context) -> str | None:
 
 
 class BDA_OT_go_to_peak(GuardedOperator, bpy.types.Operator):
-    """Click a peak in the chart of forces: the 3D view goes to its frame and to the shard that it was on; Esc cancels"""
+    """Click a peak in the chart of forces: the 3D view goes to its frame and to its shard; Esc cancels"""
 
     bl_label = "Go to Peak"
     changes_scene = False

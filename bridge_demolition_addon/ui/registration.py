@@ -30,8 +30,7 @@ from .recording import operator as recording_operator
 from .recording import paths, run, session
 from .recording import ui as recording_ui
 from .results import operator as results_operator
-from .results import placed
-from .results import shown_run
+from .results import placed, shown_run
 from .results import ui as results_ui
 from .scenario import hints, number_rows, preset_menu, table_list, user_meshes
 from .scenario import operator as scenario_operator

@@ -79,9 +79,7 @@ def draw_lines(context: bpy.types.Context, lines: np.ndarray, colour: tuple, wid
     batch.draw(shader)
 
 
-def draw_triangles(
-    triangles: np.ndarray, colours: np.ndarray, *, through: bool = False, solid: bool = False
-) -> None:
+def draw_triangles(triangles: np.ndarray, colours: np.ndarray, *, through: bool = False, solid: bool = False) -> None:
     """Draw triangles (3 k, 3), m, with a colour (3 k, 4) at each corner, which may be transparent.
 
     Those that go `through` are seen through all that stands before them; `solid` ones hide what is behind them.

@@ -6,8 +6,8 @@ import runpy
 import pytest
 from support.checkout import ROOT, SMALL
 
+from bridge_demolition_addon.ui.chart_pictures import chart_of
 from bridge_demolition_addon.ui.scenario.hints import SENTENCES, walkthrough
-from bridge_demolition_addon.ui.chart_pictures import chart_of, pictures_of
 from bridge_demolition_addon.ui.workspace import arrange
 
 

@@ -78,7 +78,7 @@ def written_at(folder: Path) -> int | None:
 def figure_text(finding: Finding | None) -> str:
     """Return a figure with its unit, in the units of the scene; a dash where it is not known."""
     if finding is None or finding.value is None:
-        return "–"
+        return "-"
     value = finding.value
     match finding.unit:
         case "m":

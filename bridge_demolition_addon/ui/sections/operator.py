@@ -74,7 +74,11 @@ class BDA_OT_look_at_section(UndoableAction, bpy.types.Operator):
         bounds = [area.bounds() for area in (section.debris, section.standing) if not area.is_empty()]
         corners = section.in_space(np.array(bounds or [section.ground_m[[0, -1]].ravel()]).reshape(-1, 2))
         corners = np.concatenate([corners, scale.lines]) if scale else corners
-        look_at_box(context, np.array((corners.min(axis=0), corners.max(axis=0))), _SEEN_FROM[context.scene.bda.section_direction])
+        look_at_box(
+            context,
+            np.array((corners.min(axis=0), corners.max(axis=0))),
+            _SEEN_FROM[context.scene.bda.section_direction],
+        )
 
 
 class BDA_OT_write_section(Action, bpy.types.Operator):

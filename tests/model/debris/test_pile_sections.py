@@ -14,7 +14,7 @@ from bridge_demolition_addon.model.debris.pile_sections import Direction, pile_s
 
 
 def test_a_shard_that_fell_and_one_that_stands_are_cut_as_by_hand():
-    """*lower*, 0.7071 m wide and deep and 4 m high, ends about (3, 4, 2); *upper*, 1 x 1 x 4 m, hangs about (0, 0, 18)."""
+    """*lower*, 0.7071 m wide and deep and 4 m high, ends about (3, 4, 2); *upper*, 1 m wide, hangs about (0, 0, 18)."""
     section = pile_section(hanging_chain(), Direction.ACROSS, 3.1)
     assert section.debris_area_m2 == pytest.approx(4.0 * 0.5**0.5)
     assert section.debris_width_m == pytest.approx(0.5**0.5)

@@ -89,7 +89,7 @@ def test_figures_of_both_are_those_of_their_reports(beside, other, tmp_path):
         run = read_run(folder)
         by_label = {finding.label: finding for finding in findings(run, debris_of(run.recorded))}
         assert f"{by_label['Debris'].value:.1f} t" in told
-        assert f"{by_label['Debris beyond the bridge\'s outline, at most'].value:.2f} m" in told
+        assert f"{by_label["Debris beyond the bridge's outline, at most"].value:.2f} m" in told
         assert f"{by_label['Largest load on a shard'].value:.0f} kN" in told
     begin = told.index("Debris distance")
     assert told[begin + 1].endswith(" m") and told[begin + 2].endswith(" m")

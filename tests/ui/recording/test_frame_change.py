@@ -233,7 +233,9 @@ def test_charts_are_drawn_into_the_folder(built, tmp_path):
     record(built)
     built.ops.bda.draw_charts()
     charts = sorted((tmp_path / "results" / "charts").glob("*.png"))
-    assert [chart.name for chart in charts] == ["debris_plan.png", "force_over_time.png"], "a ball is nothing to choose charges by"
+    assert [chart.name for chart in charts] == ["debris_plan.png", "force_over_time.png"], (
+        "a ball is nothing to choose charges by"
+    )
     assert all(chart.read_bytes().startswith(b"\x89PNG") for chart in charts)
 
 
