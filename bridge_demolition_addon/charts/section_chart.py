@@ -10,7 +10,9 @@ from ..engineering.geometry.plan_areas import outlines
 from ..model.debris.pile_sections import Direction, PileSection
 from .plan_maps import draw_area
 
-_DEBRIS, _STANDING = {"facecolor": "#d9a066", "edgecolor": "#7f4a1e"}, {"facecolor": "0.85", "edgecolor": "0.35"}
+_DEBRIS, _STANDING = ("#d9a066", "#7f4a1e"), ("0.85", "0.35")
+"""Colours of areas and of their outlines."""
+
 _ROOM_M = 0.5
 
 
@@ -18,10 +20,10 @@ def section_chart(figure: FigureBase, section: PileSection) -> None:
     """Draw a section to one scale both ways, with heights above 0."""
     axes = figure.add_subplot()
     handles = []
-    for area, colours, name in ((section.standing, _STANDING, "standing"), (section.debris, _DEBRIS, "debris")):
+    for area, (face, edge), name in ((section.standing, _STANDING, "standing"), (section.debris, _DEBRIS, "debris")):
         if not area.is_empty():
-            draw_area(axes, area, linewidth=0.8, **colours)
-            handles.append(Patch(label=name, **colours))
+            draw_area(axes, area, linewidth=0.8, facecolor=face, edgecolor=edge)
+            handles.append(Patch(label=name, facecolor=face, edgecolor=edge))
     axes.plot(*section.ground_m.T, color="0.2", linewidth=1.4)
     _fit(axes, section)
     axes.set_aspect("equal")

@@ -287,6 +287,7 @@ class BlenderPlayer(Player):
         settings.output_directory = str(self.folder / "results")
         settings.film_directory = str(self.folder / "film")
         settings.results_path = str(self.folder / "results" / "results.npz")
+        settings.compared_directory = str(self.folder / "results")
         settings.film_width, settings.film_height = 320, 180
         settings.scenario.pictures.width_px, settings.scenario.pictures.height_px = 64, 36
         settings.plan_picture = str(SITE_PLAN)

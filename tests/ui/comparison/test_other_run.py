@@ -61,7 +61,8 @@ def test_bodies_are_drawn_where_they_were_at_the_same_time(beside, settings, oth
         time_s = mine.frames.time_s[list(mine.frames.number).index(number)]
         row = max(step for step, t in enumerate(theirs.frames.time_s) if t <= time_s + 1e-6)
         bodies = range(len(theirs.inventory.body_names))
-        corners = np.concatenate([corners_m(theirs, row, body) for body in bodies]) + (0, settings.compared_shift_m, 0)
+        corners = np.concatenate([corners_m(theirs, row, body) for body in bodies])
+        corners = corners + np.array((0.0, settings.compared_shift_m, 0.0))
         triangles = drawn(beside).triangles
         for ends in (np.min, np.max):
             np.testing.assert_allclose(ends(triangles, axis=0), ends(corners, axis=0), atol=1e-4)
@@ -87,9 +88,10 @@ def test_figures_of_both_are_those_of_their_reports(beside, other, tmp_path):
     told = panel(beside)
     for folder in (tmp_path / "run", other):
         run = read_run(folder)
+        reach = "Debris beyond the bridge's outline, at most"
         by_label = {finding.label: finding for finding in findings(run, debris_of(run.recorded))}
         assert f"{by_label['Debris'].value:.1f} t" in told
-        assert f"{by_label["Debris beyond the bridge's outline, at most"].value:.2f} m" in told
+        assert f"{by_label[reach].value:.2f} m" in told
         assert f"{by_label['Largest load on a shard'].value:.0f} kN" in told
     begin = told.index("Debris distance")
     assert told[begin + 1].endswith(" m") and told[begin + 2].endswith(" m")
