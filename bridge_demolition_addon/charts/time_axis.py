@@ -1,4 +1,4 @@
-"""The time axis of a chart, kept with its picture, so that a place in the picture can be read as a time."""
+"""The time axis of a chart, kept with its picture, so that a click on the picture can be read as a time."""
 
 from __future__ import annotations
 

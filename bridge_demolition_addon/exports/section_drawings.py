@@ -42,7 +42,7 @@ def write_section(section: PileSection, path: Path) -> None:
         raise OutputError(f"{path}: expected a name that ends in {', '.join(ENDINGS)}")
     if section.is_empty:
         raise OutputError(
-            f"section {section.direction} the bridge at {section.place_m:g} m: cuts no shard; choose another place"
+            f"section {section.direction} the bridge at {section.place_m:g} m: cuts no shard; move the plane"
         )
     if path.exists() or path.is_symlink():
         raise OutputError(f"{path}: is there already; choose another name, or delete it first")

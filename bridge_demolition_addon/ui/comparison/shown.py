@@ -135,7 +135,7 @@ def drawn_run(scene: bpy.types.Scene) -> DrawnRun | None:
         _placed[key] = run.surfaces.at(row, (0.0, shift_m, 0.0))
     triangles, brightness, bodies = _placed[key]
     opacity = 1.0 if shift_m else _OPACITY_OVER
-    painted = _colours_of(scene, run, row)[bodies] * brightness[:, None]
+    painted = colours_of(scene, run, row)[bodies] * brightness[:, None]
     corners = np.repeat(np.column_stack((painted, np.full(len(painted), opacity))), 3, axis=0)
     left, bottom, right, top = run.plan_m
     highest = float(triangles[:, :, 2].max(initial=0.0))
@@ -148,7 +148,7 @@ def drawn_run(scene: bpy.types.Scene) -> DrawnRun | None:
     )
 
 
-def _colours_of(scene: bpy.types.Scene, run: OtherRun, row: int) -> np.ndarray:
+def colours_of(scene: bpy.types.Scene, run: OtherRun, row: int) -> np.ndarray:
     """Return the colours (n, 3) of the bodies: those of the contours, by the scale of this run, where it has them."""
     plain = np.tile(_COLOUR, (len(run.series.body_names), 1))
     contours = contours_of(scene)
