@@ -12,14 +12,14 @@ from ...simulation.blender_events import contours_of, shown_results
 
 def follow_later(scene: bpy.types.Scene) -> None:
     """Place the bodies, or leave them to Blender, once it has finished its present drawing."""
-    if shown_results(scene).stays_placed != _is_wanted(scene) and not bpy.app.timers.is_registered(_follow_all):
-        bpy.app.timers.register(_follow_all, first_interval=0.0)
+    if shown_results(scene).stays_placed != _is_wanted(scene) and not bpy.app.timers.is_registered(follow):
+        bpy.app.timers.register(follow, first_interval=0.0)
 
 
 def unregister() -> None:
     """Leave all bodies to Blender."""
-    if bpy.app.timers.is_registered(_follow_all):
-        bpy.app.timers.unregister(_follow_all)
+    if bpy.app.timers.is_registered(follow):
+        bpy.app.timers.unregister(follow)
     for scene in bpy.data.scenes:
         shown_results(scene).stays_placed = False
 
@@ -29,7 +29,8 @@ def _is_wanted(scene: bpy.types.Scene) -> bool:
     return settings.show_section or bool(settings.compared_folder and settings.show_compared)
 
 
-def _follow_all() -> None:
+def follow() -> None:
+    """Place the bodies of all scenes, or leave them to Blender, as their settings are now."""
     for scene in bpy.data.scenes:
         shown = shown_results(scene)
         if shown.stays_placed == _is_wanted(scene):

@@ -184,3 +184,28 @@ def test_removed_bodies_are_drawn_until_they_go(other):
     assert 4 in surfaces.at(29)[2] and 4 not in surfaces.at(30)[2]
     triangles, brightness, _ = surfaces.at(30)
     assert len(triangles) == 12 * 30 and brightness.min() >= 0.45 and brightness.max() <= 1.0
+
+
+def test_bodies_stay_where_they_were_recorded_while_another_run_is_beside_them(beside, settings, tmp_path):
+    """Also after a change by which Blender forgets what it played, and would show the bridge as it was built."""
+    from bridge_demolition_addon.ui.results import placed
+
+    scene, results = beside.context.scene, load_results(tmp_path / "run")
+    bodies = {body.name: body for body in scene.rigidbody_world.collection.objects if body.name.startswith("Shard")}
+    rows = [list(results.inventory.body_names).index(name) for name in bodies]
+
+    def farthest_m():
+        scene.frame_set(int(results.frames.number[-1]))
+        graph = beside.context.evaluated_depsgraph_get()
+        shown = np.array([body.evaluated_get(graph).matrix_world.translation for body in bodies.values()])
+        return float(np.abs(shown - results.frames.positions_m[-1, rows]).max())
+
+    next(iter(bodies.values())).rigid_body.friction += 0.01
+    scene.frame_set(int(results.frames.number[0]))
+    scene.rigidbody_world.enabled = False
+    assert farthest_m() > 1.0
+    placed.follow()
+    assert farthest_m() < 1e-3
+    beside.ops.bda.forget_compared()
+    placed.follow()
+    assert farthest_m() > 1.0
