@@ -265,12 +265,15 @@ def _interface() -> tuple:
     # The engineering and the checks of the command line work where there is no Blender to import.
     from .simulation import blender_events
     from .ui import registration, scene_settings
+    from .ui.comparison import decorator as comparison_decorator
     from .ui.contours import decorator
     from .ui.ensemble import study
     from .ui.ground import decorator as ground_decorator
     from .ui.languages import tables
     from .ui.preview import bars, run_beside, run_drawing
     from .ui.preview import decorator as preview_decorator
+    from .ui.sections import decorator as section_decorator
 
-    drawings = (module.drawing for module in (decorator, ground_decorator, study, preview_decorator, bars, run_drawing))
+    drawn = (comparison_decorator, decorator, ground_decorator, section_decorator, study)
+    drawings = (module.drawing for module in (*drawn, preview_decorator, bars, run_drawing))
     return (blender_events, tables, scene_settings, registration, run_beside, *drawings)

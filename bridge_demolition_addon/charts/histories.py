@@ -16,16 +16,17 @@ from ..model.results.energy import Energy
 from ..model.results.force_history import BreakingByKind, ContactForces, largest_on_a_shard
 from ..system.disk import whole_file
 from .style import blank_figure, lay_out, line_style, plain
+from .time_axis import KEY, TimeAxis
 
 _MOST_KINDS = 7
 """Kinds of connections that have a line of their own."""
 
 
 def plot_forces(results: Results, path: Path, title: str, impact_s: float | None) -> None:
-    """Write a picture of the chart of forces."""
+    """Write a picture of the chart of forces; one in PNG says where its time axis lies."""
     figure = forces_figure(results, title, impact_s)
     with whole_file(path) as part:
-        figure.savefig(part)
+        figure.savefig(part, metadata={KEY: TimeAxis.of(figure.axes[0]).text} if path.suffix == ".png" else None)
 
 
 def forces_figure(results: Results, title: str, impact_s: float | None) -> Figure:

@@ -43,6 +43,7 @@ COMMANDS = {
     "optimise": "search",
     "report": "report",
     "export": "exchange.export",
+    "section": "section",
     "compare": "compare",
     "charge": "charge",
     "charts": "charts",

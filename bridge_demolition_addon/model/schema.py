@@ -67,6 +67,7 @@ class Key:
     at_most: float | None = None
     choices: tuple[str, ...] = ()  # empty for any text
     or_else: str = ""  # text for other values, which the table around this one checks
+    label: str = ""  # what the window calls it where its own name would puzzle, without a unit
 
     @property
     def limits(self) -> str:

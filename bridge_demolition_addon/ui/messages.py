@@ -39,6 +39,11 @@ def clear(operator: bpy.types.Operator) -> None:
     _kept[:] = [message for message in _kept if message.button != operator.bl_idname]
 
 
+def clear_of(scene: bpy.types.Scene) -> None:
+    """Forget the messages of a scene, as they are of what it had before."""
+    _kept[:] = [message for message in _kept if message.scene_uid != scene.session_uid]
+
+
 def clear_all() -> None:
     """Forget all messages."""
     _kept.clear()

@@ -43,7 +43,7 @@ TREE: dict[str, tuple[str, ...]] = {
     "BDA_PT_explosion": ("BDA_PT_blast",),
     RUN: (
         *("BDA_PT_run", "BDA_PT_results", "BDA_PT_report", "BDA_PT_contours", "BDA_PT_film"),
-        "BDA_PT_ground_and_air",
+        *("BDA_PT_compare", "BDA_PT_section", "BDA_PT_ground_and_air"),
         RUN_ADVANCED,
     ),
     RUN_ADVANCED: (

@@ -9,9 +9,11 @@ from types import ModuleType
 
 import bpy
 
-from . import messages, modal_task, panel_groups, workspace
+from . import chart_pictures, messages, modal_task, panel_groups, workspace
 from .blast import operator as blast_operator
 from .blast import ui as blast_ui
+from .comparison import operator as comparison_operator
+from .comparison import ui as comparison_ui
 from .contours import operator as contour_operator
 from .contours import ui as contour_ui
 from .contours import view as contour_view
@@ -28,25 +30,27 @@ from .recording import operator as recording_operator
 from .recording import paths, run, session
 from .recording import ui as recording_ui
 from .results import operator as results_operator
-from .results import shown_run
+from .results import placed, shown_run
 from .results import ui as results_ui
 from .scenario import hints, number_rows, preset_menu, table_list, user_meshes
 from .scenario import operator as scenario_operator
 from .scenario import stability as scenario_stability
 from .scenario import ui as scenario_ui
+from .sections import operator as section_operator
+from .sections import ui as section_ui
 from .stages import operator as stages_operator
 from .stages import shown as shown_stages
 from .stages import ui as stages_ui
 
 _OPERATORS = (
-    *(scenario_operator, ifc_operator, preset_menu, number_rows, messages, hints, workspace),
+    *(scenario_operator, ifc_operator, preset_menu, number_rows, messages, hints, workspace, chart_pictures),
     *(user_meshes, table_list, scenario_stability),
     *(recording_operator, run, paths, blast_operator, contour_operator, ground_operator),
-    *(results_operator, stages_operator, preview_operator, gizmos),
+    *(results_operator, stages_operator, preview_operator, gizmos, comparison_operator, section_operator),
 )
 _PANELS = (
     *(panel_groups, scenario_ui, ifc_ui, blast_ui, recording_ui, contour_ui, ground_ui, results_ui, stages_ui),
-    *(study, search, optimise),
+    *(comparison_ui, section_ui, study, search, optimise),
 )
 """Where they stand in the tab is in `panel_places`."""
 
@@ -101,4 +105,5 @@ def unregister() -> None:
     preset_menu.unregister()
     shown_run.forget_shown()
     messages.clear_all()
+    placed.unregister()
     contour_view.unregister()

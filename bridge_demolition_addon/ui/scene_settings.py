@@ -5,6 +5,7 @@ from bpy.props import BoolProperty, PointerProperty, StringProperty
 
 from ..model.scenario import Scenario
 from .blast.prop import ChargeProperties
+from .comparison.prop import ComparisonProperties
 from .contours.prop import ContourProperties
 from .ensemble.prop import EnsembleProperties, read_earlier_files
 from .ground.prop import GroundProperties
@@ -13,6 +14,7 @@ from .languages.words import in_own_context
 from .preview.prop import PreviewRunProperties
 from .scenario import prop as scenario_properties
 from .scenario.earlier import mark_defaults, read_earlier_bodies, read_earlier_defaults
+from .sections.prop import SectionProperties
 from .sidebar import path_property, tooltip
 from .stages.shown import StageProperties
 from .viewport import redraw_views
@@ -29,6 +31,8 @@ class BDA_PG_settings(
     StageProperties,
     IfcProperties,
     PreviewRunProperties,
+    ComparisonProperties,
+    SectionProperties,
     bpy.types.PropertyGroup,
 ):
     """Settings that the panels show; those from the schema are added when they are made."""

@@ -79,15 +79,20 @@ def draw_lines(context: bpy.types.Context, lines: np.ndarray, colour: tuple, wid
     batch.draw(shader)
 
 
-def draw_triangles(triangles: np.ndarray, colours: np.ndarray) -> None:
-    """Draw triangles (3 k, 3), m, that are transparent, with a colour (3 k, 4) at each corner."""
+def draw_triangles(triangles: np.ndarray, colours: np.ndarray, *, through: bool = False, solid: bool = False) -> None:
+    """Draw triangles (3 k, 3), m, with a colour (3 k, 4) at each corner, which may be transparent.
+
+    Those that go `through` are seen through all that stands before them; `solid` ones hide what is behind them.
+    """
     if not len(triangles):
         return
     shader = gpu.shader.from_builtin("SMOOTH_COLOR")
     content = {"pos": triangles.astype(np.float32), "color": colours.astype(np.float32)}
     gpu.state.blend_set("ALPHA")
-    gpu.state.depth_test_set("LESS_EQUAL")
+    gpu.state.depth_test_set("NONE" if through else "LESS_EQUAL")
+    gpu.state.depth_mask_set(solid)
     batch_for_shader(shader, "TRIS", content).draw(shader)
+    gpu.state.depth_mask_set(False)
     gpu.state.depth_test_set("NONE")
     gpu.state.blend_set("NONE")
 

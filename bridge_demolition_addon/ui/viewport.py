@@ -3,12 +3,18 @@
 from collections.abc import Iterable
 
 import bpy
+import numpy as np
 from bpy_extras.view3d_utils import region_2d_to_location_3d
+from mathutils import Quaternion
 
 from ..scene.bodies import Kind, bodies_of, kind_of
 
 _MOST_COVERED = 0.8
 """Share of the view that the sidebar may cover before the rest is too narrow to show anything in."""
+
+
+_ROOM = 1.2
+"""Distance of the view from a box, over the box's diagonal."""
 
 
 def redraw_views(_settings: object = None, _context: object = None) -> None:
@@ -56,6 +62,27 @@ def look_at_selected(context: bpy.types.Context, surroundings: float = 1.0) -> N
     if view.view_perspective == "CAMERA" or covered > _MOST_COVERED * region.width:
         return
     view.view_distance *= surroundings * max(min(region.width, region.height) / (region.width - covered), 1.0)
+    view.update()
+    edge, middle = (region_2d_to_location_3d(region, view, (x, 0.0), view.view_location) for x in (0.0, covered / 2.0))
+    view.view_location += middle - edge
+
+
+def look_at_box(context: bpy.types.Context, box_m: np.ndarray, rotation: Quaternion | None = None) -> None:
+    """Make the 3D view under the mouse, if any, show a box (2, 3), m, beside the sidebar.
+
+    With a `rotation` it looks from there, without perspective.
+    """
+    if not context.area or context.area.type != "VIEW_3D":
+        return
+    region, view = region_of(context.area, "WINDOW"), context.space_data.region_3d
+    if rotation is not None:
+        view.view_rotation, view.view_perspective = rotation, "ORTHO"
+    elif view.view_perspective == "CAMERA":
+        view.view_perspective = "PERSP"
+    covered = min(covered_px(context, "UI"), _MOST_COVERED * region.width)
+    view.view_location = box_m.mean(axis=0).tolist()
+    size_m = float(np.linalg.norm(box_m[1] - box_m[0]))
+    view.view_distance = _ROOM * size_m * max(region.width, region.height) / (region.width - covered)
     view.update()
     edge, middle = (region_2d_to_location_3d(region, view, (x, 0.0), view.view_location) for x in (0.0, covered / 2.0))
     view.view_location += middle - edge

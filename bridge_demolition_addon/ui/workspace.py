@@ -4,15 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import partial
-from pathlib import Path
 
 import bpy
 
-from ..errors import OutputError, SimulationError
-from ..model.run_folder.files import FORCE_CHART
+from ..errors import SimulationError
+from .chart_pictures import EDITOR, chart_of, pictures_of, show_in
 from .operators import Action
-from .results.operator import CHARTS
-from .results.shown_run import shown_run
 from .sidebar import SidebarPanel
 from .viewport import region_of
 
@@ -32,7 +29,7 @@ _asked_for: list[str] = []
 _openings: list[partial] = []
 """The timer that opens the tab, if one does."""
 
-_LARGEST, _BESIDE, _BELOW = "VIEW_3D", "IMAGE_EDITOR", "TIMELINE"
+_LARGEST, _BESIDE, _BELOW = "VIEW_3D", EDITOR, "TIMELINE"
 
 
 def _no_window(context: bpy.types.Context) -> str | None:
@@ -40,7 +37,7 @@ def _no_window(context: bpy.types.Context) -> str | None:
 
 
 class BDA_OT_make_workspace(Action, bpy.types.Operator):
-    """Go to the workspace BDA, made if there is none: bridge, timeline, and the chart of forces once it is drawn"""
+    """Go to the workspace BDA, made if there is none: bridge, timeline, and charts and pictures of the run"""
 
     bl_label = "BDA Workspace"
     blocked_by = (_no_window,)
@@ -69,7 +66,8 @@ def arrange(screen: bpy.types.Screen) -> None:
     for area, kind in ((largest, _LARGEST), (below, _BELOW), (beside, _BESIDE)):
         if area.ui_type != kind:
             area.ui_type = kind
-    largest.spaces.active.show_region_ui = True
+    view = largest.spaces.active
+    view.show_region_ui, view.show_region_toolbar = True, False  # the tools would cover the colour bar's side
 
 
 def open_tab(screen: bpy.types.Screen) -> bool:
@@ -85,27 +83,18 @@ def open_tab(screen: bpy.types.Screen) -> bool:
 
 
 def show_chart(window: bpy.types.Window) -> None:
-    """Show the whole chart of forces in the editor of charts, if the shown run has one."""
-    path = chart_of(window.scene)
-    if path is None:
-        return
-    image = bpy.data.images.load(str(path), check_existing=True)
-    image.reload()
-    for area in window.screen.areas:
-        if area.type == _BESIDE:
-            area.spaces.active.image = image
-            with bpy.context.temp_override(window=window, area=area, region=region_of(area, "WINDOW")):
-                bpy.ops.image.view_all(fit_view=True)
+    """Show the chart of forces in the editor of charts, or another picture of the shown run, if it has one."""
+    pictures = pictures_of(window.scene)
+    path = chart_of(window.scene) or next(iter(pictures), None)
+    if path is not None:
+        show_in(window, path)
 
 
-def chart_of(scene: bpy.types.Scene) -> Path | None:
-    """Return the chart of forces of the shown run; None where none was drawn."""
-    try:
-        run = shown_run(scene)
-    except OutputError:  # the panel Results says so
-        return None
-    path = run.folder / CHARTS / FORCE_CHART if run else None
-    return path if path and path.is_file() else None
+def show_new_chart() -> None:
+    """Show the chart of a run that has just ended in the workspace BDA, if a window shows that."""
+    for window in bpy.context.window_manager.windows:
+        if window.workspace.get(_MADE):
+            show_chart(window)
 
 
 def _size(area: bpy.types.Area) -> int:

@@ -11,6 +11,7 @@ from matplotlib.image import imread
 from support.sample_results import FRAME_S, G, changed, hanging_chain, without_connections
 
 from bridge_demolition_addon.charts.histories import plot_forces
+from bridge_demolition_addon.charts.time_axis import TimeAxis
 from bridge_demolition_addon.model.results.frames import FrameSeries
 
 # Nothing acts in the first frame, in which no time passes; in the fourth, the largest is not the mean.
@@ -118,3 +119,23 @@ def test_ball_and_ground_do_not_count(tmp_path):
     )  # rounding
     sums = curve(drawn(tmp_path, results), "#b2182b")[:, 1]
     assert sums[4] > sums[3]  # lower in the picture
+
+
+def test_the_picture_of_forces_says_where_its_time_axis_lies(tmp_path):
+    """The blue line begins at 0 s and ends at 0.16 s, wherever that is in the picture."""
+    path = tmp_path / "chart.png"
+    plot_forces(hanging_chain(), path, "A bridge", None)
+    axis, picture = TimeAxis.read(path), imread(path)[..., :3]
+    blue = (abs(picture - np.array([0x21, 0x66, 0xAC]) / 255.0) < 0.02).all(axis=-1)
+    columns = np.flatnonzero(blue[: int(0.85 * len(blue))].any(axis=0))  # without the legend
+    begin, end = (axis.time_at((column + 0.5) / picture.shape[1]) for column in (columns[0], columns[-1]))
+    assert begin == pytest.approx(0.0, abs=5e-4) and end == pytest.approx(0.16, abs=5e-4)
+    assert axis.time_at(axis.left - 0.01) is None and axis.time_at(1.0) is None
+
+
+def test_other_pictures_have_no_time_axis(tmp_path):
+    (tmp_path / "none.png").write_bytes(b"\x89PNG\r\n\x1a\n")
+    (tmp_path / "text.png").write_text("no picture")
+    assert TimeAxis.read(tmp_path / "none.png") is None
+    assert TimeAxis.read(tmp_path / "text.png") is None
+    assert TimeAxis.read(tmp_path / "missing.png") is None

@@ -81,6 +81,15 @@ BUTTONS = {
     "dismiss_messages": 0.5,
     "make_workspace": 0.5,
     "go_to_body": 2,
+    "go_to_peak": 0.3,
+    "show_picture": 0.3,
+    "compare_run": 1,
+    "lay_over": 0.5,
+    "forget_compared": 0.5,
+    "section_at_shard": 0.5,
+    "section_at_cursor": 1,
+    "look_at_section": 0.5,
+    "write_section": 0.3,
     "draw_charts": 0.1,
     "export_run": 0.1,
     "make_report": 0.1,
@@ -278,6 +287,7 @@ class BlenderPlayer(Player):
         settings.output_directory = str(self.folder / "results")
         settings.film_directory = str(self.folder / "film")
         settings.results_path = str(self.folder / "results" / "results.npz")
+        settings.compared_directory = str(self.folder / "results")
         settings.film_width, settings.film_height = 320, 180
         settings.scenario.pictures.width_px, settings.scenario.pictures.height_px = 64, 36
         settings.plan_picture = str(SITE_PLAN)

@@ -34,6 +34,27 @@ class Layout:
             drawn.draw_item(SimpleNamespace(), self._context, self, data, item, 0, active, active_name, index)
 
 
+def texts_drawn(panel: type, blender) -> list[str]:
+    """What a panel draws of the scene that Blender shows: texts of labels, and names of buttons, in their order."""
+    found: list[str] = []
+
+    class Told(Layout):
+        def label(self, **settings: object) -> None:
+            found.append(str(settings["text"]))
+
+        def operator(self, name: str, **settings: object) -> SimpleNamespace:
+            found.append(name)
+            return super().operator(name, **settings)
+
+    context = SimpleNamespace(
+        scene=blender.context.scene,
+        region=SimpleNamespace(width=100_000),  # a sentence on a line
+        preferences=SimpleNamespace(system=SimpleNamespace(ui_scale=1.0)),
+    )
+    without_blender(panel)(Told(context)).draw(context)
+    return found
+
+
 def without_blender(panel: type) -> type:
     """A class with all that a panel has of its own, which can be made outside of Blender's drawing."""
     own = [vars(base) for base in reversed(panel.__mro__) if issubclass(base, SidebarPanel)]

@@ -38,6 +38,18 @@ def test_what_a_run_warned_of_stays_in_its_scene_alone(extension, settings, tmp_
     assert texts(extension) == []
 
 
+def test_what_was_said_of_the_bridge_before_goes_as_another_is_built(extension, settings, tmp_path):
+    settings.scenario_path = str(SMALL)
+    extension.ops.bda.build_scenario()
+    extension.context.scene.gravity.z = -1.62
+    extension.context.scene.frame_end = 5
+    settings.output_directory = str(tmp_path / "run")
+    extension.ops.bda.run()
+    assert len(texts(extension)) == 2
+    extension.ops.bda.build_anew()
+    assert texts(extension) == []
+
+
 def test_they_can_be_dismissed(extension, settings):
     assert not extension.ops.bda.dismiss_messages.poll()
     settings.scenario_path = "no_such.toml"

@@ -18,6 +18,8 @@ IN_A_LINKED_SCENE = {
     "draw_charts": "Nothing was recorded yet",
     "export_run": "Nothing was recorded yet",
     "go_to_body": "is not in this scene",
+    "go_to_peak": "This run has no chart of forces",
+    "look_at_section": "Nothing was recorded yet",
     "make_report": "Run the scene first",
     "make_word_report": "Run the scene first",
     "open_report": "Run the scene first",
@@ -27,6 +29,7 @@ IN_A_LINKED_SCENE = {
     "open_search_curve": "No search has ended yet",
     "pause_study": "No study is at work",
     "resume_study": "No study is paused",
+    "show_picture": "This run has no pictures yet",
     "show_study": "Choose the folder of a study first",
     "start_optimise": "Choose a folder for the optimisation first",
     "start_search": "Choose a folder for the search first",
@@ -35,6 +38,7 @@ IN_A_LINKED_SCENE = {
     "stop_search": "No search is at work",
     "stop_study": "No study is at work",
     "unregister_handler": "No recording runs",
+    "write_section": "Nothing was recorded yet",
 }
 """What buttons say that only look at a scene; all others change it."""
 

@@ -6,8 +6,9 @@ import runpy
 import pytest
 from support.checkout import ROOT, SMALL
 
+from bridge_demolition_addon.ui.chart_pictures import chart_of
 from bridge_demolition_addon.ui.scenario.hints import SENTENCES, walkthrough
-from bridge_demolition_addon.ui.workspace import arrange, chart_of
+from bridge_demolition_addon.ui.workspace import arrange
 
 
 @pytest.fixture
@@ -38,7 +39,14 @@ def test_a_shown_screen_gets_bridge_charts_and_timeline(windowed):
     assert max(sizes, key=sizes.get) == "VIEW_3D"
 
 
-def test_a_chart_of_the_run_is_found_once_it_is_drawn(windowed, tmp_path):
+def test_the_view_of_the_bridge_has_its_sidebar_and_no_tools(windowed):
+    screen = windowed.context.window.screen
+    arrange(screen)
+    (view,) = (area.spaces.active for area in screen.areas if area.type == "VIEW_3D")
+    assert view.show_region_ui and not view.show_region_toolbar
+
+
+def test_the_chart_that_a_run_leaves_is_found_and_then_the_one_that_is_drawn(windowed, tmp_path):
     scene = windowed.context.scene
     assert chart_of(scene) is None
     scene.bda.scenario_path = str(SMALL)
@@ -46,7 +54,7 @@ def test_a_chart_of_the_run_is_found_once_it_is_drawn(windowed, tmp_path):
     scene.frame_end = 8
     scene.bda.output_directory = str(tmp_path / "run")
     windowed.ops.bda.run()
-    assert chart_of(scene) is None
+    assert chart_of(scene) == tmp_path / "run" / "force_over_time.png"
     windowed.ops.bda.draw_charts()
     assert chart_of(scene) == tmp_path / "run" / "charts" / "force_over_time.png"
 

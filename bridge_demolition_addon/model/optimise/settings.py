@@ -127,13 +127,21 @@ class OptimiseSettings(EnsembleSettings):
     )
     neighbour: str | None = schema.key("Whose `vibration`, by its name in `[[neighbours]]`.", default=None)
     quantile: float = schema.key(
-        "Quantile of what scatters from run to run: the objective.", default=0.9, at_least=0.5, at_most=0.99
+        "Quantile of what scatters from run to run: the objective.",
+        default=0.9,
+        at_least=0.5,
+        at_most=0.99,
+        label="Share of Runs Within",
     )
     probability: float = schema.key(
         "With which probability all criteria have to be met.", default=0.9, at_least=0.01, at_most=0.999
     )
     confidence: float = schema.key(
-        "Probability with which limits hold in the end.", default=0.95, at_least=0.5, at_most=0.999
+        "Probability with which limits hold in the end.",
+        default=0.95,
+        at_least=0.5,
+        at_most=0.999,
+        label="Certainty of the Limit",
     )
     candidates: int = schema.key(
         "How many sets of values are tried: at least 10, and 5 for each number that may change.",

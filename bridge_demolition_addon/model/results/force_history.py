@@ -77,6 +77,22 @@ def most_loaded(magnitudes_n: np.ndarray, rows: np.ndarray, count: int = 10) -> 
     ]
 
 
+def peak_near(results: Results, time_s: float, within_s: float) -> Peak | None:
+    """Return the largest resultant on a shard at most `within_s` from a time; None without a load there.
+
+    Where no frame is that near, it is that of the nearest frame.
+    """
+    times, shards = np.asarray(results.frames.time_s), results.inventory.of_kind("shard")
+    if not len(times) or not len(shards):
+        return None
+    near = np.flatnonzero(abs(times - time_s) <= within_s)
+    steps = near if len(near) else np.array([abs(times - time_s).argmin()])
+    forces = np.nan_to_num(np.asarray(results.frames.loads.body_peaks_n[steps])[:, shards])
+    step, shard = np.unravel_index(forces.argmax(), forces.shape)
+    force_n = float(forces[step, shard])
+    return Peak(int(shards[shard]), int(steps[step]), force_n) if force_n > 0.0 else None
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class BreakingByKind:
     """How many connections of a kind there are, and how many are broken at each recorded step, (k,).

@@ -147,15 +147,23 @@ class ShardSettings(BodyInContact):
     collision_margin_m: float = key("Distance at which shards already touch.", default=0.0, unit="m", **SHARE)
     linear_damping: float = key("Share of the velocity lost in one second.", default=0.04, **SHARE)
     angular_damping: float = key("Share of the angular velocity lost in one second.", default=0.1, **SHARE)
-    use_deactivation: bool = key("Whether shards at rest fall asleep until something hits them.", default=True)
+    use_deactivation: bool = key(
+        "Whether shards at rest fall asleep until something hits them.", default=True, label="Let Resting Pieces Sleep"
+    )
     start_deactivated: bool = key(
-        "Whether shards sleep until something hits them; needs `use_deactivation`.", default=True
+        "Whether shards sleep until something hits them; needs `use_deactivation`.",
+        default=True,
+        label="Asleep at the Start",
     )
     deactivation_linear_velocity_m_s: float = key(
-        "Velocity below which a shard is at rest.", default=0.4, unit="m/s", at_least=0
+        "Velocity below which a shard is at rest.", default=0.4, unit="m/s", at_least=0, label="At Rest Below Speed"
     )
     deactivation_angular_velocity_rad_s: float = key(
-        "Angular velocity below which a shard is at rest.", default=0.5, unit="rad/s", at_least=0
+        "Angular velocity below which a shard is at rest.",
+        default=0.5,
+        unit="rad/s",
+        at_least=0,
+        label="At Rest Below Turning Speed",
     )
 
     def _check_together(self) -> None:

@@ -221,6 +221,7 @@ class Bridge(Table):
     merge: bool = key(
         "Whether all members are one solid, cut as a whole, instead of members that are connected where they touch.",
         default=False,
+        label="Merge Touching Members",
     )
     deck: Deck
     girders: Girders | None = None

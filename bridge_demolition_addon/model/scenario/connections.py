@@ -43,7 +43,9 @@ class _Breaking(Table):
 class JointSettings(_Breaking):
     """The type of a connection, what is free in it, and its springs; each table of these also has a breaking force."""
 
-    type: str | None = key("Kind of rigid-body constraint, as in `[connections]`.", default=None, choices=TYPES)
+    type: str | None = key(
+        "Kind of rigid-body constraint, as in `[connections]`.", default=None, choices=TYPES, label="Joint Model"
+    )
     free: tuple[str, ...] | None = key(
         "Motions that a `GENERIC` or `GENERIC_SPRING` connection allows, along and about the axes of the bridge: "
         '`["move x", "turn y"]` for a bearing that slides along the road and turns about the axis across it.',
@@ -171,6 +173,7 @@ class ConnectionSettings(JointSettings):
         "the vertical, `GENERIC` all but what is `free`, and `GENERIC_SPRING` has springs in what is.",
         default="HINGE",
         choices=TYPES,
+        label="Joint Model",
     )
     method: str = key(
         "Which shards are connected: those whose nearest vertices (`vertex`) or centres of mass (`centre`) lie within "
@@ -178,6 +181,7 @@ class ConnectionSettings(JointSettings):
         "of mass are nearest to its own (`nearest`).",
         default="vertex",
         choices=("vertex", "centre", "face", "nearest"),
+        label="How Neighbours Are Found",
     )
     search_radius_m: float | None = key(
         "Distance up to which shards are connected. Needed for `vertex` and `centre`, and only for them.",

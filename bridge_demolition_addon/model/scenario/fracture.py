@@ -82,6 +82,7 @@ class FractureSettings(Table):
         "How far the points that shards are cut around are moved at random, as a part of a shard's mean size; takes "
         "the order out of points of your own.",
         default=0.0,
+        label="Irregularity",
         **SHARE,
     )
     stretch: tuple[float, float, float] | None = key(
@@ -92,7 +93,11 @@ class FractureSettings(Table):
         at_most=_MOST_STRETCH,
     )
     margin_m: float = key(
-        "Gap between the shards of a member. Masses stay those without it.", default=0.0, unit="m", **SHARE
+        "Gap between the shards of a member. Masses stay those without it.",
+        default=0.0,
+        unit="m",
+        label="Gap Between Shards",
+        **SHARE,
     )
     mass: str = key(
         "Whether a shard's mass goes by its volume, or all shards of a member have the same.",
@@ -102,11 +107,18 @@ class FractureSettings(Table):
     recursion_share: float = key(
         "Part of the shards, chosen at random, that are cut again; there are more than `shards` then.",
         default=0.0,
+        label="Share Cut Again",
         **SHARE,
     )
-    recursion_shards: int = key("Into how many shards each of them is cut.", default=4, at_least=2, at_most=1000)
+    recursion_shards: int = key(
+        "Into how many shards each of them is cut.", default=4, at_least=2, at_most=1000, label="Cut Again Into"
+    )
     recursion_smallest_m3: float = key(
-        "Volume below which a shard is not cut again.", default=0.0, unit="m³", at_least=0
+        "Volume below which a shard is not cut again.",
+        default=0.0,
+        unit="m³",
+        at_least=0,
+        label="Cut Again Down To",
     )
     points_file: str | None = key(
         "Path, from the scenario file's folder, of a CSV file with more points of your own, x, y and z in m in a row; "

@@ -56,7 +56,11 @@ class SearchSettings(EnsembleSettings):
         at_most=0.999,
     )
     confidence: float = schema.key(
-        "Probability with which the limit that is given holds.", default=0.95, at_least=0.5, at_most=0.999
+        "Probability with which the limit that is given holds.",
+        default=0.95,
+        at_least=0.5,
+        at_most=0.999,
+        label="Certainty of the Limit",
     )
     trials: int = schema.key("Most runs.", default=60, at_least=FEWEST_TRIALS, at_most=100_000)
     within: float | None = schema.key(

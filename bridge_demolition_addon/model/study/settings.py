@@ -115,6 +115,7 @@ class EnsembleSettings(Table):
         default=0.0,
         unit="kg",
         at_least=0,
+        label="Ignore Pieces Below",
     )
     time_limit_s: float | None = schema.key(
         "Time after which a run that hangs is ended. It counts as a run of unlimited debris distance that met no "
@@ -134,6 +135,7 @@ class EnsembleSettings(Table):
         "What is kept of each run: its `outcome`, its `logs` as well, or `all` that `bda run` keeps.",
         default="outcome",
         choices=KEPT,
+        label="What to Keep",
     )
     vary: tuple[Vary, ...] = ()
     criteria: tuple[Criterion, ...] = ()
@@ -159,9 +161,19 @@ class StudySettings(EnsembleSettings):
         at_least=1,
         at_most=10_000_000,
     )
-    quantile: float = schema.key("Part of all runs that the limit is for.", default=0.95, at_least=0.5, at_most=0.9999)
+    quantile: float = schema.key(
+        "Part of all runs that the limit is for.",
+        default=0.95,
+        at_least=0.5,
+        at_most=0.9999,
+        label="Share of Runs Within",
+    )
     confidence: float = schema.key(
-        "Probability with which the limit holds for that part.", default=0.95, at_least=0.5, at_most=0.9999
+        "Probability with which the limit holds for that part.",
+        default=0.95,
+        at_least=0.5,
+        at_most=0.9999,
+        label="Certainty of the Limit",
     )
     rank: int = schema.key(
         "Which of the largest debris distances is the limit, counted from the largest and fixed beforehand: with 2 it "
@@ -169,4 +181,5 @@ class StudySettings(EnsembleSettings):
         default=2,
         at_least=1,
         at_most=1000,
+        label="Limit Is the Nth Largest",
     )

@@ -73,7 +73,8 @@ class ContourDisplay:
 
     def paint(self, depsgraph: bpy.types.Depsgraph) -> None:
         """Colour the bodies in an evaluated scene, if contours are shown, and move them; never raises."""
-        if self.error or (self.settings is None and not self.shown.are_loaded):
+        shows_record = self.shown.are_loaded or self.shown.stays_placed
+        if self.error or (self.settings is None and not shows_record):
             return
         try:
             self._paint(depsgraph)

@@ -23,6 +23,9 @@ class ShownResults:
         The recording of the scene that runs, or ran last; or None. `is_live` is set while it runs.
     number
         Another number for other results.
+    stays_placed
+        Whether bodies are shown where they were recorded also without contours, as what is drawn beside them is of the
+        recorded frame.
     missing
         Why the results of the run of an opened file are not shown; empty where they are, or the file has no run.
     """
@@ -32,6 +35,7 @@ class ShownResults:
         self.recording: Recording | None = None
         self.is_live = False
         self.number = 0
+        self.stays_placed = False
         self.missing = ""
         self._results: Results | None = None
         self._loaded: ContourSeries | None = None

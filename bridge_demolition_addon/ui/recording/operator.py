@@ -26,7 +26,7 @@ from ...simulation.recording.recordable import check_recordable
 from ...simulation.recording.recorder import Recording
 from ...simulation.run_summary import RunContext, rest_watch, run_summary
 from ...system.folder_lock import FolderLock
-from .. import messages, task_progress
+from .. import messages, task_progress, workspace
 from ..blast.operator import keep_shown_blast
 from ..operators import Action, GuardedOperator, absolute, baked, no_world, recording_runs, refused
 from ..scenario.built import scenario_to_run
@@ -174,6 +174,7 @@ def end_with_results(operator: bpy.types.Operator, recording: Recording, *, stop
     for warning in filter(None, warnings):
         messages.tell(operator, "WARNING", warning)
     messages.tell(operator, "INFO", f"Results are in {folder}")
+    workspace.show_new_chart()
     return {"FINISHED"}
 
 

@@ -20,7 +20,7 @@ from ...model.run_folder.folder import keep_site
 from ...report.document.word_library import word_is_there
 from ...scene.surveys import show_survey
 from ...simulation.kept_run import folder_of_run, has_run, is_run_of
-from ...system.disk import writing
+from ...system.disk import whole_file, writing
 from ..modal_task import ModalTask, Work
 from ..operators import Action, UndoableAction, absolute, no_world, recording_runs
 from ..scenario.built import shown_site
@@ -29,7 +29,7 @@ from ..stepped_thread import SteppedThread
 from ..viewport import look_at_selected, look_at_shards, select_only, shards_in_view
 from .shown_run import shown_run
 
-CHARTS = "charts"
+CHARTS, PLAN_CHART = "charts", "debris_plan.png"
 _OPENER = "xdg-open"
 """Opens folders on Linux. Blender, where it is missing, only writes to the console."""
 _SURROUNDINGS = 3.0
@@ -57,13 +57,7 @@ class BDA_OT_go_to_body(UndoableAction, bpy.types.Operator):
     frame: IntProperty(name="Frame", description="Frame to go to", min=0)
 
     def act(self, context: bpy.types.Context) -> str | None:
-        body = context.view_layer.objects.get(self.body)
-        if body is None:
-            raise SimulationError(f"{self.body!r} is not in this scene any more")
-        context.scene.frame_set(self.frame)
-        select_only(context, [body])
-        context.view_layer.objects.active = body
-        look_at_selected(context, _SURROUNDINGS)
+        go_to(context, self.body, self.frame)
 
 
 class BDA_OT_look_at_bridge(UndoableAction, bpy.types.Operator):
@@ -127,7 +121,7 @@ class BDA_OT_show_survey(UndoableAction, ImportHelper, bpy.types.Operator):
 
 
 class BDA_OT_draw_charts(ModalTask, bpy.types.Operator):
-    """Draw forces over time into the folder of the run, and charts to choose charges by if it had any; Esc stops"""
+    """Draw forces over time and debris in plan into the folder of the run, and charts of charges if any; Esc stops"""
 
     bl_label = "Draw Charts"
     changes_scene = False
@@ -138,9 +132,13 @@ class BDA_OT_draw_charts(ModalTask, bpy.types.Operator):
         # Loading matplotlib takes a second, which switching the extension on need not wait for.
         from ...charts.blast_design import ChartSettings, write_charts
         from ...charts.histories import plot_forces
+        from ...charts.plan_maps import debris_figure
+        from ...model.debris.throws import debris_of
+        from ...model.results.motion import without_removed
 
         run = shown_run(context.scene)
         folder, results = run.folder / CHARTS, run.results()
+        zones = shown_site(context.scene.bda)["zones"]
         settings = ChartSettings(model=BlastModel(context.scene.bda.scenario.blast.model))
 
         def draw(thread: SteppedThread) -> str:
@@ -148,8 +146,12 @@ class BDA_OT_draw_charts(ModalTask, bpy.types.Operator):
                 folder.mkdir(exist_ok=True)
                 thread.stage("forces over time")
                 plot_forces(results, folder / FORCE_CHART, run.title, run.summary.first_hit_s)
+                thread.stage("debris in plan")
+                left, _ = without_removed(results)
+                with whole_file(folder / PLAN_CHART) as part:
+                    debris_figure(left, debris_of(left), zones).savefig(part)
                 paths = write_charts(folder, settings, thread.part) if run.summary.has_blast else []
-            return f"{len(paths) + 1} charts are in {folder}" if paths else f"{folder / FORCE_CHART}"
+            return f"{len(paths) + 2} charts are in {folder}"
 
         return draw
 
@@ -252,6 +254,17 @@ class BDA_OT_open_report(Action, bpy.types.Operator):
 
     def act(self, context: bpy.types.Context) -> None:
         open_path(folder_to_report(context.scene) / REPORT_PAGE)
+
+
+def go_to(context: bpy.types.Context, name: str, frame: int) -> None:
+    """Go to a frame, select a body, and let the 3D view that the context names, if any, look at it."""
+    body = context.view_layer.objects.get(name)
+    if body is None:
+        raise SimulationError(f"{name!r} is not in this scene any more")
+    context.scene.frame_set(frame)
+    select_only(context, [body])
+    context.view_layer.objects.active = body
+    look_at_selected(context, _SURROUNDINGS)
 
 
 def can_report(scene: bpy.types.Scene) -> bool:

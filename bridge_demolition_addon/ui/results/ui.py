@@ -52,6 +52,9 @@ class BDA_PT_results(SidebarPanel, bpy.types.Panel):
         row = layout.row(align=True)
         row.operator("bda.open_results")
         row.operator("bda.draw_charts")
+        row = layout.row(align=True)
+        row.operator("bda.go_to_peak", icon="EYEDROPPER")
+        row.operator_menu_enum("bda.show_picture", "picture", icon="IMAGE_DATA")
         layout.operator_menu_enum("bda.export_run", "form", icon="EXPORT")
 
     def _draw_largest(self, label: str, largest: LargestValue | None) -> None:

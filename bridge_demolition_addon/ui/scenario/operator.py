@@ -16,6 +16,7 @@ from ...scene.rendering.staging import stage
 from ...scene.stability import keep_stability
 from ...simulation.blender_events import shown_results
 from ...simulation.kept_run import forget_run
+from .. import messages
 from ..operators import (
     Action,
     FileWriter,
@@ -219,6 +220,7 @@ def build_and_show(scene: bpy.types.Scene, scenario: Scenario, *, is_shown: bool
     if not is_shown:
         show_scenario(settings, scenario)
     settings.total_mass = ""
+    messages.clear_of(scene)
     keep_built(settings, scenario)
     keep_as_built(scene)
     if len(model.shards) <= _MOST_SHARDS_JUDGED:

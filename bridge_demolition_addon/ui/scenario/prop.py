@@ -135,6 +135,8 @@ def label_of(_table_class: type[Table], item: Field) -> str:
 
 def title_of(item: Field) -> str:
     """Return what a key or table is called, without a unit."""
+    if not subtable_class(item) and (label := key_of(item).label):
+        return label
     unit = "" if subtable_class(item) else key_of(item).unit
     return _titled(item.name.removesuffix("_" + _in_names(unit)) if unit else item.name)
 

@@ -12,6 +12,9 @@ from ..task_progress import draw_task_progress, going_on
 from .operator import BDA_OT_check_stages
 from .shown import checked_in
 
+_MOST_TIMES = 64
+"""Up to which load factor the collapse is looked for."""
+
 _UNITS = {"force": "kN", "moment": "kNm"}
 _HEADS = {
     "support": {"force": "Reactions, kN", "moment": "Moments, kN·m"},
@@ -41,6 +44,8 @@ class BDA_PT_stages(SidebarPanel, bpy.types.Panel):
         layout.operator("bda.show_utilisation")
         layout.prop(settings, "stage_shown")
         shown = min(settings.stage_shown, len(checked.rows)) - 1
+        if carried := carried_text(checked.rows[shown]):
+            draw_sentence(layout, context, carried, icon="NONE")
         for sentence in (*checked.sentences[shown], *checked.members):
             draw_sentence(layout, context, sentence, icon="NONE")
         for kind, rows in (("support", checked.reactions[shown]), ("bearing", checked.bearings[shown])):
@@ -59,14 +64,24 @@ def reaction_cells_of(row: dict, quantity: str, kind: str) -> tuple[str, ...]:
     return row[kind], *(f"{row[f'{quantity}_{axis}_{_UNITS[quantity]}']:.1f}" for axis in "xyz")
 
 
+def carried_text(row: dict) -> str:
+    """Return in a sentence how many times its weight the bridge carries in a stage; empty where it is not held."""
+    factor = row["collapse_factor"]
+    if math.isnan(factor):
+        return ""
+    if math.isinf(factor):
+        return translated("Carries more than {} times its weight").format(_MOST_TIMES)
+    return translated("Carries {} times its weight").format(f"{factor:.2f}")
+
+
 def cells_of(row: dict) -> tuple[str, ...]:
     """Return what the table says of a stage; its head for no row."""
     if not row:
-        return tuple(map(translated, ("Stage", "From", "Used", "Falls at")))
+        return tuple(map(translated, ("Stage", "From", "Used", "Carries, × weight")))
     used, factor = row["largest_utilisation"], row["collapse_factor"]
     return (
         str(row["stage"]),
         f"{row['time_s']:g} s",
         "" if used is None else f"{used:.0%}",
-        translated("not held") if math.isnan(factor) else "> × 64" if math.isinf(factor) else f"× {factor:.2f}",
+        translated("not held") if math.isnan(factor) else f"> {_MOST_TIMES}" if math.isinf(factor) else f"{factor:.2f}",
     )

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from support.sample_results import FRAME_S, G, changed, hanging_chain, without_connections
 
-from bridge_demolition_addon.model.results.force_history import breaking_by_kind, contact_forces, most_loaded
+from bridge_demolition_addon.model.results.force_history import breaking_by_kind, contact_forces, most_loaded, peak_near
 
 
 def test_the_ledge_carries_the_ball():
@@ -40,6 +40,16 @@ def test_what_is_not_known_is_not_the_largest():
     assert [(peak.row, peak.force_n) for peak in most_loaded(magnitudes, np.arange(2))] == [(1, 3.0), (0, 2.0)]
     assert most_loaded(np.full((2, 2), np.nan), np.arange(2)) == []
     assert most_loaded(np.zeros((2, 0)), np.zeros(0, int)) == []
+
+
+def test_the_peak_near_a_time_is_the_largest_on_a_shard_there():
+    """In the fourth frame *upper* bears 300 g and a pull of 1 kN across it, in the frames before 300 g alone."""
+    results = hanging_chain()
+    peak = peak_near(results, 3.0 * FRAME_S, 0.01)
+    assert (peak.row, peak.step) == (1, 3) and peak.force_n == pytest.approx(np.hypot(300 * G, 1000))
+    assert peak_near(results, 1.0 * FRAME_S, 2.5 * FRAME_S).step == 3  # the largest of several frames
+    assert peak_near(results, 1.4 * FRAME_S, 0.0).step == 1  # the nearest frame where none is that near
+    assert peak_near(results, 0.0, 0.0) is None  # nothing acts in the first frame
 
 
 def test_kinds_of_connections_and_when_they_broke():

@@ -110,7 +110,7 @@ def test_labels_end_with_no_unit_that_blender_shows_itself():
     labels = {f"{table.table}.{item.name}": label_of(table, item) for table, item in KEYS}
     assert labels["bridge.deck.width_m"] == "Width"
     assert labels["connections.breaking_force_kgf"] == "Breaking Force (kgf)"
-    assert labels["shards.deactivation_angular_velocity_rad_s"] == "Deactivation Angular Velocity (rad/s)"
+    assert labels["shards.deactivation_angular_velocity_rad_s"] == "At Rest Below Turning Speed (rad/s)"
     assert labels["bridge.density_kg_m3"] == "Density (kg/m³)"
 
 

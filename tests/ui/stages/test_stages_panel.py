@@ -3,11 +3,10 @@
 
 import csv
 from dataclasses import replace
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from support.panel_layouts import Layout, without_blender
+from support.panel_layouts import texts_drawn
 from support.scenarios import I235
 
 from bridge_demolition_addon.display.colour_scale import ColourMap, colours, linear
@@ -39,23 +38,7 @@ def panel(extension):
 
 def drawn(blender):
     """What the panel draws: texts of labels, and names of buttons."""
-    found = []
-
-    class Told(Layout):
-        def label(self, **settings):
-            found.append(settings["text"])
-
-        def operator(self, name, **settings):
-            found.append(name)
-            return super().operator(name, **settings)
-
-    context = SimpleNamespace(
-        scene=blender.context.scene,
-        region=SimpleNamespace(width=100_000),  # a sentence on a line
-        preferences=SimpleNamespace(system=SimpleNamespace(ui_scale=1.0)),
-    )
-    without_blender(BDA_PT_stages)(Told(context)).draw(context)
-    return found
+    return texts_drawn(BDA_PT_stages, blender)
 
 
 def shown_colours(scene, count):
@@ -75,15 +58,17 @@ def test_stages_are_checked_told_and_shown_before_anything_is_run(blender, panel
     assert [row["equipment"] for row in rows] == ["", "excavator"]
     told = drawn(blender)
     used = [f"{float(row['largest_utilisation']):.0%}" for row in rows]
-    falls = [f"× {float(row['collapse_factor']):.2f}" for row in rows]
+    falls = [f"{float(row['collapse_factor']):.2f}" for row in rows]
     assert told[1:13] == [
-        *("Stage", "From", "Used", "Falls at"),
+        *("Stage", "From", "Used", "Carries, × weight"),
         *("1", "0 s", used[0], falls[0]),
         *("2", "0.5 s", used[1], falls[1]),
     ]
     assert float(rows[1]["collapse_factor"]) < float(rows[0]["collapse_factor"])
+    assert f"Carries {falls[0]} times its weight" in " ".join(told)
     panel.stage_shown = 2
     told = drawn(blender)
+    assert f"Carries {falls[1]} times its weight" in " ".join(told)
     assert "with excavator" in told
     carried = list(csv.DictReader((tmp_path / "tables" / "reactions.csv").open(encoding="utf-8")))
     carried = [row for row in carried if row["stage"] == "2"]

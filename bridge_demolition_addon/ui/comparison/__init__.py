@@ -1,0 +1,1 @@
+"""Another run beside the one that is shown."""

@@ -1,0 +1,1 @@
+"""Sections through the pile in the 3D view."""
