@@ -48,6 +48,9 @@ class Renderer(StrEnum):
     CYCLES = "cycles"
     """With the light of sun and sky and the patterns of materials, in some ten seconds."""
 
+    REALISTIC = "realistic"
+    """As by Cycles: by EEVEE where there is a graphics card, and by Cycles where there is none."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PictureSettings(Table):
@@ -60,7 +63,10 @@ class PictureSettings(Table):
     renderer: str = key(
         "What draws the pictures of a run: `workbench` in plain colours, in a second each; `cycles` in the light of "
         "sun and sky, with materials, in half a minute each for 1280 × 720 px on two cores. In Blender's window the "
-        "scene's own settings of Cycles count, such as its samples. Films of contours are always by Workbench.",
+        "scene's own settings of Cycles count, such as its samples. `realistic` is by EEVEE where Blender has a window "
+        "and a graphics card, and by Cycles elsewhere. These two draw the road with kerbs and railings, banks, a lorry, "
+        "the ball's crane, dust, chips, bent bars and rough faces for looks only, and write time and a scale into each "
+        "picture. Films of contours are always by Workbench.",
         default=Renderer.WORKBENCH.value,
         choices=tuple(renderer.value for renderer in Renderer),
     )
