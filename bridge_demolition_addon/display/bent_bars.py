@@ -7,7 +7,6 @@ import numpy as np
 from ..engineering.geometry.mesh import joined_meshes
 from ..model.results.arrays import Results
 from .dressing import Part, Stuff, rod
-from .shard_motion import parted
 
 _MOST_CONNECTIONS = 80
 _BARS_PER_FACE = 3
@@ -18,14 +17,14 @@ _STRAIGHT_M, _BENT_M = 0.12, 0.28
 _SEED = 11
 
 
-def bent_bars(results: Results, row: int) -> list[Part]:
-    """Return bars out of the faces of connections of one member that broke up to a row of the frames, where built."""
+def bent_bars(results: Results, opened: np.ndarray) -> list[Part]:
+    """Return bars out of the faces of connections within a member that have opened (m,), as and where they were built."""
     inventory = results.inventory
     if not len(inventory.pairs):
         return []
     first, second = inventory.pairs.T
     members = inventory.body_members
-    wanted = parted(results, row) & (members[first] == members[second]) & (members[first] != "")
+    wanted = opened & (members[first] == members[second]) & (members[first] != "")
     largest = np.flatnonzero(wanted)
     largest = largest[np.argsort(-inventory.areas_m2[largest], kind="stable")]
     broken = largest[:_MOST_CONNECTIONS].tolist()

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..engineering.geometry.mesh import TriangleMesh, joined_meshes
 
-LOOKS_ONLY = "Road, kerbs, railings, approaches, crane, bent bars, dust and chips: for looks only"
+LOOKS_ONLY = "For looks only: road, railings, banks, lorry, crane, bent bars, rough faces, dust, chips"
 """What every dressed picture says of itself."""
 
 

@@ -33,18 +33,19 @@ class Puff:
     radius_m: float
 
 
-def puffs(results: Results, most: int = MOST_PUFFS, wanted: np.ndarray | None = None) -> list[Puff]:
+def puffs(results: Results, most: int = MOST_PUFFS, opened: np.ndarray | None = None) -> list[Puff]:
     """Return the clouds where connections broke, the largest ones where there would be more than `most`.
 
     Connections that break in one frame and in one cube of space make one cloud. How large it becomes goes with the
-    broken area; that is a picture, and no forecast of dust. Only those `wanted` (m,) count, all by default.
+    broken area; that is a picture, and no forecast of dust. Connections break where `opened` (k, m) says that they have by
+    each frame, by default as they were recorded.
     """
     frames, inventory = results.frames, results.inventory
     intact = np.asarray(frames.intact)
     if len(intact) < 2 or not intact.shape[1]:
         return []
-    breaks = intact[:-1] & ~intact[1:]
-    rows, broken = np.nonzero(breaks if wanted is None else breaks & wanted)
+    holds = intact if opened is None else ~opened
+    rows, broken = np.nonzero(holds[:-1] & ~holds[1:])
     span = np.ptp(inventory.points_m, axis=0).max(initial=1.0)
     cell = max(span / 12.0, 1.0)
     cubes: dict[tuple, list[int]] = {}

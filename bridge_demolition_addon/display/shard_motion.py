@@ -27,15 +27,25 @@ def boxes_of_bodies(results: Results, row: int) -> np.ndarray:
     return np.array(boxes)
 
 
-def parted(results: Results, row: int = -1) -> np.ndarray:
-    """Return which connections (m,) are broken in a row of the frames, with their two sides apart by more than a crack.
+def parted(results: Results) -> np.ndarray:
+    """Return which connections have opened by each frame (k, m): broken, and ever since apart by more than a crack.
 
     Some break in a run and stay closed: nothing is to be seen of them.
     """
-    inventory, intact = results.inventory, np.asarray(results.frames.intact)
-    apart = np.zeros(len(inventory.pairs), bool)
-    for connection in np.flatnonzero(intact[0] & ~intact[row]) if len(inventory.pairs) else ():
-        point = inventory.points_m[connection][None]
-        first, second = (moved(results, row, int(body), point) for body in inventory.pairs[connection])
-        apart[connection] = float(np.linalg.norm(first - second)) > _CRACK_M
-    return apart
+    inventory, frames = results.inventory, results.frames
+    intact = np.asarray(frames.intact)
+    opened = np.zeros(intact.shape, bool)
+    if not intact.shape[1]:
+        return opened
+    for connection in np.flatnonzero(intact[0] & ~intact[-1]).tolist():
+        point = inventory.points_m[connection]
+        first, second = (_path(results, int(body), point) for body in inventory.pairs[connection])
+        opened[:, connection] = ~intact[:, connection] & (np.linalg.norm(first - second, axis=1) > _CRACK_M)
+    return np.logical_or.accumulate(opened, axis=0)
+
+
+def _path(results: Results, body: int, point_m: np.ndarray) -> np.ndarray:
+    """Return where a point (3,), m, that a body carries is in every frame (k, 3)."""
+    frames = results.frames
+    arm = frames.rotations[0, body].T @ (point_m - frames.positions_m[0, body])
+    return frames.positions_m[:, body] + frames.rotations[:, body] @ arm

@@ -7,8 +7,8 @@ from mathutils import Vector
 
 from .materials import new_nodes
 
-_HEIGHT, _SMALL = 0.055, 0.03
-"""Heights of letters as parts of the picture's height."""
+_HEIGHT, _SMALL, _LINE = 0.06, 0.032, 0.045
+"""Heights of letters, and of the lowest line, as parts of the picture's height."""
 
 _MARGIN = 0.03
 _AWAY_M = 1.0
@@ -27,16 +27,15 @@ class Caption:
         camera = scene.camera
         corners = [Vector(corner) for corner in camera.data.view_frame(scene=scene)]
         scale = _AWAY_M / -corners[0].z
-        right, top = max(c.x for c in corners) * scale, max(c.y for c in corners) * scale
-        left, bottom = min(c.x for c in corners) * scale, min(c.y for c in corners) * scale
-        margin, material = _MARGIN * (top - bottom), _white()
-        height = top - bottom
-        self._time = _text(scene, "Time", (left + margin, top - margin), _HEIGHT * height, ("LEFT", "TOP"), material)
-        note = _text(scene, "Note", (left + margin, bottom + margin), _SMALL * height, ("LEFT", "BOTTOM"), material)
+        right, left = max(c.x for c in corners) * scale, min(c.x for c in corners) * scale
+        top, bottom = max(c.y for c in corners) * scale, min(c.y for c in corners) * scale
+        height, material = top - bottom, _white()
+        margin, small, line = _MARGIN * height, _SMALL * height, _LINE * height
+        self._time = _text(scene, "Time", (left + margin, bottom + margin + line), _HEIGHT * height, "LEFT", material)
+        note = _text(scene, "Note", (left + margin, bottom + margin), small, "LEFT", material)
         note.data.body = looks_only
-        bar = _text(scene, "Scale", (right - margin, bottom + margin), _HEIGHT * height, ("RIGHT", "BOTTOM"), material)
+        bar = _text(scene, "Scale", (right - margin, bottom + margin + line), small, "RIGHT", material)
         bar.data.body = f"black and white bar: {length}"
-        bar.data.size = _SMALL * height * 1.3
         self.show_time(0.0)
 
     def show_time(self, time_s: float) -> None:
@@ -49,11 +48,11 @@ def _text(
     name: str,
     place: tuple[float, float],
     size: float,
-    aligned: tuple[str, str],
+    aligned: str,
     material: bpy.types.Material,
 ) -> bpy.types.Object:
     data = bpy.data.curves.new(name, "FONT")
-    data.size, data.align_x, data.align_y = size, *aligned
+    data.size, data.align_x, data.align_y = size, aligned, "BOTTOM"
     data.materials.append(material)
     text = bpy.data.objects.new(name, data)
     text.parent = scene.camera

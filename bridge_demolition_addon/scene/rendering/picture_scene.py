@@ -32,7 +32,7 @@ from ..tools.cables import drawn_cables
 from ..tools.keyframes import curves_of
 from .caption import Caption
 from .dust import raise_dust
-from .materials import SurfaceMaterial, material_of
+from .materials import BUILT_AT, SurfaceMaterial, material_of
 from .rough_faces import roughened
 from .stills import pictures_rendered_in, render_picture
 from .surroundings import is_land, points_in_view, share_view
@@ -79,6 +79,7 @@ class DressedScene:
         self._results, self._has_bars, self._of_run = results, has_bars, scene
         self.scene = bpy.data.scenes.new("Pictures")
         share_view(scene, self.scene)
+        self._opened = parted(results)
         self._rows = {str(name): row for row, name in enumerate(results.inventory.body_names)}
         self._bodies: list[tuple[bpy.types.Object, bpy.types.Object, int]] = []
         self._carried: list[tuple[bpy.types.Object, int]] = []
@@ -92,7 +93,7 @@ class DressedScene:
             if body is not None:
                 self._carried.append((made, body))
         times = dict(zip(results.frames.number.tolist(), results.frames.time_s.tolist(), strict=True))
-        broken = puffs(results, wanted=parted(results))
+        broken = puffs(results, opened=self._opened)
         self._dust = raise_dust(self.scene, [*broken, *touchdowns(results)])
         self._chips: Chips = chips_of(broken, times, results.ground())
         self.bar = self._scale_bar()
@@ -148,7 +149,7 @@ class DressedScene:
         _remove(self._of_frame)
         parts = ball_cranes(self._results, row)
         if self._has_bars:
-            parts += [self._at(part, row) for part in bent_bars(self._results, row) if part.body not in hidden]
+            parts += [self._at(part, row) for part in bent_bars(self._results, self._opened[row]) if part.body not in hidden]
         if (chips := self._chips.at(float(self._results.frames.time_s[row]))) is not None:
             parts.append(Part(Stuff.CONCRETE, chips))
         parts += self._cables(row, frame)
@@ -157,10 +158,11 @@ class DressedScene:
     def _roughen(self, row: int) -> None:
         """Show the faces of connections that have broken by a row as rough."""
         inventory, frames = self._results.inventory, self._results.frames
-        open_now = parted(self._results, row)
+        open_now = self._opened[row]
         for original, copy, body in self._bodies:
             touching = np.flatnonzero(open_now & (inventory.pairs == body).any(axis=1))
-            if kind_of(original) != Kind.SHARD or tuple(touching) == self._rough.get(body, ()):
+            is_ours = kind_of(original) == Kind.SHARD and BUILT_AT in original
+            if not is_ours or tuple(touching) == self._rough.get(body, ()):
                 continue
             self._rough[body] = tuple(touching)
             turn, origin = frames.rotations[0, body], frames.positions_m[0, body]
@@ -199,9 +201,8 @@ class DressedScene:
                 continue
             copy = bpy.data.objects.new(body.name, body.data)
             copy.scale, copy.color = body.matrix_world.to_scale(), body.color
-            for name in ("bda_built_at_m",):
-                if name in body:
-                    copy[name] = body[name]
+            if BUILT_AT in body:
+                copy[BUILT_AT] = body[BUILT_AT]
             self.scene.collection.objects.link(copy)
             self._bodies.append((body, copy, self._rows[body.name]))
 

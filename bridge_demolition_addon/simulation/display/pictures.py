@@ -24,6 +24,7 @@ from ...scene.rendering.stills import prepared_for_pictures, render_picture, ren
 from ...scene.rendering.zone_markers import ShownZone, show_zones
 from ...scene.world import START_FRAME
 from ...system.disk import writing
+from ...system.processor import processor_count
 
 _FLASH_S = 0.12
 
@@ -45,7 +46,7 @@ def stage_of_pictures(view: PictureSettings) -> str:
         return "rendering pictures"
     if renderer == Renderer.REALISTIC:
         return "rendering 3 pictures by EEVEE, which takes some seconds"
-    return f"rendering 3 pictures by Cycles, {time_of_cycles_text(view, processors())}"
+    return f"rendering 3 pictures by Cycles, {time_of_cycles_text(view, processor_count())}"
 
 
 def time_of_cycles_text(view: PictureSettings, count: int) -> str:
@@ -93,7 +94,7 @@ def rendered_pictures(
     frames = {BEFORE: START_FRAME, IMPACT: key_frame, AFTER: last_frame}
     with writing(folder):
         (folder / PICTURE_FOLDER).mkdir(parents=True, exist_ok=True)
-    with _renders(scene, folder, view) as render:
+    with run_renderer(scene, folder, view) as render:
         for name, frame in frames.items():
             path = folder.resolve() / PICTURE_FOLDER / f"{name}.png"
             render(frame, path)
@@ -103,8 +104,11 @@ def rendered_pictures(
 
 
 @contextmanager
-def _renders(scene: bpy.types.Scene, folder: Path, view: PictureSettings) -> Iterator[Callable[[int, Path], None]]:
-    """Give what renders a frame: of the scene itself by Workbench, or dressed for looks by what follows light."""
+def run_renderer(scene: bpy.types.Scene, folder: Path, view: PictureSettings) -> Iterator[Callable[[int, Path], None]]:
+    """Give what renders a frame of a run to a file: of the scene itself by Workbench, or dressed for looks by others.
+
+    The results of the run are in the folder.
+    """
     if renderer_of(view) == Renderer.WORKBENCH:
         with prepared_for_pictures(scene, view):
             yield partial(render_picture, scene)
