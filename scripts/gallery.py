@@ -9,6 +9,7 @@ taken again of the runs that are there.
 import json
 import subprocess
 import sys
+import textwrap
 import time
 import tomllib
 from dataclasses import replace
@@ -24,8 +25,15 @@ PAGE, PICTURES = ROOT / "docs" / "gallery.md", ROOT / "docs" / "pictures" / "gal
 TIMES = PICTURES / "times.json"
 """Seconds that each run took, kept so that a page can be written without all of them."""
 
+REALISTIC_PICTURES = PICTURES / "realistic.json"
+"""Names of the examples whose pictures are by `pictures.renderer = "realistic"`."""
+
+LOOKS = """\
+They are by `pictures.renderer = "realistic"`. Road, banks, lorry, crane, dust, chips, bent bars and rough faces are for
+looks only: they are no bodies, and change no motion ([what is drawn](pictures.md#looks))."""
+
 MOMENTS = ("before", "impact", "after")
-PICTURE_PX, GAP_PX = (640, 360), 10
+PICTURE_PX, GAP_PX = (480, 270), 8
 QUALITY, MOST_BYTES = 85, 60_000
 """Of a picture in the repository: less quality where it would be larger."""
 REALISTIC = """\
@@ -48,8 +56,7 @@ HEADER = """\
 
 Every example is a [scenario file](scenario.md) to start from. Run it with `bda run examples/NAME.toml --output DIR`.
 Add `--report` for a [report](report.md). The pictures show the start, the impact (or the blast, or the largest force)
-and the end of one run, as `pictures.renderer = "realistic"` has them. Road, banks, lorry, crane, dust, chips, bent bars
-and rough faces are for looks only: they are no bodies, and change no motion ([what is drawn](pictures.md#looks)).
+and the end of one run. {looks}
 [One run is one possible outcome](accuracy.md#one-run-is-one-possible-outcome): with another
 seed single pieces end elsewhere. Times are the most that a run takes without pictures on a machine with two cores and
 nothing else to do: for all examples together {minutes} minutes.
@@ -103,13 +110,14 @@ def main(arguments: list[str]) -> int:
     wanted = [found[wanted_name] for wanted_name in names or found]
     PICTURES.mkdir(parents=True, exist_ok=True)
     for path in wanted:
+        seconds: dict[str, float] = {}
         if PICTURES_ALONE in arguments:
             take_pictures(RUNS / name(path))
-            side_by_side(RUNS / name(path) / "frames", PICTURES / f"{name(path)}.jpg")
-            continue
-        seconds = run(path)
+        else:
+            seconds = {name(path): run(path)}
         side_by_side(RUNS / name(path) / "frames", PICTURES / f"{name(path)}.jpg")
-        TIMES.write_text(json.dumps(times() | {name(path): seconds}, indent=2, sort_keys=True) + "\n", encoding="utf-8")
+        is_realistic_now(name(path))
+        TIMES.write_text(json.dumps(times() | seconds, indent=2, sort_keys=True) + "\n", encoding="utf-8")
     PAGE.write_text(page(), encoding="utf-8", newline="\n")
     return 0
 
@@ -148,8 +156,8 @@ def take_pictures(folder: Path) -> None:
     import bpy
 
     from bridge_demolition_addon.model.scenario.file import read_scenario
-    from bridge_demolition_addon.simulation.display.pictures import rendered_pictures
     from bridge_demolition_addon.scene.rendering.stills import prepare_scene_for_pictures
+    from bridge_demolition_addon.simulation.display.pictures import rendered_pictures
 
     bpy.ops.wm.open_mainfile(filepath=str(folder / "scene.blend"))
     scene, (width, height) = bpy.context.scene, PICTURE_PX
@@ -163,6 +171,12 @@ def take_pictures(folder: Path) -> None:
 def times() -> dict[str, float]:
     """Return the seconds of every run so far, by name."""
     return json.loads(TIMES.read_text(encoding="utf-8")) if TIMES.exists() else {}
+
+
+def is_realistic_now(example: str) -> None:
+    """Note that the pictures of an example are realistic."""
+    known = json.loads(REALISTIC_PICTURES.read_text(encoding="utf-8")) if REALISTIC_PICTURES.exists() else []
+    REALISTIC_PICTURES.write_text(json.dumps(sorted({*known, example}), indent=2) + "\n", encoding="utf-8")
 
 
 def side_by_side(folder: Path, target: Path) -> None:
@@ -182,11 +196,19 @@ def side_by_side(folder: Path, target: Path) -> None:
 def page() -> str:
     """Return the page, made of the comments of the examples."""
     taken = times()
-    header = HEADER.format(minutes=max(1, round(sum(taken.values()) / 60.0)), table=table(EXAMPLES))
+    header = HEADER.format(looks=looks(), minutes=max(1, round(sum(taken.values()) / 60.0)), table=table(EXAMPLES))
     now, of_2019 = (
         [section(path, taken.get(name(path))) for path in examples(folder)] for folder in (EXAMPLES, REPORT_2019)
     )
     return "\n".join([header, *now, HEADER_2019.format(table=table(REPORT_2019)), *of_2019, STUDY])
+
+
+def looks() -> str:
+    """Return what pictures show for looks only, and which ones are plain instead."""
+    realistic = set(json.loads(REALISTIC_PICTURES.read_text(encoding="utf-8")))
+    plain = [name(path) for path in (*examples(), *examples(REPORT_2019)) if name(path) not in realistic]
+    told = LOOKS if not plain else f"{LOOKS} Those of {', '.join(plain)} are by Workbench, and have none of this."
+    return textwrap.fill(told, 120)
 
 
 def table(folder: Path) -> str:

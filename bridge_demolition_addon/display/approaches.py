@@ -11,7 +11,7 @@ from ..engineering.geometry.mesh import TriangleMesh
 from ..engineering.geometry.solids import box
 from ..model.results.arrays import Results
 from ..model.structure.finishes import ROAD_KINDS
-from .dressing import Part, Stuff
+from .dressing import DrawnPart, Stuff
 from .shard_motion import boxes_of_bodies
 
 LORRY_M = (8.0, 2.5, 3.5)
@@ -29,8 +29,8 @@ _ROWS = 12
 """Frames that are looked at, at least, for where bodies come."""
 
 
-def approaches(results: Results) -> list[Part]:
-    """Return the banks at both ends of the decks, on flat ground; none where debris comes farther than they are high."""
+def approaches(results: Results) -> list[DrawnPart]:
+    """Return the banks at both ends of the decks, on flat ground; none where debris comes too far."""
     inventory, ground = results.inventory, results.ground()
     decks = np.flatnonzero(np.isin(inventory.body_member_kinds, ROAD_KINDS))
     if not len(decks) or not ground.is_flat:
@@ -43,7 +43,7 @@ def approaches(results: Results) -> list[Part]:
     for row in rows.tolist():
         reached = boxes_of_bodies(results, row)[moving]
         first, last = min(first, reached[:, 0, 0].min()), max(last, reached[:, 1, 0].max())
-    parts: list[Part] = []
+    parts: list[DrawnPart] = []
     for at, away, gap in ((first, -1.0, lowest[0] - first), (last, 1.0, last - highest[0])):
         if gap <= _FARTHEST * highest[2] and highest[2] > 1.0:
             parts += _bank(float(at + away * _CLEAR_M), away, (float(lowest[1]), float(highest[1])), float(highest[2]))
@@ -52,7 +52,7 @@ def approaches(results: Results) -> list[Part]:
     return parts
 
 
-def _bank(begin: float, away: float, edges: tuple[float, float], top: float) -> list[Part]:
+def _bank(begin: float, away: float, edges: tuple[float, float], top: float) -> list[DrawnPart]:
     """Return a bank from x = `begin` on, with a wall of concrete towards the bridge and a road on it."""
     right, left = edges
     reach = _SLOPE * top
@@ -60,14 +60,12 @@ def _bank(begin: float, away: float, edges: tuple[float, float], top: float) -> 
     middle, width = begin + away * _LENGTH_M / 2.0, left - right
     wall = _prism(begin, begin + away * 0.5, np.array(((right, 0.0), (left, 0.0), (left, top), (right, top))))
     road = box((_LENGTH_M, width, 0.1), (middle, (right + left) / 2.0, top - 0.05))
-    lines = [
-        box((_LENGTH_M, 0.14, 0.008), (middle, y, top + 0.004)) for y in (right + 0.65, left - 0.65)
-    ]
+    lines = [box((_LENGTH_M, 0.14, 0.008), (middle, y, top + 0.004)) for y in (right + 0.65, left - 0.65)]
     return [
-        Part(Stuff.SOIL, _prism(begin + away * 0.1, begin + away * _LENGTH_M, profile)),
-        Part(Stuff.CONCRETE, wall),
-        Part(Stuff.ASPHALT, road),
-        *(Part(Stuff.WHITE, line) for line in lines),
+        DrawnPart(Stuff.SOIL, _prism(begin + away * 0.1, begin + away * _LENGTH_M, profile)),
+        DrawnPart(Stuff.CONCRETE, wall),
+        DrawnPart(Stuff.ASPHALT, road),
+        *(DrawnPart(Stuff.WHITE, line) for line in lines),
     ]
 
 
@@ -80,15 +78,18 @@ def _prism(begin: float, end: float, profile: np.ndarray) -> TriangleMesh:
     return mesh if mesh.volume > 0.0 else mesh.flipped()
 
 
-def _lorry(begin: float, y: float, ground: float) -> list[Part]:
+def _lorry(begin: float, y: float, ground: float) -> list[DrawnPart]:
     """Return a lorry on the road, as long, wide and high as `LORRY_M`."""
     length, width, height = LORRY_M
     wheel, cab = 1.0, 2.0
-    load = box((length - cab - 0.2, width, height - wheel), (begin + (length + cab + 0.2) / 2.0, y, ground + (height + wheel) / 2.0))
+    load = box(
+        (length - cab - 0.2, width, height - wheel),
+        (begin + (length + cab + 0.2) / 2.0, y, ground + (height + wheel) / 2.0),
+    )
     front = box((cab, width, height - wheel - 0.3), (begin + cab / 2.0, y, ground + wheel / 2.0 + (height - 0.3) / 2.0))
     wheels = [
         box((0.9, 0.3, wheel), (begin + at, y + side * (width / 2.0 - 0.15), ground + wheel / 2.0))
         for at in (1.2, 5.6, 6.8)
         for side in (-1.0, 1.0)
     ]
-    return [Part(Stuff.WHITE, load), Part(Stuff.RED, front), *(Part(Stuff.BLACK, one) for one in wheels)]
+    return [DrawnPart(Stuff.WHITE, load), DrawnPart(Stuff.RED, front), *(DrawnPart(Stuff.BLACK, one) for one in wheels)]

@@ -6,7 +6,7 @@ import numpy as np
 
 from ..engineering.geometry.mesh import joined_meshes
 from ..model.results.arrays import Results
-from .dressing import Part, Stuff, rod
+from .dressing import DrawnPart, Stuff, rod
 
 _MOST_CONNECTIONS = 80
 _BARS_PER_FACE = 3
@@ -17,8 +17,8 @@ _STRAIGHT_M, _BENT_M = 0.12, 0.28
 _SEED = 11
 
 
-def bent_bars(results: Results, opened: np.ndarray) -> list[Part]:
-    """Return bars out of the faces of connections within a member that have opened (m,), as and where they were built."""
+def bent_bars(results: Results, opened: np.ndarray) -> list[DrawnPart]:
+    """Return bars out of the faces of connections within a member that have opened (m,), where they were at first."""
     inventory = results.inventory
     if not len(inventory.pairs):
         return []
@@ -38,7 +38,7 @@ def bent_bars(results: Results, opened: np.ndarray) -> list[Part]:
     return parts
 
 
-def _bars(random: np.random.Generator, middle: np.ndarray, normal: np.ndarray, side: float, body: int) -> Part:
+def _bars(random: np.random.Generator, middle: np.ndarray, normal: np.ndarray, side: float, body: int) -> DrawnPart:
     rods = []
     for _ in range(_BARS_PER_FACE):
         offset = random.uniform(-side, side, 3)
@@ -47,4 +47,4 @@ def _bars(random: np.random.Generator, middle: np.ndarray, normal: np.ndarray, s
         bent = normal + 0.9 * random.normal(size=3)
         end = elbow + _BENT_M * bent / np.linalg.norm(bent)
         rods += [rod(start - 0.05 * normal, elbow, _THICKNESS_M), rod(elbow, end, _THICKNESS_M)]
-    return Part(Stuff.RUST, joined_meshes(rods), body)
+    return DrawnPart(Stuff.RUST, joined_meshes(rods), body)

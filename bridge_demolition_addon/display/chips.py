@@ -1,4 +1,4 @@
-"""Chips: small pieces that fly where connections break, fall and stay on the ground; for looks only, and no forecast."""
+"""Chips: small pieces that fly where connections break, fall and stay on the ground; for looks only, no forecast."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _FACES = np.array(((0, 2, 4), (2, 1, 4), (1, 3, 4), (3, 0, 4), (2, 0, 5), (1, 2,
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Chips:
-    """c chips: when they fly off, s, from where (c, 3), m, how fast (c, 3), m/s, their sizes (c,), m, and turns (c,)."""
+    """c chips: when they fly off and how long they fly, s, from where (c, 3), m, how fast, m/s, sizes, m, and turns."""
 
     since_s: np.ndarray
     places_m: np.ndarray

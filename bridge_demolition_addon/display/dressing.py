@@ -1,4 +1,4 @@
-"""Dressing: what is drawn in pictures for looks only, as solids with what they are made of. No body is changed by it."""
+"""Dressing: what is drawn in pictures for looks only, as solids with what they are made of. It changes no body."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Stuff(StrEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Part:
+class DrawnPart:
     """A solid where it is at first, and the body that carries it; None where it stays."""
 
     stuff: Stuff
@@ -36,7 +36,7 @@ class Part:
     body: int | None = None
 
 
-def joined_by_stuff(parts: list[Part]) -> dict[tuple[int | None, Stuff], TriangleMesh]:
+def joined_by_stuff(parts: list[DrawnPart]) -> dict[tuple[int | None, Stuff], TriangleMesh]:
     """Return the parts of each body and stuff as one mesh."""
     groups: dict[tuple[int | None, Stuff], list[TriangleMesh]] = {}
     for part in parts:

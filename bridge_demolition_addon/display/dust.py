@@ -37,8 +37,8 @@ def puffs(results: Results, most: int = MOST_PUFFS, opened: np.ndarray | None = 
     """Return the clouds where connections broke, the largest ones where there would be more than `most`.
 
     Connections that break in one frame and in one cube of space make one cloud. How large it becomes goes with the
-    broken area; that is a picture, and no forecast of dust. Connections break where `opened` (k, m) says that they have by
-    each frame, by default as they were recorded.
+    broken area; that is a picture, and no forecast of dust. Connections break where `opened` (k, m) says that
+    they have by each frame, by default as they were recorded.
     """
     frames, inventory = results.frames, results.inventory
     intact = np.asarray(frames.intact)

@@ -7,7 +7,7 @@ import numpy as np
 from ..engineering.geometry.solids import box
 from ..model.results.arrays import Results
 from ..model.structure.finishes import ROAD_KINDS
-from .dressing import Part, Stuff
+from .dressing import DrawnPart, Stuff
 from .shard_motion import boxes_of_bodies
 
 PIECE_M = 0.5
@@ -24,7 +24,7 @@ _NARROWEST_M = 4.0
 """Narrowest deck with a line in its middle."""
 
 
-def road_furniture(results: Results) -> list[Part]:
+def road_furniture(results: Results) -> list[DrawnPart]:
     """Return markings, kerbs and railings of the decks of a run; none where there is no deck along x.
 
     A piece stands on the top of the outermost shard of its station, at the shard's own edge.
@@ -39,7 +39,7 @@ def road_furniture(results: Results) -> list[Part]:
         return []
     top = boxes[:, 1, 2]
     centres = results.frames.positions_m[0, decks]
-    parts: list[Part] = []
+    parts: list[DrawnPart] = []
     stations = np.arange(lowest[0] + PIECE_M / 2.0, highest[0] - PIECE_M / 2.0 + 1e-9, PIECE_M)
     for number, x in enumerate(stations.tolist()):
         here = (boxes[:, 0, 0] <= x) & (boxes[:, 1, 0] >= x)
@@ -57,19 +57,19 @@ def road_furniture(results: Results) -> list[Part]:
         for y in lines:
             row = rows[np.argmin(((centres[rows, :2] - (x, y)) ** 2).sum(axis=1))]
             size = (PIECE_M, _LINE_M, _PAINT_M)
-            parts.append(Part(Stuff.WHITE, box(size, (x, y, float(top[row]) + _PAINT_M / 2.0)), int(decks[row])))
+            parts.append(DrawnPart(Stuff.WHITE, box(size, (x, y, float(top[row]) + _PAINT_M / 2.0)), int(decks[row])))
     return parts
 
 
-def _edge(body: int, x: float, y: float, inwards: float, top: float, has_post: bool) -> list[Part]:
+def _edge(body: int, x: float, y: float, inwards: float, top: float, has_post: bool) -> list[DrawnPart]:
     """Return kerb, rails and every now and then a post of a station at an edge of a deck."""
     middle = y + inwards * _KERB_M / 2.0
     kerb = box((PIECE_M, _KERB_M, _KERB_HEIGHT_M), (x, middle, top + _KERB_HEIGHT_M / 2.0))
-    parts = [Part(Stuff.CONCRETE, kerb, body)]
+    parts = [DrawnPart(Stuff.CONCRETE, kerb, body)]
     for share in (0.55, 1.0):
         height = top + _KERB_HEIGHT_M + share * _RAILING_M
-        parts.append(Part(Stuff.STEEL, box((PIECE_M, _RAIL_M, _RAIL_M), (x, middle, height)), body))
+        parts.append(DrawnPart(Stuff.STEEL, box((PIECE_M, _RAIL_M, _RAIL_M), (x, middle, height)), body))
     if has_post:
         centre = (x, middle, top + _KERB_HEIGHT_M + _RAILING_M / 2.0)
-        parts.append(Part(Stuff.STEEL, box((_POST_M, _POST_M, _RAILING_M), centre), body))
+        parts.append(DrawnPart(Stuff.STEEL, box((_POST_M, _POST_M, _RAILING_M), centre), body))
     return parts

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..engineering.geometry.solids import box
-from .dressing import Part, Stuff
+from .dressing import DrawnPart, Stuff
 
 STRIPES = 5
 _ROUND = (1.0, 2.0, 5.0)
@@ -28,12 +28,12 @@ class ScaleBar:
         """What stands beside it."""
         return f"{self.length_m:g} m"
 
-    def parts(self) -> list[Part]:
+    def parts(self) -> list[DrawnPart]:
         """Return its stripes, white and black in turn, all equally long."""
         stripe, width = self.length_m / STRIPES, _WIDTH_OF_LENGTH * self.length_m
         x, y, z = self.start_m
         return [
-            Part(
+            DrawnPart(
                 Stuff.BLACK if number % 2 else Stuff.WHITE,
                 box((stripe, width, width / 2.0), (x + (number + 0.5) * stripe, y, z + width / 4.0)),
             )

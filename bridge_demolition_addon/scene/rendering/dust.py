@@ -13,7 +13,7 @@ from ..collections import ROLE, collection_for, remove_marked
 from .materials import new_nodes
 
 _DUST = "Dust"
-_SEGMENTS = 32
+_SEGMENTS = 24
 _SOFTNESS = 1.6
 """How soon a cloud thins out towards its edge."""
 

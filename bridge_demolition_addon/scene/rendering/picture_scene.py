@@ -17,7 +17,7 @@ from ...display.approaches import approaches
 from ...display.ball_crane import ball_cranes
 from ...display.bent_bars import bent_bars
 from ...display.chips import Chips, chips_of
-from ...display.dressing import LOOKS_ONLY, Part, Stuff, joined_by_stuff, rod
+from ...display.dressing import LOOKS_ONLY, DrawnPart, Stuff, joined_by_stuff, rod
 from ...display.dust import puffs, touchdowns
 from ...display.road_furniture import road_furniture
 from ...display.scale_bar import ScaleBar, scale_bar
@@ -149,9 +149,11 @@ class DressedScene:
         _remove(self._of_frame)
         parts = ball_cranes(self._results, row)
         if self._has_bars:
-            parts += [self._at(part, row) for part in bent_bars(self._results, self._opened[row]) if part.body not in hidden]
+            parts += [
+                self._at(part, row) for part in bent_bars(self._results, self._opened[row]) if part.body not in hidden
+            ]
         if (chips := self._chips.at(float(self._results.frames.time_s[row]))) is not None:
-            parts.append(Part(Stuff.CONCRETE, chips))
+            parts.append(DrawnPart(Stuff.CONCRETE, chips))
         parts += self._cables(row, frame)
         self._of_frame = [made for _, made in self._add_parts(parts)]
 
@@ -181,18 +183,18 @@ class DressedScene:
         camera = self.scene.camera
         return [camera] if camera and camera.name not in self._of_run.objects and camera.animation_data else []
 
-    def _at(self, part: Part, row: int) -> Part:
+    def _at(self, part: DrawnPart, row: int) -> DrawnPart:
         assert part.body is not None
         solid = TriangleMesh(moved(self._results, row, part.body, part.solid.vertices), part.solid.triangles)
-        return Part(part.stuff, solid)
+        return DrawnPart(part.stuff, solid)
 
-    def _cables(self, row: int, frame: int) -> list[Part]:
+    def _cables(self, row: int, frame: int) -> list[DrawnPart]:
         cables = []
         for cable, shard, end in drawn_cables(self._of_run):
             if shard.name in self._rows and not _is_hidden(cable, frame):
                 frames, body = self._results.frames, self._rows[shard.name]
                 place = frames.positions_m[row, body] + frames.rotations[row, body] @ end
-                cables.append(Part(Stuff.BLACK, rod(np.array(cable.location), place, 0.08)))
+                cables.append(DrawnPart(Stuff.BLACK, rod(np.array(cable.location), place, 0.08)))
         return cables
 
     def _show_bodies(self) -> None:
@@ -221,7 +223,7 @@ class DressedScene:
                 self.scene.collection.objects.link(obj)
         if is_flat:
             land = box((2.0 * _LAND_M, 2.0 * _LAND_M, 1.0), (0.0, 0.0, -0.5))
-            self._add_parts([Part(Stuff.SOIL, land)])
+            self._add_parts([DrawnPart(Stuff.SOIL, land)])
 
     def _copy(self, obj: bpy.types.Object) -> bpy.types.Object:
         """Return a copy that stays, which is hidden frame by frame: a render of this scene alone would not know."""
@@ -239,7 +241,7 @@ class DressedScene:
         self._add_parts(bar.parts())
         return bar
 
-    def _add_parts(self, parts: Sequence[Part]) -> list[tuple[int | None, bpy.types.Object]]:
+    def _add_parts(self, parts: Sequence[DrawnPart]) -> list[tuple[int | None, bpy.types.Object]]:
         made = []
         for (body, stuff), solid in joined_by_stuff(list(parts)).items():
             mesh = mesh_of(f"Looks {stuff}", solid)
@@ -277,4 +279,3 @@ def _remove(objects: list[bpy.types.Object]) -> None:
     meshes = [obj.data for obj in objects]
     bpy.data.batch_remove(objects)
     bpy.data.batch_remove(meshes)
-

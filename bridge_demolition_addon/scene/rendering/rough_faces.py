@@ -1,6 +1,6 @@
 """Broken faces as they look: uneven, with chipped edges, on copies of shards that pictures alone show.
 
-A face gives way inwards only, so that a copy is nowhere larger than its shard, and hides nothing.
+A face recedes inwards only, so that a copy is nowhere larger than its shard, and hides nothing.
 """
 
 from __future__ import annotations
@@ -15,9 +15,11 @@ _SAME_WAY, _NEAR_M = 0.95, 0.08
 
 _PIECE_M, _MOST_CUTS = 0.16, 7
 _DEEPEST_M, _OF_SIZE = 0.07, 0.09
-"""How deep a face gives way at most, and as a part of the shard's size."""
+"""How deep a face recedes at most, and as a part of the shard's size."""
 
 _PATCHES_PER_M = 5.0
+_SLIDES = 8
+"""Times that a move is taken back from all faces at a corner, each of which may lead out of another."""
 
 
 def roughened(
@@ -73,9 +75,17 @@ def _push_in(
         if here and not held:
             inwards = -sum((face.normal for face in here), Vector()).normalized()
             share = 0.5 + 0.9 * noise.fractal((vert.co + built_at) * _PATCHES_PER_M, 1.0, 2.0, 3)
-            moves.append((vert, inwards * depth * min(max(share, 0.0), 1.0)))
+            moves.append((vert, _kept_inside(inwards * depth * min(max(share, 0.0), 1.0), vert)))
     for vert, move in moves:
         vert.co += move
+
+
+def _kept_inside(move: Vector, vert: bmesh.types.BMVert) -> Vector:
+    """Return a move without what leads out of the faces at its vertex: along a face that leans over, it slides."""
+    for _ in range(_SLIDES):
+        for face in vert.link_faces:
+            move = move - max(move.dot(face.normal), 0.0) * face.normal
+    return move
 
 
 def _is_open(face: bmesh.types.BMFace, points_m: np.ndarray, normals: np.ndarray, broken_slot: int) -> bool:

@@ -29,7 +29,7 @@ _EXPOSURE = 1.0
 _EXPOSURE_IN_LIGHT = 0.5
 """Of renderers that follow light: concrete in the sun is nearly white, and what lies in the shade is seen."""
 
-_SAMPLES, _BOUNCES = 8, 3
+_SAMPLES, _BOUNCES = 6, 2
 """Of Cycles: so few that noise is left, which is then removed."""
 
 _CLOUDS_BEHIND_EACH_OTHER = 24

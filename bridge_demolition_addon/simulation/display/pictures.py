@@ -11,8 +11,8 @@ import bpy
 
 from ...errors import GeometryError, OutputError, ScenarioError
 from ...model.bridge.preparation import prepared_members
-from ...model.run_folder.files import AFTER, BEFORE, IMPACT, PICTURE_FOLDER, SCENARIO_FILE
 from ...model.results.arrays import load_results
+from ...model.run_folder.files import AFTER, BEFORE, IMPACT, PICTURE_FOLDER, SCENARIO_FILE
 from ...model.scenario import Scenario
 from ...model.scenario.file import read_scenario
 from ...model.scenario.recording import PictureSettings, Renderer
