@@ -2,14 +2,17 @@
 """Make the gallery: run every example, put its pictures side by side, and write what its file says of it.
 
 Runs go to runs/gallery/NAME, pictures to docs/pictures/gallery/NAME.jpg. The page docs/gallery.md is rewritten. With
-names of examples only those are run again; all other texts and times stay.
+names of examples only those are run again; all other texts and times stay. With --pictures nothing is run: pictures are
+taken again of the runs that are there.
 """
 
 import json
 import subprocess
 import sys
+import textwrap
 import time
 import tomllib
+from dataclasses import replace
 from pathlib import Path
 
 from PIL import Image
@@ -22,16 +25,27 @@ PAGE, PICTURES = ROOT / "docs" / "gallery.md", ROOT / "docs" / "pictures" / "gal
 TIMES = PICTURES / "times.json"
 """Seconds that each run took, kept so that a page can be written without all of them."""
 
+REALISTIC_PICTURES = PICTURES / "realistic.json"
+"""Names of the examples whose pictures are by `pictures.renderer = "realistic"`."""
+
+LOOKS = """\
+They are by `pictures.renderer = "realistic"`. Road, banks, lorry, crane, dust, chips, bent bars and rough faces are for
+looks only: they are no bodies, and change no motion ([what is drawn](pictures.md#looks))."""
+
 MOMENTS = ("before", "impact", "after")
-PICTURE_PX, GAP_PX = (640, 360), 10
-QUALITY = 85
-BY_CYCLES = """\
+PICTURE_PX, GAP_PX = (480, 270), 8
+QUALITY, MOST_BYTES = 85, 60_000
+"""Of a picture in the repository: less quality where it would be larger."""
+REALISTIC = """\
 [scenario]
 based_on = "{example}"
 
 [pictures]
-renderer = "cycles"
+renderer = "realistic"
+width_px = {width}
+height_px = {height}
 """
+PICTURES_ALONE = "--pictures"
 LEFT_OUT = "Every key is explained"
 """Beginning of a paragraph that examples have and the page does without."""
 
@@ -42,13 +56,13 @@ HEADER = """\
 
 Every example is a [scenario file](scenario.md) to start from. Run it with `bda run examples/NAME.toml --output DIR`.
 Add `--report` for a [report](report.md). The pictures show the start, the impact (or the blast, or the largest force)
-and the end of one run. [One run is one possible outcome](accuracy.md#one-run-is-one-possible-outcome): with another
-seed single pieces end elsewhere. Times are those of a machine with two cores and nothing else to do. All examples
-together took {minutes} minutes.
+and the end of one run. {looks}
+[One run is one possible outcome](accuracy.md#one-run-is-one-possible-outcome): with another
+seed single pieces end elsewhere. Times are the most that a run takes without pictures on a machine with two cores and
+nothing else to do: for all examples together {minutes} minutes.
 
-First come bridges as they are: with bars, bearings and elastic connections. Plan a demolition with these. Their
-pictures are by Cycles, which a run takes where `pictures.renderer` says so. Then come
-[the demolitions of the 2019 report](#the-2019-report), in the plain colours that a run has by default.
+First come bridges as they are: with bars, bearings and elastic connections. Plan a demolition with these. Then come
+[the demolitions of the 2019 report](#the-2019-report).
 
 {table}
 
@@ -86,8 +100,9 @@ Study: [i235_one_span.toml](../examples/studies/i235_one_span.toml).
 """Section on the example of a study, whose picture `scripts/ensembles` makes."""
 
 
-def main(names: list[str]) -> int:
+def main(arguments: list[str]) -> int:
     """Run examples, write the page and return the exit status."""
+    names = [argument for argument in arguments if argument != PICTURES_ALONE]
     found = {name(path): path for path in (*examples(), *examples(REPORT_2019))}
     if missing := [unknown for unknown in names if unknown not in found]:
         print(f"gallery: there is no example {', '.join(missing)}", file=sys.stderr)
@@ -95,9 +110,14 @@ def main(names: list[str]) -> int:
     wanted = [found[wanted_name] for wanted_name in names or found]
     PICTURES.mkdir(parents=True, exist_ok=True)
     for path in wanted:
-        seconds = run(path)
+        seconds: dict[str, float] = {}
+        if PICTURES_ALONE in arguments:
+            take_pictures(RUNS / name(path))
+        else:
+            seconds = {name(path): run(path)}
         side_by_side(RUNS / name(path) / "frames", PICTURES / f"{name(path)}.jpg")
-        TIMES.write_text(json.dumps(times() | {name(path): seconds}, indent=2, sort_keys=True) + "\n", encoding="utf-8")
+        is_realistic_now(name(path))
+        TIMES.write_text(json.dumps(times() | seconds, indent=2, sort_keys=True) + "\n", encoding="utf-8")
     PAGE.write_text(page(), encoding="utf-8", newline="\n")
     return 0
 
@@ -118,20 +138,45 @@ def link(path: Path) -> str:
 
 
 def run(path: Path) -> float:
-    """Run an example and return the seconds it took: one of 2019 as a reader does, another with pictures by Cycles."""
-    bda, example = Path(sys.executable).parent / "bda", path
-    if path.parent != REPORT_2019:
-        example = RUNS / f"{name(path)}.toml"
-        RUNS.mkdir(parents=True, exist_ok=True)
-        example.write_text(BY_CYCLES.format(example=path.as_posix()), encoding="utf-8")
+    """Run an example with realistic pictures, and return the seconds that it took without these."""
+    bda, variant = Path(sys.executable).parent / "bda", RUNS / f"{name(path)}.toml"
+    RUNS.mkdir(parents=True, exist_ok=True)
+    width, height = PICTURE_PX
+    variant.write_text(REALISTIC.format(example=path.as_posix(), width=width, height=height), encoding="utf-8")
     began = time.perf_counter()
-    subprocess.run([bda, "run", example, "--output", RUNS / name(path), "--overwrite"], check=True)
-    return round(time.perf_counter() - began, 1)
+    subprocess.run([bda, "run", variant, "--output", RUNS / name(path), "--overwrite"], check=True)
+    took = time.perf_counter() - began
+    summary = json.loads((RUNS / name(path) / "summary.json").read_text(encoding="utf-8"))
+    return round(took - summary["wall_time_s"]["pictures"], 1)
+
+
+def take_pictures(folder: Path) -> None:
+    """Take the pictures of a run again, from the scene and the results in its folder."""
+    sys.path.insert(0, str(ROOT))
+    import bpy
+
+    from bridge_demolition_addon.model.scenario.file import read_scenario
+    from bridge_demolition_addon.scene.rendering.stills import prepare_scene_for_pictures
+    from bridge_demolition_addon.simulation.display.pictures import rendered_pictures
+
+    bpy.ops.wm.open_mainfile(filepath=str(folder / "scene.blend"))
+    scene, (width, height) = bpy.context.scene, PICTURE_PX
+    summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+    view = read_scenario(folder / "scenario_as_run.toml").pictures
+    view = replace(view, renderer="realistic", width_px=width, height_px=height)
+    prepare_scene_for_pictures(scene, view)
+    list(rendered_pictures(scene, folder, view, summary["key_frame"]["frame"], scene.frame_end))
 
 
 def times() -> dict[str, float]:
     """Return the seconds of every run so far, by name."""
     return json.loads(TIMES.read_text(encoding="utf-8")) if TIMES.exists() else {}
+
+
+def is_realistic_now(example: str) -> None:
+    """Note that the pictures of an example are realistic."""
+    known = json.loads(REALISTIC_PICTURES.read_text(encoding="utf-8")) if REALISTIC_PICTURES.exists() else []
+    REALISTIC_PICTURES.write_text(json.dumps(sorted({*known, example}), indent=2) + "\n", encoding="utf-8")
 
 
 def side_by_side(folder: Path, target: Path) -> None:
@@ -142,17 +187,28 @@ def side_by_side(folder: Path, target: Path) -> None:
         with Image.open(folder / f"{moment}.png") as picture:
             fitted = picture.convert("RGB").resize(PICTURE_PX, Image.Resampling.LANCZOS)
         strip.paste(fitted, (number * (width + GAP_PX), 0))
-    strip.save(target, quality=QUALITY, optimize=True)
+    for quality in range(QUALITY, 0, -5):
+        strip.save(target, quality=quality, optimize=True)
+        if target.stat().st_size <= MOST_BYTES:
+            break
 
 
 def page() -> str:
     """Return the page, made of the comments of the examples."""
     taken = times()
-    header = HEADER.format(minutes=max(1, round(sum(taken.values()) / 60.0)), table=table(EXAMPLES))
+    header = HEADER.format(looks=looks(), minutes=max(1, round(sum(taken.values()) / 60.0)), table=table(EXAMPLES))
     now, of_2019 = (
         [section(path, taken.get(name(path))) for path in examples(folder)] for folder in (EXAMPLES, REPORT_2019)
     )
     return "\n".join([header, *now, HEADER_2019.format(table=table(REPORT_2019)), *of_2019, STUDY])
+
+
+def looks() -> str:
+    """Return what pictures show for looks only, and which ones are plain instead."""
+    realistic = set(json.loads(REALISTIC_PICTURES.read_text(encoding="utf-8")))
+    plain = [name(path) for path in (*examples(), *examples(REPORT_2019)) if name(path) not in realistic]
+    told = LOOKS if not plain else f"{LOOKS} Those of {', '.join(plain)} are by Workbench, and have none of this."
+    return textwrap.fill(told, 120)
 
 
 def table(folder: Path) -> str:

@@ -11,6 +11,15 @@ from ..model.results.arrays import Results
 MOST_PUFFS = 60
 """Clouds that a renderer still draws in a reasonable time."""
 
+MOST_TOUCHDOWNS = 30
+"""The same of those where bodies come down."""
+
+_FAST_M_S, _NEAR_M = 1.5, 0.3
+"""Least speed downwards before a body comes down, and how near to the ground its lowest corner is then."""
+
+_RADIUS_OF_MASS = 0.11
+"""Radius of such a cloud, m, by the cube root of the mass, kg."""
+
 _LEAST_RADIUS_M, _RADIUS_OF_AREA = 0.6, 1.2
 """Radius of a fully grown cloud: at least, and for a square of broken area of 1 m²."""
 
@@ -24,17 +33,19 @@ class Puff:
     radius_m: float
 
 
-def puffs(results: Results, most: int = MOST_PUFFS) -> list[Puff]:
+def puffs(results: Results, most: int = MOST_PUFFS, opened: np.ndarray | None = None) -> list[Puff]:
     """Return the clouds where connections broke, the largest ones where there would be more than `most`.
 
     Connections that break in one frame and in one cube of space make one cloud. How large it becomes goes with the
-    broken area; that is a picture, and no forecast of dust.
+    broken area; that is a picture, and no forecast of dust. Connections break where `opened` (k, m) says that
+    they have by each frame, by default as they were recorded.
     """
     frames, inventory = results.frames, results.inventory
     intact = np.asarray(frames.intact)
     if len(intact) < 2 or not intact.shape[1]:
         return []
-    rows, broken = np.nonzero(intact[:-1] & ~intact[1:])
+    holds = intact if opened is None else ~opened
+    rows, broken = np.nonzero(holds[:-1] & ~holds[1:])
     span = np.ptp(inventory.points_m, axis=0).max(initial=1.0)
     cell = max(span / 12.0, 1.0)
     cubes: dict[tuple, list[int]] = {}
@@ -51,6 +62,30 @@ def puffs(results: Results, most: int = MOST_PUFFS) -> list[Puff]:
     ]
     largest = sorted(clouds, key=lambda cloud: -cloud.radius_m)[:most]
     return sorted(largest, key=lambda cloud: cloud.frame)
+
+
+def touchdowns(results: Results, most: int = MOST_TOUCHDOWNS) -> list[Puff]:
+    """Return a cloud where each of the bodies with the largest momentum comes to the ground, at most so many."""
+    frames, inventory = results.frames, results.inventory
+    if len(frames) < 2:
+        return []
+    falling = frames.velocities_m_s[:, :, 2]
+    stopped = np.maximum(falling[1:] - falling[:-1], 0.0) * inventory.masses_kg
+    stopped[falling[:-1] > -_FAST_M_S] = 0.0
+    rows, bodies = stopped.argmax(axis=0), np.arange(stopped.shape[1])
+    largest = np.argsort(-stopped[rows, bodies], kind="stable")[:most]
+    vertices, ground, clouds = inventory.vertices_by_body(), results.ground(), []
+    for body in largest.tolist():
+        row = int(rows[body]) + 1
+        corners = vertices[body] @ frames.rotations[row, body].T + frames.positions_m[row, body]
+        foot = corners[corners[:, 2].argmin()]
+        floor = float(ground.heights_at(foot[:2]))
+        if stopped[row - 1, body] <= 0.0 or foot[2] - floor > _NEAR_M:
+            continue
+        radius = max(_LEAST_RADIUS_M, _RADIUS_OF_MASS * float(inventory.masses_kg[body]) ** (1.0 / 3.0))
+        place = (float(corners[:, 0].mean()), float(corners[:, 1].mean()), floor + 0.2 * radius)
+        clouds.append(Puff(int(frames.number[row]), place, radius))
+    return sorted(clouds, key=lambda cloud: cloud.frame)
 
 
 def _places(results: Results, rows: np.ndarray, broken: np.ndarray) -> np.ndarray:

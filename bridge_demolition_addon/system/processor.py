@@ -1,5 +1,6 @@
 """The processor that calculates."""
 
+import os
 import platform
 from pathlib import Path
 
@@ -12,3 +13,8 @@ def processor_name() -> str:
             if line.startswith("model name"):
                 return line.partition(":")[2].strip()
     return platform.processor() or platform.machine()
+
+
+def processor_count() -> int:
+    """Return how many processors the system has, cores that appear twice counted so."""
+    return os.cpu_count() or 1

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Draw the animated picture at the top of the README: a run of the gallery, from its scene.
 
-Usage: animation.py [NAME [SECONDS [RENDERER]]] takes runs/gallery/NAME/scene.blend, which `scripts/gallery NAME`
-leaves, and writes docs/pictures/NAME.webp: the first so many seconds of the run (all), in real time, by Workbench.
+Usage: animation.py [NAME [SECONDS]] takes the run in runs/gallery/NAME, which `scripts/gallery NAME` leaves, and writes
+docs/pictures/NAME.webp: the first so many seconds of the run (all), in real time, by a camera that moves slowly.
 """
 
 from __future__ import annotations
@@ -18,32 +18,36 @@ from PIL import Image
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 
 from bridge_demolition_addon.model.scenario.file import read_scenario
-from bridge_demolition_addon.model.scenario.recording import Renderer
-from bridge_demolition_addon.scene.rendering.stills import prepared_for_pictures, render_picture
+from bridge_demolition_addon.scene.rendering.stills import prepare_scene_for_pictures
 from bridge_demolition_addon.scene.world import START_FRAME
+from bridge_demolition_addon.simulation.display.pictures import run_renderer
 
 ROOT = Path(__file__).resolve().parents[2]
-SIZE_PX = 640, 360
-PICTURES_PER_SECOND = 6
+SIZE_PX = 480, 270
+PICTURES_PER_SECOND = 4
 STAYS_MS = 2000
 """How long the last picture is shown before all begins again."""
-QUALITY = 70
+QUALITY = 60
+ORBIT_DEG = 16.0
+"""How far the camera goes round the bridge during the run: slowly."""
 
 
-def main(name: str = "drilled_two_spans", seconds: str = "inf", renderer: str = Renderer.WORKBENCH.value) -> int:
+def main(name: str = "drilled_two_spans", seconds: str = "inf") -> int:
     """Render the run and write its animated picture; the exit status."""
     run = ROOT / "runs" / "gallery" / name
     view = read_scenario(run / "scenario_as_run.toml").pictures
-    view = replace(view, renderer=renderer, width_px=SIZE_PX[0], height_px=SIZE_PX[1])
+    view = replace(view, renderer="realistic", width_px=SIZE_PX[0], height_px=SIZE_PX[1])
+    view = replace(view, camera="orbiting", orbit_deg=ORBIT_DEG)
     bpy.ops.wm.open_mainfile(filepath=str(run / "scene.blend"))
     scene = bpy.context.scene
     step = round(scene.render.fps / PICTURES_PER_SECOND)
     last = min(scene.frame_end, START_FRAME + int(min(float(seconds), 1e6) * scene.render.fps))
-    with tempfile.TemporaryDirectory(prefix="bda_") as folder, prepared_for_pictures(scene, view):
+    prepare_scene_for_pictures(scene, view)
+    with tempfile.TemporaryDirectory(prefix="bda_") as folder, run_renderer(scene, run, view) as render:
         paths = []
         for frame in range(START_FRAME, last + 1, step):
             paths.append(Path(folder) / f"{frame:06d}.png")
-            render_picture(scene, frame, paths[-1])
+            render(frame, paths[-1])
         write(paths, ROOT / "docs" / "pictures" / f"{name}.webp", 1000 * step // scene.render.fps)
     return 0
 

@@ -48,6 +48,9 @@ class Renderer(StrEnum):
     CYCLES = "cycles"
     """With the light of sun and sky and the patterns of materials, in some ten seconds."""
 
+    REALISTIC = "realistic"
+    """As by Cycles: by EEVEE where there is a graphics card, and by Cycles where there is none."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PictureSettings(Table):
@@ -59,8 +62,10 @@ class PictureSettings(Table):
     height_px: int = key("Height.", default=720, unit="px", at_least=16, at_most=8192)
     renderer: str = key(
         "What draws the pictures of a run: `workbench` in plain colours, in a second each; `cycles` in the light of "
-        "sun and sky, with materials, in half a minute each for 1280 × 720 px on two cores. In Blender's window the "
-        "scene's own settings of Cycles count, such as its samples. Films of contours are always by Workbench.",
+        "sun and sky, with materials, in half a minute each for 1280 × 720 px on two cores; `realistic` by EEVEE where "
+        "Blender has a window and a graphics card, else by Cycles. These two also draw what is for looks only, and "
+        "write time and scale into each picture. In Blender's window the scene's own settings of Cycles count, such as "
+        "its samples. Films of contours are always by Workbench.",
         default=Renderer.WORKBENCH.value,
         choices=tuple(renderer.value for renderer in Renderer),
     )

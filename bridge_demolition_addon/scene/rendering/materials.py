@@ -24,6 +24,10 @@ class SurfaceMaterial(StrEnum):
     SOIL = "Soil"
     WATER = "Water"
     CHARGE = "Charge"
+    MARKING = "White marking"
+    RED_PAINT = "Red paint"
+    BLACK_PAINT = "Black paint"
+    RUST = "Rusty steel"
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,8 +65,12 @@ _LOOKS = {
         (0.10, 0.20, 0.26), (0.012, 0.035, 0.045), (0.02, 0.05, 0.06), 0.12, grain_m=9.0, depth_m=0.01
     ),
     SurfaceMaterial.SOIL: _Look(
-        (0.18, 0.17, 0.12), (0.075, 0.075, 0.035), (0.165, 0.145, 0.085), 1.0, grain_m=6.0, depth_m=0.03
+        (0.18, 0.17, 0.12), (0.060, 0.075, 0.028), (0.185, 0.155, 0.090), 1.0, grain_m=9.0, depth_m=0.03
     ),
+    SurfaceMaterial.MARKING: _Look((0.80, 0.80, 0.78), (0.55, 0.55, 0.53), (0.80, 0.80, 0.78), 0.7, grain_m=0.4),
+    SurfaceMaterial.RED_PAINT: _Look((0.55, 0.06, 0.03), (0.45, 0.05, 0.025), (0.60, 0.07, 0.035), 0.4, grain_m=0.5),
+    SurfaceMaterial.BLACK_PAINT: _Look((0.03, 0.03, 0.03), (0.012, 0.012, 0.012), (0.03, 0.03, 0.03), 0.6, grain_m=0.4),
+    SurfaceMaterial.RUST: _Look((0.25, 0.10, 0.04), (0.12, 0.045, 0.02), (0.26, 0.11, 0.045), 0.8, grain_m=0.1),
     SurfaceMaterial.CHARGE: _Look((0.80, 0.05, 0.02), (0.75, 0.04, 0.015), (0.85, 0.06, 0.02), 0.5, grain_m=0.2),
 }
 

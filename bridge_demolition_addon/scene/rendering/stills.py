@@ -26,8 +26,17 @@ from .surroundings import points_in_view
 _EXPOSURE = 1.0
 """Of Workbench, whose light is weak."""
 
-_SAMPLES, _BOUNCES = 16, 3
+_EXPOSURE_IN_LIGHT = 0.5
+"""Of renderers that follow light: concrete in the sun is nearly white, and what lies in the shade is seen."""
+
+_SAMPLES, _BOUNCES = 6, 2
 """Of Cycles: so few that noise is left, which is then removed."""
+
+_CLOUDS_BEHIND_EACH_OTHER = 24
+"""Surfaces that light goes through: two of each cloud of dust."""
+
+_GRAPHICS_CARDS = {"NVIDIA", "AMD", "INTEL", "APPLE", "QUALCOMM"}
+"""Kinds of devices that Blender draws on; without a card it says SOFTWARE, or UNKNOWN."""
 
 _STUDIO_LIGHT = "outdoor.sl"
 """One of Blender's own: a bright sun, and shadows that are blue from the sky."""
@@ -48,7 +57,7 @@ _KEPT = {
 def prepare_scene_for_pictures(scene: bpy.types.Scene, view: PictureSettings) -> None:
     """Set a scene up, before anything is simulated in it, for the pictures that are rendered afterwards."""
     prepare_pictures(scene, view)
-    if view.renderer == Renderer.CYCLES:
+    if view.renderer != Renderer.WORKBENCH and hasattr(scene, "cycles"):
         _use_few_samples(scene)
 
 
@@ -61,10 +70,32 @@ def prepare_pictures(scene: bpy.types.Scene, view: PictureSettings) -> None:
     render.resolution_x, render.resolution_y, render.resolution_percentage = view.width_px, view.height_px, 100
     render.image_settings.file_format = "PNG"
     scene.view_settings.view_transform = "Standard"
-    if view.renderer == Renderer.CYCLES:
+    if renderer_of(view) == Renderer.WORKBENCH:
+        _prepare_workbench(scene)
+    elif renderer_of(view) == Renderer.CYCLES:
         _choose_cycles(scene)
     else:
-        _prepare_workbench(scene)
+        scene.render.engine, scene.view_settings.exposure = _eevee(), _EXPOSURE_IN_LIGHT
+
+
+def renderer_of(view: PictureSettings) -> Renderer:
+    """Return what draws the pictures of a view here: `REALISTIC` stands for EEVEE, on a graphics card."""
+    asked = Renderer(view.renderer)
+    return asked if asked != Renderer.REALISTIC or has_graphics_card() else Renderer.CYCLES
+
+
+def has_graphics_card() -> bool:
+    """Return whether this Blender draws on a graphics card: it has a window, and is not drawn by the processor."""
+    if bpy.app.background:
+        return False
+    import gpu  # which a Blender without a window may lack
+
+    return gpu.platform.device_type_get() in _GRAPHICS_CARDS
+
+
+def _eevee() -> str:
+    engines = bpy.types.RenderSettings.bl_rna.properties["engine"].enum_items.keys()
+    return "BLENDER_EEVEE_NEXT" if "BLENDER_EEVEE_NEXT" in engines else "BLENDER_EEVEE"  # its name in 4.2 to 4.5
 
 
 def _prepare_workbench(scene: bpy.types.Scene) -> None:
@@ -94,7 +125,7 @@ def _choose_cycles(scene: bpy.types.Scene) -> None:
             'Preferences, Add-ons, or choose "workbench"'
         )
     scene.render.engine = "CYCLES"
-    scene.view_settings.exposure = 0.0
+    scene.view_settings.exposure = _EXPOSURE_IN_LIGHT
 
 
 def _use_few_samples(scene: bpy.types.Scene) -> None:
@@ -131,6 +162,16 @@ def prepared_for_pictures(scene: bpy.types.Scene, view: PictureSettings) -> Iter
     """Render pictures within this context; afterwards the scene is as it was, at its frame."""
     with seen_from(scene, view, view.width_px / view.height_px), put_back_afterwards(scene, _KEPT):
         prepare_pictures(scene, view)
+        yield
+
+
+@contextmanager
+def pictures_rendered_in(scene: bpy.types.Scene, view: PictureSettings) -> Iterator[None]:
+    """Set up a scene that was made for pictures, and is gone afterwards."""
+    with seen_from(scene, view, view.width_px / view.height_px):
+        prepare_pictures(scene, view)
+        if hasattr(scene, "cycles"):
+            scene.cycles.transparent_max_bounces = _CLOUDS_BEHIND_EACH_OTHER
         yield
 
 

@@ -73,6 +73,24 @@ def points_in_view(scene: bpy.types.Scene) -> np.ndarray | None:
     return numbers.reshape(-1, 3)
 
 
+def share_view(scene: bpy.types.Scene, other: bpy.types.Scene) -> None:
+    """Have another scene be seen as this one: its world, camera, frames, and points for cameras to see."""
+    other.world, other.camera = scene.world, scene.camera
+    other.frame_start, other.frame_end = scene.frame_start, scene.frame_end
+    other.render.fps, other.render.fps_base = scene.render.fps, scene.render.fps_base
+    other.render.resolution_x, other.render.resolution_y = scene.render.resolution_x, scene.render.resolution_y
+    if _POINTS in scene:
+        other[_POINTS] = scene[_POINTS]
+    if hasattr(scene, "cycles"):
+        for name in ("device", "samples", "use_adaptive_sampling", "max_bounces", "use_denoising"):
+            setattr(other.cycles, name, getattr(scene.cycles, name))
+
+
+def is_land(obj: bpy.types.Object) -> bool:
+    """Return whether an object is the ground to the horizon."""
+    return obj.get(ROLE) == _SURROUNDINGS and obj.type == "MESH"
+
+
 def clear_surroundings(scene: bpy.types.Scene) -> None:
     """Remove what `surround` has made, and bring back what it has put away."""
     remove_marked(scene, _SURROUNDINGS)

@@ -15,7 +15,7 @@ from ...model.sequence.events import model_structure
 from ...model.sequence.loads import placed_on_model
 from ...model.structure.model import Model
 from ..bodies import mesh_of
-from ..collections import ROLE, collection_for, remove_marked
+from ..collections import ROLE, collection_for, find_collection, remove_marked
 
 _CABLES, _NAME = "pulls", "bda_pull"
 
@@ -47,6 +47,14 @@ def create_cables(
         for made in (end, cable):
             made[ROLE] = _CABLES
             collection_for(scene, _CABLES).objects.link(made)
+
+
+def drawn_cables(scene: bpy.types.Scene) -> list[tuple[bpy.types.Object, bpy.types.Object, np.ndarray]]:
+    """Return each drawn cable with the shard that it is fixed to, and where (3,), m, in the shard's own axes."""
+    found = find_collection(scene, _CABLES)
+    cables = [obj for obj in found.objects if _NAME in obj] if found else []
+    ends = [(cable, cable.constraints[0].target) for cable in cables if cable.constraints]
+    return [(cable, end.parent, np.array(end.location)) for cable, end in ends if end and end.parent]
 
 
 def hide_cables(scene: bpy.types.Scene, names: Sequence[str]) -> None:

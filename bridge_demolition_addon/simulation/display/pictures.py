@@ -2,25 +2,35 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 
 import bpy
 
 from ...errors import GeometryError, OutputError, ScenarioError
 from ...model.bridge.preparation import prepared_members
-from ...model.run_folder.files import AFTER, BEFORE, IMPACT, PICTURE_FOLDER
+from ...model.results.arrays import load_results
+from ...model.run_folder.files import AFTER, BEFORE, IMPACT, PICTURE_FOLDER, SCENARIO_FILE
 from ...model.scenario import Scenario
+from ...model.scenario.file import read_scenario
 from ...model.scenario.recording import PictureSettings, Renderer
 from ...model.structure.blast_zones import PlacedZone, placed_zones
 from ...scene.blast.charges import charge_objects, show_never, show_until
 from ...scene.demolition import first_frame_after
-from ...scene.rendering.stills import prepared_for_pictures, render_picture
+from ...scene.rendering.picture_scene import dressed_pictures
+from ...scene.rendering.stills import prepared_for_pictures, render_picture, renderer_of
 from ...scene.rendering.zone_markers import ShownZone, show_zones
 from ...scene.world import START_FRAME
 from ...system.disk import writing
+from ...system.processor import processor_count
 
 _FLASH_S = 0.12
+
+PICTURE_NAMES = (BEFORE, IMPACT, AFTER)
+_SECONDS_PER_MEGAPIXEL = 65.0
+"""That one processor takes by Cycles: 0.5 min for 1280 × 720 px on two."""
 
 
 def check_camera(view: PictureSettings) -> None:
@@ -31,9 +41,20 @@ def check_camera(view: PictureSettings) -> None:
 
 def stage_of_pictures(view: PictureSettings) -> str:
     """Return what a run says before it renders its pictures: how long they take where that is not a moment."""
-    if view.renderer == Renderer.CYCLES:
-        return "rendering 3 pictures by Cycles, which takes a minute or two"
-    return "rendering pictures"
+    renderer = renderer_of(view)
+    if renderer == Renderer.WORKBENCH:
+        return "rendering pictures"
+    if renderer == Renderer.REALISTIC:
+        return "rendering 3 pictures by EEVEE, which takes some seconds"
+    return f"rendering 3 pictures by Cycles, {time_of_cycles_text(view, processor_count())}"
+
+
+def time_of_cycles_text(view: PictureSettings, count: int) -> str:
+    """Return how long the pictures of a run take by Cycles on so many processors, roughly."""
+    needed_s = len(PICTURE_NAMES) * _SECONDS_PER_MEGAPIXEL * view.width_px * view.height_px / 1e6 / count
+    rounded = f"{max(1, round(needed_s / 60.0))} min" if needed_s >= 90.0 else f"{max(5, 5 * round(needed_s / 5.0))} s"
+    on = "1 processor" if count == 1 else f"{count} processors"
+    return f"which takes about {rounded} on {on} with nothing else to do"
 
 
 def show_charges(scene: bpy.types.Scene, scenario: Scenario) -> None:
@@ -73,10 +94,30 @@ def rendered_pictures(
     frames = {BEFORE: START_FRAME, IMPACT: key_frame, AFTER: last_frame}
     with writing(folder):
         (folder / PICTURE_FOLDER).mkdir(parents=True, exist_ok=True)
-    with prepared_for_pictures(scene, view):
+    with run_renderer(scene, folder, view) as render:
         for name, frame in frames.items():
             path = folder.resolve() / PICTURE_FOLDER / f"{name}.png"
-            render_picture(scene, frame, path)
+            render(frame, path)
             if not path.exists():
                 raise OutputError(f"{path}: Blender wrote no picture; see what it says on its console")
             yield path
+
+
+@contextmanager
+def run_renderer(scene: bpy.types.Scene, folder: Path, view: PictureSettings) -> Iterator[Callable[[int, Path], None]]:
+    """Give what renders a frame of a run to a file: of the scene itself by Workbench, or dressed for looks by others.
+
+    The results of the run are in the folder.
+    """
+    if renderer_of(view) == Renderer.WORKBENCH:
+        with prepared_for_pictures(scene, view):
+            yield partial(render_picture, scene)
+        return
+    with dressed_pictures(scene, load_results(folder), view, has_bars=_has_bars(folder)) as dressed:
+        yield dressed.render
+
+
+def _has_bars(folder: Path) -> bool:
+    """Return whether the bridge of a run had reinforcement; False where its scenario is not in its folder."""
+    path = folder / SCENARIO_FILE
+    return path.is_file() and read_scenario(path).is_reinforced

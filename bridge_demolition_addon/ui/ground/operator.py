@@ -127,7 +127,7 @@ def _no_results(context: bpy.types.Context) -> str | None:
 
 
 class BDA_OT_raise_dust(UndoableAction, bpy.types.Operator):
-    """Make clouds of dust where connections broke in the last run; they render in EEVEE and Cycles, and slowly"""
+    """Make clouds of dust where connections broke in the last run; they render in EEVEE and Cycles"""
 
     bl_label = "Raise Dust"
     changes_objects = True
