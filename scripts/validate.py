@@ -18,6 +18,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
 sys.path.insert(1, str(Path(__file__).resolve().parent.parent / "validation"))
 
+from blind import BlindCase
 from case import GROUPS, Against, Case, Comparison, Found
 from deciding_version import deciding_version
 from matplotlib.figure import Figure
@@ -51,6 +52,9 @@ CASES = (
     "falling_chimney",
     "i235_decks",
 )
+BLIND_CASES = ("blind_beams", "blind_airblast")
+"""Cases whose forecasts were kept before their outcomes were opened; scripts/blind_forecast makes them."""
+
 DOCUMENT, PICTURES = ROOT / "docs" / "validation.md", ROOT / "docs" / "pictures" / "validation"
 KEPT = ROOT / "docs" / "data" / "validation"
 """What each case came to when it was kept last, in a file of its own."""
@@ -99,6 +103,11 @@ def _arguments(arguments: Sequence[str] | None) -> argparse.Namespace:
 
 def case_named(name: str) -> Case:
     """Return the case in the module of a name."""
+    return importlib.import_module(name).CASE
+
+
+def blind_case_named(name: str) -> BlindCase:
+    """Return the blind case in the module of a name."""
     return importlib.import_module(name).CASE
 
 
