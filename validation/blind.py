@@ -27,6 +27,10 @@ class Foreseen:
     low: float
     high: float
 
+    def has(self, measured: float) -> bool:
+        """Whether what was measured is within the range."""
+        return self.low <= measured <= self.high
+
 
 @dataclass(frozen=True, slots=True)
 class BlindCase:
@@ -70,8 +74,8 @@ class Outcome:
     ----------
     opened, forecast_commit, forecast_sha256 : str
         The day, the commit that has the forecast and not the outcome, and the digest of the forecast's file.
-    measured : sequence of float
-        In the order of what was foreseen.
+    measured : sequence of float or None
+        In the order of what was foreseen; None where the source does not say it.
     learned : str
         What hits and misses say.
     """
@@ -79,7 +83,7 @@ class Outcome:
     opened: str
     forecast_commit: str
     forecast_sha256: str
-    measured: Sequence[float]
+    measured: Sequence[float | None]
     learned: str
 
 

@@ -44,10 +44,12 @@ CASE = BlindCase(
     title="A charge of 200 g",
     asked="A charge of 200 g goes off; sensors 2, 4 and 6 m away measure the incident pressure. Which peaks?",
     known="The mass, the distances, and that six sensors measure incident pressure, two at each: the first lines of a "
-    "page on how such records are read. What it makes of them stands further down on the same page, and was not opened.",
+    "page on how such records are read. What it makes of them stands further down on the same page, and was not opened "
+    "before.",
     assumed="Which explosive it is, and how high above the ground: neither is said in those lines. The forecast is for "
     "1.2 times as much TNT in the air; the range is from 0.8 times in the air to 1.4 times on the ground, as the "
     f"explosives of `bda charge` go, and a factor of {SCATTER:g} more to both sides.",
-    source="Analysis of Incident Overpressure Using Python, 23 September 2017, on the site of its author, lightsquared.github.io.",
+    source="Analysis of Incident Overpressure Using Python, 23 September 2017, on the site of its author, "
+    "lightsquared.github.io.",
     foresee=foresee,
 )

@@ -103,14 +103,17 @@ CASE = BlindCase(
     title="Reinforced beams of many laboratories",
     asked="Beams of 0.1 to 0.25 m width and 0.15 to 0.4 m height, in the middle of a span of 1 to 2.3 m, under a load "
     "that grows: which moment does each bear at most? They are all beams of a database that have no corrosion, stand "
-    "on two supports, were loaded in their middle alone, and differ: one of those that are alike.",
+    "on two supports, were loaded in their middle alone, and differ: one of those that are alike "
+    "but for 5 N/mm² of concrete.",
     known="Sizes, bars, strengths and spans: the columns of the database that are inputs. Its last two columns, the "
-    "moments, were cut off by a program before the file was looked at. Known as well: that all tests failed in bending.",
+    "moments, were cut off by a program before the file was looked at. Known as well: all tests failed in "
+    "bending.",
     assumed=f"Bars of {DIAMETER_MM:g} mm, whose cover is that of their surface; a shear strength of concrete of "
     f"{SHEAR_N_MM2:g} N/mm²; {SHARDS} shards; the load lies on {LOADED_SHARE:g} of the span. Bars harden to their "
-    f"tensile strength. The forecast is the median of three seeds, the range {LEAST:g} of the lowest to {MOST:g} of the "
-    "highest: for cover, diameter and strengths that are not known well.",
-    source="Data.csv of a public repository of B. Matthews, corroded-RC-beam-moment-capacity, made from 54 experimental "
-    "campaigns; the whole database is at Zenodo, record 8062007. A beam has the number of its row there, from 0.",
+    f"tensile strength. The forecast is the median of three seeds, the range {LEAST:g} of the lowest to {MOST:g} of "
+    "the highest: for cover, diameter and strengths that are not known well.",
+    source="Data.csv of a public repository of B. Matthews, corroded-RC-beam-moment-capacity, made from 54 "
+    "experimental campaigns; the whole database is at Zenodo, record 8062007. A beam has the number of its row there, "
+    "from 0.",
     foresee=foresee,
 )
