@@ -86,10 +86,6 @@ BEAMS = (
     TestedBeam(339, 150, 200, 33, 1000, 1.34, 0.524, 350, 520, 0.251, 30),
     TestedBeam(343, 150, 200, 32, 1000, 1.026, 0.524, 380, 580, 0.251, 24.1),
     TestedBeam(495, 150, 300, 41, 800, 1.689, 0.684, 365, 453, 0.67, 18),
-    TestedBeam(670, 250, 400, 25, 1150, 0.452, 0.226, 489, 599, 0.419, 44),
-    TestedBeam(674, 250, 400, 25, 1150, 0.804, 0.226, 411, 491, 0.483, 30),
-    TestedBeam(679, 150, 200, 37, 800, 0.513, 0.0, 584, 626, 0.0, 46),
-    TestedBeam(688, 150, 200, 37, 800, 0.513, 0.0, 220, 330, 0.0, 54),
 )
 
 
@@ -101,10 +97,10 @@ def foresee(folder: Path) -> Sequence[Foreseen]:
 CASE = BlindCase(
     name="blind_beams",
     title="Reinforced beams of many laboratories",
-    asked="Beams of 0.1 to 0.25 m width and 0.15 to 0.4 m height, in the middle of a span of 1 to 2.3 m, under a load "
+    asked="Beams of 0.1 to 0.15 m width and 0.15 to 0.3 m height, in the middle of a span of 1 to 2 m, under a load "
     "that grows: which moment does each bear at most? They are all beams of a database that have no corrosion, stand "
-    "on two supports, were loaded in their middle alone, and differ: one of those that are alike "
-    "but for 5 N/mm² of concrete.",
+    "on two supports, were loaded in their middle alone, and differ; of those that do, the "
+    "first seven of eleven: the others were left out before the outcome was opened, as runs took long.",
     known="Sizes, bars, strengths and spans: the columns of the database that are inputs. Its last two columns, the "
     "moments, were cut off by a program before the file was looked at. Known as well: all tests failed in "
     "bending.",
