@@ -103,7 +103,8 @@ CASE = BlindCase(
     "first seven of eleven: the others were left out before the outcome was opened, as runs took long.",
     known="Sizes, bars, strengths and spans: the columns of the database that are inputs. Its last two columns, the "
     "moments, were cut off by a program before the file was looked at. Known as well: all tests failed in "
-    "bending.",
+    "bending. The moments of other tests of the file, those of the "
+    "[sections](#reinforced-sections-of-many-laboratories), were opened a little earlier, after these runs had begun.",
     assumed=f"Bars of {DIAMETER_MM:g} mm, whose cover is that of their surface; a shear strength of concrete of "
     f"{SHEAR_N_MM2:g} N/mm²; {SHARDS} shards; the load lies on {LOADED_SHARE:g} of the span. Bars harden to their "
     f"tensile strength. The forecast is the median of three seeds, the range {LEAST:g} of the lowest to {MOST:g} of "
