@@ -51,6 +51,11 @@ class LoadedBeam:
     shear_n_mm2: float
     links_mm2_m2: float
     shards: int
+    yield_n_mm2: float = YIELD_N_MM2
+    hardening: float = 1.0
+    diameter_mm: float = DIAMETER_MM
+    top_mm2: float = 0.0
+    loaded_m: float = 0.4
 
     @property
     def weight_n_m(self) -> float:
@@ -65,7 +70,7 @@ class LoadedBeam:
     @property
     def moment_nm(self) -> float:
         """Plastic moment by hand: A f_y (d - a / 2), a = A f_y / (b f_c)."""
-        pull = self.area_mm2 * YIELD_N_MM2
+        pull = self.area_mm2 * self.yield_n_mm2
         return pull * (self.depth_m - 0.5 * pull / (self.width_m * self.compression_n_mm2 * 1e6))
 
     @property
@@ -112,7 +117,18 @@ class LoadedBeam:
 members = ["beam"]
 along = "z"
 spread_mm2_m2 = {self.links_mm2_m2}
-yield_n_mm2 = {YIELD_N_MM2}
+yield_n_mm2 = {self.yield_n_mm2}
+"""
+        top = ""
+        if self.top_mm2:
+            top = f"""
+[[reinforcement]]
+members = ["beam"]
+side = "top"
+depth_m = {self.height_m - self.depth_m:.3f}
+area_mm2 = {self.top_mm2}
+yield_n_mm2 = {self.yield_n_mm2}
+diameter_mm = {self.diameter_mm}
 """
         return f"""
 [scenario]
@@ -148,15 +164,15 @@ members = ["beam"]
 side = "bottom"
 depth_m = {self.height_m - self.depth_m:.3f}
 area_mm2 = {self.area_mm2}
-yield_n_mm2 = {YIELD_N_MM2}
-diameter_mm = {DIAMETER_MM}
-{links}
+yield_n_mm2 = {self.yield_n_mm2}
+diameter_mm = {self.diameter_mm}
+{top}{links}
 [connections]
 type = "FIXED"
 method = "face"
 material = "of the beam"
 stiffness = "elastic"
-ductile_hardening = 1.0
+ductile_hardening = {self.hardening}
 
 [[bearings]]
 members = ["beam", "left"]
@@ -168,8 +184,8 @@ kind = "rocker"
 
 [[loads]]
 members = ["beam"]
-lowest_corner_m = [-0.2, -1.0, 0.0]
-highest_corner_m = [0.2, 1.0, 9.0]
+lowest_corner_m = [{-self.loaded_m / 2.0}, -1.0, 0.0]
+highest_corner_m = [{self.loaded_m / 2.0}, 1.0, 9.0]
 times_s = [0.1, {GROWS_S}]
 forces_n = [0.0, {most_n:.1f}]
 {RIGID_BODIES.format(shards=0.64, ground=0.64)}"""
@@ -180,7 +196,7 @@ def course(folder: Path, beam: LoadedBeam, seed: int, most_n: float) -> np.ndarr
     results = simulated(folder, f"seed_{seed}", beam.scenario(seed, most_n), beam.solids)
     inventory, frames = results.inventory, results.frames
     own = (inventory.body_kinds == "shard") & (inventory.body_members == "beam")
-    own &= abs(frames.positions_m[0, :, 0]) <= 0.2
+    own &= abs(frames.positions_m[0, :, 0]) <= beam.loaded_m / 2.0
     heights = frames.positions_m[:, own, 2].mean(axis=1)
     loads_n = np.interp(frames.time_s, (0.1, GROWS_S), (0.0, most_n))
     return np.stack((loads_n, heights[0] - heights))
