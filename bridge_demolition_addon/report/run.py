@@ -23,6 +23,7 @@ from ..system.progress import Progress
 from ..version import VERSION
 from .charge_areas import areas_of_fragments, cordon_area
 from .document.blocks import Document, Report, Section
+from .names import names_in_run
 from .run_folder import ReportedRun
 from .sections.blast import blast_section
 from .sections.charge_plan import charge_plan_section
@@ -60,7 +61,7 @@ def run_report(
     names = [path.name for path in plans]
     document = run_document(run, VERSION, zone, names, trajectories=trajectories, stages=with_stages)
     tables = () if zone is None else (corner_table(zone),)
-    return Report(document, tables, tuple(plans), single_pages(document, run.scenario))
+    return Report(document, tables, tuple(plans), single_pages(document, run.scenario), names_in_run(run))
 
 
 def run_document(

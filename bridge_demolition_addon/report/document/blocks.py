@@ -145,13 +145,15 @@ class Document:
 class Report:
     """A report that is to be written, with tables that are only files, and files that are written already.
 
-    Of a run or a study there are single pages, too, by whom they are for.
+    Of a run or a study there are single pages, too, by whom they are for. `names` are those of things in scenario and
+    scene: no language translates them.
     """
 
     document: Document
     tables: tuple[DataTable, ...] = ()
     files: tuple[Path, ...] = ()
     single_pages: Mapping[str, Document] = field(default_factory=dict)
+    names: frozenset[str] = frozenset()
 
 
 def facts(title: str, rows: Sequence[tuple[str, str]], name: str = "") -> DataTable:

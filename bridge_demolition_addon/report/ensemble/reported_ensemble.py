@@ -18,6 +18,7 @@ from ...model.optimise.conclusions import CANDIDATE, ROUND
 from ...model.study.criteria import Criterion
 from ...model.study.file import SEED, Ensemble
 from ...model.study.runs_table import REACH, RunsTable
+from ..names import names_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,3 +87,8 @@ _CRITERION = f"{Criterion.table}."
 
 def _finite(values: np.ndarray) -> np.ndarray:
     return values[np.isfinite(values)]
+
+
+def names_of_runs(runs: ReportedEnsemble) -> frozenset[str]:
+    """Return names that no language translates: those in the scenario, of the criteria, and of the folder."""
+    return names_of(runs.ensemble.scenario) | {runs.name, *(criterion.name for criterion in runs.ensemble.criteria)}

@@ -114,7 +114,7 @@ def stages_report(folder: Path, _target: Path, _progress: Progress) -> Report:
     """Return the report of stages alone."""
     subtitle = f"Report of the stages of a demolition. Bridge Demolition Add-on {VERSION}"
     document = Document(shown_name(folder), subtitle, (stages_section(folder),))
-    return Report(with_plan_contents(document, None))
+    return Report(with_plan_contents(document, None), names=frozenset({document.title}))
 
 
 def stages_section(folder: Path) -> Section:
