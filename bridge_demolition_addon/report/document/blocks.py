@@ -45,6 +45,7 @@ class Column:
     form: str = ""  # Python's format of a number, such as ".1f"; empty for texts
     value: Callable[..., Any] | None = None  # of a row, by its item; None where rows are given to the table
     significant: int = 0  # digits that a number with decimals has at least
+    cites: bool = False  # its texts are sources, by the titles that they have in every language
 
     def shown(self, value: Any) -> str:
         """Return a value as people read it."""

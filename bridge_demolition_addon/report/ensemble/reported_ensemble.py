@@ -90,5 +90,10 @@ def _finite(values: np.ndarray) -> np.ndarray:
 
 
 def names_of_runs(runs: ReportedEnsemble) -> frozenset[str]:
-    """Return names that no language translates: those in the scenario, of the criteria, and of the folder."""
-    return names_of(runs.ensemble.scenario) | {runs.name, *(criterion.name for criterion in runs.ensemble.criteria)}
+    """Return names that no language translates: of scenario, criteria, folder, inputs and outputs, as they are shown."""
+    criteria = {criterion.name for criterion in runs.ensemble.criteria}
+    keys = {shown(name) for name in (*runs.table.inputs, *runs.table.outputs)} - {shown(REACH)}
+    without_units = {key.rpartition(" (")[0] for key in keys}
+    programs = {f"{name.replace('_', ' ')} {number}" for name, number in runs.versions.items()}
+    named = {runs.name, *criteria, *keys, *without_units, *programs} - {""}
+    return names_of(runs.ensemble.scenario) | named

@@ -37,6 +37,11 @@ class LanguageTable:
     chinese_letters: bool
     texts: dict[str, str]
 
+    @property
+    def full_stop(self) -> str:
+        """What ends a sentence."""
+        return "\u3002" if self.chinese_letters else "."
+
 
 def language_names() -> tuple[str, ...]:
     """Return the names of all languages that reports can be in, English first."""

@@ -72,5 +72,5 @@ def _table(table: DataTable, translation: Translation) -> DataTable:
 
 
 def _cell(column: Column, value: Any, translation: Translation) -> Any:
-    """Return a value of a table, numbers and what is not known as they are."""
-    return value if column.form or value is None else translation.text(column.shown(value))
+    """Return a value of a table, numbers, sources and what is not known as they are."""
+    return value if column.form or column.cites or value is None else translation.text(column.shown(value))

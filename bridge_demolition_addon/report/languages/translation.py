@@ -15,6 +15,9 @@ from .patterns import PLACE, Pattern
 from .table import ENGLISH, LanguageTable, language_table
 
 _SENTENCE_ENDS = re.compile(r"(?<=[.:;!?]) +(?=\S)")
+_NUMBERED = re.compile(r"(\d+) ([A-Z].*)")
+"""The number and title of a section."""
+
 _WORD = re.compile(r"[^\W\d_]{3,}")
 _NO_WORDS = re.compile(
     r"\S*[\w\]\[*>]+[._/=\\]\S*"  # keys, files and places of files
@@ -87,7 +90,17 @@ class Translation:
             return text, ()
         if text in self.table.texts:
             return self.table.texts[text], ()
-        return _fewest(chain(self._by_sentences(text), self._by_patterns(text)), (text, (text,)))
+        return _fewest(chain(self._by_sentences(text), self._by_parts(text)), (text, (text,)))
+
+    def _by_parts(self, text: str) -> Iterator[_Reading]:
+        """Yield a text without its number or its full stop, which no table has to have, and by all patterns."""
+        if numbered := _NUMBERED.fullmatch(text):
+            own, missing = self._best(numbered[2])
+            yield f"{numbered[1]} {own}", missing
+        if text.endswith("."):
+            own, missing = self._best(text[:-1])
+            yield f"{own}{self.table.full_stop}", missing
+        yield from self._by_patterns(text)
 
     def _by_patterns(self, text: str) -> Iterator[_Reading]:
         """Yield a text by all patterns that it reads as."""
@@ -110,7 +123,7 @@ class Translation:
             if text in self.table.texts or text in self._kept or not _has_words(text):
                 self._single[text] = self._looked_up(text)
             else:
-                self._single[text] = _fewest(self._by_patterns(text), (text, (text,)))
+                self._single[text] = _fewest(self._by_parts(text), (text, (text,)))
         return self._single[text]
 
 
