@@ -13,8 +13,24 @@ _NAMES = ("name", "title", "member", "members", "where", "tendons", "supports")
 """Keys of a scenario that hold such names."""
 
 MEMBER_KINDS = frozenset(
-    ("abutment", "arch", "beam", "bearing", "column", "cross frame", "deck", "foundation", "girder", "ground", "pier")
-    + ("pier cap", "slab", "truss", "wall", "whole structure")
+    [
+        "abutment",
+        "arch",
+        "beam",
+        "bearing",
+        "column",
+        "cross frame",
+        "deck",
+        "foundation",
+        "girder",
+        "ground",
+        "pier",
+        "pier cap",
+        "slab",
+        "truss",
+        "wall",
+        "whole structure",
+    ]
 )
 """Kinds of members, which the tables of languages have, also where a member is called by its kind alone."""
 

@@ -37,7 +37,7 @@ from .sections.plan_contents import with_plan_contents
 from .sections.planned_sequence import sequence_section
 from .sections.pulls import pull_section
 from .sections.reinforcement import reinforcement_section
-from .sections.stages import has_stages, stages_section
+from .sections.stages import has_stages, names_in_stages, stages_section
 from .sections.summary import first_photo, run_summary
 from .sections.tendons import tendon_section
 from .single_pages import single_pages
@@ -61,7 +61,8 @@ def run_report(
     names = [path.name for path in plans]
     document = run_document(run, VERSION, zone, names, trajectories=trajectories, stages=with_stages)
     tables = () if zone is None else (corner_table(zone),)
-    return Report(document, tables, tuple(plans), single_pages(document, run.scenario), names_in_run(run))
+    names = names_in_run(run) | (frozenset() if with_stages is None else names_in_stages(with_stages))
+    return Report(document, tables, tuple(plans), single_pages(document, run.scenario), names)
 
 
 def run_document(

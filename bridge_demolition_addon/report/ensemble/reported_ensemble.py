@@ -90,7 +90,7 @@ def _finite(values: np.ndarray) -> np.ndarray:
 
 
 def names_of_runs(runs: ReportedEnsemble) -> frozenset[str]:
-    """Return names that no language translates: of scenario, criteria, folder, inputs and outputs, as they are shown."""
+    """Return names that no language translates: of scenario, criteria, folder, inputs and outputs, as shown."""
     criteria = {criterion.name for criterion in runs.ensemble.criteria}
     keys = {shown(name) for name in (*runs.table.inputs, *runs.table.outputs)} - {shown(REACH)}
     without_units = {key.rpartition(" (")[0] for key in keys}

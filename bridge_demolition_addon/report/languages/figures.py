@@ -9,6 +9,9 @@ from matplotlib.ticker import FixedFormatter
 
 from .translation import Translation
 
+_DOLLAR = r"\$"
+"""A dollar that begins no formula."""
+
 
 def translate_figure(figure: Figure, translation: Translation) -> None:
     """Put the texts of a drawing into a language, before it is laid out."""
@@ -24,7 +27,9 @@ def translate_figure(figure: Figure, translation: Translation) -> None:
 
 
 def _translated(text: str, translation: Translation) -> str:
-    """Return a text; one of several lines is looked up as a whole, and then line by line."""
-    if "\n" not in text:
-        return translation.text(text)
-    return "\n".join(map(translation.text, text.split("\n")))
+    r"""Return a text of a drawing, line by line. Its dollars, which are ``\$`` there, are looked up as they are."""
+    if "\n" in text:
+        return "\n".join(_translated(line, translation) for line in text.split("\n"))
+    bare = text.replace(_DOLLAR, "$")
+    own = translation.text(bare)
+    return own if bare == text else own.replace("$", _DOLLAR)

@@ -21,6 +21,7 @@ _NUMBERED = re.compile(r"(\d+) ([A-Z].*)")
 _WORD = re.compile(r"[^\W\d_]{3,}")
 _NO_WORDS = re.compile(
     r"\S*[\w\]\[*>]+[._/=\\]\S*"  # keys, files and places of files
+    r"|\b[A-Z][A-Z0-9_]{2,}\b"  # choices in files
     r"|--\S+|\[\[?\w+\]?\]"  # options of commands and tables of scenarios
     r"|\b(?:kPa|MPa|kNm|rad|mrad|TNT|USBM|ASCE|MOP|DIN|DGUV|CFR|CDM|HSE|ANFO|Wilks|Clopper|Pearson|Guba|Makai|Pál"
     r"|Lundborg|McKenzie|Zhou|Hertz|Neyer|Bullet|Blender|Bridge Demolition Add-on|CoP|Hong Kong|SprengV|Regel)\b"
