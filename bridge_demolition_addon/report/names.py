@@ -12,26 +12,8 @@ from .run_folder import ReportedRun
 _NAMES = ("name", "title", "member", "members", "where", "tendons", "supports")
 """Keys of a scenario that hold such names."""
 
-MEMBER_KINDS = frozenset(
-    [
-        "abutment",
-        "arch",
-        "beam",
-        "bearing",
-        "column",
-        "cross frame",
-        "deck",
-        "foundation",
-        "girder",
-        "ground",
-        "pier",
-        "pier cap",
-        "slab",
-        "truss",
-        "wall",
-        "whole structure",
-    ]
-)
+_KINDS = "abutment, arch, beam, bearing, column, cross frame, deck, foundation, girder, ground, pier, pier cap, slab"
+MEMBER_KINDS = frozenset(f"{_KINDS}, truss, wall, whole structure".split(", "))
 """Kinds of members, which the tables of languages have, also where a member is called by its kind alone."""
 
 

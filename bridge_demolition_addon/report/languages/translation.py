@@ -18,7 +18,8 @@ _SENTENCE_ENDS = re.compile(r"(?<=[.:;!?]) +(?=\S)")
 _NUMBERED = re.compile(r"(\d+) ([A-Z].*)")
 """The number and title of a section."""
 
-_WORD = re.compile(r"[^\W\d_]{3,}")
+_LETTERS = re.compile(r"[^\W\d_]{2,}")
+_WORD = re.compile(r"[^\W\d_]{3,}|\b(?:as|at|by|if|in|is|it|no|of|on|or|to|up)\b")
 _NO_WORDS = re.compile(
     r"\S*[\w\]\[*>]+[._/=\\]\S*"  # keys, files and places of files
     r"|\b[A-Z][A-Z0-9_]{2,}\b"  # choices in files
@@ -87,11 +88,13 @@ class Translation:
         return text.replace(bare, own), missing
 
     def _looked_up(self, text: str) -> _Reading:
-        if text in self._kept or not _has_words(text):
+        return self._as_it_is(text) or _fewest(chain(self._by_sentences(text), self._by_parts(text)), _left(text))
+
+    def _as_it_is(self, text: str) -> _Reading | None:
+        """Return a text that needs no patterns: a name, a number, or a line of the table; None for others."""
+        if text in self._kept or not _LETTERS.search(text):
             return text, ()
-        if text in self.table.texts:
-            return self.table.texts[text], ()
-        return _fewest(chain(self._by_sentences(text), self._by_parts(text)), (text, (text,)))
+        return (self.table.texts[text], ()) if text in self.table.texts else None
 
     def _by_parts(self, text: str) -> Iterator[_Reading]:
         """Yield a text without its number or its full stop, which no table has to have, and by all patterns."""
@@ -121,11 +124,13 @@ class Translation:
     def _one(self, text: str) -> _Reading:
         """Return a text that is not cut into sentences."""
         if text not in self._single:
-            if text in self.table.texts or text in self._kept or not _has_words(text):
-                self._single[text] = self._looked_up(text)
-            else:
-                self._single[text] = _fewest(self._by_parts(text), (text, (text,)))
+            self._single[text] = self._as_it_is(text) or _fewest(self._by_parts(text), _left(text))
         return self._single[text]
+
+
+def _left(text: str) -> _Reading:
+    """Return a text that stays English, and is missing where it has words."""
+    return text, (text,) if _WORD.search(_NO_WORDS.sub(" ", text)) else ()
 
 
 def _fewest(readings: Iterable[_Reading], otherwise: _Reading) -> _Reading:
@@ -137,10 +142,6 @@ def _fewest(readings: Iterable[_Reading], otherwise: _Reading) -> _Reading:
         if _letters(reading[1]) < _letters(best[1]):
             best = reading
     return best
-
-
-def _has_words(text: str) -> bool:
-    return _WORD.search(_NO_WORDS.sub(" ", text)) is not None
 
 
 def _letters(texts: Iterable[str]) -> int:
