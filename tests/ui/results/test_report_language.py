@@ -11,7 +11,14 @@ from bridge_demolition_addon.ui.results.report_language import language_of_blend
 @pytest.mark.parametrize(
     ("locale", "language"),
     [
-        *(("de_DE", "de"), ("es", "es"), ("es_ES", "es"), ("fr_FR", "fr"), ("zh_HANS", "zh_hans"), ("zh_CN", "zh_hans")),
+        *(
+            ("de_DE", "de"),
+            ("es", "es"),
+            ("es_ES", "es"),
+            ("fr_FR", "fr"),
+            ("zh_HANS", "zh_hans"),
+            ("zh_CN", "zh_hans"),
+        ),
         *(("en_US", "en"), ("zh_HANT", "en"), ("ja_JP", "en"), ("", "en")),
     ],
 )
