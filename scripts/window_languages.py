@@ -46,6 +46,7 @@ SAME = {
     *("B400B", "B400C", "B500A", "B500B", "B500C", "HL-93", "LM1"),
     *("FIXED", "GENERIC", "GENERIC_SPRING", "HINGE", "POINT"),
     *("kingery-bulmash", "kinney-graham"),
+    *("English", "Deutsch", "Español", "Français", "简体中文"),
     *("LENGTH", "NONE", "ifc_elements", "optimise", "scenario"),
 }
 """Names and signs that are the same in all languages, and names that are never shown."""

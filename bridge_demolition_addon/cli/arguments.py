@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from ..engineering.blast.pulses import BlastModel
 from ..engineering.blast.wave import Burst
 from ..errors import BlastError, GeometryError, ScenarioError
+from ..report.languages.table import ENGLISH, language_names
 
 SMALLEST, LARGEST = 1e-6, 1e9
 """Limits of a mass, a distance or a load on the command line."""
@@ -48,4 +49,14 @@ def add_blast_options(parser: argparse.ArgumentParser) -> None:
         choices=[model.value for model in BlastModel],
         default=BlastModel.KINGERY_BULMASH.value,
         help="formulas for the blast wave (kingery-bulmash)",
+    )
+
+
+def add_language_option(parser: argparse.ArgumentParser) -> None:
+    """Add the language of reports."""
+    parser.add_argument(
+        "--language",
+        choices=language_names(),
+        default=ENGLISH,
+        help=f"language of the report: {', '.join(language_names())} ({ENGLISH}), see docs/languages.md",
     )

@@ -15,6 +15,7 @@ from ..studies.engine import Engine, LocalProcesses, cores
 from ..studies.run_process import RunLimits
 from ..studies.session import EnsembleSession
 from ..system.signals import Interrupted, signals_noted
+from .arguments import add_language_option
 from .progress import CommandProgress, progress_on
 
 _LOOK_EVERY_S = 0.2
@@ -34,6 +35,7 @@ def add_ensemble_options(parser: argparse.ArgumentParser) -> None:
         "--dask", metavar="ADDRESS", help="run on the Dask cluster of this scheduler, as tcp://host:8786"
     )
     parser.add_argument("--report", action="store_true", help="make a report at the end, in DIR/report")
+    add_language_option(parser)
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
 
 
@@ -55,7 +57,7 @@ def execute_ensemble(
         try:
             if before_report:
                 before_report(session, progress)
-            paths += write_report([arguments.output], None, progress=progress)
+            paths += write_report([arguments.output], None, language=arguments.language, progress=progress)
         finally:
             progress.finish()
     if not arguments.quiet:

@@ -5,6 +5,7 @@ import sys
 from pathlib import Path
 
 from ..model.run_folder.files import SINGLE_PAGES
+from .arguments import add_language_option
 from .progress import progress_on
 
 _ALL = "all"
@@ -38,6 +39,7 @@ def add_to(commands: argparse._SubParsersAction) -> None:
         default=(),
         help=f"also write single pages of a run or a study: {', '.join(SINGLE_PAGES)}, with commas between, or all",
     )
+    add_language_option(parser)
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
     parser.set_defaults(execute=report)
 
@@ -67,6 +69,7 @@ def report(arguments: argparse.Namespace) -> None:
             stages=arguments.stages,
             word=arguments.docx,
             pages=arguments.pages,
+            language=arguments.language,
             progress=progress,
         )
     finally:

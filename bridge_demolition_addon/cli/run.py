@@ -23,7 +23,7 @@ from ..model.sequence.doubts import doubts_of_run
 from ..model.stages.stability import stability_texts
 from ..model.structure.model import Model
 from ..system.progress import Progress
-from .arguments import naming
+from .arguments import add_language_option, naming
 from .blender import simulation_module
 from .progress import progress_on
 
@@ -58,6 +58,7 @@ def add_to(commands: argparse._SubParsersAction) -> None:
         action="store_true",
         help=f"make a report of each run at its end, and one that compares all of them, in DIR/{COMPARISON_FOLDER}",
     )
+    add_language_option(parser)
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
     parser.set_defaults(execute=run)
 
@@ -110,7 +111,7 @@ def _run_comparison(scenarios: Sequence[Scenario], arguments: argparse.Namespace
         _run_and_report(path, scenario, model, folder, arguments, progress)
     if arguments.report:
         progress.stage(f"comparing {len(scenarios)} runs")
-        written = _report(folders, comparison, progress)
+        written = _report(folders, comparison, arguments.language, progress)
         if not arguments.quiet:
             progress.finish()
             _print_paths(written)
@@ -144,7 +145,7 @@ def _run_and_report(
             film=arguments.film,
             progress=progress,
         )
-    report = _report([output], None, progress) if arguments.report else []
+    report = _report([output], None, arguments.language, progress) if arguments.report else []
     if not arguments.quiet:
         progress.finish()
         _print_results(summary, output, report, plain)
@@ -171,10 +172,10 @@ def _blender_silenced() -> Iterator[None]:
         os.close(standard_output)
 
 
-def _report(folders: Sequence[Path], output: Path | None, progress: Progress) -> list[Path]:
+def _report(folders: Sequence[Path], output: Path | None, language: str, progress: Progress) -> list[Path]:
     from ..report.write import write_report
 
-    return write_report(folders, output, progress=progress)
+    return write_report(folders, output, language=language, progress=progress)
 
 
 def _print_results(summary: Mapping[str, Any], output: Path, report: Sequence[Path], plain: str) -> None:

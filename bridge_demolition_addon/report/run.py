@@ -23,6 +23,7 @@ from ..system.progress import Progress
 from ..version import VERSION
 from .charge_areas import areas_of_fragments, cordon_area
 from .document.blocks import Document, Report, Section
+from .names import names_in_run
 from .run_folder import ReportedRun
 from .sections.blast import blast_section
 from .sections.charge_plan import charge_plan_section
@@ -36,7 +37,7 @@ from .sections.plan_contents import with_plan_contents
 from .sections.planned_sequence import sequence_section
 from .sections.pulls import pull_section
 from .sections.reinforcement import reinforcement_section
-from .sections.stages import has_stages, stages_section
+from .sections.stages import has_stages, names_in_stages, stages_section
 from .sections.summary import first_photo, run_summary
 from .sections.tendons import tendon_section
 from .single_pages import single_pages
@@ -60,7 +61,8 @@ def run_report(
     names = [path.name for path in plans]
     document = run_document(run, VERSION, zone, names, trajectories=trajectories, stages=with_stages)
     tables = () if zone is None else (corner_table(zone),)
-    return Report(document, tables, tuple(plans), single_pages(document, run.scenario))
+    names = names_in_run(run) | (frozenset() if with_stages is None else names_in_stages(with_stages))
+    return Report(document, tables, tuple(plans), single_pages(document, run.scenario), names)
 
 
 def run_document(

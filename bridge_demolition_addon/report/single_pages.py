@@ -149,7 +149,7 @@ def _crane_text(ball: Ball) -> str:
 def _checklist(scenario: Scenario | None) -> DataTable:
     """Return what is to be ticked, with blanks."""
     explosives = scenario is None or _has_explosives(scenario)
-    columns = tuple(Column(name, name) for name in ("Check", "Source", "Name", "Time"))
+    columns = tuple(Column(name, name, cites=name == "Source") for name in ("Check", "Source", "Name", "Time"))
     checks = [check for check in CHECKS if explosives or not check.only_with_explosives]
     return DataTable("", "To be ticked", columns, [(check.what, check.source, _BLANK, _BLANK) for check in checks])
 

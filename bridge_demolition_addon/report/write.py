@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import partial
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -42,6 +43,11 @@ from .ensemble.optimise import optimise_report, read_candidates
 from .ensemble.search import read_answer, search_report
 from .ensemble.study import study_report
 from .ensemble.study_runs import read_study_runs
+from .languages.letters import NO_LETTERS, letters_of
+from .languages.table import ENGLISH, check_language
+from .languages.translated_report import notes_on_language, translated_document, with_notes
+from .languages.translation import Translation
+from .names import names_in_run, names_of
 from .run import run_report
 from .run_folder import ReportedRun, read_run
 from .sections.charge_plan import planned_section
@@ -88,10 +94,11 @@ _WITH_PAGES = ("run", "study")
 
 @dataclass(frozen=True, slots=True)
 class Extras:
-    """What is written beside page and PDF: a Word file, and single pages by whom they are for."""
+    """What is written beside page and PDF, a Word file and single pages by whom they are for, and in which language."""
 
     word: bool = False
     pages: tuple[str, ...] = ()
+    language: str = ENGLISH
 
 
 NO_EXTRAS = Extras()
@@ -115,17 +122,20 @@ def write_report(
     stages: bool = False,
     word: bool = False,
     pages: Sequence[str] = (),
+    language: str = ENGLISH,
     progress: Progress,
 ) -> list[Path]:
     """Write the report of a folder of any kind, or the comparison of several runs, and return all files written.
 
     The report goes to `output`, or by default into the folder that it is made from. `trajectories` draws the paths of
     the shards on the map of debris; `stages` first works out the stages of the run's scenario, for a chapter on them.
-    `word` also writes it as a Word file; `pages` are for whom single pages of a run or a study are written.
+    `word` also writes it as a Word file; `pages` are for whom single pages of a run or a study are written. `language`
+    is one of `language_names`; files and their keys stay English.
     """
+    check_language(language)
     if word:
         check_word()
-    extras = Extras(word, tuple(dict.fromkeys(pages)))
+    extras = Extras(word, tuple(dict.fromkeys(pages)), language)
     if len(folders) > 1:
         return _write_comparison(folders, output, extras, stages=stages, progress=progress)
     [folder] = folders
@@ -144,7 +154,13 @@ def write_report(
 
 
 def write_survey(
-    folder: Path, survey: Path, place: SurveyPlace, settings: SurveySettings, output: Path, progress: Progress
+    folder: Path,
+    survey: Path,
+    place: SurveyPlace,
+    settings: SurveySettings,
+    output: Path,
+    progress: Progress,
+    language: str = ENGLISH,
 ) -> tuple[list[tuple[str, str]], list[Path]]:
     """Compare a run with a survey of its debris, write that as a report, and return what it says and all files.
 
@@ -153,7 +169,8 @@ def write_survey(
     progress.stage(f"reading the results, and {survey.name}")
     comparison, run = survey_beside_run(folder, survey, place, settings)
     with _written_to(output):
-        written = _written(survey_report(comparison, run.name, survey), output, progress)
+        report = replace(survey_report(comparison, run.name, survey), names=names_in_run(run))
+        written = _written(report, output, progress, Extras(language=language))
     return survey_rows(comparison), written
 
 
@@ -190,11 +207,12 @@ def _write_comparison(
             raise OutputError(f"{folder}: is the folder of a {kind.name}, whose report is made by itself")
     progress.stage(f"reading the results of {len(folders)} runs")
     runs = [read_run(folder) for folder in folders]
+    names = frozenset(chain.from_iterable(map(names_in_run, runs)))
     with _written_to(output):
-        return _written(Report(comparison(runs, VERSION)), output, progress, extras)
+        return _written(Report(comparison(runs, VERSION), names=names), output, progress, extras)
 
 
-def write_charge_plan(scenario: Scenario, target: Path, progress: Progress) -> list[Path]:
+def write_charge_plan(scenario: Scenario, target: Path, progress: Progress, language: str = ENGLISH) -> list[Path]:
     """Write the charge plan of a scenario with blast zones to a folder, and return all files written.
 
     Without XlsxWriter there is no workbook.
@@ -205,7 +223,10 @@ def write_charge_plan(scenario: Scenario, target: Path, progress: Progress) -> l
     document = Document(scenario.title, subtitle, (section,))
     with _written_to(target):
         drawn = write_areas(areas, scenario.site, target / CHARGES_DXF, target / CHARGES_GEOJSON)
-        written = [*_written(Report(document), target, progress), *drawn]
+        written = [
+            *_written(Report(document, names=names_of(scenario)), target, progress, Extras(language=language)),
+            *drawn,
+        ]
         book = target / PLAN_WORKBOOK
         tables = [
             (table.name, [column.key for column in table.columns], table.rows) for table in document.named_tables()
@@ -229,34 +250,63 @@ def _written_to(target: Path) -> Iterator[None]:
 
 
 def _written(report: Report, target: Path, progress: Progress, extras: Extras = NO_EXTRAS) -> list[Path]:
-    document, pages = report.document, [report.single_pages[audience] for audience in extras.pages]
+    translation = Translation.into(extras.language, report.names)
+    with letters_of(translation.table) as can_draw:
+        written = _written_in(report, translation, can_draw, target, progress, extras)
+    if not can_draw:
+        raise OutputError(NO_LETTERS.format(target / REPORT_PAGE))
+    return written
+
+
+def _written_in(
+    report: Report, translation: Translation, can_draw: bool, target: Path, progress: Progress, extras: Extras
+) -> list[Path]:
+    """Write a report in a language; without letters to draw it, only what needs none, with drawings in English."""
     progress.stage("drawing the pictures")
-    drawn = drawings((document, *pages), lambda done, total: progress.part(done, total, "pictures drawn"))
+    document = translated_document(report.document, translation)
+    pages = [translated_document(report.single_pages[audience], translation) for audience in extras.pages]
+    on_drawings = translation if can_draw else Translation.into(ENGLISH)
+    drawn = drawings((document, *pages), lambda done, total: progress.part(done, total, "pictures drawn"), on_drawings)
+    if notes := notes_on_language(translation, can_draw):
+        document, pages = with_notes(document, notes), [with_notes(page, notes) for page in pages]
     progress.stage(f"writing {REPORT_PAGE}")
-    write_html(document, drawn, target / REPORT_PAGE)
-    progress.stage(f"writing {REPORT_PDF}")
-    write_pdf(document, drawn, target / REPORT_PDF, lambda done, total: progress.part(done, total, "pages written"))
-    files = [target / REPORT_PAGE, target / REPORT_PDF]
-    for audience, page in zip(extras.pages, pages, strict=True):
-        files.append(target / SINGLE_PAGES[audience])
-        write_pdf(page, drawn, files[-1])
+    write_html(document, drawn, target / REPORT_PAGE, translation)
+    files = [target / REPORT_PAGE]
+    pdfs = {target / REPORT_PDF: document}
+    pdfs |= {target / SINGLE_PAGES[audience]: page for audience, page in zip(extras.pages, pages, strict=True)}
+    for path, content in pdfs.items():
+        if can_draw:
+            progress.stage(f"writing {path.name}")
+            write_pdf(
+                content, drawn, path, lambda done, total: progress.part(done, total, "pages written"), translation
+            )
+            files.append(path)
+        else:
+            path.unlink(missing_ok=True)  # that of an earlier report would say something else
     if extras.word:
-        files += _word_files(report, drawn, target, progress, extras)
+        files += _word_files((document, *pages), drawn, target, progress, extras, translation)
     tables = target / TABLE_FOLDER
     tables.mkdir(exist_ok=True)
-    written = write_tables([*document.named_tables(), *report.tables], tables)
+    written = write_tables([*report.document.named_tables(), *report.tables], tables)
     return [*files, *written, *report.files]
 
 
-def _word_files(report: Report, drawn: Drawings, target: Path, progress: Progress, extras: Extras) -> list[Path]:
+def _word_files(
+    documents: Sequence[Document],
+    drawn: Drawings,
+    target: Path,
+    progress: Progress,
+    extras: Extras,
+    translation: Translation,
+) -> list[Path]:
     """Write the report and its single pages as Word files, unless one was changed by hand."""
-    documents = {target / REPORT_WORD: report.document}
-    for audience in extras.pages:
-        documents[(target / SINGLE_PAGES[audience]).with_suffix(".docx")] = report.single_pages[audience]
-    for path in documents:
+    paths = [target / REPORT_WORD, *((target / SINGLE_PAGES[who]).with_suffix(".docx") for who in extras.pages)]
+    for path in paths:
         if path.exists() and not is_as_written(path):
             raise OutputError(f"{path}: was changed by hand, and would be lost: save it under another name")
-    for path, document in documents.items():
+    for path, document in zip(paths, documents, strict=True):
         progress.stage(f"writing {path.name}")
-        write_word(document, drawn, path, lambda done, total: progress.part(done, total, "sections written"))
-    return list(documents)
+        write_word(
+            document, drawn, path, lambda done, total: progress.part(done, total, "sections written"), translation
+        )
+    return paths

@@ -12,6 +12,7 @@ from .ground.prop import GroundProperties
 from .ifc.prop import BDA_PG_ifc_element, IfcProperties
 from .languages.words import in_own_context
 from .preview.prop import PreviewRunProperties
+from .results.report_language import ReportProperties
 from .scenario import prop as scenario_properties
 from .scenario.earlier import mark_defaults, read_earlier_bodies, read_earlier_defaults
 from .sections.prop import SectionProperties
@@ -33,6 +34,7 @@ class BDA_PG_settings(
     PreviewRunProperties,
     ComparisonProperties,
     SectionProperties,
+    ReportProperties,
     bpy.types.PropertyGroup,
 ):
     """Settings that the panels show; those from the schema are added when they are made."""

@@ -51,7 +51,7 @@ def report(request, tmp_path_factory):
         keep_run(folder, flying_shards())
     kept = []
     patch = pytest.MonkeyPatch()
-    patch.setattr(writing, "write_html", lambda document, drawn, _: kept.append((document, drawn)))
+    patch.setattr(writing, "write_html", lambda document, drawn, *_: kept.append((document, drawn)))
     patch.setattr(writing, "write_pdf", lambda *_: None)
     output = None if len(folders) == 1 else tmp_path_factory.mktemp("side by side")
     writing.write_report(folders, output, trajectories=True, progress=Silence())

@@ -2,21 +2,16 @@
 """Reports with a chapter on stages, of stages alone, and of a search."""
 
 import csv
-import json
 from dataclasses import replace
 
-import numpy as np
 import pytest
 from support.run_folders import killed_run
 from support.scenarios import I235
+from support.search_folders import search_folder
 from support.stage_folders import STAGES, with_stages
 
 from bridge_demolition_addon.cli.main import main
 from bridge_demolition_addon.model.scenario.file import scenario_text
-from bridge_demolition_addon.model.search.file import search_of
-from bridge_demolition_addon.model.search.settings import SearchSettings
-from bridge_demolition_addon.model.study.criteria import Criterion
-from bridge_demolition_addon.model.study.runs_table import RunRow, RunsTable, write_runs
 
 REACTIONS = """\
 stage,time_s,step,support,kind,at_x_m,at_y_m,at_z_m,force_x_kN,force_y_kN,force_z_kN,\
@@ -97,34 +92,6 @@ def test_stages_of_the_runs_scenario_are_worked_out_when_asked_for(tmp_path, cap
     [row] = csv.DictReader((folder / "stages.csv").open(encoding="utf-8"))
     assert f"× {float(row['collapse_factor']):.2f}" in page_of(folder)
     assert float(row["reaction_z_kN"]) == pytest.approx(float(row["weight_kN"]), rel=1e-3)
-
-
-def search_folder(folder):
-    """The folder of a search of which one trial was lost."""
-    settings = SearchSettings(
-        scenario="scenario_as_run.toml",
-        key="ball.mass_kg",
-        lowest=100.0,
-        highest=10_000.0,
-        logarithmic=True,
-        trials=20,
-        criteria=(Criterion(name="down", kind="collapsed"),),
-    )
-    search = search_of(settings, I235)
-    folder.mkdir()
-    (folder / search.file_name).write_text(search.text, encoding="utf-8")
-    (folder / "scenario_as_run.toml").write_text(search.scenario_text, encoding="utf-8")
-    masses = np.geomspace(200.0, 8000.0, 20)
-    met = masses > 1500.0
-    met[[8, 13]] = True, False
-    rows = [
-        RunRow(number, "done", {"ball.mass_kg": float(mass)}, {"success": bool(success)})
-        for number, (mass, success) in enumerate(zip(masses, met, strict=True), start=1)
-    ]
-    rows[-1] = RunRow(20, "crashed", {"ball.mass_kg": 8000.0}, {})
-    write_runs(RunsTable(tuple(rows)), folder / "trials.csv")
-    (folder / "versions.json").write_text(json.dumps({"blender": "of tests"}), encoding="utf-8")
-    return folder, int(met.sum()) - 1
 
 
 def test_a_search_makes_a_report_of_its_answer_its_curve_and_its_trials(tmp_path):

@@ -45,6 +45,7 @@ class Column:
     form: str = ""  # Python's format of a number, such as ".1f"; empty for texts
     value: Callable[..., Any] | None = None  # of a row, by its item; None where rows are given to the table
     significant: int = 0  # digits that a number with decimals has at least
+    cites: bool = False  # its texts are sources, by the titles that they have in every language
 
     def shown(self, value: Any) -> str:
         """Return a value as people read it."""
@@ -145,13 +146,15 @@ class Document:
 class Report:
     """A report that is to be written, with tables that are only files, and files that are written already.
 
-    Of a run or a study there are single pages, too, by whom they are for.
+    Of a run or a study there are single pages, too, by whom they are for. `names` are those of things in scenario and
+    scene: no language translates them.
     """
 
     document: Document
     tables: tuple[DataTable, ...] = ()
     files: tuple[Path, ...] = ()
     single_pages: Mapping[str, Document] = field(default_factory=dict)
+    names: frozenset[str] = frozenset()
 
 
 def facts(title: str, rows: Sequence[tuple[str, str]], name: str = "") -> DataTable:

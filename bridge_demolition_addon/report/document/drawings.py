@@ -10,6 +10,8 @@ from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 
 from ...charts.style import MM_PER_INCH, PAGE_WIDTH_MM, POINTS_PER_INCH, blank_figure, lay_out
+from ..languages.figures import translate_figure
+from ..languages.translation import Translation
 from .blocks import Document, Picture
 
 Drawings = Mapping[Picture, Figure]
@@ -20,25 +22,32 @@ IMAGE_DOTS_PER_INCH = 100.0
 
 
 def drawings(
-    documents: Document | Iterable[Document], finished: Callable[[int, int], None] = lambda *_: None
+    documents: Document | Iterable[Document],
+    finished: Callable[[int, int], None] = lambda *_: None,
+    translation: Translation | None = None,
 ) -> Drawings:
-    """Draw all pictures of documents once; `finished` is called with how many are drawn, and how many there are."""
+    """Draw all pictures of documents once; `finished` is called with how many are drawn, and how many there are.
+
+    Their texts are put into the language of `translation`, if any.
+    """
     each = [documents] if isinstance(documents, Document) else documents
     blocks = (block for document in each for block in document.blocks())
     pictures = list(dict.fromkeys(block for block in blocks if isinstance(block, Picture)))
     drawn = {}
     for number, picture in enumerate(pictures, start=1):
-        drawn[picture] = drawing(picture)
+        drawn[picture] = drawing(picture, translation)
         finished(number, len(pictures))
     return drawn
 
 
-def drawing(picture: Picture) -> Figure:
+def drawing(picture: Picture, translation: Translation | None = None) -> Figure:
     """Draw a picture as wide as a page, laid out for good: writing it does not lay it out again."""
     size = PAGE_WIDTH_MM / MM_PER_INCH, picture.height_mm / MM_PER_INCH
     # The dots of SVG and PDF are points.
     figure = blank_figure(*size, FigureCanvasSVG, layout="constrained", dpi=POINTS_PER_INCH)
     picture.draw(figure)
+    if translation is not None:
+        translate_figure(figure, translation)
     lay_out(figure)
     return figure
 

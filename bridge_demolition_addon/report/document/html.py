@@ -11,6 +11,7 @@ from html import escape
 from pathlib import Path
 
 from ...system.disk import write_whole_text
+from ..languages.translation import IN_ENGLISH, Translation
 from .blocks import AnimatedModel, Block, DataTable, Document, Listing, Paragraph, Photo, Picture, Section
 from .drawings import Drawings, svg
 
@@ -53,40 +54,41 @@ figure.model input { flex: 1; }
 """
 
 
-def write_html(document: Document, drawings: Drawings, path: Path) -> None:
-    """Write a report as a page."""
-    write_whole_text(path, "\n".join(_lines(document, drawings)) + "\n")
+def write_html(document: Document, drawings: Drawings, path: Path, translation: Translation = IN_ENGLISH) -> None:
+    """Write a report as a page; `translation` has the words that the page adds, such as those of its buttons."""
+    write_whole_text(path, "\n".join(_lines(document, drawings, translation)) + "\n")
 
 
-def _lines(document: Document, drawings: Drawings) -> Iterator[str]:
+def _lines(document: Document, drawings: Drawings, translation: Translation) -> Iterator[str]:
     title = escape(document.title)
-    yield f'<!doctype html>\n<html lang="en-GB">\n<head>\n<meta charset="utf-8">\n<title>{title}</title>'
+    yield f'<!doctype html>\n<html lang="{translation.table.tag}">\n<head>\n<meta charset="utf-8">'
+    yield f"<title>{title}</title>"
     yield '<link rel="icon" href="data:,">'  # or a browser asks for one
     yield f'<meta http-equiv="Content-Security-Policy" content="{_ALLOWED}">'
     yield '<meta name="viewport" content="width=device-width, initial-scale=1">'
     yield f"<style>{STYLE}</style>\n</head>\n<body>\n<h1>{title}</h1>"
     yield f'<p class="subtitle">{escape(document.subtitle)}</p>'
     for block in document.summary:
-        yield _block(block, drawings)
+        yield _block(block, drawings, translation)
     yield '<ol class="contents">'
     for number, section in enumerate(document.sections, start=1):
         yield f'<li><a href="#section-{number}">{escape(section.title)}</a></li>'
     yield "</ol>"
     for number, section in enumerate(document.sections, start=1):
-        yield from _section(number, section, drawings)
+        yield from _section(number, section, drawings, translation)
     if any(isinstance(block, AnimatedModel) for block in document.blocks()):
         yield f"<script>\n{_VIEWER.read_text(encoding='utf-8')}</script>"
     yield "</body>\n</html>"
 
 
-def _section(number: int, section: Section, drawings: Drawings) -> Iterator[str]:
+def _section(number: int, section: Section, drawings: Drawings, translation: Translation) -> Iterator[str]:
     yield f'<section>\n<h2 id="section-{number}">{number} {escape(section.title)}</h2>'
     for block in section.blocks:
-        yield _block(block, drawings)
+        yield _block(block, drawings, translation)
     yield "</section>"
 
 
-def _block(block: Block, drawings: Drawings) -> str:
+def _block(block: Block, drawings: Drawings, translation: Translation) -> str:
     match block:
         case Paragraph():
             kind = ' class="notice"' if block.is_notice else ""
@@ -100,7 +102,7 @@ def _block(block: Block, drawings: Drawings) -> str:
         case Photo():
             return _figure("image/png", block.path.read_bytes(), block.title)
         case AnimatedModel():
-            return _model(block)
+            return _model(block, translation)
 
 
 def _figure(kind: str, content: bytes, title: str) -> str:
@@ -109,13 +111,16 @@ def _figure(kind: str, content: bytes, title: str) -> str:
     return f'<figure>\n<img alt="{caption}" src="{source}">\n<figcaption>{caption}</figcaption>\n</figure>'
 
 
-def _model(model: AnimatedModel) -> str:
-    speeds = "".join(f'<option value="{slower}">{text}</option>' for slower, text in _SPEEDS.items())
+def _model(model: AnimatedModel, translation: Translation) -> str:
+    play, stop, time, speed = (escape(translation.text(word)) for word in ("Play", "Stop", "time", "speed"))
+    speeds = "".join(
+        f'<option value="{slower}">{escape(translation.text(text))}</option>' for slower, text in _SPEEDS.items()
+    )
     return (
         f'<figure class="model" data-model="{model.packed}">\n<canvas aria-label="{escape(model.title)}"></canvas>\n'
-        '<div><button type="button">Play</button>'
-        '<input type="range" min="0" max="0" step="any" value="0" aria-label="time">'
-        f'<select aria-label="speed">{speeds}</select><output></output></div>\n'
+        f'<div><button type="button" data-play="{play}" data-stop="{stop}">{play}</button>'
+        f'<input type="range" min="0" max="0" step="any" value="0" aria-label="{time}">'
+        f'<select aria-label="{speed}">{speeds}</select><output></output></div>\n'
         f"<figcaption>{escape(model.title)}</figcaption>\n</figure>"
     )
 

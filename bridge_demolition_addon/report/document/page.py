@@ -16,6 +16,7 @@ from matplotlib.textpath import TextToPath
 from matplotlib.transforms import IdentityTransform
 
 from ...charts.style import MM_PER_INCH, MM_PER_POINT
+from ..languages.letters import families
 from .drawings import IMAGE_DOTS_PER_INCH
 
 PAGE_MM = (210.0, 297.0)
@@ -31,6 +32,11 @@ class Font:
     size_pt: float
     weight: str = "normal"
     family: str = "sans-serif"
+
+    @property
+    def families(self) -> tuple[str, ...]:
+        """Its family, and those that have letters of the report's language that it lacks."""
+        return families(self.family)
 
     @property
     def height_mm(self) -> float:
@@ -82,7 +88,7 @@ class Page:
             renderer.draw_path(pen, Outline(_points(corners_mm)), IdentityTransform())
         for line in self.lines:
             x, y = _points(np.array([line.left_mm, line.base_mm]))
-            renderer.draw_text(pen, x, y, line.text, _properties(line.font), 0.0)
+            renderer.draw_text(pen, x, y, line.text, _properties(line.font, line.font.families), 0.0)
         renderer.finalize()
         for placed in self.drawings:
             drawn, scale = placed.drawn, placed.scale
@@ -105,22 +111,26 @@ def _points(positions_mm: np.ndarray) -> np.ndarray:
 
 
 @lru_cache
-def _properties(font: Font) -> FontProperties:
-    return FontProperties(family=font.family, weight=font.weight, size=font.size_pt)
+def _properties(font: Font, families: tuple[str, ...]) -> FontProperties:
+    return FontProperties(family=families, weight=font.weight, size=font.size_pt)
 
 
 def width_mm(text: str, font: Font) -> float:
     """Return how wide a text is: its words and the spaces between them, as words are measured once each."""
-    return sum(_word_mm(word, font) for word in text.split(" ")) + text.count(" ") * _word_mm(" ", font)
+    families = font.families
+    return sum(_word_mm(word, font, families) for word in text.split(" ")) + text.count(" ") * _word_mm(
+        " ", font, families
+    )
 
 
 @lru_cache(maxsize=50_000)
-def _word_mm(word: str, font: Font) -> float:
+def _word_mm(word: str, font: Font, families: tuple[str, ...]) -> float:
     # Between two bars, as what is measured is ink, without the room at its sides.
-    return _ink_mm(f"|{word}|", font) - _ink_mm("||", font) if word else 0.0
+    return _ink_mm(f"|{word}|", font, families) - _ink_mm("||", font, families) if word else 0.0
 
 
 @lru_cache(maxsize=50_000)
-def _ink_mm(text: str, font: Font) -> float:
-    width, _, _ = TextToPath().get_text_width_height_descent(text, _properties(font), ismath=False)
+def _ink_mm(text: str, font: Font, families: tuple[str, ...]) -> float:
+    properties = _properties(font, families)
+    width, _, _ = TextToPath().get_text_width_height_descent(text, properties, ismath=False)
     return width * MM_PER_POINT

@@ -20,6 +20,8 @@ from matplotlib.image import imread
 
 from ...charts.style import MM_PER_INCH, PAGE_WIDTH_MM, POINTS_PER_INCH, blank_figure
 from ...system.disk import whole_file
+from ..languages.letters import pieces
+from ..languages.translation import IN_ENGLISH, Translation
 from .blocks import AnimatedModel, Block, Column, DataTable, Document, Listing, Paragraph, Photo, Picture
 from .drawings import Drawings
 from .page import PAGE_MM, Font, Line, Page, Placed, width_mm
@@ -63,12 +65,19 @@ _Cells = Sequence[Sequence[str]]
 
 
 def write_pdf(
-    document: Document, drawings: Drawings, path: Path, finished: Callable[[int, int], None] = lambda *_: None
+    document: Document,
+    drawings: Drawings,
+    path: Path,
+    finished: Callable[[int, int], None] = lambda *_: None,
+    translation: Translation = IN_ENGLISH,
 ) -> None:
-    """Write a report as pages; `finished` is called with how many are written, and how many there are."""
+    """Write a report as pages; `finished` is called with how many are written, and how many there are.
+
+    `translation` has the words at the foot of each page.
+    """
     # Letters that stay letters: text can be searched and copied.
     with matplotlib.rc_context({"pdf.fonttype": 42}):
-        pages = laid_out(document, drawings)
+        pages = laid_out(document, drawings, translation)
         # Without a date the same run gives the same file.
         metadata = {"Title": document.title, "CreationDate": None}
         with whole_file(path) as part, closing(PdfFile(part, metadata=metadata)) as file:
@@ -78,7 +87,7 @@ def write_pdf(
             file.finalize()
 
 
-def laid_out(document: Document, drawings: Drawings) -> list[Page]:
+def laid_out(document: Document, drawings: Drawings, translation: Translation = IN_ENGLISH) -> list[Page]:
     """Return the pages of a report."""
     pages = _Pages(drawings)
     pages.text(document.title, TITLE)
@@ -88,7 +97,7 @@ def laid_out(document: Document, drawings: Drawings) -> list[Page]:
         pages.section(f"{number} {section.title}", section.blocks)
     title = _shortened(document.title, PAGE_WIDTH_MM - 40.0, SMALL)
     for number, page in enumerate(pages.pages, start=1):
-        foot = f"page {number} of {len(pages.pages)}"
+        foot = translation.text(f"page {number} of {len(pages.pages)}")
         _put(page, title, SMALL, LEFT_MM, FOOT_MM)
         _put(page, foot, SMALL, LEFT_MM + PAGE_WIDTH_MM - width_mm(foot, SMALL), FOOT_MM)
     return pages.pages
@@ -398,7 +407,7 @@ def _column_widths(rows: Sequence[Sequence[str]]) -> list[float]:
     """
     columns = list(zip(*rows, strict=True))
     widths = [_widest_mm(column) for column in columns]
-    words = [_widest_mm(" ".join(column).split()) for column in columns]
+    words = [_widest_mm([word for _, word in pieces(" ".join(column))]) for column in columns]
     evenly_mm = (PAGE_WIDTH_MM - GAP_MM * (len(widths) - 1)) / len(widths)
     for least_mm in (math.inf, SMALLEST_COLUMN_MM, min(evenly_mm, SMALLEST_COLUMN_MM)):
         _narrow(widths, [min(word, least_mm) for word in words])
@@ -432,8 +441,8 @@ def _wrapped(text: str, room_mm: float, font: Font) -> Iterator[str]:
     """Yield lines that fit; a word that is longer than a line is cut."""
     line = text[: len(text) - len(text.lstrip())]
     room_mm += 1e-6
-    for word in text.split():
-        longer = f"{line} {word}" if line.strip() else line + word
+    for blank, word in pieces(text):
+        longer = f"{line}{blank}{word}" if line.strip() else line + word
         if width_mm(longer, font) <= room_mm:
             line = longer
             continue

@@ -195,13 +195,13 @@ async function show(figure) {
     last = now;
     draw();
   }
-  function stop() { plays = false; button.textContent = "Play"; }
+  function stop() { plays = false; button.textContent = button.dataset.play; }
   button.onclick = () => {
     if (plays) { stop(); return; }
     if (+slider.value >= end) slider.value = 0;
     plays = true;
     last = performance.now();
-    button.textContent = "Stop";
+    button.textContent = button.dataset.stop;
     redraw();
   };
   slider.oninput = () => { stop(); redraw(); };

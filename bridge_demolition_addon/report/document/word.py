@@ -13,6 +13,8 @@ from matplotlib.figure import Figure
 
 from ...charts.style import PAGE_WIDTH_MM
 from ...system.disk import whole_file
+from ..languages.patterns import PLACE
+from ..languages.translation import IN_ENGLISH, Translation
 from .blocks import AnimatedModel, Block, DataTable, Document, Listing, Paragraph, Photo, Picture
 from .drawings import Drawings
 from .word_library import check_word
@@ -42,11 +44,18 @@ def is_as_written(path: Path) -> bool:
 
 
 def write_word(
-    document: Document, drawings: Drawings, path: Path, finished: Callable[[int, int], None] = lambda *_: None
+    document: Document,
+    drawings: Drawings,
+    path: Path,
+    finished: Callable[[int, int], None] = lambda *_: None,
+    translation: Translation = IN_ENGLISH,
 ) -> None:
-    """Write a report; `finished` is called with how many of its sections are written, and how many there are."""
+    """Write a report; `finished` is called with how many of its sections are written, and how many there are.
+
+    `translation` has the words at the foot of each page.
+    """
     check_word()
-    written = _Word(drawings)
+    written = _Word(drawings, translation)
     written.title(document)
     total = len(document.sections)
     for number, section in enumerate(document.sections, start=1):
@@ -60,11 +69,12 @@ def write_word(
 class _Word:
     """A Word file that grows from its top."""
 
-    def __init__(self, drawings: Drawings) -> None:
+    def __init__(self, drawings: Drawings, translation: Translation) -> None:
         import docx
         from docx.shared import Mm, Pt
 
         self._drawings = drawings
+        self._translation = translation
         self._mm, self._pt = Mm, Pt
         self._file: Any = docx.Document()
         page = self._file.sections[0]
@@ -81,10 +91,12 @@ class _Word:
         self._file.add_paragraph(document.subtitle, "Subtitle")
         self.add(document.summary)
         foot = self._file.sections[0].footer.paragraphs[0]
-        foot.add_run(f"{document.title}\tpage ")
+        before, between, after = self._translation.pattern("page {} of {}").split(PLACE)
+        foot.add_run(f"{document.title}\t{before}")
         _add_field(foot, "PAGE")
-        foot.add_run(" of ")
+        foot.add_run(between)
         _add_field(foot, "NUMPAGES")
+        foot.add_run(after)
 
     def heading(self, text: str) -> None:
         """Write the heading of a section."""

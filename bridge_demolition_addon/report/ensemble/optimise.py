@@ -20,7 +20,7 @@ from ..wording.numbers import percent
 from ..wording.optimise import optimise_sentences
 from .document import doubts_of, ensemble_document, statement_section, unfinished_sentence
 from .influence import correlation_table
-from .reported_ensemble import ReportedEnsemble, shown
+from .reported_ensemble import ReportedEnsemble, names_of_runs, shown
 from .runs import runs_section
 
 _MOST_CANDIDATES = 200
@@ -62,7 +62,7 @@ def optimise_report(runs: TriedCandidates, _target: Path, _progress: Progress) -
     tables = [_candidates_section(runs.tried, best), runs_section(runs, (CANDIDATE, ROUND))]
     asked = _asked(optimisation, runs)
     document = ensemble_document(runs, version, statement, pictures, tables, _STATISTICS, asked)
-    return Report(document, (correlation_table(runs),))
+    return Report(document, (correlation_table(runs),), names=names_of_runs(runs))
 
 
 def _asked(optimisation: Optimisation, runs: ReportedEnsemble) -> Iterator[tuple[str, str]]:

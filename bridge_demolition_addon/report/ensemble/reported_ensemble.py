@@ -18,6 +18,7 @@ from ...model.optimise.conclusions import CANDIDATE, ROUND
 from ...model.study.criteria import Criterion
 from ...model.study.file import SEED, Ensemble
 from ...model.study.runs_table import REACH, RunsTable
+from ..names import names_of
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,3 +87,13 @@ _CRITERION = f"{Criterion.table}."
 
 def _finite(values: np.ndarray) -> np.ndarray:
     return values[np.isfinite(values)]
+
+
+def names_of_runs(runs: ReportedEnsemble) -> frozenset[str]:
+    """Return names that no language translates: of scenario, criteria, folder, inputs and outputs, as shown."""
+    criteria = {criterion.name for criterion in runs.ensemble.criteria}
+    keys = {shown(name) for name in (*runs.table.inputs, *runs.table.outputs)} - {shown(REACH)}
+    without_units = {key.rpartition(" (")[0] for key in keys}
+    programs = {f"{name.replace('_', ' ')} {number}" for name, number in runs.versions.items()}
+    named = {runs.name, *criteria, *keys, *without_units, *programs} - {""}
+    return names_of(runs.ensemble.scenario) | named

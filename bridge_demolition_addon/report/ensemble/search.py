@@ -16,7 +16,7 @@ from ..wording.numbers import percent
 from ..wording.search import search_sentences
 from .document import doubts_of, ensemble_document, statement_section, unfinished_sentence
 from .influence import correlation_table
-from .reported_ensemble import ReportedEnsemble
+from .reported_ensemble import ReportedEnsemble, names_of_runs
 
 _STATISTICS = (
     "Values are chosen after Neyer (1994). The probability of success rises as a normal distribution along the "
@@ -46,7 +46,7 @@ def search_report(runs: SearchAnswer, _target: Path, _progress: Progress) -> Rep
     document = ensemble_document(
         runs, version, statement, [_curve_section(answer)], [_runs_section(answer)], _STATISTICS, _asked(answer)
     )
-    return Report(document, (correlation_table(runs),))
+    return Report(document, (correlation_table(runs),), names=names_of_runs(runs))
 
 
 def _asked(answer: Answer) -> Iterator[tuple[str, str]]:

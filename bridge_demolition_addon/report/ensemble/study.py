@@ -29,7 +29,7 @@ from .fragments import fragments_section
 from .influence import correlation_table
 from .neighbours import neighbours_section
 from .plan import layers, plan_section
-from .reported_ensemble import shown
+from .reported_ensemble import names_of_runs, shown
 from .runs import extremes_section, runs_section
 from .study_runs import StudyRuns
 from .summary import study_summary
@@ -47,7 +47,7 @@ def study_report(runs: StudyRuns, target: Path, progress: Progress) -> Report:
     plans = write_areas(layers(runs), runs.ensemble.scenario.site, target / PLAN_DXF, target / PLAN_GEOJSON)
     document = study_document(runs, VERSION, [path.name for path in plans])
     pages = single_pages(document, runs.ensemble.scenario)
-    return Report(document, (correlation_table(runs),), tuple(plans), pages)
+    return Report(document, (correlation_table(runs),), tuple(plans), pages, names_of_runs(runs))
 
 
 def study_document(runs: StudyRuns, version: str, files: Sequence[str] = ()) -> Document:

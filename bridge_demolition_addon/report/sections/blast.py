@@ -99,7 +99,7 @@ def _ring_table(charges: Sequence[Charge], model: BlastModel, pressure_factor: f
         Column("overpressure (kPa)", "overpressure_kPa", ".2f", lambda threshold, _: threshold.overpressure_pa / 1e3),
         Column("damage", "damage", "", lambda threshold, _: threshold.damage),
         Column("ring (m)", "radius_m", ".1f", lambda _, radius_m: float(radius_m)),
-        Column("source", "source", "", lambda threshold, _: threshold.source),
+        Column("source", "source", "", lambda threshold, _: threshold.source, cites=True),
     )
     title = "Thresholds of damage, and the largest radius around a charge on the ground"
     return DataTable.of("damage_rings", title, columns, THRESHOLDS, radii)

@@ -225,7 +225,7 @@ PLAN_ITEMS = (
 
 _COLUMNS = (
     Column("Item", "item"),
-    Column("Asked for in", "asked_for_in"),
+    Column("Asked for in", "asked_for_in", cites=True),
     Column("In this report", "in_this_report"),
     Column("To be filled in by", "to_be_filled_in_by"),
 )

@@ -27,6 +27,7 @@ from ...system.progress import Progress
 from ...system.reading import MEGABYTE, file_text
 from ...version import VERSION
 from ..document.blocks import Block, Column, DataTable, Document, Paragraph, Report, Section
+from ..names import MEMBER_KINDS
 from ..run_folder import shown_name
 from .plan_contents import with_plan_contents
 
@@ -114,7 +115,18 @@ def stages_report(folder: Path, _target: Path, _progress: Progress) -> Report:
     """Return the report of stages alone."""
     subtitle = f"Report of the stages of a demolition. Bridge Demolition Add-on {VERSION}"
     document = Document(shown_name(folder), subtitle, (stages_section(folder),))
-    return Report(with_plan_contents(document, None))
+    return Report(with_plan_contents(document, None), names=names_in_stages(folder) | {document.title})
+
+
+def names_in_stages(folder: Path) -> frozenset[str]:
+    """Return the names of members, supports, bearings and blast zones in the tables of stages: no language has them."""
+    of_tables = ((CRITICALITY_FILE, "member"), (REACTIONS_FILE, "support"), (BEARINGS_FILE, "bearing"))
+    tables = [(folder / file, column) for file, column in (*of_tables, (MISFIRES_FILE, "fails"))]
+    return frozenset(name for path, column in tables for name in _named_in(path, column)) - MEMBER_KINDS
+
+
+def _named_in(path: Path, column: str) -> set[str]:
+    return {row[column] for row in _rows(path, (column,), may_be_empty=True)} if path.is_file() else set()
 
 
 def stages_section(folder: Path) -> Section:

@@ -79,6 +79,7 @@ class BDA_PT_report(SidebarPanel, bpy.types.Panel):
         return can_report(context.scene)
 
     def draw(self, context: bpy.types.Context) -> None:
+        self.layout.prop(context.scene.bda, "report_language")
         column = self.layout.column(align=True)
         column.operator("bda.make_report")
         column.operator("bda.make_word_report")
