@@ -76,9 +76,12 @@ def test_bda_check_says_it_of_charges_and_balls_alone():
 
 
 def test_a_deck_under_the_ball_is_down_or_dented():
-    """Nothing is between: those that stand went down by less than 0.3 m, those that fell by more than 5."""
+    """As the page counts them. Nothing is between: those that stand went down by less than 0.3 m, those that fell by more than 5."""
     sags_m = {down: [float(row["sag_m"]) for row in sensitivity.rows("ball") if row["down"] == down] for down in "01"}
     assert max(sags_m["0"]) < 0.3 and min(sags_m["1"]) > 5.0
+    rows = sensitivity.rows("ball")
+    by_traffic = [(row["in.bridge.reinforcement.traffic_kn_m2"], row["down"]) for row in rows]
+    assert [by_traffic.count(pair) for pair in (("12", "0"), ("12", "1"), ("6", "0"), ("6", "1"))] == [12, 0, 4, 11]
 
 
 def figures(line):
