@@ -76,7 +76,7 @@ def test_bda_check_says_it_of_charges_and_balls_alone():
 
 
 def test_a_deck_under_the_ball_is_down_or_dented():
-    """As the page counts them. Nothing is between: those that stand went down by less than 0.3 m, those that fell by more than 5."""
+    """As the page counts them. Nothing is between: those that stand went down by 0.3 m at most, others by 5 or more."""
     sags_m = {down: [float(row["sag_m"]) for row in sensitivity.rows("ball") if row["down"] == down] for down in "01"}
     assert max(sags_m["0"]) < 0.3 and min(sags_m["1"]) > 5.0
     rows = sensitivity.rows("ball")
