@@ -269,8 +269,8 @@ this page. Two questions are kept apart:
   fitted to tests. The ratio is what was found over what was measured.
 
 What agrees with theory may be far from what was measured, where the model leaves out what matters. What it leaves out
-stands before the numbers. A case that misses stays in. Nearly all cases were built with their outcome at hand;
-[blind forecasts](#blind-forecasts) were not.
+stands before the numbers. A case that misses stays in. Cases were built with their outcome at hand; the blind
+forecasts at the end of this page were not.
 
 Bodies are rigid, and contacts are Bullet's: damping is off but in examples of the add-on and in columns of loose
 blocks, and edges are sharp. In cases with bars the connections are elastic.

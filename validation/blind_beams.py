@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reinforced beams of many laboratories in three-point bending: the moment that each bore, foreseen."""
+"""Reinforced beams of many laboratories in three-point bending: the moment that each carried, foreseen."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -98,7 +98,7 @@ CASE = BlindCase(
     name="blind_beams",
     title="Reinforced beams of many laboratories",
     asked="Beams of 0.1 to 0.15 m width and 0.15 to 0.3 m height, in the middle of a span of 1 to 2 m, under a load "
-    "that grows: which moment does each bear at most? They are all beams of a database that have no corrosion, stand "
+    "that grows: which moment does each carry at most? They are all beams of a database that have no corrosion, stand "
     "on two supports, were loaded in their middle alone, and differ; of those that do, the "
     "first seven of eleven: the others were left out before the outcome was opened, as runs took long.",
     known="Sizes, bars, strengths and spans: the columns of the database that are inputs. Its last two columns, the "

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reinforced sections of many laboratories under two loads: the moment that each bore, foreseen by its bars."""
+"""Reinforced sections of many laboratories under two loads: the moment that each carried, foreseen by its bars."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -96,7 +96,7 @@ def foresee(folder: Path) -> Sequence[Foreseen]:
 CASE = BlindCase(
     name="blind_sections",
     title="Reinforced sections of many laboratories",
-    asked="Beams between two loads in equal distances from their supports: which moment do their sections bear at "
+    asked="Beams between two loads in equal distances from their supports: which moment do their sections carry at "
     "most? Of the tests of a database in which bars had no corrosion, it is the first of each width, height and "
     "distance of a load from its support.",
     known="Sizes, bars and strengths: the columns of the database that are inputs. Its last two columns, the moments, "
