@@ -55,7 +55,7 @@ def kept(table: Path = TABLE) -> list[dict[str, str]]:
 
 
 def load() -> str:
-    """Return how many programs wanted to run on each core in the last quarter of an hour; empty where it is not known."""
+    """Return how many programs wanted to run on each core in a quarter of an hour; empty where it is not known."""
     if not hasattr(os, "getloadavg"):
         return ""
     return f"{os.getloadavg()[2] / (os.cpu_count() or 1):.1f}"
