@@ -2,11 +2,13 @@
 """Ratios of benches by commit: a table, a picture, and which of them have grown.
 
 Ratios of one processor alone are held against each other: `docs/data/bench.csv` has them in the order in which they
-were taken.
+were taken, and how many programs wanted to run on each core in the last quarter of an hour: 1 by the bench alone on one
+core, more where others took its time.
 """
 
 import csv
 import datetime
+import os
 import platform
 import subprocess
 import sys
@@ -19,7 +21,7 @@ from bridge_demolition_addon.system.processor import processor_name
 
 ROOT = Path(__file__).resolve().parent.parent
 TABLE, PICTURE = ROOT / "docs" / "data" / "bench.csv", ROOT / "docs" / "pictures" / "bench_history.png"
-COLUMNS = ("commit", "date", "processor", "python", "bench", "ratio", "value")
+COLUMNS = ("commit", "date", "processor", "python", "load", "bench", "ratio", "value")
 SEEN = 1.05
 """Growth that is named: what a ratio scatters by on an idle machine is less."""
 
@@ -31,6 +33,7 @@ def keep(found: Mapping[str, Mapping[str, float]], table: Path = TABLE, picture:
         "date": datetime.datetime.now(datetime.UTC).date().isoformat(),
         "processor": processor_name(),
         "python": platform.python_version(),
+        "load": load(),
     }
     rows = kept(table)
     for bench, ratios in found.items():
@@ -49,6 +52,13 @@ def kept(table: Path = TABLE) -> list[dict[str, str]]:
         return []
     with table.open(newline="", encoding="utf-8") as file:
         return list(csv.DictReader(file))
+
+
+def load() -> str:
+    """Return how many programs wanted to run on each core in a quarter of an hour; empty where it is not known."""
+    if not hasattr(os, "getloadavg"):
+        return ""
+    return f"{os.getloadavg()[2] / (os.cpu_count() or 1):.1f}"
 
 
 def commit() -> str:

@@ -13,7 +13,7 @@ from .memory import DOUBLES, INTEGERS, Fields, field_loops
 
 _VECTOR = 8 * np.arange(3)
 
-_SYMMETRIC = 1e-9
+SYMMETRIC = 1e-9
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -63,7 +63,7 @@ class BodyMotionReader:
         """Return the inverse tensors of inertia (3, 3, n) in the axes of the world, 1/(kg·m²)."""
         tensors = self._inertia.copy().reshape(3, 3, -1)
         loops = field_loops()
-        if not (_are_inertias(tensors) if loops is None else loops.are_inertias(tensors, _SYMMETRIC)):
+        if not (are_inertias(tensors) if loops is None else loops.are_inertias(tensors, SYMMETRIC)):
             raise LayoutError("the inertia of a body is not as expected")
         return tensors
 
@@ -104,8 +104,8 @@ class BodyMotionReader:
         DOUBLES.write_fields(self._bodies[rows], np.concatenate(offsets), values)
 
 
-def _are_inertias(tensors: np.ndarray) -> bool:
+def are_inertias(tensors: np.ndarray) -> bool:
     """Whether all tensors (3, 3, n) are finite, symmetric and not negative on their diagonals."""
     largest = abs(tensors).max(axis=(0, 1))
-    is_symmetric = abs(tensors - np.swapaxes(tensors, 0, 1)).max(axis=(0, 1)) <= _SYMMETRIC * largest
+    is_symmetric = abs(tensors - np.swapaxes(tensors, 0, 1)).max(axis=(0, 1)) <= SYMMETRIC * largest
     return bool((is_symmetric & (tensors[[0, 1, 2], [0, 1, 2]] >= 0.0).all(axis=0) & np.isfinite(largest)).all())

@@ -54,7 +54,7 @@ def test_what_is_written_is_written_by_numpy_too(block, without_numba):
 @pytest.mark.parametrize("number", [-1e-3, np.nan, np.inf], ids=["negative", "none", "endless"])
 def test_wrong_inertias_are_found_either_way(number):
     tensors = np.repeat(np.diag([1.0, 2.0, 0.0])[..., None], 4, axis=-1)
-    ways = body_motion._are_inertias, lambda of: field_loops().are_inertias(of, body_motion._SYMMETRIC)
+    ways = body_motion.are_inertias, lambda of: field_loops().are_inertias(of, body_motion.SYMMETRIC)
     assert all(way(tensors) for way in ways)
     for place in ((0, 0), (0, 1)):
         wrong = tensors.copy()
