@@ -5,6 +5,7 @@ from __future__ import annotations
 import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 import bpy
@@ -70,11 +71,16 @@ def table_files() -> list[Path]:
 
 def register() -> None:
     """Hand all tables to Blender."""
+    bpy.app.translations.register(__name__, _texts())
+
+
+@cache
+def _texts() -> dict[str, Translations]:
+    """Return all texts by locale, put together once: the add-on may be switched off and on."""
     tables = map(LanguageTable.read, table_files())
-    texts = {
+    return {
         locale: translations for table in tables if (translations := table.translations()) for locale in table.locales
     }
-    bpy.app.translations.register(__name__, texts)
 
 
 def unregister() -> None:
