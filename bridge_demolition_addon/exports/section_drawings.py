@@ -99,5 +99,5 @@ def _draw(section: PileSection, path: Path) -> None:
 
     figure = blank_figure(*_FIGURE_IN, layout="constrained")
     section_chart(figure, section)
-    figure.suptitle(section_title(section), fontsize=10)
-    figure.savefig(path, dpi=150)
+    figure.axes[0].set_title(section_title(section), fontsize=10)
+    figure.savefig(path, dpi=150, bbox_inches="tight")  # a low pile leaves much of the page empty

@@ -42,6 +42,7 @@ def steps(person: Person) -> Steps:
     person.expect("sidebar and no tools", (view.show_region_ui, view.show_region_toolbar), (True, False))
     yield from other_picture(person)
     yield from to_the_peak(person)
+    yield from run_again(person)
 
 
 def other_picture(person: Person) -> Steps:
@@ -76,6 +77,23 @@ def to_the_peak(person: Person) -> Steps:
     person.expect("its shard is chosen", person.window.view_layer.objects.active.name, largest.body)
     person.expect_reports("the peak is reported", f"kN on {largest.body}")
     yield from person.picture("at_the_peak")
+
+
+def run_again(person: Person) -> Steps:
+    """Run once more in the workspace: it shows the chart of that run."""
+    before = chart(person)
+    person.scene.bda.pictures_of_run = False
+    with person.in_sidebar():
+        bpy.ops.bda.run("INVOKE_DEFAULT")
+    yield from person.wait_for("it runs again", recording_runs, 20.0)
+    yield from person.wait_for("it is over again", lambda: not something_goes_on(), 120.0)
+    yield 0.5
+    area = next(area for area in person.window.screen.areas if area.type == "IMAGE_EDITOR")
+    shown = Path(area.spaces.active.image.filepath)
+    person.expect("the chart of the run that has just ended is shown", shown, chart(person))
+    person.expect("which is another one", shown != before)
+    yield from person.picture("run_again")
+    person.take_reports()
 
 
 def chart(person: Person) -> Path:
