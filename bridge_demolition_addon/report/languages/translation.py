@@ -12,7 +12,7 @@ from functools import cached_property
 from itertools import chain
 
 from .patterns import PLACE, Pattern
-from .table import ENGLISH, LanguageTable, language_table
+from .table import ENGLISH, ReportTexts, language_table
 
 _SENTENCE_ENDS = re.compile(r"(?<=[.:;!?]) +(?=\S)")
 _NUMBERED = re.compile(r"(\d+) ([A-Z].*)")
@@ -42,7 +42,7 @@ class Translation:
     `kept` are names that are the user's, or of bodies in the scene: they stay as they are.
     """
 
-    def __init__(self, table: LanguageTable, kept: Iterable[str] = ()) -> None:
+    def __init__(self, table: ReportTexts, kept: Iterable[str] = ()) -> None:
         self.table = table
         self.missing: list[str] = []
         """Texts that stayed English, as they are asked for, each once."""

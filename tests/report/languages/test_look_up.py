@@ -7,7 +7,7 @@ from bridge_demolition_addon.cli.main import main
 from bridge_demolition_addon.errors import OutputError
 from bridge_demolition_addon.report.document.blocks import Column, DataTable, Document, Paragraph, Section
 from bridge_demolition_addon.report.languages.letters import pieces
-from bridge_demolition_addon.report.languages.table import LanguageTable, check_language
+from bridge_demolition_addon.report.languages.table import ReportTexts, check_language
 from bridge_demolition_addon.report.languages.translated_report import (
     notes_on_language,
     translated_document,
@@ -26,7 +26,7 @@ TEXTS = {
 
 
 def german(*names, **texts):
-    return Translation(LanguageTable("de", "de", False, TEXTS | texts), names)
+    return Translation(ReportTexts("de", "de", False, TEXTS | texts), names)
 
 
 @pytest.mark.parametrize(
