@@ -61,8 +61,8 @@ def run_report(
     names = [path.name for path in plans]
     document = run_document(run, VERSION, zone, names, trajectories=trajectories, stages=with_stages)
     tables = () if zone is None else (corner_table(zone),)
-    names = names_in_run(run) | (frozenset() if with_stages is None else names_in_stages(with_stages))
-    return Report(document, tables, tuple(plans), single_pages(document, run.scenario), names)
+    kept = names_in_run(run) | (frozenset() if with_stages is None else names_in_stages(with_stages))
+    return Report(document, tables, tuple(plans), single_pages(document, run.scenario), kept)
 
 
 def run_document(

@@ -95,5 +95,5 @@ def names_of_runs(runs: ReportedEnsemble) -> frozenset[str]:
     keys = {shown(name) for name in (*runs.table.inputs, *runs.table.outputs)} - {shown(REACH)}
     without_units = {key.rpartition(" (")[0] for key in keys}
     programs = {f"{name.replace('_', ' ')} {number}" for name, number in runs.versions.items()}
-    named = {runs.name, *criteria, *keys, *without_units, *programs} - {""}
+    named = {runs.name, *criteria, *keys, *without_units, *programs, *runs.table.inputs, *runs.table.outputs} - {""}
     return names_of(runs.ensemble.scenario) | named

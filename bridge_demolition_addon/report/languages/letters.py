@@ -9,7 +9,7 @@ from contextlib import contextmanager
 import matplotlib
 from matplotlib import font_manager
 
-from .table import LanguageTable
+from .table import ReportTexts
 
 CHINESE_FONTS = (
     "Noto Sans CJK SC",
@@ -49,7 +49,7 @@ def chinese_font() -> str | None:
 
 
 @contextmanager
-def letters_of(table: LanguageTable) -> Iterator[bool]:
+def letters_of(table: ReportTexts) -> Iterator[bool]:
     """Have drawings and pages use a font that has the letters of a language; yield whether there is one."""
     if not table.chinese_letters:
         yield True

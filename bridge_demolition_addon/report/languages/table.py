@@ -16,7 +16,7 @@ FOLDER = Path(__file__).parent
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class LanguageTable:
+class ReportTexts:
     """The table of a language.
 
     Attributes
@@ -56,9 +56,9 @@ def check_language(name: str) -> str:
 
 
 @lru_cache
-def language_table(name: str) -> LanguageTable:
+def language_table(name: str) -> ReportTexts:
     """Read the table of a language; that of English has no texts."""
     if check_language(name) == ENGLISH:
-        return LanguageTable(ENGLISH, "en-GB", False, {})
+        return ReportTexts(ENGLISH, "en-GB", False, {})
     read = tomllib.loads((FOLDER / f"{name}.toml").read_text(encoding="utf-8"))
-    return LanguageTable(name, read["tag"], read.get("chinese_letters", False), read["texts"])
+    return ReportTexts(name, read["tag"], read.get("chinese_letters", False), read["texts"])

@@ -12,7 +12,7 @@ from functools import cached_property
 from itertools import chain
 
 from .patterns import PLACE, Pattern
-from .table import ENGLISH, LanguageTable, language_table
+from .table import ENGLISH, ReportTexts, language_table
 
 _SENTENCE_ENDS = re.compile(r"(?<=[.:;!?]) +(?=\S)")
 _NUMBERED = re.compile(r"(\d+) ([A-Z].*)")
@@ -21,13 +21,16 @@ _NUMBERED = re.compile(r"(\d+) ([A-Z].*)")
 _LETTERS = re.compile(r"[^\W\d_]{2,}")
 _WORD = re.compile(r"[^\W\d_]{3,}|\b(?:as|at|by|if|in|is|it|no|of|on|or|to|up)\b")
 _NO_WORDS = re.compile(
-    r"\S*[\w\]\[*>]+[._/=\\]\S*"  # keys, files and places of files
+    r"\S*[\w\]\[*>][._/=\\]\w\S*"  # keys, files and places of files
     r"|\b[A-Z][A-Z0-9_]{2,}\b"  # choices in files
     r"|--\S+|\[\[?\w+\]?\]"  # options of commands and tables of scenarios
     r"|\b(?:kPa|MPa|kNm|rad|mrad|TNT|USBM|ASCE|MOP|DIN|DGUV|CFR|CDM|HSE|ANFO|Wilks|Clopper|Pearson|Guba|Makai|Pál"
     r"|Lundborg|McKenzie|Zhou|Hertz|Neyer|Bullet|Blender|Bridge Demolition Add-on|CoP|Hong Kong|SprengV|Regel)\b"
 )
 """What stays as it is in every language: units, sources, and what users write into files."""
+
+_FEW_LETTERS = 8
+"""A pattern with fewer fixed letters, such as ``{} of {}``, is taken only where nothing in it stays English."""
 
 _Reading = tuple[str, tuple[str, ...]]
 """A text in the language, and the parts of it that stayed English."""
@@ -39,7 +42,7 @@ class Translation:
     `kept` are names that are the user's, or of bodies in the scene: they stay as they are.
     """
 
-    def __init__(self, table: LanguageTable, kept: Iterable[str] = ()) -> None:
+    def __init__(self, table: ReportTexts, kept: Iterable[str] = ()) -> None:
         self.table = table
         self.missing: list[str] = []
         """Texts that stayed English, as they are asked for, each once."""
@@ -112,7 +115,9 @@ class Translation:
             for values in pattern.readings(text):
                 parts = [self._best(value) for value in values]
                 own = self.table.texts[pattern.english].format(*(part for part, _ in parts))
-                yield own, tuple(missing for _, each in parts for missing in each)
+                missing = tuple(text for _, each in parts for text in each)
+                if not missing or pattern.letters >= _FEW_LETTERS:
+                    yield own, missing
 
     def _by_sentences(self, text: str) -> Iterator[_Reading]:
         """Yield a text cut after one of its sentences, as many as can be; the rest is cut in the same way."""

@@ -24,8 +24,9 @@ def font(tmp_path, monkeypatch):
         if table.isUnicode():
             table.cmap |= dict.fromkeys(used, "H")
     for record in file["name"].names:
-        if record.nameID in (1, 4, 16):
-            file["name"].setName(NAME, record.nameID, record.platformID, record.platEncID, record.langID)
+        if record.nameID in (1, 4, 6, 16):
+            name = NAME.replace(" ", "") if record.nameID == 6 else NAME
+            file["name"].setName(name, record.nameID, record.platformID, record.platEncID, record.langID)
     path = tmp_path / "letters.ttf"
     file.save(path)
     known = list(font_manager.fontManager.ttflist)
@@ -41,7 +42,7 @@ def test_with_a_font_page_and_pdf_are_chinese(font, tmp_path):
     assert [path.name for path in written[:2]] == ["report.html", "report.pdf"]
     html = written[0].read_text(encoding="utf-8")
     assert '<html lang="zh-Hans">' in html and "极限荷载系数" in html
-    assert b"LettersofTests" in written[1].read_bytes().replace(b"-", b"")
+    assert b"LettersofTests" in written[1].read_bytes()
 
 
 def test_without_a_font_the_page_is_chinese_and_the_error_says_what_to_install(tmp_path, monkeypatch):

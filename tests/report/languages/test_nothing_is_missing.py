@@ -37,7 +37,7 @@ def test_all_texts_in_drawings_are_translated(made):
 def test_a_new_sentence_would_be_missed(made):
     translation = Translation.into("de", made[0].names)
     assert translation.text("The bridge will be rebuilt by noon.") == "The bridge will be rebuilt by noon."
-    assert translation.missing == ["The bridge will be rebuilt by noon."]
+    assert translation.missing == ["The bridge will be rebuilt by noon"]
 
 
 def test_all_tables_have_the_same_texts():
