@@ -9,7 +9,7 @@ import numpy as np
 
 from ..engineering.geometry.mesh import TriangleMesh, joined_meshes
 
-LOOKS_ONLY = "For looks only: road, railings, banks, lorry, crane, bent bars, rough faces, dust, chips"
+LOOKS_ONLY = "For looks only: surroundings, crane, dust, chips, bars, rough faces"
 """What every dressed picture says of itself."""
 
 

@@ -7,7 +7,7 @@ from mathutils import Vector
 
 from .materials import new_nodes
 
-_HEIGHT, _SMALL, _LINE = 0.06, 0.032, 0.045
+_HEIGHT, _SMALL, _LINE = 0.07, 0.048, 0.065
 """Heights of letters, and of the lowest line, as parts of the picture's height."""
 
 _MARGIN = 0.03
@@ -35,7 +35,7 @@ class Caption:
         note = _text(scene, "Note", (left + margin, bottom + margin), small, "LEFT", material)
         note.data.body = looks_only
         bar = _text(scene, "Scale", (right - margin, bottom + margin + line), small, "RIGHT", material)
-        bar.data.body = f"black and white bar: {length}"
+        bar.data.body = f"bar: {length}"
         self.show_time(0.0)
 
     def show_time(self, time_s: float) -> None:

@@ -38,6 +38,7 @@ def raise_dust(scene: bpy.types.Scene, clouds: Iterable[Puff]) -> list[bpy.types
         puff = bpy.data.objects.new(f"Dust {number}", mesh)
         puff[ROLE] = _DUST
         puff.display_type, puff.hide_select = "WIRE", True
+        puff.visible_shadow = False  # clouds are lit as if alone: in each other's shade they would look like smoke
         collection.objects.link(puff)
         _animate(puff, cloud, rate)
         made.append(puff)
