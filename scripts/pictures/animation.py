@@ -23,8 +23,8 @@ from bridge_demolition_addon.scene.world import START_FRAME
 from bridge_demolition_addon.simulation.display.pictures import run_renderer
 
 ROOT = Path(__file__).resolve().parents[2]
-SIZE_PX = 480, 270
-PICTURES_PER_SECOND = 4
+SIZE_PX = 640, 360
+PICTURES_PER_SECOND = 6
 STAYS_MS = 2000
 """How long the last picture is shown before all begins again."""
 QUALITY = 60
