@@ -58,7 +58,8 @@ class FaceBars:
     ) -> FaceBars:
         """Return them together with bars across faces `rows` (b,), some maybe of one face.
 
-        They yield at `pulls_n` (b,), at offsets (b, 2) and along directions (b, 3) as above.
+        They yield at `pulls_n` (b,), at offsets (b, 2) and along directions (b, 3) as above. Where bars stretch along
+        cracked shards, all of a face yield at the opening at which those do.
         """
         forces, parts = self.yield_n[:, None] * self.directions, self.yield_n.copy()
         by_offset, by_opening = self.yield_n[:, None] * self.offsets_m, self.yield_n * self.openings_m
@@ -67,13 +68,17 @@ class FaceBars:
         np.add.at(by_offset, rows, pulls_n[:, None] * offsets_m)
         np.add.at(by_opening, rows, pulls_n * openings_m)
         has_bars, whole = parts > 0.0, length(forces)
+        openings = np.divide(by_opening, parts, out=np.zeros_like(parts), where=has_bars)
+        shares = self.yield_shares
+        if shares is not None:
+            shares = np.divide(shares * self.openings_m, openings, out=np.full_like(shares, np.nan), where=has_bars)
         return FaceBars(
             whole,
             np.divide(by_offset, parts[:, None], out=np.zeros_like(by_offset), where=has_bars[:, None]),
             np.divide(forces, whole[:, None], out=self.directions.copy(), where=whole[:, None] > 0.0),
-            np.divide(by_opening, parts, out=np.zeros_like(parts), where=has_bars),
+            openings,
             self.hinges,
-            self.yield_shares,
+            shares,
         )
 
     @property

@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 from support.cracked_beam import AREA_MM2, BARS, cracked, cracked_stiffness_nm2
-from support.prestressed_beam import MODULUS_M3, WEIGHT_N_M, Beam, beam_text
+from support.prestressed_beam import MODULUS_M3, WEIGHT_N_M, Beam, beam_text, tendon
 
 from bridge_demolition_addon.engineering.mechanics.strength import MATERIALS
 from bridge_demolition_addon.errors import ScenarioError
@@ -71,6 +71,19 @@ def test_openings_have_what_shards_stretch():
     at_crack_m = 0.0025 / 0.05 * alone.openings_m[row]
     assert stretched.openings_m[row] - alone.openings_m[row] == pytest.approx(yields_m - at_crack_m, rel=1e-6)
     assert alone.yield_shares is None
+
+
+def test_bars_beside_a_tendon_stretch_as_without_it():
+    """Bonded strands rupture at another opening; bars of the face yield where they did."""
+    strands = tendon("eccentricities_m = [0.3, 0.3, 0.3]", more="bonded = true")
+    yields_m = []
+    for text in (beam_text(BARS, blocks=20), beam_text(BARS + strands, blocks=20)):
+        beam = Beam(text.replace("[connections]", "[connections]\ncracks_within_shards = true"))
+        bars, row = beam.model.bars, beam.middle_face
+        yields_m.append((bars.yield_shares[row] * bars.openings_m[row], bars.openings_m[row]))
+    (alone_m, ruptures_alone_m), (beside_m, ruptures_beside_m) = yields_m
+    assert beside_m == pytest.approx(alone_m, rel=1e-9)
+    assert ruptures_beside_m != pytest.approx(ruptures_alone_m, rel=1e-3)
 
 
 @pytest.mark.parametrize("more", ["", "ductile_share = 0.2\nductile_elongation_m = 0.05\n"])
