@@ -84,9 +84,8 @@ class CrackFaces:
         Whole sections bend by I = A h² / 12, where corners that are as stiff as they in all bend by A h² / 4.
         """
         normal = torn.signs * components_first(torn.axes[:, :, 0])
-        pulls = np.where(
-            pressed_n_m > 0.0, self._shared(torn, places_m, 3.0) / np.where(pressed_n_m > 0.0, pressed_n_m, 1.0), 0.0
-        )
+        shared = self._shared(torn, places_m, 3.0)
+        pulls = np.divide(shared, pressed_n_m, out=np.zeros_like(shared), where=pressed_n_m > 0.0)
         parted: FloatArray = normal[:, None] * (pulls * normal[:, None]).sum(axis=0)
         return parted
 
