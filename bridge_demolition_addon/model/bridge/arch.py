@@ -9,7 +9,7 @@ import numpy as np
 from ...engineering.geometry.road_profiles import RoadProfile, across_road
 from ..scenario import Bridge
 from ..scenario.arch import ARCH_KIND, BLOCK_KIND
-from ..scenario.bridge import arch_axis, axes_on_arch_m, rib_axes_m, springing_axes_m
+from ..scenario.bridge_axes import arch_axis, axes_on_arch_m, rib_axes_m, springing_axes_m
 from ..schema import given
 from .ground import GroundHeight, foot_m
 from .member import Member

@@ -7,7 +7,7 @@ import numpy as np
 from ...engineering.geometry.road_profiles import RoadProfile, across_road
 from ...engineering.geometry.vectors import unit
 from ..scenario import Bridge
-from ..scenario.bridge import leg_axes_m
+from ..scenario.bridge_axes import leg_axes_m
 from ..schema import given
 from .ground import GroundHeight, foot_m
 from .layout import deck_top

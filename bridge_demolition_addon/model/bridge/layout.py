@@ -14,7 +14,7 @@ from ...engineering.geometry.rotations import turn_in_plane
 from ...engineering.geometry.vectors import transformed
 from ..actions import Fact
 from ..scenario import Bridge
-from ..scenario.bridge import arch_axis, leg_axes_m
+from ..scenario.bridge_axes import arch_axis, leg_axes_m
 from ..schema import given
 
 

@@ -13,7 +13,7 @@ from ...engineering.geometry.solids import union
 from ...errors import ScenarioError
 from ..scenario import Bridge
 from ..scenario.arch import ARCH_KIND, BLOCK_KIND, Arch
-from ..scenario.bridge import Abutments, Deck, Girders, PierCaps, Piers
+from ..scenario.bridge_parts import Abutments, Deck, Girders, PierCaps, Piers
 from ..scenario.frame import RigidFrame
 from ..schema import given
 from .frame import LEG

@@ -7,7 +7,7 @@ import numpy as np
 from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.solids import box
 from ..scenario import Bridge
-from ..scenario.bridge import Abutments, PierCaps
+from ..scenario.bridge_parts import Abutments, PierCaps
 from ..schema import given
 from .arch import above_arch, arch_members
 from .frame import frame_legs

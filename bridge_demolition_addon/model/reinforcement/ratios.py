@@ -11,7 +11,7 @@ from ..bridge.own_axes import own_axes
 from ..materials.bar_layers import BarLayer
 from ..scenario import RatiosOfMember
 from ..scenario.arch import ARCH_KIND
-from ..scenario.bridge import arch_axis
+from ..scenario.bridge_axes import arch_axis
 from .design_basis import DesignBasis
 from .schedule import ScheduledBars, ScheduledLinks
 

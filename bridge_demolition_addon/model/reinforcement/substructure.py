@@ -21,7 +21,7 @@ from ...engineering.reinforced_concrete.least_areas import (
 )
 from ...engineering.reinforced_concrete.materials import PERMANENT_FACTOR, VARIABLE_FACTOR
 from ..bridge.member import Member
-from ..scenario.bridge import PierCaps, Piers
+from ..scenario.bridge_parts import PierCaps, Piers
 from ..schema import given
 from .beam_effects import BeamEffects, beam_effects
 from .design_basis import BarDesign, DesignBasis, Tension

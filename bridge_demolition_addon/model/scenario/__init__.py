@@ -17,7 +17,8 @@ from ..pulls import Pull
 from .arch import Arch
 from .ball import Ball, BallCable, BallHit
 from .bodies import Equipment, Ground, GroundSurface, ShardSettings, Support
-from .bridge import Abutments, BoxGirder, Bridge, Deck, Girders, PierCaps, Piers
+from .bridge import Bridge
+from .bridge_parts import Abutments, BoxGirder, Deck, Girders, PierCaps, Piers
 from .connections import ConnectionBetween, ConnectionSettings
 from .contacts import ContactSettings, SurfaceValues
 from .fracture import Finer, FracturePoint, FractureSettings, MemberFracture

@@ -1,0 +1,211 @@
+"""Whether the parts of a bridge fit together, and have room along and across the road."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from ...engineering.arithmetic import cosine
+from ...errors import ScenarioError
+from ..schema import FARTHEST_M, ROUNDING, Table, check_exactly_one, given
+from .arch import Arch
+from .bridge_axes import arch_axis, axes_m, axes_on_arch_m, leg_axes_m, springing_axes_m
+from .bridge_parts import Abutments, BridgeBearings, Girders, Piers
+from .frame import RigidFrame
+from .reinforcement import BridgeReinforcement
+
+if TYPE_CHECKING:
+    from .bridge import Bridge
+
+
+def check_bridge(bridge: Bridge) -> None:
+    """Check that the parts of a bridge fit together.
+
+    Raises
+    ------
+    ScenarioError
+        Where they do not, with the key and what is expected.
+    """
+    if bridge.density_kg_m3 is not None and bridge.mass_kg is not None:
+        check_exactly_one(bridge, "density_kg_m3", "mass_kg")
+    if bridge.spans_m > FARTHEST_M:
+        raise ScenarioError(f"bridge.span_lengths_m add up to {bridge.spans_m:g}: expected at most {FARTHEST_M:g} (m)")
+    _check_parts(bridge)
+    _check_superstructure(bridge)
+    _check_room_along(bridge)
+    _check_joints(bridge)
+    if bridge.piers:
+        _check_room_across(bridge, bridge.piers)
+    if bridge.merge:
+        _check_one_density(bridge)
+    if bridge.arch:
+        _check_arch(bridge, bridge.arch)
+    if bridge.frame:
+        _check_frame(bridge, bridge.frame)
+    if bridge.bearings:
+        _check_bearings(bridge, bridge.bearings)
+    if bridge.reinforcement:
+        _check_reinforcement(bridge, bridge.reinforcement)
+
+
+def _check_reinforcement(bridge: Bridge, reinforcement: BridgeReinforcement) -> None:
+    if bridge.merge and reinforcement.has_bars:
+        raise ScenarioError("bridge.reinforcement is given: expected none with bridge.merge, where no member is left")
+    reinforcement.check_deck(bridge.deck.width_m)
+    reinforcement.check_ratios(bridge.arch.names if bridge.arch else ())
+    if bridge.frame:
+        reinforcement.check_frame()
+
+
+def _check_bearings(bridge: Bridge, bearings: BridgeBearings) -> None:
+    if bridge.merge:
+        raise ScenarioError("bridge.bearings is given: expected none with bridge.merge, where no member is left")
+    supports, spans = len(bridge.span_lengths_m) + 1, len(bridge.span_lengths_m)
+    if bridge.frame and bridge.abutments is None:
+        raise ScenarioError("bridge.bearings is given: expected none with bridge.frame without abutments")
+    if bearings.pinned_at is None:
+        return
+    if bridge.frame:
+        raise bearings.unexpected("pinned_at", "none with bridge.frame, whose legs hold the deck along the road")
+    if bridge.deck.per_span and spans > 1:
+        raise bearings.unexpected("pinned_at", "none with bridge.deck.per_span: each deck is pinned at its first end")
+    if bearings.pinned_at > supports:
+        raise bearings.unexpected("pinned_at", f"at most {supports}, the number of supports of the bridge")
+
+
+def _check_parts(bridge: Bridge) -> None:
+    if bridge.girders and bridge.box_girder:
+        raise ScenarioError("bridge.girders and bridge.box_girder are given together: expected at most one")
+    between_abutments = bridge.abutments is not None and len(bridge.span_lengths_m) == 1
+    if bridge.frame:
+        between_abutments = False
+    elif not between_abutments and bridge.piers is None:
+        raise ScenarioError("bridge.piers is missing: expected a table")
+    for name in ("piers", "pier_caps"):
+        if between_abutments and getattr(bridge, name):
+            raise ScenarioError(
+                f"bridge.{name} is given: expected none with bridge.abutments and one span, which has no piers"
+            )
+    if bridge.abutments and between_abutments != (bridge.abutments.height_m is not None):
+        carrying = "bridge.frame" if bridge.frame else "piers"
+        wanted = "a number (m) with one span" if between_abutments else f"none with {carrying}, which give it"
+        raise bridge.abutments.unexpected("height_m", wanted)
+
+
+def _check_superstructure(bridge: Bridge) -> None:
+    if bridge.box_girder and bridge.box_girder.width_m > bridge.deck.width_m * (1.0 + ROUNDING):
+        raise bridge.box_girder.unexpected("width_m", f"at most bridge.deck.width_m, {bridge.deck.width_m} (m)")
+    if not bridge.girders:
+        return
+    spacing, width = bridge.girder_spacing_m, bridge.girders.width_m
+    if bridge.girders.number > 1 and width > spacing * (1.0 + ROUNDING):
+        wanted = f"at most their spacing, {spacing:.6g} (m), so that girders do not overlap"
+        raise bridge.girders.unexpected("width_m", wanted)
+    over_all = (bridge.girders.number - 1) * spacing + width
+    if over_all > bridge.deck.width_m * (1.0 + ROUNDING):
+        room = f"bridge.deck.width_m, {bridge.deck.width_m} (m)"
+        raise bridge.girders.unexpected(
+            "number", f"girders that fit under {room}, found {over_all:.6g} over all of them"
+        )
+
+
+def _column_turn(bridge: Bridge) -> float:
+    """Return a column's length along the road over the room it takes there once it is turned."""
+    return float(cosine(math.radians(bridge.skew_deg))) if given(bridge.piers).kind == "columns" else 1.0
+
+
+def _check_room_along(bridge: Bridge) -> None:
+    shortest = min(bridge.span_lengths_m)
+    supports: list[tuple[Table, str, float]] = []
+    if bridge.piers:
+        supports.append((bridge.piers, "column_length_m", _column_turn(bridge)))
+    if bridge.pier_caps:
+        supports.append((bridge.pier_caps, "length_m", 1.0))
+    for part, name, turn in supports:
+        if getattr(part, name) >= shortest * turn:
+            limit = f"the shortest span, {shortest} (m)" if turn == 1.0 else f"{shortest * turn:.6g} (m), turned"
+            raise part.unexpected(name, f"less than {limit}")
+    if bridge.abutments:
+        lengths = [getattr(part, name) / turn for part, name, turn in supports]
+        _check_room_beside_abutments(bridge, bridge.abutments, max(lengths, default=bridge.abutments.length_m))
+
+
+def _check_room_beside_abutments(bridge: Bridge, abutments: Abutments, next_length: float) -> None:
+    shortest = min(bridge.span_lengths_m[0], bridge.span_lengths_m[-1])
+    if (abutments.length_m + next_length) / 2.0 >= shortest:
+        wanted = f"less, so that the abutments do not overlap the next support in a span of {shortest} (m)"
+        raise abutments.unexpected("length_m", wanted)
+
+
+def _check_joints(bridge: Bridge) -> None:
+    """Check that both decks at a joint lie on the pier under it."""
+    if bridge.deck.joint_gap_m <= 0.0 or len(bridge.span_lengths_m) == 1:
+        return
+    support = bridge.pier_caps.length_m if bridge.pier_caps else given(bridge.piers).column_length_m
+    if bridge.deck.joint_gap_m >= support:
+        wanted = f"less than {support} (m), the length of the pier or pier cap that carries both decks"
+        raise bridge.deck.unexpected("joint_gap_m", wanted)
+
+
+def _check_room_across(bridge: Bridge, piers: Piers) -> None:
+    carried = bridge.pier_caps or bridge.box_girder or bridge.deck
+    widest = bridge.carried_width_m / piers.columns
+    if piers.kind == "columns" and piers.column_width_m > widest * (1.0 + ROUNDING):
+        wanted = f"at most {widest:.6g} (m), so that the columns fit into {carried.table}.width_m"
+        raise piers.unexpected("column_width_m", wanted)
+    if bridge.girders and not bridge.pier_caps:
+        _check_columns_under_girders(bridge, piers, bridge.girders, widest)
+
+
+def _check_columns_under_girders(bridge: Bridge, piers: Piers, girders: Girders, column_spacing: float) -> None:
+    """Check that no column, without pier caps, stands between two girders and carries nothing."""
+    columns, number = piers.columns, girders.number
+    reach = (piers.column_width_m + girders.width_m) / 2.0
+    for column in range(columns):
+        position = (column - (columns - 1) / 2.0) * column_spacing
+        apart = [abs(position - (girder - (number - 1) / 2.0) * bridge.girder_spacing_m) for girder in range(number)]
+        if min(apart) >= reach * (1.0 - ROUNDING):
+            wanted = f"as many as bridge.girders.number, {number}, or bridge.pier_caps"
+            raise piers.unexpected("columns", f"{wanted}, as a column stands between two girders and carries nothing")
+
+
+def _check_one_density(bridge: Bridge) -> None:
+    for part in (bridge.deck, bridge.girders, bridge.piers, bridge.pier_caps, bridge.abutments):
+        if part and part.density_kg_m3 is not None:
+            raise part.unexpected("density_kg_m3", "none where bridge.merge is true, as one solid has one density")
+
+
+def _check_arch(bridge: Bridge, arch: Arch) -> None:
+    if bridge.merge:
+        raise ScenarioError("bridge.arch is given: expected none with bridge.merge, where no member is left")
+    if bridge.skew_deg != 0.0:
+        raise ScenarioError(f"bridge.skew_deg is {bridge.skew_deg:g}: expected 0 with bridge.arch")
+    if len(axes_m(bridge)) < 3:
+        raise ScenarioError("bridge.span_lengths_m has one span: expected two spans at least with bridge.arch")
+    arch.check_supports(len(axes_m(bridge)), given(bridge.piers).columns)
+    piers, axis = given(bridge.piers), arch_axis(bridge)
+    arch.check_room(axis, axes_on_arch_m(bridge), piers.column_length_m, piers.height_m)
+    arch.check_width(bridge.carried_width_m / piers.columns, piers.columns, piers.column_width_m)
+    lengths = [piers.column_length_m]
+    if bridge.abutments and set(springing_axes_m(bridge)) & {axes_m(bridge)[0], axes_m(bridge)[-1]}:
+        lengths.append(bridge.abutments.length_m)
+    arch.check_blocks(axis, springing_axes_m(bridge)[0], max(lengths))
+
+
+def _check_frame(bridge: Bridge, frame: RigidFrame) -> None:
+    for name in ("piers", "pier_caps", "girders", "box_girder", "arch"):
+        if getattr(bridge, name):
+            raise ScenarioError(f"bridge.{name} is given: expected none with bridge.frame, of a slab on legs")
+    if bridge.deck.per_span:
+        raise bridge.deck.unexpected("per_span", "false with bridge.frame, whose deck is of one piece with all legs")
+    if bridge.merge:
+        raise ScenarioError("bridge.frame is given: expected none with bridge.merge, where no member is left")
+    if bridge.skew_deg != 0.0:
+        raise ScenarioError(f"bridge.skew_deg is {bridge.skew_deg:g}: expected 0 with bridge.frame")
+    if not leg_axes_m(bridge):
+        raise ScenarioError(
+            "bridge.abutments are given: expected none with bridge.frame and one span, or no leg is left"
+        )
+    ends = -bridge.deck.overhang_m, bridge.spans_m + bridge.deck.overhang_m
+    frame.check_room(leg_axes_m(bridge), ends, ends_on_legs=bridge.abutments is None)
+    frame.check_width(bridge.deck.width_m)
