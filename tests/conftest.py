@@ -94,10 +94,15 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
     items.sort(key=rank)
     if config.getoption("quick"):
-        left_out = [item for item in items if item.get_closest_marker("slow") or "blender" in item.fixturenames]
+        left_out = [item for item in items if _is_slow(item)]
         config.hook.pytest_deselected(items=left_out)
         gone = set(left_out)
         items[:] = [item for item in items if item not in gone]
+
+
+def _is_slow(item: pytest.Item) -> bool:
+    """Whether `--quick` leaves a test out."""
+    return "blender" in item.fixturenames or any(item.get_closest_marker(name) for name in ("slow", "long"))
 
 
 def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
