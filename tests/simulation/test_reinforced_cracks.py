@@ -6,6 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from support.blocks import Blocks
+from support.growing_weight import animate_gravity
 
 from bridge_demolition_addon.engineering.elasticity.section_stiffness import ElasticModuli, whole_section_stiffness
 from bridge_demolition_addon.engineering.elasticity.steel_bars import Steel
@@ -15,7 +16,6 @@ from bridge_demolition_addon.model.scenario import SawCut, Weakening
 from bridge_demolition_addon.scene.connections.breaking_settings import Breaking, keep_breaking
 from bridge_demolition_addon.scene.connections.elasticity import keep_elasticity
 from bridge_demolition_addon.scene.structural_changes import keep_changes
-from bridge_demolition_addon.scene.tools.keyframes import curves_of
 
 GRAVITY = float(np.float32(STANDARD_GRAVITY_M_S2))
 CONCRETE = ElasticModuli(30e9, 0.2)
@@ -42,16 +42,6 @@ def reinforced(blocks, connection, normal, sides_m, yield_n, elongation_m, steel
     keep_breaking(blocks.scene, Breaking(strength, 0.0, Ductility(1.0, elongation_m), 0.0, steel))
 
 
-def weigh(scene, shares):
-    """Have the weight of everything be shares of what it is, by the frames between which they change evenly."""
-    for frame, share in shares.items():
-        scene.gravity[2] = -share * GRAVITY
-        scene.keyframe_insert("gravity", index=2, frame=frame)
-    for curve in curves_of(scene.animation_data):
-        for keyframe_point in curve.keyframe_points:
-            keyframe_point.interpolation = "LINEAR"
-
-
 def test_a_block_stretches_its_bars_as_the_bilinear_law_says(blender, tmp_path):
     """It hangs by them, and its weight grows past the force at which they yield, and is taken off them again."""
     blocks, mass_kg, elongation_m = Blocks(), 2000.0, 0.1
@@ -62,7 +52,7 @@ def test_a_block_stretches_its_bars_as_the_bilinear_law_says(blender, tmp_path):
     yield_n = mass_kg * GRAVITY / most
     reinforced(blocks, connection, (0.0, 0.0, -1.0), (1.0, 1.0), yield_n, elongation_m, steel)
     blocks.scene.gravity[0] = 1e-3
-    weigh(blocks.scene, {1: SMALL, 3: SMALL, 35: 0.7, 80: 0.97, 130: 1.0, 150: 1.0, 180: 0.4})
+    animate_gravity(blocks.scene, {1: SMALL, 3: SMALL, 35: 0.7, 80: 0.97, 130: 1.0, 150: 1.0, 180: 0.4})
     results = blocks.play(tmp_path, 195)
     assert not results.frames.intact[-1].any()
     fallen = 9.0 - results.frames.positions_m[:, 1, 2]
@@ -91,7 +81,7 @@ def test_bars_that_are_weakened_stretch_further_and_those_that_are_sawn_through_
     yield_n = 4.0 * mass_kg * GRAVITY
     reinforced(blocks, connection, (0.0, 0.0, -1.0), (1.0, 1.0), yield_n, elongation_m, Steel())
     blocks.scene.gravity[0] = 1e-3
-    weigh(blocks.scene, {1: SMALL, 3: SMALL, 24: 1.0})
+    animate_gravity(blocks.scene, {1: SMALL, 3: SMALL, 24: 1.0})
     weakened_s, cut_s = 2.0, 3.0
     keep_changes(
         blocks.scene,
@@ -129,7 +119,7 @@ class CrackedCantilever:
         yield_n = self.plastic_nm / (DEPTH_M / 2)
         reinforced(blocks, connection, (1.0, 0.0, 0.0), (WIDTH_M, DEPTH_M), yield_n, elongation_m, steel)
         growth = {1: SMALL, 3: SMALL} | growth
-        weigh(blocks.scene, growth)
+        animate_gravity(blocks.scene, growth)
         self.results = blocks.play(folder, frames)
         numbers = 1 + np.arange(len(self.results.frames.time_s))
         self.weights = np.interp(numbers, list(growth), list(growth.values()))
@@ -190,12 +180,7 @@ def test_a_block_that_is_pushed_off_slides_beyond_friction_and_dowels(blender, t
     yield_n = 0.5 * mass_kg * GRAVITY / of_dowels
     reinforced(blocks, connection, (0.0, 0.0, 1.0), (side_m, side_m), yield_n, elongation_m, steel)
     pushes = {1: 0.0, 3: SMALL, 60: 1.0, 130: 1.3}
-    for frame, share in pushes.items():
-        blocks.scene.gravity[0] = share * GRAVITY
-        blocks.scene.keyframe_insert("gravity", index=0, frame=frame)
-    for curve in curves_of(blocks.scene.animation_data):
-        for keyframe_point in curve.keyframe_points:
-            keyframe_point.interpolation = "LINEAR"
+    animate_gravity(blocks.scene, pushes, axis=0)
     results = blocks.play(tmp_path, 130)
     moved_m = results.frames.positions_m[:, 1, 0] - results.frames.positions_m[0, 1, 0]
     elastic_m = elongation_m * steel.yield_strain / steel.rupture_strain / of_dowels

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A slab on its bars: what stands by statics stands in a run in Blender, and what does not comes down."""
 
+from support.growing_weight import animate_gravity
 from support.reinforced_slab import Slab, slab_text
 
 from bridge_demolition_addon.scene.demolition import build_demolition
-from bridge_demolition_addon.scene.tools.keyframes import curves_of
 from bridge_demolition_addon.simulation.playback import Playing
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 
@@ -17,13 +17,8 @@ def largest_drop_m(blender, folder, slab, factor):
     """How far a shard has fallen at the end of a run in which gravity grows to a load factor."""
     scene = blender.context.scene
     build_demolition(scene, slab.scenario, slab.model)
-    weight = scene.gravity[2]
-    for time_s, share in ((GROWN_S, factor), (0.1, 0.3), (0.0, 0.3)):
-        scene.gravity[2] = share * weight
-        scene.keyframe_insert("gravity", index=2, frame=scene.frame_start + 24 * time_s)
-    for curve in curves_of(scene.animation_data):
-        for key in curve.keyframe_points:
-            key.interpolation = "LINEAR"
+    shares = {0.0: 0.3, 0.1: 0.3, GROWN_S: factor}
+    animate_gravity(scene, {scene.frame_start + 24 * time_s: share for time_s, share in shares.items()})
     playing = Playing(Recording(scene, folder))
     while not playing.finished:
         playing.step()
