@@ -7,9 +7,13 @@ import sys
 import pytest
 from bench import BENCHES
 from support.checkout import ROOT
+from support.long_cases import long_but
+
+QUICK = ("building", "fracture", "recording")
+"""Those that take least."""
 
 
-@pytest.mark.parametrize("name", BENCHES)
+@pytest.mark.parametrize("name", long_but(QUICK, BENCHES))
 def test_a_bench_prints_what_it_measured(name):
     command = [sys.executable, str(ROOT / "scripts" / "bench.py"), name, "--smallest"]
     run = subprocess.run(command, capture_output=True, text=True, encoding="utf-8", timeout=300, check=False)

@@ -4,6 +4,8 @@
 import ensembles
 import pytest
 
+pytestmark = pytest.mark.long
+
 LONG = {"drilled_two_spans", "lillebruen", "overbridge"}
 """Those of which a run takes a minute or more: `scripts/remake --check` makes one again. Tests run the beginning of the
 first one's bridge, as of all examples."""

@@ -62,12 +62,14 @@ def told_arrays():
     return {name: tuple(cell.strip() for cell in cells) for name, *cells in rows}
 
 
+@pytest.mark.long
 def test_the_examples_in_the_docstrings_come_out_as_they_say(tried):
     outcome, _ = tried
     assert outcome.attempted >= 20
     assert outcome.failed == 0
 
 
+@pytest.mark.long
 def test_the_job_of_the_page_runs(tried, folder, monkeypatch, capsys):
     monkeypatch.chdir(folder)
     (job,) = re.findall(r"^```python\n(.*?)^```", PAGE, flags=re.S | re.M)
@@ -157,6 +159,7 @@ def test_what_is_no_run_is_a_sentence(tmp_path):
         interface.load_results(tmp_path)
 
 
+@pytest.mark.long
 def test_the_notebook_runs_from_its_first_cell_to_its_last(folder):
     import nbformat
     from nbclient import NotebookClient

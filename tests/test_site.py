@@ -18,6 +18,8 @@ import bridge_demolition_addon as interface
 from bridge_demolition_addon.cli.main import COMMANDS
 from bridge_demolition_addon.version import VERSION
 
+pytestmark = pytest.mark.long
+
 PROGRAM = ROOT / "scripts" / "site_build.py"
 DOCS = sorted((ROOT / "docs").glob("*.md"))
 ELSEWHERE = re.compile(r"(?:[a-z]+:)?//", re.IGNORECASE)

@@ -12,6 +12,8 @@ from support.checkout import ROOT
 
 from bridge_demolition_addon.cli.main import main
 
+pytestmark = pytest.mark.long
+
 PAGES = ("from_drawings", "first_charges", "exclusion_zone")
 SMALLER = {
     "overpass.toml": (("duration_s = 5.0", "duration_s = 0.7"), ("shards = 120", "shards = 24")),

@@ -64,6 +64,7 @@ def test_one_case_runs_and_is_met(blender, tmp_path):
     assert times[-1] == pytest.approx(2.5, abs=0.05)
 
 
+@pytest.mark.long
 def test_a_weight_on_a_reinforced_beam_goes_as_far_as_plastic_theory_says(blender, tmp_path):
     import drop_weight
 
@@ -71,6 +72,7 @@ def test_a_weight_on_a_reinforced_beam_goes_as_far_as_plastic_theory_says(blende
     assert largest == pytest.approx(drop_weight.expected_m(300.0, 4.0), rel=0.1)
 
 
+@pytest.mark.long
 def test_a_strip_rises_by_the_impulse_of_a_blast(blender, tmp_path):
     import blasted_strip
 
@@ -172,6 +174,7 @@ def test_the_front_of_a_pile_leaves_out_blocks_that_lie_alone():
     assert case.front_m(points) == pytest.approx(2.0, abs=0.12)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("share", "holds"), [(0.85, False), (1.15, True)])
 def test_a_beam_that_loses_a_support_needs_the_moments_of_limit_analysis(blender, tmp_path, share, holds):
     import lost_support
@@ -180,6 +183,7 @@ def test_a_beam_that_loses_a_support_needs_the_moments_of_limit_analysis(blender
     assert (sunk[-1] < 0.15) == holds
 
 
+@pytest.mark.long
 def test_a_beam_that_loses_a_support_goes_further_than_it_rests_by_its_damping(blender, tmp_path):
     import sudden_loss
 
@@ -187,6 +191,7 @@ def test_a_beam_that_loses_a_support_goes_further_than_it_rests_by_its_damping(b
     assert sunk.max() == pytest.approx((1.0 + math.exp(-0.05 * math.pi)) * sudden_loss.at_rest_m(), rel=0.03)
 
 
+@pytest.mark.long
 def test_a_slab_in_40_irregular_shards_comes_down_about_when_plastic_theory_says(blender, tmp_path):
     """25 %, as cracks go along inclined faces: the page has what single seeds came to."""
     import reinforced_slab
@@ -194,6 +199,7 @@ def test_a_slab_in_40_irregular_shards_comes_down_about_when_plastic_theory_says
     assert reinforced_slab.load_at(*reinforced_slab.course(tmp_path, 40, 1)) == pytest.approx(1.0, abs=0.25)
 
 
+@pytest.mark.long
 def test_a_weight_on_a_strip_in_irregular_shards_goes_about_as_far_as_in_opensees(blender, tmp_path):
     """25 %, as seeds scatter; without damping, OpenSees has 87 mm."""
     import drop_on_shards as case
@@ -223,6 +229,7 @@ def test_formulas_of_loaded_beams_are_those_of_a_hand_calculation():
     assert bent_beam.BEAM.bends_at_n == pytest.approx(148.6e3 - 5.65e3, rel=2e-3)
 
 
+@pytest.mark.long
 def test_a_reinforced_beam_comes_down_about_when_its_section_yields(blender, tmp_path):
     import bent_beam
     from loaded_beams import comes_down_at_n, course

@@ -87,6 +87,7 @@ def passed(tmp_path_factory):
     return [tuple(station.split(":")) for _, station in sorted(lines, key=lambda line: int(line[0]))]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("way", WAYS)
 def test_a_run_passes_the_files_of_a_way_in_order(way, passed):
     calls = iter(passed)

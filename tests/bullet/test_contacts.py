@@ -59,6 +59,7 @@ def test_block_on_a_slope_is_held_by_friction(blender, tmp_path):
     )
 
 
+@pytest.mark.long
 def test_more_contacts_than_fit_into_the_pool_of_bullet(blender, tmp_path):
     """Bullet has room for 4096 contacts in its pool, and takes the rest from the heap."""
     blocks, side, mass = Blocks(substeps_per_frame=2), 66, 10.0

@@ -26,6 +26,7 @@ def test_charts_are_drawn_and_named(usual):
     assert sorted(path.stem for path in folder.iterdir()) == sorted(CHARTS)
 
 
+@pytest.mark.long
 def test_options_change_the_pictures(usual, tmp_path, capsys):
     report = ["--model", "kinney-graham", "--burst", "surface", "--scaled"]
     for folder, options in {"ratio": ["--unit", "ratio"], "report": report}.items():

@@ -153,6 +153,7 @@ def test_the_shards_are_those_that_there_will_be():
     assert facts(replace(I235, fracture=twice))["shards"] == "80"
 
 
+@pytest.mark.long
 def test_very_many_shards_are_cut_but_not_compared():
     sharing_faces = ConnectionSettings(type="HINGE", method="face", breaking_force_n=1e5)
     many = replace(I235, fracture=replace(I235.fracture, shards=MOST_SHARDS_COMPARED + 1), connections=sharing_faces)
@@ -162,6 +163,7 @@ def test_very_many_shards_are_cut_but_not_compared():
     assert found["overlapping shards"].startswith("not compared")
 
 
+@pytest.mark.long
 def test_a_large_model_is_told_what_one_force_for_all_comes_to():
     one_force = ConnectionSettings(method="face", breaking_force_n=1e5)
     large = replace(I235, fracture=replace(I235.fracture, shards=LARGE_MODEL), connections=one_force)
@@ -229,6 +231,7 @@ def test_how_much_of_one_breaking_force_the_weight_uses_is_said(tmp_path):
         assert found.get("of breaking forces", "").startswith(told) if told else "of breaking forces" not in found
 
 
+@pytest.mark.long
 def test_how_a_rigid_bridge_would_stand_is_said_when_asked_for(tmp_path, capsys):
     connections = ConnectionSettings(type="FIXED", method="face", material="concrete")
     file = tmp_path / "span.toml"
@@ -482,6 +485,7 @@ def test_equipment_is_listed_with_what_is_odd_about_it():
     assert said_after(beside, "excavator")[1:] == ["50% of what it stands on is beside the bridge: move it"]
 
 
+@pytest.mark.long
 def test_a_bridge_in_pieces_is_said():
     assert "pieces" not in facts(I235)
     rule = ConnectionBetween(members=("deck", "pier cap"), none=True)

@@ -16,6 +16,7 @@ def path(tmp_path):
     return whole_bridge().written(tmp_path / "bridge.ifc")
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("schema", SCHEMAS)
 def test_what_is_imported_can_be_checked(schema, tmp_path, capsys):
     path, folder = whole_bridge(schema=schema).written(tmp_path / "bridge.ifc"), tmp_path / "new" / "bridge"
@@ -44,6 +45,7 @@ def test_the_files_hold_what_was_told(path, tmp_path):
     assert len(list((folder / "members").iterdir())) == len(scenario.geometry) == 16
 
 
+@pytest.mark.long
 def test_bearings_are_listed_and_long_names_keep_off_what_follows(path, tmp_path, capsys):
     folder = tmp_path / "bridge"
     assert main(["import", str(path), "--output", str(folder)]) == 0
@@ -119,6 +121,7 @@ def test_what_is_wrong_is_said_and_nothing_is_written(arguments, message, path, 
     assert list(tmp_path.iterdir()) == [path]
 
 
+@pytest.mark.long
 def test_a_member_that_cannot_be_used_is_refused_and_nothing_is_written(tmp_path, capsys):
     """The same girder twice: what the second has in common with the first is all of it."""
     made = whole_bridge()

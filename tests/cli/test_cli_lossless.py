@@ -19,6 +19,8 @@ from support.scenarios import SHORT_RUN
 from bridge_demolition_addon.model.results.arrays import BALLS_FILE, FRAMES_FILE, INVENTORY_FILE, load_results
 from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_text
 
+pytestmark = pytest.mark.long
+
 BRIEF = replace(SHORT_RUN, time=replace(SHORT_RUN.time, duration_s=0.2))
 ENDLESS = replace(SHORT_RUN, time=replace(SHORT_RUN.time, duration_s=2000.0))
 POSIX = pytest.mark.skipif(sys.platform == "win32", reason="Windows moves no open files, and has no such signals")

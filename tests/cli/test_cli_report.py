@@ -25,6 +25,7 @@ def made(tmp_path_factory):
     return folder, run_program("bda_without_blender", "report", folder)
 
 
+@pytest.mark.long
 def test_a_report_needs_no_blender(made):
     _, done = made
     assert (done.returncode, done.stderr) == (0, "")

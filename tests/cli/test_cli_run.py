@@ -48,6 +48,7 @@ def test_no_pictures_are_rendered_when_none_are_wanted(finished):
     assert not list(output.glob("frames/*.png"))
 
 
+@pytest.mark.long
 def test_a_film_is_made_when_it_is_wanted(tmp_path):
     path, output = tmp_path / "brief.toml", tmp_path / "results"
     brief = replace(SHORT_RUN, time=replace(SHORT_RUN.time, duration_s=0.1))  # each picture takes a second
@@ -61,6 +62,7 @@ def test_a_film_is_made_when_it_is_wanted(tmp_path):
     assert [path.name for path in output.glob("*.png")] == ["force_over_time.png"]
 
 
+@pytest.mark.long
 def test_results_are_not_overwritten_unasked(finished, scenario_path):
     output, _ = finished
     before = {path: path.stat().st_mtime_ns for path in output.rglob("*")}
@@ -71,6 +73,7 @@ def test_results_are_not_overwritten_unasked(finished, scenario_path):
     assert {path: path.stat().st_mtime_ns for path in output.rglob("*")} == before
 
 
+@pytest.mark.long
 def test_results_are_overwritten_when_asked(scenario_path, tmp_path):
     output = tmp_path / "results"
     output.mkdir()

@@ -13,6 +13,8 @@ from support.scenarios import SHORT_RUN
 from bridge_demolition_addon.cli.main import main
 from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_text
 
+pytestmark = pytest.mark.long
+
 TEXT = scenario_text(SHORT_RUN)
 
 

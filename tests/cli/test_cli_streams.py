@@ -29,6 +29,7 @@ def in_shell(arguments, redirections):
     return done.returncode, done.stdout, done.stderr
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "arguments, redirections, status",
     [
@@ -75,6 +76,7 @@ def test_ctrl_c_while_blender_starts_again_ends_it_in_one_line(tmp_path):
     assert not (tmp_path / "out" / "summary.json").exists()
 
 
+@pytest.mark.long
 def test_files_that_are_none_are_neither_waited_for_nor_read_without_end(tmp_path):
     pipe = tmp_path / "pipe.toml"
     os.mkfifo(pipe)
@@ -84,6 +86,7 @@ def test_files_that_are_none_are_neither_waited_for_nor_read_without_end(tmp_pat
         assert complained == (f"bda: error: {path}: is a pipe or a device, not a file: expected a scenario in TOML\n")
 
 
+@pytest.mark.long
 def test_a_run_and_its_report_in_a_folder_whose_name_is_not_utf_8(tmp_path):
     scenario = tmp_path / "bridge.toml"
     scenario.write_text(scenario_text(BRIEF), encoding="utf-8")

@@ -37,6 +37,7 @@ def done(study):
     return output
 
 
+@pytest.mark.long
 def test_pandas_reads_all_draws_in_one_line(study, done):
     table = pandas.read_csv(done / "runs.csv")
     assert table["run"].tolist() == [1, 2, 3, 4]
@@ -57,11 +58,13 @@ def test_the_folder_has_the_study_as_it_was_run(study, done):
         assert sorted(path.name for path in draw.iterdir()) == ["outcome.json", "outlines.npz"]
 
 
+@pytest.mark.long
 def test_it_comes_to_the_same_with_a_process_for_each(study, done, tmp_path):
     assert run_bda("study", study, "--output", tmp_path / "out", "--jobs", 4, "--quiet") == (0, "", "")
     assert tables_in(tmp_path / "out") == tables_in(done)
 
 
+@pytest.mark.long
 def test_a_study_that_is_done_gets_its_report_with_pictures_of_two_draws(study, done):
     before = tables_in(done)
     status, printed, complained = run_bda("study", study, "--output", done, "--report")
@@ -78,6 +81,7 @@ def test_a_study_that_is_done_gets_its_report_with_pictures_of_two_draws(study, 
     assert "Median run, " in page and "Worst run, " in page
 
 
+@pytest.mark.long
 def test_a_draw_runs_once_more_with_everything_bit_for_bit(done):
     status, printed, complained = run_bda("study", done, "--again", 3)
     again = done / "again" / "3"
@@ -101,6 +105,7 @@ def seed_of(folder, number):
     return sampled_run(study_in(folder), number).inputs["scenario.seed"]
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("keep, more", [("logs", ["force_log.csv"]), ("all", ["force_log.csv", "results.npz"])])
 def test_more_is_kept_where_it_is_asked_for(tmp_path, keep, more):
     study = study_file(tmp_path / "in", 1, ("One",), BRIEF, keep=keep)

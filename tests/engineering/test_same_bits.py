@@ -128,7 +128,7 @@ def processor_features():
         ("bits_of_a_model", REPORT_2019 / "i235_one_span.toml"),
         ("bits_of_a_model", EXAMPLES / "three_span_box_girder.toml"),
         ("bits_of_a_blast", 200),
-        ("bits_of_a_run", ROOT / "tests" / "simulation" / "everything.toml"),
+        pytest.param("bits_of_a_run", ROOT / "tests" / "simulation" / "everything.toml", marks=pytest.mark.long),
     ],
 )
 def test_results_have_the_same_bits_on_an_older_processor_and_on_one_core(program, argument):

@@ -7,6 +7,7 @@ import pytest
 from support.checkout import TESTS
 from support.example_claims import assert_begins
 from support.example_runs import BEGINNINGS, VERSIONS, begun
+from support.long_cases import long_but
 
 NAMES = (
     "arch_severed",
@@ -18,6 +19,8 @@ NAMES = (
     "frame_leg_blasted",
     "two_spans_20m_at_once",
 )
+QUICK = ("composite_span_dropped", "excavator_on_the_deck", "two_spans_20m_at_once")
+"""Those that take least."""
 
 
 def test_none_is_left_out():
@@ -30,7 +33,7 @@ def test_none_is_left_out():
     assert {name for name in kept if f'"{name}"' in elsewhere} | set(NAMES) == set(kept) == set(BEGINNINGS)
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", long_but(QUICK, NAMES))
 def test_it_begins_as_it_did(name, session_folder):
     run = begun(name, session_folder)
     # Something has come of what is done to it.

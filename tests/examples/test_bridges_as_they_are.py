@@ -5,6 +5,7 @@ import tomllib
 
 import pytest
 from support.checkout import EXAMPLES, PRESETS, REPORT_2019
+from support.long_cases import long_but
 
 from bridge_demolition_addon.cli.check import scenario_facts
 from bridge_demolition_addon.model.scenario.file import read_scenario
@@ -49,6 +50,8 @@ POSITIONS = {
 
 SAME_BRIDGE = {"two_spans": "two_spans_13m_ball", "misfire": "two_spans_13m_ball"}
 """Examples whose bridge is that of another one, shard by shard."""
+QUICK = ("drilled_spans", "reinforced_span_ball", "excavator_on_the_deck")
+"""Two presets and an example that take least."""
 
 
 def starter(folder, by):
@@ -75,7 +78,7 @@ def test_so_is_what_bda_new_writes(tmp_path, by):
     assert scenario.bridge.reinforcement.has_bars and scenario.connections.is_elastic and scenario.bridge.bearings
 
 
-@pytest.mark.parametrize("name", FILES)
+@pytest.mark.parametrize("name", long_but(QUICK, FILES))
 def test_it_stands_at_rest_and_every_shard_is_held(name):
     facts = "\n".join(scenario_facts(read_scenario(FILES[name])))
     assert "At rest" in facts
@@ -83,7 +86,7 @@ def test_it_stands_at_rest_and_every_shard_is_held(name):
         assert words not in facts
 
 
-@pytest.mark.parametrize("name", sorted(set(FILES) - set(SAME_BRIDGE)))
+@pytest.mark.parametrize("name", long_but(QUICK, sorted(set(FILES) - set(SAME_BRIDGE))))
 def test_it_carries_1_35_times_its_weight_and_1_5_times_its_traffic(name):
     assert_carries(FILES[name], POSITIONS.get(name, ()))
 

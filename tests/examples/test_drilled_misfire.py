@@ -10,6 +10,7 @@ from support.example_runs import example
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
 
 
+@pytest.mark.long
 def test_a_misfire_leaves_the_bridge_on_its_bars_at_first(tmp_path):
     """It does for 1.3 s at least. 14 bars of 20 mm over 1.5 m resist 14 × π² E π d⁴ / 64 / 0.75² = 0.386 MN."""
     from bridge_demolition_addon.simulation.motion_run import motion_run

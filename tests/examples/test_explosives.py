@@ -26,6 +26,7 @@ def loud(request, session_folder):
     return begun(request.param, session_folder)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", NAMES)
 def test_bridge_stands_without_its_explosion(blender, tmp_path, name):
     run = run_example(quiet(example(name, 0.7)), tmp_path)
@@ -37,6 +38,7 @@ def test_bridge_stands_without_its_explosion(blender, tmp_path, name):
     assert run.summary["charges"] is run.summary["blast"] is None
 
 
+@pytest.mark.long
 def test_bridge_stands_until_its_charges_go_off(loud):
     before = loud.results.frames.time_s < loud.scenario.blast.start_s
     assert (~loud.results.frames.intact[before]).sum(axis=1).max() <= 0.05 * loud.summary["connections"]["count"]

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from support.example_claims import assert_begins
 from support.example_runs import VERSIONS, ExampleRun, begun, example, run_example
+from support.long_cases import long_but
 
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.model.bridge import deck_top
@@ -52,7 +53,7 @@ class Demolition(ExampleRun):
         return self.at(self.summary["impact"]["time_s"])
 
 
-@pytest.fixture(params=CASES)
+@pytest.fixture(params=long_but(["i235_one_span"], CASES))
 def demolition(request, session_folder):
     """Each example, run once for all tests that look at it."""
     done = begun(request.param, session_folder)
@@ -150,6 +151,7 @@ def awake_without_ball(scenario, duration_s):
     )
 
 
+@pytest.mark.long
 def test_two_spans_carry_their_own_weight(tmp_path):
     done = run_example(awake_without_ball(example("i235_two_spans"), 1.5), tmp_path)
     summary, results = done.summary, done.results
@@ -168,6 +170,7 @@ def test_two_spans_carry_their_own_weight(tmp_path):
     assert 15.0 < feet < strong_piers
 
 
+@pytest.mark.long
 def test_two_spans_would_fall_by_themselves_if_their_piers_broke_like_their_decks(tmp_path):
     scenario = awake_without_ball(example("i235_two_spans"), 1.5)
     between = tuple(rule for rule in scenario.connections.between if rule.none)

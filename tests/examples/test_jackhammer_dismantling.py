@@ -13,6 +13,7 @@ def dismantled(session_folder):
     return begun(NAME, session_folder)
 
 
+@pytest.mark.long
 def test_it_stands_until_the_first_blow(dismantled):
     before = dismantled.at(dismantled.begins_s)
     assert dismantled.results.frames.intact[before].all()

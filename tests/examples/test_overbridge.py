@@ -63,6 +63,7 @@ def test_bars_and_weight_are_those_of_the_sums_by_hand(told, bridge):
     assert resists == pytest.approx(moment_nm() / 1e3, rel=0.01)
 
 
+@pytest.mark.long
 def test_it_stands_by_as_much_as_the_page_says(told, bridge):
     stability = stability_of(*bridge, with_factor=True)
     assert stability.verdict == "stands"

@@ -11,6 +11,8 @@ from bridge_demolition_addon.model.stages.lifted import HANGS, lift_rows
 from bridge_demolition_addon.model.stages.stages import stages_of
 from bridge_demolition_addon.model.stages.standing import StandingBridge
 
+pytestmark = pytest.mark.long
+
 FILE = EXAMPLES / "steel" / "span_lifted_out.toml"
 
 DECK_T = 2.5 * 5.6 * 0.2 * 25.0

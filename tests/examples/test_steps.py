@@ -10,6 +10,7 @@ from support.example_runs import begun, example, run_example
 NAME = "i235_steps"
 
 
+@pytest.mark.long
 def test_it_stands_until_the_jackhammer_works(session_folder):
     assert_begins(NAME, begun(NAME, session_folder))
 
@@ -28,6 +29,7 @@ def in_quick_succession(scenario):
     )
 
 
+@pytest.mark.long
 def test_all_steps_happen(tmp_path):
     scenario = example(NAME)
     run = run_example(in_quick_succession(scenario), tmp_path)

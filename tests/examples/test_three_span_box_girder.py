@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The box girder of three spans stands by itself until a ball hits its middle span, in which it leaves a dent."""
 
+import pytest
 from support.example_claims import assert_begins
 from support.example_runs import begun
+
+pytestmark = pytest.mark.long
 
 NAME = "three_span_box_girder"
 

@@ -5,6 +5,8 @@ import pytest
 from support.example_claims import assert_begins
 from support.example_runs import begun
 
+pytestmark = pytest.mark.long
+
 MASS_KG = 196_000.0
 """Of the report, Figure 21."""
 

@@ -24,6 +24,7 @@ def build(*options: object) -> subprocess.CompletedProcess:
     return subprocess.run([sys.executable, SCRIPT, *map(str, options)], capture_output=True, text=True)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("python", OF_EACH)
 def test_every_zip_has_wheels_of_its_own_python(built: Path, python: str) -> None:
     (path,) = built.glob(OF_EACH[python].format("*"))

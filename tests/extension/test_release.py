@@ -114,6 +114,7 @@ def test_packages_hold_all_of_the_package_and_the_licence(built: Path) -> None:
     assert not [name for name in names if name.startswith("tests")]
 
 
+@pytest.mark.long
 def test_blender_installs_and_updates_from_the_folder(built: Path, next_built: Path, tmp_path: Path) -> None:
     result = tmp_path / "record.json"
     program = Path(__file__).with_name("install_and_update.py")

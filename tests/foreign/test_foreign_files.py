@@ -57,6 +57,7 @@ def elements(folder):
         return list(csv.DictReader(file))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("path", IFC, ids=lambda path: path.stem)
 def test_all_that_is_imported_is_held(path, imported):
     """Every shard is connected, over others, to one that never moves or to the ground."""
@@ -97,6 +98,7 @@ def test_a_norwegian_slab_bridge_is_what_it_is(imported):
 KINDS = {"deck": 2, "pier": 3, "abutment": 3, "footing": 3, "wing wall": 4, "parapet": 2, "wall": 1}
 
 
+@pytest.mark.long
 def test_the_example_is_that_bridge_with_a_valley_under_it():
     """Its mass is by Tekla's weights, without approach slabs; the valley is dug away under its footings alone."""
     scenario = read_scenario(ROOT / "examples" / "imported" / "lillebruen.toml")
@@ -144,6 +146,7 @@ def test_a_network_of_12d_has_its_triangles():
     assert (heights.min(), heights.max()) == pytest.approx((51.84, 78.0), abs=0.01)
 
 
+@pytest.mark.long
 def test_damaged_files_are_read_or_refused(tmp_path):
     """Two of each kind of those that `scripts/fuzz_foreign.py` reads by hundreds."""
     from fuzz_foreign import read_damaged_ifc, read_damaged_terrain

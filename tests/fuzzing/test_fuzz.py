@@ -8,13 +8,14 @@ from fuzzing.batches import Ending, Outcome, fewest, outcomes
 from fuzzing.blender_steps import BlenderPlayer
 from fuzzing.players import PLAYERS
 from fuzzing.sequences import REFUSED, Drawn
+from support.long_cases import long_but
 
 LENGTHS = {"blender": (3, 10), "scenarios": (6, 5), "folders": (1, 2)}
 """How many sequences of how many steps each plays."""
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="steps make pipes, and links to devices")
-@pytest.mark.parametrize("player", PLAYERS)
+@pytest.mark.parametrize("player", long_but(["scenarios"], PLAYERS))
 def test_random_steps_go_well(player):
     count, length = LENGTHS[player]
     for outcome in outcomes(player, [Drawn(seed, length) for seed in range(1, count + 1)]):

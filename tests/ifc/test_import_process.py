@@ -59,6 +59,7 @@ class Titles(Progress):
         self.parts.append((done, total, text))
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("what", "why"),
     [

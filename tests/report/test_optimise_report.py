@@ -38,6 +38,7 @@ def test_the_report_has_the_winner_on_fresh_runs_the_candidates_and_the_trade_of
     assert (folder / "report" / "report.pdf").read_bytes().startswith(b"%PDF-")
 
 
+@pytest.mark.long
 def test_luck_of_the_search_is_warned_of(tmp_path):
     folder, planner = optimised(tmp_path, REACH)
     assert best_of(planner.ensemble, planner.table).looked_better_by > 0.0

@@ -22,6 +22,8 @@ from bridge_demolition_addon.model.study.runs_table import read_runs
 from bridge_demolition_addon.report.ensemble.study_runs import read_study_runs
 from bridge_demolition_addon.report.write import write_report
 
+pytestmark = pytest.mark.long
+
 ASKED = {"quantile": 0.5, "confidence": 0.75, "rank": 2}
 FILES = {"report.html", "report.pdf", "study_plan.dxf", "study_plan.geojson", "tables"}
 

@@ -18,6 +18,8 @@ from bridge_demolition_addon.report.document import word, word_library
 from bridge_demolition_addon.report.document.blocks import Document, Listing, Section
 from bridge_demolition_addon.report.write import write_report
 
+pytestmark = pytest.mark.long
+
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory):

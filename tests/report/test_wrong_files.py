@@ -127,6 +127,7 @@ def test_shards_whose_vertices_coincide_are_reported_with_the_others(tmp_path, b
     assert "Blast" in told(folder).titles
 
 
+@pytest.mark.long
 def test_shards_without_vertices_are_points(tmp_path, capsys):
     results = flying_shards(6, 13)
     counts, volumes = results.inventory.vertex_counts.copy(), results.inventory.volumes_m3.copy()

@@ -65,6 +65,7 @@ def summary_of(folder):
     return json.loads((folder / "beam" / "run" / "summary.json").read_text(encoding="utf-8"))
 
 
+@pytest.mark.long
 def test_bars_that_stand_are_logged_with_the_force_of_statics(blender, tmp_path):
     results = cracked_beam(tmp_path, 1.3, 2.0)
     logged, summary = log_of(tmp_path), summary_of(tmp_path)
@@ -86,6 +87,7 @@ def test_bars_that_stand_are_logged_with_the_force_of_statics(blender, tmp_path)
     assert times_s[use.argmax()] == pytest.approx(bars["largest_use"]["time_s"])
 
 
+@pytest.mark.long
 def test_a_beam_that_bars_let_go_is_said_to_have_ruptured(blender, tmp_path):
     results = cracked_beam(tmp_path, 0.9, 0.8)
     summary = summary_of(tmp_path)

@@ -242,6 +242,7 @@ def test_reactions_at_rest_balance_weight_and_moments(run, tmp_path, shards, see
     assert results.frames.intact.all()
 
 
+@pytest.mark.long
 def test_uplift_where_a_support_is_taken_away(run, tmp_path):
     """The end of the longer span hangs free then, and the other end is held down: by 2.5 m / 10 m of the weight."""
     bearings = (("pier 1", 'kind = "pinned"\ntension = true'), PINNED_AND_ROCKERS[1])

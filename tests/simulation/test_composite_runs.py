@@ -46,6 +46,7 @@ def test_it_rests_as_by_statics_until_a_girder_is_taken_away(tmp_path):
     assert goes_down_m(results, "span G1 1")[-1] > 2.0 * goes_down_m(results, "span G1 1")[frame]
 
 
+@pytest.mark.long
 def test_studs_that_are_overloaded_yield_and_hold_on(tmp_path):
     """Studs of 3 kN, where 12 would be needed: they yield, none fails, and the span stands between both stiffnesses."""
     weak = "studs_per_m = 6\nstud_strength_n = 3e3\nstud_uplift_n = 3e3\nstud_slip_mm = 30"

@@ -13,6 +13,7 @@ from bridge_demolition_addon.engineering.elasticity.steel_bars import Steel
 LIGHT_KG, HEAVY_KG, DROP_M = 1000.0, 10_000.0, 0.01
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("substeps", [10, 40])
 def test_a_heavy_block_does_not_press_a_light_one_into_what_it_stands_on(blender, tmp_path, substeps):
     """The light one stands on a crack, which closes by v √(m / k) at most as the other lands: by energy."""

@@ -2,6 +2,7 @@
 """A beam that cracks under its weight in Blender: bars stretch along its shards, also in a scene that was kept."""
 
 import numpy as np
+import pytest
 from support.beam_runs import played
 from support.cracked_beam import BARS, cracked, cracked_stiffness_nm2
 from support.prestressed_beam import Beam, beam_text
@@ -10,6 +11,7 @@ from bridge_demolition_addon.scene.connections.breaking_settings import breaking
 from bridge_demolition_addon.scene.connections.constraints import connections_of
 
 
+@pytest.mark.long
 def test_a_beam_that_cracks_swings_about_its_cracked_state(blender, tmp_path):
     """It falls into its cracks, so that more open than by statics: its mean over three swings lies deeper.
 

@@ -22,6 +22,7 @@ time_s = {REMOVED_S}
 """
 
 
+@pytest.mark.long
 def test_what_is_left_is_damped_as_is_asked_for(blender, tmp_path):
     """Over 20 m the deck swings four times as slowly as before: β that is kept would damp it by a quarter of the ratio.
 

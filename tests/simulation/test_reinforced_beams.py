@@ -26,6 +26,7 @@ def area_mm2(share):
     return width * (BEAM.depth_m - (BEAM.depth_m**2 - 2.0 * moment / width) ** 0.5) / BEAM.yield_n_mm2
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(("share", "stands"), [(0.93, False), (1.07, True)])
 def test_a_beam_stands_on_its_bars(blender, tmp_path, share, stands):
     beam = replace(BEAM, area_mm2=area_mm2(share))

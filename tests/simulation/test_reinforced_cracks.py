@@ -126,7 +126,7 @@ class CrackedCantilever:
         self.opening_m = -self.results.frames.rotations[:, 1, 2, 0] * DEPTH_M
 
 
-@pytest.mark.parametrize(("substeps", "iterations"), [(10, 1), (15, 20)])
+@pytest.mark.parametrize(("substeps", "iterations"), [(10, 1), pytest.param(15, 20, marks=pytest.mark.long)])
 def test_a_cantilever_turns_in_a_plastic_hinge_at_the_moment_of_plastic_theory(blender, tmp_path, substeps, iterations):
     """Bars that do not harden hold it up to A_s f_y z, and not beyond."""
     steel, elongation_m = Steel(hardening=1.0), 0.2
@@ -155,6 +155,7 @@ def test_a_cantilever_turns_in_a_plastic_hinge_at_the_moment_of_plastic_theory(b
     assert np.nansum(work.yielding_j) == pytest.approx(by_hand_j, rel=0.01)
 
 
+@pytest.mark.long
 def test_bars_that_harden_hold_a_hinge_until_they_rupture(blender, tmp_path):
     """A cantilever whose bars harden to 3 times their yield force stands under 1.4 times what that bears."""
     steel, elongation_m = Steel(hardening=3.0), 0.2

@@ -1,12 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A slab on its bars: what stands by statics stands in a run in Blender, and what does not comes down."""
 
+import pytest
 from support.growing_weight import animate_gravity
 from support.reinforced_slab import Slab, slab_text
 
 from bridge_demolition_addon.scene.demolition import build_demolition
 from bridge_demolition_addon.simulation.playback import Playing
 from bridge_demolition_addon.simulation.recording.recorder import Recording
+
+pytestmark = pytest.mark.long
 
 DURATION_S = 3.0
 GROWN_S = 1.5

@@ -38,6 +38,7 @@ def rows(path):
         return list(csv.DictReader(file))
 
 
+@pytest.mark.long
 def test_shards_weigh_what_the_bridge_weighs(span):
     _, summary, results = span
     # Blender keeps each mass in single precision; the errors of 200 roundings mostly cancel.
@@ -170,6 +171,7 @@ def test_same_scenario_gives_the_same_logs(tmp_path):
         assert (tmp_path / "first" / log).read_bytes() == (tmp_path / "second" / log).read_bytes()
 
 
+@pytest.mark.long
 def test_awake_bridge_stands_where_its_strength_suffices_and_hands_its_weight_to_the_ground(tmp_path):
     awake = replace(
         I235,

@@ -38,6 +38,7 @@ def run(scenario, folder):
     return pictures(folder)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("renderer", ["workbench", "cycles"])
 def test_a_run_in_the_window_writes_the_same_pictures(extension, tmp_path, renderer):
     scenario = replace(SHORT, pictures=replace(SHORT.pictures, renderer=renderer))
@@ -62,6 +63,7 @@ def test_a_run_in_the_window_writes_the_same_pictures(extension, tmp_path, rende
     assert extension.ops.bda.bake() == {"FINISHED"}  # Blender still knows the frames that it played
 
 
+@pytest.mark.long
 def test_both_renderers_show_the_same_moment(extension, tmp_path):
     """What has moved since the start is at the same places of both pictures."""
     time, fracture = replace(I235.time, duration_s=2.5), replace(I235.fracture, shards=20)

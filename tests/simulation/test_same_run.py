@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from support.checkout import TESTS
+from support.long_cases import long_but
 from support.processes import run_program
 
 SCENARIOS = {
@@ -106,7 +107,7 @@ def test_precision_is_chosen_by_us_alone(usual, name):
     assert {values.dtype for key, values in fractions.items() if key not in of_frames} == {np.dtype(np.float64)}
 
 
-@pytest.mark.parametrize("machine", MACHINES, ids=lambda machine: machine.kernel)
+@pytest.mark.parametrize("machine", long_but(MACHINES[:1], MACHINES), ids=lambda machine: machine.kernel)
 def test_runs_are_the_same_on_another_processor(usual, tmp_path, machine):
     flags = CPU_INFORMATION.read_text().split() if CPU_INFORMATION.exists() else []
     if missing := [flag for flag in machine.flags if flag not in flags]:

@@ -40,6 +40,7 @@ def test_bolts_rupture_after_the_work_of_their_resistance_on_a_third_of_an_inch(
     assert summary["energy"]["dissipated_by_bars_J"] == pytest.approx(218.2e3 * 0.34 * 0.0254, rel=0.02)
 
 
+@pytest.mark.long
 def test_a_truss_that_breaks_on_the_ground_gets_its_energy_from_its_fall(tmp_path):
     """Where pieces met as soon as their joint ruptured, the solver made 4 % of it, and threw one by 13 m."""
     summary = run_scenario(falling_truss(), tmp_path / "run", overwrite=False, pictures=False, progress=Silence())

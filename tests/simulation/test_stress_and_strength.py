@@ -6,6 +6,7 @@ import csv
 import numpy as np
 import pytest
 from support.blocks import Blocks
+from support.long_cases import long_but
 from support.shard_scenes import DENSITY_KG_M3, ShardScene
 
 from bridge_demolition_addon.engineering.mechanics.strength import MATERIALS, Strength
@@ -17,6 +18,7 @@ from bridge_demolition_addon.simulation.recording.recorder import Recording
 GRAVITY = float(np.float32(STANDARD_GRAVITY_M_S2))
 
 
+@pytest.mark.long
 def test_column_carries_all_that_is_above(blender, tmp_path):
     height = 6.0
     column = ShardScene((1, 1, height), (0, 0, height / 2), 80, {"substeps_per_frame": 20, "solver_iterations": 50})
@@ -115,7 +117,7 @@ def beam_theory_gravity(span_m, width_m, depth_m, density_kg_m3, strength):
     return 1.0 / np.hypot(bending, shear)
 
 
-@pytest.mark.parametrize("count", (40, 90))
+@pytest.mark.parametrize("count", long_but([40], (40, 90)))
 def test_deck_comes_down_near_the_load_of_beam_theory_however_finely_it_is_cut(blender, tmp_path, count):
     """It is brittle: cracked at its ends it hangs on its middle alone, where w l² / 8 is more than it can bear."""
     concrete = MATERIALS["concrete"]

@@ -16,6 +16,7 @@ def two_tendons(more="bonded = false"):
     return "".join(tendon(STRAIGHT, name=name, area_mm2=AREA_MM2 / 2.0, more=more) for name in ("one", "other"))
 
 
+@pytest.mark.long
 def test_half_of_the_tendons_go_at_once(blender, tmp_path):
     """At rest as by statics; then between once and twice as far as to the rest that statics has with the other half."""
     cut = f'[[tendon_cuts]]\ntime_s = {CUT_S}\ntendons = ["one"]\n'

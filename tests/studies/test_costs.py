@@ -12,6 +12,7 @@ MOST_MB = 300.0
 MANY = 10_000
 
 
+@pytest.mark.long
 @pytest.mark.skipif(sys.platform != "linux", reason="memory is told like this on Linux only")
 def test_ten_thousand_draws_need_little_time_and_memory(tmp_path):
     """By processor time, as other tests run beside this one, and by what 500 draws more keep."""

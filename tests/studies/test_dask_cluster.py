@@ -90,6 +90,7 @@ def play(study, output, engine, each_step=lambda run: None):
         run.stop()
 
 
+@pytest.mark.long
 def test_a_worker_that_is_killed_costs_nothing(cluster, tmp_path):
     deeds = ("nothing", "take time", "crash", "refuse")
     study = read_study(study_file(tmp_path / "in", 10, deeds, seed=4))
@@ -116,6 +117,7 @@ def test_a_worker_that_is_killed_costs_nothing(cluster, tmp_path):
     }
 
 
+@pytest.mark.long
 def test_a_study_whose_scheduler_goes_can_go_on_here(cluster, tmp_path):
     study = read_study(study_file(tmp_path / "in", 8, ("take time",), seed=4))
     command, log = program_in(tmp_path)

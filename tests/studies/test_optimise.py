@@ -17,6 +17,7 @@ def rows_of(path):
     return list(csv.DictReader(path.open(encoding="utf-8")))
 
 
+@pytest.mark.long
 def test_the_smallest_charge_is_found_and_confirmed_and_a_stopped_one_goes_on(tmp_path, capfd):
     path, output = optimise_file(tmp_path), tmp_path / "out"
     assert main(["optimise", str(path), "--output", str(output), "--jobs", "2"]) == 0

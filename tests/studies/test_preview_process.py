@@ -152,6 +152,7 @@ def test_a_program_that_is_not_there_is_said(tmp_path):
         PreviewProcess([str(tmp_path / "no_blender")]).ask(scenario_text(SHORT_RUN))
 
 
+@pytest.mark.long
 @pytest.mark.skipif(sys.platform != "linux", reason="looks at the processes of Linux")
 def test_it_ends_with_the_process_that_asked(tmp_path):
     path = tmp_path / "long.toml"

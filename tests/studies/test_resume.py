@@ -13,6 +13,7 @@ from contextlib import redirect_stderr, redirect_stdout
 from functools import partial
 
 import pytest
+from support.long_cases import long_but
 from support.processes import outcome, start_program
 from support.run_programs import VERSIONS, begun, command_with
 from support.study_files import study_file, tables_in
@@ -94,7 +95,9 @@ def test_tables_are_the_same_with_any_number_of_jobs(study, undisturbed, tmp_pat
     assert tables_in(tmp_path / "out") == tables_in(undisturbed)
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL], ids=lambda number: number.name)
+@pytest.mark.parametrize(
+    "number", long_but([signal.SIGINT], [signal.SIGINT, signal.SIGTERM, signal.SIGKILL]), ids=lambda number: number.name
+)
 def test_a_study_that_is_ended_goes_on(study, undisturbed, tmp_path, number):
     output, log = tmp_path / "out", tmp_path / "log"
     process = start(study, output, log, "--jobs", "2")
@@ -135,6 +138,7 @@ def is_alive(process):
     return "Z" not in (open(f"/proc/{process}/stat").read() if os.path.exists(f"/proc/{process}/stat") else "")
 
 
+@pytest.mark.long
 def test_a_process_that_is_killed_costs_nothing(study, undisturbed, tmp_path):
     output, log = tmp_path / "out", tmp_path / "log"
     process = start(study, output, log, "--jobs", "2")
@@ -148,6 +152,7 @@ def test_a_process_that_is_killed_costs_nothing(study, undisturbed, tmp_path):
     assert tables_in(output) == tables_in(undisturbed)
 
 
+@pytest.mark.long
 def test_what_was_killed_twice_is_a_row_and_is_run_again(tmp_path):
     study = study_file(tmp_path / "in", 6, ("nothing", "kill"), seed=1)
     output = tmp_path / "out"
@@ -186,6 +191,7 @@ def test_a_draw_that_is_damaged_is_run_again(study, undisturbed, tmp_path):
     assert tables_in(output) == tables_in(undisturbed)
 
 
+@pytest.mark.long
 def test_two_at_once_are_refused(study, tmp_path):
     output = tmp_path / "out"
     first = start(study, output, tmp_path / "log", "--jobs", "1")

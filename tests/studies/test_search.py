@@ -13,6 +13,8 @@ from bridge_demolition_addon.engineering.search.neyer import NeyerTest
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.search.file import read_search
 
+pytestmark = pytest.mark.long
+
 SIDE_M, NECK_M, GRAVITY_M_S2 = 1.0, 0.1, 9.80665
 VARIATION = 0.2
 SPREAD = float(np.sqrt(np.log(1.0 + VARIATION**2)))

@@ -70,6 +70,7 @@ def test_an_error_within_passes_with_what_was_printed_before_it():
     assert status == 1 and out == "half a line" and err.rstrip().endswith("ValueError: this")
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_a_run_with_pictures_prints_no_line_of_blender(tmp_path):
     status, out, err = run_bda("run", "docs/small_bridge.toml", "--output", tmp_path / "results")

@@ -45,6 +45,7 @@ def bridge_of(scenario):
     return StandingBridge(build_model(scenario), scenario.joints)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("deck_kg_m", [5000.0, 7500.0])
 def test_without_each_bar_the_others_are_used_as_opensees_says(deck_kg_m):
     """Second order, elastic: docs/data/lost_bars_by_opensees.csv. A bar above 1 is above its plastic resistance."""
@@ -74,6 +75,7 @@ def falls_kg(bridge, name):
     return float(bridge.model.masses_kg[bridge.comes_down(without(bridge, name), whole, nothing, 1.0)].sum())
 
 
+@pytest.mark.long
 def test_without_a_node_at_either_side_the_truss_comes_down_at_the_same_load(example):
     """But for the bracing, which ends in the right nodes, both are mirror images."""
     whole, nothing = np.ones(len(example.model.connections)), np.zeros((6, len(example.model.shards)))
@@ -101,6 +103,7 @@ def mirror_image():
     return bridge_of(mirrored())
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("name", ["span L0 left", "span L0 right"])
 def test_the_mirror_image_of_a_truss_loses_as_much(example, mirror_image, name):
     """What comes down depends on the bracing, not on the side: symmetry."""

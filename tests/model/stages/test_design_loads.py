@@ -115,6 +115,7 @@ def test_a_bridge_without_designed_bars_has_none(slab):
     assert design_loads(scenario, standing(scenario)) == []
 
 
+@pytest.mark.long
 def test_stages_say_it(tmp_path, capfd, slab):
     path = tmp_path / "slab.toml"
     path.write_text(SLAB.replace("DESIGN", f"traffic_kn_m2 = {Q_N_M2 / 1e3}"), encoding="utf-8")

@@ -167,6 +167,7 @@ def test_bars_of_what_was_taken_away_are_gone(tmp_path):
     assert last.bars[0].force_n == pytest.approx(-(pressed_n(0.9) - LOAD_N), rel=1e-2)
 
 
+@pytest.mark.long
 def test_what_stands_of_the_viaduct_if_a_zone_fails():
     """Walls of 0.8 × 5 m. A foot that fails leaves its wall up to the middle zone; a middle that fails comes down."""
     scenario = read_scenario(EXAMPLES / "drilled" / "viaduct_pier.toml")

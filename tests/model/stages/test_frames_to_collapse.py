@@ -42,6 +42,7 @@ def mechanism_factor():
     return factor
 
 
+@pytest.mark.long
 @pytest.mark.slow
 @pytest.mark.parametrize("shards", [60, 100])
 def test_a_portal_carries_what_its_hinges_do_or_somewhat_more(shards):

@@ -40,6 +40,7 @@ def test_half_of_the_bars_carry_half(blocks):
     assert blocks.collapse_factor(0.5) == pytest.approx(0.5 * blocks.theory, rel=0.03)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("seed", [1, 2])
 def test_irregular_shards_come_down_at_more_by_as_much_as_they_interlock(seed):
     """Faces are inclined: bars as dowels and friction carry beside, as in a run; up to 30 % in 40 shards."""

@@ -59,6 +59,7 @@ def test_a_cantilever_stands_up_to_the_load_of_beam_theory(tmp_path):
         assert (found.overloaded[0].member == "beam") if verdict == COMES_DOWN else not found.overloaded
 
 
+@pytest.mark.long
 def test_rigid_connections_and_one_force_are_judged_as_elastic(tmp_path):
     scenario = read_scenario(beam_file(tmp_path, 4.0))
     for changes in (

@@ -25,6 +25,7 @@ from support.composite import (
     shards_of,
     steel_alone,
 )
+from support.long_cases import long_but
 from support.steelwork import bar_loads
 
 from bridge_demolition_addon.engineering.steelwork.catalogue import section_named
@@ -242,7 +243,7 @@ def own_weight_n_m(model):
     return STANDARD_GRAVITY_M_S2 * (deck + DENSITY_KG_M3 * STEEL.area_m2)
 
 
-@pytest.mark.parametrize("shards", [1, 80])
+@pytest.mark.parametrize("shards", long_but([1], [1, 80]))
 def test_a_composite_span_comes_down_at_its_plastic_load(shards):
     """8 M / L² with M = N_pl (h - z + t): all of the steel yields, and concrete presses at the top of the deck.
 

@@ -2,6 +2,7 @@
 """Every text that reports make has a translation in every language: a new sentence fails until it has."""
 
 import pytest
+from support.long_cases import long_but
 from support.reports_of_many_kinds import reports
 
 from bridge_demolition_addon.report.document.drawings import drawings
@@ -18,7 +19,7 @@ def made(tmp_path_factory):
     return list(reports(tmp_path_factory.mktemp("reports")))
 
 
-@pytest.mark.parametrize("language", LANGUAGES)
+@pytest.mark.parametrize("language", long_but(["de"], LANGUAGES))
 def test_all_texts_of_all_kinds_of_reports_are_translated(made, language):
     for report in made:
         translation = Translation.into(language, report.names)
@@ -27,6 +28,7 @@ def test_all_texts_of_all_kinds_of_reports_are_translated(made, language):
         assert translation.missing == [], report.document.title
 
 
+@pytest.mark.long
 def test_all_texts_in_drawings_are_translated(made):
     for report in made:
         translation = Translation.into("de", report.names)

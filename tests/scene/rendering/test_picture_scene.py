@@ -73,6 +73,7 @@ def test_time_scale_and_places_are_those_of_the_run_and_nothing_of_it_changes(bl
     assert np.array_equal(places(scene), before)
 
 
+@pytest.mark.long
 def test_copies_stand_where_bodies_were_recorded_and_rough_ones_are_no_larger(blender, ran):
     from bridge_demolition_addon.scene.rendering.picture_scene import dressed_pictures
 

@@ -119,6 +119,7 @@ def test_ball_is_lifted_from_where_it_has_rolled(blender, tmp_path):
     np.testing.assert_allclose(results.frames.positions_m[lifted + 72, row], (3, 1, 0.6 + 2.0 + 0.5), atol=1e-3)
 
 
+@pytest.mark.long
 def test_scenario_with_hits_in_a_row(tmp_path):
     from bridge_demolition_addon.simulation.run import run_scenario
 

@@ -65,6 +65,7 @@ def slab(tmp_path_factory):
     return recording.results()
 
 
+@pytest.mark.long
 def test_jackhammer_removes_material_where_it_is_driven(slab):
     assert slab.frames.intact[slab.frames.time_s < HAMMER.start_time_s].all()
     shards = slab.inventory.of_kind("shard")

@@ -64,6 +64,7 @@ LOAD_N = 500e3 + 0.49 * 1.75 * 2400.0 * STANDARD_GRAVITY_M_S2
 """The block, and the column above the zone."""
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("shards", [40, 120])
 def test_bars_hold_what_they_resist_twice(tmp_path, shards):
     """8 bars of 25 mm over 0.9 m resist 1.5 MN, and 520 kN that come at once press them with 1.04 MN at most."""
@@ -100,6 +101,7 @@ def fall_on_bars_m(mass_kg, count, diameter_m, bared_m, until_s):
     return fallen
 
 
+@pytest.mark.long
 @pytest.mark.parametrize("shards", [40, 120])
 def test_bars_that_hold_the_column_at_rest_fold_where_it_comes_upon_them_at_once(tmp_path, shards):
     """Over 1.5 m they resist 538 kN: more than 520 kN, and less than twice that."""
@@ -133,6 +135,7 @@ def test_bars_carry_nothing_between_rigid_connections(tmp_path):
     assert "cage_pressed_n" not in summary["events"][0]
 
 
+@pytest.mark.long
 def test_what_is_thrown_flies_and_rubble_stays_at_the_foot(tmp_path):
     reached = {}
     for debris in ("rubble", "thrown"):

@@ -8,6 +8,7 @@ opened after a world was removed. Those tests run in processes of their own, and
 
 import pytest
 from support.falling_pair import FRAMES, FallingPair, assert_ended, assert_handlers_gone, assert_whole, play
+from support.long_cases import long_but
 from support.processes import run_program
 
 from bridge_demolition_addon.errors import SimulationError
@@ -49,7 +50,7 @@ def survived(folder, upheaval):
     return "ended well" in done.stdout
 
 
-@pytest.mark.parametrize("upheaval", UPHEAVALS)
+@pytest.mark.parametrize("upheaval", long_but(["undo"], UPHEAVALS))
 def test_what_takes_something_away_ends_the_recording(tmp_path, upheaval):
     # Blender survives at least two of three, so that fewer than one in 10 000 tests fails for its sake.
     assert any(survived(tmp_path / str(attempt), upheaval) for attempt in range(9))

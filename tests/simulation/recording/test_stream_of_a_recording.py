@@ -13,6 +13,7 @@ from bridge_demolition_addon.simulation.blender_events import stop_recording
 MANY = 150
 
 
+@pytest.mark.long
 def test_memory_does_not_grow_with_the_number_of_frames(tmp_path):
     done = run_program("memory_of_a_recording", tmp_path, MANY)
     assert done.returncode == 0, done.stderr

@@ -40,6 +40,7 @@ def panel(extension, tmp_path):
     return settings
 
 
+@pytest.mark.long
 def test_an_optimisation_is_stopped_goes_on_and_shows_its_result(blender, panel, tmp_path):
     ops, folder = blender.ops.bda, tmp_path / "optimised"
     assert {"bda.start_optimise", "objective", "candidates", "optimise_criterion"} <= set(drawn(blender, sidebar))

@@ -30,6 +30,7 @@ def panel(extension, tmp_path):
     return settings
 
 
+@pytest.mark.long
 def test_a_search_is_stopped_gone_on_with_and_told(blender, panel, tmp_path):
     ops, folder = blender.ops.bda, tmp_path / "search"
     assert "bda.start_search" in drawn(blender, sidebar)

@@ -40,6 +40,7 @@ def panel(extension, tmp_path):
     return settings
 
 
+@pytest.mark.long
 def test_a_study_that_runs_beside_blender_is_paused_stopped_gone_on_with_and_shown(blender, panel, tmp_path):
     ops = blender.ops.bda
     assert ops.start_study() == {"FINISHED"}
@@ -84,6 +85,7 @@ def test_a_study_that_runs_beside_blender_is_paused_stopped_gone_on_with_and_sho
     assert len(blender.context.scene.rigidbody_world.collection.objects) == bodies
 
 
+@pytest.mark.long
 def test_a_study_of_which_no_draw_finishes_says_so_and_frees_its_folder(blender, panel, tmp_path):
     panel.study.use_time_limit_s, panel.study.time_limit_s = True, 1e-3
     blender.ops.bda.start_study()

@@ -158,6 +158,7 @@ def test_a_site_plan_lies_as_wide_and_turned_as_asked(built, extension, tmp_path
     assert "Site plan" in built.objects
 
 
+@pytest.mark.long
 def test_dust_is_off_and_renders_where_it_is_raised(ran, extension, tmp_path):
     bpy = extension
     assert not [obj for obj in ran.objects if obj.name.startswith("Dust")]
@@ -193,6 +194,7 @@ def curves_of(body):
     return found(body.animation_data)
 
 
+@pytest.mark.long
 def test_the_timeline_marks_what_happened_and_leaves_other_markers_alone(ran, extension, tmp_path):
     from bridge_demolition_addon.model.results.arrays import load_results
 

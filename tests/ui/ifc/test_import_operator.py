@@ -54,6 +54,7 @@ def test_what_is_left_out_is_shown_as_wire(extension, tmp_path):
     assert extension.ops.bda.build_scenario() == {"FINISHED"}
 
 
+@pytest.mark.long
 def test_importing_again_takes_another_folder(extension, settings, tmp_path):
     path = whole_bridge().written(tmp_path / "bridge.ifc")
     for folder in ("bridge_scenario", "bridge_scenario_2"):

@@ -102,6 +102,7 @@ def test_faults_are_said_in_a_sentence(shown, beside):
     assert not beside.is_running and not beside.follow(shown)
 
 
+@pytest.mark.long
 def test_the_process_ends_with_the_switch_with_undo_and_with_another_file(shown, beside, extension):
     def running():
         follow_to_end(beside, shown)

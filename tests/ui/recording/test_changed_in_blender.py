@@ -8,6 +8,7 @@ from dataclasses import fields
 import numpy as np
 import pytest
 from support.checkout import SMALL
+from support.long_cases import long_but
 
 from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_text
 from bridge_demolition_addon.model.scenario.time import TimeSettings
@@ -128,7 +129,11 @@ def test_every_setting_of_time_is_tried():
     assert {f"time.{field.name}" for field in fields(TimeSettings) if field.name not in taken_at_run} <= set(CHANGES)
 
 
-@pytest.mark.parametrize("key", CHANGES)
+QUICK = ("ball.mass_kg", "shards.linear_damping", "time.duration_s", "time.time_scale")
+"""Of each kind one that takes little."""
+
+
+@pytest.mark.parametrize("key", long_but(QUICK, CHANGES))
 def test_what_was_changed_is_written_and_runs_again_to_the_last_bit(built, settings, tmp_path, key):
     change, value = CHANGES[key]
     change(built.context.scene)

@@ -37,6 +37,7 @@ def reach(folder):
     return max(along) - min(along)
 
 
+@pytest.mark.long
 def test_a_report_has_zones_as_the_panels_show_them_now(ran, settings, tmp_path):
     folder = tmp_path / "run"
     before = read_scenario(folder / "scenario_as_run.toml")
@@ -74,6 +75,7 @@ def test_what_is_changed_by_hand_stays_said_beside_the_zones(extension, settings
     assert text.startswith("# Changed in Blender, and not in this scenario: gravity") and "[exclusion]" in text
 
 
+@pytest.mark.long
 def test_a_run_of_another_scene_keeps_its_own_zones(ran, settings, tmp_path):
     other = keep_run(tmp_path / "other", flying_shards(6, 13), I235)
     before = (other / "scenario_as_run.toml").read_bytes()
@@ -93,6 +95,7 @@ def test_the_button_makes_a_report_of_the_folder(extension, tmp_path):
     assert (folder / "report.pdf").stat().st_size > 0
 
 
+@pytest.mark.long
 def test_another_button_makes_it_with_a_word_file(extension, tmp_path):
     folder = keep_run(tmp_path / "run", flying_shards(6, 13), I235)
     extension.context.scene.bda.output_directory = str(folder)
