@@ -10,6 +10,7 @@ import numpy as np
 
 from ..engineering.geometry.plan_areas import without_gaps
 from ..engineering.geometry.vectors import transformed, transformed_back
+from ..model.debris.free_fall import landed
 from ..model.debris.throws import debris_of
 from ..model.results.arrays import Results
 from ..model.results.motion import relative_to_ground, without_removed
@@ -32,6 +33,8 @@ class PreviewOutcome:
     ----------
     shards, fallen : int
         Number of shards without those that were removed, and how many of them are debris.
+    falling : int
+        Number of shards that still fall. They count as debris, and are where they would land in free fall.
     fallen_kg, area_m2, farthest_m : float
         Mass of debris, area that it covers in plan, and its largest distance from the bridge's plan.
     time_s, duration_s : float
@@ -44,6 +47,7 @@ class PreviewOutcome:
 
     shards: int
     fallen: int
+    falling: int
     fallen_kg: float
     area_m2: float
     farthest_m: float
@@ -71,7 +75,7 @@ class PreviewOutcome:
         duration_s
             Simulated time of the whole scenario.
         """
-        results = relative_to_ground(results)
+        results, falling = landed(relative_to_ground(results))
         moved = _edges_at_end(results, edges_m)
         left, _ = without_removed(results)
         shards, debris = left.inventory.of_kind("shard"), debris_of(left)
@@ -80,6 +84,7 @@ class PreviewOutcome:
         return cls(
             shards=len(shards),
             fallen=len(fallen),
+            falling=falling,
             fallen_kg=float(debris.masses_kg.sum()),
             area_m2=float(debris.area.area()),
             farthest_m=float(debris.reaches_m.max(initial=0.0)),

@@ -2,15 +2,18 @@
 
 It answers requests as `answering_program` asks them, and of several the last one alone: a newer request ends the run
 under way at its next frame. A request has the file of a scenario, or none to have no run made. The program answers
-while a run goes on, every few seconds, and at its end.
+while a run goes on, every few seconds, and at its end. While nothing is asked it loads what elastic connections need,
+which would take as long as a run: the program is kept for the next request.
 """
 
 from __future__ import annotations
 
 import time
 from collections.abc import Mapping
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from ..display.bridge_preview import sharp_edges
@@ -31,6 +34,46 @@ FIRST_ANSWER_S = 2.0
 
 _NEXT_ANSWERS_S = 1.0
 
+_FIRST_ELASTIC = """
+[scenario]
+title = "Loading what elastic connections need"
+[time]
+duration_s = 0.25
+[bridge]
+density_kg_m3 = 2500
+span_lengths_m = [8.0]
+[bridge.deck]
+width_m = 3.0
+thickness_m = 0.5
+[bridge.piers]
+columns = 1
+column_length_m = 0.5
+column_width_m = 0.5
+height_m = 3.0
+[bridge.pier_caps]
+length_m = 1.0
+width_m = 3.0
+height_m = 0.5
+[bridge.bearings]
+friction = 0.05
+[bridge.reinforcement]
+designed_for = "LM1"
+[fracture]
+shards = 12
+[connections]
+type = "FIXED"
+method = "face"
+material = "reinforced concrete slab"
+stiffness = "elastic"
+[shards]
+use_deactivation = false
+start_deactivated = false
+[[removals]]
+time_s = 0.0
+members = ["pier 1"]
+"""
+"""A small bridge with all that most elastic ones have: bars, cracks, bearings and something that falls."""
+
 
 class _SupersededError(BaseException):
     """A newer request waits; no `except Exception` keeps the older one going."""
@@ -48,15 +91,33 @@ def main() -> NoReturn:
     from ..simulation import motion_run  # noqa: F401, loaded before anything is asked
 
     service.say({"versions": versions})
+    is_warm = False
     while True:
         request = service.next_request()
         if service.is_asked or "scenario" not in request:
             continue
-        try:
+        with suppress(_SupersededError):
             answer = answer_of(request, partial(play, service))
-        except _SupersededError:
-            continue
-        service.say({"number": request["number"], "is_over": True, **answer})
+            service.say({"number": request["number"], "is_over": True, **answer})
+            if not is_warm:
+                warm_up(service)
+                is_warm = True
+
+
+def warm_up(service: RunService) -> None:
+    """Make a short run with elastic connections, of which nothing is kept; it ends where something is asked."""
+    from ..simulation.motion_run import motion_run
+
+    scenario = scenario_from_text(_FIRST_ELASTIC)
+    scenario = preview_scenario(scenario, prepared_members(scenario).members)
+
+    def look_on(playing: Playing) -> None:
+        if service.is_asked:
+            raise _SupersededError
+
+    with TemporaryDirectory(prefix="bda-preview-") as folder:
+        with motion_run(scenario, checked_model(scenario), Path(folder), look_on):
+            pass
 
 
 def play(service: RunService, request: Mapping[str, Any], folder: Path) -> dict[str, Any]:

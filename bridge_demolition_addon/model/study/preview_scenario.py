@@ -7,27 +7,66 @@ from dataclasses import replace
 
 from ..bridge.member import Member
 from ..scenario import Scenario
+from ..scenario.fracture import FractureSettings
+from ..scenario.time import TimeSettings
 
 SHARDS, ELASTIC_SHARDS = 80, 50
 """Shards of a preview, where connections are rigid and where they are elastic: a sub-step of elastic connections takes
 about ten times as long."""
+
+FRAMES_PER_SECOND, SUBSTEP_S = 12, 1.0 / 36.0
+"""Frames and sub-steps of a preview with elastic connections. These are implicit, so that none is too stiff for such
+steps; bars between cracks and contacts are followed more coarsely than in the run."""
+
+FARTHEST_M = 1000.0
+"""How far a body may go in such a sub-step: where bars are, a run would take up to a hundred of them in a frame."""
+
+REST_HOLD_S, REST_SPEED_M_S, REST_SPIN_RAD_S = 0.25, 0.3, 1.0
+"""A preview with elastic connections ends at this rest: what is that slow has fallen, or stands."""
 
 
 def preview_scenario(scenario: Scenario, members: Sequence[Member]) -> Scenario:
     """Return a scenario in as few shards as a preview takes, and otherwise as it is; itself where it has no more.
 
     What is cut finer by numbers or points of the user's own is then cut by volume, as all else: these numbers add up to
-    the scenario's. Connections stay rigid or elastic, as they are.
+    the scenario's. Connections stay rigid or elastic, as they are; elastic ones get longer steps, and end at a rest that
+    is less strict.
 
     Parameters
     ----------
     members
         All members of the scenario: each takes one shard at least, but those of steel, which have their own.
     """
-    fracture = replace(scenario.fracture, recursion_share=0.0)
-    most = ELASTIC_SHARDS if scenario.connections.is_elastic else SHARDS
-    most = max(most, sum(member.steel is None for member in members))
-    if fracture.shards > most:
-        stretched = tuple(replace(rule, shards=None, share=None) for rule in fracture.members if rule.stretch)
-        fracture = replace(fracture, shards=most, members=stretched, points=(), points_file=None)
-    return scenario if fracture == scenario.fracture else replace(scenario, fracture=fracture)
+    is_elastic = scenario.connections.is_elastic
+    most = max(ELASTIC_SHARDS if is_elastic else SHARDS, sum(member.steel is None for member in members))
+    fracture, time = in_shards(scenario.fracture, most), scenario.time
+    if is_elastic:
+        time = in_long_steps(time)
+    if fracture == scenario.fracture and time == scenario.time:
+        return scenario
+    return replace(scenario, fracture=fracture, time=time)
+
+
+def in_shards(fracture: FractureSettings, most: int) -> FractureSettings:
+    """Return how a bridge is cut into at most so many shards."""
+    fracture = replace(fracture, recursion_share=0.0)
+    if fracture.shards <= most:
+        return fracture
+    stretched = tuple(replace(rule, shards=None, share=None) for rule in fracture.members if rule.stretch)
+    return replace(fracture, shards=most, members=stretched, points=(), points_file=None)
+
+
+def in_long_steps(time: TimeSettings) -> TimeSettings:
+    """Return the steps of a preview with elastic connections, none shorter than the scenario's own."""
+    own = time.step
+    if own.frame_s < 1.0 / FRAMES_PER_SECOND:
+        time = replace(time, frames_per_second=FRAMES_PER_SECOND, frames_per_second_base=1.0, time_scale=1.0)
+    substeps = round(time.step.frame_s / max(SUBSTEP_S, own.substep_s))
+    return replace(
+        time,
+        substeps_per_frame=max(1, substeps),
+        farthest_per_substep_m=FARTHEST_M,
+        rest_hold_s=min(time.rest_hold_s, REST_HOLD_S),
+        rest_speed_m_s=max(time.rest_speed_m_s, REST_SPEED_M_S),
+        rest_spin_rad_s=max(time.rest_spin_rad_s, REST_SPIN_RAD_S),
+    )
