@@ -39,6 +39,8 @@ class PreviewOutcome:
         Mass of debris, area that it covers in plan, and its largest distance from the bridge's plan.
     time_s, duration_s : float
         Simulated time so far, and that of the whole scenario.
+    is_elastic : bool
+        Whether connections are elastic, so that the preview takes longer steps than the run.
     debris_lines_m : (2 k, 3) float
         Outline of the debris on the ground, around what lies less than `GAP_M` apart.
     fallen_lines_m, standing_lines_m : (2 k, 3) float
@@ -53,6 +55,7 @@ class PreviewOutcome:
     farthest_m: float
     time_s: float
     duration_s: float
+    is_elastic: bool
     debris_lines_m: np.ndarray
     fallen_lines_m: np.ndarray
     standing_lines_m: np.ndarray
@@ -63,7 +66,9 @@ class PreviewOutcome:
         return self.shards - self.fallen
 
     @classmethod
-    def of(cls, results: Results, edges_m: Sequence[np.ndarray], duration_s: float) -> Self:
+    def of(
+        cls, results: Results, edges_m: Sequence[np.ndarray], duration_s: float, *, is_elastic: bool = False
+    ) -> Self:
         """Return the outcome of what was recorded so far.
 
         Parameters
@@ -90,6 +95,7 @@ class PreviewOutcome:
             farthest_m=float(debris.reaches_m.max(initial=0.0)),
             time_s=float(results.frames.time_s[-1]),
             duration_s=duration_s,
+            is_elastic=is_elastic,
             debris_lines_m=draped(outline_lines(without_gaps(debris.area, GAP_M)), debris.ground),
             fallen_lines_m=_joined([moved[rows[body]] for body in shards.tolist() if body in fallen]),
             standing_lines_m=_joined([moved[rows[body]] for body in shards.tolist() if body not in fallen]),

@@ -13,7 +13,6 @@ from collections.abc import Mapping
 from contextlib import suppress
 from functools import partial
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from ..display.bridge_preview import sharp_edges
@@ -34,7 +33,7 @@ FIRST_ANSWER_S = 2.0
 
 _NEXT_ANSWERS_S = 1.0
 
-_FIRST_ELASTIC = """
+FIRST_ELASTIC = """
 [scenario]
 title = "Loading what elastic connections need"
 [time]
@@ -100,24 +99,26 @@ def main() -> NoReturn:
             answer = answer_of(request, partial(play, service))
             service.say({"number": request["number"], "is_over": True, **answer})
             if not is_warm:
-                warm_up(service)
+                warm_up(service, Path(request["folder"]))
                 is_warm = True
 
 
-def warm_up(service: RunService) -> None:
-    """Make a short run with elastic connections, of which nothing is kept; it ends where something is asked."""
+def warm_up(service: RunService, folder: Path) -> None:
+    """Make a short run with elastic connections, whose frames are kept in a folder meanwhile, as those of a request.
+
+    It ends at its next frame once something is asked.
+    """
     from ..simulation.motion_run import motion_run
 
-    scenario = scenario_from_text(_FIRST_ELASTIC)
+    scenario = scenario_from_text(FIRST_ELASTIC)
     scenario = preview_scenario(scenario, prepared_members(scenario).members)
 
     def look_on(playing: Playing) -> None:
         if service.is_asked:
             raise _SupersededError
 
-    with TemporaryDirectory(prefix="bda-preview-") as folder:
-        with motion_run(scenario, checked_model(scenario), Path(folder), look_on):
-            pass
+    with motion_run(scenario, checked_model(scenario), folder, look_on):
+        pass
 
 
 def play(service: RunService, request: Mapping[str, Any], folder: Path) -> dict[str, Any]:
@@ -129,8 +130,12 @@ def play(service: RunService, request: Mapping[str, Any], folder: Path) -> dict[
     members = prepared_members(scenario).members
     scenario = preview_scenario(scenario, members)
     model = checked_model(scenario, members)
-    edges = [sharp_edges(shard) for shard in model.shards]
-    duration_s = scenario.time.duration_s
+    outcome_of = partial(
+        PreviewOutcome.of,
+        edges_m=[sharp_edges(shard) for shard in model.shards],
+        duration_s=scenario.time.duration_s,
+        is_elastic=scenario.connections.is_elastic,
+    )
 
     def look_on(playing: Playing) -> None:
         nonlocal answer_at_s
@@ -138,10 +143,9 @@ def play(service: RunService, request: Mapping[str, Any], folder: Path) -> dict[
             raise _SupersededError
         if time.monotonic() < answer_at_s or not playing.recording.recorded_frames:
             return
-        outcome = PreviewOutcome.of(playing.recording.results(), edges, duration_s)
-        so_far = {"outcome": outcome.stored(), "left_s": playing.left_s}
+        so_far = {"outcome": outcome_of(playing.recording.results()).stored(), "left_s": playing.left_s}
         service.say({"number": request["number"], "is_over": False, "status": "running", **so_far})
         answer_at_s = time.monotonic() + _NEXT_ANSWERS_S
 
     with motion_run(scenario, model, folder, look_on) as (results, _):
-        return {"outcome": PreviewOutcome.of(results, edges, duration_s).stored()}
+        return {"outcome": outcome_of(results).stored()}

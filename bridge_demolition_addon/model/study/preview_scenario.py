@@ -8,6 +8,7 @@ from dataclasses import replace
 from ..bridge.member import Member
 from ..scenario import Scenario
 from ..scenario.fracture import FractureSettings
+from ..scenario.steelwork import Steelwork
 from ..scenario.time import TimeSettings
 
 SHARDS, ELASTIC_SHARDS = 80, 50
@@ -21,8 +22,8 @@ steps; bars between cracks and contacts are followed more coarsely than in the r
 FARTHEST_M = 1000.0
 """How far a body may go in such a sub-step: where bars are, a run would take up to a hundred of them in a frame."""
 
-REST_HOLD_S, REST_SPEED_M_S, REST_SPIN_RAD_S = 0.25, 0.3, 1.0
-"""A preview with elastic connections ends at this rest: what is that slow has fallen, or stands."""
+REST_HOLD_S, REST_SPEED_M_S, REST_SPIN_RAD_S = 0.5, 0.1, 0.3
+"""A preview with elastic connections ends at this rest: what topples slowly is faster within half a second."""
 
 
 def preview_scenario(scenario: Scenario, members: Sequence[Member]) -> Scenario:
@@ -39,12 +40,10 @@ def preview_scenario(scenario: Scenario, members: Sequence[Member]) -> Scenario:
     """
     is_elastic = scenario.connections.is_elastic
     most = max(ELASTIC_SHARDS if is_elastic else SHARDS, sum(member.steel is None for member in members))
-    fracture, time = in_shards(scenario.fracture, most), scenario.time
+    found = replace(scenario, fracture=in_shards(scenario.fracture, most))
     if is_elastic:
-        time = in_long_steps(time)
-    if fracture == scenario.fracture and time == scenario.time:
-        return scenario
-    return replace(scenario, fracture=fracture, time=time)
+        found = replace(found, time=in_long_steps(scenario.time), steelwork=in_one_piece(scenario.steelwork))
+    return scenario if found == scenario else found
 
 
 def in_shards(fracture: FractureSettings, most: int) -> FractureSettings:
@@ -54,6 +53,11 @@ def in_shards(fracture: FractureSettings, most: int) -> FractureSettings:
         return fracture
     stretched = tuple(replace(rule, shards=None, share=None) for rule in fracture.members if rule.stretch)
     return replace(fracture, shards=most, members=stretched, points=(), points_file=None)
+
+
+def in_one_piece(steelwork: Steelwork | None) -> Steelwork | None:
+    """Return steelwork whose bars are not cut across, but those that say their own pieces, or need them to buckle."""
+    return steelwork if steelwork is None or steelwork.bowed else replace(steelwork, pieces=1)
 
 
 def in_long_steps(time: TimeSettings) -> TimeSettings:
