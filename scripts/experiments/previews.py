@@ -25,7 +25,7 @@ from support.example_runs import ExampleRun
 from bridge_demolition_addon.model.bridge.preparation import prepared_members
 from bridge_demolition_addon.model.debris.free_fall import landed
 from bridge_demolition_addon.model.results.arrays import Results
-from bridge_demolition_addon.model.results.motion import relative_to_ground
+from bridge_demolition_addon.model.results.motion import MOVED_M, relative_to_ground
 from bridge_demolition_addon.model.scenario import Scenario
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
@@ -36,6 +36,7 @@ from bridge_demolition_addon.simulation.playback import Playing
 KEPT = ROOT / "docs" / "data" / "previews.csv"
 SCENARIOS = {path.stem: path for path in PRESETS.rglob("*.toml")} | dict(SEEDED)
 RIGID = "span_of_2019_ball"
+HALF = 0.5
 SOON_IN_RIGID = 2.0
 """After so many times as long as a preview with rigid connections takes, a first picture is looked at."""
 
@@ -69,11 +70,15 @@ class Row:
 def main() -> None:
     """Run what is asked for, and keep a row of each run."""
     parser = argparse.ArgumentParser(prog="previews.py", description=__doc__.splitlines()[0])
-    parser.add_argument("names", nargs="+", choices=sorted(SCENARIOS), metavar="NAME", help="presets and examples")
+    parser.add_argument("--table", action="store_true", help="print what docs/sidebar.md says of all, and run nothing")
+    parser.add_argument("names", nargs="*", choices=sorted(SCENARIOS), metavar="NAME", help="presets and examples")
     parser.add_argument("--seeds", type=int, default=4, metavar="COUNT", help="how many, from 1 on (4)")
     parser.add_argument("--whole", action="store_true", help="whole runs; examples have theirs in docs/data/seeds")
     parser.add_argument("--csv", type=Path, default=KEPT, metavar="FILE", help="to which rows are added")
     options = parser.parse_args()
+    if options.table:
+        print(table(options.csv))
+        return
     rigid_s = 0.0 if options.whole else time_of_rigid()
     for name in options.names:
         for seed in range(1, options.seeds + 1):
@@ -154,6 +159,77 @@ def read(path: Path) -> Iterator[dict[str, str]]:
         with path.open(encoding="utf-8", newline="") as file:
             rows = list(csv.DictReader(file))
     yield from rows
+
+
+def table(path: Path) -> str:
+    """Lines of docs/sidebar.md: how previews of each scenario compare with its whole runs."""
+    lines = []
+    for name, (previews, wholes) in compared(path).items():
+        spans = [f"{percent(pairs_alike(column, previews, wholes)):.0f}" for column in ("soon_spans", "spans")]
+        among = percent(pairs_alike("spans", wholes, wholes)) if len(wholes) > 1 else None
+        ratio = throw_ratio(previews, wholes)
+        times = [float(row["time_in_rigid"]) for row in previews]
+        cells = (
+            f"`{name}`",
+            f"{len(previews)}, {len(wholes)}",
+            *spans,
+            "" if among is None else f"{among:.0f}",
+            "none falls" if ratio is None else f"{ratio:.2f}",
+            f"{min(times):.1f} to {max(times):.1f}",
+        )
+        lines.append(f"| {' | '.join(cells)} |")
+    return "\n".join(lines)
+
+
+def compared(path: Path = KEPT) -> dict[str, tuple[list[dict[str, str]], list[dict[str, str]]]]:
+    """Previews and whole runs of each scenario, each with `spans` and `throw_95_percent_m`."""
+    rows = list(read(path))
+    names = sorted({row["scenario"] for row in rows if row["kind"] == "preview"})
+    found = {}
+    for name in names:
+        mine = [row for row in rows if row["scenario"] == name]
+        wholes = [row for row in mine if row["kind"] == "whole"] or list(whole_runs(name))
+        found[name] = [row for row in mine if row["kind"] == "preview"], wholes
+    return found
+
+
+def whole_runs(name: str) -> Iterator[dict[str, str]]:
+    """Whole runs of an example over seeds that `scripts/seeds` has kept."""
+    for row in read(ROOT / "docs" / "data" / "seeds" / f"{name}.csv"):
+        spans = [value for quantity, value in row.items() if quantity.endswith("_share_fallen_2_m")]
+        yield {"spans": " ".join(spans), "throw_95_percent_m": row["throw_95_percent_m"]}
+
+
+def pairs_alike(column: str, previews: Sequence[dict[str, str]], wholes: Sequence[dict[str, str]]) -> tuple[int, int]:
+    """Of all spans in all pairs of runs, how many fall in both or stand in both, and how many there are."""
+    alike = count = 0
+    for preview in previews:
+        for whole in wholes:
+            if preview is whole:
+                continue
+            pairs = zip(falls(preview[column]), falls(whole["spans"]), strict=True)
+            same = [one == other for one, other in pairs if None not in (one, other)]
+            alike, count = alike + sum(same), count + len(same)
+    return alike, count
+
+
+def falls(spans: str) -> list[bool | None]:
+    """Whether each span falls: half of its deck; None where a preview has no middle of a shard in it."""
+    shares = [float(share) for share in spans.split()]
+    return [None if np.isnan(share) else share >= HALF for share in shares]
+
+
+def percent(counts: tuple[int, int]) -> float:
+    """A part of a whole, in %."""
+    return 100.0 * counts[0] / counts[1]
+
+
+def throw_ratio(previews: Sequence[dict[str, str]], wholes: Sequence[dict[str, str]]) -> float | None:
+    """How far most shards of previews get over those of whole runs, by medians; None where nothing gets anywhere."""
+    of_previews, of_wholes = (
+        float(np.median([float(row["throw_95_percent_m"]) for row in rows])) for rows in (previews, wholes)
+    )
+    return of_previews / of_wholes if min(of_previews, of_wholes) > MOVED_M else None
 
 
 if __name__ == "__main__":

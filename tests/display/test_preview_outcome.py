@@ -47,7 +47,7 @@ def test_it_goes_as_text_from_process_to_process(outcome):
 
 
 def test_what_still_falls_is_debris_where_it_would_land():
-    """The lower shard, 4 m high, is 14.71 m above the ground and sinks: x² + x = 3 s later it has gone 2 m/s along x."""
+    """The lower shard, 4 m high, sinks 14.71 m above the ground: x² + x = 3 s later it has gone 2 m/s along x."""
     chain = hanging_chain()
     positions_m, velocities = chain.frames.positions_m.copy(), chain.frames.velocities_m_s.copy()
     positions_m[-1, 2], velocities[-1, 2] = (0.0, 0.0, 2.0 + 14.709975), (2.0, 0.0, -4.903325)

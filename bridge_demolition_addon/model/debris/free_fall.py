@@ -11,7 +11,7 @@ from ..results.arrays import Results
 from .footprint import corners_at
 
 SINKS_M_S = 2.0
-"""A shard that sinks as fast is taken to fall: by then it has fallen freely by 0.2 m, farther than what stands sways."""
+"""A shard that sinks as fast is taken to fall: it has fallen freely by 0.2 m then, and what stands sways less."""
 
 _LANDED_M = 0.1
 """Height above the ground below which a shard has landed."""

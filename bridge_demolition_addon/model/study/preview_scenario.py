@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from ..blast.charges import MS_PER_S
+from ..blast.settings import BlastSettings
 from ..bridge.member import Member
 from ..scenario import Scenario
 from ..scenario.fracture import FractureSettings
@@ -19,6 +21,9 @@ FRAMES_PER_SECOND, SUBSTEP_S = 12, 1.0 / 36.0
 """Frames and sub-steps of a preview with elastic connections. These are implicit, so that none is too stiff for such
 steps; bars between cracks and contacts are followed more coarsely than in the run."""
 
+WAVES_MS = 20.0
+"""How long after a detonation waves load the bridge, where the scenario says nothing of it."""
+
 FARTHEST_M = 1000.0
 """How far a body may go in such a sub-step: where bars are, a run would take up to a hundred of them in a frame."""
 
@@ -30,8 +35,8 @@ def preview_scenario(scenario: Scenario, members: Sequence[Member]) -> Scenario:
     """Return a scenario in as few shards as a preview takes, and otherwise as it is; itself where it has no more.
 
     What is cut finer by numbers or points of the user's own is then cut by volume, as all else: these numbers add up to
-    the scenario's. Connections stay rigid or elastic, as they are; elastic ones get longer steps, and end at a rest that
-    is less strict.
+    the scenario's. Connections stay rigid or elastic, as they are; elastic ones get longer steps, end at a rest that is
+    less strict, and bars of steel are not cut across.
 
     Parameters
     ----------
@@ -42,7 +47,9 @@ def preview_scenario(scenario: Scenario, members: Sequence[Member]) -> Scenario:
     most = max(ELASTIC_SHARDS if is_elastic else SHARDS, sum(member.steel is None for member in members))
     found = replace(scenario, fracture=in_shards(scenario.fracture, most))
     if is_elastic:
-        found = replace(found, time=in_long_steps(scenario.time), steelwork=in_one_piece(scenario.steelwork))
+        time = in_long_steps(scenario.time)
+        blast = in_short_steps(scenario.blast, scenario.time, time) if scenario.charges else scenario.blast
+        found = replace(found, time=time, blast=blast, steelwork=in_one_piece(scenario.steelwork))
     return scenario if found == scenario else found
 
 
@@ -74,3 +81,12 @@ def in_long_steps(time: TimeSettings) -> TimeSettings:
         rest_speed_m_s=max(time.rest_speed_m_s, REST_SPEED_M_S),
         rest_spin_rad_s=max(time.rest_spin_rad_s, REST_SPIN_RAD_S),
     )
+
+
+def in_short_steps(blast: BlastSettings, own: TimeSettings, coarse: TimeSettings) -> BlastSettings:
+    """Return a blast while whose waves sub-steps are as short as in the run: longer ones leave columns standing."""
+    frame_ms = blast.slow_frame_ms or MS_PER_S * own.step.frame_s
+    duration_ms = WAVES_MS if blast.slow_frame_ms is None else blast.slow_duration_ms
+    in_frame = coarse.substeps_per_frame / own.substeps_per_frame
+    slow_frame_ms = min(in_frame * frame_ms, MS_PER_S * coarse.step.frame_s)
+    return replace(blast, slow_frame_ms=slow_frame_ms, slow_duration_ms=duration_ms)

@@ -1,7 +1,7 @@
-"""How far previews with elastic connections are to be trusted: as docs/sidebar.md has it, from docs/data/previews.csv."""
+"""How far previews with elastic connections are to be trusted: by docs/data/previews.csv, as docs/sidebar.md has it."""
 
 ALIKE_PERCENT = 90
-"""Of all pairs of a preview and a whole run with another draw of shards: so many spans fall in both, or stand in both."""
+"""So many spans fall in both or stand in both, of all pairs of a preview and a whole run with other draws of shards."""
 
 LEAST_THROW, MOST_THROW = 0.5, 1.5
 """How far 95 % of the shards get on plan, over that of whole runs, by the medians over draws: least and most of all

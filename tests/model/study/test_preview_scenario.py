@@ -3,8 +3,9 @@
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
-from support.checkout import EXAMPLES, PRESETS
+from support.checkout import EXAMPLES, PRESETS, REPORT_2019
 from support.scenarios import I235
 
 from bridge_demolition_addon.model.bridge.preparation import prepared_members
@@ -12,9 +13,15 @@ from bridge_demolition_addon.model.scenario import FractureSettings
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.scenario.fracture import FracturePoint, MemberFracture
 from bridge_demolition_addon.model.structure.model import build_model
-from bridge_demolition_addon.model.study.preview_scenario import ELASTIC_SHARDS, SHARDS, preview_scenario
+from bridge_demolition_addon.model.study.preview_scenario import (
+    ELASTIC_SHARDS,
+    SHARDS,
+    WAVES_MS,
+    preview_scenario,
+)
 
 ELASTIC = read_scenario(EXAMPLES / "drilled" / "two_spans.toml")
+CHARGES = read_scenario(REPORT_2019 / "single_span_explosives.toml")
 TRUSS = read_scenario(PRESETS / "steel" / "deck_truss_severed.toml")
 
 
@@ -64,6 +71,18 @@ def test_it_ends_at_a_rest_that_is_no_stricter_than_the_scenarios():
     loose = replace(own, rest_speed_m_s=0.7, rest_spin_rad_s=2.0, rest_hold_s=0.1)
     kept = coarse(replace(ELASTIC, time=loose)).time
     assert (kept.rest_speed_m_s, kept.rest_spin_rad_s, kept.rest_hold_s) == (0.7, 2.0, 0.1)
+
+
+def test_sub_steps_are_those_of_the_run_while_waves_of_charges_pass():
+    found, own = coarse(CHARGES), CHARGES.time.step.substep_s
+    lengths_s = found.timeline.frame_lengths_s / found.time.substeps_per_frame
+    begins_s = found.timeline.ends_s - found.timeline.frame_lengths_s
+    detonations_s = {CHARGES.blast.start_s + charge.delay_s for charge in CHARGES.charges}
+    for time_s in detonations_s:
+        passing = (begins_s > time_s - 1e-9) & (begins_s < time_s + WAVES_MS / 1000.0 - 1e-9)
+        assert passing.any()
+        np.testing.assert_allclose(lengths_s[passing], own)
+    assert lengths_s.max() == pytest.approx(1.0 / 36.0)
 
 
 def test_bars_of_steel_are_not_cut_across_but_where_they_have_to_buckle():
