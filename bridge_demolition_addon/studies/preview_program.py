@@ -8,8 +8,9 @@ which would take as long as a run: the program is kept for the next request.
 
 from __future__ import annotations
 
+import shutil
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from functools import partial
 from pathlib import Path
@@ -28,10 +29,10 @@ from .run_service import RunService, answer_of
 if TYPE_CHECKING:
     from ..simulation.playback import Playing
 
-FIRST_ANSWER_S = 2.0
+FIRST_ANSWER_S = 1.5
 """After a request; the run may go on."""
 
-_NEXT_ANSWERS_S = 1.0
+_NEXT_ANSWERS_S = 0.5
 
 FIRST_ELASTIC = """
 [scenario]
@@ -85,7 +86,8 @@ def preview_program_command(blender: str = "") -> list[str]:
 
 def main() -> NoReturn:
     """Answer requests until there are no more."""
-    service = RunService()
+    folders: set[Path] = set()
+    service = RunService(partial(_remove, folders))
     versions = versions_here(service)
     from ..simulation import motion_run  # noqa: F401, loaded before anything is asked
 
@@ -93,32 +95,41 @@ def main() -> NoReturn:
     is_warm = False
     while True:
         request = service.next_request()
+        if "folder" in request:
+            folders.add(Path(request["folder"]))
         if service.is_asked or "scenario" not in request:
             continue
         with suppress(_SupersededError):
             answer = answer_of(request, partial(play, service))
             service.say({"number": request["number"], "is_over": True, **answer})
-            if not is_warm:
-                warm_up(service, Path(request["folder"]))
-                is_warm = True
+            is_warm = is_warm or warm_up(lambda: service.is_asked, Path(request["folder"]))
 
 
-def warm_up(service: RunService, folder: Path) -> None:
+def _remove(folders: Iterable[Path]) -> None:
+    """Remove the folders of a process that was killed, so that it could not."""
+    for folder in folders:
+        shutil.rmtree(folder, ignore_errors=True)
+
+
+def warm_up(is_asked: Callable[[], bool], folder: Path) -> bool:
     """Make a short run with elastic connections, whose frames are kept in a folder meanwhile, as those of a request.
 
-    It ends at its next frame once something is asked.
+    Return whether it came to its end: once something is asked it ends at its next frame.
     """
     from ..simulation.motion_run import motion_run
 
     scenario = scenario_from_text(FIRST_ELASTIC)
     scenario = preview_scenario(scenario, prepared_members(scenario).members)
 
-    def look_on(playing: Playing) -> None:
-        if service.is_asked:
+    def look_on(_: Playing) -> None:
+        if is_asked():
             raise _SupersededError
 
-    with motion_run(scenario, checked_model(scenario), folder, look_on):
-        pass
+    try:
+        with motion_run(scenario, checked_model(scenario), folder, look_on):
+            return True
+    except _SupersededError:
+        return False
 
 
 def play(service: RunService, request: Mapping[str, Any], folder: Path) -> dict[str, Any]:

@@ -17,8 +17,9 @@ from bridge_demolition_addon.display.preview_outcome import GAP_M, PreviewOutcom
 from bridge_demolition_addon.engineering.geometry.plan_areas import without_gaps
 from bridge_demolition_addon.errors import SimulationError
 from bridge_demolition_addon.model.bridge.preparation import prepared_members
+from bridge_demolition_addon.model.debris.free_fall import landed
 from bridge_demolition_addon.model.debris.throws import debris_of
-from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_text
+from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_from_text, scenario_text
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
 from bridge_demolition_addon.model.study.preview_scenario import SHARDS, preview_scenario
 from bridge_demolition_addon.studies.preview_process import PreviewProcess
@@ -72,7 +73,7 @@ def test_its_outcome_is_that_of_the_run_of_the_same_shards_and_seed(kept, blende
     coarse = preview_scenario(FALLING, prepared_members(FALLING).members)
     model = checked_model(coarse)
     with motion_run(coarse, model, tmp_path) as (results, _):
-        debris = debris_of(results)
+        debris = debris_of(landed(results)[0])
         expected = PreviewOutcome.of(results, [sharp_edges(shard) for shard in model.shards], 2.0)
     assert shown.shards == SHARDS
     assert shown.fallen == len(debris.bodies) > 0
@@ -103,6 +104,17 @@ def test_of_several_requests_the_last_is_run(kept):
     kept.ask(scenario_text(replace(SHORT_RUN, time=replace(SHORT_RUN.time, duration_s=0.25))))
     (preview,) = wait_for(kept)
     assert preview.outcome.duration_s == 0.25
+
+
+def test_what_elastic_connections_need_is_loaded_while_nothing_is_asked(blender, tmp_path):
+    """By a run with bars, bearings and something that falls, which gives way at once."""
+    from bridge_demolition_addon.studies.preview_program import FIRST_ELASTIC, warm_up
+
+    scenario = scenario_from_text(FIRST_ELASTIC)
+    model = checked_model(scenario)
+    assert scenario.connections.is_elastic and model.bars is not None and model.bearings is not None
+    assert warm_up(lambda: False, tmp_path)
+    assert not warm_up(lambda: True, tmp_path)
 
 
 def test_a_run_is_stopped_and_the_process_stays(kept):
@@ -156,9 +168,12 @@ def test_a_program_that_is_not_there_is_said(tmp_path):
 def test_it_ends_with_the_process_that_asked(tmp_path):
     path = tmp_path / "long.toml"
     path.write_text(scenario_text(LONG), encoding="utf-8")
-    asked = run_program("preview_and_die", path)
+    folder = tmp_path / "temporary"
+    folder.mkdir()
+    asked = run_program("preview_and_die", path, TMPDIR=str(folder))
     number = int(asked.stdout)
     until = time.monotonic() + 60.0
     while is_alive(number) and time.monotonic() < until:
         time.sleep(0.1)
     assert not is_alive(number)
+    assert [path.name for path in folder.iterdir() if path.name.startswith("bda-preview-")] == []
