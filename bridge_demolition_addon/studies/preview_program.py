@@ -18,10 +18,8 @@ from typing import TYPE_CHECKING, Any, NoReturn
 
 from ..display.bridge_preview import sharp_edges
 from ..display.preview_outcome import PreviewOutcome
-from ..model.bridge.preparation import prepared_members
 from ..model.scenario.file import scenario_from_text
-from ..model.sequence.checked_model import checked_model
-from ..model.study.preview_scenario import preview_scenario
+from ..model.study.preview_scenario import preview_model
 from ..system.programs import program_command
 from .own_blender import versions_here
 from .run_service import RunService, answer_of
@@ -118,15 +116,14 @@ def warm_up(is_asked: Callable[[], bool], folder: Path) -> bool:
     """
     from ..simulation.motion_run import motion_run
 
-    scenario = scenario_from_text(FIRST_ELASTIC)
-    scenario = preview_scenario(scenario, prepared_members(scenario).members)
+    scenario, model = preview_model(scenario_from_text(FIRST_ELASTIC))
 
     def look_on(_: Playing) -> None:
         if is_asked():
             raise _SupersededError
 
     try:
-        with motion_run(scenario, checked_model(scenario), folder, look_on):
+        with motion_run(scenario, model, folder, look_on):
             return True
     except _SupersededError:
         return False
@@ -138,9 +135,7 @@ def play(service: RunService, request: Mapping[str, Any], folder: Path) -> dict[
 
     answer_at_s = time.monotonic() + FIRST_ANSWER_S
     scenario = scenario_from_text(Path(request["scenario"]).read_text(encoding="utf-8"))
-    members = prepared_members(scenario).members
-    scenario = preview_scenario(scenario, members)
-    model = checked_model(scenario, members)
+    scenario, model = preview_model(scenario)
     outcome_of = partial(
         PreviewOutcome.of,
         edges_m=[sharp_edges(shard) for shard in model.shards],

@@ -22,14 +22,13 @@ from support.checkout import PRESETS, ROOT, SEEDED
 from support.example_measures import deck_falls
 from support.example_runs import ExampleRun
 
-from bridge_demolition_addon.model.bridge.preparation import prepared_members
 from bridge_demolition_addon.model.debris.free_fall import landed
 from bridge_demolition_addon.model.results.arrays import Results
 from bridge_demolition_addon.model.results.motion import MOVED_M, relative_to_ground
 from bridge_demolition_addon.model.scenario import Scenario
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
-from bridge_demolition_addon.model.study.preview_scenario import preview_scenario
+from bridge_demolition_addon.model.study.preview_scenario import preview_model
 from bridge_demolition_addon.simulation.motion_run import motion_run
 from bridge_demolition_addon.simulation.playback import Playing
 
@@ -101,10 +100,7 @@ def run(name: str, seed: int, rigid_s: float, *, is_whole: bool) -> Row:
     """Run a scenario with a seed, as a preview or whole, and return what came of it."""
     began = time.process_time()
     scenario = replace(read_scenario(SCENARIOS[name]), seed=seed)
-    members = prepared_members(scenario).members
-    if not is_whole:
-        scenario = preview_scenario(scenario, members)
-    model = checked_model(scenario, members)
+    scenario, model = (scenario, checked_model(scenario)) if is_whole else preview_model(scenario)
     soon: list[tuple[float, Outcome]] = []
 
     def look_on(playing: Playing) -> None:

@@ -8,10 +8,13 @@ from dataclasses import replace
 from ..blast.charges import MS_PER_S
 from ..blast.settings import BlastSettings
 from ..bridge.member import Member
+from ..bridge.preparation import prepared_members
 from ..scenario import Scenario
 from ..scenario.fracture import FractureSettings
 from ..scenario.steelwork import Steelwork
 from ..scenario.time import TimeSettings
+from ..sequence.checked_model import checked_model
+from ..structure.model import Model
 
 SHARDS, ELASTIC_SHARDS = 80, 50
 """Shards of a preview, where connections are rigid and where they are elastic: a sub-step of elastic connections takes
@@ -51,6 +54,14 @@ def preview_scenario(scenario: Scenario, members: Sequence[Member]) -> Scenario:
         blast = in_short_steps(scenario.blast, scenario.time, time) if scenario.charges else scenario.blast
         found = replace(found, time=time, blast=blast, steelwork=in_one_piece(scenario.steelwork))
     return scenario if found == scenario else found
+
+
+def preview_model(scenario: Scenario) -> tuple[Scenario, Model]:
+    """Return the coarse scenario of a preview, and its model; an action that acts on nothing raises ScenarioError."""
+    members = prepared_members(scenario).members
+    coarse = preview_scenario(scenario, members)
+    is_as_prepared = coarse.steelwork == scenario.steelwork  # other pieces are other members
+    return coarse, checked_model(coarse, members if is_as_prepared else None)
 
 
 def in_shards(fracture: FractureSettings, most: int) -> FractureSettings:

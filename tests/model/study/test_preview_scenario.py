@@ -17,6 +17,7 @@ from bridge_demolition_addon.model.study.preview_scenario import (
     ELASTIC_SHARDS,
     SHARDS,
     WAVES_MS,
+    preview_model,
     preview_scenario,
 )
 
@@ -89,6 +90,9 @@ def test_bars_of_steel_are_not_cut_across_but_where_they_have_to_buckle():
     assert TRUSS.steelwork.pieces > 1
     found = coarse(TRUSS)
     assert found.steelwork == replace(TRUSS.steelwork, pieces=1)
+    scenario, model = preview_model(TRUSS)
+    assert scenario == found
+    assert np.bincount(model.member_of_shard).tolist() == [1] * len(model.members)
     bowed = replace(TRUSS, steelwork=replace(TRUSS.steelwork, bowed=True))
     assert coarse(bowed).steelwork == bowed.steelwork
 
