@@ -41,6 +41,21 @@ def test_the_window_says_how_far_debris_got():
     assert round(max(ratios), 1) == preview_trust.MOST_THROW
 
 
+def test_the_page_says_how_far_most_shards_have_got_in_the_first_picture():
+    columns = "soon_throw_95_percent_m", "throw_95_percent_m"
+    ways = [tuple(float(row[column]) for column in columns) for runs in COMPARED.values() for row in runs[0]]
+    shares = [soon_m / way_m for soon_m, way_m in ways if way_m > previews.MOVED_M]
+    sentence = f"got {min(shares):.1f} to {max(shares):.1f} times as far as at the end"
+    assert sentence in " ".join(PAGE.read_text(encoding="utf-8").split())
+
+
+def test_the_page_says_how_long_previews_take():
+    longest = {name: max(float(row["time_in_rigid"]) for row in rows) for name, (rows, _) in COMPARED.items()}
+    assert [round(longest.pop(name)) for name in ("deck_truss_severed", "truss_severed")] == [7, 8]
+    shortest = min(float(row["time_in_rigid"]) for rows, _ in COMPARED.values() for row in rows)
+    assert (round(shortest, 1), round(max(longest.values()))) == (0.8, 5)
+
+
 def test_each_preset_with_elastic_connections_was_compared():
     elastic = {
         name

@@ -29,7 +29,7 @@ def falling(results: Results) -> tuple[np.ndarray, np.ndarray]:
 def landed(results: Results) -> tuple[Results, int]:
     """Return a run in whose last frame all that falls has landed, and how many shards these are.
 
-    Each flies on by itself, without spin, and stays where its lowest corner meets the height of the ground that is
+    Each flies on by itself, without rotating, and stays where its lowest corner meets the height of the ground that is
     below it now; it meets no other, and does not roll. Air resists nothing. The ground has to rest.
     """
     bodies, heights_m = falling(results)
