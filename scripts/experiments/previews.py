@@ -170,7 +170,7 @@ def table(path: Path) -> str:
             f"{len(previews)}, {len(wholes)}",
             *spans,
             "" if among is None else f"{among:.0f}",
-            "none falls" if ratio is None else f"{ratio:.2f}",
+            "none gets far" if ratio is None else f"{ratio:.2f}",
             f"{min(times):.1f} to {max(times):.1f}",
         )
         lines.append(f"| {' | '.join(cells)} |")
