@@ -38,10 +38,12 @@ def sentences() -> list[str]:
 
 def _of_outcome(outcome: PreviewOutcome, is_over: bool) -> list[str]:
     heading = [translated("Preview in {} shards: one coarse run, no forecast").format(outcome.shards)]
+    if not outcome.fallen and not is_over:
+        return [*heading, translated("All shards stand so far")]  # which may be before anything is done to them
     if outcome.is_elastic:
         heading.append(_trust())
     if not outcome.fallen:
-        return [*heading, translated("All shards stand" if is_over else "All shards stand so far")]
+        return [*heading, translated("All shards stand")]
     fallen = translated("{} shards ({}) fall, {} stand").format(
         outcome.fallen, mass_text(outcome.fallen_kg), outcome.standing
     )

@@ -99,6 +99,10 @@ def test_it_says_what_elastic_previews_are_worth_and_what_still_falls(shown, bes
     assert trust in said()[1] and said()[3].startswith(fall)
     beside.shown = Preview(rigid, False)
     assert trust not in "".join(said()) and said()[2].startswith(fall)
+    stands = replace(elastic, fallen=0, falling=0)
+    for is_over, is_said in ((False, False), (True, True)):  # so far is no outcome yet
+        beside.shown = Preview(stands, is_over)
+        assert (trust in said()[1]) == is_said
 
 
 def test_what_was_shown_before_needs_no_run(shown, beside, extension):
