@@ -10,6 +10,7 @@ import numpy as np
 
 from ..engineering.geometry.plan_areas import without_gaps
 from ..engineering.geometry.vectors import transformed, transformed_back
+from ..model.debris.free_fall import landed
 from ..model.debris.throws import debris_of
 from ..model.results.arrays import Results
 from ..model.results.motion import relative_to_ground, without_removed
@@ -32,10 +33,14 @@ class PreviewOutcome:
     ----------
     shards, fallen : int
         Number of shards without those that were removed, and how many of them are debris.
+    falling : int
+        Number of shards that still fall. They count as debris, and are where they would land in free fall.
     fallen_kg, area_m2, farthest_m : float
         Mass of debris, area that it covers in plan, and its largest distance from the bridge's plan.
     time_s, duration_s : float
         Simulated time so far, and that of the whole scenario.
+    is_elastic : bool
+        Whether connections are elastic, so that the preview takes longer steps than the run.
     debris_lines_m : (2 k, 3) float
         Outline of the debris on the ground, around what lies less than `GAP_M` apart.
     fallen_lines_m, standing_lines_m : (2 k, 3) float
@@ -44,11 +49,13 @@ class PreviewOutcome:
 
     shards: int
     fallen: int
+    falling: int
     fallen_kg: float
     area_m2: float
     farthest_m: float
     time_s: float
     duration_s: float
+    is_elastic: bool
     debris_lines_m: np.ndarray
     fallen_lines_m: np.ndarray
     standing_lines_m: np.ndarray
@@ -59,7 +66,9 @@ class PreviewOutcome:
         return self.shards - self.fallen
 
     @classmethod
-    def of(cls, results: Results, edges_m: Sequence[np.ndarray], duration_s: float) -> Self:
+    def of(
+        cls, results: Results, edges_m: Sequence[np.ndarray], duration_s: float, *, is_elastic: bool = False
+    ) -> Self:
         """Return the outcome of what was recorded so far.
 
         Parameters
@@ -71,7 +80,7 @@ class PreviewOutcome:
         duration_s
             Simulated time of the whole scenario.
         """
-        results = relative_to_ground(results)
+        results, falling = landed(relative_to_ground(results))
         moved = _edges_at_end(results, edges_m)
         left, _ = without_removed(results)
         shards, debris = left.inventory.of_kind("shard"), debris_of(left)
@@ -80,11 +89,13 @@ class PreviewOutcome:
         return cls(
             shards=len(shards),
             fallen=len(fallen),
+            falling=falling,
             fallen_kg=float(debris.masses_kg.sum()),
             area_m2=float(debris.area.area()),
             farthest_m=float(debris.reaches_m.max(initial=0.0)),
             time_s=float(results.frames.time_s[-1]),
             duration_s=duration_s,
+            is_elastic=is_elastic,
             debris_lines_m=draped(outline_lines(without_gaps(debris.area, GAP_M)), debris.ground),
             fallen_lines_m=_joined([moved[rows[body]] for body in shards.tolist() if body in fallen]),
             standing_lines_m=_joined([moved[rows[body]] for body in shards.tolist() if body not in fallen]),

@@ -36,9 +36,15 @@ class RunService:
     """Requests from standard input, and answers to what standard output was: nothing else gets there.
 
     The process ends when its input does: then the process that asked has ended.
+
+    Parameters
+    ----------
+    at_end
+        Called before that, for what would otherwise stay behind; not where the process is killed.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, at_end: Callable[[], None] = lambda: None) -> None:
+        self._at_end = at_end
         sys.stdout.flush()
         self._answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
         nowhere = os.open(os.devnull, os.O_WRONLY)
@@ -78,6 +84,7 @@ class RunService:
     def _listen(self) -> None:
         for line in sys.stdin:
             self._requests.put(line)
+        self._at_end()
         os._exit(0)  # whatever is at work
 
 

@@ -2,6 +2,7 @@
 """What a preview shows of a recording whose every number can be checked by hand."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -43,3 +44,21 @@ def test_it_goes_as_text_from_process_to_process(outcome):
     assert again.stored() == outcome.stored()
     np.testing.assert_allclose(again.debris_lines_m, outcome.debris_lines_m, atol=5e-4)
     assert again.standing == outcome.standing
+
+
+def test_what_still_falls_is_debris_where_it_would_land():
+    """The lower shard, 4 m high, sinks 14.71 m above the ground: x² + x = 3 s later it has gone 2 m/s along x."""
+    chain = hanging_chain()
+    positions_m, velocities = chain.frames.positions_m.copy(), chain.frames.velocities_m_s.copy()
+    positions_m[-1, 2], velocities[-1, 2] = (0.0, 0.0, 2.0 + 14.709975), (2.0, 0.0, -4.903325)
+    flying = replace(chain, frames=replace(chain.frames, positions_m=positions_m, velocities_m_s=velocities))
+    found = PreviewOutcome.of(flying, UPRIGHTS, duration_s=2.0)
+    assert (found.falling, found.fallen, found.standing) == (1, 1, 1)
+    way_m = 2.0 * (13.0**0.5 - 1.0) / 2.0
+    np.testing.assert_allclose(found.fallen_lines_m, [[way_m, 0.0, 0.0], [way_m, 0.0, 4.0]], atol=1e-6)
+    middle = (found.debris_lines_m.min(axis=0) + found.debris_lines_m.max(axis=0)) / 2.0
+    np.testing.assert_allclose(middle[:2], (way_m, 0.0), atol=1e-6)
+
+
+def test_nothing_falls_any_more_in_what_has_landed(outcome):
+    assert outcome.falling == 0

@@ -24,6 +24,14 @@ BEGIN_S, WAIT_S, LONG_S = 60.0, 60.0, 300.0
 """For the process to start, a rigid run and an elastic one, on a machine that has other work."""
 
 
+RIGID, ELASTIC_SO_FAR = "ball of 2019, rigid", "reinforced span, elastic, so far"
+RIGID_END, ELASTIC_END = f"{RIGID}, to its end", "reinforced span, elastic, to its end"
+END_IN_RIGID = 5.0
+"""How many times as long a preview with elastic connections may take: other programs take their part of the time."""
+
+TOOK_S: dict[str, float] = {}
+"""How long each took, by what was dragged."""
+
 AFTER_DRAG_S = 0.2
 """That `hold` waits at its end."""
 
@@ -60,8 +68,8 @@ def drag_ball(person: Person) -> Steps:
     start, end = on_screen(person, (x, y, z)), on_screen(person, (x - 4.0, y - 1.5, z))
     yield from hold(person, start, end, still)
     began = time.monotonic()
-    yield from time_of(person, "ball of 2019, rigid", is_of_now, WAIT_S, began)
-    yield from time_of(person, "ball of 2019, rigid, to its end", is_over, WAIT_S, began)
+    yield from time_of(person, RIGID, is_of_now, WAIT_S, began)
+    yield from time_of(person, RIGID_END, is_over, WAIT_S, began)
     person.expect("another outcome is shown", shown() is not first)
     person.expect("by the same process", beside().process is process)
     person.expect("debris has an outline", len(shown().outcome.debris_lines_m) > 0)
@@ -90,9 +98,12 @@ def see_elastic(person: Person) -> Steps:
     start, end = on_screen(person, (x, y, z)), on_screen(person, (x - 3.0, y - 1.0, z))
     yield from hold(person, start, end, still)
     began = time.monotonic()
-    yield from time_of(person, "reinforced span, elastic, so far", is_of_now, WAIT_S, began)
+    yield from time_of(person, ELASTIC_SO_FAR, is_of_now, WAIT_S, began)
     yield from person.picture("elastic_so_far")
-    yield from time_of(person, "reinforced span, elastic, to its end", is_over, LONG_S, began)
+    yield from time_of(person, ELASTIC_END, is_over, LONG_S, began)
+    person.expect("some of an elastic one is known before a rigid one ends", TOOK_S[ELASTIC_SO_FAR] < TOOK_S[RIGID_END])
+    person.expect("it takes five times as long at most", TOOK_S[ELASTIC_END] < END_IN_RIGID * TOOK_S[RIGID_END])
+    person.expect("it says what it is worth", "fell or stood alike" in sentences()[1])
     yield from person.picture("elastic_at_end")
 
 
@@ -150,6 +161,7 @@ def time_of(person: Person, what: str, happens: Callable[[], bool], seconds: flo
     yield 2.0 * module("ui.preview.run_beside").LOOK_EVERY_S
     yield from person.wait_for(what, happens, seconds)
     took_s = time.monotonic() - began_s + AFTER_DRAG_S
+    TOOK_S[what] = took_s
     with (person.folder / "times.txt").open("a", encoding="utf-8") as file:
         file.write(f"{what}: {took_s:.1f} s\n")
 

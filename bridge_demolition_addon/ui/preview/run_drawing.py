@@ -6,6 +6,7 @@ import bpy
 import gpu
 
 from ...display.preview_outcome import PreviewOutcome
+from ...model.study.preview_trust import ALIKE_PERCENT, LEAST_THROW, MOST_THROW
 from ...studies.preview_process import Preview
 from ..languages.words import translated
 from ..scene_units import area_text, length_text, mass_text
@@ -36,16 +37,31 @@ def sentences() -> list[str]:
 
 
 def _of_outcome(outcome: PreviewOutcome, is_over: bool) -> list[str]:
-    heading = translated("Preview in {} shards: one coarse run, no forecast").format(outcome.shards)
+    heading = [translated("Preview in {} shards: one coarse run, no forecast").format(outcome.shards)]
+    if not outcome.fallen and not is_over:
+        return [*heading, translated("All shards stand so far")]  # which may be before anything is done to them
+    if outcome.is_elastic:
+        heading.append(_trust())
     if not outcome.fallen:
-        return [heading, translated("All shards stand" if is_over else "All shards stand so far")]
+        return [*heading, translated("All shards stand")]
     fallen = translated("{} shards ({}) fall, {} stand").format(
         outcome.fallen, mass_text(outcome.fallen_kg), outcome.standing
     )
     lies = translated("Debris covers {}, up to {} from the bridge").format(
         area_text(outcome.area_m2, ".0f"), length_text(outcome.farthest_m, ".1f")
     )
-    return [heading, fallen, lies]
+    if not outcome.falling:
+        return [*heading, fallen, lies]
+    flying = translated("{} still fall: shown where they would land in free flight").format(outcome.falling)
+    return [*heading, fallen, flying, lies]
+
+
+def _trust() -> str:
+    """Return what is known of previews that take longer steps than the run."""
+    tested = translated(
+        "Longer steps than in the run: {} % of spans fell or stood alike, debris got {} to {} times as far"
+    )
+    return tested.format(ALIKE_PERCENT, f"{LEAST_THROW:.1f}", f"{MOST_THROW:.1f}")
 
 
 def _progress(shown: Preview, outcome: PreviewOutcome) -> str:

@@ -3,13 +3,19 @@
 
 import os
 import time
+from dataclasses import replace
 
+import numpy as np
 import pytest
 from support.processes import is_alive
+from support.sample_results import hanging_chain
 from support.scenarios import SHORT_RUN
 
 import bridge_demolition_addon
+from bridge_demolition_addon.display.preview_outcome import PreviewOutcome
 from bridge_demolition_addon.model.scenario.file import scenario_text
+from bridge_demolition_addon.model.study.preview_trust import ALIKE_PERCENT
+from bridge_demolition_addon.studies.preview_process import Preview
 
 pytestmark = pytest.mark.slow
 
@@ -78,6 +84,25 @@ def test_what_is_dragged_is_run_and_nothing_of_it_gets_into_the_scene(shown, bes
     assert everything(extension) == before
     assert scenario_text(SHORT_RUN) == text and not shown.built_scenario
     assert "preview_run" not in shown.keys()  # noqa: SIM118, Blender's own
+
+
+def test_it_says_what_elastic_previews_are_worth_and_what_still_falls(shown, beside):
+    chain = hanging_chain()
+    velocities = chain.frames.velocities_m_s.copy()
+    positions_m = chain.frames.positions_m.copy()
+    positions_m[-1, 2], velocities[-1, 2] = (0.0, 0.0, 12.0), (0.0, 0.0, -5.0)
+    flying = replace(chain, frames=replace(chain.frames, positions_m=positions_m, velocities_m_s=velocities))
+    edges_m = [np.zeros((2, 3))] * 2
+    rigid, elastic = (PreviewOutcome.of(flying, edges_m, 2.0, is_elastic=is_elastic) for is_elastic in (False, True))
+    beside.shown = Preview(elastic, False)
+    trust, fall = f"{ALIKE_PERCENT} % of spans fell or stood alike", "1 still fall: shown where they would land"
+    assert trust in said()[1] and said()[3].startswith(fall)
+    beside.shown = Preview(rigid, False)
+    assert trust not in "".join(said()) and said()[2].startswith(fall)
+    stands = replace(elastic, fallen=0, falling=0)
+    for is_over, is_said in ((False, False), (True, True)):  # so far is no outcome yet
+        beside.shown = Preview(stands, is_over)
+        assert (trust in said()[1]) == is_said
 
 
 def test_what_was_shown_before_needs_no_run(shown, beside, extension):
