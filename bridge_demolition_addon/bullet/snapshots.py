@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..engineering.geometry.vectors import as_vectors
 from .bodies import BodyTable
 from .constraints import ConstraintTable
 from .contacts import ContactCopies, Contacts
@@ -78,8 +79,8 @@ class BodyHistory:
     def of(cls, snapshots: Sequence[Snapshot]) -> BodyHistory:
         """Return the states in snapshots."""
         values = np.stack([snapshot.body_components for snapshot in snapshots], axis=1)
-        rotations = np.moveaxis(values[:9].reshape(3, 3, *values.shape[1:]), (0, 1), (-2, -1))
-        positions, velocities, angular = (np.moveaxis(values[start : start + 3], 0, -1) for start in (9, 12, 15))
+        rotations = values[:9].reshape(3, 3, *values.shape[1:]).transpose(2, 3, 0, 1)
+        positions, velocities, angular = (as_vectors(values[start : start + 3]) for start in (9, 12, 15))
         return cls(positions, rotations, velocities, angular, (values[18] > 0.0) & ~_removed(snapshots))
 
 

@@ -22,7 +22,7 @@ import numpy as np
 
 from ..arithmetic import power
 from ..arrays import BoolArray, FloatArray, IntArray
-from ..geometry.vectors import cross_by_component, dot
+from ..geometry.vectors import as_components, as_vectors, cross_by_component, dot
 from .forces import PairSums
 from .touches import Touches
 
@@ -334,7 +334,7 @@ def _components(*vectors: FloatArray) -> FloatArray:
 
 def _rows(vectors: FloatArray) -> FloatArray:
     """Components (3, k) of vectors (..., 3)."""
-    return np.moveaxis(vectors, -1, 0).reshape(3, -1)
+    return as_components(vectors).reshape(3, -1)
 
 
 def _dot(first: Sequence[FloatArray], second: Sequence[FloatArray]) -> FloatArray:
@@ -349,5 +349,4 @@ def _dot(first: Sequence[FloatArray], second: Sequence[FloatArray]) -> FloatArra
 
 def _joined(first: FloatArray, second: FloatArray) -> FloatArray:
     """Vectors (s, n, 3) of earlier and later sub-steps, whose components each lie together in memory."""
-    parts = [np.moveaxis(vectors, -1, 0) for vectors in (first, second)]
-    return np.moveaxis(np.concatenate(parts, axis=1), 0, -1)
+    return as_vectors(np.concatenate([as_components(vectors) for vectors in (first, second)], axis=1))
