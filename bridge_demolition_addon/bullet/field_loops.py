@@ -25,6 +25,44 @@ def copied(values: Any, starts: Any, offsets: Any) -> Any:
 
 
 @compiled
+def loaded_points(
+    values: Any, pointers: Any, counts: Any, impulses: Any, vectors: Any, size: int, bodies: Any
+) -> tuple[Any, Any]:
+    """`ContactReader.copy`: components (15, k) of points with an impulse, and pointers (2, k) to their bodies.
+
+    Each of `counts` (n,) contacts has so many points, `size` values after each other. Impulses, vectors and bodies are
+    given by `Fields.places`.
+    """
+    (starts, of_impulses), (_, of_vectors), (owners, of_bodies) = impulses, vectors, bodies
+    found = 0
+    for contact in range(len(counts)):
+        for point in range(counts[contact]):
+            found += _is_loaded(values, starts[contact] + point * size, of_impulses)
+    components, pairs = np.empty((15, found)), np.empty((2, found), pointers.dtype)
+    row = 0
+    for contact in range(len(counts)):
+        for point in range(counts[contact]):
+            start = starts[contact] + point * size
+            if _is_loaded(values, start, of_impulses):
+                for field in range(6):
+                    components[field, row] = values[start + of_vectors[field]]
+                    components[9 + field, row] = values[start + of_vectors[6 + field]]
+                for field in range(3):
+                    components[6 + field, row] = values[start + of_impulses[field]]
+                for field in range(2):
+                    pairs[field, row] = pointers[owners[contact] + of_bodies[field]]
+                row += 1
+    return components, pairs
+
+
+@compiled
+def _is_loaded(values: Any, start: int, impulses: Any) -> bool:
+    """Whether a contact point carries anything: iterations can end with friction where no normal impulse is left."""
+    first, second, third = values[start + impulses[0]], values[start + impulses[1]], values[start + impulses[2]]
+    return first != 0.0 or second != 0.0 or third != 0.0
+
+
+@compiled
 def write(values: Any, starts: Any, offsets: Any, written: Any) -> None:
     """Write values (c, n) to offsets (c,) from starts (n,)."""
     for structure in range(len(starts)):
