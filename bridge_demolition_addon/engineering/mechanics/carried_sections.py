@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 from ..arrays import FloatArray, IntArray
 from ..geometry.rotations import carried_points
-from ..geometry.vectors import by_component, product
+from ..geometry.vectors import by_component, length, product
 from .compiled_overloads import overload_loops
 from .forces import moments_at
 from .section_cuts import ConnectionLoads
 from .section_forces import SectionForces, section_forces
 
 
-@dataclass(frozen=True, eq=False, slots=True)
+@dataclass(frozen=True, eq=False)
 class CarriedSections:
     """Sections of m connections, each fixed in the body that its load is known on, and in the axes of that body."""
 
@@ -21,6 +22,16 @@ class CarriedSections:
     signs: FloatArray  # (m,), 1 where that is the first body of the connection, -1 where it is the second
     points_m: FloatArray  # (m, 3), of the connections, from the centres of the bodies
     axes: FloatArray  # (m, 3, 3), of the sections, as columns
+
+    @cached_property
+    def lever_arms_m(self) -> FloatArray:
+        """Distances (m,) of the connections from the centres of the bodies."""
+        return length(self.points_m)
+
+    @cached_property
+    def arrays(self) -> tuple[IntArray | FloatArray, ...]:
+        """All of it in order, as compiled loops take it."""
+        return self.bodies, self.signs, self.points_m, self.axes, self.lever_arms_m
 
     def forces(
         self, rows: IntArray, loads: FloatArray, positions_m: FloatArray, rotations: FloatArray

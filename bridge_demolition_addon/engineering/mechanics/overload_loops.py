@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..elasticity.crack_loops import compiled, crossed
-from .strength import ROUNDING
+from .strength import ROUNDING, SINGLE_PRECISION
 
 MOST_FACES = 128
 """Faces of a cut up to which `total` adds in numpy's order."""
@@ -39,8 +39,7 @@ def carried_loads(
 
 
 @compiled
-def used_alone(
-    rows: Any,
+def over_alone(
     loads: Any,
     positions: Any,
     rotations: Any,
@@ -48,6 +47,11 @@ def used_alone(
     signs: Any,
     points: Any,
     axes: Any,
+    levers: Any,
+    intact: Any,
+    left: Any,
+    most_by_force: Any,
+    most_by_moment: Any,
     areas: Any,
     directions: Any,
     bending_moduli: Any,
@@ -55,19 +59,23 @@ def used_alone(
     strengths: Any,
     pressed: Any,
     friction: Any,
-) -> Any:
-    """`Overloads.of_forces` of what some connections (r,) carry, from loads (6, m) about the centres of bodies."""
-    used = np.empty(len(rows))
-    for number in range(len(rows)):
-        row = rows[number]
+) -> tuple[Any, Any]:
+    """`Overloads.over_alone`."""
+    rows, found, count = np.empty(len(bodies), np.int64), np.empty(len(bodies)), 0
+    for row in range(len(bodies)):
+        load = loads[:, row]
+        force, torque = np.sqrt(_dot(load[:3], load[:3])), np.sqrt(_dot(load[3:], load[3:]))
+        most = (most_by_force[row] + most_by_moment[row] * levers[row]) * force + most_by_moment[row] * torque
+        if not (intact[row] and most * (1.0 + SINGLE_PRECISION) > left[row]):
+            continue
         body = bodies[row]
         rotation = rotations[:, :, body]
-        force, moment, _ = _carried(loads[:, row], positions[:, body], rotation, signs[row], points[row])
+        carried_force, moment, _ = _carried(load, positions[:, body], rotation, signs[row], points[row])
         normal = _product(rotation, axes[row, :, 0])
         level = _product(rotation, axes[row, :, 1])
         steep = _product(rotation, axes[row, :, 2])
-        used[number] = _used(
-            (_dot(normal, force), _dot(level, force), _dot(steep, force)),
+        used = _used(
+            (_dot(normal, carried_force), _dot(level, carried_force), _dot(steep, carried_force)),
             (_dot(normal, moment), _dot(level, moment), _dot(steep, moment)),
             areas[row],
             ((directions[row, 0, 0], directions[row, 0, 1]), (directions[row, 1, 0], directions[row, 1, 1])),
@@ -77,7 +85,10 @@ def used_alone(
             pressed[row],
             friction[row] if len(friction) else np.nan,
         )
-    return used
+        if used / left[row] > 1.0:
+            rows[count], found[count] = row, used / left[row]
+            count += 1
+    return rows[:count].copy(), found[:count].copy()
 
 
 @compiled

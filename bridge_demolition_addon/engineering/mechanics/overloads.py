@@ -13,9 +13,15 @@ from .compiled_overloads import overload_loops
 from .member_sections import MemberSections
 from .section_cuts import ConnectedFaces, ConnectionLoads, SectionCuts, worst_around
 from .section_forces import SectionForces
-from .strength import Strength, largest_utilisations, rectangular_sections, sections_at, strength_at, utilisation
-
-_SINGLE_PRECISION = 1e-6
+from .strength import (
+    SINGLE_PRECISION,
+    Strength,
+    largest_utilisations,
+    rectangular_sections,
+    sections_at,
+    strength_at,
+    utilisation,
+)
 
 _MOST_REDISTRIBUTED = 3.0
 """By how much the stress in an elastic face may exceed its strength as long as its section carries the load.
@@ -53,6 +59,7 @@ class Overloads:
         self._member_sections = member_sections
         self._sections = rectangular_sections(faces.areas_m2, faces.second_moments_m4)
         self._largest_utilisations = largest_utilisations(self._sections, strength)
+        self._section_arrays = tuple(getattr(self._sections, item.name) for item in fields(self._sections))
         self._cuts = SectionCuts.through(faces, moves)
         self._most_faces = int(np.diff(self._cuts.starts).max(initial=0))
         of_all = [
@@ -61,17 +68,6 @@ class Overloads:
         ]
         everywhere = np.ones(len(faces.pairs)) if pressed is None else pressed
         self._resisting = np.stack(of_all), everywhere, np.zeros(0) if friction is None else friction
-
-    def candidates(self, loads: FloatArray, lever_arms_m: FloatArray, left: FloatArray) -> IntArray:
-        """Return the connections (k,) whose loads are large enough to break them, whatever they act on.
-
-        Loads (6, m) are forces, and moments about other points than the connections', which are `lever_arms_m` (m,)
-        away.
-        """
-        by_force, by_moment = self._largest_utilisations
-        force, torque = length(loads[:3].T), length(loads[3:].T)
-        most = (by_force + by_moment * lever_arms_m) * force + by_moment * torque
-        return np.flatnonzero(most * (1.0 + _SINGLE_PRECISION) > left)
 
     def breaking(
         self,
@@ -109,25 +105,38 @@ class Overloads:
 
     def over_alone(
         self,
-        rows: IntArray,
+        intact: BoolArray,
         sections: CarriedSections,
         loads: FloatArray,
         positions_m: FloatArray,
         rotations: FloatArray,
         left: FloatArray,
     ) -> tuple[IntArray, FloatArray]:
-        """Return which of some connections (k,) loads (6, m) overload alone, and their utilisations (k,).
+        """Return which intact connections (k,) loads (6, m) overload alone, and their utilisations (k,).
 
         Loads are about the centres of bodies, which are at positions (3, n) in rotations (3, 3, n).
         """
         loops = overload_loops()
         if loops is None:
-            used = self.of_forces(rows, sections.forces(rows, loads, positions_m, rotations))
-        else:
-            own = (getattr(self._sections, item.name) for item in fields(self._sections))
-            carried = (getattr(sections, item.name) for item in fields(sections))
-            used = loops.used_alone(rows, loads, positions_m, rotations, *carried, *own, *self._resisting)
-        return _overloaded(rows, used / left[rows])
+            rows = self.candidates(loads, sections.lever_arms_m, left)
+            rows = rows[intact[rows]]
+            return _overloaded(
+                rows, self.of_forces(rows, sections.forces(rows, loads, positions_m, rotations)) / left[rows]
+            )
+        places, bounds = (loads, positions_m, rotations), (intact, left, *self._largest_utilisations)
+        rows, used = loops.over_alone(*places, *sections.arrays, *bounds, *self._section_arrays, *self._resisting)
+        return rows, used
+
+    def candidates(self, loads: FloatArray, lever_arms_m: FloatArray, left: FloatArray) -> IntArray:
+        """Return the connections (k,) whose loads are large enough to break them, whatever they act on.
+
+        Loads (6, m) are forces, and moments about other points than the connections', which are `lever_arms_m` (m,)
+        away.
+        """
+        by_force, by_moment = self._largest_utilisations
+        force, torque = length(loads[:3].T), length(loads[3:].T)
+        most = (by_force + by_moment * lever_arms_m) * force + by_moment * torque
+        return np.flatnonzero(most * (1.0 + SINGLE_PRECISION) > left)
 
     def alone(self, rows: IntArray, loads: ConnectionLoads, axes: FloatArray, left: FloatArray) -> FloatArray:
         """Utilisations (r,) of some connections, each by itself."""

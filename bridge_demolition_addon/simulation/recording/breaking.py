@@ -103,14 +103,6 @@ class Breaker:
         self._let_collide()
         return broken
 
-    def _candidates(self, loads: np.ndarray) -> np.ndarray:
-        """Intact connections (k,) whose loads (6, m) are large enough to break them in any section."""
-        if not self._warm_up.is_over or not self.uses_strength:
-            return _NONE
-        resistance = self._resistance
-        rows = given(resistance.overloads).candidates(loads, self._meter.lever_arms_m, resistance.remaining_strength)
-        return rows[self._intact[rows]]
-
     def _failed_bearings(self) -> np.ndarray:
         """Connections (b,) at pads of bearings that break by their force, or whose bodies have left each other."""
         elastic, left = self._resistance.elastic, self._resistance.remaining_strength
@@ -122,12 +114,11 @@ class Breaker:
         Bodies are at positions (3, n) in rotations (3, 3, n). What all connections carry, which judges them with
         others, is worked out only where one is overloaded alone: mostly nothing breaks.
         """
-        rows = self._candidates(loads)
-        if not len(rows):
+        if not self._warm_up.is_over or not self.uses_strength:
             return _NONE
         meter, resistance = self._meter, self._resistance
         overloads, left = given(resistance.overloads), resistance.remaining_strength
-        rows, alone = overloads.over_alone(rows, meter.sections, loads, positions_m, rotations, left)
+        rows, alone = overloads.over_alone(self._intact, meter.sections, loads, positions_m, rotations, left)
         if not len(rows):
             return _NONE
         of_all = meter.connection_loads(loads, positions_m, rotations)

@@ -11,7 +11,7 @@ from ...bullet.contacts import Contacts
 from ...bullet.snapshots import BodyHistory, Snapshot
 from ...bullet.world import BulletWorld
 from ...engineering.geometry.rotations import axes_in_bodies, carried_axes
-from ...engineering.geometry.vectors import by_component, length, transformed, transformed_back
+from ...engineering.geometry.vectors import transformed, transformed_back
 from ...engineering.mechanics.carried_sections import CarriedSections
 from ...engineering.mechanics.frame_loads import Moment, SubstepLoads
 from ...engineering.mechanics.section_cuts import ConnectionLoads
@@ -32,8 +32,7 @@ class Reading:
 class Meter:
     """Reads a world that was bound just now, before any time passes.
 
-    `lever_arms_m` (m,) reach from the centres of the bodies on which loads are read to the connections, whose
-    `sections` turn with these bodies.
+    `sections` are those of the connections, which turn with the bodies on which loads are read.
     """
 
     def __init__(self, world: BulletWorld, inventory: Inventory, elastic: ElasticConnections | None):
@@ -50,11 +49,9 @@ class Meter:
         bodies = self._bodies
         signs = np.where(side == 0, 1.0, -1.0)
         levers = transformed_back(rotations[bodies], inventory.points_m - positions_m[bodies])
-        local_points = by_component(*levers.T)
-        self.lever_arms_m = length(local_points)
         self._local_axes = axes_in_bodies(section_axes(inventory.normals), bodies, rotations)
         self.sections = CarriedSections(
-            bodies, signs, np.ascontiguousarray(local_points), np.ascontiguousarray(self._local_axes)
+            bodies, signs, np.ascontiguousarray(levers), np.ascontiguousarray(self._local_axes)
         )
 
     def read(self, substep_s: float, end_s: float) -> Reading:
