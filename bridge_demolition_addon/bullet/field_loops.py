@@ -98,3 +98,42 @@ def are_inertias(tensors: Any, symmetric: float) -> bool:
         if not difference <= symmetric * largest:
             return False
     return True
+
+
+@compiled
+def turn_by_torques(
+    values: Any,
+    integers: Any,
+    inertias: Any,
+    torques: Any,
+    spins: Any,
+    states: Any,
+    sleeping: Any,
+    times: Any,
+    symmetric: float,
+) -> bool:
+    """`BodyMotionReader.turn_by_torques`; inertias, torques, spins and states are given by `Fields.places`.
+
+    Returns whether inertias are as expected; where not, and some body would turn, nothing is written.
+    """
+    (starts, of_inertia), (_, of_torque), (_, of_spin), (places, of_state) = inertias, torques, spins, states
+    rows, count = np.empty(len(starts), np.int64), 0
+    for body in range(len(starts)):
+        start, state = starts[body], integers[places[body] + of_state[0]]
+        x, y, z = values[start + of_torque[0]], values[start + of_torque[1]], values[start + of_torque[2]]
+        is_awake = state != sleeping[0] and state != sleeping[1]
+        if (x != 0.0 or y != 0.0 or z != 0.0) and is_awake and np.isfinite(times[body]):
+            rows[count] = body
+            count += 1
+    if count and not are_inertias(copied(values, starts, of_inertia).reshape(3, 3, len(starts)), symmetric):
+        return False
+    for body in rows[:count]:
+        start = starts[body]
+        x, y, z = values[start + of_torque[0]], values[start + of_torque[1]], values[start + of_torque[2]]
+        for axis in range(3):
+            of_row = start + of_inertia[3 * axis], start + of_inertia[3 * axis + 1], start + of_inertia[3 * axis + 2]
+            change = values[of_row[0]] * x + values[of_row[1]] * y + values[of_row[2]] * z
+            values[start + of_spin[axis]] = values[start + of_spin[axis]] + times[body] * change
+        for axis in range(3):
+            values[start + of_torque[axis]] = 0.0
+    return True

@@ -8,7 +8,7 @@ from functools import cached_property
 from ..arrays import FloatArray, IntArray
 from ..geometry.rotations import carried_points
 from ..geometry.vectors import by_component, length, product
-from .compiled_overloads import overload_loops
+from .compiled_mechanics import overload_loops
 from .forces import moments_at
 from .section_cuts import ConnectionLoads
 from .section_forces import SectionForces, section_forces

@@ -9,7 +9,7 @@ import numpy as np
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..geometry.vectors import length
 from .carried_sections import CarriedSections
-from .compiled_overloads import overload_loops
+from .compiled_mechanics import overload_loops
 from .member_sections import MemberSections
 from .section_cuts import ConnectedFaces, ConnectionLoads, SectionCuts, worst_around
 from .section_forces import SectionForces
