@@ -8,6 +8,7 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
+from ..engineering.arrays import same
 from ..engineering.geometry.vectors import dot, length
 from ..engineering.mechanics.contact_pairs import contact_friction
 from ..errors import LayoutError
@@ -108,7 +109,7 @@ class ContactReader:
     def copy(self) -> ContactCopies:
         """Copy the contact points that carry a load now."""
         manifolds = self._checked_manifolds()
-        if not np.array_equal(manifolds, self._known_manifolds):
+        if not same(manifolds, self._known_manifolds):
             self._find(manifolds)
         counts, loops = self._counts.copy()[0], field_loops()
         if len(counts) and (counts.min() < 0 or counts.max() > _MOST_POINTS):

@@ -71,14 +71,17 @@ def write(values: Any, starts: Any, offsets: Any, written: Any) -> None:
 
 
 @compiled
-def write_limits(values: Any, starts: Any, lower: Any, upper: Any, held: Any, resists: Any, limits: Any) -> None:
-    """Write limits (c, n) where they are held, both alike; those of what is held and does not resist leave it free."""
-    for structure in range(len(starts)):
+def write_limits(
+    values: Any, starts: Any, lower: Any, upper: Any, rows: Any, held: Any, resists: Any, limits: Any
+) -> None:
+    """Write limits (c, r) of rows (r,) where they are held, both alike; those of what does not resist leave it free."""
+    for number in range(len(rows)):
+        row = rows[number]
         for field in range(len(lower)):
-            if held[field, structure]:
-                rests = resists[field, structure]
-                values[starts[structure] + lower[field]] = limits[field, structure] if rests else 1.0
-                values[starts[structure] + upper[field]] = limits[field, structure] if rests else -1.0
+            if held[field, row]:
+                rests = resists[field, row]
+                values[starts[row] + lower[field]] = limits[field, number] if rests else 1.0
+                values[starts[row] + upper[field]] = limits[field, number] if rests else -1.0
 
 
 @compiled

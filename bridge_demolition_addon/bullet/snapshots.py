@@ -12,6 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..engineering.arrays import same
 from ..engineering.geometry.vectors import as_vectors
 from .bodies import BodyTable
 from .constraints import ConstraintTable
@@ -104,7 +105,7 @@ class SnapshotTaker:
 
     def take(self) -> Snapshot:
         """Return a snapshot of the last sub-step."""
-        if not np.array_equal(self._exists, self._existed):
+        if not same(self._exists, self._existed):
             self._find_existing()
         return Snapshot(
             body_components=self._bodies.copy(),

@@ -223,6 +223,44 @@ def _add_seconds(second: Any, of_second: Any, of_bodies: Any) -> None:
 
 
 @compiled
+def velocities_alone(
+    velocities: Any, left: Any, inverse_masses: Any, inverse_inertias: Any, loads: Any, substep_s: float
+) -> Any:
+    """`joint_forces.velocities_alone`."""
+    alone = np.empty(velocities.shape)
+    for body in range(len(inverse_masses)):
+        moves = inverse_masses[body] > 0.0
+        for axis in range(3):
+            gained = inverse_masses[body] * loads[axis, body]
+            turning = (
+                inverse_inertias[axis, 0, body] * loads[3, body]
+                + inverse_inertias[axis, 1, body] * loads[4, body]
+                + inverse_inertias[axis, 2, body] * loads[5, body]
+            ) * (1.0 if moves else 0.0)
+            stays, turns = (left[axis, body], left[3 + axis, body]) if moves else (1.0, 1.0)
+            alone[axis, body] = stays * velocities[axis, body] + substep_s * gained
+            alone[3 + axis, body] = turns * velocities[3 + axis, body] + substep_s * turning
+    return alone
+
+
+@compiled
+def clear_loads(loads: Any, holding: Any) -> None:
+    """Write 0 for connections that do not hold."""
+    for row in range(len(holding)):
+        if not holding[row]:
+            loads[:, :, row] = 0.0
+
+
+@compiled
+def put_loads(loads: Any, numbers: Any, of_first: Any, of_second: Any, substep_s: float) -> None:
+    """Write the loads of some connections by their impulses."""
+    for row in range(len(numbers)):
+        for axis in range(6):
+            loads[0, axis, numbers[row]] = of_first[axis, row] / substep_s
+            loads[1, axis, numbers[row]] = of_second[axis, row] / substep_s
+
+
+@compiled
 def stored(stiffness: Any, strains: Any) -> Any:
     """`joint_forces.stored`."""
     count = strains.shape[1]
@@ -237,22 +275,25 @@ def stored(stiffness: Any, strains: Any) -> Any:
 
 
 @compiled
-def rows(first_axes: Any, second_axes: Any, first_levers: Any, second_levers: Any) -> tuple[Any, Any, Any, Any]:
-    """`JointPositions.rows`."""
-    count = first_axes.shape[2]
+def rows(
+    first: Any, second: Any, first_axes: Any, second_axes: Any, first_points: Any, second_points: Any, rotations: Any
+) -> tuple[Any, Any, Any, Any]:
+    """`JointPositions.rows` at once with `joint_positions`."""
+    count = len(first)
     along, first_turning = np.empty((3, 3, count)), np.empty((3, 3, count))
     second_turning, turning = np.empty((3, 3, count)), np.empty((3, 3, count))
     for row in range(count):
-        lever = first_levers[0, row], first_levers[1, row], first_levers[2, row]
-        lever_of_second = second_levers[0, row], second_levers[1, row], second_levers[2, row]
+        a, b = first[row], second[row]
+        one, other = _axes(rotations, a, first_axes, row), _axes(rotations, b, second_axes, row)
+        lever, lever_of_second = _lever(rotations, a, first_points, row), _lever(rotations, b, second_points, row)
         for axis in range(3):
-            line = first_axes[0, axis, row], first_axes[1, axis, row], first_axes[2, axis, row]
+            line = one[axis]
             by_first, by_second = crossed(lever, line), crossed(line, lever_of_second)
-            for other in range(3):
-                along[axis, other, row] = line[other]
-                first_turning[axis, other, row], second_turning[axis, other, row] = by_first[other], by_second[other]
-        first_z = first_axes[0, 2, row], first_axes[1, 2, row], first_axes[2, 2, row]
-        second_x = second_axes[0, 0, row], second_axes[1, 0, row], second_axes[2, 0, row]
+            for component in range(3):
+                along[axis, component, row] = line[component]
+                first_turning[axis, component, row] = by_first[component]
+                second_turning[axis, component, row] = by_second[component]
+        first_z, second_x = one[2], other[0]
         y = crossed(first_z, second_x)
         _put_unit(turning, 0, row, crossed(y, first_z))
         _put_unit(turning, 1, row, y)
