@@ -46,6 +46,11 @@ class ContactCopies:
     components: np.ndarray
     bodies: np.ndarray
 
+    @classmethod
+    def none(cls) -> ContactCopies:
+        """Return copies of no contact point."""
+        return cls(np.zeros((15, 0)), np.zeros((2, 0), np.uint64))
+
     @property
     def size(self) -> int:
         """Their bytes in memory."""

@@ -103,8 +103,8 @@ class SnapshotTaker:
         self._bodies = Fields(bodies.addresses, np.concatenate([*vectors, [body.inverse_mass]]))
         self._find_existing()
 
-    def take(self) -> Snapshot:
-        """Return a snapshot of the last sub-step."""
+    def take(self, *, contacts: bool = True) -> Snapshot:
+        """Return a snapshot of the last sub-step, with contacts or as if there were none."""
         if not same(self._exists, self._existed):
             self._find_existing()
         return Snapshot(
@@ -112,7 +112,7 @@ class SnapshotTaker:
             load_components=self._feedback.take(self._loads),
             applied_impulses=self._of_all(self._impulses.copy()[0]),
             intact=self._of_all(self._enabled.copy()[0] != 0) & ~self._cracked,
-            contacts=self._contacts.copy(),
+            contacts=self._contacts.copy() if contacts else ContactCopies.none(),
             removed=self._removed.copy() if self._removed.any() else None,
         )
 

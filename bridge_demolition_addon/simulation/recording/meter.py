@@ -54,9 +54,12 @@ class Meter:
             bodies, signs, np.ascontiguousarray(levers), np.ascontiguousarray(self._local_axes)
         )
 
-    def read(self, substep_s: float, end_s: float) -> Reading:
-        """Return Bullet's state after a sub-step; of elastic connections Bullet knows only what contacts change."""
-        snapshot = self._snapshots.take()
+    def read(self, substep_s: float, end_s: float, *, contacts: bool = True) -> Reading:
+        """Return Bullet's state after a sub-step; of elastic connections Bullet knows only what contacts change.
+
+        Without contacts the loads of bodies are not known.
+        """
+        snapshot = self._snapshots.take(contacts=contacts)
         if self._elastic:
             snapshot = replace(snapshot, load_components=snapshot.load_components + self._elastic.loads_on(self._sides))
         return Reading(snapshot, substep_s, end_s)
@@ -67,7 +70,8 @@ class Meter:
 
     def predicted(self, loads: np.ndarray, substep_s: float, begin_s: float) -> Reading:
         """Return Bullet's state before a sub-step, with the loads (6, m) that connections will have in it."""
-        return Reading(replace(self._snapshots.take(), load_components=loads), substep_s, begin_s)
+        snapshot = self._snapshots.take(contacts=False)
+        return Reading(replace(snapshot, load_components=loads), substep_s, begin_s)
 
     def elastic_energy(self, reading: Reading, intact: np.ndarray) -> ElasticEnergy | None:
         """Return the energy after a sub-step in elastic connections (m,) that are intact or reinforced."""
