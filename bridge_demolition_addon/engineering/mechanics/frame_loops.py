@@ -70,7 +70,7 @@ def works(first: Any, second: Any, impulses: Any, points: Any, angular: Any, mot
 
 
 @compiled
-def _work(push: Any, turn: Any, motion: Any, body: int) -> float:
+def _work(push: Any, turn: Any, motion: Any, body: int) -> Any:
     """Work on a body."""
     work = push[0] * motion[0, body] + push[1] * motion[1, body] + push[2] * motion[2, body]
     return work + turn[0] * motion[3, body] + turn[1] * motion[4, body] + turn[2] * motion[5, body]

@@ -11,10 +11,8 @@ from typing import Any
 import numpy as np
 
 from ..elasticity.crack_loops import compiled, crossed
+from ..geometry.sum_loops import MOST_TERMS, total
 from .strength import ROUNDING, SINGLE_PRECISION
-
-MOST_FACES = 128
-"""Faces of a cut up to which `total` adds in numpy's order."""
 
 
 @compiled
@@ -111,7 +109,7 @@ def used_in_cuts(
 ) -> Any:
     """`Overloads.in_cuts` of intact connections (r,), whose sections have axes (r, 3, 3), with loads (m, 3) of all."""
     used = np.empty(len(rows))
-    entries, lines, sides = np.empty(MOST_FACES, np.int64), np.empty((9, MOST_FACES)), np.empty(2)
+    entries, lines, sides = np.empty(MOST_TERMS, np.int64), np.empty((9, MOST_TERMS)), np.empty(2)
     for number in range(len(rows)):
         row = rows[number]
         for side in range(2):
@@ -190,25 +188,6 @@ def _cut(
     moment = total(lines[3, :count]), total(lines[4, :count]), total(lines[5, :count])
     second = total(lines[6, :count]), total(lines[7, :count]), total(lines[8, :count])
     return _in_axes(axes, force), _in_axes(axes, moment), area, second
-
-
-@compiled
-def total(values: Any) -> float:
-    """Sum of up to `MOST_FACES` values in the order of `numpy.add.reduceat`: the first, and eight sums of the rest."""
-    count = len(values)
-    if count < 9:
-        rest = -0.0
-        for at in range(1, count):
-            rest += values[at]
-        return values[0] + rest
-    sums = values[1:9].copy()
-    whole = count - 1 - (count - 1) % 8
-    for at in range(8, whole):
-        sums[at % 8] += values[1 + at]
-    rest = ((sums[0] + sums[1]) + (sums[2] + sums[3])) + ((sums[4] + sums[5]) + (sums[6] + sums[7]))
-    for at in range(whole, count - 1):
-        rest += values[1 + at]
-    return values[0] + rest
 
 
 @compiled

@@ -175,7 +175,7 @@ class Overloads:
     def in_cuts(self, rows: IntArray, loads: ConnectionLoads, axes: FloatArray, intact: BoolArray) -> FloatArray:
         """Mean utilisations (r,), of whole strengths, of the cuts through the two shards of some connections."""
         loops, cuts = overload_loops(), self._cuts
-        if loops is not None and self._most_faces <= loops.MOST_FACES:
+        if loops is not None and self._most_faces <= loops.MOST_TERMS:
             of_cuts = cuts.starts, cuts.faces, cuts.signs, cuts.cosines
             faces = cuts.connected.areas_m2, cuts.connected.second_moments_m4
             of_loads = (np.ascontiguousarray(each) for each in (loads.forces_n, loads.moments_nm, loads.points_m))

@@ -90,7 +90,7 @@ def test_a_section_of_equal_sides_is_a_square_either_way():
 
 
 def test_sums_are_those_of_numpy(rng):
-    for count in range(1, loops.MOST_FACES + 1):
+    for count in range(1, loops.MOST_TERMS + 1):
         values = rng.normal(size=(count, 3)) * 10.0 ** rng.uniform(-6.0, 6.0, (count, 1))
         assert [loops.total(column) for column in values.T] == np.add.reduceat(values, [0], axis=0)[0].tolist()
 
