@@ -225,7 +225,7 @@ def _used(
     strengths: Any,
     pressed: float,
     friction: float,
-) -> float:
+) -> Any:
     """`strength.utilisation` of one section, with friction where it is a number."""
     compression, tension, shear_pa, torsion, bending_pa = strengths
     axial = force[0] / area

@@ -326,7 +326,7 @@ def _works(
     loops = frame_loops()
     if loops is None:
         loads = between.components()
-        on_first, on_second = (_dot(loads, motion.take(bodies, axis=1)) for bodies in (first, second))
+        on_first, on_second = (_dot(loads, [*motion.take(bodies, axis=1)]) for bodies in (first, second))
         return on_first, on_second
     angular = between.angular_impulses_nms
     turning = np.zeros((3, 0)) if angular is None else _rows(angular)
