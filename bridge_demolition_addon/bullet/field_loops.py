@@ -109,17 +109,17 @@ def turn_by_torques(
     integers: Any,
     inertias: Any,
     torques: Any,
-    spins: Any,
+    velocities: Any,
     states: Any,
     sleeping: Any,
     times: Any,
     symmetric: float,
 ) -> bool:
-    """`BodyMotionReader.turn_by_torques`; inertias, torques, spins and states are given by `Fields.places`.
+    """`BodyMotionReader.turn_by_torques`; inertias, torques, velocities and states are given by `Fields.places`.
 
     Returns whether inertias are as expected; where not, and some body would turn, nothing is written.
     """
-    (starts, of_inertia), (_, of_torque), (_, of_spin), (places, of_state) = inertias, torques, spins, states
+    (starts, of_inertia), (_, of_torque), (_, of_velocity), (places, of_state) = inertias, torques, velocities, states
     rows, count = np.empty(len(starts), np.int64), 0
     for body in range(len(starts)):
         start, state = starts[body], integers[places[body] + of_state[0]]
@@ -136,7 +136,7 @@ def turn_by_torques(
         for axis in range(3):
             of_row = start + of_inertia[3 * axis], start + of_inertia[3 * axis + 1], start + of_inertia[3 * axis + 2]
             change = values[of_row[0]] * x + values[of_row[1]] * y + values[of_row[2]] * z
-            values[start + of_spin[axis]] = values[start + of_spin[axis]] + times[body] * change
+            values[start + of_velocity[axis]] = values[start + of_velocity[axis]] + times[body] * change
         for axis in range(3):
             values[start + of_torque[axis]] = 0.0
     return True

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from ..arithmetic import ARCTANGENT, ARCTANGENT_LIMITS, ARCTANGENT_STARTS, PI_REST
-from .crack_loops import compiled, crossed
+from .crack_loops import compiled, crossed, dotted
 
 _COEFFICIENTS = np.array(ARCTANGENT)
 
@@ -42,11 +42,11 @@ def deformations(
         )
         for axis in range(3):
             found[axis, row] = one[axis][0] * shift[0] + one[axis][1] * shift[1] + one[axis][2] * shift[2]
-        about_y = _dot(one[0], other[2])
+        about_y = dotted(one[0], other[2])
         upright = np.sqrt(max(1.0 - about_y * about_y, 0.0))
-        found[3, row] = _angle(-_dot(one[1], other[2]), _dot(one[2], other[2]))
+        found[3, row] = _angle(-dotted(one[1], other[2]), dotted(one[2], other[2]))
         found[4, row] = _angle(about_y, upright)
-        found[5, row] = _angle(-_dot(one[0], other[1]), _dot(one[0], other[0]))
+        found[5, row] = _angle(-dotted(one[0], other[1]), dotted(one[0], other[0]))
     return found
 
 
@@ -74,12 +74,6 @@ def _turned(rotations: Any, body: int, x: float, y: float, z: float) -> Any:
         rotations[1, 0, body] * x + rotations[1, 1, body] * y + rotations[1, 2, body] * z,
         rotations[2, 0, body] * x + rotations[2, 1, body] * y + rotations[2, 2, body] * z,
     )
-
-
-@compiled
-def _dot(one: Any, other: Any) -> Any:
-    """`joint_rows.dot_products`."""
-    return one[0] * other[0] + one[1] * other[1] + one[2] * other[2]
 
 
 @compiled
@@ -304,7 +298,7 @@ def rows(
 @compiled
 def _put_unit(turning: Any, axis: int, row: int, vector: Any) -> None:
     """Write a vector with length 1; 0 where it has no length."""
-    size = np.sqrt(_dot(vector, vector))
+    size = np.sqrt(dotted(vector, vector))
     for other in range(3):
         turning[axis, other, row] = vector[other] / size if size > 0.0 else 0.0
 

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ..elasticity.crack_loops import compiled, crossed
+from ..elasticity.crack_loops import compiled, crossed, dotted
 from ..geometry.sum_loops import MOST_TERMS, total
 from .strength import ROUNDING, SINGLE_PRECISION
 
@@ -62,7 +62,7 @@ def over_alone(
     rows, found, count = np.empty(len(bodies), np.int64), np.empty(len(bodies)), 0
     for row in range(len(bodies)):
         load = loads[:, row]
-        force, torque = np.sqrt(_dot(load[:3], load[:3])), np.sqrt(_dot(load[3:], load[3:]))
+        force, torque = np.sqrt(dotted(load[:3], load[:3])), np.sqrt(dotted(load[3:], load[3:]))
         most = (most_by_force[row] + most_by_moment[row] * levers[row]) * force + most_by_moment[row] * torque
         if not (intact[row] and most * (1.0 + SINGLE_PRECISION) > left[row]):
             continue
@@ -73,8 +73,8 @@ def over_alone(
         level = _product(rotation, axes[row, :, 1])
         steep = _product(rotation, axes[row, :, 2])
         used = _used(
-            (_dot(normal, carried_force), _dot(level, carried_force), _dot(steep, carried_force)),
-            (_dot(normal, moment), _dot(level, moment), _dot(steep, moment)),
+            (dotted(normal, carried_force), dotted(level, carried_force), dotted(steep, carried_force)),
+            (dotted(normal, moment), dotted(level, moment), dotted(steep, moment)),
             areas[row],
             ((directions[row, 0, 0], directions[row, 0, 1]), (directions[row, 1, 0], directions[row, 1, 1])),
             (bending_moduli[row, 0], bending_moduli[row, 1]),
@@ -131,7 +131,7 @@ def used_in_cuts(
                 areas,
                 second_moments,
             )
-            area, directions, moduli, torsion_modulus = _rectangle(area, second)
+            area, directions, moduli, torsion_modulus = rectangle(area, second)
             slides = friction[row] if len(friction) else np.nan
             sides[side] = _used(
                 force,
@@ -180,7 +180,7 @@ def _cut(
             lines[axis, at] = pull[axis]
             lines[3 + axis, at] = sign * moments[face, axis] + turn[axis]
         share, own = areas[face] * cosine, second_moments[face]
-        y, z = _dot(axes[:, 1], lever), _dot(axes[:, 2], lever)
+        y, z = dotted(axes[:, 1], lever), dotted(axes[:, 2], lever)
         lines[6, at] = own[0, 0] * cosine + share * (z * z)
         lines[7, at] = own[0, 1] * cosine + share * (-y * z)
         lines[8, at] = own[1, 1] * cosine + share * (y * y)
@@ -191,7 +191,7 @@ def _cut(
 
 
 @compiled
-def _rectangle(area: float, second: Any) -> Any:
+def rectangle(area: float, second: Any) -> Any:
     """`strength.rectangular_sections` of one section: area, directions of bending, its moduli, and that of torsion."""
     first, beside, other = second
     tangent = 0.0
@@ -275,12 +275,6 @@ def _product(rotation: Any, vector: Any) -> Any:
 
 
 @compiled
-def _dot(axis: Any, vector: Any) -> Any:
-    """Component of a vector along an axis."""
-    return axis[0] * vector[0] + axis[1] * vector[1] + axis[2] * vector[2]
-
-
-@compiled
 def _in_axes(axes: Any, vector: Any) -> Any:
     """Components of a vector along axes, which are columns (3, 3)."""
-    return _dot(axes[:, 0], vector), _dot(axes[:, 1], vector), _dot(axes[:, 2], vector)
+    return dotted(axes[:, 0], vector), dotted(axes[:, 1], vector), dotted(axes[:, 2], vector)

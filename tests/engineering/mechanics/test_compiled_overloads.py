@@ -83,7 +83,7 @@ def test_a_section_of_equal_sides_is_a_square_either_way():
     sides = np.array([[[1.0, 0.0], [0.0, 1.0]], [[2.0, 1e-12], [1e-12, 2.0]], [[1.0, 0.0], [0.0, 3.0]]])
     expected = rectangular_sections(np.full(3, 1.5), sides)
     for number, second in enumerate(sides):
-        area, directions, moduli, torsion = loops._rectangle(1.5, (second[0, 0], second[0, 1], second[1, 1]))
+        area, directions, moduli, torsion = loops.rectangle(1.5, (second[0, 0], second[0, 1], second[1, 1]))
         np.testing.assert_array_equal(directions, expected.directions[number])
         np.testing.assert_array_equal((area, *moduli), (1.5, *expected.bending_moduli_m3[number]))
         assert torsion == expected.torsion_moduli_m3[number]
