@@ -15,6 +15,8 @@ _VECTOR = 8 * np.arange(3)
 
 SYMMETRIC = 1e-9
 
+_WRONG_INERTIA = "the inertia of a body is not as expected"
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class BodyMotion:
@@ -64,7 +66,7 @@ class BodyMotionReader:
         tensors = self._inertia.copy().reshape(3, 3, -1)
         loops = field_loops()
         if not (are_inertias(tensors) if loops is None else loops.are_inertias(tensors, SYMMETRIC)):
-            raise LayoutError("the inertia of a body is not as expected")
+            raise LayoutError(_WRONG_INERTIA)
         return tensors
 
     def set_loads(self, rows: np.ndarray, load_components: np.ndarray) -> None:
@@ -77,6 +79,13 @@ class BodyMotionReader:
 
         To be called before a sub-step: Bullet forgets torques after it. Where a time is infinite they stay.
         """
+        loops = field_loops()
+        if loops is not None:
+            places = self._inertia.places, self._torques.places, self._spins.places, self._states.places
+            everywhere = DOUBLES.everywhere, INTEGERS.everywhere
+            if not loops.turn_by_torques(*everywhere, *places, tuple(SLEEPING), times_s, SYMMETRIC):
+                raise LayoutError(_WRONG_INERTIA)
+            return
         torques = self._torques.copy()
         rows = np.flatnonzero(torques.any(axis=0) & ~self._asleep() & np.isfinite(times_s))
         if not len(rows):

@@ -50,6 +50,8 @@ class ConstraintRows:
         self._starts = layout.spring.frame_a, layout.spring.frame_b
         self._built = [gather_doubles(addresses + np.uint64(start), 15) for start in self._starts]  # by Blender
         self._moved = np.zeros(len(addresses), bool)
+        offsets = (np.array(fields, np.int64) // DOUBLES.size for fields in (layout.spring.lower, layout.spring.upper))
+        self._places = (DOUBLES.indices(addresses), *offsets)  # where limits are among all doubles
 
     def frame_components(self) -> tuple[tuple[np.ndarray, np.ndarray], ...]:
         """Return axes (3, 3, k) and positions (3, k) of the frames in Bullet's body A, and of those in its body B."""
@@ -91,13 +93,13 @@ class ConstraintRows:
         self._hold_at(rows, deformations * _SIGNS)
 
     def _hold_at(self, rows: np.ndarray, limits: np.ndarray) -> None:
-        held, resists = self.held.take(rows, axis=-1), self._resists.take(rows, axis=-1)
         spring, loops = self._layout.spring, field_loops()
         if loops is not None:
-            starts = DOUBLES.indices(self._addresses[rows])
-            lower, upper = (np.array(offsets, np.int64) // DOUBLES.size for offsets in (spring.lower, spring.upper))
-            loops.write_limits(DOUBLES.everywhere, starts, lower, upper, held, resists, np.ascontiguousarray(limits))
+            loops.write_limits(
+                DOUBLES.everywhere, *self._places, rows, self.held, self._resists, np.ascontiguousarray(limits)
+            )
             return
+        held, resists = self.held.take(rows, axis=-1), self._resists.take(rows, axis=-1)
         for offsets, when_free in ((spring.lower, 1.0), (spring.upper, -1.0)):
             DOUBLES.write(self._fields(offsets, rows)[held], np.where(resists, limits, when_free)[held])
 

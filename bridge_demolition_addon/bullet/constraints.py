@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..engineering.arrays import same
 from .collision_pairs import CollisionPairs
 from .constraint_rows import ConstraintRows
 from .layout import Layout
@@ -76,7 +77,7 @@ class ConstraintTable:
 
     def intact(self) -> np.ndarray:
         """Return whether each connection (m,) exists and has not broken."""
-        if self._enabled is None or not np.array_equal(self.exists, self._enabled[0]):
+        if self._enabled is None or not same(self.exists, self._enabled[0]):
             self._enabled = self.exists.copy(), Fields(self.existing, [self._constraint.enabled], BYTES)
         intact = np.zeros(len(self), bool)
         intact[self.exists] = self._enabled[1].copy()[0] != 0

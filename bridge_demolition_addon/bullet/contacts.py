@@ -8,11 +8,12 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
+from ..engineering.arrays import same
 from ..engineering.geometry.vectors import dot, length
 from ..engineering.mechanics.contact_pairs import contact_friction
 from ..errors import LayoutError
 from .layout import Layout
-from .memory import INTEGERS, POINTERS, Fields, copy_pointers, read, read_pointers, read_value
+from .memory import DOUBLES, INTEGERS, POINTERS, Fields, copy_pointers, field_loops, read, read_pointers, read_value
 
 _MOST_POINTS = 4
 """Bullet keeps no more of two bodies (MANIFOLD_CACHE_SIZE)."""
@@ -44,6 +45,11 @@ class ContactCopies:
 
     components: np.ndarray
     bodies: np.ndarray
+
+    @classmethod
+    def none(cls) -> ContactCopies:
+        """Return copies of no contact point."""
+        return cls(np.zeros((15, 0)), np.zeros((2, 0), np.uint64))
 
     @property
     def size(self) -> int:
@@ -108,13 +114,17 @@ class ContactReader:
     def copy(self) -> ContactCopies:
         """Copy the contact points that carry a load now."""
         manifolds = self._checked_manifolds()
-        if not np.array_equal(manifolds, self._known_manifolds):
+        if not same(manifolds, self._known_manifolds):
             self._find(manifolds)
-        counts = self._counts.copy()[0]
-        used = np.flatnonzero(counts)
-        counts = counts.take(used)
+        counts, loops = self._counts.copy()[0], field_loops()
         if len(counts) and (counts.min() < 0 or counts.max() > _MOST_POINTS):
             raise LayoutError("a contact has more than four points")
+        if loops is not None:
+            point_doubles = self._layout.manifold.point.size // DOUBLES.size
+            points = self._impulses.places, self._vectors.places, point_doubles, self._bodies.places
+            return ContactCopies(*loops.loaded_points(DOUBLES.everywhere, POINTERS.everywhere, counts, *points))
+        used = np.flatnonzero(counts)
+        counts = counts.take(used)
         rows = np.repeat(used, counts)
         number = np.arange(len(rows)) - np.repeat(np.cumsum(counts) - counts, counts)
         further = number * self._layout.manifold.point.size

@@ -25,6 +25,44 @@ def copied(values: Any, starts: Any, offsets: Any) -> Any:
 
 
 @compiled
+def loaded_points(
+    values: Any, pointers: Any, counts: Any, impulses: Any, vectors: Any, size: int, bodies: Any
+) -> tuple[Any, Any]:
+    """`ContactReader.copy`: components (15, k) of points with an impulse, and pointers (2, k) to their bodies.
+
+    Each of `counts` (n,) contacts has so many points, `size` values after each other. Impulses, vectors and bodies are
+    given by `Fields.places`.
+    """
+    (starts, of_impulses), (_, of_vectors), (owners, of_bodies) = impulses, vectors, bodies
+    found = 0
+    for contact in range(len(counts)):
+        for point in range(counts[contact]):
+            found += _is_loaded(values, starts[contact] + point * size, of_impulses)
+    components, pairs = np.empty((15, found)), np.empty((2, found), pointers.dtype)
+    row = 0
+    for contact in range(len(counts)):
+        for point in range(counts[contact]):
+            start = starts[contact] + point * size
+            if _is_loaded(values, start, of_impulses):
+                for field in range(6):
+                    components[field, row] = values[start + of_vectors[field]]
+                    components[9 + field, row] = values[start + of_vectors[6 + field]]
+                for field in range(3):
+                    components[6 + field, row] = values[start + of_impulses[field]]
+                for field in range(2):
+                    pairs[field, row] = pointers[owners[contact] + of_bodies[field]]
+                row += 1
+    return components, pairs
+
+
+@compiled
+def _is_loaded(values: Any, start: int, impulses: Any) -> bool:
+    """Whether a contact point carries anything: iterations can end with friction where no normal impulse is left."""
+    first, second, third = values[start + impulses[0]], values[start + impulses[1]], values[start + impulses[2]]
+    return first != 0.0 or second != 0.0 or third != 0.0
+
+
+@compiled
 def write(values: Any, starts: Any, offsets: Any, written: Any) -> None:
     """Write values (c, n) to offsets (c,) from starts (n,)."""
     for structure in range(len(starts)):
@@ -33,14 +71,17 @@ def write(values: Any, starts: Any, offsets: Any, written: Any) -> None:
 
 
 @compiled
-def write_limits(values: Any, starts: Any, lower: Any, upper: Any, held: Any, resists: Any, limits: Any) -> None:
-    """Write limits (c, n) where they are held, both alike; those of what is held and does not resist leave it free."""
-    for structure in range(len(starts)):
+def write_limits(
+    values: Any, starts: Any, lower: Any, upper: Any, rows: Any, held: Any, resists: Any, limits: Any
+) -> None:
+    """Write limits (c, r) of rows (r,) where they are held, both alike; those of what does not resist leave it free."""
+    for number in range(len(rows)):
+        row = rows[number]
         for field in range(len(lower)):
-            if held[field, structure]:
-                rests = resists[field, structure]
-                values[starts[structure] + lower[field]] = limits[field, structure] if rests else 1.0
-                values[starts[structure] + upper[field]] = limits[field, structure] if rests else -1.0
+            if held[field, row]:
+                rests = resists[field, row]
+                values[starts[row] + lower[field]] = limits[field, number] if rests else 1.0
+                values[starts[row] + upper[field]] = limits[field, number] if rests else -1.0
 
 
 @compiled
@@ -59,4 +100,43 @@ def are_inertias(tensors: Any, symmetric: float) -> bool:
                 difference = max(difference, abs(tensors[axis, other, body] - tensors[other, axis, body]))
         if not difference <= symmetric * largest:
             return False
+    return True
+
+
+@compiled
+def turn_by_torques(
+    values: Any,
+    integers: Any,
+    inertias: Any,
+    torques: Any,
+    velocities: Any,
+    states: Any,
+    sleeping: Any,
+    times: Any,
+    symmetric: float,
+) -> bool:
+    """`BodyMotionReader.turn_by_torques`; inertias, torques, velocities and states are given by `Fields.places`.
+
+    Returns whether inertias are as expected; where not, and some body would turn, nothing is written.
+    """
+    (starts, of_inertia), (_, of_torque), (_, of_velocity), (places, of_state) = inertias, torques, velocities, states
+    rows, count = np.empty(len(starts), np.int64), 0
+    for body in range(len(starts)):
+        start, state = starts[body], integers[places[body] + of_state[0]]
+        x, y, z = values[start + of_torque[0]], values[start + of_torque[1]], values[start + of_torque[2]]
+        is_awake = state != sleeping[0] and state != sleeping[1]
+        if (x != 0.0 or y != 0.0 or z != 0.0) and is_awake and np.isfinite(times[body]):
+            rows[count] = body
+            count += 1
+    if count and not are_inertias(copied(values, starts, of_inertia).reshape(3, 3, len(starts)), symmetric):
+        return False
+    for body in rows[:count]:
+        start = starts[body]
+        x, y, z = values[start + of_torque[0]], values[start + of_torque[1]], values[start + of_torque[2]]
+        for axis in range(3):
+            of_row = start + of_inertia[3 * axis], start + of_inertia[3 * axis + 1], start + of_inertia[3 * axis + 2]
+            change = values[of_row[0]] * x + values[of_row[1]] * y + values[of_row[2]] * z
+            values[start + of_velocity[axis]] = values[start + of_velocity[axis]] + times[body] * change
+        for axis in range(3):
+            values[start + of_torque[axis]] = 0.0
     return True

@@ -124,6 +124,11 @@ class Fields:
         self._offsets = np.asarray(offsets, np.int64)[:, None] // self._size
         self._indices: np.ndarray | None = None
 
+    @property
+    def places(self) -> tuple[np.ndarray, np.ndarray]:
+        """Where the structures (n,) begin among all values, and the fields (c,) from there."""
+        return self._starts, self._offsets[:, 0]
+
     def copy(self) -> np.ndarray:
         """Return the values (c, n) as they are now."""
         loops = field_loops()

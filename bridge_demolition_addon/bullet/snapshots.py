@@ -12,6 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..engineering.arrays import same
+from ..engineering.geometry.vectors import as_vectors
 from .bodies import BodyTable
 from .constraints import ConstraintTable
 from .contacts import ContactCopies, Contacts
@@ -78,8 +80,8 @@ class BodyHistory:
     def of(cls, snapshots: Sequence[Snapshot]) -> BodyHistory:
         """Return the states in snapshots."""
         values = np.stack([snapshot.body_components for snapshot in snapshots], axis=1)
-        rotations = np.moveaxis(values[:9].reshape(3, 3, *values.shape[1:]), (0, 1), (-2, -1))
-        positions, velocities, angular = (np.moveaxis(values[start : start + 3], 0, -1) for start in (9, 12, 15))
+        rotations = values[:9].reshape(3, 3, *values.shape[1:]).transpose(2, 3, 0, 1)
+        positions, velocities, angular = (as_vectors(values[start : start + 3]) for start in (9, 12, 15))
         return cls(positions, rotations, velocities, angular, (values[18] > 0.0) & ~_removed(snapshots))
 
 
@@ -101,16 +103,16 @@ class SnapshotTaker:
         self._bodies = Fields(bodies.addresses, np.concatenate([*vectors, [body.inverse_mass]]))
         self._find_existing()
 
-    def take(self) -> Snapshot:
-        """Return a snapshot of the last sub-step."""
-        if not np.array_equal(self._exists, self._existed):
+    def take(self, *, contacts: bool = True) -> Snapshot:
+        """Return a snapshot of the last sub-step, with contacts or as if there were none."""
+        if not same(self._exists, self._existed):
             self._find_existing()
         return Snapshot(
             body_components=self._bodies.copy(),
             load_components=self._feedback.take(self._loads),
             applied_impulses=self._of_all(self._impulses.copy()[0]),
             intact=self._of_all(self._enabled.copy()[0] != 0) & ~self._cracked,
-            contacts=self._contacts.copy(),
+            contacts=self._contacts.copy() if contacts else ContactCopies.none(),
             removed=self._removed.copy() if self._removed.any() else None,
         )
 

@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 from support.blocks import Blocks
 
+from bridge_demolition_addon.bullet import contacts
+from bridge_demolition_addon.bullet.contacts import ContactReader
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 
 GRAVITY = float(np.float32(STANDARD_GRAVITY_M_S2))
@@ -57,6 +59,29 @@ def test_block_on_a_slope_is_held_by_friction(blender, tmp_path):
     np.testing.assert_allclose(
         force - (force @ normal) * normal, (0, 0, weight) - weight * math.cos(slope) * normal, atol=RESTING * weight
     )
+
+
+def test_points_are_copied_by_the_compiled_loop_as_by_numpy(blender, tmp_path, monkeypatch):
+    blocks, copied = Blocks(), []
+    blocks.block((0, 0, -0.5), size_m=(10, 10, 1))
+    for level in range(3):
+        blocks.block((0.1 * level, 0, 0.52 + 1.02 * level), 100.0)
+    quick = ContactReader.copy
+
+    def both_ways(reader):
+        found = quick(reader)
+        with monkeypatch.context() as without_numba:
+            without_numba.setattr(contacts, "field_loops", lambda: None)
+            plain = quick(reader)
+        np.testing.assert_array_equal(found.components, plain.components)
+        np.testing.assert_array_equal(found.bodies, plain.bodies)
+        assert found.bodies.dtype == plain.bodies.dtype
+        copied.append(found.components.shape[1])
+        return found
+
+    monkeypatch.setattr(ContactReader, "copy", both_ways)
+    blocks.play(tmp_path, 12)
+    assert 0 in copied and max(copied) >= 12
 
 
 @pytest.mark.long

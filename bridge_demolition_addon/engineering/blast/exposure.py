@@ -6,7 +6,10 @@ through it; the visible share is that of the other rays. A wave also bends round
 anything narrow the load is more than this share. A body that contains the charge stops nothing: the charge breaks it.
 """
 
+from functools import cache
+from importlib.util import find_spec
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
@@ -49,6 +52,10 @@ def projected_areas(hulls: ConvexHulls, rotations: FloatArray, directions: Float
     """
     if not len(hulls):
         return np.zeros(directions.shape[:2])
+    loops = area_loops()
+    if loops is not None and hulls.most_faces <= loops.MOST_TERMS:
+        found: FloatArray = loops.projected(hulls.face_vectors, hulls.starts, rotations, directions)
+        return found
     # One axis after the other, in rows that lie together in memory: this is computed in every sub-step.
     in_body_axes = _in_body_axes(rotations, directions)
     shown, added = (np.empty((directions.shape[1], hulls.face_vectors.shape[1])) for _ in range(2))
@@ -60,6 +67,16 @@ def projected_areas(hulls: ConvexHulls, rotations: FloatArray, directions: Float
     np.abs(shown, out=shown)
     shown /= 2.0
     return np.add.reduceat(shown, hulls.starts[:-1], axis=1).T
+
+
+@cache
+def area_loops() -> Any | None:
+    """Return the module of the compiled loop, loaded when areas are first asked for; None without Numba."""
+    if find_spec("numba") is None:
+        return None
+    from . import area_loops  # it takes a third of a second, and most calls of the program need none
+
+    return area_loops
 
 
 def visible_shares(hulls: ConvexHulls, centres: FloatArray, rotations: FloatArray, sources: FloatArray) -> FloatArray:

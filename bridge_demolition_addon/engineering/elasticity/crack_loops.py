@@ -177,6 +177,12 @@ def linear(
 
 
 @compiled
+def dotted(first: Any, second: Any) -> Any:
+    """Dot product."""
+    return first[0] * second[0] + first[1] * second[1] + first[2] * second[2]
+
+
+@compiled
 def crossed(first: Any, second: Any) -> Any:
     """Cross product."""
     (x, y, z), (a, b, c) = first, second

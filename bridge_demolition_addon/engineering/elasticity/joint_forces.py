@@ -6,16 +6,17 @@ components first.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from ..arrays import FloatArray
+from ..arrays import BoolArray, FloatArray, IntArray
 from .compiled_joints import joint_loops
 from .equations import stiffness_blocks, stressed, summed_on_bodies
-from .joint_rows import JointFrames, JointPositions, JointRows, joint_positions
+from .joint_rows import JointFrames, JointRows, joint_positions
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,6 +92,51 @@ def slowed(
     return rates + slowing, *loads, summed_on_bodies(frames.first, frames.second, loads, changes.shape[1])
 
 
+def velocities_alone(
+    velocities: FloatArray,
+    left: FloatArray,
+    inverse_masses: FloatArray,
+    inverse_inertias: FloatArray,
+    loads: FloatArray,
+    substep_s: float,
+) -> FloatArray:
+    """Return velocities (6, n) at the end of a sub-step without connections, from those at its beginning.
+
+    Bullet leaves a share (6, n) of those of bodies that move freely; loads (6, n) act on bodies with inverse masses
+    (n,) and inverse inertias (3, 3, n).
+    """
+    loops = joint_loops()
+    if loops is not None:
+        found: FloatArray = loops.velocities_alone(velocities, left, inverse_masses, inverse_inertias, loads, substep_s)
+        return found
+    turning = inverse_inertias[:, 0] * loads[3] + inverse_inertias[:, 1] * loads[4] + inverse_inertias[:, 2] * loads[5]
+    gained = np.concatenate((inverse_masses * loads[:3], turning * (inverse_masses > 0.0)))
+    alone: FloatArray = np.where(inverse_masses > 0.0, left, 1.0) * velocities + substep_s * gained
+    return alone
+
+
+def put_loads(
+    loads: FloatArray,
+    holding: BoolArray,
+    parts: Sequence[tuple[IntArray, FloatArray, FloatArray]],
+    substep_s: float,
+) -> None:
+    """Write the loads (2, 6, m) of connections that hold (m,) in a sub-step, and 0 for the others.
+
+    `parts` are numbers (k,) of some with their impulses (6, k) on first and on second bodies.
+    """
+    loops = joint_loops()
+    if loops is not None:
+        loops.clear_loads(loads, holding)
+        for numbers, of_first, of_second in parts:
+            loops.put_loads(loads, numbers, of_first, of_second, substep_s)
+        return
+    loads[:, :, ~holding] = 0.0
+    for numbers, *of_bodies in parts:
+        for side, impulses in zip(loads, of_bodies, strict=True):
+            side[:, numbers] = impulses / substep_s
+
+
 def stored(stiffness: FloatArray, strains: FloatArray) -> FloatArray:
     """Return the energy (k,) in connections of stiffness (6, 6, k) with strains (6, k)."""
     loops = joint_loops()
@@ -103,13 +149,13 @@ def stored(stiffness: FloatArray, strains: FloatArray) -> FloatArray:
     return energies
 
 
-def rows_at(positions: JointPositions) -> JointRows:
-    """Return the rows of connections (r,) at these positions."""
+def rows_at(frames: JointFrames, positions_m: FloatArray, rotations: FloatArray) -> JointRows:
+    """Return the rows of connections with bodies at positions (3, n) in rotations (3, 3, n)."""
     loops = joint_loops()
     if loops is None:
-        return positions.rows()
-    axes = positions.first_axes, positions.second_axes
-    return JointRows(*loops.rows(*axes, positions.first_levers_m, positions.second_levers_m))
+        return joint_positions(frames, positions_m, rotations).rows()
+    axes, points = (frames.first_axes, frames.second_axes), (frames.first_points_m, frames.second_points_m)
+    return JointRows(*loops.rows(frames.first, frames.second, *axes, *points, rotations))
 
 
 def added_blocks(

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from ..arithmetic import ARCTANGENT, ARCTANGENT_LIMITS, ARCTANGENT_STARTS, PI_REST
-from .crack_loops import compiled, crossed
+from .crack_loops import compiled, crossed, dotted
 
 _COEFFICIENTS = np.array(ARCTANGENT)
 
@@ -42,11 +42,11 @@ def deformations(
         )
         for axis in range(3):
             found[axis, row] = one[axis][0] * shift[0] + one[axis][1] * shift[1] + one[axis][2] * shift[2]
-        about_y = _dot(one[0], other[2])
+        about_y = dotted(one[0], other[2])
         upright = np.sqrt(max(1.0 - about_y * about_y, 0.0))
-        found[3, row] = _angle(-_dot(one[1], other[2]), _dot(one[2], other[2]))
+        found[3, row] = _angle(-dotted(one[1], other[2]), dotted(one[2], other[2]))
         found[4, row] = _angle(about_y, upright)
-        found[5, row] = _angle(-_dot(one[0], other[1]), _dot(one[0], other[0]))
+        found[5, row] = _angle(-dotted(one[0], other[1]), dotted(one[0], other[0]))
     return found
 
 
@@ -74,12 +74,6 @@ def _turned(rotations: Any, body: int, x: float, y: float, z: float) -> Any:
         rotations[1, 0, body] * x + rotations[1, 1, body] * y + rotations[1, 2, body] * z,
         rotations[2, 0, body] * x + rotations[2, 1, body] * y + rotations[2, 2, body] * z,
     )
-
-
-@compiled
-def _dot(one: Any, other: Any) -> Any:
-    """`joint_rows.dot_products`."""
-    return one[0] * other[0] + one[1] * other[1] + one[2] * other[2]
 
 
 @compiled
@@ -223,6 +217,44 @@ def _add_seconds(second: Any, of_second: Any, of_bodies: Any) -> None:
 
 
 @compiled
+def velocities_alone(
+    velocities: Any, left: Any, inverse_masses: Any, inverse_inertias: Any, loads: Any, substep_s: float
+) -> Any:
+    """`joint_forces.velocities_alone`."""
+    alone = np.empty(velocities.shape)
+    for body in range(len(inverse_masses)):
+        moves = inverse_masses[body] > 0.0
+        for axis in range(3):
+            gained = inverse_masses[body] * loads[axis, body]
+            turning = (
+                inverse_inertias[axis, 0, body] * loads[3, body]
+                + inverse_inertias[axis, 1, body] * loads[4, body]
+                + inverse_inertias[axis, 2, body] * loads[5, body]
+            ) * (1.0 if moves else 0.0)
+            stays, turns = (left[axis, body], left[3 + axis, body]) if moves else (1.0, 1.0)
+            alone[axis, body] = stays * velocities[axis, body] + substep_s * gained
+            alone[3 + axis, body] = turns * velocities[3 + axis, body] + substep_s * turning
+    return alone
+
+
+@compiled
+def clear_loads(loads: Any, holding: Any) -> None:
+    """Write 0 for connections that do not hold."""
+    for row in range(len(holding)):
+        if not holding[row]:
+            loads[:, :, row] = 0.0
+
+
+@compiled
+def put_loads(loads: Any, numbers: Any, of_first: Any, of_second: Any, substep_s: float) -> None:
+    """Write the loads of some connections by their impulses."""
+    for row in range(len(numbers)):
+        for axis in range(6):
+            loads[0, axis, numbers[row]] = of_first[axis, row] / substep_s
+            loads[1, axis, numbers[row]] = of_second[axis, row] / substep_s
+
+
+@compiled
 def stored(stiffness: Any, strains: Any) -> Any:
     """`joint_forces.stored`."""
     count = strains.shape[1]
@@ -237,22 +269,25 @@ def stored(stiffness: Any, strains: Any) -> Any:
 
 
 @compiled
-def rows(first_axes: Any, second_axes: Any, first_levers: Any, second_levers: Any) -> tuple[Any, Any, Any, Any]:
-    """`JointPositions.rows`."""
-    count = first_axes.shape[2]
+def rows(
+    first: Any, second: Any, first_axes: Any, second_axes: Any, first_points: Any, second_points: Any, rotations: Any
+) -> tuple[Any, Any, Any, Any]:
+    """`JointPositions.rows` at once with `joint_positions`."""
+    count = len(first)
     along, first_turning = np.empty((3, 3, count)), np.empty((3, 3, count))
     second_turning, turning = np.empty((3, 3, count)), np.empty((3, 3, count))
     for row in range(count):
-        lever = first_levers[0, row], first_levers[1, row], first_levers[2, row]
-        lever_of_second = second_levers[0, row], second_levers[1, row], second_levers[2, row]
+        a, b = first[row], second[row]
+        one, other = _axes(rotations, a, first_axes, row), _axes(rotations, b, second_axes, row)
+        lever, lever_of_second = _lever(rotations, a, first_points, row), _lever(rotations, b, second_points, row)
         for axis in range(3):
-            line = first_axes[0, axis, row], first_axes[1, axis, row], first_axes[2, axis, row]
+            line = one[axis]
             by_first, by_second = crossed(lever, line), crossed(line, lever_of_second)
-            for other in range(3):
-                along[axis, other, row] = line[other]
-                first_turning[axis, other, row], second_turning[axis, other, row] = by_first[other], by_second[other]
-        first_z = first_axes[0, 2, row], first_axes[1, 2, row], first_axes[2, 2, row]
-        second_x = second_axes[0, 0, row], second_axes[1, 0, row], second_axes[2, 0, row]
+            for component in range(3):
+                along[axis, component, row] = line[component]
+                first_turning[axis, component, row] = by_first[component]
+                second_turning[axis, component, row] = by_second[component]
+        first_z, second_x = one[2], other[0]
         y = crossed(first_z, second_x)
         _put_unit(turning, 0, row, crossed(y, first_z))
         _put_unit(turning, 1, row, y)
@@ -263,7 +298,7 @@ def rows(first_axes: Any, second_axes: Any, first_levers: Any, second_levers: An
 @compiled
 def _put_unit(turning: Any, axis: int, row: int, vector: Any) -> None:
     """Write a vector with length 1; 0 where it has no length."""
-    size = np.sqrt(_dot(vector, vector))
+    size = np.sqrt(dotted(vector, vector))
     for other in range(3):
         turning[axis, other, row] = vector[other] / size if size > 0.0 else 0.0
 

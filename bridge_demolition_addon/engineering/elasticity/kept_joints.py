@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import FloatArray, IntArray
+from ..arrays import FloatArray, IntArray, same
 from .joint_forces import ActingJoints, deformations
 from .joint_rows import JointFrames, JointRows
 
@@ -39,9 +39,9 @@ class _Deformed:
     def has(self, numbers: IntArray, positions_m: FloatArray, rotations: FloatArray) -> bool:
         """Whether these connections were among them, with bodies at these positions."""
         return (
-            np.array_equal(positions_m, self.positions_m)
-            and np.array_equal(rotations, self.rotations)
-            and (np.array_equal(numbers, self.numbers) or bool(np.isin(numbers, self.numbers).all()))
+            same(positions_m, self.positions_m)
+            and same(rotations, self.rotations)
+            and (same(numbers, self.numbers) or bool(np.isin(numbers, self.numbers).all()))
         )
 
 
@@ -58,7 +58,7 @@ class KeptJoints:
     def choose(self, numbers: IntArray) -> ChosenJoints:
         """Return some connections (k,), in order; copied only where others were asked for before."""
         for chosen in self._chosen:
-            if np.array_equal(numbers, chosen.numbers):
+            if same(numbers, chosen.numbers):
                 return chosen
         stiffness, offsets = self.stiffness_of(numbers), self._offsets.take(numbers, axis=-1)
         chosen = ChosenJoints(numbers, self._frames.only(numbers), stiffness, offsets)
@@ -93,6 +93,6 @@ class KeptJoints:
         if kept is None or not kept.has(numbers, positions_m, rotations):
             found = deformations(chosen.frames, positions_m, rotations)
             self._deformed = kept = _Deformed(positions_m, rotations, numbers, found)
-        if np.array_equal(numbers, kept.numbers):
+        if same(numbers, kept.numbers):
             return kept.deformations
         return kept.deformations[:, np.searchsorted(kept.numbers, numbers)]

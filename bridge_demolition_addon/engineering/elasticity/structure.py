@@ -389,7 +389,7 @@ class ElasticStructure:
         bodies = stale[self._part_of_body]
         self._rotations[..., bodies] = start.rotations[..., bodies]
         connections = acting[stale[self.part_of_connection[acting]]]
-        rows = rows_at(joint_positions(self._frames.only(connections), start.positions_m, start.rotations))
+        rows = rows_at(self._frames.only(connections), start.positions_m, start.rotations)
         self._joints.set_rows(connections, rows)
         implicit = self._substep_s * (self._substep_s + self._damping_s[connections])
         of_connections = added_blocks(rows, self._joints.stiffness_of(connections), implicit)

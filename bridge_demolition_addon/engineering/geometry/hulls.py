@@ -42,6 +42,11 @@ class ConvexHulls:
         """(f,) the body of every face."""
         return np.repeat(np.arange(len(self)), np.diff(self.starts))
 
+    @cached_property
+    def most_faces(self) -> int:
+        """Most faces of a body."""
+        return int(np.diff(self.starts).max(initial=0))
+
     @property
     def radii(self) -> FloatArray:
         """(n,) distances of the farthest vertices from the centres of mass, m."""

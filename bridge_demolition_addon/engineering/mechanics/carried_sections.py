@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-
-import numpy as np
+from functools import cached_property
 
 from ..arrays import FloatArray, IntArray
 from ..geometry.rotations import carried_points
-from ..geometry.vectors import product
+from ..geometry.vectors import by_component, length, product
+from .compiled_mechanics import overload_loops
 from .forces import moments_at
+from .section_cuts import ConnectionLoads
 from .section_forces import SectionForces, section_forces
 
 
-@dataclass(frozen=True, eq=False, slots=True)
+@dataclass(frozen=True, eq=False)
 class CarriedSections:
     """Sections of m connections, each fixed in the body that its load is known on, and in the axes of that body."""
 
@@ -21,6 +22,16 @@ class CarriedSections:
     signs: FloatArray  # (m,), 1 where that is the first body of the connection, -1 where it is the second
     points_m: FloatArray  # (m, 3), of the connections, from the centres of the bodies
     axes: FloatArray  # (m, 3, 3), of the sections, as columns
+
+    @cached_property
+    def lever_arms_m(self) -> FloatArray:
+        """Distances (m,) of the connections from the centres of the bodies."""
+        return length(self.points_m)
+
+    @cached_property
+    def arrays(self) -> tuple[IntArray | FloatArray, ...]:
+        """All of it in order, as compiled loops take it."""
+        return self.bodies, self.signs, self.points_m, self.axes, self.lever_arms_m
 
     def forces(
         self, rows: IntArray, loads: FloatArray, positions_m: FloatArray, rotations: FloatArray
@@ -30,10 +41,31 @@ class CarriedSections:
         Loads (6, m) are forces, and moments about the centres of the bodies, at positions (3, n) in rotations
         (3, 3, n).
         """
-        bodies, sign = self.bodies[rows], self.signs[rows, None]
-        turned = np.moveaxis(rotations.take(bodies, axis=-1), -1, 0)
+        bodies = self.bodies[rows]
+        turned = rotations.take(bodies, axis=-1).transpose(2, 0, 1)
         centres, loads = positions_m.take(bodies, axis=-1).T, loads.take(rows, axis=-1).T
-        force, torque = loads[:, :3], loads[:, 3:]
-        points = carried_points(self.points_m[rows], centres, turned)
-        moment = moments_at(points, force, torque, centres)
-        return section_forces(product(turned, self.axes[rows]), sign * force, sign * moment)
+        sections = CarriedSections(bodies, self.signs[rows], self.points_m[rows], self.axes[rows])
+        carried = sections._about_points(loads, centres, turned)
+        return section_forces(product(turned, sections.axes), carried.forces_n, carried.moments_nm)
+
+    def loads(self, loads: FloatArray, positions_m: FloatArray, rotations: FloatArray) -> ConnectionLoads:
+        """Return the loads of all connections after each of s sub-steps, as arrays (s, m, 3).
+
+        Loads (6, s, m), positions (3, s, n) and rotations (3, 3, s, n) are as those of `forces`. Each component lies
+        together in memory.
+        """
+        loops = overload_loops()
+        if loops is not None:
+            found = loops.carried_loads(loads, positions_m, rotations, self.bodies, self.signs, self.points_m)
+            return ConnectionLoads(*(components.transpose(1, 2, 0) for components in found))
+        turned = rotations.take(self.bodies, axis=-1).transpose(2, 3, 0, 1)
+        centres = positions_m.take(self.bodies, axis=-1).transpose(1, 2, 0)
+        sections = CarriedSections(self.bodies, self.signs, by_component(*self.points_m.T), self.axes)
+        return sections._about_points(loads.transpose(1, 2, 0), centres, turned)
+
+    def _about_points(self, loads: FloatArray, centres_m: FloatArray, rotations: FloatArray) -> ConnectionLoads:
+        """Loads on first bodies, about the connections, from those (..., m, 6) about centres (..., m, 3)."""
+        force, torque = loads[..., :3], loads[..., 3:]
+        points = carried_points(self.points_m, centres_m, rotations)
+        moment, sign = moments_at(points, force, torque, centres_m), self.signs[:, None]
+        return ConnectionLoads(sign * force, sign * moment, points)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, fields
 from functools import cached_property
@@ -9,7 +10,8 @@ from functools import cached_property
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
-from ..geometry.vectors import length
+from ..geometry.vectors import as_components, as_vectors, length
+from .compiled_mechanics import frame_loops
 from .forces import PairSums
 from .stress import average_stress, average_stress_of_moments, von_mises
 
@@ -125,7 +127,7 @@ class LoadAccumulator:
 
     def __init__(self, pairs: IntArray, volumes_m3: FloatArray, normals_at: Callable[[FloatArray], FloatArray]):
         self._pairs, self._volumes, self._normals_at = pairs, volumes_m3, normals_at
-        self._of_connections = PairSums(pairs, None, (1, len(volumes_m3)))
+        self._sums = PairSums(pairs, None, (1, len(volumes_m3)))
         self.begin()
 
     def begin(self) -> None:
@@ -136,34 +138,26 @@ class LoadAccumulator:
         self._largest: Moment | None = None
         self._largest_sum_n = -1.0
         # Time integrals: N·s, N·m·s and Pa·s.
-        self._connection_impulses, self._connection_angular_impulses = _vectors(2, connections)
+        self._connection_impulses = np.zeros((6, connections))  # of forces, then of moments
         self._sum_impulses, self._signed_impulses = np.zeros((2, bodies))
         (self._contact_impulses,) = _vectors(1, bodies)
         self._contact_stress_impulses = np.zeros((bodies, 3, 3))
-        self._connection_peaks = np.zeros(connections)
-        self._connection_peak_forces, self._connection_peak_moments = _vectors(2, connections)
+        self._connection_peaks = np.zeros((7, connections))  # size of the largest force, that force and its moment
         self._body_peaks, self._body_peak_sums = np.zeros((2, bodies))
 
     def add(self, loads: SubstepLoads) -> FloatArray:
         """Add the loads of some sub-steps. Return the resultant force (s, n, 3) on every body in each."""
         shape, substeps_s = (len(loads.substeps_s), len(self._volumes)), loads.substeps_s
-        of_connections = self._sums_of_connections(shape)
-        magnitudes = length(loads.connection_forces_n)
-        resultants_n = of_connections.resultants(loads.connection_forces_n)
-        sums = of_connections.sums(magnitudes)
+        resultants_n, sums, signed = self._of_connections(loads, shape)
         if len(loads.contact_substeps):
             of_contacts = PairSums(loads.contact_pairs, loads.contact_substeps, shape)
             by_contacts = of_contacts.resultants(loads.contact_impulses_ns)
             resultants_n += by_contacts / substeps_s[:, None, None]
             sums += of_contacts.sums(length(loads.contact_impulses_ns)) / substeps_s[:, None]
             self._add_contacts(loads, by_contacts)
-        self._note_peaks(loads, magnitudes, length(resultants_n), sums)
-        signed = of_connections.differences(loads.signed_2019_ns)
-        impulses, angular_impulses = loads.connection_impulses_ns, loads.connection_angular_impulses_nms
+        self._note_peaks(loads, length(resultants_n), sums)
         sum_impulses = substeps_s[:, None] * sums
         for substep, substep_s in enumerate(substeps_s.tolist()):
-            self._connection_impulses += impulses[substep]
-            self._connection_angular_impulses += angular_impulses[substep]
             self._sum_impulses += sum_impulses[substep]
             self._signed_impulses += signed[substep]
             self._duration_s += substep_s
@@ -173,7 +167,9 @@ class LoadAccumulator:
     def finish(self) -> FrameLoads:
         """Return means and peaks of the frame so far, and the impulses of contacts; all 0 where no time passed."""
         per_second = 1.0 / self._duration_s if self._duration_s else 0.0
-        forces, moments = per_second * self._connection_impulses, per_second * self._connection_angular_impulses
+        forces, moments = (
+            per_second * as_vectors(half) for half in (self._connection_impulses[:3], self._connection_impulses[3:])
+        )
         stresses, peak_stresses = per_second * self._contact_stress_impulses, np.zeros((len(self._volumes), 3, 3))
         if self._last:
             largest = self._largest or self._last
@@ -194,15 +190,42 @@ class LoadAccumulator:
             von_mises_pa=von_mises(peak_stresses),
             connection_forces_n=np.ascontiguousarray(forces),
             connection_moments_nm=np.ascontiguousarray(moments),
-            connection_peaks_n=self._connection_peaks,
-            connection_peak_forces_n=np.ascontiguousarray(self._connection_peak_forces),
-            connection_peak_moments_nm=np.ascontiguousarray(self._connection_peak_moments),
+            connection_peaks_n=self._connection_peaks[0],
+            connection_peak_forces_n=np.ascontiguousarray(self._connection_peaks[1:4].T),
+            connection_peak_moments_nm=np.ascontiguousarray(self._connection_peaks[4:].T),
         )
 
-    def _sums_of_connections(self, shape: tuple[int, int]) -> PairSums:
-        if self._of_connections.shape != shape:
-            self._of_connections = PairSums(self._pairs, None, shape)
-        return self._of_connections
+    def _of_connections(self, loads: SubstepLoads, shape: tuple[int, int]) -> tuple[FloatArray, FloatArray, FloatArray]:
+        """Add what connections carry; return resultants (s, n, 3), sums of sizes and of signed numbers (s, n)."""
+        forces, moments = loads.connection_forces_n, loads.connection_moments_nm
+        loops = frame_loops()
+        if loops is not None:
+            resultants, sums, signed = loops.of_connections(
+                self._pairs,
+                shape[1],
+                as_components(forces),
+                as_components(moments),
+                loads.signed_2019_ns,
+                loads.substeps_s,
+                self._connection_impulses,
+                self._connection_peaks,
+            )
+            return as_vectors(resultants), sums, signed
+        if self._sums.shape != shape:
+            self._sums = PairSums(self._pairs, None, shape)
+        sizes = length(forces)
+        impulses = loads.connection_impulses_ns, loads.connection_angular_impulses_nms
+        for substep in range(shape[0]):
+            higher = sizes[substep] > self._connection_peaks[0]
+            if higher.any():
+                for vectors, peaks in ((forces, self._connection_peaks[1:4]), (moments, self._connection_peaks[4:])):
+                    np.copyto(peaks, vectors[substep].T, where=higher)
+            np.maximum(self._connection_peaks[0], sizes[substep], out=self._connection_peaks[0])
+            for half, of_kind in zip(
+                (self._connection_impulses[:3], self._connection_impulses[3:]), impulses, strict=True
+            ):
+                half += of_kind[substep].T
+        return self._sums.resultants(forces), self._sums.sums(sizes), self._sums.differences(loads.signed_2019_ns)
 
     def _add_contacts(self, loads: SubstepLoads, by_contacts: FloatArray) -> None:
         substeps, count = by_contacts.shape[:2]
@@ -217,22 +240,14 @@ class LoadAccumulator:
             self._contact_impulses += impulses
             self._contact_stress_impulses += stress
 
-    def _note_peaks(
-        self, loads: SubstepLoads, magnitudes: FloatArray, body_magnitudes: FloatArray, sums: FloatArray
-    ) -> None:
-        for substep in range(len(magnitudes)):
-            higher = magnitudes[substep] > self._connection_peaks
-            if higher.any():
-                np.copyto(self._connection_peak_forces, loads.connection_forces_n[substep], where=higher[:, None])
-                np.copyto(self._connection_peak_moments, loads.connection_moments_nm[substep], where=higher[:, None])
-            for peaks, values in (
-                (self._connection_peaks, magnitudes),
-                (self._body_peaks, body_magnitudes),
-                (self._body_peak_sums, sums),
-            ):
-                np.maximum(peaks, values[substep], out=peaks)
+    def _note_peaks(self, loads: SubstepLoads, resultants: FloatArray, sums: FloatArray) -> None:
+        """Follow the largest resultant and sum (s, n) on each body, and the sub-step in which all were largest."""
+        np.maximum(self._body_peaks, resultants.max(axis=0), out=self._body_peaks)
+        np.maximum(self._body_peak_sums, sums.max(axis=0), out=self._body_peak_sums)
+        for substep in range(len(sums)):
             # Loads that are not known must not pass for small ones.
-            total = np.nan_to_num(sums[substep].sum(), nan=np.inf)
+            total = float(sums[substep].sum())
+            total = math.inf if math.isnan(total) else total
             if total > self._largest_sum_n:
                 self._largest, self._largest_sum_n = loads.moment(substep), total
 

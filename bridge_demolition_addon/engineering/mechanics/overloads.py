@@ -3,21 +3,25 @@
 from __future__ import annotations
 
 from dataclasses import fields, replace
-from functools import cache
-from importlib.util import find_spec
-from typing import Any
 
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..geometry.vectors import length
 from .carried_sections import CarriedSections
+from .compiled_mechanics import overload_loops
 from .member_sections import MemberSections
 from .section_cuts import ConnectedFaces, ConnectionLoads, SectionCuts, worst_around
 from .section_forces import SectionForces
-from .strength import Strength, largest_utilisations, rectangular_sections, sections_at, strength_at, utilisation
-
-_SINGLE_PRECISION = 1e-6
+from .strength import (
+    SINGLE_PRECISION,
+    Strength,
+    largest_utilisations,
+    rectangular_sections,
+    sections_at,
+    strength_at,
+    utilisation,
+)
 
 _MOST_REDISTRIBUTED = 3.0
 """By how much the stress in an elastic face may exceed its strength as long as its section carries the load.
@@ -55,38 +59,31 @@ class Overloads:
         self._member_sections = member_sections
         self._sections = rectangular_sections(faces.areas_m2, faces.second_moments_m4)
         self._largest_utilisations = largest_utilisations(self._sections, strength)
+        self._section_arrays = tuple(getattr(self._sections, item.name) for item in fields(self._sections))
         self._cuts = SectionCuts.through(faces, moves)
+        self._most_faces = int(np.diff(self._cuts.starts).max(initial=0))
         of_all = [
             np.broadcast_to(np.asarray(getattr(strength, item.name), float), len(faces.pairs))
             for item in fields(strength)
         ]
-        self._strengths_pa = np.stack(of_all)
-
-    def candidates(self, loads: FloatArray, lever_arms_m: FloatArray, left: FloatArray) -> IntArray:
-        """Return the connections (k,) whose loads are large enough to break them, whatever they act on.
-
-        Loads (6, m) are forces, and moments about other points than the connections', which are `lever_arms_m` (m,)
-        away.
-        """
-        by_force, by_moment = self._largest_utilisations
-        force, torque = length(loads[:3].T), length(loads[3:].T)
-        most = (by_force + by_moment * lever_arms_m) * force + by_moment * torque
-        return np.flatnonzero(most * (1.0 + _SINGLE_PRECISION) > left)
+        everywhere = np.ones(len(faces.pairs)) if pressed is None else pressed
+        self._resisting = np.stack(of_all), everywhere, np.zeros(0) if friction is None else friction
 
     def breaking(
         self,
         rows: IntArray,
+        alone: FloatArray,
         loads: ConnectionLoads,
         axes: FloatArray,
         intact: BoolArray,
         left: FloatArray,
         parts: IntArray | None = None,
     ) -> IntArray:
-        """Return which connections (k,) break: overloaded alone and in their sections, and each the worst around.
+        """Return which connections (k,), overloaded alone (r,), are so in their sections, and each the worst around.
 
         When one breaks, its neighbours take over its load: they are judged again after the next sub-step.
         """
-        rows, used = self.overloaded(rows, loads, axes, intact, left, parts)
+        rows, used = _overloaded(rows, self.together(rows, alone, loads, axes, intact, left, parts))
         return rows[worst_around(self._pairs[rows], used, self._moves)] if len(rows) else rows
 
     def overloaded(
@@ -104,41 +101,42 @@ class Overloads:
         rows, alone, axes = rows[is_over], alone[is_over], axes[is_over]
         if not len(rows):
             return rows, alone
-        used = self.together(rows, alone, loads, axes, intact, left, parts)
-        return rows[used > 1.0], used[used > 1.0]
+        return _overloaded(rows, self.together(rows, alone, loads, axes, intact, left, parts))
 
-    def overload_any(
+    def over_alone(
         self,
-        rows: IntArray,
+        intact: BoolArray,
         sections: CarriedSections,
         loads: FloatArray,
         positions_m: FloatArray,
         rotations: FloatArray,
         left: FloatArray,
-    ) -> bool:
-        """Return whether loads (6, m), about the centres of bodies, overload one of some connections alone.
+    ) -> tuple[IntArray, FloatArray]:
+        """Return which intact connections (k,) loads (6, m) overload alone, and their utilisations (k,).
 
-        Bodies are at positions (3, n) in rotations (3, 3, n).
+        Loads are about the centres of bodies, which are at positions (3, n) in rotations (3, 3, n).
         """
         loops = overload_loops()
         if loops is None:
-            used = self.of_forces(rows, sections.forces(rows, loads, positions_m, rotations))
-            return bool((used / left[rows] > 1.0).any())
-        everywhere = np.ones(len(left)) if self._pressed is None else self._pressed
-        return bool(
-            loops.overload_any(
-                rows,
-                loads,
-                positions_m,
-                rotations,
-                *(getattr(sections, item.name) for item in fields(sections)),
-                *(getattr(self._sections, item.name) for item in fields(self._sections)),
-                self._strengths_pa,
-                everywhere,
-                np.zeros(0) if self._friction is None else self._friction,
-                left,
+            rows = self.candidates(loads, sections.lever_arms_m, left)
+            rows = rows[intact[rows]]
+            return _overloaded(
+                rows, self.of_forces(rows, sections.forces(rows, loads, positions_m, rotations)) / left[rows]
             )
-        )
+        places, bounds = (loads, positions_m, rotations), (intact, left, *self._largest_utilisations)
+        rows, used = loops.over_alone(*places, *sections.arrays, *bounds, *self._section_arrays, *self._resisting)
+        return rows, used
+
+    def candidates(self, loads: FloatArray, lever_arms_m: FloatArray, left: FloatArray) -> IntArray:
+        """Return the connections (k,) whose loads are large enough to break them, whatever they act on.
+
+        Loads (6, m) are forces, and moments about other points than the connections', which are `lever_arms_m` (m,)
+        away.
+        """
+        by_force, by_moment = self._largest_utilisations
+        force, torque = length(loads[:3].T), length(loads[3:].T)
+        most = (by_force + by_moment * lever_arms_m) * force + by_moment * torque
+        return np.flatnonzero(most * (1.0 + SINGLE_PRECISION) > left)
 
     def alone(self, rows: IntArray, loads: ConnectionLoads, axes: FloatArray, left: FloatArray) -> FloatArray:
         """Utilisations (r,) of some connections, each by itself."""
@@ -160,7 +158,7 @@ class Overloads:
     ) -> FloatArray:
         """Utilisations (r,) of the sections of some connections, whose own (r,) are known."""
         if self._member_sections is None or parts is None:
-            return self._in_cuts(rows, loads, axes, intact) / left[rows]
+            return self.in_cuts(rows, loads, axes, intact) / left[rows]
         used = self._in_members(self._member_sections, rows, loads, axes, intact, parts) / left[rows]
         return np.maximum(used, alone / _MOST_REDISTRIBUTED)
 
@@ -174,13 +172,21 @@ class Overloads:
     def _friction_at(self, rows: IntArray) -> FloatArray | None:
         return None if self._friction is None else self._friction[rows]
 
-    def _in_cuts(self, rows: IntArray, loads: ConnectionLoads, axes: FloatArray, intact: BoolArray) -> FloatArray:
+    def in_cuts(self, rows: IntArray, loads: ConnectionLoads, axes: FloatArray, intact: BoolArray) -> FloatArray:
         """Mean utilisations (r,), of whole strengths, of the cuts through the two shards of some connections."""
-        cut_loads, areas, second_moments = self._cuts.sections(rows, intact, loads, axes)
+        loops, cuts = overload_loops(), self._cuts
+        if loops is not None and self._most_faces <= loops.MOST_TERMS:
+            of_cuts = cuts.starts, cuts.faces, cuts.signs, cuts.cosines
+            faces = cuts.connected.areas_m2, cuts.connected.second_moments_m4
+            of_loads = (np.ascontiguousarray(each) for each in (loads.forces_n, loads.moments_nm, loads.points_m))
+            found: FloatArray = loops.used_in_cuts(rows, intact, *of_loads, axes, *of_cuts, *faces, *self._resisting)
+            return found
+        cut_loads, areas, second_moments = cuts.sections(rows, intact, loads, axes)
         both = np.concatenate((rows, rows))
         sections = rectangular_sections(areas, second_moments)
         used = utilisation(cut_loads, sections, self._strength_at(both), self._friction_at(both))
-        return used.reshape(2, -1).mean(axis=0)
+        mean: FloatArray = used.reshape(2, -1).mean(axis=0)
+        return mean
 
     def _in_members(
         self,
@@ -201,15 +207,11 @@ class Overloads:
             resisting = self._strength_at(rows[whole]), self._friction_at(rows[whole])
             used[whole] = utilisation(of_sections, sections, *resisting)
         if not whole.all():
-            used[~whole] = self._in_cuts(rows[~whole], loads, axes[~whole], intact)
+            used[~whole] = self.in_cuts(rows[~whole], loads, axes[~whole], intact)
         return used
 
 
-@cache
-def overload_loops() -> Any | None:
-    """Return the module of the compiled loop, loaded when connections are first judged; None without Numba."""
-    if find_spec("numba") is None:
-        return None
-    from . import overload_loops  # it takes a third of a second, and most calls of the program need none
-
-    return overload_loops
+def _overloaded(rows: IntArray, used: FloatArray) -> tuple[IntArray, FloatArray]:
+    """Return those of connections (r,) whose utilisations (r,) are above 1, with these."""
+    is_over = used > 1.0
+    return rows[is_over], used[is_over]

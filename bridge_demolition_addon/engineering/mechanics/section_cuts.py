@@ -13,7 +13,7 @@ import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..geometry.proximity import ranges
-from ..geometry.vectors import dot, transformed_back
+from ..geometry.vectors import cross, dot, transformed_back
 from .section_forces import SectionForces, section_forces
 
 SAME_WAY = 0.3
@@ -117,7 +117,7 @@ def cut_loads(
     cut_areas = total(shares)
     levers = points - (total(shares[:, None] * points) / cut_areas[:, None])[owners]
     pulls = signs[:, None] * loads.forces_n[faces]
-    turns = signs[:, None] * loads.moments_nm[faces] + np.cross(levers, pulls)
+    turns = signs[:, None] * loads.moments_nm[faces] + cross(levers, pulls)
     across = transformed_back(axes[owners], levers)[:, 1:]
     own = connected.second_moments_m4[faces] * cosines[:, None, None]
     cut_moments = total(own + shares[:, None, None] * _moved_axes(across))

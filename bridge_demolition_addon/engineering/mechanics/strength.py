@@ -19,7 +19,10 @@ from .section_forces import SectionForces
 NEWTON_PER_SQUARE_MILLIMETRE = 1e6
 """1 N/mm² in Pa."""
 
-_ROUNDING = 1e-9
+SINGLE_PRECISION = 1e-6
+"""Relative slack of bounds by which connections are left out before they are judged."""
+
+ROUNDING = 1e-9
 """Largest difference of principal second moments of a square that was cut from a mesh, as a part of the larger."""
 
 
@@ -36,7 +39,8 @@ class Strength:
     def __post_init__(self) -> None:
         for field in fields(self):
             value = getattr(self, field.name)
-            if not np.all((np.asarray(value) > 0.0) & np.isfinite(value)):
+            least, most = (value.min(), value.max()) if isinstance(value, np.ndarray) and value.size else (value, value)
+            if not np.all((np.asarray(least) > 0.0) & (np.asarray(most) < np.inf)):
                 raise ScenarioError(f"{field.name} of a strength is {value}: expected a positive number")
 
     @classmethod
@@ -131,7 +135,7 @@ def rectangular_sections(areas: FloatArray, second_moments: FloatArray) -> Secti
     areas = np.where(np.asarray(areas) > 0.0, areas, np.nan)
     moments, directions = symmetric_eigenvectors_2d(second_moments)
     # Of squares, second moments are equal but for rounding, which alone would then turn the section.
-    are_square = moments[:, 1] - moments[:, 0] <= _ROUNDING * moments[:, 1]
+    are_square = moments[:, 1] - moments[:, 0] <= ROUNDING * moments[:, 1]
     directions = np.where(are_square[:, None, None], np.eye(2), directions)
     sides = np.sqrt(12.0 * moments / areas[:, None])
     short, long = sides.T

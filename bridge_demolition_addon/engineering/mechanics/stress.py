@@ -6,6 +6,7 @@ import numpy as np
 
 from ..arrays import FloatArray, IntArray
 from ..geometry.vectors import cross_by_component, symmetric_eigenvalues
+from .compiled_mechanics import frame_loops
 
 
 def average_stress(
@@ -67,10 +68,18 @@ def principal_stresses(stresses: FloatArray) -> FloatArray:
 
 def _averaged(bodies: IntArray, first: FloatArray, second: FloatArray, volumes: FloatArray) -> FloatArray:
     """Symmetric part of Σ first ⊗ second (k, 3) over the loads of each body, divided by its volume, (n, 3, 3)."""
-    count, bodies = len(volumes), np.asarray(bodies)
-    sums = np.empty((count, 3, 3))
-    rows, columns = np.ascontiguousarray(first.T), np.ascontiguousarray(second.T)
-    for row, column in np.ndindex(3, 3):
-        sums[:, row, column] = np.bincount(bodies, rows[row] * columns[column], count)
+    sums = _products_on_bodies(np.asarray(bodies), first, second, len(volumes))
     solid = np.where(np.asarray(volumes) > 0.0, volumes, np.nan)
     return (sums + sums.transpose(0, 2, 1)) / (2.0 * solid[:, None, None])
+
+
+def _products_on_bodies(bodies: IntArray, first: FloatArray, second: FloatArray, count: int) -> FloatArray:
+    """Σ first ⊗ second (k, 3) over the loads of each of n bodies, (n, 3, 3)."""
+    rows, columns, loops = np.ascontiguousarray(first.T), np.ascontiguousarray(second.T), frame_loops()
+    if loops is not None:
+        found: FloatArray = loops.products_on_bodies(bodies, rows, columns, count)
+        return found
+    sums = np.empty((count, 3, 3))
+    for row, column in np.ndindex(3, 3):
+        sums[:, row, column] = np.bincount(bodies, rows[row] * columns[column], count)
+    return sums

@@ -22,7 +22,8 @@ import numpy as np
 
 from ..arithmetic import power
 from ..arrays import BoolArray, FloatArray, IntArray
-from ..geometry.vectors import cross_by_component, dot
+from ..geometry.vectors import as_components, as_vectors, cross_by_component, dot
+from .compiled_mechanics import frame_loops
 from .forces import PairSums
 from .touches import Touches
 
@@ -63,6 +64,13 @@ class PairImpulses:
         steps = np.arange(count + 1)
         ends = steps * len(self.pairs) if self.substeps is None else np.searchsorted(self.substeps, steps)
         return [slice(start, end) for start, end in itertools.pairwise(ends.tolist())]
+
+    def components(self) -> list[FloatArray]:
+        """Return the components (6,) of impulses and of their moments about the origin, (k,) or (s k,) each."""
+        about_origin = cross_by_component(self.points_m, self.impulses_ns)
+        if self.angular_impulses_nms is not None:
+            about_origin += self.angular_impulses_nms
+        return [*_rows(self.impulses_ns), *_rows(about_origin)]
 
 
 _Energy = TypeVar("_Energy", float, FloatArray)
@@ -221,11 +229,7 @@ class WorkAccumulator:
         # The velocity of a point p of a body is v + ω × (p - c): of what it has at the origin and of ω.
         at_origin = mean.velocities_m_s - cross_by_component(mean.angular_velocities_rad_s, mean.centres_m)
         motion = _components(at_origin, mean.angular_velocities_rad_s)
-        about_origin = cross_by_component(between.points_m, between.impulses_ns)
-        if between.angular_impulses_nms is not None:
-            about_origin += between.angular_impulses_nms
-        loads = [*_rows(between.impulses_ns), *_rows(about_origin)]
-        on_first, on_second = (_dot(loads, motion.take(bodies, axis=1)) for bodies in (first, second))
+        on_first, on_second = _works(between, motion, first, second)
         if between.substeps is not None:
             first, second, on_first, on_second = _of_both_bodies(first, second, on_first, on_second)
         total = on_first - on_second
@@ -256,7 +260,7 @@ class WorkAccumulator:
                 np.bincount(bodies.take(rows), share * gain, free.size).reshape(free.shape)
                 for bodies, gain in zip((first, second), gains, strict=True)
             ],
-            tools_j=_of_tools(sums, loads, motion, is_free, substeps),
+            tools_j=_of_tools(sums, between, motion, is_free, substeps),
         )
 
     def _after_storing(self, work_j: FloatArray, stored_j: FloatArray) -> FloatArray:
@@ -297,13 +301,13 @@ class PairWork:
 
 
 def _of_tools(
-    sums: PairSums, loads: Sequence[FloatArray], motion: FloatArray, free: BoolArray, substeps: list[slice]
+    sums: PairSums, between: PairImpulses, motion: FloatArray, free: BoolArray, substeps: list[slice]
 ) -> list[list[float]]:
     """Return the work of bodies that move as animation says on those that move freely, from both sides."""
     led = ~free & motion.any(axis=0)
     if not led.any():
         return [[0.0] * len(substeps)] * 2
-    works = []
+    loads, works = between.components(), []
     for sign, bodies, others in ((-1.0, sums.first, sums.second), (1.0, sums.second, sums.first)):
         acts = led[bodies] & free[others]
         works_j = []
@@ -313,6 +317,23 @@ def _of_tools(
             works_j.append(sign * float(work.sum()))
         works.append(works_j)
     return works
+
+
+def _works(
+    between: PairImpulses, motion: FloatArray, first: IntArray, second: IntArray
+) -> tuple[FloatArray, FloatArray]:
+    """Return the work of impulses on first and on second bodies, rows (k,) of their motion (6, s n)."""
+    loops = frame_loops()
+    if loops is None:
+        loads = between.components()
+        on_first, on_second = (_dot(loads, [*motion.take(bodies, axis=1)]) for bodies in (first, second))
+        return on_first, on_second
+    angular = between.angular_impulses_nms
+    turning = np.zeros((3, 0)) if angular is None else _rows(angular)
+    found: tuple[FloatArray, FloatArray] = loops.works(
+        first, second, _rows(between.impulses_ns), _rows(between.points_m), turning, motion
+    )
+    return found
 
 
 def _of_both_bodies(
@@ -334,7 +355,7 @@ def _components(*vectors: FloatArray) -> FloatArray:
 
 def _rows(vectors: FloatArray) -> FloatArray:
     """Components (3, k) of vectors (..., 3)."""
-    return np.moveaxis(vectors, -1, 0).reshape(3, -1)
+    return as_components(vectors).reshape(3, -1)
 
 
 def _dot(first: Sequence[FloatArray], second: Sequence[FloatArray]) -> FloatArray:
@@ -349,5 +370,4 @@ def _dot(first: Sequence[FloatArray], second: Sequence[FloatArray]) -> FloatArra
 
 def _joined(first: FloatArray, second: FloatArray) -> FloatArray:
     """Vectors (s, n, 3) of earlier and later sub-steps, whose components each lie together in memory."""
-    parts = [np.moveaxis(vectors, -1, 0) for vectors in (first, second)]
-    return np.moveaxis(np.concatenate(parts, axis=1), 0, -1)
+    return as_vectors(np.concatenate([as_components(vectors) for vectors in (first, second)], axis=1))

@@ -9,7 +9,6 @@ import numpy as np
 from ...bullet.constraints import ConstraintTable
 from ...engineering.mechanics.frame_loads import Moment
 from ...engineering.mechanics.overloads import Overloads
-from ...engineering.mechanics.section_cuts import ConnectionLoads
 from ...engineering.mechanics.section_forces import SectionForces
 from ...model.schema import given
 from .drivers import Driver, WarmUp
@@ -72,26 +71,20 @@ class Breaker:
     def break_overloaded(self, reading: Reading) -> np.ndarray:
         """Break connections (b,) that a sub-step has overloaded, and return them, without those broken by Bullet."""
         snapshot = reading.snapshot
-        rows = self._candidates(snapshot.load_components)
-        if not self._overload_any(rows, snapshot.load_components, *snapshot.places):
-            return _NONE
-        loads = self._meter.moment(reading)
-        rows = self._overloaded(rows, loads)
-        self._break(rows, loads)
+        rows = self._overloaded(snapshot.load_components, *snapshot.places)
+        if len(rows):
+            self._break(rows, self._meter.moment(reading))
         return rows
 
     def break_predicted(self, both_sides: np.ndarray, begin_s: float, substep_s: float) -> np.ndarray:
         """Break the connections (b,) that predicted loads (2, 6, m) on their bodies overload, and return them."""
-        loads = self._meter.predicted_loads(both_sides)
-        rows, failed = self._candidates(loads), self._failed_bearings()
-        motion = given(self._resistance.elastic).motion
-        if not self._overload_any(rows, loads, motion.position_components_m, motion.rotation_components):
-            rows = _NONE
-        if not len(rows) and not len(failed):
-            return _NONE
-        moment = self._meter.moment(self._meter.predicted(loads, substep_s, begin_s))
-        rows = np.union1d(self._overloaded(rows, moment), failed) if len(rows) else failed
+        loads, motion = self._meter.predicted_loads(both_sides), given(self._resistance.elastic).motion
+        rows = self._overloaded(loads, motion.position_components_m, motion.rotation_components)
+        failed = self._failed_bearings()
+        if len(failed):
+            rows = np.union1d(rows, failed)
         if len(rows):
+            moment = self._meter.moment(self._meter.predicted(loads, substep_s, begin_s))
             self._broken_before.append(Breaks(begin_s, rows, self._meter.section_forces(moment, rows)))
             self._break(rows, moment)
             self._intact[rows] = False
@@ -110,41 +103,28 @@ class Breaker:
         self._let_collide()
         return broken
 
-    def _candidates(self, loads: np.ndarray) -> np.ndarray:
-        """Intact connections (k,) whose loads (6, m) are large enough to break them in any section."""
-        if not self._warm_up.is_over or not self.uses_strength:
-            return _NONE
-        resistance = self._resistance
-        rows = given(resistance.overloads).candidates(loads, self._meter.lever_arms_m, resistance.remaining_strength)
-        return rows[self._intact[rows]]
-
     def _failed_bearings(self) -> np.ndarray:
         """Connections (b,) at pads of bearings that break by their force, or whose bodies have left each other."""
         elastic, left = self._resistance.elastic, self._resistance.remaining_strength
         return elastic.failed_bearings(self._intact, left) if elastic and self._warm_up.is_over else _NONE
 
-    def _overload_any(
-        self, rows: np.ndarray, loads: np.ndarray, positions_m: np.ndarray, rotations: np.ndarray
-    ) -> bool:
-        """Whether loads (6, m) overload one of connections (r,) alone, with bodies at positions in rotations.
+    def _overloaded(self, loads: np.ndarray, positions_m: np.ndarray, rotations: np.ndarray) -> np.ndarray:
+        """Which connections (k,) break by loads (6, m) about the centres of bodies.
 
-        What all connections carry, which judges them with others, is worked out only then: mostly nothing breaks.
+        Bodies are at positions (3, n) in rotations (3, 3, n). What all connections carry, which judges them with
+        others, is worked out only where one is overloaded alone: mostly nothing breaks.
         """
+        if not self._warm_up.is_over or not self.uses_strength:
+            return _NONE
+        meter, resistance = self._meter, self._resistance
+        overloads, left = given(resistance.overloads), resistance.remaining_strength
+        rows, alone = overloads.over_alone(self._intact, meter.sections, loads, positions_m, rotations, left)
         if not len(rows):
-            return False
-        resistance = self._resistance
-        return given(resistance.overloads).overload_any(
-            rows, self._meter.sections, loads, positions_m, rotations, resistance.remaining_strength
-        )
-
-    def _overloaded(self, rows: np.ndarray, moment: Moment) -> np.ndarray:
-        """Which of connections (r,) break (k,)."""
-        loads = ConnectionLoads(moment.connection_forces_n, moment.connection_moments_nm, moment.connection_points_m)
-        axes, resistance = self._meter.section_axes(moment.rotations, rows), self._resistance
+            return _NONE
+        of_all = meter.connection_loads(loads, positions_m, rotations)
+        axes = meter.section_axes(rotations.transpose(2, 0, 1), rows)
         parts = resistance.elastic.parts if resistance.elastic else None
-        return given(resistance.overloads).breaking(
-            rows, loads, axes, self._intact, resistance.remaining_strength, parts
-        )
+        return overloads.breaking(rows, alone, of_all, axes, self._intact, left, parts)
 
     def _break(self, rows: np.ndarray, loads: Moment) -> None:
         """Break connections (b,) under loads; their reinforcement holds on."""

@@ -20,6 +20,7 @@ from ...engineering.elasticity.crack_state import CrackState
 from ...engineering.elasticity.cracks import Cracks
 from ...engineering.elasticity.equations import RigidBodies, without
 from ...engineering.elasticity.equilibrium import Equilibrium, equilibrium
+from ...engineering.elasticity.joint_forces import put_loads, velocities_alone
 from ...engineering.elasticity.joint_rows import (
     JointFrames,
     JointRows,
@@ -240,10 +241,9 @@ class ElasticConnections:
         if self.bare_bars.take_added():
             given(self._structure).stand_bare(self.bare_bars.law)
         self._follow_frequencies(motion)
-        left = np.where(motion.inverse_masses > 0.0, self._left, 1.0)
-        velocities = left * motion.velocity_components
-        velocities += substep_s * _accelerations(
-            motion, self._reader.inverse_inertia_components(), motion.load_components
+        inertias = self._reader.inverse_inertia_components()
+        velocities = velocities_alone(
+            motion.velocity_components, self._left, motion.inverse_masses, inertias, motion.load_components, substep_s
         )
         gone = given(self._structure).settle(motion.position_components_m, motion.rotation_components)
         self._world.constraints.break_rows(gone)
@@ -255,13 +255,9 @@ class ElasticConnections:
         """Return forces and torques (2, 6, m) in the sub-step on Bullet's bodies A and B, as if nothing touched."""
         intact = self._world.constraints.intact()
         self._coming = step = given(self._structure).step(self._start, intact, self._substep_s)
-        self._loads[:, :, ~self.holding(intact)] = 0.0
-        for loads, of_connections, of_cracks in (
-            (self._loads[0], step.of_first, step.of_cracks_on_first),
-            (self._loads[1], step.of_second, step.of_cracks_on_second),
-        ):
-            loads[:, step.acting] = of_connections / self._substep_s
-            loads[:, step.cracks] = of_cracks / self._substep_s
+        of_connections = step.acting, step.of_first, step.of_second
+        of_cracks = step.cracks, step.of_cracks_on_first, step.of_cracks_on_second
+        put_loads(self._loads, self.holding(intact), (of_connections, of_cracks), self._substep_s)
         return self._loads
 
     def apply(self) -> None:
@@ -426,12 +422,6 @@ class _Lifting:
         softer = np.divide(softness, share, out=np.full_like(softness, np.inf), where=share > 0.0)
         constraints.soften(rows[changed], softer)
         self._touching[changed] = share
-
-
-def _accelerations(motion: BodyMotion, inverse_inertias: np.ndarray, loads: np.ndarray) -> np.ndarray:
-    """Accelerations (6, n) by forces and torques (6, n)."""
-    angular = inverse_inertias[:, 0] * loads[3] + inverse_inertias[:, 1] * loads[4] + inverse_inertias[:, 2] * loads[5]
-    return np.concatenate((motion.inverse_masses * loads[:3], angular * (motion.inverse_masses > 0.0)))
 
 
 def _check_frames(frames: JointFrames, world: BulletWorld, motion: BodyMotion) -> None:

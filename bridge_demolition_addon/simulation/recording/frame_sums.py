@@ -98,6 +98,7 @@ class FrameSums:
         self._of_bearings: BearingLoads | None = None
         self._cracks, self._of_cracks = cracks, FrameCracks.none()
         self._waiting: list[MeasuredSubstep] = []
+        self._waiting_bytes = 0
         self._background = BackgroundWork()
         self._substeps, self._substeps_before = 0, 0
         self._work_counts = True
@@ -117,13 +118,14 @@ class FrameSums:
         self._substeps += 1
         self._last = substep.reading
         self._waiting.append(substep)
+        self._waiting_bytes += substep.reading.snapshot.size
         if self._is_worth_handing_over():
             self._hand_over()
 
     def finish_frame(self) -> tuple[FrameLoads, FrameWork, list[Breaks]]:
         """Return loads, work and breaks of the frame, and begin the next frame."""
         self._background.finish()
-        waiting, self._waiting = self._waiting, []
+        waiting = self._take_waiting()
         self.work_out(waiting, work_counts=self._work_counts)
         self._substeps, self._substeps_before = 0, self._substeps
         loads, work, breaks = self._frame.finish(), self._work.finish(), self._breaks
@@ -195,15 +197,19 @@ class FrameSums:
 
     def _is_worth_handing_over(self) -> bool:
         """Whether enough sub-steps wait, or as many as the frame probably has: Blender now moves its objects."""
-        size = sum(substep.reading.snapshot.size for substep in self._waiting)
         ends_frame = self._substeps == self._substeps_before
-        return self._every_substep and size > (WORTH_HANDING_OVER_BYTES if ends_frame else BATCH_BYTES)
+        return self._every_substep and self._waiting_bytes > (WORTH_HANDING_OVER_BYTES if ends_frame else BATCH_BYTES)
 
     def _hand_over(self) -> None:
         """Have the sub-steps that wait evaluated while Blender goes on."""
-        waiting, self._waiting = self._waiting, []
+        waiting = self._take_waiting()
         if waiting:
             self._background.begin(partial(self.work_out, waiting, work_counts=self._work_counts))
+
+    def _take_waiting(self) -> list[MeasuredSubstep]:
+        """Return the sub-steps that wait, and have none wait any more."""
+        waiting, self._waiting, self._waiting_bytes = self._waiting, [], 0
+        return waiting
 
     def _note_balls(self, bodies: BodyHistory, loads: SubstepLoads, substep: int, end_s: float) -> None:
         contacts = loads.contacts_of(substep)

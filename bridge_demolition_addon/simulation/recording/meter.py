@@ -10,11 +10,11 @@ import numpy as np
 from ...bullet.contacts import Contacts
 from ...bullet.snapshots import BodyHistory, Snapshot
 from ...bullet.world import BulletWorld
-from ...engineering.geometry.rotations import axes_in_bodies, carried_axes, carried_points
-from ...engineering.geometry.vectors import by_component, length, taken, transformed, transformed_back
+from ...engineering.geometry.rotations import axes_in_bodies, carried_axes
+from ...engineering.geometry.vectors import transformed, transformed_back
 from ...engineering.mechanics.carried_sections import CarriedSections
-from ...engineering.mechanics.forces import moments_at
 from ...engineering.mechanics.frame_loads import Moment, SubstepLoads
+from ...engineering.mechanics.section_cuts import ConnectionLoads
 from ...engineering.mechanics.section_forces import SectionForces, section_axes, section_forces
 from ...model.results.inventory import Inventory
 from .elastic_connections import ElasticConnections, ElasticEnergy
@@ -32,8 +32,7 @@ class Reading:
 class Meter:
     """Reads a world that was bound just now, before any time passes.
 
-    `lever_arms_m` (m,) reach from the centres of the bodies on which loads are read to the connections, whose
-    `sections` turn with these bodies.
+    `sections` are those of the connections, which turn with the bodies on which loads are read.
     """
 
     def __init__(self, world: BulletWorld, inventory: Inventory, elastic: ElasticConnections | None):
@@ -44,22 +43,23 @@ class Meter:
         rows = np.arange(len(pairs))
         self._sides = np.where(world.first_is_body_a(), side, 1 - side)
         self._snapshots = world.snapshots(2 * rows + self._sides)
-        self._sign = np.where(side == 0, 1.0, -1.0)[:, None]
         self._bodies = pairs[rows, side]
         # Positions of connections are those of the bridge as it was built, not as it rests under its weight.
         positions_m, rotations = elastic.built_positions if elastic else world.bodies.positions()
         bodies = self._bodies
+        signs = np.where(side == 0, 1.0, -1.0)
         levers = transformed_back(rotations[bodies], inventory.points_m - positions_m[bodies])
-        self._local_points = by_component(*levers.T)
-        self.lever_arms_m = length(self._local_points)
         self._local_axes = axes_in_bodies(section_axes(inventory.normals), bodies, rotations)
         self.sections = CarriedSections(
-            bodies, self._sign[:, 0], np.ascontiguousarray(self._local_points), np.ascontiguousarray(self._local_axes)
+            bodies, signs, np.ascontiguousarray(levers), np.ascontiguousarray(self._local_axes)
         )
 
-    def read(self, substep_s: float, end_s: float) -> Reading:
-        """Return Bullet's state after a sub-step; of elastic connections Bullet knows only what contacts change."""
-        snapshot = self._snapshots.take()
+    def read(self, substep_s: float, end_s: float, *, contacts: bool = True) -> Reading:
+        """Return Bullet's state after a sub-step; of elastic connections Bullet knows only what contacts change.
+
+        Without contacts the loads of bodies are not known.
+        """
+        snapshot = self._snapshots.take(contacts=contacts)
         if self._elastic:
             snapshot = replace(snapshot, load_components=snapshot.load_components + self._elastic.loads_on(self._sides))
         return Reading(snapshot, substep_s, end_s)
@@ -70,7 +70,8 @@ class Meter:
 
     def predicted(self, loads: np.ndarray, substep_s: float, begin_s: float) -> Reading:
         """Return Bullet's state before a sub-step, with the loads (6, m) that connections will have in it."""
-        return Reading(replace(self._snapshots.take(), load_components=loads), substep_s, begin_s)
+        snapshot = self._snapshots.take(contacts=False)
+        return Reading(replace(snapshot, load_components=loads), substep_s, begin_s)
 
     def elastic_energy(self, reading: Reading, intact: np.ndarray) -> ElasticEnergy | None:
         """Return the energy after a sub-step in elastic connections (m,) that are intact or reinforced."""
@@ -85,6 +86,11 @@ class Meter:
     def moment(self, reading: Reading) -> Moment:
         """Return the loads in one sub-step."""
         return self.loads([reading])[1].moment(0)
+
+    def connection_loads(self, loads: np.ndarray, positions_m: np.ndarray, rotations: np.ndarray) -> ConnectionLoads:
+        """Return what connections carry, by loads and places of bodies as `CarriedSections.forces` takes them."""
+        found = self.sections.loads(loads[:, None], positions_m[:, None], rotations[:, :, None])
+        return ConnectionLoads(found.forces_n[0], found.moments_nm[0], found.points_m[0])
 
     def contacts(self, reading: Reading) -> Contacts:
         """Return the contacts after a sub-step."""
@@ -108,17 +114,14 @@ class Meter:
     ) -> SubstepLoads:
         """Loads of sub-steps (s,) after which snapshots were taken."""
         loads = np.stack([snapshot.load_components for snapshot in snapshots], axis=1)
-        force, torque = (np.moveaxis(vectors, 0, -1) for vectors in (loads[:3], loads[3:]))
-        centres = taken(bodies.positions_m, self._bodies)
-        rotations = taken(bodies.rotations.reshape(*bodies.positions_m.shape[:2], 9), self._bodies)
-        points = carried_points(self._local_points, centres, rotations.reshape(*centres.shape, 3))
-        moment = moments_at(points, force, torque, centres)
+        positions_m, rotations = bodies.positions_m.transpose(2, 0, 1), bodies.rotations.transpose(2, 3, 0, 1)
+        carried = self.sections.loads(loads, positions_m, rotations)
         contacts = self._snapshots.contacts(snapshots)
         return SubstepLoads(
             substeps_s=substeps_s,
-            connection_forces_n=self._sign * force,
-            connection_moments_nm=self._sign * moment,
-            connection_points_m=points,
+            connection_forces_n=carried.forces_n,
+            connection_moments_nm=carried.moments_nm,
+            connection_points_m=carried.points_m,
             signed_2019_ns=np.stack([snapshot.applied_impulses for snapshot in snapshots]),
             contact_substeps=contacts.substeps,
             contact_pairs=contacts.pairs,

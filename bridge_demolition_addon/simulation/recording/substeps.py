@@ -120,6 +120,6 @@ class SubstepRecorder:
         """Break connections that are overloaded in a sub-step whose loads are not kept."""
         self._warm_up.end_when_due(self.elapsed_s)
         if self._breaker.uses_strength:
-            self._breaker.break_overloaded(self._meter.read(substep_s, self.elapsed_s))
+            self._breaker.break_overloaded(self._meter.read(substep_s, self.elapsed_s, contacts=False))
         self._breaker.take_broken_before()
         self._breaker.follow(self._constraints.intact())

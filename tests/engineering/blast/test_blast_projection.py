@@ -4,8 +4,11 @@
 import numpy as np
 import pytest
 
+from bridge_demolition_addon.engineering.blast import exposure
 from bridge_demolition_addon.engineering.blast.exposure import UPWARDS, lines_of_blast, projected_areas
 from bridge_demolition_addon.engineering.geometry.hulls import convex_hulls
+from bridge_demolition_addon.engineering.geometry.rotations import rotated
+from bridge_demolition_addon.engineering.geometry.vectors import unit
 from bridge_demolition_addon.errors import GeometryError
 
 CUBE = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
@@ -109,6 +112,17 @@ def test_faces_turned_to_the_source_are_half_of_all():
     towards = np.maximum(-np.einsum("fi,fci->fc", normals, directions[hulls.bodies]), 0.0) * hulls.areas[:, None]
     facing = np.add.reduceat(towards, hulls.starts[:-1])
     np.testing.assert_allclose(facing, projected_areas(hulls, rotations, directions), rtol=1e-12)
+
+
+def test_the_compiled_loop_gives_the_bits_of_numpy(monkeypatch):
+    rng = np.random.default_rng(11)
+    hulls = convex_hulls([rng.normal(size=(count, 3)) for count in (4, 6, 20, 45)])
+    rotations = rotated(np.tile(np.eye(3), (4, 1, 1)), rng.normal(size=(4, 3)))
+    directions = unit(rng.normal(size=(4, 3, 3)))
+    compiled = projected_areas(hulls, rotations, directions)
+    assert exposure.area_loops() is not None and hulls.most_faces > 30
+    monkeypatch.setattr(exposure, "area_loops", lambda: None)
+    np.testing.assert_array_equal(compiled, projected_areas(hulls, rotations, directions))
 
 
 def test_all_bodies_together_are_all_bodies_one_by_one():

@@ -12,9 +12,11 @@ from bridge_demolition_addon.engineering.elasticity.joint_forces import (
     added_blocks,
     begun,
     deformations,
+    put_loads,
     rows_at,
     slowed,
     stored,
+    velocities_alone,
 )
 from bridge_demolition_addon.engineering.elasticity.joint_rows import JointFrames, joint_positions
 from bridge_demolition_addon.engineering.geometry.rotations import rotated
@@ -93,8 +95,8 @@ def test_deformations_at_right_angles_have_the_same_bits(by_numpy):
 
 @pytest.mark.slow
 def test_rows_have_the_same_bits(rng, by_numpy):
-    places = joint_positions(frames(rng), *bodies(rng))
-    both = rows_at(places), by_numpy(rows_at, places)
+    given = frames(rng), *bodies(rng)
+    both = rows_at(*given), by_numpy(rows_at, *given)
     assert_same_bits(*([getattr(rows, item.name) for item in fields(rows)] for rows in both))
 
 
@@ -106,6 +108,24 @@ def test_impulses_have_the_same_bits(rng, by_numpy):
     assert_same_bits(first, by_numpy(begun, acting, stretched, 1.0 / 240.0, velocities))
     given = acting, *first[:2], changes
     assert_same_bits(slowed(*given), by_numpy(slowed, *given))
+
+
+def test_velocities_without_connections_have_the_same_bits(rng, by_numpy):
+    velocities, loads = rng.normal(size=(2, 6, BODIES))
+    inverse_masses = np.where(np.arange(BODIES) % 5, rng.uniform(1e-6, 1e-2, BODIES), 0.0)
+    given = velocities, rng.uniform(size=(6, BODIES)), inverse_masses, rng.normal(size=(3, 3, BODIES)), loads, 1 / 240
+    assert_same_bits([velocities_alone(*given)], [by_numpy(velocities_alone, *given)])
+
+
+def test_loads_of_what_holds_have_the_same_bits(rng, by_numpy):
+    numbers = rng.permutation(CONNECTIONS)[:200]
+    holding = np.isin(np.arange(CONNECTIONS), numbers)
+    parts = [(chosen, *rng.normal(size=(2, 6, len(chosen)))) for chosen in np.split(np.sort(numbers), [0, 150])]
+    compiled, plain = np.ones((2, 2, 6, CONNECTIONS))
+    put_loads(compiled, holding, parts, 1 / 240)
+    by_numpy(put_loads, plain, holding, parts, 1 / 240)
+    assert_same_bits([compiled], [plain])
+    assert not compiled[..., ~holding].any() and compiled[..., holding].all()
 
 
 @pytest.mark.slow
