@@ -47,6 +47,7 @@ _OF_STUFF = {
     Stuff.RED: SurfaceMaterial.RED_PAINT,
     Stuff.BLACK: SurfaceMaterial.BLACK_PAINT,
     Stuff.RUST: SurfaceMaterial.RUST,
+    Stuff.SKIN: SurfaceMaterial.SKIN,
 }
 _BROKEN = 1
 """Which of the materials of a shard is that of its cuts: `Finish.BROKEN`."""
@@ -57,16 +58,18 @@ _LAND_M = 3000.0
 
 @contextmanager
 def dressed_pictures(
-    scene: bpy.types.Scene, results: Results, view: PictureSettings, *, has_bars: bool
+    scene: bpy.types.Scene, results: Results, view: PictureSettings, *, has_bars: bool, is_captioned: bool = True
 ) -> Iterator[DressedScene]:
     """Give a scene of its own to take pictures of a run in; afterwards it is gone.
 
-    `has_bars` says whether the bridge has reinforcement, which then sticks out where it broke.
+    `has_bars` says whether the bridge has reinforcement, which then sticks out where it broke. Where pictures are too
+    small for words, `is_captioned` leaves them and the scale bar out: what shows such a picture has to say the rest.
     """
     dressed = DressedScene(scene, results, has_bars=has_bars)
     try:
         with pictures_rendered_in(dressed.scene, view):
-            dressed.put_caption_up()
+            if is_captioned:
+                dressed.put_caption_up()
             yield dressed
     finally:
         dressed.remove()
@@ -96,7 +99,7 @@ class DressedScene:
         broken = puffs(results, opened=self._opened)
         self._dust = raise_dust(self.scene, [*broken, *touchdowns(results)])
         self._chips: Chips = chips_of(broken, times, results.ground())
-        self.bar = self._scale_bar()
+        self.bar: ScaleBar | None = None
 
     def render(self, frame: int, path: Path) -> None:
         """Render a frame of the run."""
@@ -105,7 +108,8 @@ class DressedScene:
         render_picture(self.scene, frame, path)
 
     def put_caption_up(self) -> None:
-        """Write time, scale and what is for looks only before the scene's camera."""
+        """Lay the scale bar; write time, scale and what is for looks only before the scene's camera."""
+        self.bar = self._scale_bar()
         self._caption = Caption(self.scene, self.bar.text, LOOKS_ONLY)
 
     def remove(self) -> None:
@@ -237,7 +241,7 @@ class DressedScene:
         points = points_in_view(self._of_run)
         if points is None:
             raise OutputError(f"scene {self._of_run.name!r} was not built here: choose pictures.renderer workbench")
-        bar = scale_bar(points, float(points[:, 2].min()))
+        bar = scale_bar(points, self._results.ground())
         self._add_parts(bar.parts())
         return bar
 
