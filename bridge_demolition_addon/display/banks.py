@@ -81,7 +81,8 @@ class Bank:
     def _soil(self) -> FloatArray:
         right, left = self.edges_m
         under = self.road_m - _ROAD_M
-        shoulders = [np.column_stack((np.full(len(under), y), under)) for y in (left + _SHOULDER_M, right - _SHOULDER_M)]
+        sides = left + _SHOULDER_M, right - _SHOULDER_M
+        shoulders = [np.column_stack((np.full(len(under), y), under)) for y in sides]
         return np.stack((self.feet_m[:, 0], self.feet_m[:, 1], *shoulders), axis=1)
 
     def _wall(self) -> TriangleMesh:
@@ -143,7 +144,9 @@ def _feet(ground: RecordedGround, stations: FloatArray, heights: FloatArray, edg
     return np.column_stack((edge + out * (_SHOULDER_M + deeper), heights - deeper / _SLOPE))
 
 
-def _ribbon(stations: FloatArray, heights: FloatArray, middle: float, width: float, thickness: float, above: float) -> TriangleMesh:
+def _ribbon(
+    stations: FloatArray, heights: FloatArray, middle: float, width: float, thickness: float, above: float
+) -> TriangleMesh:
     """Return a strip along the road whose lower side is `above` it, m."""
     low, high = heights + above, heights + above + thickness
     sides = middle - width / 2.0, middle + width / 2.0

@@ -38,7 +38,7 @@ class ScaleBar:
         return f"{self.length_m:g} m"
 
     def parts(self) -> list[DrawnPart]:
-        """Return its stripes, white and black in turn, all equally long, and its legs where an end is off the ground."""
+        """Return its stripes, white and black in turn, all equally long, and legs where an end is off the ground."""
         stripe, width = self.length_m / STRIPES, _WIDTH_OF_LENGTH * self.length_m
         x, y, z = self.start_m
         legs = [

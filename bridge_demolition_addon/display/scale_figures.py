@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..engineering.arrays import FloatArray
+from ..engineering.arrays import FloatArray, IntArray
 from ..engineering.geometry.mesh import TriangleMesh
 from ..engineering.geometry.solids import box, cylinder
 from .dressing import DrawnPart, Stuff
@@ -35,9 +35,7 @@ def lorry(begin_m: float, y_m: float) -> list[DrawnPart]:
     glass = _across(np.array((low, high, high - (0.02, 0.0), low - (0.02, 0.0))), begin_m, y_m, width - 0.4)
     windows = box((0.9, width - 0.06, 0.7), (begin_m + 0.9, y_m, roof - 0.5))
     frame = box((length - 0.6, 0.9, 0.3), (begin_m + 0.3 + (length - 0.6) / 2.0, y_m, 0.85))
-    wheels = [
-        _wheel(begin_m + axle, y_m + side * (width - _TYRE_M) / 2.0) for axle in _AXLES_M for side in (-1.0, 1.0)
-    ]
+    wheels = [_wheel(begin_m + axle, y_m + side * (width - _TYRE_M) / 2.0) for axle in _AXLES_M for side in (-1.0, 1.0)]
     return [
         DrawnPart(Stuff.WHITE, load),
         DrawnPart(Stuff.RED, front),
@@ -47,48 +45,49 @@ def lorry(begin_m: float, y_m: float) -> list[DrawnPart]:
 
 def person(x_m: float, y_m: float) -> list[DrawnPart]:
     """Return a person who stands at height 0, `PERSON_M` high, in a yellow vest and with a white helmet."""
-    foot = np.array((x_m, y_m, 0.0))
-    legs = [
-        _limb(foot + (0.1 * side, 0.0, 0.0), foot + (0.08 * side, 0.0, 0.9), (0.07, 0.09), (0.09, 0.1))
-        for side in (-1.0, 1.0)
-    ]
-    trunk = _limb(foot + (0.0, 0.0, 0.82), foot + (0.0, 0.0, 1.46), (0.18, 0.12), (0.23, 0.13))
-    arms = [
-        _limb(foot + (0.33 * side, 0.02, 0.8), foot + (0.25 * side, 0.0, 1.43), (0.045, 0.05), (0.07, 0.07))
-        for side in (-1.0, 1.0)
-    ]
-    head = _limb(foot + (0.0, 0.0, 1.44), foot + (0.0, 0.0, 1.66), (0.07, 0.08), (0.09, 0.1))
-    helmet = _limb(foot + (0.0, 0.0, 1.62), foot + (0.0, 0.0, PERSON_M), (0.13, 0.15), (0.07, 0.08))
+    sides = (-1.0, 1.0)
+    legs = [_limb((0.1 * side, 0.0, 0.0), (0.08 * side, 0.0, 0.9), (0.07, 0.09), (0.09, 0.1)) for side in sides]
+    trunk = _limb((0.0, 0.0, 0.82), (0.0, 0.0, 1.46), (0.18, 0.12), (0.23, 0.13))
+    arms = [_limb((0.33 * side, 0.02, 0.8), (0.25 * side, 0.0, 1.43), (0.045, 0.05), (0.07, 0.07)) for side in sides]
+    head = _limb((0.0, 0.0, 1.44), (0.0, 0.0, 1.66), (0.07, 0.08), (0.09, 0.1))
+    helmet = _limb((0.0, 0.0, 1.62), (0.0, 0.0, PERSON_M), (0.13, 0.15), (0.07, 0.08))
+    of_stuff = {Stuff.BLACK: legs, Stuff.YELLOW: [trunk, *arms], Stuff.SKIN: [head], Stuff.WHITE: [helmet]}
+    place = np.array((x_m, y_m, 0.0))
     return [
-        *(DrawnPart(Stuff.BLACK, one) for one in legs),
-        *(DrawnPart(Stuff.YELLOW, one) for one in (trunk, *arms)),
-        DrawnPart(Stuff.SKIN, head),
-        DrawnPart(Stuff.WHITE, helmet),
+        DrawnPart(stuff, TriangleMesh(solid.vertices + place, solid.triangles))
+        for stuff, solids in of_stuff.items()
+        for solid in solids
     ]
 
 
 def _across(outline: FloatArray, begin_m: float, y_m: float, width_m: float) -> TriangleMesh:
     """Return a solid with a convex outline (c, 2) of x from `begin_m` and z, as wide as it says across the road."""
-    turned = swept(np.array((-width_m / 2.0, width_m / 2.0)), np.stack((outline, outline)))
-    vertices = turned.vertices[:, [1, 0, 2]] + (begin_m, y_m, 0.0)
-    mesh = TriangleMesh(vertices, turned.triangles)
-    return mesh if mesh.volume > 0.0 else mesh.flipped()
+    along = swept(np.array((-width_m / 2.0, width_m / 2.0)), np.stack((outline, outline)))
+    vertices = along.vertices[:, [1, 0, 2]] + (begin_m, y_m, 0.0)
+    return _turned(vertices, along.triangles)
 
 
 def _wheel(x: float, y: float) -> TriangleMesh:
     upright = cylinder(_WHEEL_M / 2.0, _TYRE_M, 2 * _SIDES)
     vertices = upright.vertices[:, [0, 2, 1]] + (x, y - _TYRE_M / 2.0, _WHEEL_M / 2.0)
-    mesh = TriangleMesh(vertices, upright.triangles)
-    return mesh if mesh.volume > 0.0 else mesh.flipped()
+    return _turned(vertices, upright.triangles)
 
 
 def _limb(
-    low: FloatArray, high: FloatArray, thick_low: tuple[float, float], thick_high: tuple[float, float]
+    low: tuple[float, float, float],
+    high: tuple[float, float, float],
+    thick_low: tuple[float, float],
+    thick_high: tuple[float, float],
 ) -> TriangleMesh:
     """Return what is round and tapers from one height to another, with half its thicknesses along x and y there."""
     turns = 2.0 * np.pi * np.arange(_SIDES) / _SIDES
     ring = np.column_stack((np.cos(turns), np.sin(turns)))
     outlines = np.stack([ring * thick + end[:2] for end, thick in ((low, thick_low), (high, thick_high))])
     upright = swept(np.array((low[2], high[2])), outlines)
-    mesh = TriangleMesh(upright.vertices[:, [1, 2, 0]], upright.triangles)
+    return _turned(upright.vertices[:, [1, 2, 0]], upright.triangles)
+
+
+def _turned(vertices: FloatArray, triangles: IntArray) -> TriangleMesh:
+    """Return a solid whose axes were exchanged, with its faces outwards."""
+    mesh = TriangleMesh(vertices, triangles)
     return mesh if mesh.volume > 0.0 else mesh.flipped()
