@@ -15,6 +15,7 @@ from ..model.results.arrays import Results
 from ..model.structure.finishes import ROAD_KINDS
 from .banks import Bank, bank
 from .dressing import DrawnPart
+from .road_furniture import NARROWEST_ROAD_M
 from .scale_figures import LORRY_M, lorry, person
 from .shard_motion import boxes_of_bodies
 
@@ -45,7 +46,7 @@ def approaches(results: Results) -> list[DrawnPart]:
         return []
     boxes, ground = boxes_of_bodies(results, 0)[decks], results.ground()
     lowest, highest = boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)
-    if highest[0] - lowest[0] < highest[1] - lowest[1]:
+    if highest[0] - lowest[0] < highest[1] - lowest[1] or highest[1] - lowest[1] < NARROWEST_ROAD_M:
         return []
     parts: list[DrawnPart] = []
     for end, (reached, away) in enumerate(zip(_reached(results), (-1.0, 1.0), strict=True)):

@@ -21,6 +21,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 
 from bridge_demolition_addon.display.shard_motion import boxes_of_bodies
 from bridge_demolition_addon.model.results.arrays import Results, load_results
+from bridge_demolition_addon.model.results.motion import without_removed
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.scene.rendering.stills import prepare_scene_for_pictures
 from bridge_demolition_addon.scene.rendering.surroundings import show_points
@@ -97,9 +98,13 @@ def take(run: Path, target: Path, size_px: tuple[int, int], *, is_close: bool) -
 
 
 def points_of(results: Results, frame: int) -> np.ndarray:
-    """Return the corners (8, 3), m, of the box around the bridge as it was, and around all that moves in a frame."""
-    moving = np.flatnonzero(results.inventory.masses_kg > 0.0)
-    shards = np.intersect1d(moving, results.inventory.of_kind("shard"))
+    """Return the corners (8, 3), m, of the box around the bridge as it was, and around all that moves in a frame.
+
+    Shards that are removed in the run are left out: they lie far below the ground then.
+    """
+    inventory = without_removed(results)[0].inventory
+    moving = np.flatnonzero(inventory.masses_kg > 0.0)
+    shards = np.intersect1d(moving, inventory.of_kind("shard"))
     row = int(np.argmin(np.abs(results.frames.number - frame)))
     boxes = np.concatenate((boxes_of_bodies(results, 0)[shards], boxes_of_bodies(results, row)[moving]))
     low, high = boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)

@@ -18,7 +18,7 @@ from ...display.ball_crane import ball_cranes
 from ...display.bent_bars import bent_bars
 from ...display.chips import Chips, chips_of
 from ...display.dressing import LOOKS_ONLY, DrawnPart, Stuff, joined_by_stuff, rod
-from ...display.dust import puffs, touchdowns
+from ...display.dust import are_steel, puffs, touchdowns
 from ...display.road_furniture import road_furniture
 from ...display.scale_bar import ScaleBar, scale_bar
 from ...display.shard_motion import moved, parted
@@ -49,6 +49,9 @@ _OF_STUFF = {
     Stuff.RUST: SurfaceMaterial.RUST,
     Stuff.SKIN: SurfaceMaterial.SKIN,
 }
+_OF_SHARDS = (SurfaceMaterial.CONCRETE, SurfaceMaterial.BROKEN_CONCRETE)
+"""What shards are made of where they are built, whatever their density."""
+
 _BROKEN = 1
 """Which of the materials of a shard is that of its cuts: `Finish.BROKEN`."""
 
@@ -82,7 +85,7 @@ class DressedScene:
         self._results, self._has_bars, self._of_run = results, has_bars, scene
         self.scene = bpy.data.scenes.new("Pictures")
         share_view(scene, self.scene)
-        self._opened = parted(results)
+        self._opened, self._of_steel = parted(results), are_steel(results.inventory)
         self._rows = {str(name): row for row, name in enumerate(results.inventory.body_names)}
         self._bodies: list[tuple[bpy.types.Object, bpy.types.Object, int]] = []
         self._carried: list[tuple[bpy.types.Object, int]] = []
@@ -167,7 +170,7 @@ class DressedScene:
         open_now = self._opened[row]
         for original, copy, body in self._bodies:
             touching = np.flatnonzero(open_now & (inventory.pairs == body).any(axis=1))
-            is_ours = kind_of(original) == Kind.SHARD and BUILT_AT in original
+            is_ours = kind_of(original) == Kind.SHARD and BUILT_AT in original and not self._of_steel[body]
             if not is_ours or tuple(touching) == self._rough.get(body, ()):
                 continue
             self._rough[body] = tuple(touching)
@@ -211,6 +214,8 @@ class DressedScene:
                 copy[BUILT_AT] = body[BUILT_AT]
             self.scene.collection.objects.link(copy)
             self._bodies.append((body, copy, self._rows[body.name]))
+            if kind_of(body) == Kind.SHARD and self._of_steel[self._rows[body.name]]:
+                _paint(copy)
 
     def _show_others(self) -> None:
         """Show what is no body: sun, zones, a site plan, what the user has added; and ground without an edge."""
@@ -254,6 +259,15 @@ class DressedScene:
             self.scene.collection.objects.link(obj)
             made.append((body, obj))
         return made
+
+
+def _paint(copy: bpy.types.Object) -> None:
+    """Show a shard of steel painted, where its own mesh is of no other material than those that all shards have."""
+    known = {material_of(surface) for surface in _OF_SHARDS}
+    for slot in copy.material_slots:
+        if slot.material in known:
+            slot.link = "OBJECT"
+            slot.material = material_of(SurfaceMaterial.BRIDGE_PAINT)
 
 
 def _is_hidden(obj: bpy.types.Object, frame: int) -> bool:
