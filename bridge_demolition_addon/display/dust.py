@@ -8,6 +8,7 @@ import numpy as np
 
 from ..model.results.arrays import Results
 from ..model.results.inventory import Inventory
+from ..model.scenario.steelwork import NODE_KIND
 
 MOST_PUFFS = 60
 """Clouds that a renderer still draws in a reasonable time."""
@@ -69,8 +70,8 @@ def puffs(results: Results, most: int = MOST_PUFFS, opened: np.ndarray | None = 
 
 
 def are_steel(inventory: Inventory) -> np.ndarray:
-    """Return which bodies (n,) are so heavy for their volume that they are of steel."""
-    return inventory.masses_kg > STEEL_KG_M3 * inventory.volumes_m3
+    """Return which bodies (n,) are of steel: heavy for their volume, or nodes of bars, whose shape is a mere symbol."""
+    return (inventory.masses_kg > STEEL_KG_M3 * inventory.volumes_m3) | (inventory.body_member_kinds == NODE_KIND)
 
 
 def touchdowns(results: Results, most: int = MOST_TOUCHDOWNS) -> list[Puff]:

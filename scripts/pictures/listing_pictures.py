@@ -45,7 +45,7 @@ PIERS = [(40, 144, 68, 232), (188, 144, 216, 232)]
 CABLE, BALL = (122, 0, 134, 50), (92, 44, 164, 116)
 
 
-def main(folder_of_run: str = str(ROOT / "runs" / "presets" / "drilled_spans"), seconds: str = "2.42") -> int:
+def main(folder_of_run: str = str(ROOT / "runs" / "presets" / "drilled_spans"), seconds: str = "2.38") -> int:
     """Write all pictures and return the exit status."""
     PICTURES.mkdir(parents=True, exist_ok=True)
     icon().save(PICTURES / "icon.png", optimize=True)
@@ -56,7 +56,7 @@ def main(folder_of_run: str = str(ROOT / "runs" / "presets" / "drilled_spans"), 
     scene = bpy.context.scene
     prepare_scene_for_pictures(scene, view)
     frames = {
-        "featured": START_FRAME + round(float(seconds) * scene.render.fps),
+        "featured": START_FRAME + 1 + round(float(seconds) * scene.render.fps),
         "preview_before": START_FRAME,
         "preview_impact": json.loads((run / "summary.json").read_text(encoding="utf-8"))["key_frame"]["frame"],
     }
