@@ -12,6 +12,7 @@ import numpy as np
 from ..engineering.arrays import FloatArray
 from ..engineering.geometry.mesh import TriangleMesh
 from ..model.results.arrays import Results
+from ..model.results.motion import without_removed
 from ..model.structure.finishes import ROAD_KINDS
 from .banks import Bank, bank
 from .dressing import DrawnPart
@@ -64,8 +65,8 @@ def approaches(results: Results) -> list[DrawnPart]:
 
 
 def _reached(results: Results) -> tuple[float, float]:
-    """Return the lowest and highest x of any body that moves, m, at any time."""
-    moving = np.flatnonzero(results.inventory.masses_kg > 0.0)
+    """Return the lowest and highest x of any body that moves and is not removed, m, at any time."""
+    moving = np.flatnonzero(without_removed(results)[0].inventory.masses_kg > 0.0)
     count = len(results.frames)
     rows = np.unique(np.linspace(0, count - 1, max(_ROWS, count // 4)).astype(int))
     boxes = np.stack([boxes_of_bodies(results, row)[moving] for row in rows.tolist()])
