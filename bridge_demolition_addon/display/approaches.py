@@ -1,95 +1,96 @@
-"""Approaches: the road before and behind a bridge on its bank, with a lorry to compare with; for looks only.
+"""Approaches: the road before and behind a bridge on its bank, with figures to compare with; for looks only.
 
 A bank begins where no body of the run ever lies: it hides no debris.
 """
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
+from ..engineering.arrays import FloatArray
 from ..engineering.geometry.mesh import TriangleMesh
-from ..engineering.geometry.solids import box
 from ..model.results.arrays import Results
+from ..model.results.motion import without_removed
 from ..model.structure.finishes import ROAD_KINDS
-from .dressing import DrawnPart, Stuff
+from .banks import Bank, bank
+from .dressing import DrawnPart
+from .road_furniture import NARROWEST_ROAD_M
+from .scale_figures import LORRY_M, lorry, person
 from .shard_motion import boxes_of_bodies
-
-LORRY_M = (8.0, 2.5, 3.5)
-"""Length, width and height of the lorry."""
-
-_LENGTH_M = 40.0
-_SLOPE = 1.0
-"""How far a bank reaches beside its road for each metre of its height."""
 
 _CLEAR_M = 0.3
 _FARTHEST = 1.5
 """How many times its own height a bank may begin away from the bridge; farther away it would belong to no road."""
+
+_LOWEST_M = 1.0
+"""Least height of a deck over the ground that has banks."""
+
+_AT_END_M = 1.0
+"""Shards of a deck that are so near to its end say how wide and high the road is there."""
+
+_LORRY_AFTER_M, _PERSON_AFTER_M = 2.0, 1.2
+"""How far behind the beginning of a bank they stand."""
+
+_LORRY_LENGTHS = 1.5
+"""Least length of a bridge for a lorry beside it, in lengths of the lorry."""
 
 _ROWS = 12
 """Frames that are looked at, at least, for where bodies come."""
 
 
 def approaches(results: Results) -> list[DrawnPart]:
-    """Return the banks at both ends of the decks, on flat ground; none where debris comes too far."""
-    inventory, ground = results.inventory, results.ground()
-    decks = np.flatnonzero(np.isin(inventory.body_member_kinds, ROAD_KINDS))
-    if not len(decks) or not ground.is_flat:
+    """Return the banks at both ends of decks along x, with lorry and person; none where debris comes too far."""
+    decks = np.flatnonzero(np.isin(results.inventory.body_member_kinds, ROAD_KINDS))
+    if not len(decks):
         return []
-    boxes = boxes_of_bodies(results, 0)[decks]
+    boxes, ground = boxes_of_bodies(results, 0)[decks], results.ground()
     lowest, highest = boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)
-    moving = np.flatnonzero(inventory.masses_kg > 0.0)
-    first, last = lowest[0], highest[0]
-    rows = np.unique(np.linspace(0, len(results.frames) - 1, max(_ROWS, len(results.frames) // 4)).astype(int))
-    for row in rows.tolist():
-        reached = boxes_of_bodies(results, row)[moving]
-        first, last = min(first, reached[:, 0, 0].min()), max(last, reached[:, 1, 0].max())
+    if highest[0] - lowest[0] < highest[1] - lowest[1] or highest[1] - lowest[1] < NARROWEST_ROAD_M:
+        return []
     parts: list[DrawnPart] = []
-    for at, away, gap in ((first, -1.0, lowest[0] - first), (last, 1.0, last - highest[0])):
-        if gap <= _FARTHEST * highest[2] and highest[2] > 1.0:
-            parts += _bank(float(at + away * _CLEAR_M), away, (float(lowest[1]), float(highest[1])), float(highest[2]))
+    for end, (reached, away) in enumerate(zip(_reached(results), (-1.0, 1.0), strict=True)):
+        at = float((lowest, highest)[end][0])
+        (right, left), top = _road_at_end(boxes, at)
+        over_ground = top - float(ground.heights_at(np.array((reached, (right + left) / 2.0))))
+        if away * (reached - at) > _FARTHEST * over_ground or over_ground <= _LOWEST_M:
+            continue
+        begun = bank(reached + away * _CLEAR_M, away, (right, left), top, ground)
+        if begun:
+            parts += begun.parts()
             if away > 0.0:
-                parts += _lorry(float(at) + 1.5, (lowest[1] + 3.0 * highest[1]) / 4.0, float(highest[2]))
+                parts += _figures(begun, has_lorry=float(highest[0] - lowest[0]) >= _LORRY_LENGTHS * LORRY_M[0])
     return parts
 
 
-def _bank(begin: float, away: float, edges: tuple[float, float], top: float) -> list[DrawnPart]:
-    """Return a bank from x = `begin` on, with a wall of concrete towards the bridge and a road on it."""
-    right, left = edges
-    reach = _SLOPE * top
-    profile = np.array(((right - reach, 0.0), (left + reach, 0.0), (left + 0.6, top - 0.1), (right - 0.6, top - 0.1)))
-    middle, width = begin + away * _LENGTH_M / 2.0, left - right
-    wall = _prism(begin, begin + away * 0.5, np.array(((right, 0.0), (left, 0.0), (left, top), (right, top))))
-    road = box((_LENGTH_M, width, 0.1), (middle, (right + left) / 2.0, top - 0.05))
-    lines = [box((_LENGTH_M, 0.14, 0.008), (middle, y, top + 0.004)) for y in (right + 0.65, left - 0.65)]
-    return [
-        DrawnPart(Stuff.SOIL, _prism(begin + away * 0.1, begin + away * _LENGTH_M, profile)),
-        DrawnPart(Stuff.CONCRETE, wall),
-        DrawnPart(Stuff.ASPHALT, road),
-        *(DrawnPart(Stuff.WHITE, line) for line in lines),
-    ]
+def _reached(results: Results) -> tuple[float, float]:
+    """Return the lowest and highest x of any body that moves and is not removed, m, at any time."""
+    moving = np.flatnonzero(without_removed(results)[0].inventory.masses_kg > 0.0)
+    count = len(results.frames)
+    rows = np.unique(np.linspace(0, count - 1, max(_ROWS, count // 4)).astype(int))
+    boxes = np.stack([boxes_of_bodies(results, row)[moving] for row in rows.tolist()])
+    return float(boxes[:, :, 0, 0].min()), float(boxes[:, :, 1, 0].max())
 
 
-def _prism(begin: float, end: float, profile: np.ndarray) -> TriangleMesh:
-    """Return a prism along x with a convex profile (4, 2) of y and z."""
-    low, high = min(begin, end), max(begin, end)
-    vertices = np.concatenate([np.column_stack((np.full(4, x), profile)) for x in (low, high)])
-    sides = [(a, (a + 1) % 4 + 4, (a + 1) % 4) for a in range(4)] + [(a, a + 4, (a + 1) % 4 + 4) for a in range(4)]
-    mesh = TriangleMesh(vertices, np.array([*sides, (0, 1, 2), (0, 2, 3), (4, 6, 5), (4, 7, 6)]))
-    return mesh if mesh.volume > 0.0 else mesh.flipped()
+def _road_at_end(boxes: FloatArray, at: float) -> tuple[tuple[float, float], float]:
+    """Return the right and left side and the height of the road at an end of decks with boxes (n, 2, 3), m."""
+    there = boxes[(boxes[:, 0, 0] <= at + _AT_END_M) & (boxes[:, 1, 0] >= at - _AT_END_M)]
+    top = float(there[:, 1, 2].max())
+    upper = there[there[:, 1, 2] > top - 0.05]
+    return (float(upper[:, 0, 1].min()), float(upper[:, 1, 1].max())), top
 
 
-def _lorry(begin: float, y: float, ground: float) -> list[DrawnPart]:
-    """Return a lorry on the road, as long, wide and high as `LORRY_M`."""
-    length, width, height = LORRY_M
-    wheel, cab = 1.0, 2.0
-    load = box(
-        (length - cab - 0.2, width, height - wheel),
-        (begin + (length + cab + 0.2) / 2.0, y, ground + (height + wheel) / 2.0),
-    )
-    front = box((cab, width, height - wheel - 0.3), (begin + cab / 2.0, y, ground + wheel / 2.0 + (height - 0.3) / 2.0))
-    wheels = [
-        box((0.9, 0.3, wheel), (begin + at, y + side * (width / 2.0 - 0.15), ground + wheel / 2.0))
-        for at in (1.2, 5.6, 6.8)
-        for side in (-1.0, 1.0)
-    ]
-    return [DrawnPart(Stuff.WHITE, load), DrawnPart(Stuff.RED, front), *(DrawnPart(Stuff.BLACK, one) for one in wheels)]
+def _figures(begun: Bank, *, has_lorry: bool) -> list[DrawnPart]:
+    """Return a person at the near side of a bank's road, and a lorry on its far side."""
+    (right, left), begin = begun.edges_m, float(begun.stations_m[0])
+    parts = person(begin + _PERSON_AFTER_M, right + 0.15 * (left - right))
+    if has_lorry and begun.length_m > _LORRY_AFTER_M + LORRY_M[0]:
+        parts += lorry(begin + _LORRY_AFTER_M, (right + 3.0 * left) / 4.0)
+    return [replace(part, solid=_raised(part.solid, begun)) for part in parts]
+
+
+def _raised(solid: TriangleMesh, begun: Bank) -> TriangleMesh:
+    """Return a solid on a bank's road, which it follows where that climbs."""
+    heights = begun.height_at(solid.vertices[:, 0])
+    return TriangleMesh(solid.vertices + np.column_stack((np.zeros((len(heights), 2)), heights)), solid.triangles)

@@ -9,7 +9,7 @@ import numpy as np
 
 from ..engineering.geometry.mesh import TriangleMesh, joined_meshes
 
-LOOKS_ONLY = "For looks only: surroundings, crane, dust, chips, bars, rough faces"
+LOOKS_ONLY = "For looks only: surroundings, figures, crane, dust, chips, bars, rough faces"
 """What every dressed picture says of itself."""
 
 
@@ -25,6 +25,7 @@ class Stuff(StrEnum):
     RED = "red"
     BLACK = "black"
     RUST = "rust"
+    SKIN = "skin"
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..model.results.arrays import Results
+from ..model.results.inventory import Inventory
+from ..model.scenario.steelwork import NODE_KIND
 
 MOST_PUFFS = 60
 """Clouds that a renderer still draws in a reasonable time."""
@@ -19,6 +21,9 @@ _FAST_M_S, _NEAR_M = 1.5, 0.3
 
 _RADIUS_OF_MASS = 0.11
 """Radius of such a cloud, m, by the cube root of the mass, kg."""
+
+STEEL_KG_M3 = 5000.0
+"""Least density of a body that is of steel: it makes no dust, and no chips."""
 
 _LEAST_RADIUS_M, _RADIUS_OF_AREA = 0.6, 1.2
 """Radius of a fully grown cloud: at least, and for a square of broken area of 1 m²."""
@@ -45,7 +50,7 @@ def puffs(results: Results, most: int = MOST_PUFFS, opened: np.ndarray | None = 
     if len(intact) < 2 or not intact.shape[1]:
         return []
     holds = intact if opened is None else ~opened
-    rows, broken = np.nonzero(holds[:-1] & ~holds[1:])
+    rows, broken = np.nonzero(holds[:-1] & ~holds[1:] & ~are_steel(inventory)[inventory.pairs].all(axis=1))
     span = np.ptp(inventory.points_m, axis=0).max(initial=1.0)
     cell = max(span / 12.0, 1.0)
     cubes: dict[tuple, list[int]] = {}
@@ -62,6 +67,11 @@ def puffs(results: Results, most: int = MOST_PUFFS, opened: np.ndarray | None = 
     ]
     largest = sorted(clouds, key=lambda cloud: -cloud.radius_m)[:most]
     return sorted(largest, key=lambda cloud: cloud.frame)
+
+
+def are_steel(inventory: Inventory) -> np.ndarray:
+    """Return which bodies (n,) are of steel: heavy for their volume, or nodes of bars, whose shape is a mere symbol."""
+    return (inventory.masses_kg > STEEL_KG_M3 * inventory.volumes_m3) | (inventory.body_member_kinds == NODE_KIND)
 
 
 def touchdowns(results: Results, most: int = MOST_TOUCHDOWNS) -> list[Puff]:

@@ -23,6 +23,9 @@ _LINE_M, _PAINT_M = 0.14, 0.008
 _NARROWEST_M = 4.0
 """Narrowest deck with a line in its middle."""
 
+NARROWEST_ROAD_M = 2.5
+"""Narrowest deck that carries a road: others are single beams."""
+
 
 def road_furniture(results: Results) -> list[DrawnPart]:
     """Return markings, kerbs and railings of the decks of a run; none where there is no deck along x.
@@ -35,7 +38,7 @@ def road_furniture(results: Results) -> list[DrawnPart]:
         return []
     boxes = boxes_of_bodies(results, 0)[decks]
     lowest, highest = boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)
-    if highest[0] - lowest[0] < highest[1] - lowest[1]:
+    if highest[0] - lowest[0] < highest[1] - lowest[1] or highest[1] - lowest[1] < NARROWEST_ROAD_M:
         return []
     top = boxes[:, 1, 2]
     centres = results.frames.positions_m[0, decks]

@@ -1,17 +1,31 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Make the pictures of docs/listing.md: the icon, drawn here, and previews from a run's pictures of 1920 x 1080.
+"""Make the pictures of docs/listing.md: the icon, drawn here, and three realistic pictures of a run.
 
-`bda run` a scenario with `width_px = 1920` and `height_px = 1080` in `[pictures]`, and give its folder.
+Usage: listing_pictures.py [RUN [SECONDS]] takes the run in a folder, by default that of the preset drilled_spans which
+`python scripts/pictures/preset_pictures.py drilled_spans` leaves. The featured picture is of the time that is given.
 """
 
+import json
 import sys
+import tempfile
+from dataclasses import replace
 from pathlib import Path
 
+import bpy
 from PIL import Image, ImageDraw
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
+
+from bridge_demolition_addon.model.scenario.file import read_scenario
+from bridge_demolition_addon.scene.rendering.stills import prepare_scene_for_pictures
+from bridge_demolition_addon.scene.world import START_FRAME
+from bridge_demolition_addon.simulation.display.pictures import run_renderer
 
 ROOT = Path(__file__).resolve().parents[2]
 PICTURES = ROOT / "docs" / "pictures" / "listing"
-ICON_PX, PICTURE_PX = 256, (1920, 1080)
+ICON_PX, PICTURE_PX, QUALITY = 256, (1920, 1080), 80
+RENDERED_PX = 1280, 720
+"""Smaller than shown: without a graphics card each takes a minute of a processor so, and two and a half otherwise."""
 FINER = 4
 """How many times as large the icon is drawn, for smooth edges."""
 CONCRETE, STEEL, CRACK = (214, 209, 200, 255), (52, 60, 72, 255), (226, 88, 34, 255)
@@ -31,14 +45,28 @@ PIERS = [(40, 144, 68, 232), (188, 144, 216, 232)]
 CABLE, BALL = (122, 0, 134, 50), (92, 44, 164, 116)
 
 
-def main(run: str) -> int:
+def main(folder_of_run: str = str(ROOT / "runs" / "presets" / "drilled_spans"), seconds: str = "2.38") -> int:
     """Write all pictures and return the exit status."""
     PICTURES.mkdir(parents=True, exist_ok=True)
     icon().save(PICTURES / "icon.png", optimize=True)
-    for name, moment in (("featured", "after"), ("preview_before", "before"), ("preview_impact", "impact")):
-        with Image.open(Path(run) / "frames" / f"{moment}.png") as picture:
-            fitted = picture.convert("RGB").resize(PICTURE_PX, Image.Resampling.LANCZOS)
-        fitted.save(PICTURES / f"{name}.jpg", quality=85, optimize=True)
+    run = Path(folder_of_run)
+    view = read_scenario(run / "scenario_as_run.toml").pictures
+    view = replace(view, renderer="realistic", width_px=RENDERED_PX[0], height_px=RENDERED_PX[1])
+    bpy.ops.wm.open_mainfile(filepath=str(run / "scene.blend"))
+    scene = bpy.context.scene
+    prepare_scene_for_pictures(scene, view)
+    frames = {
+        "featured": START_FRAME + 1 + round(float(seconds) * scene.render.fps),
+        "preview_before": START_FRAME,
+        "preview_impact": json.loads((run / "summary.json").read_text(encoding="utf-8"))["key_frame"]["frame"],
+    }
+    with tempfile.TemporaryDirectory(prefix="bda_") as folder, run_renderer(scene, run, view) as render:
+        for picture, frame in frames.items():
+            path = Path(folder) / f"{picture}.png"
+            render(frame, path)
+            with Image.open(path) as rendered:
+                shown = rendered.convert("RGB").resize(PICTURE_PX, Image.Resampling.LANCZOS)
+            shown.save(PICTURES / f"{picture}.jpg", quality=QUALITY, optimize=True)
     return 0
 
 

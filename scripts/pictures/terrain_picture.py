@@ -12,7 +12,8 @@ import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
 
-PICTURE = ROOT / "docs" / "pictures" / "ground.png"
+PICTURE = ROOT / "docs" / "pictures" / "ground.jpg"
+QUALITY = 85
 STEP_M, HALF_M = 2.0, 280.0
 EASTING, NORTHING, LEVEL = 448_300.0, 4_607_200.0, 262.0
 """Of the scenario's origin, at the foot of the first pier."""
@@ -74,6 +75,7 @@ drop_height_m = 8.0
 release_time_s = 0.2
 
 [pictures]
+renderer = "realistic"
 width_px = 960
 height_px = 540
 """
@@ -120,13 +122,13 @@ def draw(run: Path) -> None:
     from bridge_demolition_addon.model.results.motion import without_removed
 
     results = without_removed(load_results(run))[0]
-    figure = plt.figure(figsize=(9.6, 9.0), layout="constrained")
-    above, below = figure.subfigures(2, 1, height_ratios=(1, 2.1))
+    figure = plt.figure(figsize=(9.6, 7.6), layout="constrained")
+    above, below = figure.subfigures(2, 1, height_ratios=(2.8, 4.8))
     for axes, name in zip(above.subplots(1, 2), ("before", "after"), strict=True):
         axes.imshow(plt.imread(run / "frames" / f"{name}.png"))
         axes.axis("off")
     debris_map(below, results, debris_of(results))
-    figure.savefig(PICTURE, dpi=100)
+    figure.savefig(PICTURE, dpi=100, pil_kwargs={"quality": QUALITY, "optimize": True})
 
 
 if __name__ == "__main__":

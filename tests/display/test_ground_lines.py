@@ -93,6 +93,18 @@ def test_there_is_no_dust_where_nothing_breaks_and_never_too_much():
     assert puffs(changed(results, intact=whole), most=1)[0].radius_m == max(puff.radius_m for puff in both)
 
 
+def test_steel_that_parts_makes_no_dust():
+    results = hanging_chain()
+    parted = np.ones_like(results.arrays()["intact"])
+    parted[3:] = False
+    volumes = results.inventory.volumes_m3
+    of_concrete, of_steel = (
+        changed(results, intact=parted, masses_kg=density * volumes) for density in (2500.0, 7850.0)
+    )
+    # The shard that hangs from the ledge parts from it in dust, which is of the ledge, and not from the other shard.
+    assert len(puffs(of_concrete)) == 2 and len(puffs(of_steel)) == 1
+
+
 def test_lines_on_the_ground_follow_a_slope():
     """A zone of 8 m by 4 m on ground that rises by 1 in 10: its sides in parts of 2 m, its top where it was."""
     corners = np.array([[-50, -50, -5], [50, -50, 5], [50, 50, 5], [-50, 50, -5]], float)

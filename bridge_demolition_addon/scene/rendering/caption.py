@@ -12,6 +12,11 @@ _HEIGHT, _SMALL, _LINE = 0.07, 0.048, 0.065
 
 _MARGIN = 0.03
 _AWAY_M = 1.0
+
+_SHADE, _BEHIND = 0.06, 1.0005
+"""How far a dark copy lies below and beside each text, in heights of its letters, and behind it: on white walls white
+words are read by it."""
+
 _DECIMALS = 2
 
 
@@ -29,18 +34,31 @@ class Caption:
         scale = _AWAY_M / -corners[0].z
         right, left = max(c.x for c in corners) * scale, min(c.x for c in corners) * scale
         top, bottom = max(c.y for c in corners) * scale, min(c.y for c in corners) * scale
-        height, material = top - bottom, _white()
+        height = top - bottom
+        self._materials = _of_colour("Caption", 1.0), _of_colour("Caption shade", 0.01)
         margin, small, line = _MARGIN * height, _SMALL * height, _LINE * height
-        self._time = _text(scene, "Time", (left + margin, bottom + margin + line), _HEIGHT * height, "LEFT", material)
-        note = _text(scene, "Note", (left + margin, bottom + margin), small, "LEFT", material)
-        note.data.body = looks_only
-        bar = _text(scene, "Scale", (right - margin, bottom + margin + line), small, "RIGHT", material)
-        bar.data.body = f"bar: {length}"
-        self.show_time(0.0)
+        place = (left + margin, bottom + margin + line)
+        self._time = self._words(scene, "Time", place, _HEIGHT * height, "LEFT", time_text(0.0))
+        self._words(scene, "Note", (left + margin, bottom + margin), small, "LEFT", looks_only)
+        self._words(scene, "Scale", (right - margin, bottom + margin + line), small, "RIGHT", f"bar: {length}")
 
     def show_time(self, time_s: float) -> None:
         """Write the time of the run."""
-        self._time.data.body = time_text(time_s)
+        for text in self._time:
+            text.data.body = time_text(time_s)
+
+    def _words(
+        self, scene: bpy.types.Scene, name: str, place: tuple[float, float], size: float, aligned: str, words: str
+    ) -> list[bpy.types.Object]:
+        """Add words and their dark copy behind them."""
+        texts = []
+        for suffix, material, off, away in zip(
+            ("", " shade"), self._materials, (0.0, _SHADE * size), (_AWAY_M, _BEHIND * _AWAY_M), strict=True
+        ):
+            text = _text(scene, name + suffix, (place[0] + off, place[1] - off), size, aligned, material, away)
+            text.data.body = words
+            texts.append(text)
+        return texts
 
 
 def _text(
@@ -50,21 +68,23 @@ def _text(
     size: float,
     aligned: str,
     material: bpy.types.Material,
+    away_m: float,
 ) -> bpy.types.Object:
     data = bpy.data.curves.new(name, "FONT")
     data.size, data.align_x, data.align_y = size, aligned, "BOTTOM"
     data.materials.append(material)
     text = bpy.data.objects.new(name, data)
     text.parent = scene.camera
-    text.location = (*place, -_AWAY_M)
+    text.location = (*place, -away_m)
     text.visible_shadow = text.visible_diffuse = text.visible_glossy = False
     scene.collection.objects.link(text)
     return text
 
 
-def _white() -> bpy.types.Material:
-    material = bpy.data.materials.new("Caption")
-    material.diffuse_color = (1.0, 1.0, 1.0, 1.0)
+def _of_colour(name: str, brightness: float) -> bpy.types.Material:
+    material = bpy.data.materials.new(name)
+    material.diffuse_color = (brightness, brightness, brightness, 1.0)
     emission, output = new_nodes(material, "ShaderNodeEmission", "ShaderNodeOutputMaterial")
+    emission.inputs["Color"].default_value = material.diffuse_color
     material.node_tree.links.new(emission.outputs[0], output.inputs["Surface"])
     return material

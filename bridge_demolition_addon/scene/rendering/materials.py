@@ -28,6 +28,8 @@ class SurfaceMaterial(StrEnum):
     RED_PAINT = "Red paint"
     BLACK_PAINT = "Black paint"
     RUST = "Rusty steel"
+    SKIN = "Skin"
+    BRIDGE_PAINT = "Painted steel"
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,6 +73,10 @@ _LOOKS = {
     SurfaceMaterial.RED_PAINT: _Look((0.55, 0.06, 0.03), (0.45, 0.05, 0.025), (0.60, 0.07, 0.035), 0.4, grain_m=0.5),
     SurfaceMaterial.BLACK_PAINT: _Look((0.03, 0.03, 0.03), (0.012, 0.012, 0.012), (0.03, 0.03, 0.03), 0.6, grain_m=0.4),
     SurfaceMaterial.RUST: _Look((0.25, 0.10, 0.04), (0.12, 0.045, 0.02), (0.26, 0.11, 0.045), 0.8, grain_m=0.1),
+    SurfaceMaterial.BRIDGE_PAINT: _Look(
+        (0.16, 0.24, 0.20), (0.085, 0.135, 0.11), (0.13, 0.19, 0.155), 0.5, grain_m=1.5
+    ),
+    SurfaceMaterial.SKIN: _Look((0.45, 0.27, 0.18), (0.40, 0.23, 0.15), (0.50, 0.30, 0.20), 0.7, grain_m=0.2),
     SurfaceMaterial.CHARGE: _Look((0.80, 0.05, 0.02), (0.75, 0.04, 0.015), (0.85, 0.06, 0.02), 0.5, grain_m=0.2),
 }
 

@@ -18,7 +18,7 @@ from ...display.ball_crane import ball_cranes
 from ...display.bent_bars import bent_bars
 from ...display.chips import Chips, chips_of
 from ...display.dressing import LOOKS_ONLY, DrawnPart, Stuff, joined_by_stuff, rod
-from ...display.dust import puffs, touchdowns
+from ...display.dust import are_steel, puffs, touchdowns
 from ...display.road_furniture import road_furniture
 from ...display.scale_bar import ScaleBar, scale_bar
 from ...display.shard_motion import moved, parted
@@ -47,7 +47,11 @@ _OF_STUFF = {
     Stuff.RED: SurfaceMaterial.RED_PAINT,
     Stuff.BLACK: SurfaceMaterial.BLACK_PAINT,
     Stuff.RUST: SurfaceMaterial.RUST,
+    Stuff.SKIN: SurfaceMaterial.SKIN,
 }
+_OF_SHARDS = (SurfaceMaterial.CONCRETE, SurfaceMaterial.BROKEN_CONCRETE)
+"""What shards are made of where they are built, whatever their density."""
+
 _BROKEN = 1
 """Which of the materials of a shard is that of its cuts: `Finish.BROKEN`."""
 
@@ -57,16 +61,18 @@ _LAND_M = 3000.0
 
 @contextmanager
 def dressed_pictures(
-    scene: bpy.types.Scene, results: Results, view: PictureSettings, *, has_bars: bool
+    scene: bpy.types.Scene, results: Results, view: PictureSettings, *, has_bars: bool, is_captioned: bool = True
 ) -> Iterator[DressedScene]:
     """Give a scene of its own to take pictures of a run in; afterwards it is gone.
 
-    `has_bars` says whether the bridge has reinforcement, which then sticks out where it broke.
+    `has_bars` says whether the bridge has reinforcement, which then sticks out where it broke. Where pictures are too
+    small for words, `is_captioned` leaves them and the scale bar out: what shows such a picture has to say the rest.
     """
     dressed = DressedScene(scene, results, has_bars=has_bars)
     try:
         with pictures_rendered_in(dressed.scene, view):
-            dressed.put_caption_up()
+            if is_captioned:
+                dressed.put_caption_up()
             yield dressed
     finally:
         dressed.remove()
@@ -79,7 +85,7 @@ class DressedScene:
         self._results, self._has_bars, self._of_run = results, has_bars, scene
         self.scene = bpy.data.scenes.new("Pictures")
         share_view(scene, self.scene)
-        self._opened = parted(results)
+        self._opened, self._of_steel = parted(results), are_steel(results.inventory)
         self._rows = {str(name): row for row, name in enumerate(results.inventory.body_names)}
         self._bodies: list[tuple[bpy.types.Object, bpy.types.Object, int]] = []
         self._carried: list[tuple[bpy.types.Object, int]] = []
@@ -96,7 +102,7 @@ class DressedScene:
         broken = puffs(results, opened=self._opened)
         self._dust = raise_dust(self.scene, [*broken, *touchdowns(results)])
         self._chips: Chips = chips_of(broken, times, results.ground())
-        self.bar = self._scale_bar()
+        self.bar: ScaleBar | None = None
 
     def render(self, frame: int, path: Path) -> None:
         """Render a frame of the run."""
@@ -105,7 +111,8 @@ class DressedScene:
         render_picture(self.scene, frame, path)
 
     def put_caption_up(self) -> None:
-        """Write time, scale and what is for looks only before the scene's camera."""
+        """Lay the scale bar; write time, scale and what is for looks only before the scene's camera."""
+        self.bar = self._scale_bar()
         self._caption = Caption(self.scene, self.bar.text, LOOKS_ONLY)
 
     def remove(self) -> None:
@@ -163,7 +170,7 @@ class DressedScene:
         open_now = self._opened[row]
         for original, copy, body in self._bodies:
             touching = np.flatnonzero(open_now & (inventory.pairs == body).any(axis=1))
-            is_ours = kind_of(original) == Kind.SHARD and BUILT_AT in original
+            is_ours = kind_of(original) == Kind.SHARD and BUILT_AT in original and not self._of_steel[body]
             if not is_ours or tuple(touching) == self._rough.get(body, ()):
                 continue
             self._rough[body] = tuple(touching)
@@ -207,6 +214,8 @@ class DressedScene:
                 copy[BUILT_AT] = body[BUILT_AT]
             self.scene.collection.objects.link(copy)
             self._bodies.append((body, copy, self._rows[body.name]))
+            if kind_of(body) == Kind.SHARD and self._of_steel[self._rows[body.name]]:
+                _paint(copy)
 
     def _show_others(self) -> None:
         """Show what is no body: sun, zones, a site plan, what the user has added; and ground without an edge."""
@@ -237,7 +246,7 @@ class DressedScene:
         points = points_in_view(self._of_run)
         if points is None:
             raise OutputError(f"scene {self._of_run.name!r} was not built here: choose pictures.renderer workbench")
-        bar = scale_bar(points, float(points[:, 2].min()))
+        bar = scale_bar(points, self._results.ground())
         self._add_parts(bar.parts())
         return bar
 
@@ -250,6 +259,15 @@ class DressedScene:
             self.scene.collection.objects.link(obj)
             made.append((body, obj))
         return made
+
+
+def _paint(copy: bpy.types.Object) -> None:
+    """Show a shard of steel painted, where its own mesh is of no other material than those that all shards have."""
+    known = {material_of(surface) for surface in _OF_SHARDS}
+    for slot in copy.material_slots:
+        if slot.material in known:
+            slot.link = "OBJECT"
+            slot.material = material_of(SurfaceMaterial.BRIDGE_PAINT)
 
 
 def _is_hidden(obj: bpy.types.Object, frame: int) -> bool:

@@ -15,6 +15,7 @@ import bpy
 import numpy as np
 from mathutils import Vector
 
+from ...display.dust import MOST_PUFFS, MOST_TOUCHDOWNS
 from ...errors import OutputError
 from ...model.scenario.recording import CameraKind, PictureSettings, Renderer
 from ...system.disk import whole_file
@@ -32,8 +33,8 @@ _EXPOSURE_IN_LIGHT = 0.5
 _SAMPLES, _BOUNCES = 6, 2
 """Of Cycles: so few that noise is left, which is then removed."""
 
-_CLOUDS_BEHIND_EACH_OTHER = 24
-"""Surfaces that light goes through: two of each cloud of dust."""
+_CLOUDS_BEHIND_EACH_OTHER = 2 * (MOST_PUFFS + MOST_TOUCHDOWNS)
+"""Surfaces that light goes through: two of each cloud of dust. With fewer, what is behind many clouds is black."""
 
 _GRAPHICS_CARDS = {"NVIDIA", "AMD", "INTEL", "APPLE", "QUALCOMM"}
 """Kinds of devices that Blender draws on; without a card it says SOFTWARE, or UNKNOWN."""

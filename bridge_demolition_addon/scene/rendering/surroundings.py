@@ -51,7 +51,7 @@ def surround(scene: bpy.types.Scene, points: np.ndarray, view: PictureSettings |
     if scene.world is None or _is_of_startup(scene.world):
         _put_sky_up(scene)
     collection, own = collection_for(scene, _SURROUNDINGS), scene.camera
-    scene[_POINTS] = np.asarray(points, float).ravel().tolist()
+    show_points(scene, points)
     camera = aim_camera(scene, points, scene.render.resolution_x / scene.render.resolution_y, collection, view)
     scene.camera = own or camera
     land = _land(camera.data.clip_end / 2.0, _lowest_ground(scene))
@@ -61,6 +61,11 @@ def surround(scene: bpy.types.Scene, points: np.ndarray, view: PictureSettings |
         obj[ROLE] = _SURROUNDINGS
     for layer in scene.view_layers:
         land.hide_set(True, view_layer=layer)  # for pictures alone: View All would show nothing else
+
+
+def show_points(scene: bpy.types.Scene, points: np.ndarray) -> None:
+    """Have cameras that are aimed from now on in a scene see points (n, 3) float, m."""
+    scene[_POINTS] = np.asarray(points, float).ravel().tolist()
 
 
 def points_in_view(scene: bpy.types.Scene) -> np.ndarray | None:

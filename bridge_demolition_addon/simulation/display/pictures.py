@@ -104,16 +104,22 @@ def rendered_pictures(
 
 
 @contextmanager
-def run_renderer(scene: bpy.types.Scene, folder: Path, view: PictureSettings) -> Iterator[Callable[[int, Path], None]]:
+def run_renderer(
+    scene: bpy.types.Scene, folder: Path, view: PictureSettings, *, is_captioned: bool = True
+) -> Iterator[Callable[[int, Path], None]]:
     """Give what renders a frame of a run to a file: of the scene itself by Workbench, or dressed for looks by others.
 
-    The results of the run are in the folder.
+    The results of the run are in the folder. `is_captioned` is whether time, scale and what is for looks only stand in
+    dressed pictures.
     """
     if renderer_of(view) == Renderer.WORKBENCH:
         with prepared_for_pictures(scene, view):
             yield partial(render_picture, scene)
         return
-    with dressed_pictures(scene, load_results(folder), view, has_bars=_has_bars(folder)) as dressed:
+    pictures = dressed_pictures(
+        scene, load_results(folder), view, has_bars=_has_bars(folder), is_captioned=is_captioned
+    )
+    with pictures as dressed:
         yield dressed.render
 
 

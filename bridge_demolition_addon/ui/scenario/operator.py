@@ -87,9 +87,13 @@ class BDA_OT_new_scenario(UndoableAction, bpy.types.Operator):
 
 
 class BDA_OT_load_preset(UndoableAction, bpy.types.Operator):
-    """Show the values of this preset in the panels, and its charges in the scene"""
+    """Show the values of a preset."""
 
     bl_label = "Load Preset"
+    bl_description = (
+        "Show the values of this preset in the panels, and its charges in the scene. In its picture road, banks, "
+        "figures, crane, dust and bars are for looks only"
+    )
     changes_objects = True
 
     preset: StringProperty(name="Preset", description="Name of the preset")

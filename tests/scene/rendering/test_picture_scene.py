@@ -65,6 +65,7 @@ def test_time_scale_and_places_are_those_of_the_run_and_nothing_of_it_changes(bl
     rows = {str(name): row for row, name in enumerate(results.inventory.body_names)}
     # The first frame of a run is Blender's second: the time follows from the rate of frames.
     assert texts["Time"] == f"t = {(frame - results.frames.number[0]) / rates:.2f} s"
+    assert all(texts[f"{name} shade"] == texts[name] for name in ("Time", "Note", "Scale"))
     assert texts["Note"] == LOOKS_ONLY and texts["Scale"] == f"bar: {dressed.bar.text}"
     assert shards and all(name in rows for name in shards)
     assert {"Looks white", "Looks concrete", "Looks black", "Dust 0"} <= set(shown)
