@@ -12,21 +12,21 @@ REPORT_LANGUAGES = ("en", "de", "es", "fr", "zh_hans")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ReportSettings(Table):
-    """Units and language of reports. What is chosen as a report is made, by an option or in the window, comes first."""
+    """Units and language of reports. Options of the command that makes a report come first."""
 
     table: ClassVar[str] = "report"
 
     units: str | None = key(
         "Units of reports: `metric`, or `imperial` for US customary ones (ft, in, lb, kip, ksi, psi). Without it, "
-        "commands make reports in metric units, and Blender's window in those of the scene. The option --units and "
-        "*Units* over *Make Report* come first. Files for other programs stay in SI units: tables, logs, "
+        "commands make reports in metric units, and Blender's window in those of its scene. The option --units comes "
+        "first; *Units* over *Make Report* is this key. Files for other programs stay in SI units: tables, logs, "
         "summary.json, site plans.",
         default=None,
         choices=tuple(system.value for system in UnitSystem),
     )
     language: str | None = key(
         "Language of reports. Without it, commands make reports in English, and Blender's window in its own language. "
-        "The option --language and *Language* over *Make Report* come first.",
+        "The option --language comes first; *Language* over *Make Report* is this key.",
         default=None,
         choices=REPORT_LANGUAGES,
     )

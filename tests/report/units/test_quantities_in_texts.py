@@ -17,7 +17,7 @@ US = Quantities(UnitSystem.IMPERIAL, kept=("Span of 13 m", "deck"))
         ("x = -3.11 to 12.76 m, y = 0.5 m", "x = -10.20 to 41.86 ft, y = 1.64 ft"),
         ("von x = -3.11 bis 12.76 m", "von x = -10.20 bis 41.86 ft"),
         ("la mediana está entre 457.5 y 5378 kg", "la mediana está entre 1008.6 y 11856 lb"),
-        ("速度达 11.4 m/s（Shard 00020）", "速度达 37.4 ft/s（Shard 00020）"),
+        ("速度达 11.4 m/s\uff08Shard 00020\uff09", "速度达 37.4 ft/s\uff08Shard 00020\uff09"),
         ("11.4 m以内", "37.4 ft以内"),
         ("above (6.5, 0) m", "above (21.3, 0) ft"),
         ("12 345 kg", "27216 lb"),
