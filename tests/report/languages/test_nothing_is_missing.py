@@ -72,10 +72,10 @@ def texts_of(document):
 
 def is_metric(text, names):
     """Return whether a text has a metric unit behind a number or in brackets, but where it has to."""
+    text = re.sub(r"v = .*?\)\^-[\d.]+|^\s*[a-z]\S* = .*|\w+_kg \(kg\)|\d CFR \S+", "", text)
     for name in sorted(names, key=len, reverse=True):
         if re.search(r"\d", name):
             text = text.replace(name, "")
-    text = re.sub(r"v = .*?\)\^-[\d.]+|^\s*[a-z]\S* = .*|\w+_kg \(kg\)", "", text)
     units = "|".join(re.escape(unit) for unit in IMPERIAL)
     return re.search(rf"\d\S? (?:{units})(?![\w²³·/^])|[(\uff08](?:{units})[,)\uff09]", text) is not None
 
