@@ -12,7 +12,7 @@ from ..engineering.unit_systems import UnitSystem
 from ..errors import OutputError
 from ..model.ensemble.folder import RETRIED, EnsembleResult
 from ..model.study.file import Ensemble
-from ..report.units.quantities import Quantities
+from ..report.units.quantities import ReportUnits
 from ..studies.engine import Engine, LocalProcesses, cores
 from ..studies.run_process import RunLimits
 from ..studies.session import EnsembleSession
@@ -65,7 +65,7 @@ def execute_ensemble(
             progress.finish()
     if not arguments.quiet:
         asked = arguments.units or ensemble.scenario.report.units or UnitSystem.METRIC
-        quantities = Quantities(UnitSystem(asked))
+        quantities = ReportUnits(UnitSystem(asked))
         _print(session, map(quantities.text, sentences(result)), paths)
 
 

@@ -23,7 +23,7 @@ from ..model.sequence.checked_model import checked_model
 from ..model.sequence.doubts import doubts_of_run
 from ..model.stages.stability import stability_texts
 from ..model.structure.model import Model
-from ..report.units.quantities import Quantities
+from ..report.units.quantities import ReportUnits
 from ..system.progress import Progress
 from .arguments import add_report_options, naming
 from .blender import simulation_module
@@ -150,7 +150,7 @@ def _run_and_report(
     report = _report([output], None, arguments, progress) if arguments.report else []
     if not arguments.quiet:
         progress.finish()
-        quantities = Quantities(UnitSystem(arguments.units or scenario.report.units or UnitSystem.METRIC))
+        quantities = ReportUnits(UnitSystem(arguments.units or scenario.report.units or UnitSystem.METRIC))
         _print_results(summary, output, report, plain, quantities)
 
 
@@ -184,7 +184,7 @@ def _report(
 
 
 def _print_results(
-    summary: Mapping[str, Any], output: Path, report: Sequence[Path], plain: str, quantities: Quantities
+    summary: Mapping[str, Any], output: Path, report: Sequence[Path], plain: str, quantities: ReportUnits
 ) -> None:
     print()
     for doubt in (plain, *stability_texts(summary), *doubts_of_run(summary)):

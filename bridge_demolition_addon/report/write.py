@@ -56,7 +56,7 @@ from .sections.stages import has_stages, stages_report
 from .site_plan import write_areas
 from .survey import survey_report, survey_rows
 from .units.measured_report import measured_document, notes_on_units
-from .units.quantities import Quantities
+from .units.quantities import ReportUnits
 
 
 @dataclass(frozen=True, slots=True)
@@ -191,7 +191,7 @@ def write_survey(
         )
         extras = Extras(language=_checked_language(language), units=_checked_units(units))
         written = _written(report, output, progress, extras)
-    quantities = Quantities(extras.system_of(report), report.names)
+    quantities = ReportUnits(extras.system_of(report), report.names)
     return [(name, quantities.text(value, f"{name} {value}")) for name, value in survey_rows(comparison)], written
 
 
@@ -302,7 +302,7 @@ def _written_in(
 ) -> list[Path]:
     """Write a report in a language; without letters to draw it, only what needs none, with drawings in English."""
     progress.stage("drawing the pictures")
-    quantities = Quantities(extras.system_of(report), report.names, translation.unit)
+    quantities = ReportUnits(extras.system_of(report), report.names, translation.unit)
     english = [report.document, *(report.single_pages[audience] for audience in extras.pages)]
     document, *pages = (measured_document(translated_document(each, translation), each, quantities) for each in english)
     on_drawings = translation if can_draw else Translation.into(ENGLISH)

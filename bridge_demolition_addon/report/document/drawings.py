@@ -13,7 +13,7 @@ from ...charts.style import MM_PER_INCH, PAGE_WIDTH_MM, POINTS_PER_INCH, blank_f
 from ..languages.figures import translate_figure
 from ..languages.translation import Translation
 from ..units.measured_figures import measure_figure
-from ..units.quantities import Quantities
+from ..units.quantities import ReportUnits
 from .blocks import Document, Picture
 
 Drawings = Mapping[Picture, Figure]
@@ -27,7 +27,7 @@ def drawings(
     documents: Document | Iterable[Document],
     finished: Callable[[int, int], None] = lambda *_: None,
     translation: Translation | None = None,
-    quantities: Quantities | None = None,
+    quantities: ReportUnits | None = None,
 ) -> Drawings:
     """Draw all pictures of documents once; `finished` is called with how many are drawn, and how many there are.
 
@@ -43,7 +43,7 @@ def drawings(
     return drawn
 
 
-def drawing(picture: Picture, translation: Translation | None = None, quantities: Quantities | None = None) -> Figure:
+def drawing(picture: Picture, translation: Translation | None = None, quantities: ReportUnits | None = None) -> Figure:
     """Draw a picture as wide as a page, laid out for good: writing it does not lay it out again."""
     size = PAGE_WIDTH_MM / MM_PER_INCH, picture.height_mm / MM_PER_INCH
     # The dots of SVG and PDF are points.

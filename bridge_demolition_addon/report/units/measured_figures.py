@@ -21,13 +21,13 @@ from matplotlib.ticker import (
 )
 
 from ...engineering.unit_systems import Conversion
-from .quantities import Quantities
+from .quantities import ReportUnits
 
 _DISTANCE = "limit"
 """As every distance in a drawing is read: distances from the bridge, which are rounded up."""
 
 
-def measure_figure(figure: Figure, quantities: Quantities) -> None:
+def measure_figure(figure: Figure, quantities: ReportUnits) -> None:
     """Put the texts of a drawing, and the numbers along its axes, into a system of units, before it is laid out."""
     if quantities.are_metric:
         return
@@ -42,7 +42,7 @@ def measure_figure(figure: Figure, quantities: Quantities) -> None:
             text.set_text("\n".join(_measured(line, quantities) for line in shown.split("\n")))
 
 
-def _measured(line: str, quantities: Quantities) -> str:
+def _measured(line: str, quantities: ReportUnits) -> str:
     return quantities.heading(line) if quantities.conversion(line) else quantities.text(line, _DISTANCE)
 
 

@@ -20,7 +20,7 @@ from ..document.blocks import (
     Picture,
     Section,
 )
-from .quantities import Quantities, rounding_of
+from .quantities import ReportUnits, rounding_of
 
 NOTE = (
     "Quantities here are in US customary units: a short ton is 2000 lb, a kip 1000 lbf, and distances that debris "
@@ -32,7 +32,7 @@ NOTE = (
 _NUMBER = re.compile(r"-?\d+(\.\d+)?(e[-+]\d+)?")
 
 
-def measured_document(document: Document, english: Document, quantities: Quantities) -> Document:
+def measured_document(document: Document, english: Document, quantities: ReportUnits) -> Document:
     """Return a report with its quantities in a system of units.
 
     Parameters
@@ -59,11 +59,11 @@ def notes_on_units(system: UnitSystem) -> list[str]:
     return [] if system is UnitSystem.METRIC else [NOTE]
 
 
-def _blocks(blocks: Sequence[Block], english: Sequence[Block], quantities: Quantities) -> tuple[Block, ...]:
+def _blocks(blocks: Sequence[Block], english: Sequence[Block], quantities: ReportUnits) -> tuple[Block, ...]:
     return tuple(_block(block, same, quantities) for block, same in zip(blocks, english, strict=True))
 
 
-def _block(block: Block, english: Block, quantities: Quantities) -> Block:
+def _block(block: Block, english: Block, quantities: ReportUnits) -> Block:
     match block, english:
         case Paragraph(), Paragraph():
             return replace(block, text=quantities.text(block.text, english.text))
@@ -74,7 +74,7 @@ def _block(block: Block, english: Block, quantities: Quantities) -> Block:
     return block
 
 
-def _table(table: DataTable, english: DataTable, quantities: Quantities) -> DataTable:
+def _table(table: DataTable, english: DataTable, quantities: ReportUnits) -> DataTable:
     """Return a table as people read it: its file is written from that in SI units."""
     conversions = [_conversion(column, table.title, quantities) for column in table.columns]
     columns = tuple(
@@ -87,7 +87,7 @@ def _table(table: DataTable, english: DataTable, quantities: Quantities) -> Data
     return replace(table, title=quantities.heading(table.title, english.title), columns=columns, rows=rows)
 
 
-def _conversion(column: Column, title: str, quantities: Quantities) -> Conversion | None:
+def _conversion(column: Column, title: str, quantities: ReportUnits) -> Conversion | None:
     """Return the conversion of a column with a unit in its heading, or in its key and the title of the table."""
     if (own := quantities.conversion(column.heading)) or not column.form:
         return own
@@ -101,7 +101,7 @@ def _row(
     english: DataTable,
     same: tuple[Any, ...],
     conversions: Sequence[Conversion | None],
-    quantities: Quantities,
+    quantities: ReportUnits,
 ) -> tuple[Any, ...]:
     """Return a row in the system, by the units of its columns, or by its own."""
     texts = [str(value) for value in same if isinstance(value, str)]
@@ -120,7 +120,7 @@ def _row(
     return tuple(cells)
 
 
-def _unit_of_row(table: DataTable, row: tuple[Any, ...], quantities: Quantities) -> Conversion | None:
+def _unit_of_row(table: DataTable, row: tuple[Any, ...], quantities: ReportUnits) -> Conversion | None:
     """Return the conversion of a row by the unit in one of its cells: by itself, or in brackets behind a name."""
     cells = (value for column, value in zip(table.columns, row, strict=True) if not (column.of_row or column.form))
     conversions = (quantities.conversion(str(value)) for value in cells)
@@ -136,7 +136,7 @@ def _number(column: Column, value: Any, conversion: Conversion, about: str) -> A
     return float(number) + 0.0 if column.form else number  # no zero with a sign
 
 
-def _column(column: Column, conversion: Conversion | None, quantities: Quantities) -> Column:
+def _column(column: Column, conversion: Conversion | None, quantities: ReportUnits) -> Column:
     """Return a column with its unit in the system, and about as many digits as it had."""
     heading = quantities.heading(column.heading)
     if not column.form or (conversion is None and not column.of_row):

@@ -1,4 +1,4 @@
-"""Quantities in texts, put into another system of units: the one place where a report's numbers change their unit.
+"""Quantities in texts, put into another system of units: nowhere else do numbers of a report change their unit.
 
 Texts of a report are made in SI units, and translated with their numbers in them. Then quantities are read there, a
 number or several before the symbol of a unit, and put into the units that are asked for. Formulas, lines that go into
@@ -41,7 +41,7 @@ _AT_LEAST = re.compile(rf"lie above ({_NUMBER}) m\b")
 _DISTANCES = ("m", "km")
 
 
-class Quantities:
+class ReportUnits:
     """The quantities of one report in a system of units.
 
     Parameters
@@ -136,5 +136,5 @@ def _number(conversion: Conversion, text: str, rounding: Rounding) -> str:
     return conversion.number(text.replace("\u2212", "-").replace(" ", ""), rounding)
 
 
-IN_METRIC = Quantities(UnitSystem.METRIC)
+IN_METRIC = ReportUnits(UnitSystem.METRIC)
 """Leaves all quantities as they are."""

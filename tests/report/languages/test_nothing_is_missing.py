@@ -17,7 +17,7 @@ from bridge_demolition_addon.report.languages.table import ENGLISH, language_nam
 from bridge_demolition_addon.report.languages.translated_report import translated_document
 from bridge_demolition_addon.report.languages.translation import Translation
 from bridge_demolition_addon.report.units.measured_report import NOTE, measured_document
-from bridge_demolition_addon.report.units.quantities import Quantities
+from bridge_demolition_addon.report.units.quantities import ReportUnits
 
 LANGUAGES = [name for name in language_names() if name != ENGLISH]
 
@@ -54,7 +54,7 @@ def test_a_new_sentence_would_be_missed(made):
 def test_no_quantity_of_any_kind_of_report_stays_metric_in_us_units(made, language):
     for report in made:
         translation = Translation.into(language, report.names)
-        quantities = Quantities(UnitSystem.IMPERIAL, report.names, translation.unit)
+        quantities = ReportUnits(UnitSystem.IMPERIAL, report.names, translation.unit)
         for document in (report.document, *report.single_pages.values()):
             measured = measured_document(translated_document(document, translation), document, quantities)
             assert [text for text in texts_of(measured) if is_metric(text, report.names)] == []

@@ -4,9 +4,9 @@
 import pytest
 
 from bridge_demolition_addon.engineering.unit_systems import UnitSystem
-from bridge_demolition_addon.report.units.quantities import IN_METRIC, Quantities
+from bridge_demolition_addon.report.units.quantities import IN_METRIC, ReportUnits
 
-US = Quantities(UnitSystem.IMPERIAL, kept=("Span of 13 m", "deck"))
+US = ReportUnits(UnitSystem.IMPERIAL, kept=("Span of 13 m", "deck"))
 
 
 @pytest.mark.parametrize(
@@ -70,5 +70,5 @@ def test_headings_have_their_unit_in_brackets_or_are_one():
 
 
 def test_a_language_may_have_its_own_names_of_units():
-    german = Quantities(UnitSystem.IMPERIAL, unit_name={"short tons": "US-Tonnen"}.get)
+    german = ReportUnits(UnitSystem.IMPERIAL, unit_name={"short tons": "US-Tonnen"}.get)
     assert german.text("10.0 t") == "11.0 US-Tonnen"
