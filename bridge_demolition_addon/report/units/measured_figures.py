@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -75,6 +74,11 @@ class _Borrowed:
         return getattr(self._axis, name)
 
 
+def _borrowed(axis: Any, factor: float) -> Any:
+    """Return an axis in the other unit, as locators and formatters take one."""
+    return _Borrowed(axis, factor)
+
+
 class _OtherTicks(Locator):
     """Ticks at round numbers of the other unit."""
 
@@ -83,7 +87,7 @@ class _OtherTicks(Locator):
 
     def set_axis(self, axis: Any) -> None:
         super().set_axis(axis)
-        self._inner.set_axis(_Borrowed(axis, self._factor))
+        self._inner.set_axis(_borrowed(axis, self._factor))
 
     def __call__(self) -> Any:
         return np.asarray(self._inner()) / self._factor
@@ -100,14 +104,14 @@ class _OtherNumbers(Formatter):
 
     def set_axis(self, axis: Any) -> None:
         super().set_axis(axis)
-        self._inner.set_axis(_Borrowed(axis, self._factor))
+        self._inner.set_axis(_borrowed(axis, self._factor))
 
     def __call__(self, x: float, pos: int | None = None) -> str:
         return self._inner(x * self._factor, pos)
 
-    def set_locs(self, locs: Sequence[float]) -> None:
+    def set_locs(self, locs: list[float]) -> None:
         super().set_locs(locs)
-        self._inner.set_locs(np.asarray(locs) * self._factor)
+        self._inner.set_locs([loc * self._factor for loc in locs])
 
     def get_offset(self) -> str:
         return self._inner.get_offset()
