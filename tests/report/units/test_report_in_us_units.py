@@ -11,6 +11,7 @@ import pytest
 from support.run_folders import TOLD, flying_shards, keep_run
 
 from bridge_demolition_addon.cli.progress import Silence
+from bridge_demolition_addon.errors import OutputError
 from bridge_demolition_addon.model.scenario import Exclusion, ReportSettings
 from bridge_demolition_addon.report.document import pdf
 from bridge_demolition_addon.report.write import write_report
@@ -158,3 +159,8 @@ def test_files_for_programs_are_the_same_in_both(made):
         assert (metric / "tables" / name).read_bytes() == (imperial / "tables" / name).read_bytes(), name
     plan = "exclusion_zone_of_one_run.dxf"
     assert (metric / plan).read_bytes() == (imperial / plan).read_bytes()
+
+
+def test_units_that_are_not_known_are_refused_with_those_that_are(tmp_path):
+    with pytest.raises(OutputError, match=r"units of the report are 'feet': expected metric, imperial"):
+        write_report([tmp_path], None, units="feet", progress=Silence())
