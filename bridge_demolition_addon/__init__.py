@@ -168,12 +168,17 @@ def debris_plan(results: Results, scenario: Scenario | None = None) -> Figure:
 
 
 def write_report(
-    folder: str | PathLike[str] | Sequence[str | PathLike[str]], output: str | PathLike[str] | None = None
+    folder: str | PathLike[str] | Sequence[str | PathLike[str]],
+    output: str | PathLike[str] | None = None,
+    *,
+    language: str | None = None,
+    units: str | None = None,
 ) -> list[Path]:
     """Write the report of a run, study, search, optimisation or stages from its folder, and return the files.
 
     The first file is the page. Several folders of runs are compared, in the folder `output`. By default the report goes
-    beside the results.
+    beside the results. `language` is ``en``, ``de``, ``es``, ``fr`` or ``zh_hans``, and `units` ``metric`` or
+    ``imperial``; without them those that the scenario asks for count, else English and metric.
 
     Examples
     --------
@@ -185,7 +190,7 @@ def write_report(
 
     folders = [folder] if isinstance(folder, str | PathLike) else folder
     target = None if output is None else Path(output)
-    return write([Path(one) for one in folders], target, progress=Silence())
+    return write([Path(one) for one in folders], target, language=language, units=units, progress=Silence())
 
 
 def export(folder: str | PathLike[str], to: str, output: str | PathLike[str] | None = None) -> Path:

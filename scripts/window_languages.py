@@ -47,6 +47,7 @@ SAME = {
     *("FIXED", "GENERIC", "GENERIC_SPRING", "HINGE", "POINT"),
     *("kingery-bulmash", "kinney-graham"),
     *("English", "Deutsch", "Español", "Français", "简体中文"),
+    *("en", "de", "es", "fr", "zh_hans"),
     *("LENGTH", "NONE", "ifc_elements", "optimise", "scenario"),
 }
 """Names and signs that are the same in all languages, and names that are never shown."""

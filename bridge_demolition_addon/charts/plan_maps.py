@@ -18,6 +18,7 @@ from matplotlib.tri import Triangulation
 
 from ..engineering.geometry.plan_areas import outlines
 from ..engineering.terrain.recorded import RecordedGround
+from ..engineering.units import rounded_up
 from ..model.debris.exclusion import ExclusionZone
 from ..model.debris.footprint import plan_hulls
 from ..model.debris.throws import Debris, HeightMap
@@ -308,4 +309,4 @@ def _dimension(axes: Axes, zone: ExclusionZone) -> None:
     for start, end, length in sides:
         axes.annotate("", end, start, arrowprops=arrow)
         position = (np.array(start) + np.array(end)) / 2.0
-        axes.annotate(f"{length:.1f} m", position, ha="center", va="center", fontsize=8, bbox=box)
+        axes.annotate(f"{rounded_up(length, '0.1')} m", position, ha="center", va="center", fontsize=8, bbox=box)

@@ -7,6 +7,7 @@ from contextlib import contextmanager
 
 from ..engineering.blast.pulses import BlastModel
 from ..engineering.blast.wave import Burst
+from ..engineering.unit_systems import UnitSystem
 from ..errors import BlastError, GeometryError, ScenarioError
 from ..report.languages.table import ENGLISH, language_names
 
@@ -52,11 +53,17 @@ def add_blast_options(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def add_language_option(parser: argparse.ArgumentParser) -> None:
-    """Add the language of reports."""
+def add_report_options(parser: argparse.ArgumentParser) -> None:
+    """Add the language and the units of reports; without them those that the scenario asks for count."""
     parser.add_argument(
         "--language",
         choices=language_names(),
-        default=ENGLISH,
-        help=f"language of the report: {', '.join(language_names())} ({ENGLISH}), see docs/languages.md",
+        help=f"language of the report: {', '.join(language_names())}, see docs/languages.md (that of the scenario, "
+        f"else {ENGLISH})",
+    )
+    parser.add_argument(
+        "--units",
+        choices=tuple(system.value for system in UnitSystem),
+        help="units of the report and of what is printed: metric, or imperial for ft, in, lb, kip, ksi and psi; files "
+        f"for programs stay in SI units (those of the scenario, else {UnitSystem.METRIC.value})",
     )

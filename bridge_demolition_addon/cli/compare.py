@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 
 from ..model.run_folder.files import SURVEY_FOLDER
-from .arguments import add_language_option, quantity
+from .arguments import add_report_options, quantity
 from .progress import progress_on
 
 
@@ -47,7 +47,7 @@ def add_to(commands: argparse._SubParsersAction) -> None:
     parser.add_argument(
         "--output", metavar="DIR", type=Path, help=f"folder for the report ({SURVEY_FOLDER} in the run)"
     )
-    add_language_option(parser)
+    add_report_options(parser)
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
     parser.set_defaults(execute=compare)
 
@@ -69,6 +69,7 @@ def compare(arguments: argparse.Namespace) -> None:
             arguments.output or arguments.run / SURVEY_FOLDER,
             progress,
             arguments.language,
+            arguments.units,
         )
     finally:
         progress.finish()

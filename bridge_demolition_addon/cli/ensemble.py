@@ -8,14 +8,16 @@ from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import Any
 
+from ..engineering.unit_systems import UnitSystem
 from ..errors import OutputError
 from ..model.ensemble.folder import RETRIED, EnsembleResult
 from ..model.study.file import Ensemble
+from ..report.units.quantities import ReportUnits
 from ..studies.engine import Engine, LocalProcesses, cores
 from ..studies.run_process import RunLimits
 from ..studies.session import EnsembleSession
 from ..system.signals import Interrupted, signals_noted
-from .arguments import add_language_option
+from .arguments import add_report_options
 from .progress import CommandProgress, progress_on
 
 _LOOK_EVERY_S = 0.2
@@ -35,7 +37,7 @@ def add_ensemble_options(parser: argparse.ArgumentParser) -> None:
         "--dask", metavar="ADDRESS", help="run on the Dask cluster of this scheduler, as tcp://host:8786"
     )
     parser.add_argument("--report", action="store_true", help="make a report at the end, in DIR/report")
-    add_language_option(parser)
+    add_report_options(parser)
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
 
 
@@ -57,11 +59,14 @@ def execute_ensemble(
         try:
             if before_report:
                 before_report(session, progress)
-            paths += write_report([arguments.output], None, language=arguments.language, progress=progress)
+            options = {"language": arguments.language, "units": arguments.units}
+            paths += write_report([arguments.output], None, **options, progress=progress)
         finally:
             progress.finish()
     if not arguments.quiet:
-        _print(session, sentences(result), paths)
+        asked = arguments.units or ensemble.scenario.report.units or UnitSystem.METRIC
+        quantities = ReportUnits(UnitSystem(asked))
+        _print(session, map(quantities.text, sentences(result)), paths)
 
 
 def _run(ensemble: Ensemble, arguments: argparse.Namespace) -> tuple[EnsembleSession, EnsembleResult, list[Path]]:

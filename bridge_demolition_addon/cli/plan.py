@@ -6,7 +6,7 @@ from pathlib import Path
 
 from ..errors import ScenarioError
 from ..model.scenario.file import read_scenario
-from .arguments import add_language_option, naming
+from .arguments import add_report_options, naming
 from .progress import progress_on
 
 
@@ -21,7 +21,7 @@ def add_to(commands: argparse._SubParsersAction) -> None:
     )
     parser.add_argument("scenario", metavar="SCENARIO.toml", type=Path, help="scenario file with [[blast_zones]]")
     parser.add_argument("--output", metavar="DIR", type=Path, required=True, help="folder for the plan, made if new")
-    add_language_option(parser)
+    add_report_options(parser)
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
     parser.set_defaults(execute=plan)
 
@@ -39,7 +39,7 @@ def plan(arguments: argparse.Namespace) -> None:
     progress = progress_on(sys.stdout, quiet=arguments.quiet)
     try:
         with naming(arguments.scenario):
-            written = write_charge_plan(scenario, arguments.output, progress, arguments.language)
+            written = write_charge_plan(scenario, arguments.output, progress, arguments.language, arguments.units)
     finally:
         progress.finish()
     if not arguments.quiet:

@@ -5,7 +5,7 @@ import sys
 from pathlib import Path
 
 from ..model.run_folder.files import SINGLE_PAGES
-from .arguments import add_language_option
+from .arguments import add_report_options
 from .progress import progress_on
 
 _ALL = "all"
@@ -39,7 +39,7 @@ def add_to(commands: argparse._SubParsersAction) -> None:
         default=(),
         help=f"also write single pages of a run or a study: {', '.join(SINGLE_PAGES)}, with commas between, or all",
     )
-    add_language_option(parser)
+    add_report_options(parser)
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
     parser.set_defaults(execute=report)
 
@@ -70,6 +70,7 @@ def report(arguments: argparse.Namespace) -> None:
             word=arguments.docx,
             pages=arguments.pages,
             language=arguments.language,
+            units=arguments.units,
             progress=progress,
         )
     finally:

@@ -8,6 +8,7 @@ from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import Any
 
+from ..engineering.unit_systems import UnitSystem
 from ..errors import Faults, OutputError
 from ..model.reinforcement.concrete_members import plain_concrete_text
 from ..model.results.bar_extremes import bars_text, largest_use_text
@@ -22,8 +23,9 @@ from ..model.sequence.checked_model import checked_model
 from ..model.sequence.doubts import doubts_of_run
 from ..model.stages.stability import stability_texts
 from ..model.structure.model import Model
+from ..report.units.quantities import ReportUnits
 from ..system.progress import Progress
-from .arguments import add_language_option, naming
+from .arguments import add_report_options, naming
 from .blender import simulation_module
 from .progress import progress_on
 
@@ -58,7 +60,7 @@ def add_to(commands: argparse._SubParsersAction) -> None:
         action="store_true",
         help=f"make a report of each run at its end, and one that compares all of them, in DIR/{COMPARISON_FOLDER}",
     )
-    add_language_option(parser)
+    add_report_options(parser)
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
     parser.set_defaults(execute=run)
 
@@ -111,7 +113,7 @@ def _run_comparison(scenarios: Sequence[Scenario], arguments: argparse.Namespace
         _run_and_report(path, scenario, model, folder, arguments, progress)
     if arguments.report:
         progress.stage(f"comparing {len(scenarios)} runs")
-        written = _report(folders, comparison, arguments.language, progress)
+        written = _report(folders, comparison, arguments, progress)
         if not arguments.quiet:
             progress.finish()
             _print_paths(written)
@@ -145,10 +147,11 @@ def _run_and_report(
             film=arguments.film,
             progress=progress,
         )
-    report = _report([output], None, arguments.language, progress) if arguments.report else []
+    report = _report([output], None, arguments, progress) if arguments.report else []
     if not arguments.quiet:
         progress.finish()
-        _print_results(summary, output, report, plain)
+        quantities = ReportUnits(UnitSystem(arguments.units or scenario.report.units or UnitSystem.METRIC))
+        _print_results(summary, output, report, plain, quantities)
 
 
 def run_with_everything(scenario: Scenario, output: Path, progress: Progress, *, quiet: bool) -> Mapping[str, Any]:
@@ -172,19 +175,23 @@ def _blender_silenced() -> Iterator[None]:
         os.close(standard_output)
 
 
-def _report(folders: Sequence[Path], output: Path | None, language: str, progress: Progress) -> list[Path]:
+def _report(
+    folders: Sequence[Path], output: Path | None, arguments: argparse.Namespace, progress: Progress
+) -> list[Path]:
     from ..report.write import write_report
 
-    return write_report(folders, output, language=language, progress=progress)
+    return write_report(folders, output, language=arguments.language, units=arguments.units, progress=progress)
 
 
-def _print_results(summary: Mapping[str, Any], output: Path, report: Sequence[Path], plain: str) -> None:
+def _print_results(
+    summary: Mapping[str, Any], output: Path, report: Sequence[Path], plain: str, quantities: ReportUnits
+) -> None:
     print()
     for doubt in (plain, *stability_texts(summary), *doubts_of_run(summary)):
         if doubt:
-            print(f"{doubt}.\n")
+            print(f"{quantities.text(doubt)}.\n")
     for name, value in _result_facts(summary):
-        print(f"{name:<24}{value}")
+        print(f"{name:<24}{quantities.text(value, name)}")
     results = [output / name for name in RESULT_FILES]
     _print_paths([*(path for path in results if path.exists() and path not in report), *report])
 

@@ -1,6 +1,7 @@
 """Standard gravity, units at the end of names, and masses and volumes in their units as text."""
 
 import math
+from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
 
 STANDARD_GRAVITY_M_S2 = 9.80665
 """Standard acceleration of free fall, exact; 1 kgf is the weight of 1 kg under it."""
@@ -63,6 +64,16 @@ def with_digits(value: float, decimals: int, significant: int = SIGNIFICANT_DIGI
     if value == 0.0 or not math.isfinite(value):
         return f"{value:.{decimals}f}"
     return f"{value:.{max(decimals, significant - 1 - math.floor(math.log10(abs(value))))}f}"
+
+
+def rounded_up(value: float, step: str) -> str:
+    """Return a number, rounded up to a decimal step such as 0.1; rounding errors of binary fractions do not count."""
+    return str(Decimal(f"{value:.9f}").quantize(Decimal(step), ROUND_CEILING))
+
+
+def rounded_down(value: float, step: str) -> str:
+    """Return a number, rounded down to a decimal step; see `rounded_up`."""
+    return str(Decimal(f"{value:.9f}").quantize(Decimal(step), ROUND_FLOOR))
 
 
 def mass_text(mass_kg: float, decimals: int = 3, *, width: int = 0) -> str:

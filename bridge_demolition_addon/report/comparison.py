@@ -91,7 +91,7 @@ def _finding_table(runs: Sequence[tuple[str, ReportedRun]], debris: Sequence[tup
     columns = (
         Column("", "finding"),
         Column("unit", "unit"),
-        *(Column(name, name, ".5g") for name, _ in runs),
+        *(Column(name, name, ".5g", of_row=True) for name, _ in runs),
     )
     rows = [(same[0].label, same[0].unit, *(finding.value for finding in same)) for same in zip(*by_run, strict=True)]
     return DataTable("comparison", "Main findings", columns, rows)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..engineering.units import mass_text
+from ..engineering.units import mass_text, rounded_up
 from ..model.debris.throws import Debris, percentiles_by_mass
 from ..model.results.collapse import collapse_progress, rest_of
 from ..model.results.force_history import most_loaded
@@ -53,7 +53,7 @@ def _throws(run: ReportedRun, debris: Debris) -> list[Finding]:
     largest, body = float(debris.throws_m[farthest]), run.recorded.inventory.body_names[debris.bodies[farthest]]
     (most_of_it,) = percentiles_by_mass(debris.throws_m, debris.masses_kg, (95,)).tolist()
     reach_m, note = float(debris.reaches_m.max()), still_moving_note(run.recorded)
-    texts = (f"{most_of_it:.2f} m", f"{largest:.2f} m, {body}", f"{reach_m:.2f} m")
+    texts = (f"{most_of_it:.2f} m", f"{largest:.2f} m, {body}", f"{rounded_up(reach_m, '0.01')} m")
     return [
         Finding(label, "m", value, f"{text} ({note})" if note else text)
         for label, value, text in zip(labels, (most_of_it, largest, reach_m), texts, strict=True)

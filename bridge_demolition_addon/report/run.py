@@ -62,7 +62,7 @@ def run_report(
     document = run_document(run, VERSION, zone, names, trajectories=trajectories, stages=with_stages)
     tables = () if zone is None else (corner_table(zone),)
     kept = names_in_run(run) | (frozenset() if with_stages is None else names_in_stages(with_stages))
-    return Report(document, tables, tuple(plans), single_pages(document, run.scenario), kept)
+    return Report(document, tables, tuple(plans), single_pages(document, run.scenario), kept, run.report_settings)
 
 
 def run_document(

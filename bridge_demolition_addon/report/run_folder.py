@@ -23,7 +23,7 @@ from ..model.run_folder.files import FORCE_LOG, PICTURE_FOLDER, PICTURES, SCENAR
 from ..model.run_folder.folder import holds_run, writer_of_run
 from ..model.run_folder.logs import LoggedForces, count_logged_breaks, read_logged_forces
 from ..model.run_folder.summary import RunSummary, read_summary
-from ..model.scenario import Scenario
+from ..model.scenario import ReportSettings, Scenario
 from ..model.scenario.file import read_scenario
 from ..model.schema import given
 from ..model.sequence.held_parts import held_parts_text
@@ -59,6 +59,11 @@ class ReportedRun:
     def planned(self) -> Scenario:
         """Scenario of a run that is known to have one."""
         return given(self.scenario)
+
+    @property
+    def report_settings(self) -> ReportSettings:
+        """Units and language that its scenario asks for in reports; none without a scenario."""
+        return self.scenario.report if self.scenario else ReportSettings()
 
     @property
     def still_moving(self) -> str:

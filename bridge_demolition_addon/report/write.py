@@ -10,6 +10,7 @@ from itertools import chain
 from pathlib import Path
 from typing import Any
 
+from ..engineering.unit_systems import UnitSystem
 from ..errors import OutputError, text_of
 from ..exports.sheets import write_workbook
 from ..model.debris.survey import SurveyComparison, SurveySettings, compared, read_survey
@@ -54,6 +55,8 @@ from .sections.charge_plan import planned_section
 from .sections.stages import has_stages, stages_report
 from .site_plan import write_areas
 from .survey import survey_report, survey_rows
+from .units.measured_report import measured_document, notes_on_units
+from .units.quantities import ReportUnits
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,11 +97,23 @@ _WITH_PAGES = ("run", "study")
 
 @dataclass(frozen=True, slots=True)
 class Extras:
-    """What is written beside page and PDF, a Word file and single pages by whom they are for, and in which language."""
+    """What is written beside page and PDF, a Word file and single pages by whom they are for; language and units.
+
+    Without a language or units of its own, a report is in those that its scenario asks for, else English and metric.
+    """
 
     word: bool = False
     pages: tuple[str, ...] = ()
-    language: str = ENGLISH
+    language: str | None = None
+    units: str | None = None
+
+    def language_of(self, report: Report) -> str:
+        """Return the language of a report."""
+        return self.language or report.settings.language or ENGLISH
+
+    def system_of(self, report: Report) -> UnitSystem:
+        """Return the system of units of a report."""
+        return UnitSystem(self.units or report.settings.units or UnitSystem.METRIC)
 
 
 NO_EXTRAS = Extras()
@@ -122,7 +137,8 @@ def write_report(
     stages: bool = False,
     word: bool = False,
     pages: Sequence[str] = (),
-    language: str = ENGLISH,
+    language: str | None = None,
+    units: str | None = None,
     progress: Progress,
 ) -> list[Path]:
     """Write the report of a folder of any kind, or the comparison of several runs, and return all files written.
@@ -130,12 +146,12 @@ def write_report(
     The report goes to `output`, or by default into the folder that it is made from. `trajectories` draws the paths of
     the shards on the map of debris; `stages` first works out the stages of the run's scenario, for a chapter on them.
     `word` also writes it as a Word file; `pages` are for whom single pages of a run or a study are written. `language`
-    is one of `language_names`; files and their keys stay English.
+    is one of `language_names` and `units` one of `UnitSystem`, both None for those that the scenario asks for; files
+    and their keys stay English and in SI units.
     """
-    check_language(language)
+    extras = Extras(word, tuple(dict.fromkeys(pages)), _checked_language(language), _checked_units(units))
     if word:
         check_word()
-    extras = Extras(word, tuple(dict.fromkeys(pages)), language)
     if len(folders) > 1:
         return _write_comparison(folders, output, extras, stages=stages, progress=progress)
     [folder] = folders
@@ -160,7 +176,8 @@ def write_survey(
     settings: SurveySettings,
     output: Path,
     progress: Progress,
-    language: str = ENGLISH,
+    language: str | None = None,
+    units: str | None = None,
 ) -> tuple[list[tuple[str, str]], list[Path]]:
     """Compare a run with a survey of its debris, write that as a report, and return what it says and all files.
 
@@ -169,9 +186,13 @@ def write_survey(
     progress.stage(f"reading the results, and {survey.name}")
     comparison, run = survey_beside_run(folder, survey, place, settings)
     with _written_to(output):
-        report = replace(survey_report(comparison, run.name, survey), names=names_in_run(run))
-        written = _written(report, output, progress, Extras(language=language))
-    return survey_rows(comparison), written
+        report = replace(
+            survey_report(comparison, run.name, survey), names=names_in_run(run), settings=run.report_settings
+        )
+        extras = Extras(language=_checked_language(language), units=_checked_units(units))
+        written = _written(report, output, progress, extras)
+    quantities = ReportUnits(extras.system_of(report), report.names)
+    return [(name, quantities.text(value, f"{name} {value}")) for name, value in survey_rows(comparison)], written
 
 
 def survey_beside_run(
@@ -209,10 +230,13 @@ def _write_comparison(
     runs = [read_run(folder) for folder in folders]
     names = frozenset(chain.from_iterable(map(names_in_run, runs)))
     with _written_to(output):
-        return _written(Report(comparison(runs, VERSION), names=names), output, progress, extras)
+        report = Report(comparison(runs, VERSION), names=names, settings=runs[0].report_settings)
+        return _written(report, output, progress, extras)
 
 
-def write_charge_plan(scenario: Scenario, target: Path, progress: Progress, language: str = ENGLISH) -> list[Path]:
+def write_charge_plan(
+    scenario: Scenario, target: Path, progress: Progress, language: str | None = None, units: str | None = None
+) -> list[Path]:
     """Write the charge plan of a scenario with blast zones to a folder, and return all files written.
 
     Without XlsxWriter there is no workbook.
@@ -224,7 +248,12 @@ def write_charge_plan(scenario: Scenario, target: Path, progress: Progress, lang
     with _written_to(target):
         drawn = write_areas(areas, scenario.site, target / CHARGES_DXF, target / CHARGES_GEOJSON)
         written = [
-            *_written(Report(document, names=names_of(scenario)), target, progress, Extras(language=language)),
+            *_written(
+                Report(document, names=names_of(scenario), settings=scenario.report),
+                target,
+                progress,
+                Extras(language=_checked_language(language), units=_checked_units(units)),
+            ),
             *drawn,
         ]
         book = target / PLAN_WORKBOOK
@@ -232,6 +261,16 @@ def write_charge_plan(scenario: Scenario, target: Path, progress: Progress, lang
             (table.name, [column.key for column in table.columns], table.rows) for table in document.named_tables()
         ]
         return [*written, book] if write_workbook(tables, book) else written
+
+
+def _checked_language(name: str | None) -> str | None:
+    return None if name is None else check_language(name)
+
+
+def _checked_units(name: str | None) -> str | None:
+    if name is not None and name not in list(UnitSystem):
+        raise OutputError(f"units of the report are {name!r}: expected {', '.join(UnitSystem)}")
+    return name
 
 
 @contextmanager
@@ -250,7 +289,7 @@ def _written_to(target: Path) -> Iterator[None]:
 
 
 def _written(report: Report, target: Path, progress: Progress, extras: Extras = NO_EXTRAS) -> list[Path]:
-    translation = Translation.into(extras.language, report.names)
+    translation = Translation.into(extras.language_of(report), report.names)
     with letters_of(translation.table) as can_draw:
         written = _written_in(report, translation, can_draw, target, progress, extras)
     if not can_draw:
@@ -263,11 +302,15 @@ def _written_in(
 ) -> list[Path]:
     """Write a report in a language; without letters to draw it, only what needs none, with drawings in English."""
     progress.stage("drawing the pictures")
-    document = translated_document(report.document, translation)
-    pages = [translated_document(report.single_pages[audience], translation) for audience in extras.pages]
+    quantities = ReportUnits(extras.system_of(report), report.names, translation.unit)
+    english = [report.document, *(report.single_pages[audience] for audience in extras.pages)]
+    document, *pages = (measured_document(translated_document(each, translation), each, quantities) for each in english)
     on_drawings = translation if can_draw else Translation.into(ENGLISH)
-    drawn = drawings((document, *pages), lambda done, total: progress.part(done, total, "pictures drawn"), on_drawings)
-    if notes := notes_on_language(translation, can_draw):
+    drawn = drawings(
+        (document, *pages), lambda done, total: progress.part(done, total, "pictures drawn"), on_drawings, quantities
+    )
+    of_units = [translation.text(note) for note in notes_on_units(quantities.system)]
+    if notes := [*of_units, *notes_on_language(translation, can_draw)]:
         document, pages = with_notes(document, notes), [with_notes(page, notes) for page in pages]
     progress.stage(f"writing {REPORT_PAGE}")
     write_html(document, drawn, target / REPORT_PAGE, translation)

@@ -41,7 +41,7 @@ def test_tables_have_the_worked_example(folder):
     assert {round(float(row["specific_charge_kg_m3"]), 6) for row in charges} == {1.0}
     assert {row["effect"] for row in charges} == {"thrown out"}
     totals = {row["fact"]: row["value"] for row in table(folder, "charge_totals")}
-    assert totals["By mass of the bridge"] == "22.5 g/t; recorded jobs have 3 to 18"
+    assert totals["By mass of the bridge"] == "22.5 g/t; recorded jobs have 3 to 18 g/t"
     assert totals["Largest mass within 8 ms"] == "1.47 kg"  # both columns of a pier
     assert totals["From the first row to the last"] == "600 ms"
 

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """``bda run`` runs a scenario, says how far it is, and ends with a status that tells what happened."""
 
+import json
+import re
 import signal
 import sys
 import time
@@ -41,6 +43,17 @@ def test_a_run_says_how_far_it_is_and_where_the_results_are(finished):
     assert any(line.startswith("broken connections") for line in lines)
     assert any(line.startswith("no reinforcing bars in deck, pier cap, pier: ") for line in lines)
     assert "\r" not in printed
+
+
+def test_what_is_printed_is_in_the_units_that_are_wanted_and_the_summary_in_si(finished, scenario_path, tmp_path):
+    output, (_, printed, _) = finished
+    wanted = "--no-pictures", "--units", "imperial"
+    _, us, _ = run_bda("run", scenario_path, "--output", tmp_path / "us", *wanted)
+    newtons = json.loads((tmp_path / "us" / "summary.json").read_text())["largest_force_sum"]["force_N"]
+    assert newtons == json.loads((output / "summary.json").read_text())["largest_force_sum"]["force_N"]
+    assert f"{newtons / 1e3:.1f} kN on" in printed
+    kip = float(re.search(r"largest sum of forces +([\d.]+) kip on", us)[1])
+    assert kip == pytest.approx(newtons / 4448.222, rel=1e-3)  # the kip of NIST SP 811, appendix B.8
 
 
 def test_no_pictures_are_rendered_when_none_are_wanted(finished):

@@ -45,7 +45,7 @@ def test_misfires_and_an_odd_amount_are_named():
     assert tables(section)["charge_table"].shown_rows()[0][8] == "misfires"
     light = charge_plan_section(replace(DRILLED, blast_zones=[replace(first, charge_g=10.0)]))
     # 10 holes of 10 g on 196 t: 0.51 g/t
-    assert "0.5 g/t are outside 1 to 90, which recorded jobs are within." in notices(light)
+    assert "0.5 g/t are outside 1 to 90 g/t, which recorded jobs are within." in notices(light)
 
 
 def test_a_file_that_is_gone_is_named_in_place_of_the_plan(tmp_path):

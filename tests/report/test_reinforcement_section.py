@@ -23,7 +23,7 @@ def test_the_schedule_is_a_table():
     names = [column.key for column in schedule.columns]
     row = dict(zip(names, schedule.rows[0], strict=True))
     assert (row["members"], row["side"], row["along"], row["choice"]) == ("deck", "bottom", "x", main.bars_text)
-    assert row["area"] == pytest.approx(main.layer.area_mm2)
+    assert row["area_mm2"] == pytest.approx(main.layer.area_mm2)
     assert row["ratio_percent"] == pytest.approx(100.0 * main.layer.area_mm2 / (3700.0 * 600.0))
     assert dict(steel.rows)["steel of all"].endswith("usual in decks are 80 to 150 kg/m³")
     assert len(blocks(section, Picture)) == 1

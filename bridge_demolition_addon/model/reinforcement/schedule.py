@@ -177,15 +177,10 @@ def named_text(row: ScheduledBars | ScheduledLinks) -> str:
     return row.members[0] if len(row.members) == 1 else f"{len(row.members)} × {row.kind}"
 
 
-def row_area(row: ScheduledBars | ScheduledLinks) -> float:
-    """Return the area of a layer, mm², or of links by length, mm²/m."""
-    return _MM2 * row.area_m2 if isinstance(row, ScheduledBars) else row.link_area_mm2_per_m
-
-
 def row_text(row: ScheduledBars | ScheduledLinks) -> str:
     """Return a row of the schedule as text."""
     if isinstance(row, ScheduledBars):
-        area = f"{row.where}: {row_area(row):.0f} mm²"
+        area = f"{row.where}: {_MM2 * row.area_m2:.0f} mm²"
     else:
         area = f"links: {row.link_area_mm2_per_m:.0f} mm²/m"
     return f"{area}, {row.bars_text}, {row.ratio:.2%}, {row.utilisation:.0%} used, {row.reason}"

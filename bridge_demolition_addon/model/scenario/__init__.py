@@ -28,6 +28,7 @@ from .girders import GirderSpan
 from .jackhammer import Jackhammer
 from .recording import PictureSettings, RecordingSettings
 from .reinforcement import BarRule, BridgeReinforcement, GeometryReinforcement, RatiosOfMember
+from .reporting import ReportSettings
 from .scenario import Scenario
 from .site import Exclusion, Neighbour, Site, Zone
 from .steelwork import SteelMember, SteelNode, Steelwork
@@ -81,6 +82,7 @@ __all__ = [
     "RatiosOfMember",
     "RecordingSettings",
     "Removal",
+    "ReportSettings",
     "RigidFrame",
     "SawCut",
     "Scenario",

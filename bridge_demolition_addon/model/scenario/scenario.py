@@ -46,6 +46,7 @@ from .girders import DECK_KIND, GirderSpan, StudRow, joints_of_deck
 from .jackhammer import Jackhammer
 from .recording import PictureSettings, RecordingSettings
 from .reinforcement import BarRule, BridgeReinforcement, GeometryReinforcement
+from .reporting import ReportSettings
 from .site import Exclusion, Neighbour, Site, Zone
 from .steelwork import Steelwork
 from .structural_changes import Change, Removal, SawCut, TendonCut, Weakening, lifting_away, severing
@@ -100,6 +101,7 @@ class Scenario(Table):
     lifts: tuple[Lift, ...] = ()
     recording: RecordingSettings = field(default_factory=RecordingSettings)
     pictures: PictureSettings = field(default_factory=PictureSettings)
+    report: ReportSettings = field(default_factory=ReportSettings)
     zones: tuple[Zone, ...] = ()
     exclusion: Exclusion | None = None
     site: Site | None = None

@@ -165,7 +165,8 @@ class PlacedZone:
             yield f"holes are {share:.2f} of the thickness deep: {least:g} to {most:g} are usual"
         lowest, highest = self.table_kg_m3[0] / FACTOR_OF_DOUBT, self.thresholds.throw_kg_m3 * FACTOR_OF_DOUBT
         if zone.mass_kg and not lowest <= self.effective_kg_m3 <= highest:
-            yield f"{self.effective_kg_m3:.2f} kg/m³ are outside half to twice the table, {lowest:.2f} to {highest:.2f}"
+            table = f"{lowest:.2f} to {highest:.2f} kg/m³"
+            yield f"{self.effective_kg_m3:.2f} kg/m³ are outside half to twice the table, {table}"
         if bars := self.bars:
             slender_m = float(slender_from_m(bars.diameter_m, bars.yield_pa))
             if zone.height_m < slender_m:

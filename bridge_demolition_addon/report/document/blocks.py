@@ -14,6 +14,7 @@ from typing import Any, Self
 from matplotlib.figure import FigureBase
 
 from ...engineering.units import with_digits
+from ...model.scenario.reporting import ReportSettings
 from ...model.schema import given
 from ...system.disk import whole_file
 
@@ -45,6 +46,7 @@ class Column:
     form: str = ""  # Python's format of a number, such as ".1f"; empty for texts
     value: Callable[..., Any] | None = None  # of a row, by its item; None where rows are given to the table
     significant: int = 0  # digits that a number with decimals has at least
+    of_row: bool = False  # its numbers have the unit that the row gives, beside its name or in a column of units
     cites: bool = False  # its texts are sources, by the titles that they have in every language
 
     def shown(self, value: Any) -> str:
@@ -147,7 +149,7 @@ class Report:
     """A report that is to be written, with tables that are only files, and files that are written already.
 
     Of a run or a study there are single pages, too, by whom they are for. `names` are those of things in scenario and
-    scene: no language translates them.
+    scene: no language translates them. `settings` are the units and the language that its scenario asks for.
     """
 
     document: Document
@@ -155,6 +157,7 @@ class Report:
     files: tuple[Path, ...] = ()
     single_pages: Mapping[str, Document] = field(default_factory=dict)
     names: frozenset[str] = frozenset()
+    settings: ReportSettings = field(default_factory=ReportSettings)
 
 
 def facts(title: str, rows: Sequence[tuple[str, str]], name: str = "") -> DataTable:

@@ -32,9 +32,9 @@ def varied_section(runs: ReportedEnsemble) -> Section:
     columns = (
         Column("key", "key"),
         Column("distribution", "distribution"),
-        Column("lowest", "lowest", ".5g"),
-        Column("median", "median", ".5g"),
-        Column("highest", "highest", ".5g"),
+        Column("lowest", "lowest", ".5g", of_row=True),
+        Column("median", "median", ".5g", of_row=True),
+        Column("highest", "highest", ".5g", of_row=True),
     )
     rows = [_varied_row(runs, variation) for variation in runs.ensemble.variations]
     words = (

@@ -11,8 +11,8 @@ from .study_runs import StudyRuns
 _OF_NEIGHBOURS = "neighbours."
 _COLUMNS = (
     Column("neighbour and quantity", "quantity"),
-    Column("median", "median", ".3g"),
-    Column("largest", "largest", ".3g"),
+    Column("median", "median", ".3g", of_row=True),
+    Column("largest", "largest", ".3g", of_row=True),
     Column("of runs", "runs", "d"),
 )
 

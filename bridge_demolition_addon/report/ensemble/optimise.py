@@ -59,10 +59,11 @@ def optimise_report(runs: TriedCandidates, _target: Path, _progress: Progress) -
     sentences = optimise_sentences(best) if best else [unfinished_sentence(runs, optimisation.settings.runs)]
     statement = statement_section(runs, sentences, (*_warnings(best), *doubts_of(runs)))
     pictures = [_winner_section(best)] if best else []
-    tables = [_candidates_section(runs.tried, best), runs_section(runs, (CANDIDATE, ROUND))]
+    tables = [_candidates_section(runs.tried, best, optimisation.settings.unit), runs_section(runs, (CANDIDATE, ROUND))]
     asked = _asked(optimisation, runs)
     document = ensemble_document(runs, version, statement, pictures, tables, _STATISTICS, asked)
-    return Report(document, (correlation_table(runs),), names=names_of_runs(runs))
+    settings = runs.ensemble.scenario.report
+    return Report(document, (correlation_table(runs),), names=names_of_runs(runs), settings=settings)
 
 
 def _asked(optimisation: Optimisation, runs: ReportedEnsemble) -> Iterator[tuple[str, str]]:
@@ -119,13 +120,13 @@ def _winner_section(best: Best) -> Section:
     return Section("The chosen candidate", tuple(blocks))
 
 
-def _candidates_section(tried: Sequence[TriedCandidate], best: Best | None) -> Section:
+def _candidates_section(tried: Sequence[TriedCandidate], best: Best | None, unit: str) -> Section:
     """All candidates: those that succeed often enough first, by their objective."""
     names = list(tried[0].values) if tried else []
     columns = (
         Column("candidate", "candidate", "d"),
         *(Column(shown(name), name, ".4g") for name in names),
-        Column("objective", "objective", ".4g"),
+        Column(f"objective ({unit})", "objective", ".4g"),
         Column("met all", "successes", "d"),
         Column("of", "runs", "d"),
         Column("charge (kg)", "charge_kg", ".4g"),

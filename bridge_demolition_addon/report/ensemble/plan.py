@@ -11,11 +11,12 @@ from manifold3d import CrossSection
 from ...charts.plan_maps import map_height_mm
 from ...charts.study_plan import study_plan
 from ...engineering.statistics.probability_map import LEVELS
+from ...engineering.units import rounded_up
 from ...model.schema import given
 from ...model.study.verification import zone_area
 from ..charge_areas import areas_of_fragments, cordon_area
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section
-from ..wording.numbers import percent, rounded_up
+from ..wording.numbers import percent
 from ..wording.study import shape_sentence, verified_sentence
 from .study_runs import StudyRuns
 

@@ -33,8 +33,8 @@ def extremes_section(runs: StudyRuns) -> Section | None:
     median, worst = runs.table.rows[runs.table.median_row], runs.table.rows[runs.table.worst_row]
     columns = (
         Column("", "quantity"),
-        Column(f"median, run {median.number}", "median"),
-        Column(f"worst, run {worst.number}", "worst"),
+        Column(f"median, run {median.number}", "median", of_row=True),
+        Column(f"worst, run {worst.number}", "worst", of_row=True),
     )
     both = [{**row.inputs, **row.outputs} for row in (median, worst)]
     names = (*runs.table.inputs, *runs.table.outputs)

@@ -46,7 +46,8 @@ def search_report(runs: SearchAnswer, _target: Path, _progress: Progress) -> Rep
     document = ensemble_document(
         runs, version, statement, [_curve_section(answer)], [_runs_section(answer)], _STATISTICS, _asked(answer)
     )
-    return Report(document, (correlation_table(runs),), names=names_of_runs(runs))
+    settings = runs.ensemble.scenario.report
+    return Report(document, (correlation_table(runs),), names=names_of_runs(runs), settings=settings)
 
 
 def _asked(answer: Answer) -> Iterator[tuple[str, str]]:

@@ -10,6 +10,7 @@ from pathlib import Path
 
 from ...charts.study_charts import limit_over_runs, reach_distribution
 from ...engineering.statistics.order_limits import limits_by_runs
+from ...engineering.units import rounded_up
 from ...model.scenario import Scenario
 from ...model.study.conclusions import SimultaneousLimits
 from ...model.study.files import PLAN_DXF, PLAN_GEOJSON
@@ -22,7 +23,7 @@ from ..sections.plan_contents import with_plan_contents
 from ..sections.planned_sequence import sequence_section
 from ..single_pages import single_pages
 from ..site_plan import write_areas
-from ..wording.numbers import ordinal, percent, rounded_up
+from ..wording.numbers import ordinal, percent
 from ..wording.study import study_sentences
 from .document import ensemble_document, statement_section, unfinished_sentence
 from .fragments import fragments_section
@@ -47,7 +48,8 @@ def study_report(runs: StudyRuns, target: Path, progress: Progress) -> Report:
     plans = write_areas(layers(runs), runs.ensemble.scenario.site, target / PLAN_DXF, target / PLAN_GEOJSON)
     document = study_document(runs, VERSION, [path.name for path in plans])
     pages = single_pages(document, runs.ensemble.scenario)
-    return Report(document, (correlation_table(runs),), tuple(plans), pages, names_of_runs(runs))
+    settings = runs.ensemble.scenario.report
+    return Report(document, (correlation_table(runs),), tuple(plans), pages, names_of_runs(runs), settings)
 
 
 def study_document(runs: StudyRuns, version: str, files: Sequence[str] = ()) -> Document:
@@ -161,7 +163,7 @@ def _limits_at_once(at_once: SimultaneousLimits) -> list[Block]:
     )
     columns = (
         Column("output", "output"),
-        Column("limit", "limit", ".4g"),
+        Column("limit", "limit", ".4g", of_row=True),
         Column("rank from the largest", "rank", "d"),
     )
     rows = [(shown(name), limit, at_once.ranks[name]) for name, limit in at_once.limits.items()]

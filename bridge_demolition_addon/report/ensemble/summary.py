@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from ...engineering.units import rounded_up
 from ...model.structure.zone_fragments import NO_SAFETY_DISTANCE
 from ..document.blocks import Block, Paragraph, facts
-from ..wording.numbers import listed, percent, percent_down, rounded_up
+from ..wording.numbers import listed, percent, percent_down
 from ..wording.sequence import means_text
 from ..wording.study import input_names
 from ..wording.verdict import study_verdict

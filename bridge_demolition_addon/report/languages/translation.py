@@ -73,6 +73,10 @@ class Translation:
         """Return the translation of a pattern with its places, for values that are put in elsewhere."""
         return self.table.texts.get(english, english)
 
+    def unit(self, symbol: str) -> str:
+        """Return what the language calls a unit: symbols are the same in all, names of several words are not."""
+        return self.pattern(symbol) if " " in symbol else symbol
+
     @cached_property
     def _patterns(self) -> list[Pattern]:
         patterns = [Pattern.of(english) for english in self.table.texts if PLACE in english]

@@ -166,7 +166,7 @@ def _warnings(plan: ChargePlan) -> Iterator[Block]:
         yield Paragraph(f"Planned not to fire: {', '.join(failed)}.", True)
     rate, (least, most) = plan.totals.grams_per_tonne, POSSIBLE_G_T
     if not least <= rate <= most:
-        yield Paragraph(f"{rate:.1f} g/t are outside {least:g} to {most:g}, which recorded jobs are within.", True)
+        yield Paragraph(f"{rate:.1f} g/t are outside {least:g} to {most:g} g/t, which recorded jobs are within.", True)
 
 
 def _totals(plan: ChargePlan) -> list[tuple[str, str]]:
@@ -174,7 +174,7 @@ def _totals(plan: ChargePlan) -> list[tuple[str, str]]:
     return [
         ("Explosive", f"{totals.mass_kg:.3g} kg"),
         *(_of_holes(totals) if totals.holes else ()),
-        ("By mass of the bridge", f"{totals.grams_per_tonne:.1f} g/t; recorded jobs have {least:g} to {most:g}"),
+        ("By mass of the bridge", f"{totals.grams_per_tonne:.1f} g/t; recorded jobs have {least:g} to {most:g} g/t"),
         ("Largest mass within 8 ms", f"{totals.together_kg:.3g} kg"),
         ("From the first row to the last", f"{_MS_PER_S * totals.lasts_s:.0f} ms"),
     ]

@@ -11,7 +11,7 @@ from ...charts.histories import throw_distribution
 from ...charts.plan_maps import debris_map, exclusion_map, map_height_mm, pile_map
 from ...engineering.geometry.plan_areas import outlines
 from ...engineering.geometry.vectors import length
-from ...engineering.units import mass_text, volume_text
+from ...engineering.units import mass_text, rounded_down, rounded_up, volume_text
 from ...model.debris.exclusion import ExclusionZone, exclusion_zone
 from ...model.debris.measured_piles import PILES_NOTE
 from ...model.debris.on_ground import bodies_under_ground, debris_on_surfaces
@@ -77,9 +77,12 @@ def exclusion_section(zone: ExclusionZone | None, run: ReportedRun, files: Seque
         ("Plan area of the bridge", f"{zone.plan.area():.1f} m²"),
         ("Predicted debris area", f"{zone.debris.area():.1f} m²"),
         (_ZONE, f"{zone.whole.area():.1f} m²"),
-        ("Along the road", f"from x = {low_x:.2f} m to {high_x:.2f} m, {high_x - low_x:.2f} m"),
-        ("Across the road", f"from y = {low_y:.2f} m to {high_y:.2f} m, {high_y - low_y:.2f} m"),
-        ("Farthest from the bridge's plan", f"{zone.largest_distance_m:.2f} m{_not_final(run.recorded)}"),
+        ("Along the road", _extent("x", low_x, high_x)),
+        ("Across the road", _extent("y", low_y, high_y)),
+        (
+            "Farthest from the bridge's plan",
+            f"{rounded_up(zone.largest_distance_m, '0.01')} m{_not_final(run.recorded)}",
+        ),
     ]
     blocks: list[Block] = [
         Paragraph(words),
@@ -104,6 +107,12 @@ def exclusion_section(zone: ExclusionZone | None, run: ReportedRun, files: Seque
         )
         blocks.insert(1, Paragraph(warning, is_notice=True))
     return Section(_ZONE, tuple(blocks))
+
+
+def _extent(axis: str, low_m: float, high_m: float) -> str:
+    """Return from where to where a zone reaches, no end of it rounded inwards."""
+    low, high, size = rounded_down(low_m, "0.01"), rounded_up(high_m, "0.01"), rounded_up(high_m - low_m, "0.01")
+    return f"from {axis} = {low} m to {high} m, {size} m"
 
 
 def zone_of(run: ReportedRun) -> ExclusionZone | None:
@@ -148,7 +157,10 @@ def _debris_blocks(
             "Volume of the pile",
             f"{volume_text(heights.volume_m3, 1)} under its surface, {volume_text(solid, 1)} of it solid",
         ),
-        ("Farthest beyond the bridge's outline", f"{debris.reaches_m.max():.2f} m{_not_final(results)}"),
+        (
+            "Farthest beyond the bridge's outline",
+            f"{rounded_up(float(debris.reaches_m.max()), '0.01')} m{_not_final(results)}",
+        ),
     ]
     bridge = np.array(debris.outline.bounds()).reshape(2, 2)
     bounds = (*np.minimum(low, bridge[0]), *np.maximum(high, bridge[1]))

@@ -87,7 +87,10 @@ def _peak_table(record: GroundRecord) -> DataTable:
         Column("direction", "direction", "", lambda axis: DIRECTIONS[axis]),
         Column("acceleration (m/s²)", "peak_acceleration_m_s2", ".2f", lambda axis: accelerations[axis]),
         Column(
-            "acceleration (g)", "peak_acceleration_g", ".3f", lambda axis: accelerations[axis] / STANDARD_GRAVITY_M_S2
+            "acceleration (share of g)",
+            "peak_acceleration_g",
+            ".3f",
+            lambda axis: accelerations[axis] / STANDARD_GRAVITY_M_S2,
         ),
         Column("velocity (m/s)", "peak_velocity_m_s", ".3f", lambda axis: velocities[axis]),
         Column("displacement (m)", "peak_displacement_m", ".3f", lambda axis: peaks["displacements_m"][axis]),

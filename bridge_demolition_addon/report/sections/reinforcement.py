@@ -18,7 +18,7 @@ from ...model.bridge.preparation import prepared_members
 from ...model.reinforcement.concrete_members import plain_concrete_text
 from ...model.reinforcement.design import bar_schedule
 from ...model.reinforcement.facts import steel_facts
-from ...model.reinforcement.schedule import Schedule, ScheduledBars, ScheduledLinks, named_text, row_area
+from ...model.reinforcement.schedule import Schedule, ScheduledBars, ScheduledLinks, named_text
 from ...model.scenario import BridgeReinforcement, Scenario
 from ...model.scenario.scenario import rules_of_bars
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section, facts
@@ -32,7 +32,8 @@ _COLUMNS = (
     Column("from (m)", "from_m", ".1f"),
     Column("to (m)", "to_m", ".1f"),
     Column("below the side (mm)", "depth_mm", ".0f"),
-    Column("area (mm², links mm²/m)", "area", ".0f"),
+    Column("area (mm²)", "area_mm2", ".0f"),
+    Column("area of links (mm²/m)", "area_of_links_mm2_m", ".0f"),
     Column("choice", "choice"),
     Column("of the section (%)", "ratio_percent", ".2f"),
     Column("used (%)", "used_percent", ".0f"),
@@ -80,10 +81,19 @@ def _schedule_blocks(scenario: Scenario, members: Sequence[Member], schedule: Sc
 
 def _row(row: ScheduledBars | ScheduledLinks) -> tuple[str | float | None, ...]:
     numbers = 100.0 * row.ratio, 100.0 * row.utilisation
-    shown: tuple[str | float | None, ...] = "links", "", None, None, None, row_area(row)
     if isinstance(row, ScheduledBars):
         layer = row.layer
         depth = None if layer.depth_m is None else 1e3 * layer.depth_m
         side = "spread" if layer.is_spread else layer.side
-        shown = side, layer.along, layer.from_m, layer.to_m, depth, row_area(row)
+        shown: tuple[str | float | None, ...] = (
+            side,
+            layer.along,
+            layer.from_m,
+            layer.to_m,
+            depth,
+            1e6 * row.area_m2,
+            None,
+        )
+    else:
+        shown = "links", "", None, None, None, None, row.link_area_mm2_per_m
     return named_text(row), *shown, row.bars_text, *numbers, row.reason

@@ -8,6 +8,7 @@ from functools import partial
 import numpy as np
 
 from ...charts.plan_maps import debris_map, map_height_mm
+from ...engineering.units import rounded_up
 from ...model.debris.exclusion import ExclusionZone
 from ...model.debris.footprint import bodies_that_moved, footprint, reaches_on_the_way
 from ...model.debris.throws import Debris
@@ -21,7 +22,6 @@ from ...model.sequence.undisturbed import asleep_text
 from ...model.stages.stability import stability_texts
 from ..document.blocks import Block, Paragraph, Photo, Picture, facts
 from ..run_folder import ReportedRun
-from ..wording.numbers import rounded_up
 from ..wording.sequence import means_text
 from ..wording.verdict import run_limit, run_verdict, verdict_without_frames
 from .cover import photo_caption

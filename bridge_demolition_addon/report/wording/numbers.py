@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from decimal import ROUND_CEILING, ROUND_FLOOR, Decimal
+
+from ...engineering.units import rounded_down, rounded_up
 
 _MOST_NAMES = 6
 
@@ -36,16 +37,6 @@ def percent_up(share: float) -> str:
 def percent_down(share: float) -> str:
     """Return a share in percent, rounded down to the second decimal."""
     return f"{rounded_down(100.0 * share, '0.01')} %"
-
-
-def rounded_up(value: float, step: str) -> str:
-    """Return a number, rounded up to a decimal step such as 0.1; rounding errors of binary fractions do not count."""
-    return str(Decimal(f"{value:.9f}").quantize(Decimal(step), ROUND_CEILING))
-
-
-def rounded_down(value: float, step: str) -> str:
-    """Return a number, rounded down to a decimal step; see `rounded_up`."""
-    return str(Decimal(f"{value:.9f}").quantize(Decimal(step), ROUND_FLOOR))
 
 
 def four_digits(value: float) -> str:

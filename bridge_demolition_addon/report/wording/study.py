@@ -6,12 +6,13 @@ import math
 from collections.abc import Iterator, Sequence
 
 from ...engineering.statistics.order_limits import least_runs
+from ...engineering.units import rounded_down, rounded_up
 from ...model.debris.measured_piles import PILES_NOTE
 from ...model.sequence.rest import FASTEST
 from ...model.study.conclusions import Conclusions, DebrisLimit, DoubtfulThrows, Proportion
 from ...model.study.file import Ensemble, Study
 from ...model.study.fragments import FragmentLimits
-from .numbers import listed, ordinal, percent, percent_down, percent_up, rounded_down, rounded_up
+from .numbers import listed, ordinal, percent, percent_down, percent_up
 
 _DOUBT = "All of these are known within a factor of 2: factor 2, no safety distance."
 

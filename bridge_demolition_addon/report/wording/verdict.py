@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from ...engineering.units import rounded_up
 from ...model.schema import given
 from ...model.study.conclusions import DebrisLimit
 from ...model.study.criteria import KINDS
-from .numbers import listed, percent, rounded_up
+from .numbers import listed, percent
 
 FALLEN, STANDS = given(KINDS["span down"].share), given(KINDS["span stands"].share)
 """Parts of its height from which on a span is down, and up to which it stands, as criteria of studies have them."""

@@ -27,7 +27,7 @@ from ..scenario.built import shown_site
 from ..sidebar import path_property
 from ..stepped_thread import SteppedThread
 from ..viewport import look_at_selected, look_at_shards, select_only, shards_in_view
-from .report_language import shown_language
+from .report_language import shown_language, shown_units
 from .shown_run import shown_run
 
 CHARTS, PLAN_CHART = "charts", "debris_plan.png"
@@ -215,12 +215,12 @@ class _MakesReport(ModalTask):
         from ...report.write import write_report
 
         scene, folder, word = context.scene, folder_to_report(context.scene), self.with_word_file
-        language = shown_language(scene.bda)
+        language, units = shown_language(scene.bda), shown_units(scene.bda)
         if is_run_of(scene, folder):
             keep_site(folder, shown_site(scene.bda))
 
         def write(thread: SteppedThread) -> str:
-            written = write_report([folder], None, word=word, language=language, progress=thread)
+            written = write_report([folder], None, word=word, language=language, units=units, progress=thread)
             names = " and ".join(path.name for path in written[1 : 3 if word else 2])
             return f"Report: {written[0]} and {names}"
 

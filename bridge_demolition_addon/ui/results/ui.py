@@ -80,6 +80,7 @@ class BDA_PT_report(SidebarPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         self.layout.prop(context.scene.bda, "report_language")
+        self.layout.prop(context.scene.bda, "report_units")
         column = self.layout.column(align=True)
         column.operator("bda.make_report")
         column.operator("bda.make_word_report")

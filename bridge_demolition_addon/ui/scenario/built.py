@@ -27,7 +27,7 @@ from .values import inner_of, list_of, scenario_of, show_inner
 _SITE = ("zones", "exclusion", "site", "neighbours", "equipment")
 """Parts of a scenario that only reports and stages read."""
 
-_AS_SHOWN = ("title", "charges", "blast", "recording", "pictures", *_SITE)
+_AS_SHOWN = ("title", "charges", "blast", "recording", "pictures", "report", *_SITE)
 """Parts of a scenario that a run takes as the panels show them when it begins."""
 
 _TIME_AS_SHOWN = ("stop_at_rest", "rest_speed_m_s", "rest_spin_rad_s", "rest_hold_s")

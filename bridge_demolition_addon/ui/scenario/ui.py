@@ -44,8 +44,8 @@ _BUTTONS = {
 }
 """Operators that fill in a table of a scenario."""
 
-_ELSEWHERE = {"blast.explosion", "study.scenario"}
-"""Keys that are drawn by hand, or that the panels stand for."""
+_ELSEWHERE = {"blast.explosion", "study.scenario", "report"}
+"""Keys and tables that are drawn by hand, or that the panels stand for."""
 
 _REINFORCEMENT = "reinforcement"
 """Name of both tables of bars: by hand, and by the rule of the bridge."""
@@ -277,6 +277,8 @@ def table_panels() -> tuple[type[bpy.types.Panel], ...]:
     """Return the panels of all tables; one for a table that has no place among the panels stands with rare actions."""
     panels: list[type[bpy.types.Panel]] = []
     for item in shown_tables(Scenario):
+        if key_name(Scenario, item) in _ELSEWHERE:
+            continue
         parent = None if parent_of(PREFIX + item.name) else DEMOLITION_ADVANCED
         panel = _panel(item, (), parent, _LABELS.get(item.name, label_of(Scenario, item)))
         panels += [panel, *_inner(item, (item.name,), panel.__name__)]

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from scipy.stats import binomtest
 
+from bridge_demolition_addon.engineering.units import rounded_down, rounded_up
 from bridge_demolition_addon.model.study.conclusions import (
     DoubtfulThrows,
     as_json,
@@ -15,7 +16,7 @@ from bridge_demolition_addon.model.study.conclusions import (
     proportion,
     simultaneous_limits,
 )
-from bridge_demolition_addon.report.wording.numbers import listed, ordinal, rounded_down, rounded_up
+from bridge_demolition_addon.report.wording.numbers import listed, ordinal
 from bridge_demolition_addon.report.wording.study import (
     doubtful_sentence,
     harm_sentence,

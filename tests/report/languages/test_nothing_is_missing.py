@@ -1,14 +1,24 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every text that reports make has a translation in every language: a new sentence fails until it has."""
+"""Every text that reports make has a translation in every language: a new sentence fails until it has.
+
+And every quantity in it can be read, and put into US customary units.
+"""
+
+import re
 
 import pytest
 from support.long_cases import long_but
 from support.reports_of_many_kinds import reports
 
+from bridge_demolition_addon.engineering.unit_systems import IMPERIAL, UnitSystem
+from bridge_demolition_addon.model.scenario.reporting import REPORT_LANGUAGES
+from bridge_demolition_addon.report.document.blocks import DataTable, Paragraph
 from bridge_demolition_addon.report.document.drawings import drawings
 from bridge_demolition_addon.report.languages.table import ENGLISH, language_names, language_table
 from bridge_demolition_addon.report.languages.translated_report import translated_document
 from bridge_demolition_addon.report.languages.translation import Translation
+from bridge_demolition_addon.report.units.measured_report import NOTE, measured_document
+from bridge_demolition_addon.report.units.quantities import ReportUnits
 
 LANGUAGES = [name for name in language_names() if name != ENGLISH]
 
@@ -40,6 +50,46 @@ def test_a_new_sentence_would_be_missed(made):
     translation = Translation.into("de", made[0].names)
     assert translation.text("The bridge will be rebuilt by noon.") == "The bridge will be rebuilt by noon."
     assert translation.missing == ["The bridge will be rebuilt by noon"]
+
+
+@pytest.mark.parametrize("language", REPORT_LANGUAGES)
+def test_no_quantity_of_any_kind_of_report_stays_metric_in_us_units(made, language):
+    for report in made:
+        translation = Translation.into(language, report.names)
+        quantities = ReportUnits(UnitSystem.IMPERIAL, report.names, translation.unit)
+        for document in (report.document, *report.single_pages.values()):
+            measured = measured_document(translated_document(document, translation), document, quantities)
+            assert [text for text in texts_of(measured) if is_metric(text, report.names)] == []
+
+
+def texts_of(document):
+    """Yield all texts of a report but for captions."""
+    for block in document.blocks():
+        if isinstance(block, Paragraph):
+            yield block.text
+        elif isinstance(block, DataTable) and block.name != "rank_correlations":  # whose numbers have no unit
+            yield from (block.title, *(column.heading for column in block.columns))
+            yield from (cell for row in block.shown_rows() for cell in row)
+
+
+def is_metric(text, names):
+    """Return whether a text has a metric unit behind a number or in brackets, but where it has to."""
+    text = re.sub(r"v = .*?\)\^-[\d.]+|^\s*[a-z]\S* = .*|\w+_kg \(kg\)|\d CFR \S+", "", text)
+    for name in sorted(names, key=len, reverse=True):
+        if re.search(r"\d", name):
+            text = text.replace(name, "")
+    units = "|".join(re.escape(unit) for unit in IMPERIAL)
+    return re.search(rf"\d\S? (?:{units})(?![\w²³·/^])|[(\uff08](?:{units})[,)\uff09]", text) is not None
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_the_note_on_units_and_names_of_units_are_translated(language):
+    texts = language_table(language).texts
+    assert {NOTE, *(conversion.unit for conversion in IMPERIAL.values() if " " in conversion.unit)} <= texts.keys()
+
+
+def test_scenarios_can_ask_for_every_language():
+    assert language_names() == REPORT_LANGUAGES
 
 
 def test_all_tables_have_the_same_texts():

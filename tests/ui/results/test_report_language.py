@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The language of reports that the window offers, and the one that a report is made in."""
+"""The language and the units of reports that the window offers, and those that a report is made in."""
 
 import pytest
 from support.run_folders import flying_shards, keep_run
 
 from bridge_demolition_addon.report.languages.table import language_names
 from bridge_demolition_addon.ui.results.report_language import language_of_blender
+from bridge_demolition_addon.ui.scenario.values import scenario_of
 
 
 @pytest.mark.parametrize(
@@ -29,11 +30,30 @@ def test_at_first_it_is_that_of_blender_where_there_is_a_table(locale, language)
 def test_what_is_shown_is_what_a_report_is_made_in(extension, settings, tmp_path):
     assert settings.report_language == "en"  # Blender as a module has no language
     settings.output_directory = str(keep_run(tmp_path / "run", flying_shards()))
-    for language, title in (("de", "Wichtigste Ergebnisse"), ("fr", "Principaux résultats"), ("en", "Main findings")):
-        settings.report_language = language
-        assert settings.report_language == language
+    choices = (
+        *(("de", "imperial", "Wichtigste Ergebnisse", "US-amerikanischen Einheiten"),),
+        *(("en", "metric", "Main findings", "together 15.9 t"),),
+    )
+    for language, units, *texts in choices:
+        settings.report_language, settings.report_units = language, units
+        assert (settings.report_language, settings.report_units) == (language, units)
         assert extension.ops.bda.make_report() == {"FINISHED"}
-        assert title in (tmp_path / "run" / "report.html").read_text(encoding="utf-8")
+        page = (tmp_path / "run" / "report.html").read_text(encoding="utf-8")
+        assert [text for text in texts if text not in page] == []
+
+
+def test_units_are_at_first_those_of_the_scene_and_a_choice_goes_into_the_scenario(extension, settings):
+    units = extension.context.scene.unit_settings
+    assert settings.report_units == "metric"
+    units.system = "IMPERIAL"
+    try:
+        assert settings.report_units == "imperial"
+        settings.report_units = "metric"
+        assert settings.report_units == "metric"
+        report = scenario_of(settings).report
+        assert (report.units, report.language) == ("metric", None)
+    finally:
+        units.system = "METRIC"
 
 
 def test_all_languages_can_be_chosen(settings):
