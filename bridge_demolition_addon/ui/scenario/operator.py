@@ -32,7 +32,7 @@ from ..operators import (
 from ..preview.decorator import preview_lines
 from ..viewport import bridge_box, look_at_box, look_at_bridge, look_at_other_bridge
 from .built import forget_built, is_emptied, keep_built, show_built
-from .preset_menu import preset_file
+from .preset_menu import described_preset, preset_file
 from .prop import default_scenario
 from .values import scenario_of, show_scenario
 
@@ -95,6 +95,11 @@ class BDA_OT_load_preset(UndoableAction, bpy.types.Operator):
     changes_objects = True
 
     preset: StringProperty(name="Preset", description="Name of the preset")
+
+    @classmethod
+    def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
+        """Return the tooltip of a preset's button; empty for Blender's own."""
+        return described_preset(properties.preset) if properties.preset else ""
 
     def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
         """Load it, and let the view show its outlines, if there are any."""
