@@ -48,7 +48,7 @@ def look_at_bridge(context: bpy.types.Context) -> None:
 
 
 def look_at_other_bridge(context: bpy.types.Context, before_m: np.ndarray) -> None:
-    """Let the view show the bridge where it has another place or size than before: a box (2, 3), m."""
+    """Let the view show the bridge where it has another position or size than before: a box (2, 3), m."""
     now_m = bridge_box(context)
     if np.abs(now_m - before_m).max() > _OTHER_SIZE * np.ptp(now_m, axis=0).max():
         look_at_bridge(context)

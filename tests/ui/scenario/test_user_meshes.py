@@ -42,7 +42,7 @@ def test_selected_meshes_are_built_as_members(extension, settings, objects, tmp_
     assert sorted(path.name for path in folder.iterdir()) == ["deck.ply", "east wall.ply", "west wall.ply"]
     assert all(obj.hide_get() for obj in objects)
     shown = preview_lines(settings)  # in their place: twelve edges of each box
-    assert len(shown) == 3 * 12 * 2 and np.ptp(shown, axis=0) == pytest.approx([9.5, 4.0, 4.5])
+    assert len(shown) == 3 * 12 * 2 and np.ptp(shown, axis=0) == pytest.approx([10.0, 4.0, 4.5])
     model = build_model(scenario_of(settings))
     masses = {member.name: member.mass_kg for member in model.members}
     # Blender keeps single precision of some metres.
