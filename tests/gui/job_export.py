@@ -10,8 +10,8 @@ from panels import Panels
 from person import Person, Steps
 from traces import recording_runs, something_goes_on
 
-BELOW_PX = 26
-"""From the button above the menu to the menu."""
+BELOW_PX = 52
+"""From the button *Draw Charts* to the menu, with a row between."""
 
 
 def steps(person: Person) -> Steps:
