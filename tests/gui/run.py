@@ -66,7 +66,7 @@ EXPECTED_ON_CONSOLE = re.compile(
     r"|Warning: (Changed in Blender, and not in the scenario of the run|The bridge does not stand by itself)"
     r"|(Scene: |Warning: Not as it was built: )\d+ (shards?|body|bodies) (is|are) (moved|missing|added)"
     r"|(Scene: |Warning: Not as it was built: )the \w+ of the scenario is missing"
-    r"|Info: \d+ force fields made"
+    r"|Info: (\d+ force fields made|\d+ members added from the selected meshes)"
     r"|Warning: \d+ shards? creeps? "
 )
 """Lines that Blender writes as it goes, and reports of operators that a job calls."""
