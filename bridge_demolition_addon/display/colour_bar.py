@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .colour_scale import tick_text
-from .contour_quantities import ContourQuantity
+from .contour_quantities import BREAKS, ContourQuantity
 from .contour_ranges import ContourSettings, RangeKind
 from .contours import ContourFrame
 
@@ -30,6 +30,8 @@ def colour_bar(settings: ContourSettings, frame: ContourFrame) -> ColourBar:
     """Return the colour bar of a frame."""
     scale = frame.scale
     unit, ticks = settings.quantity.units.of(max(abs(scale.low), abs(scale.high))), scale.ticks()
+    if settings.quantity is ContourQuantity.UTILISATION and scale.low <= BREAKS <= scale.high:
+        ticks = np.union1d(ticks, BREAKS)
     return ColourBar(
         title=settings.quantity.title,
         subtitle=", ".join(_what_is_shown(settings)),

@@ -44,6 +44,9 @@ STRESSES = UnitFamily(((1e4, _NEWTON_PER_MM2), (0.0, Unit("kPa", 1e3))), _NEWTON
 LENGTHS = UnitFamily(((1.0, Unit("m", 1.0)), (0.0, _MILLIMETRE)), _MILLIMETRE)
 RATIOS = UnitFamily(((0.0, _PERCENT),), _PERCENT)
 
+BREAKS = 1.0
+"""Utilisation above which a connection breaks."""
+
 Values = Callable[[Frame, Frame], np.ndarray]
 """Returns the values (n,) of bodies in a frame, by that frame and the first one."""
 

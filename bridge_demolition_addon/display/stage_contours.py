@@ -10,7 +10,8 @@ import numpy as np
 from ..model.stages.stages import Stage
 from ..model.structure.model import Model
 from .colour_scale import colours
-from .contour_ranges import ContourSettings, RangeKind, percentiles
+from .contour_quantities import BREAKS
+from .contour_ranges import ContourScale, ContourSettings, RangeKind, percentiles
 from .contours import ContourFrame
 
 
@@ -32,10 +33,15 @@ class StageContours:
         return len(self.times_s)
 
     def show(self, stage: int, settings: ContourSettings) -> ContourFrame:
-        """Return the colours of a stage, from 1 on."""
+        """Return the colours of a stage, from 1 on.
+
+        A range that is not fixed is linear, from 0 to where connections break, or as far beyond as they are used.
+        """
         values = self.used[stage - 1]
         of = values if settings.range_kind == RangeKind.FRAME else self.used
-        scale = settings.scale(*percentiles(of[np.isfinite(of)], settings.percentile))
+        _, high = percentiles(of[np.isfinite(of)], settings.percentile)
+        is_fixed = settings.range_kind == RangeKind.FIXED
+        scale = settings.scale(0.0, high) if is_fixed else ContourScale(0.0, max(high, BREAKS))
         painted = colours(settings.colour_map, scale.shares(values))
         return ContourFrame(stage, float(self.times_s[stage - 1]), values, scale, painted)
 

@@ -9,6 +9,7 @@ import bpy
 
 from ..errors import DemolitionError
 from . import messages, task_progress
+from .languages.words import translated
 from .operators import GuardedOperator, refused
 from .stepped_thread import SteppedThread
 
@@ -97,6 +98,8 @@ class SteppedTask(GuardedOperator):
         if event.type == "ESC":
             self.cancel(context)
             return self.stopped(context)
+        if event.type == "Q" and event.ctrl and event.value == "PRESS":
+            self.report({"WARNING"}, translated("{} goes on: Esc stops it, then Blender can be left").format(self.task))
         if event.type != "TIMER":
             return {"PASS_THROUGH"} if event.type in self.passed_events else {"RUNNING_MODAL"}
         try:
@@ -121,8 +124,15 @@ class SteppedTask(GuardedOperator):
 
 
 class ModalTask(SteppedTask):
-    """Base of operators whose work needs no Blender."""
+    """Base of operators whose work needs no Blender.
 
+    Attributes
+    ----------
+    shortest_step_s
+        Parts of the work that end within this time are one step, s.
+    """
+
+    shortest_step_s = 0.0
     _thread: SteppedThread
 
     def work(self, context: bpy.types.Context) -> Work:
@@ -134,7 +144,7 @@ class ModalTask(SteppedTask):
         return thread.done / thread.total if thread.total else 0.0
 
     def begin(self, context: bpy.types.Context) -> int:
-        self._thread = SteppedThread(self.work(context))
+        self._thread = SteppedThread(self.work(context), self.shortest_step_s)
         return 1
 
     def step(self) -> bool:

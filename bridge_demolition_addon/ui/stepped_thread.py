@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
+from time import monotonic
 from typing import Any
 
 from ..system.progress import Progress
@@ -22,6 +23,9 @@ class SteppedThread(Progress):
     ----------
     work
         Reports its stages and parts to this progress, and returns its result.
+    shortest_s
+        Parts that end within this time are one step, s: Blender may take longer to draw how far the work is than the
+        work takes for a part.
 
     Attributes
     ----------
@@ -31,13 +35,14 @@ class SteppedThread(Progress):
         Whether the work has ended, also by an error.
     """
 
-    def __init__(self, work: Callable[[SteppedThread], Any]):
+    def __init__(self, work: Callable[[SteppedThread], Any], shortest_s: float = 0.0):
         self.done, self.total, self.stage_text = 0, 0, ""
         self.is_finished = False
         self._work = work
         self._outcome: Any = None
         self._error: Exception | None = None
         self._is_stopped = False
+        self._shortest_s, self._begun_s = shortest_s, 0.0
         self._its_turn, self._our_turn = threading.Semaphore(0), threading.Semaphore(0)
         self._thread = threading.Thread(target=self._run, daemon=True)
 
@@ -45,6 +50,7 @@ class SteppedThread(Progress):
         """Let it work until its next part is done."""
         if self.is_finished:
             return
+        self._begun_s = monotonic()
         if not self._thread.is_alive():
             self._thread.start()
         else:
@@ -72,7 +78,8 @@ class SteppedThread(Progress):
     def part(self, done: int, total: int, text: str = "") -> None:
         """Note how many parts of a stage are done; called by the work."""
         self.done, self.total = done, total
-        self._hand_over()
+        if self._is_stopped or monotonic() - self._begun_s >= self._shortest_s:
+            self._hand_over()
 
     def wait(self) -> None:
         """Let Blender go on while the work waits for another process; called by the work."""

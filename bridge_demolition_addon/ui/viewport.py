@@ -13,6 +13,9 @@ _MOST_COVERED = 0.8
 """Share of the view that the sidebar may cover before the rest is too narrow to show anything in."""
 
 
+_OTHER_SIZE = 0.1
+"""Of the largest size of a bridge, by which another one differs: other seeds cut shards elsewhere."""
+
 _ROOM = 1.2
 """Distance of the view from a box, over the box's diagonal."""
 
@@ -28,16 +31,33 @@ def redraw_views(_settings: object = None, _context: object = None) -> None:
 
 def shards_in_view(context: bpy.types.Context) -> list[bpy.types.Object]:
     """Return the shards that are in the view layer: Blender selects no others."""
+    return _in_view(context, Kind.SHARD)
+
+
+def _in_view(context: bpy.types.Context, *kinds: Kind) -> list[bpy.types.Object]:
     in_layer = set(context.view_layer.objects)
-    return [body for body in bodies_of(context.scene) if kind_of(body) == Kind.SHARD and body in in_layer]
+    return [body for body in bodies_of(context.scene) if kind_of(body) in kinds and body in in_layer]
 
 
-def look_at_shards(context: bpy.types.Context) -> None:
-    """Let the view show all shards, and keep the selection: the ground is too large for Blender's View All."""
+def look_at_bridge(context: bpy.types.Context) -> None:
+    """Let the view show shards and balls, and keep the selection: the ground is too large for Blender's View All."""
     selected = list(context.selected_objects)
-    select_only(context, shards_in_view(context))
+    select_only(context, _in_view(context, Kind.SHARD, Kind.BALL))
     look_at_selected(context)
     select_only(context, selected)
+
+
+def look_at_other_bridge(context: bpy.types.Context, before_m: np.ndarray) -> None:
+    """Let the view show the bridge where it has another position or size than before: a box (2, 3), m."""
+    now_m = bridge_box(context)
+    if np.abs(now_m - before_m).max() > _OTHER_SIZE * np.ptp(now_m, axis=0).max():
+        look_at_bridge(context)
+
+
+def bridge_box(context: bpy.types.Context) -> np.ndarray:
+    """Return the box (2, 3) around the middles of all shards, m; all 0 without any."""
+    middles_m = np.array([shard.location for shard in shards_in_view(context)])
+    return np.array([middles_m.min(axis=0), middles_m.max(axis=0)]) if len(middles_m) else np.zeros((2, 3))
 
 
 def select_only(context: bpy.types.Context, objects: Iterable[bpy.types.Object]) -> None:

@@ -14,6 +14,7 @@ from bridge_demolition_addon.display.contour_ranges import ContourScale, Contour
 from bridge_demolition_addon.display.contours import ContourSeries
 from bridge_demolition_addon.display.force_arrows import arrows, connection_forces, contact_forces
 from bridge_demolition_addon.display.frames import film_rows
+from bridge_demolition_addon.display.stage_contours import StageContours
 from bridge_demolition_addon.errors import ContourError, OutputError
 
 UPPER, LOWER, BALL = 1, 2, 3
@@ -236,3 +237,14 @@ def test_a_film_of_nothing_is_refused():
         film_rows([], 25.0)
     with pytest.raises(OutputError, match="positive"):
         film_rows([0.0], 25.0, 0.0)
+
+
+@pytest.mark.parametrize(("largest", "end"), [(0.78, 1.0), (3.0, 3.0), (7.0, 7.0)])
+def test_utilisation_is_linear_from_0_to_where_connections_break_which_is_marked(largest, end):
+    used = np.array([[0.0, 0.39, largest]])
+    settings = ContourSettings(ContourQuantity.UTILISATION)
+    frame = StageContours(np.zeros(1), used, np.zeros((3, 3))).show(1, settings)
+    assert frame.scale.shares(used[0]).tolist() == pytest.approx([0.0, 0.39 / end, largest / end])
+    bar = colour_bar(settings, frame)
+    marked = dict(zip(bar.tick_texts, bar.tick_shares, strict=True))
+    assert marked["100"] == pytest.approx(1.0 / end) and bar.unit == "(%)"

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Dragging handles in the 3D view, and where they are on the screen."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 import bpy
@@ -41,6 +41,16 @@ def on_screen(person: Person, position_m: tuple[float, float, float]) -> Pixels:
     region = region_of(person.view, "WINDOW")
     where = location_3d_to_region_2d(region, person.view.spaces.active.region_3d, position_m)
     return round(region.x + where.x), round(region.y + where.y)
+
+
+def out_of_sight(person: Person, points_m: Iterable[tuple[float, float, float]]) -> list[tuple[float, float, float]]:
+    """Which of some points are not in the view, or behind the sidebar."""
+    region, view = region_of(person.view, "WINDOW"), person.view.spaces.active.region_3d
+    right = person.sidebar.x - region.x
+    seen = {point: location_3d_to_region_2d(region, view, point) for point in points_m}
+    return [
+        point for point, at in seen.items() if at is None or not (0.0 < at.x < right and 0.0 < at.y < region.height)
+    ]
 
 
 def look_at(person: Person, position_m: tuple[float, float, float], distance_m: float) -> None:

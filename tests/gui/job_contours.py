@@ -73,6 +73,7 @@ def steps(person: Person) -> Steps:
     person.expect("the view is as before", person.view.spaces.active.shading.color_type, "MATERIAL")
     yield from film(person)
     yield from load_in_the_middle_of_a_film(person)
+    yield from open_with_contours(person)
 
 
 def inner_panels(person: Person, panels: Panels) -> Steps:
@@ -114,6 +115,24 @@ def load_in_the_middle_of_a_film(person: Person) -> Steps:
     person.expect("pictures are as large as they were", person.scene.render.resolution_x, 1920)
     person.expect("no recording runs of the film", recording_runs(), False)
     yield from person.picture("loaded_in_the_middle_of_a_film")
+
+
+def open_with_contours(person: Person) -> Steps:
+    """Save a file that shows contours, and open it: they are shown again."""
+    file = person.folder / "with_contours.blend"
+    person.scene.bda.contours = True
+    person.scene.frame_set(14)
+    yield 0.5
+    before = colours(person, shown=True)
+    bpy.ops.wm.save_as_mainfile(filepath=str(file))
+    with bpy.context.temp_override(window=person.window):
+        bpy.ops.wm.open_mainfile(filepath=str(file))
+    yield 2.0
+    yield from person.picture("opened_with_contours")
+    person.expect("contours are shown in the file that is opened", person.scene.bda.contours)
+    person.expect("in the colours of before", bool((colours(person, shown=True) == before).all()))
+    person.expect("bodies have others of their own", bool((colours(person) != before).any()))
+    person.expect("the view shows them", person.view.spaces.active.shading.color_type, "OBJECT")
 
 
 def look(person: Person) -> None:

@@ -1,13 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A run is exported from the menu of the panel Results, and what this Blender cannot write is told."""
 
+import re
+from pathlib import Path
+from zipfile import ZipFile
+
 from habits import build
 from panels import Panels
 from person import Person, Steps
 from traces import recording_runs, something_goes_on
 
-BELOW_PX = 26
-"""From the button above the menu to the menu."""
+BELOW_PX = 52
+"""From the button *Draw Charts* to the menu, with a row between."""
 
 
 def steps(person: Person) -> Steps:
@@ -26,10 +30,23 @@ def steps(person: Person) -> Steps:
     yield from person.wait_for("the model is there", (results / "export.glb").is_file, 60.0)
     yield from person.wait_for("and it is over", lambda: not something_goes_on(), 20.0)
     person.expect_reports("the file is named", f"Animated Model (glTF): {results / 'export.glb'}")
+    yield from choose(person, "XLSX", 1)
+    yield from person.wait_for("the workbook is there", (results / "export.xlsx").is_file, 60.0)
+    yield from person.wait_for("and it is over", lambda: not something_goes_on(), 20.0)
+    person.expect_reports("the workbook is named", f"Spreadsheet (XLSX): {results / 'export.xlsx'}")
+    person.expect(
+        "it has the tables of the run", {"units", "debris_log", "breaking_log"} <= sheets(results / "export.xlsx")
+    )
     yield from choose(person, "ParaView", 0)
     yield from person.wait_for("the series is there", (results / "export" / "bodies.pvd").is_file, 60.0)
     yield from person.wait_for("and it is over", lambda: not something_goes_on(), 20.0)
     person.take_reports()
+
+
+def sheets(workbook: Path) -> set[str]:
+    """Names of the sheets of a workbook, which is a zip."""
+    with ZipFile(workbook) as parts:
+        return set(re.findall(r'<sheet name="([^"]+)"', parts.read("xl/workbook.xml").decode("utf-8")))
 
 
 def choose(person: Person, name: str, number: int) -> Steps:

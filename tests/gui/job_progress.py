@@ -26,8 +26,13 @@ def steps(person: Person) -> Steps:
     kept = [message.text for message in module("ui.messages").messages_of(person.scene)]
     person.expect("where its results are stays in the panel", any("Results are in" in text for text in kept))
     yield from stop(person, "bda.make_report", "the report")
+    person.expect("there is no report to open yet", "make one first" in person.refusal("bda.open_report"))
     yield from begin(person, "bda.make_report")
     yield from follow(person, "the report", 4)
+    yield 0.5
+    report = module("ui.results.operator").report_of(person.scene)
+    person.expect("the panel names the report", report is not None and report.is_file())
+    person.expect("and it can be opened", person.refusal("bda.open_report"), "")
     yield from stop(person, "bda.draw_charts", "the charts")
     yield from begin(person, "bda.draw_charts")
     yield from follow(person, "the charts", 2)

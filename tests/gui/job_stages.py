@@ -59,11 +59,19 @@ def check_stages(person: Person) -> Steps:
 def show_utilisation(person: Person) -> Steps:
     """Show Utilisation colours the shards before anything is run; another stage, other colours; undo takes it back."""
     view = module("ui.contours.view")
+    person.scene.frame_set(20)
     yield from person.click("bda.show_utilisation")
     yield from person.move_to_view()
     yield 0.5
     yield from person.picture("stage_1")
     person.expect("contours are shown", person.scene.bda.contours, True)
+    person.expect("of the bridge as it was built", person.scene.frame_current, person.scene.frame_start)
+    scale = module("simulation.blender_events").contours_of(person.scene).shown_frame()[0].scale
+    person.expect(
+        "their range is linear from 0 to 100 % at least",
+        (scale.logarithmic, scale.low, scale.high >= 1.0),
+        (False, 0.0, True),
+    )
     colours = shown_colours(person)
     person.expect("shards have several colours", len(colours) > 20, True)
     person.expect("nothing is in the way", view.refusal(person.scene), "")
@@ -99,7 +107,6 @@ def search(person: Person, panels: Panels) -> Steps:
     """Find Smallest Charge, along the drop of the ball, beside the window."""
     work = module("ui.ensemble.search").WORK
     yield from panels.show_only("Search")
-    person.expect("no folder is greyed with a reason", "Choose a folder" in person.refusal("bda.start_search"), True)
     folder = person.folder / "search"
     yield from person.fill_in("search_directory", str(folder))
     yield from person.click("search_quantity")

@@ -45,7 +45,9 @@ def steps(person: Person) -> Steps:
     yield from build(person)
     person.expect_reports("nothing but the building is reported", "Deleted 3 object", "30 shards")
     yield from panels.show_only("Study")
-    yield from refuse_without_a_folder(person)
+    person.expect("nothing to pause yet", "No study is at work" in person.refusal("bda.pause_study"), True)
+    yield from person.picture("panel_at_first")
+    yield from begin_small(person, panels)
     yield from set_up(person, panels)
     yield from run_beside_the_work(person)
     yield from look_at_the_findings(person)
@@ -53,10 +55,23 @@ def steps(person: Person) -> Steps:
     yield from quit_in_the_middle(person, panels)
 
 
-def refuse_without_a_folder(person: Person) -> Steps:
-    person.expect("no folder is greyed with a reason", "Choose a folder" in person.refusal("bda.start_study"), True)
-    person.expect("nothing to pause yet", "No study is at work" in person.refusal("bda.pause_study"), True)
-    yield from person.picture("panel_at_first")
+def begin_small(person: Person, panels: Panels) -> Steps:
+    """Two runs, without a folder: too few for a limit, which is said; then one more in the folder that was made."""
+    work = module("ui.ensemble.study").WORK
+    yield from panels.toggle_inner(RUNS_PANEL, "bda.start_study")
+    for runs in (2, 3):
+        yield from person.fill_in("runs", f"{runs}")
+        yield from person.click("bda.start_study")
+        yield from person.wait_for(f"a study of {runs} runs begins", lambda: work.session is not None, 20.0)
+        yield from person.wait_for("it ends", lambda: work.session is None, STUDY_S)
+        yield 1.0
+        person.expect("nothing went wrong", work.why_ended, "")
+        person.expect(f"{runs} runs are there", len(rows(Path(person.scene.bda.study_directory) / "runs.csv")), runs)
+        said = " ".join(work.result.sentences)
+        person.expect(f"{runs} are too few, which is said", "Too few runs for a limit yet" in said)
+    yield from person.picture("three_runs")
+    yield from panels.toggle_inner(RUNS_PANEL, "bda.start_study")
+    person.take_reports()
 
 
 def set_up(person: Person, panels: Panels) -> Steps:

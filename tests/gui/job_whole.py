@@ -14,12 +14,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from bpy_extras.view3d_utils import location_3d_to_region_2d
-from dragging import handle_of, hold, on_screen
+from dragging import handle_of, hold, on_screen, out_of_sight
 from file_browser import choose_file
 from habits import delete_all, undo, undo_and_redo
 from panels import Panels
-from person import Person, Steps, region_of
+from person import Person, Steps
 from timeline import drag_to_frame, timeline
 from traces import (
     PRESETS,
@@ -136,7 +135,7 @@ def build_bridge(person: Person, panels: Panels) -> Steps:
     shards = list(world.collection.objects)
     person.expect("shards and ground are in the world", len(shards), SHARDS + 1)
     person.expect("there are connections", len(world.constraints.objects) > SHARDS)
-    person.expect("the view shows all of the bridge beside the sidebar", out_of_sight(person), [])
+    person.expect("the view shows all of the bridge beside the sidebar", out_of_sight(person, CORNERS), [])
     mass = sum(shard.rigid_body.mass for shard in shards if shard.rigid_body.type == "ACTIVE")
     person.expect(
         "they weigh what the bridge does by hand", math.isclose(mass, VOLUME_M3 * DENSITY_KG_M3, rel_tol=1e-4)
@@ -159,16 +158,6 @@ def turn_view(person: Person) -> Steps:
     for _ in range(NOTCHES_BACK):
         yield from person.press("WHEELDOWNMOUSE")
     yield 0.5
-
-
-def out_of_sight(person: Person) -> list[tuple[float, ...]]:
-    """Corners of the bridge, by hand, that are not in the view, or behind the sidebar."""
-    region = region_of(person.view, "WINDOW")
-    seen = {corner: location_3d_to_region_2d(region, person.view.spaces.active.region_3d, corner) for corner in CORNERS}
-    right = person.sidebar.x - region.x
-    return [
-        label for label, at in seen.items() if at is None or not (0.0 < at.x < right and 0.0 < at.y < region.height)
-    ]
 
 
 def move_a_zone(person: Person) -> Steps:

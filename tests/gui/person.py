@@ -81,6 +81,7 @@ class Person:
     def __init__(self, folder: Path):
         self.folder = folder
         self.mouse = (0, 0)
+        self.clicks = 0
         self._hand: bpy.types.Window | None = None
         self._pictures = 0
         self.looks_from: int | None = None
@@ -194,6 +195,7 @@ class Person:
     def press(self, key: str, unicode: str | None = None, **modifiers: bool) -> Steps:
         """Press a key or button of the mouse where the mouse is, and let it go."""
         x, y = self.mouse
+        self.clicks += key == "LEFTMOUSE"
         for modifier in modifiers:
             self.hand.event_simulate(type=MODIFIERS[modifier], value="PRESS", x=x, y=y)
         self.hand.event_simulate(type=key, value="PRESS", unicode=unicode, x=x, y=y, **modifiers)

@@ -64,7 +64,9 @@ EXPECTED_ON_CONSOLE = re.compile(
     r"|(Info|Warning|Error): (30 shards, |Recording to |Stopped after |Baked: |\d+ clouds of dust)"
     r"|(Info|Warning|Error): (The recording ended early|Results are in|4 stages, with tables in )"
     r"|Warning: (Changed in Blender, and not in the scenario of the run|The bridge does not stand by itself)"
-    r"|(Scene: |Warning: Not as it was built: )\d+ shards? (is|are) (moved|missing)"
+    r"|(Scene: |Warning: Not as it was built: )\d+ (shards?|body|bodies) (is|are) (moved|missing|added)"
+    r"|(Scene: |Warning: Not as it was built: )the \w+ of the scenario is missing"
+    r"|Info: (\d+ force fields made|\d+ members added from the selected meshes)"
     r"|Warning: \d+ shards? creeps? "
 )
 """Lines that Blender writes as it goes, and reports of operators that a job calls."""

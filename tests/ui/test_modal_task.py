@@ -98,6 +98,15 @@ def ticks(task, context):
     yield result
 
 
+def test_who_leaves_blender_meanwhile_is_told_what_to_do(context):
+    task = Counting()
+    task.invoke(context, None)
+    for value in ("PRESS", "RELEASE"):
+        assert task.modal(context, SimpleNamespace(type="Q", ctrl=True, value=value)) == {"RUNNING_MODAL"}
+    assert task.reports == [("WARNING", "Counting goes on: Esc stops it, then Blender can be left")]
+    task.cancel(context)
+
+
 @pytest.mark.parametrize("kind, text", [(Counting, "Counted to 3"), (Painting, "Painted")])
 def test_work_is_done_in_steps_and_leaves_no_timer(context, kind, text):
     task = kind()

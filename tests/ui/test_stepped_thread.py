@@ -30,6 +30,21 @@ def test_it_goes_on_from_part_to_part_and_gives_what_comes_of_it():
     assert turns.outcome() == "counted"
 
 
+def test_short_parts_are_one_step_and_long_ones_are_not():
+    lasts_s = [0.0, 0.0, 0.06, 0.0, 0.06]
+
+    def work(turns):
+        for number, part_s in enumerate(lasts_s, start=1):
+            time.sleep(part_s)
+            turns.part(number, len(lasts_s))
+
+    turns, seen = SteppedThread(work, shortest_s=0.05), []
+    while not turns.is_finished:
+        turns.step()
+        seen.append(turns.done)
+    assert seen == [3, 5, 5]
+
+
 def test_it_never_works_while_it_is_not_its_turn():
     at_work = []
 

@@ -110,7 +110,8 @@ class CrackedStructure:
     def load(self, accelerations: FloatArray, overloaded: Overloaded, tear: Tear, pause: Pause) -> bool:
         """Let it come to rest under loads by mass (6, n), connections breaking one after another.
 
-        Return whether it did. What falls, or goes on moving, is not held any more. `pause` is called in each step.
+        Return whether it did. What falls, or goes on moving, is not held any more. `pause` is called in each step, each
+        time that something breaks.
         """
         built = self._built
         structure = ElasticStructure(
@@ -120,10 +121,9 @@ class CrackedStructure:
             structure.stand_bare(self.bare_bars)
         self._falls = False
         for _ in range(_MOST_STEPS):
-            pause()
             ruptured = structure.settle(self.positions_m, self.rotations)
             self._let_go()
-            broke, step = self._broken_in_step(structure, self._with_tendons(accelerations), overloaded, tear)
+            broke, step = self._broken_in_step(structure, self._with_tendons(accelerations), overloaded, tear, pause)
             self.loads = self._loads_of(step)
             moving = self._moving(step)
             self.positions_m, self.rotations = self._moved(moving)
@@ -152,10 +152,11 @@ class CrackedStructure:
         return both
 
     def _broken_in_step(
-        self, structure: ElasticStructure, accelerations: FloatArray, overloaded: Overloaded, tear: Tear
+        self, structure: ElasticStructure, accelerations: FloatArray, overloaded: Overloaded, tear: Tear, pause: Pause
     ) -> tuple[bool, ElasticStep]:
         """Whether anything broke in a step, and the step without that."""
         self._step_s = _STEPS_S[-1] if self._falls else _STEPS_S[0]
+        pause()
         step = self._short_step(structure, accelerations)
         for number in range(_MOST_ROUNDS):
             self._falls = self._farthest_m(step) > _FALLS_M[_STEPS_S.index(self._step_s)]
@@ -166,6 +167,7 @@ class CrackedStructure:
                 return number > 0, step
             self.intact[rows] = False
             tear(self.cracks, rows, self.positions_m, self.rotations)
+            pause()
             step = self._short_step(structure, accelerations)
         return True, step
 

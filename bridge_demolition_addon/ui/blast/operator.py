@@ -5,9 +5,10 @@ from __future__ import annotations
 import bpy
 
 from ...model.blast.charges import Charge
+from ...model.blast.settings import Apply
 from ...model.scenario import BlastSettings
 from ...scene.blast.charges import charge_collection, charge_objects, create_charges, keep_blast
-from ...scene.blast.force_fields import build_force_objects
+from ...scene.blast.force_fields import BuildCount, build_force_objects
 from ...scene.bodies import Kind, bodies_of, kind_of
 from ...scene.visibility import hide_symbols, symbols_are_hidden
 from ..languages.words import translated
@@ -22,6 +23,22 @@ _NEW_CHARGE_KG = 10.0
 def keep_shown_blast(scene: bpy.types.Scene) -> None:
     """Keep the blast as the sidebar shows it in the scene, for the next recording."""
     keep_blast(scene, table_of(scene.bda.scenario.blast, BlastSettings))
+
+
+def build_missing_fields(scene: bpy.types.Scene) -> None:
+    """Give shards that were added since the last time a force field, where charges push them by one."""
+    blast = table_of(scene.bda.scenario.blast, BlastSettings)
+    if blast.explosion and blast.apply == Apply.FIELDS and charge_objects(scene):
+        build_fields(scene, bpy.context.view_layer)
+
+
+def build_fields(scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> BuildCount:
+    """Give each shard that lacks one a force field, which is hidden where the others are."""
+    hidden = symbols_are_hidden(layer, scene)
+    built = build_force_objects(scene, bodies_of(scene))
+    if hidden and built.made:
+        hide_symbols(layer, scene, hidden=True)
+    return built
 
 
 def total_mass_kg(scene: bpy.types.Scene) -> float:
@@ -71,12 +88,8 @@ class BDA_OT_build_force_objects(UndoableAction, bpy.types.Operator):
     blocked_by = (no_world,)
 
     def act(self, context: bpy.types.Context) -> str:
-        scene, layer = context.scene, context.view_layer
-        keep_shown_blast(scene)
-        hidden = symbols_are_hidden(layer, scene)
-        built = build_force_objects(scene, bodies_of(scene))
-        if hidden:
-            hide_symbols(layer, scene, hidden=True)  # the new ones as well
+        keep_shown_blast(context.scene)
+        built = build_fields(context.scene, context.view_layer)
         return f"{built.made} force fields made, {built.kept} kept, {built.removed} removed"
 
 

@@ -14,6 +14,7 @@ from ...model.study.criteria import Criterion
 from ...model.study.file import Ensemble
 from ...model.study.settings import EnsembleSettings, StudySettings
 from ..operators import Action, UndoableAction, absolute
+from ..recording.paths import new_folder
 from ..results.operator import open_path
 from ..scenario.prop import shown_tables
 from ..scenario.values import show_fields, show_scenario, show_table, table_of
@@ -57,19 +58,25 @@ class LoadEnsemble(EnsembleAction, UndoableAction):
 
 
 class StartEnsemble(EnsembleAction):
-    """Base of buttons that begin, or go on where the folder stands; `shown` returns what the panels show."""
+    """Base of buttons that begin, or go on where the folder stands; `shown` returns what the panels show.
 
+    Without a folder they begin in a new one, as a run does.
+    """
+
+    changes_scene = True
     shown: Callable[[bpy.types.PropertyGroup], Ensemble]
 
     @classmethod
     def disabled_reason(cls, context: bpy.types.Context) -> str | None:
-        if cls.work.session:
-            return f"The {cls.work.name} is at work already"
-        return None if cls.of_kind(context, "directory") else f"Choose a folder for the {cls.work.name} first"
+        return f"The {cls.work.name} is at work already" if cls.work.session else None
 
     def act(self, context: bpy.types.Context) -> str:
-        path, settings = self.folder(context), context.scene.bda
-        self.work.begin(type(self).shown(settings), path, settings.study_jobs)
+        settings = context.scene.bda
+        ensemble, is_chosen = type(self).shown(settings), bool(self.of_kind(context, "directory"))
+        path = self.folder(context) if is_chosen else new_folder(f"{self.work.name} {ensemble.scenario.title}")
+        self.work.begin(ensemble, path, settings.study_jobs)
+        if not is_chosen:
+            setattr(settings, f"{self.work.key}_directory", str(path))
         return f"The {self.work.name} runs in {path}: go on working, and leave Blender open"
 
 

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from functools import lru_cache
+from pathlib import Path
 
 import bpy
 import numpy as np
 
-from ...display.bridge_preview import outline
-from ...model.scenario import Ball, Bridge, Scenario
+from ...display.bridge_preview import outline, sharp_edges
+from ...errors import DemolitionError
+from ...model.bridge.mesh_files import placed_mesh
+from ...model.scenario import Ball, Bridge, Geometry, Scenario
 from ...model.scenario.file import scenario_from_text
 from ..scenario.prop import shown_tables
 from ..scenario.values import inner_of
@@ -19,7 +22,10 @@ from . import zone_handles
 _COLOUR = (0.45, 0.85, 1.0, 0.9)
 _WIDTH_PX = 1.5
 
-_FIELDS = {item.name: item for item in shown_tables(Scenario) if item.name in ("bridge", "ball")}
+_FIELDS = {item.name: item for item in shown_tables(Scenario) if item.name in ("bridge", "ball", "geometry")}
+
+Sizes = tuple[Bridge | None, Ball | None, tuple[Geometry, ...]]
+"""Bridge, ball, and members of the user's own."""
 
 
 def is_wanted(context: bpy.types.Context) -> bool:
@@ -34,22 +40,38 @@ def is_wanted_in(scene: bpy.types.Scene, screen: bpy.types.Screen) -> bool:
 
 def preview_lines(settings: bpy.types.PropertyGroup) -> np.ndarray:
     """Return what the panels would build as lines (2 k, 3) float, m; none where it is built."""
-    sizes = sizes_shown(settings)
+    sizes = bridge, ball, own = sizes_shown(settings)
     if settings.built_scenario and sizes == _sizes_of(settings.built_scenario):
         return np.zeros((0, 3))
-    return _lines(*sizes)
+    return np.concatenate([_lines(bridge, ball, not own), *(_own_lines(table, _written_ns(table)) for table in own)])
 
 
-def sizes_shown(settings: bpy.types.PropertyGroup) -> tuple[Bridge | None, Ball | None, bool]:
-    """Return bridge and ball as the panels show them, and whether no meshes are added to the bridge."""
+def sizes_shown(settings: bpy.types.PropertyGroup) -> Sizes:
+    """Return bridge, ball and members of the user's own as the panels show them."""
     group = settings.scenario
-    return inner_of(group, _FIELDS["bridge"]), inner_of(group, _FIELDS["ball"]), not len(group.geometry)
+    bridge, ball, own = (inner_of(group, _FIELDS[name]) for name in ("bridge", "ball", "geometry"))
+    return bridge, ball, own
 
 
 @lru_cache(maxsize=4)
-def _sizes_of(text: str) -> tuple[Bridge | None, Ball | None, bool]:
+def _sizes_of(text: str) -> Sizes:
     built = scenario_from_text(text)
-    return built.bridge, built.ball, not built.geometry
+    return built.bridge, built.ball, built.geometry
+
+
+@lru_cache(maxsize=64)
+def _own_lines(table: Geometry, _written_ns: int) -> np.ndarray:
+    """Lines of a member of the user's own; none of a mesh that cannot be built: Build Scenario says why."""
+    try:
+        return sharp_edges(placed_mesh(table))
+    except (DemolitionError, ValueError):
+        return np.zeros((0, 3))
+
+
+def _written_ns(table: Geometry) -> int:
+    """When the file of a member was written last; 0 where there is none."""
+    path = Path(table.file)
+    return path.stat().st_mtime_ns if path.is_file() else 0
 
 
 @lru_cache(maxsize=4)
@@ -75,6 +97,7 @@ def _draw(context: bpy.types.Context) -> None:
 
 def _forget() -> None:
     _lines.cache_clear()
+    _own_lines.cache_clear()
     _sizes_of.cache_clear()
     zone_handles.forget()
 

@@ -101,8 +101,8 @@ def _drops(scene: bpy.types.Scene) -> tuple[bpy.types.PropertyGroup, ...]:
 
 
 def _of_ball(scene: bpy.types.Scene) -> Iterator[Handle]:
-    bridge, ball, is_all = sizes_shown(scene.bda)
-    if not (bridge and ball and is_all):
+    bridge, ball, own = sizes_shown(scene.bda)
+    if not (bridge and ball) or own:
         return
     top = deck_top(bridge)
     for index, drop in enumerate(ball.drops):

@@ -27,7 +27,7 @@ from ...simulation.recording.recorder import Recording
 from ...simulation.run_summary import RunContext, rest_watch, run_summary
 from ...system.folder_lock import FolderLock
 from .. import messages, task_progress, workspace
-from ..blast.operator import keep_shown_blast
+from ..blast.operator import build_missing_fields, keep_shown_blast
 from ..operators import Action, GuardedOperator, absolute, baked, no_world, recording_runs, refused
 from ..scenario.built import scenario_to_run
 from ..scenario.values import table_of
@@ -87,6 +87,7 @@ def new_recording(scene: bpy.types.Scene) -> Recording:
     table = table_of(settings.scenario.recording, RecordingSettings)
     scenario, by_hand = _scenario_with_edits(scene)
     keep_shown_blast(scene)
+    build_missing_fields(scene)
     forces, debris = (
         _log_file(path, settings.overwrite) for path in (settings.force_log_path, settings.debris_log_path)
     )

@@ -15,7 +15,7 @@ from ...simulation.playback import Playing, frames_to_play
 from .. import messages
 from ..modal_task import RenderingTask, SteppedTask
 from ..operators import Action, no_world, other_mode, recording_runs
-from ..scenario.operator import BDA_OT_build_anew, build, stop_playing
+from ..scenario.operator import BDA_OT_build_anew, build_again, stop_playing
 from ..task_progress import TaskProgress
 from . import session
 from .operator import (
@@ -101,7 +101,7 @@ class BDA_OT_run(SteppedTask, bpy.types.Operator):
         if reason := other_mode(context):
             raise SimulationError(reason)
         check_output(context.scene.bda)
-        self.report({"INFO"}, build(context.scene, again=True))
+        self.report({"INFO"}, build_again(context))
         bpy.ops.ed.undo_push(message=BDA_OT_build_anew.bl_label)  # a run itself is nothing to undo
 
     def _take_pictures(self) -> None:

@@ -26,7 +26,7 @@ from ..operators import Action, UndoableAction, absolute, no_world, recording_ru
 from ..scenario.built import shown_site
 from ..sidebar import path_property
 from ..stepped_thread import SteppedThread
-from ..viewport import look_at_selected, look_at_shards, select_only, shards_in_view
+from ..viewport import look_at_bridge, look_at_selected, select_only, shards_in_view
 from .report_language import shown_language, shown_units
 from .shown_run import shown_run
 
@@ -73,7 +73,7 @@ class BDA_OT_look_at_bridge(UndoableAction, bpy.types.Operator):
             raise SimulationError("no shard is in this view layer: show the collection of its bodies")
         scene = context.scene
         scene.frame_set(scene.rigidbody_world.point_cache.frame_start)
-        look_at_shards(context)
+        look_at_bridge(context)
 
 
 def _no_run(context: bpy.types.Context) -> str | None:

@@ -1,6 +1,7 @@
 """Loading, saving, building and removing scenarios."""
 
 import bpy
+import numpy as np
 from bpy.props import StringProperty
 
 from ...display.camera_targets import points_to_see
@@ -28,9 +29,10 @@ from ..operators import (
     unset,
     write_file,
 )
-from ..viewport import look_at_shards
+from ..preview.decorator import preview_lines
+from ..viewport import bridge_box, look_at_box, look_at_bridge, look_at_other_bridge
 from .built import forget_built, is_emptied, keep_built, show_built
-from .preset_menu import preset_file
+from .preset_menu import described_preset, preset_file
 from .prop import default_scenario
 from .values import scenario_of, show_scenario
 
@@ -98,6 +100,18 @@ class BDA_OT_load_preset(UndoableAction, bpy.types.Operator):
 
     preset: StringProperty(name="Preset", description="Name of the preset")
 
+    @classmethod
+    def description(cls, _context: bpy.types.Context, properties: bpy.types.OperatorProperties) -> str:
+        """Return the tooltip of a preset's button; empty for Blender's own."""
+        return described_preset(properties.preset) if properties.preset else ""
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        """Load it, and let the view show its outlines, if there are any."""
+        done = self.execute(context)
+        if "FINISHED" in done and len(lines_m := preview_lines(context.scene.bda)):
+            look_at_box(context, np.array([lines_m.min(axis=0), lines_m.max(axis=0)]))
+        return done
+
     def act(self, context: bpy.types.Context) -> str | None:
         _show(context.scene.bda, read_scenario(preset_file(self.preset)))
 
@@ -119,12 +133,16 @@ class BDA_OT_build_scenario(UndoableAction, bpy.types.Operator):
         """Build it, and let the view show the bridge."""
         done = self.execute(context)
         if "FINISHED" in done:
-            look_at_shards(context)
+            look_at_bridge(context)
         return done
 
     def act(self, context: bpy.types.Context) -> str:
         stop_playing(context)
-        return build(context.scene, again=context.scene.rigidbody_world is not None)
+        scene = context.scene
+        is_emptied_scene = scene.rigidbody_world is not None
+        if is_emptied_scene:
+            scene.bda.contours = False  # of a run of what was here before
+        return build(scene, again=is_emptied_scene)
 
 
 def _nothing_built(context: bpy.types.Context) -> str | None:
@@ -140,7 +158,8 @@ class BDA_OT_build_anew(UndoableAction, bpy.types.Operator):
 
     def act(self, context: bpy.types.Context) -> str:
         stop_playing(context)
-        return build(context.scene, again=True)
+        context.scene.bda.contours = False  # of a run of what was here before
+        return build_again(context)
 
 
 class BDA_OT_show_built(UndoableAction, bpy.types.Operator):
@@ -193,6 +212,14 @@ class BDA_OT_remove_loose_connections(UndoableAction, bpy.types.Operator):
 
     def act(self, context: bpy.types.Context) -> str:
         return f"{remove_loose_connections(context.scene)} loose connections removed"
+
+
+def build_again(context: bpy.types.Context) -> str:
+    """Build what the panels show in place of what was built; the view follows to a bridge of another size."""
+    before_m = bridge_box(context)
+    built = build(context.scene, again=True)
+    look_at_other_bridge(context, before_m)
+    return built
 
 
 def build(scene: bpy.types.Scene, *, again: bool = False) -> str:

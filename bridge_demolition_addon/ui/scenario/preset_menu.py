@@ -7,6 +7,8 @@ from pathlib import Path
 import bpy
 import bpy.utils.previews
 
+from ...model.scenario.file import read_scenario
+from ..languages.words import translated
 from .prop import PRESETS
 
 _PACKAGE = Path(__file__).parents[2]
@@ -78,6 +80,13 @@ def preset_file(name: str) -> Path:
     """Return the file of a preset, also by the name that it had before."""
     name = _EARLIER_NAMES.get(name, name)
     return preset_files().get(name, PRESETS / (name + _SUFFIX))
+
+
+def described_preset(name: str) -> str:
+    """Return in a sentence what a preset is: its title, how many shards it has, and how long it is simulated."""
+    scenario = read_scenario(preset_file(name))
+    sentence = translated("{}: {} shards, {} s. Show its values in the panels, and its charges in the scene")
+    return sentence.format(scenario.title, scenario.fracture.shards, f"{scenario.time.duration_s:g}")
 
 
 def picture_of_preset(name: str) -> Path:

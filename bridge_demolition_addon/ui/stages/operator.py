@@ -41,6 +41,7 @@ class BDA_OT_check_stages(ModalTask, bpy.types.Operator):
         "members, by its stiffness and without a simulation; Esc stops"
     )
     task, unit = "Checking stages", "parts"
+    shortest_step_s = 0.1  # about what Blender takes to draw its progress without a graphics card
 
     def work(self, context: bpy.types.Context) -> Work:
         settings = context.scene.bda
@@ -107,6 +108,7 @@ class BDA_OT_show_utilisation(UndoableAction, bpy.types.Operator):
     blocked_by = (no_world, _not_checked)
 
     def act(self, context: bpy.types.Context) -> None:
-        settings = context.scene.bda
+        scene, settings = context.scene, context.scene.bda
+        scene.frame_set(scene.rigidbody_world.point_cache.frame_start)  # a pile is not what was calculated
         settings.contour_quantity = ContourQuantity.UTILISATION.name
         settings.contours = True

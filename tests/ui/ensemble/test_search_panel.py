@@ -3,6 +3,7 @@
 
 import json
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 from support.ensemble_panels import drawn, look_in_until
@@ -86,9 +87,15 @@ def test_a_search_that_cannot_run_is_refused_with_a_sentence(blender, panel, tmp
     assert WORK.session is None and not (tmp_path / "search").exists()
 
 
-def test_without_a_folder_there_is_no_search(blender, panel):
+def test_without_a_folder_it_begins_in_a_new_one(blender, panel, tmp_path, monkeypatch):
+    monkeypatch.setenv("HOME", str(tmp_path))
+    monkeypatch.delenv("XDG_CONFIG_HOME", raising=False)
     panel.search_directory = ""
-    assert not blender.ops.bda.start_search.poll()
+    assert blender.ops.bda.start_search() == {"FINISHED"}
+    assert Path(panel.search_directory) == WORK.session.folder.path
+    assert WORK.session.folder.path.parent == tmp_path / "Bridge Demolition"
+    assert WORK.session.folder.path.name.startswith("search_")
+    blender.ops.bda.stop_search()
 
 
 def test_values_under_earlier_names_are_read(extension, panel, caplog):

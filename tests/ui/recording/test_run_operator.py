@@ -11,6 +11,7 @@ from support.blocks import Blocks
 from support.checkout import REPORT_2019
 
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.scene.blast.force_fields import force_objects
 
 FRAMES = 12
 
@@ -102,21 +103,25 @@ def explode(extension, scene):
     return next(obj for obj in extension.data.objects if "bda_mass_kg" in obj)
 
 
-@pytest.mark.parametrize("overwrite", [False, True])
-def test_a_body_added_after_the_force_objects_is_refused_and_nothing_is_lost(
-    extension, blocks, scene, tmp_path, overwrite
-):
+def test_a_body_added_after_the_force_fields_gets_one_when_it_runs(extension, blocks, scene):
     explode(extension, scene)
+    fields = force_objects(scene)
+    added = blocks.block((-3, 0, 5), 50.0)
+    assert extension.ops.bda.run() == {"FINISHED"}
+    assert added in force_objects(scene) and fields.items() < force_objects(scene).items()
+
+
+@pytest.mark.parametrize("overwrite", [False, True])
+def test_a_charge_that_cannot_go_off_is_refused_and_nothing_is_lost(extension, scene, tmp_path, overwrite):
+    charge = explode(extension, scene)
     folder = tmp_path / "results"
     if overwrite:
         assert extension.ops.bda.run() == {"FINISHED"}
         scene.bda.overwrite = True
     before = sorted(folder.rglob("*"))
-    blocks.block((-3, 0, 5), 50.0)
-    assert "has no force field: build the force fields again" in refusal(extension.ops.bda.run)
+    charge["bda_explosive"] = "jelly"
+    assert "Charge 1: explosive is 'jelly'" in refusal(extension.ops.bda.run)
     assert sorted(folder.rglob("*")) == before
-    extension.ops.bda.build_force_objects()
-    assert extension.ops.bda.run() == {"FINISHED"}
 
 
 @pytest.mark.parametrize("wrong", ["no volume", "no frames", "charge"])

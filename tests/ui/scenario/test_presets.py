@@ -36,6 +36,12 @@ def test_each_has_a_picture_that_shows_something(presets):
         assert brightest - darkest > 60, name
 
 
+def test_a_preset_says_what_it_is(presets):
+    shown = presets.described_preset("reinforced_span_ball")
+    scenario = read_scenario(presets.preset_file("reinforced_span_ball"))
+    assert shown.startswith(f"{scenario.title}: {scenario.fracture.shards} shards, {scenario.time.duration_s:g} s. ")
+
+
 def test_blender_loads_the_pictures_and_lets_go_of_them(extension, presets):
     pictures = presets.loaded_pictures()
     assert set(pictures) == set(presets.preset_files())

@@ -114,6 +114,13 @@ def test_building_takes_what_the_panels_show(extension, settings):
     assert len(extension.context.scene.rigidbody_world.collection.objects) == 27
 
 
+def test_building_again_switches_contours_off_as_nothing_is_run_yet(extension, settings):
+    extension.ops.bda.build_scenario()
+    settings.contours = True
+    extension.ops.bda.build_anew()
+    assert not settings.contours
+
+
 def test_building_loads_a_file_that_was_not_loaded_yet(extension, settings):
     settings.scenario_path = str(SMALL)
     extension.ops.bda.build_scenario()

@@ -10,6 +10,7 @@ from bridge_demolition_addon.engineering.geometry.solids import box
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.structure.model import build_model
 from bridge_demolition_addon.model.structure.point_files import paint_from_file
+from bridge_demolition_addon.ui.preview.decorator import preview_lines
 from bridge_demolition_addon.ui.scenario.values import scenario_of
 
 
@@ -40,11 +41,14 @@ def test_selected_meshes_are_built_as_members(extension, settings, objects, tmp_
     assert extension.ops.bda.add_selected_members(directory=str(folder), density_kg_m3=2500.0) == {"FINISHED"}
     assert sorted(path.name for path in folder.iterdir()) == ["deck.ply", "east wall.ply", "west wall.ply"]
     assert all(obj.hide_get() for obj in objects)
+    shown = preview_lines(settings)  # in their place: twelve edges of each box
+    assert len(shown) == 3 * 12 * 2 and np.ptp(shown, axis=0) == pytest.approx([10.0, 4.0, 4.5])
     model = build_model(scenario_of(settings))
     masses = {member.name: member.mass_kg for member in model.members}
     # Blender keeps single precision of some metres.
     assert masses == pytest.approx({"deck": 50_000, "west wall": 20_000, "east wall": 20_000}, rel=1e-5)
     extension.ops.bda.build_scenario()
+    assert len(preview_lines(settings)) == 0
     shards = [body for body in extension.data.objects if body.get("bda_kind") == "shard"]
     assert len(shards) == 60
     assert sum(body.rigid_body.mass for body in shards) == pytest.approx(90_000, rel=1e-5)
