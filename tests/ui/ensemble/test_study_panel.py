@@ -140,8 +140,8 @@ def test_a_folder_without_a_study_is_refused(blender, panel, tmp_path):
         blender.ops.bda.show_study()
     panel.study_directory = ""
     assert not blender.ops.bda.show_study.poll()
-    assert not blender.ops.bda.start_study.poll()
     assert not blender.ops.bda.open_worst_draw.poll()
+    assert blender.ops.bda.start_study.poll()  # it begins in a new folder
 
 
 def test_a_study_file_is_shown_with_its_scenario(blender, panel, tmp_path):
