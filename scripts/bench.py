@@ -18,7 +18,19 @@ from pathlib import Path
 
 import bench_history
 
-BENCHES = ("building", "fracture", "recording", "blast", "contours", "panels", "report", "elastic", "truss", "studies")
+BENCHES = (
+    "building",
+    "fracture",
+    "recording",
+    "strength",
+    "blast",
+    "contours",
+    "panels",
+    "report",
+    "elastic",
+    "truss",
+    "studies",
+)
 
 
 def main() -> int:

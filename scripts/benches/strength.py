@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What connections that break by the strength of a material cost in a frame, next to the bare step in the same run.
+
+The deck is connected by steel, so that nothing breaks and Bullet has the same work each time. A run of a study records
+no loads. CPU time, so that other programs weigh less.
+"""
+
+import statistics
+import tempfile
+import time
+from contextlib import nullcontext
+from pathlib import Path
+
+from benches.deck import SMALLEST, build_scene, deck, frame_seconds, make_world, recorded
+
+from bridge_demolition_addon.model.scenario import ConnectionSettings
+
+FRAMES, ROUNDS = 5, 4
+SIZES = (200, 1000, 3000)
+SETTINGS = ConnectionSettings(type="FIXED", method="face", limit_per_shard=10, material="steel")
+WAYS = {
+    "every sub-step": {"every_substep": True},
+    "last sub-step": {"every_substep": False},
+    "as in a study": {"every_substep": True, "loads": False},
+}
+
+
+def main(smallest: bool) -> dict[str, float]:
+    """Build the deck in each number of shards, play it every way in turn, print the least times, and return ratios."""
+    ratios = {}
+    for shards in (SMALLEST,) if smallest else SIZES:
+        scene = build_scene(deck(shards, connections=SETTINGS))
+        seconds: dict[str, list[float]] = {}
+        with tempfile.TemporaryDirectory() as folder:
+            for _ in range(1 if smallest else ROUNDS):
+                for name, settings in ({"bare step": None} | WAYS).items():
+                    with nullcontext() if settings is None else recorded(scene, Path(folder), **settings):
+                        make_world(scene)
+                        seconds.setdefault(name, []).append(frame_seconds(scene, FRAMES, time.process_time).mean())
+        print(f"{shards} shards, {len(scene.rigidbody_world.constraints.objects)} connections")
+        bare = min(seconds["bare step"])
+        for name, times in seconds.items():
+            spread = statistics.median(times) / min(times) - 1.0
+            print(f"  {name:20} {1e3 * min(times):8.1f} ms a frame  {min(times) / bare:5.2f}  (spread {spread:.0%})")
+            if name != "bare step":
+                ratios[f"{name} over bare step, {shards} shards"] = min(times) / bare
+    return ratios
