@@ -7,9 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..engineering.unit_systems import IMPERIAL, UnitSystem
 from .colour_scale import tick_text
-from .contour_quantities import BREAKS, ContourQuantity
-from .contour_ranges import ContourSettings, RangeKind
+from .contour_quantities import BREAKS, ContourQuantity, Unit
+from .contour_ranges import ContourScale, ContourSettings, RangeKind
 from .contours import ContourFrame
 
 
@@ -26,10 +27,11 @@ class ColourBar:
     time: str
 
 
-def colour_bar(settings: ContourSettings, frame: ContourFrame) -> ColourBar:
-    """Return the colour bar of a frame."""
+def colour_bar(settings: ContourSettings, frame: ContourFrame, units: UnitSystem = UnitSystem.METRIC) -> ColourBar:
+    """Return the colour bar of a frame, with ticks that are round in its unit of a system."""
     scale = frame.scale
-    unit, ticks = settings.quantity.units.of(max(abs(scale.low), abs(scale.high))), scale.ticks()
+    unit = _in_system(settings.quantity.units.of(max(abs(scale.low), abs(scale.high))), units)
+    ticks = unit.size * ContourScale(scale.low / unit.size, scale.high / unit.size, scale.logarithmic).ticks()
     if settings.quantity is ContourQuantity.UTILISATION and scale.low <= BREAKS <= scale.high:
         ticks = np.union1d(ticks, BREAKS)
     return ColourBar(
@@ -41,6 +43,12 @@ def colour_bar(settings: ContourSettings, frame: ContourFrame) -> ColourBar:
         frame=f"{'stage' if settings.quantity is ContourQuantity.UTILISATION else 'frame'} {frame.frame}",
         time=f"{frame.time_s:.3f} s",
     )
+
+
+def _in_system(unit: Unit, units: UnitSystem) -> Unit:
+    """Return a metric unit, or the one of another system for it, as large in SI units as its numbers need."""
+    conversion = IMPERIAL.get(unit.name) if units is UnitSystem.IMPERIAL else None
+    return unit if conversion is None else Unit(conversion.unit, unit.size / conversion.factor)
 
 
 def _what_is_shown(settings: ContourSettings) -> Iterator[str]:

@@ -15,6 +15,7 @@ from bridge_demolition_addon.display.contours import ContourSeries
 from bridge_demolition_addon.display.force_arrows import arrows, connection_forces, contact_forces
 from bridge_demolition_addon.display.frames import film_rows
 from bridge_demolition_addon.display.stage_contours import StageContours
+from bridge_demolition_addon.engineering.unit_systems import UnitSystem
 from bridge_demolition_addon.errors import ContourError, OutputError
 
 UPPER, LOWER, BALL = 1, 2, 3
@@ -46,6 +47,17 @@ def test_displacement_is_from_where_a_body_stood_at_first(series):
     assert series.values(4, ContourQuantity.DISPLACEMENT)[[UPPER, LOWER]] == pytest.approx([0.0, 13.0])
     assert ContourQuantity.DISPLACEMENT.units.of(13.0).name == "m"
     assert ContourQuantity.DISPLACEMENT.units.of(0.013).name == "mm"
+
+
+def test_in_us_units_the_bar_has_round_ticks_and_the_units_of_nist(series):
+    """NIST SP 811, B.8: 1 kip is 4448.222 N, 1 ft 0.3048 m."""
+    settings = ContourSettings(range_kind=RangeKind.FIXED, low=0.0, high=99 * 4448.222, logarithmic=False)
+    bar = colour_bar(settings, series.show(3, settings), UnitSystem.IMPERIAL)
+    assert (bar.unit, bar.tick_texts) == ("(kip)", ("0", "20", "40", "60", "80"))
+    np.testing.assert_allclose(bar.tick_shares, np.arange(5) * 20.0 / 99.0, atol=1e-6)
+    moved = replace(settings, quantity=ContourQuantity.DISPLACEMENT, high=4 * 0.3048)
+    bar = colour_bar(moved, series.show(3, moved), UnitSystem.IMPERIAL)
+    assert (bar.unit, bar.tick_texts) == ("(ft)", ("0", "1", "2", "3", "4"))
 
 
 def test_a_magnified_shape_is_displaced_and_turned_so_many_times_as_much():

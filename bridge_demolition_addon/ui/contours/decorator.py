@@ -18,6 +18,7 @@ from ...display.colour_scale import colours
 from ...display.contour_ranges import ContourSettings
 from ...display.contours import ContourFrame
 from ...display.force_arrows import arrows, body_forces, connection_forces, contact_forces
+from ...engineering.unit_systems import UnitSystem
 from ...model.blast.charges import Charge
 from ...model.blast.damage import THRESHOLDS, ring_radii
 from ...scene.blast.charges import blast_of, charges_of
@@ -166,7 +167,8 @@ class _BarLayout:
 
 def _draw_colour_bar(context: bpy.types.Context, settings: ContourSettings, frame: ContourFrame) -> None:
     scale = context.preferences.system.ui_scale
-    bar = colour_bar(settings, frame)
+    is_imperial = context.scene.unit_settings.system == "IMPERIAL"
+    bar = colour_bar(settings, frame, UnitSystem.IMPERIAL if is_imperial else UnitSystem.METRIC)
     heading = [*filter(None, (translated(bar.title), bar.subtitle)), bar.unit]
     layout = _BarLayout(covered_px(context, "TOOLS") + _MARGIN_PX * scale, _BOTTOM_PX * scale, scale, len(heading))
     left, foot, width, height = layout.bar
