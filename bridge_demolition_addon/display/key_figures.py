@@ -28,7 +28,7 @@ class Farthest:
     place_m: np.ndarray
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class FrameFigures:
     """Key figures of a frame.
 
@@ -40,6 +40,8 @@ class FrameFigures:
         How many connections are broken, and how many there are.
     debris_kg, bridge_kg : float
         Mass of the shards that have come down by then, and of all shards. Removed ones are left out of both.
+    area
+        What debris covers in plan.
     farthest
         How far the farthest debris is from the bridge's plan; None without debris.
     """
@@ -50,6 +52,7 @@ class FrameFigures:
     connections: int
     debris_kg: float
     bridge_kg: float
+    area: CrossSection
     farthest: Farthest | None
 
 
@@ -65,8 +68,7 @@ class RunFigures:
         inventory = self._left.inventory
         self._shards = inventory.of_kind(_SHARD)
         self._masses_kg = np.asarray(inventory.masses_kg, float)
-        corners = inventory.vertices_by_body()
-        self._radii_m = np.array([float(length(own).max()) for own in corners])
+        self._radii_m = np.array([float(length(own).max()) for own in inventory.vertices_by_body()])
         self._bodies = {str(name): row for row, name in enumerate(inventory.body_names)}
         self._connections = {str(name): row for row, name in enumerate(inventory.connection_names)}
 
@@ -104,6 +106,7 @@ class RunFigures:
             connections=len(intact),
             debris_kg=float(self._masses_kg[debris].sum()),
             bridge_kg=float(self._masses_kg[self._shards].sum()),
+            area=footprint(self._left, debris, row),
             farthest=self._farthest(row, debris),
         )
 
@@ -112,10 +115,6 @@ class RunFigures:
         positions = self._left.frames.positions_m
         first, now = (np.asarray(positions[step], float)[self._shards] for step in (0, row))
         return self._shards[travel(first, now) > MOVED_M]
-
-    def area(self, row: int) -> CrossSection:
-        """Return the area that debris covers in plan in a recorded row."""
-        return footprint(self._left, self.debris(row), row)
 
     def history(self, name: str) -> ForceHistory:
         """Return the force on a body or in a connection by its name, else the largest on any shard.

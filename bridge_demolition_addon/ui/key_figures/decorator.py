@@ -92,10 +92,9 @@ def _draw_on_screen(context: bpy.types.Context) -> None:
 
 def _draw_chart(context: bpy.types.Context, layout: _Layout, curve: HistoryCurve) -> None:
     gpu.state.blend_set("ALPHA")
-    axes = np.array(((0.0, 0.0), (1.0, 0.0), (0.0, 0.0), (0.0, 1.0)))
+    now = curve.now_share
+    axes = np.array(((0.0, 0.0), (1.0, 0.0), (0.0, 0.0), (0.0, 1.0), (now, 0.0), (now, 1.0)))
     draw_lines(context, layout.in_chart(axes), _AXIS, _AXIS_PX)
-    shown_time = np.array(((curve.now_share, 0.0), (curve.now_share, 1.0)))
-    draw_lines(context, layout.in_chart(shown_time), _NOW, _AXIS_PX)
     draw_lines(context, layout.in_chart(curve.lines), _CURVE, _WIDTH_PX)
     gpu.state.blend_set("NONE")
     half = _MARK_PX * context.preferences.system.ui_scale

@@ -117,7 +117,7 @@ def forget() -> None:
 
 
 def _worked_out(run: RunFigures, row: int, name: str, exclusion: Exclusion | None) -> InView:
-    figures, history, area = run.at(row), run.history(name), run.area(row)
+    figures, history = run.at(row), run.history(name)
     limit = planned_zone(run.plan, exclusion).whole if exclusion else CrossSection()
     farthest = None
     if figures.farthest is not None:
@@ -128,9 +128,9 @@ def _worked_out(run: RunFigures, row: int, name: str, exclusion: Exclusion | Non
         lines=tuple(figure_lines(figures, run.rest, exclusion)),
         force_text=history_text(run, history, row),
         curve=history_curve(history, row, CURVE_POINTS),
-        debris_lines=draped(outline_lines(area), run.ground),
+        debris_lines=draped(outline_lines(figures.area), run.ground),
         limit_lines=draped(outline_lines(limit), run.ground),
-        debris_text=translated("Debris: {}").format(area_text(area.area(), ".0f")),
+        debris_text=translated("Debris: {}").format(area_text(figures.area.area(), ".0f")),
         limit_text=translated("Exclusion zone as planned, without debris"),
         farthest_m=farthest,
     )
