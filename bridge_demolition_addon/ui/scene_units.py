@@ -1,4 +1,4 @@
-"""Lengths, areas, masses and forces in texts of the window: in feet, pounds and kips where the scene shows imperial units."""
+"""Lengths, areas, masses and forces in texts of the window: in feet, pounds and kips where the scene is imperial."""
 
 from __future__ import annotations
 

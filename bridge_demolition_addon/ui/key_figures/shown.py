@@ -79,6 +79,7 @@ def run_of(scene: bpy.types.Scene) -> RunFigures | None:
     shown = shown_results(scene)
     results = shown.results
     if results is None or not len(results.frames) or not len(results.inventory.of_kind("shard")):
+        forget()  # which lets go of the files of a run that is not shown any more
         return None
     key = (scene.session_uid, shown.number)
     if key not in _runs:
