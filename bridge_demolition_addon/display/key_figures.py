@@ -15,7 +15,7 @@ from ..model.debris.footprint import corners_at, footprint, straightened
 from ..model.results.arrays import Results
 from ..model.results.collapse import ShardRest, rest_of
 from ..model.results.motion import MOVED_M, relative_to_ground, travel, without_removed
-from .force_history import ForceHistory, largest_history
+from .history_curves import ForceHistory, largest_history
 
 _SHARD = "shard"
 
@@ -119,7 +119,7 @@ class RunFigures:
     def history(self, name: str) -> ForceHistory:
         """Return the force on a body or in a connection by its name, else the largest on any shard.
 
-        Ground does not move, and bears what all others press on it: it has no history of its own.
+        Ground does not move, and carries what all others press on it: it has no history of its own.
         """
         loads, inventory = self._whole.frames.loads, self._whole.inventory
         body, connection = self._bodies.get(name), self._connections.get(name)

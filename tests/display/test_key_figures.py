@@ -66,7 +66,7 @@ def test_rest_is_when_the_last_shard_stops(chain):
 
 
 def test_force_on_a_shard_is_the_largest_resultant_in_any_sub_step(chain):
-    """*Upper* bears 300 kg, and in its fourth frame 1 kN across for a moment; *lower* 200 kg until it comes off."""
+    """*Upper* carries 300 kg, and in its fourth frame 1 kN across for a moment; *lower* 200 kg until it comes off."""
     upper, lower = chain.history("upper"), chain.history("lower")
     hangs, pulled = 300 * G, math.hypot(300 * G, 1000.0)
     np.testing.assert_allclose(upper.forces_n, (0.0, hangs, hangs, pulled, hangs))

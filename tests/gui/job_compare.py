@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Run a bridge twice, show what came of it over the view, the first run beside the second, and a section; undo, scrub."""
+"""Run a bridge twice; show what came of it over the view, the first run beside the second, a section; undo, scrub."""
 
 import bpy
 import numpy as np

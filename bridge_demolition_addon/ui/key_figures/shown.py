@@ -9,7 +9,7 @@ import bpy
 import numpy as np
 from manifold3d import CrossSection
 
-from ...display.force_history import ForceHistory, HistoryCurve, history_curve
+from ...display.history_curves import ForceHistory, HistoryCurve, history_curve
 from ...display.ground_lines import draped, outline_lines, planned_zone
 from ...display.key_figures import FrameFigures, RunFigures
 from ...model.results.collapse import ShardRest
