@@ -9,8 +9,8 @@ import bpy
 import gpu
 import numpy as np
 
-from ...display.history_curves import HistoryCurve
 from ...display.ground_lines import cross_lines
+from ...display.history_curves import HistoryCurve
 from ..view_drawing import FONT_PX, PANEL_COLOUR, ViewDrawing, draw_lines, draw_rectangle, write, write_at
 from ..viewport import covered_px
 from . import shown

@@ -9,8 +9,8 @@ import bpy
 import numpy as np
 from manifold3d import CrossSection
 
-from ...display.history_curves import ForceHistory, HistoryCurve, history_curve
 from ...display.ground_lines import draped, outline_lines, planned_zone
+from ...display.history_curves import ForceHistory, HistoryCurve, history_curve
 from ...display.key_figures import FrameFigures, RunFigures
 from ...model.results.collapse import ShardRest
 from ...model.scenario import Exclusion
