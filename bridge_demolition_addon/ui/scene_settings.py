@@ -10,6 +10,7 @@ from .contours.prop import ContourProperties
 from .ensemble.prop import EnsembleProperties, read_earlier_files
 from .ground.prop import GroundProperties
 from .ifc.prop import BDA_PG_ifc_element, IfcProperties
+from .key_figures.prop import KeyFigureProperties
 from .languages.words import in_own_context
 from .preview.prop import PreviewRunProperties
 from .results.report_language import ReportProperties
@@ -34,6 +35,7 @@ class BDA_PG_settings(
     PreviewRunProperties,
     ComparisonProperties,
     SectionProperties,
+    KeyFigureProperties,
     ReportProperties,
     bpy.types.PropertyGroup,
 ):

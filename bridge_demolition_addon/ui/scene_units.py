@@ -1,14 +1,17 @@
-"""Lengths, areas and masses in texts of the window: in feet and pounds where the scene shows imperial units."""
+"""Lengths, areas, masses and forces in texts of the window: in feet, pounds and kips where the scene is imperial."""
 
 from __future__ import annotations
 
 import bpy
 
+from ..display.contour_quantities import FORCES
 from ..engineering.unit_systems import IMPERIAL
 from ..engineering.units import kilograms
 
-_METRE, _SQUARE_METRE, _KILOGRAM = (IMPERIAL[unit] for unit in ("m", "m²", "kg"))
-"""Into feet and pounds. Blender's own texts would be in stones and square yards, which engineers do not use."""
+_METRE, _SQUARE_METRE, _KILOGRAM, _KILONEWTON = (IMPERIAL[unit] for unit in ("m", "m²", "kg", "kN"))
+"""Into feet, pounds and kips. Blender's own texts would be in stones and square yards, which engineers do not use."""
+
+_N_PER_KN = 1000.0
 
 
 def units_of_texts() -> str:
@@ -29,6 +32,14 @@ def area_text(area_m2: float, spec: str) -> str:
 def mass_text(mass_kg: float) -> str:
     """Return a mass as text, with blanks between thousands."""
     return f"{_KILOGRAM.converted(mass_kg):,.0f} lb".replace(",", " ") if _is_imperial() else kilograms(mass_kg)
+
+
+def force_text(force_n: float) -> str:
+    """Return a force as text with four digits, in the unit that a colour bar would have, or in kips."""
+    if _is_imperial():
+        return f"{_KILONEWTON.converted(force_n / _N_PER_KN):.4g} {_KILONEWTON.unit}"
+    unit = FORCES.of(abs(force_n))
+    return f"{force_n / unit.size:.4g} {unit.name}"
 
 
 def _is_imperial() -> bool:

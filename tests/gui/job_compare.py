@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Run a bridge twice, show the first run beside the second, and cut a section through the pile; undo, scrub, remove."""
+"""Run a bridge twice; show what came of it over the view, the first run beside the second, a section; undo, scrub."""
 
 import bpy
 import numpy as np
@@ -27,6 +27,7 @@ def steps(person: Person) -> Steps:
     yield from run(person, second)
     person.take_reports()
     person.scene.frame_set(person.scene.frame_end)
+    yield from figures(person, panels)
     yield from compare(person, panels, first)
     yield from section(person, panels, second)
 
@@ -41,6 +42,36 @@ def run(person: Person, folder) -> Steps:
     yield from person.wait_for("the run is over", lambda: not something_goes_on(), 300.0)
     yield 0.5
     person.expect(f"{folder.name} has results", (folder / "results.npz").exists())
+
+
+def figures(person: Person, panels: Panels) -> Steps:
+    """Draw key figures over the view, go to another frame, select a shard, and take them away."""
+    scene = person.scene
+    scene.bda.scenario.use_exclusion, scene.bda.scenario.exclusion.buffer_m = True, 5.0
+    yield from panels.show_only("Results")
+    yield 0.5
+    yield from person.picture("no_figures")
+    scene.bda.figures_in_view = True
+    yield 1.0
+    yield from person.picture("figures")
+    changed = share_changed(person, "no_figures", "figures")
+    person.note(f"key figures change {changed:.1%} of the window", "" if changed > LEAST_CHANGED else "they are hidden")
+    shown = module("ui.key_figures.shown")
+    at_end = shown.in_view(bpy.context)
+    scene.frame_set(scene.frame_start + 10)
+    shard = next(body for body in scene.rigidbody_world.collection.objects if body.name.startswith("Shard"))
+    shard.select_set(True)
+    bpy.context.view_layer.objects.active = shard
+    yield 1.0
+    yield from person.picture("figures_of_a_shard")
+    then = shown.in_view(bpy.context)
+    person.expect("they follow the timeline", then.lines != at_end.lines)
+    person.expect("the force is that on the selected shard", then.force_text.startswith(f"{shard.name}: "))
+    person.expect("nothing fails to be drawn", module("ui.key_figures.decorator").drawing.error, "")
+    shard.select_set(False)
+    scene.bda.figures_in_view, scene.bda.scenario.use_exclusion = False, False
+    scene.frame_set(scene.frame_end)
+    yield 0.5
 
 
 def compare(person: Person, panels: Panels, first) -> Steps:

@@ -6,6 +6,9 @@ import pytest
 FOOT_M, POUND_KG = 0.3048, 0.45359237
 """By the international agreement of 1959."""
 
+KIP_N = 4448.222
+"""NIST SP 811, appendix B.8."""
+
 
 @pytest.fixture
 def imperial(extension):
@@ -26,6 +29,14 @@ def test_texts_are_imperial_where_the_scene_is(imperial):
     assert length_text(10 * FOOT_M, ".2f") == "10 ft"
     assert mass_text(240_000 * POUND_KG) == "240 000 lb"
     assert area_text(18 * FOOT_M**2, ".0f") == "18 sq ft"
+
+
+def test_forces_are_in_the_units_of_a_colour_bar_or_in_kips(extension):
+    from bridge_demolition_addon.ui.scene_units import force_text
+
+    assert [force_text(force_n) for force_n in (12.0, 4448.2, 1.23456e6)] == ["12 N", "4.448 kN", "1.235 MN"]
+    extension.context.scene.unit_settings.system = "IMPERIAL"
+    assert [force_text(count * KIP_N) for count in (0.25, 2000.0)] == ["0.25 kip", "2000 kip"]
 
 
 def test_results_are_in_pounds_where_the_scene_is_imperial(imperial):

@@ -6,6 +6,8 @@ import bpy
 
 from ...errors import OutputError
 from ...simulation.kept_run import has_run
+from ..key_figures import decorator as figures_in_view
+from ..key_figures.shown import peak_of_selected
 from ..languages.words import translated
 from ..recording.session import last_recording
 from ..sidebar import SidebarPanel, draw_sentence
@@ -48,6 +50,7 @@ class BDA_PT_results(SidebarPanel, bpy.types.Panel):
                 line = grid.row(align=True)
                 for text in cells:
                     line.label(text=text, translate=False)
+        self._draw_in_view(context)
         layout.operator("bda.look_at_bridge", icon="LOOP_BACK")
         row = layout.row(align=True)
         row.operator("bda.open_results")
@@ -56,6 +59,14 @@ class BDA_PT_results(SidebarPanel, bpy.types.Panel):
         row.operator("bda.go_to_peak", icon="EYEDROPPER")
         row.operator_menu_enum("bda.show_picture", "picture", icon="IMAGE_DATA")
         layout.operator_menu_enum("bda.export_run", "form", icon="EXPORT")
+
+    def _draw_in_view(self, context: bpy.types.Context) -> None:
+        """Draw what switches the key figures over the view, and a button to the peak of what is selected there."""
+        self.layout.prop(context.scene.bda, "figures_in_view")
+        if error := figures_in_view.drawing.error:
+            draw_sentence(self.layout, context, error)
+        if peak := peak_of_selected(context):
+            self._draw_largest(*peak)
 
     def _draw_largest(self, label: str, largest: LargestValue | None) -> None:
         """Draw a largest value, with a button that leads to where and when it was."""

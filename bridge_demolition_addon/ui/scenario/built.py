@@ -15,7 +15,7 @@ import numpy as np
 
 from ...engineering.single_precision import as_given, shortest
 from ...errors import ScenarioError
-from ...model.scenario import Scenario, TimeSettings
+from ...model.scenario import Exclusion, Scenario, TimeSettings
 from ...model.scenario.file import scenario_from_text, scenario_text
 from ...model.scenario.kept import values_from_text, values_text
 from ...model.schema import Table, holds_many, is_optional, key_fields, key_name, key_of, subtable_class
@@ -170,6 +170,12 @@ def shown_site(settings: bpy.types.PropertyGroup) -> dict[str, Any]:
     """Return the parts of a scenario that only reports read, as the panels show them."""
     fields = {item.name: item for item in shown_tables(Scenario)}
     return {name: inner_of(settings.scenario, fields[name]) for name in _SITE}
+
+
+def shown_exclusion(settings: bpy.types.PropertyGroup) -> Exclusion | None:
+    """Return the exclusion zone as the panels show it; None where it is not used."""
+    (item,) = (item for item in shown_tables(Scenario) if item.name == Exclusion.table)
+    return inner_of(settings.scenario, item)
 
 
 def changed_in_blender(scene: bpy.types.Scene) -> list[ChangedValue]:

@@ -1,0 +1,177 @@
+"""What is shown of a run over the 3D view: figures as texts, the history of a force, debris and limit as lines."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import bpy
+import numpy as np
+from manifold3d import CrossSection
+
+from ...display.ground_lines import draped, outline_lines, planned_zone
+from ...display.history_curves import ForceHistory, HistoryCurve, history_curve
+from ...display.key_figures import FrameFigures, RunFigures
+from ...model.results.collapse import ShardRest
+from ...model.scenario import Exclusion
+from ...simulation.blender_events import shown_results
+from ..languages.words import translated
+from ..results.shown_run import LargestValue
+from ..scenario.built import shown_exclusion
+from ..scene_units import area_text, force_text, length_text, mass_text, units_of_texts
+
+CURVE_POINTS = 200
+"""Points that the chart can tell apart: it is about so many pixels wide."""
+
+_runs: dict[tuple[int, int], RunFigures] = {}
+"""The run that is shown, by the scene and the number of its results."""
+
+_shown: dict[tuple, InView] = {}
+"""What was drawn last, by all that it depends on: views are drawn many times a second."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class InView:
+    """What is drawn of a frame.
+
+    Attributes
+    ----------
+    lines
+        Key figures as texts, from top to bottom.
+    force_text, curve
+        What the chart of force shows: its name and numbers, and its lines in a square from 0 to 1.
+    debris_lines, limit_lines : (2 k, 3), (2 l, 3) float
+        Outlines on the ground of the debris and of the exclusion zone as planned, m; none where there is none.
+    debris_text, limit_text
+        What stands beside these, at the position of their corner with the largest x.
+    farthest_m : (3,) float or None
+        Corner of the farthest debris.
+    """
+
+    lines: tuple[str, ...]
+    force_text: str
+    curve: HistoryCurve
+    debris_lines: np.ndarray
+    limit_lines: np.ndarray
+    debris_text: str
+    limit_text: str
+    farthest_m: np.ndarray | None
+
+
+def in_view(context: bpy.types.Context) -> InView | None:
+    """Return what is drawn of the frame that a scene shows; None without results, and while a run goes on."""
+    scene = context.scene
+    run = run_of(scene) if scene.bda.figures_in_view else None
+    row = row_of(scene, run) if run else None
+    if run is None or row is None:
+        return None
+    name, exclusion = selected_name(context), shown_exclusion(scene.bda)
+    texts_are = (bpy.app.translations.locale, units_of_texts())
+    key = (*next(iter(_runs)), row, name, exclusion, texts_are)
+    if key not in _shown:
+        _shown.clear()
+        _shown[key] = _worked_out(run, row, name, exclusion)
+    return _shown[key]
+
+
+def run_of(scene: bpy.types.Scene) -> RunFigures | None:
+    """Return the figures of the run that a scene shows; None where it shows none, and while one goes on."""
+    shown = shown_results(scene)
+    results = shown.results
+    if results is None or not len(results.frames) or not len(results.inventory.of_kind("shard")):
+        forget()  # which lets go of the files of a run that is not shown any more
+        return None
+    key = (scene.session_uid, shown.number)
+    if key not in _runs:
+        forget()
+        _runs[key] = RunFigures(results)
+    return _runs[key]
+
+
+def row_of(scene: bpy.types.Scene, run: RunFigures) -> int | None:
+    """Return the recorded row of the frame that a scene shows."""
+    current = shown_results(scene).current_row
+    return None if current is None else min(current[1], len(run) - 1)
+
+
+def selected_name(context: bpy.types.Context) -> str:
+    """Return the name of the active object where it is selected; empty for none."""
+    layer = context.view_layer
+    active = layer.objects.active
+    return active.name if active is not None and active.select_get(view_layer=layer) else ""
+
+
+def peak_of_selected(context: bpy.types.Context) -> tuple[str, LargestValue] | None:
+    """Return the name and the peak of the selected shard or connection; None where none of the run is selected."""
+    run = run_of(context.scene) if context.scene.bda.figures_in_view else None
+    history = run.history(selected_name(context)) if run else None
+    if run is None or history is None or not history.name or history.peak_row is None:
+        return None
+    peak_n = float(history.forces_n[history.peak_row])
+    return history.name, LargestValue(force_text(peak_n), history.name, run.frame_of(history.peak_row))
+
+
+def forget() -> None:
+    """Forget the run and what was drawn of it."""
+    _runs.clear()
+    _shown.clear()
+
+
+def _worked_out(run: RunFigures, row: int, name: str, exclusion: Exclusion | None) -> InView:
+    figures, history = run.at(row), run.history(name)
+    limit = planned_zone(run.plan, exclusion).whole if exclusion else CrossSection()
+    farthest = None
+    if figures.farthest is not None:
+        place = figures.farthest.place_m
+        height = 0.0 if run.ground.is_flat else float(np.nan_to_num(run.ground.heights_at(place[None])[0]))
+        farthest = np.array((*place, height))
+    return InView(
+        lines=tuple(figure_lines(figures, run.rest, exclusion)),
+        force_text=history_text(run, history, row),
+        curve=history_curve(history, row, CURVE_POINTS),
+        debris_lines=draped(outline_lines(figures.area), run.ground),
+        limit_lines=draped(outline_lines(limit), run.ground),
+        debris_text=translated("Debris: {}").format(area_text(figures.area.area(), ".0f")),
+        limit_text=translated("Exclusion zone as planned, without debris"),
+        farthest_m=farthest,
+    )
+
+
+def figure_lines(figures: FrameFigures, rest: ShardRest, exclusion: Exclusion | None) -> Iterator[str]:
+    """Yield the key figures of a frame as texts."""
+    yield translated("Frame {}, {} s").format(figures.number, f"{figures.time_s:.2f}")
+    yield translated("Broken: {} of {} connections").format(figures.broken, figures.connections)
+    yield translated("Debris: {} of {}").format(mass_text(figures.debris_kg), mass_text(figures.bridge_kg))
+    if figures.farthest is not None:
+        yield _farthest_text(figures.farthest.distance_m, exclusion)
+    yield _rest_text(rest)
+
+
+def history_text(run: RunFigures, history: ForceHistory, row: int) -> str:
+    """Return what the chart shows: on what the force acts, the force in the shown row, and its peak."""
+    name = history.name or translated("Largest on a shard")
+    now_n = float(history.forces_n[row])
+    now = force_text(now_n) if np.isfinite(now_n) else translated("not known")
+    if history.peak_row is None:
+        return f"{name}: {now}"
+    peak_n, peak_s = float(history.forces_n[history.peak_row]), float(history.times_s[history.peak_row])
+    text = translated("{}: {}, peak {} at {} s").format(name, now, force_text(peak_n), f"{peak_s:.2f}")
+    return text if history.name else f"{text} ({run.largest_loaded(history.peak_row)})"
+
+
+def _farthest_text(distance_m: float, exclusion: Exclusion | None) -> str:
+    far = length_text(distance_m, ".2f")
+    if exclusion is None:
+        return translated("Debris up to {} from the bridge").format(far)
+    limit_m = exclusion.designed_drop_m + exclusion.buffer_m
+    within = translated("Debris up to {} from the bridge, zone planned to {}")
+    beyond = translated("Debris up to {} from the bridge: beyond the zone, planned to {}")
+    return (within if distance_m <= limit_m else beyond).format(far, length_text(limit_m, ".2f"))
+
+
+def _rest_text(rest: ShardRest) -> str:
+    if rest.first_motion_s is None:
+        return translated("Nothing moves in the whole run")
+    if rest.at_rest_s is None:
+        return translated("Still moving at the end: {} shards").format(rest.moving_at_end)
+    return translated("At rest from {} s on").format(f"{rest.at_rest_s:.2f}")
