@@ -99,7 +99,8 @@ class DaskCluster:
         self._client.close()
 
     def _outcome_of(self, task: Task, future: Future) -> RunOutcome:
-        from distributed import KilledWorker
+        from distributed import CancelledError, KilledWorker
+        from distributed.comm.core import CommClosedError
 
         self._futures.discard(future)
         if future.status in ("cancelled", "lost"):
@@ -108,6 +109,8 @@ class DaskCluster:
             outcome, files = future.result()
         except KilledWorker:
             return RunOutcome(KILLED, "each worker that it was given to ended")
+        except (CancelledError, CommClosedError) as error:
+            raise SimulationError(f"{self._address}: {_GONE}") from error
         finally:
             future.release()
         with writing(task.folder):

@@ -73,7 +73,7 @@ class BDA_PT_results(SidebarPanel, bpy.types.Panel):
         if largest is None:
             return
         column = self.layout.column(align=True)
-        column.label(text=f"{label}: {largest.text}".replace(",", " "), translate=False)
+        column.label(text=f"{label}: {largest.text}", translate=False)
         where = translated("{}, frame {}").format(largest.body, largest.frame)
         go = column.operator("bda.go_to_body", text=where, icon="VIEWZOOM", translate=False)
         go.body, go.frame = largest.body, largest.frame
