@@ -46,8 +46,8 @@ width_px = {width}
 height_px = {height}
 """
 PICTURES_ALONE = "--pictures"
-LEFT_OUT = "Every key is explained"
-"""Beginning of a paragraph that examples have and the page does without."""
+LEFT_OUT = ("Every key is explained", "bda ")
+"""Beginnings of paragraphs that examples have and the page does without: its head says how each is run."""
 
 HEADER = """\
 # Gallery
@@ -56,7 +56,8 @@ HEADER = """\
 
 Every example is a [scenario file](scenario.md) to start from. Run it with `bda run examples/NAME.toml --output DIR`.
 Add `--report` for a [report](report.md). The pictures show the start, the impact (or the blast, or the largest force)
-and the end of one run. {looks}
+and the end of one run.
+{looks}
 [One run is one possible outcome](accuracy.md#one-run-is-one-possible-outcome): with another
 seed single pieces end elsewhere. Times are the most that a run takes without pictures on a machine with two cores and
 nothing else to do: for all examples together {minutes} minutes.

@@ -33,7 +33,7 @@ def ground_motion_history(figure: FigureBase, record: GroundRecord, start_s: flo
         axes.grid(color="0.9", linewidth=0.5)
         axes.set_axisbelow(True)
     rows[-1].set_xlabel("time (s)")
-    rows[0].legend(frameon=False, ncols=3, loc="upper right")
+    rows[0].legend(frameon=False, ncols=3, loc="lower right", bbox_to_anchor=(1.0, 0.98), borderaxespad=0.2)
 
 
 def response_spectra(figure: FigureBase, record: GroundRecord, wanted: DesignSpectrum | None, factor: float) -> None:

@@ -16,6 +16,7 @@ from pathlib import Path
 import bpy
 import numpy as np
 from PIL import Image, ImageOps
+from shown_frame import shown_frame
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 
@@ -84,14 +85,16 @@ def run_of(scenario: Path) -> Path:
 
 
 def take(run: Path, target: Path, size_px: tuple[int, int], *, is_close: bool) -> None:
-    """Render the key frame of a run: close up and without words, or as pictures of a run are."""
-    frame = json.loads((run / "summary.json").read_text(encoding="utf-8"))["key_frame"]["frame"]
+    """Render the frame of a run that shows most: close up and without words, or as pictures of a run are."""
+    results = load_results(run)
+    key_frame = int(json.loads((run / "summary.json").read_text(encoding="utf-8"))["key_frame"]["frame"])
+    frame = shown_frame(results, key_frame)
     view = read_scenario(run / "scenario_as_run.toml").pictures
     view = replace(view, renderer="realistic", width_px=size_px[0], height_px=size_px[1])
     bpy.ops.wm.open_mainfile(filepath=str(run / "scene.blend"))
     scene = bpy.context.scene
     if is_close:
-        show_points(scene, points_of(load_results(run), frame))
+        show_points(scene, points_of(results, frame))
     prepare_scene_for_pictures(scene, view)
     with run_renderer(scene, run, view, is_captioned=not is_close) as render:
         render(frame, target)
