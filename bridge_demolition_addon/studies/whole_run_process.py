@@ -21,7 +21,7 @@ class RunState:
     Attributes
     ----------
     stage : str
-        What the run does now, in words.
+        What the run does now, as text.
     frames, of_frames, broken : int
         Frames that are done, of how many, and connections that are broken by now.
     left_s : float or None

@@ -25,7 +25,9 @@ def place_of_new(scene: bpy.types.Scene) -> tuple[float, float, float] | None:
     cursor_m = np.array(scene.cursor.location, float)
     pieces = _built(scene) or _shown(scene)
     boxes_m = [np.array((piece.solid.vertices.min(axis=0), piece.solid.vertices.max(axis=0))) for piece in pieces]
-    if cursor_m.any() and boxes_m and is_on_bridge(cursor_m, np.stack(boxes_m)):  # at the origin nobody has put it
+    if (
+        cursor_m.any() and boxes_m and is_on_bridge(cursor_m, np.stack(boxes_m))
+    ):  # it starts at the origin, where the user has not put it
         return None
     return place_at_pier([member.solid for member in _whole(pieces) if is_standing(member)], cursor_m)
 

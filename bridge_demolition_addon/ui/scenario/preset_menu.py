@@ -123,7 +123,7 @@ def _load(number: int) -> None:
         return
     try:
         bpy.ops.bda.load_preset("INVOKE_DEFAULT", preset=list(preset_files())[number - 1])
-    except RuntimeError as error:  # refused: a reason that the button has told itself is there already
+    except RuntimeError as error:  # refused: a reason that the button has kept itself is there already
         scene, reason = bpy.context.scene, str(error).rpartition(_REFUSED)[2].strip()
         if all(message.text not in reason for message in messages_of(scene)):
             note(scene, _BUTTON, "ERROR", reason)

@@ -25,6 +25,7 @@ from .preset_menu import draw_presets
 from .prop import INDEX, USE, label_of, shown_keys, shown_tables, title_of, vector_length
 from .stability import draw_stability
 from .table_list import draw_list
+from .undone import undo_note
 
 _LABELS = {
     "bridge": "Sizes",
@@ -95,6 +96,8 @@ class BDA_PT_scenario(SidebarPanel, bpy.types.Panel):
             draw_task_progress(layout, context, progress)
         else:
             draw_sentence(layout, context, next_step(context.scene), icon="FORWARD")
+        if note := undo_note(context.scene):
+            draw_sentence(layout, context, note, icon="INFO")
         draw_presets(layout, settings)
         column = layout.column(align=True)
         column.scale_y = _PROMINENT
