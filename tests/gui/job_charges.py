@@ -121,7 +121,7 @@ def out_of_sight(person: Person) -> list[tuple[float, ...]]:
 
 
 def place_charges(person: Person, panels: Panels) -> Steps:
-    """Add Charge, which is put at a pier, and goes to where the job has it; edit the row of the list; drag it; a second; and a third, to be deleted."""
+    """Add Charge, which is put at a pier; edit its row; drag it; a second by the cursor; and a third, to be deleted."""
     scene = person.scene
     yield from panels.show_only("Charges in the Open")
     yield from person.click("bda.add_source_point")

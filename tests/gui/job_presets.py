@@ -4,10 +4,10 @@
 from habits import build, undo
 from panels import Panels
 from person import Person, Steps
-from traces import PRESETS, module, scenario_shown
+from traces import PRESETS, module, scenario_in, scenario_shown
 
 FOURTH = PRESETS / "span_of_2019_ball.toml"
-FOURTH_PX = (840, 460)
+FOURTH_PX = (587, 460)
 """Where the fourth picture is in a window of 1280 x 800."""
 ABOVE_PX = 100
 """From Build Scenario to the picture in the panel."""

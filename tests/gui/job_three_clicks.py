@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """From Blender as it starts to a demolition in 4 actions, and to a study that states a distance in 7.
 
-N and the tab are two of them. Then Build Scenario and Run; or a preset by its picture, the panel Study in its group, and
-Start. No folder or file is chosen.
+N and the tab are two of them. Then Build Scenario and Run; or a preset by its picture, the panel Study in its group,
+and Start. No folder or file is chosen.
 """
 
 import math
@@ -16,7 +16,7 @@ PRESET = "reinforced_span_ball"
 FRAMES = 12
 ABOVE_PX = 100
 """From Build Scenario to the picture of the preset."""
-SECOND_PRESET_PX = (655, 460)
+SECOND_PRESET_PX = (400, 460)
 """Where the second of the pictures that it opens is, in a window of 1280 x 800."""
 
 
