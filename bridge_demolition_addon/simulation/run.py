@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
@@ -177,11 +176,9 @@ def _render_film(scene: bpy.types.Scene, folder: Path, view: PictureSettings, pr
 
 
 def _empty_scene(title: str) -> bpy.types.Scene:
-    paths = list(sys.path)
     with interrupted_afterwards():
-        bpy.ops.wm.read_factory_settings(use_empty=True)
-    # Blender takes the libraries of extensions out of the path with them: programs of the extension need them still.
-    sys.path += [path for path in paths if path not in sys.path]
+        # Not the factory's preferences too: with them Blender deletes the libraries of the user's extensions.
+        bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     scene = bpy.context.scene
     scene.name = title[:60]
     return scene
