@@ -278,8 +278,9 @@ def _interface() -> tuple:
     from .ui.languages import tables
     from .ui.preview import bars, run_beside, run_drawing
     from .ui.preview import decorator as preview_decorator
+    from .ui.scenario import undone
     from .ui.sections import decorator as section_decorator
 
     drawn = (comparison_decorator, decorator, figures_decorator, ground_decorator, section_decorator, study)
     drawings = (module.drawing for module in (*drawn, preview_decorator, bars, run_drawing))
-    return (blender_events, tables, scene_settings, registration, run_beside, *drawings)
+    return (blender_events, tables, scene_settings, registration, run_beside, undone, *drawings)

@@ -24,7 +24,8 @@ def write_alembic(results: Results, path: Path, tell: Callable[[int, int, str], 
         raise MissingLibraryError(
             f"this Blender, {bpy.app.version_string}, was built without Alembic: use one from blender.org"
         )
-    bpy.ops.wm.read_factory_settings(use_empty=True)
+    # Not the factory's preferences too: with them Blender deletes the libraries of the user's extensions.
+    bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     scene, numbers = bpy.context.scene, results.frames.number
     _set_rate(scene, results)
     named = zip(results.inventory.body_names.tolist(), body_meshes(results.inventory), strict=True)

@@ -12,11 +12,31 @@ from ..errors import SimulationError
 from ..model.scenario.kept import values_text
 from .bodies import Kind
 from .body_settings import BodySettings, body_settings_of
-from .custom_properties import edited, keep, kept_values
+from .connections.constraints import connections_of
+from .custom_properties import edited, keep, kept_number, kept_values
 from .run_setup import RunSetup, run_setup_of
 
 _AS_BUILT = "bda_as_built"
 _BODIES = "bda_built_bodies"
+_CONNECTIONS = "bda_built_connections"
+
+_FOLLOW_FROM_BODIES = frozenset(
+    (
+        "which bodies there are",
+        "positions, shapes or sizes of bodies",
+        "masses of bodies",
+        "how bodies move and touch",
+        "animation of bodies",
+        "which connections there are, and between which bodies",
+        "kinds and strengths of connections",
+        "velocities that bodies begin with",
+        "soil under footings",
+        "bearings",
+        "tendons",
+        "pulls",
+    )
+)
+"""What differs as soon as a body or a connection is missing or added: it is compared as a whole."""
 
 _SAME_M = 1e-3
 """How far a body may be from where it was built: Blender has positions in single precision."""
@@ -38,22 +58,32 @@ def manual_edits(scene: bpy.types.Scene, setup: RunSetup) -> list[str]:
     return [text for text, digest in setup.compared().items() if before.get(text, digest) != digest]
 
 
+def edits_beside_bodies(by_hand: Sequence[str], changed: Sequence[str]) -> list[str]:
+    """Return those of the texts of `manual_edits` that the sentences of `changed_bodies` do not say already.
+
+    A body or a connection less changes most of what is compared. A sentence that names it says more than that list.
+    """
+    return [text for text in by_hand if not (changed and text in _FOLLOW_FROM_BODIES)]
+
+
 def keep_built_bodies(scene: bpy.types.Scene) -> None:
-    """Remember which bodies were built, and where."""
+    """Remember which bodies were built, and where, and how many connections."""
     bodies = body_settings_of(scene)
     kept: dict[str, dict[str, list[float]]] = {kind.value: {} for kind in Kind}
     for name, kind, position in zip(bodies.names, bodies.kinds, bodies.own_matrices[:, :3, 3].tolist(), strict=True):
         kept[kind.value][name] = position
     scene[_BODIES] = values_text(kept)
+    scene[_CONNECTIONS] = len(connections_of(scene))
 
 
 def forget_built_bodies(scene: bpy.types.Scene) -> None:
     """Forget what was built, as it is removed."""
     keep(scene, _BODIES, None)
+    keep(scene, _CONNECTIONS, None)
 
 
 def changed_bodies(scene: bpy.types.Scene) -> list[str]:
-    """Return sentences on bodies that are missing, were added or moved since a scene was built."""
+    """Return sentences on bodies and connections that are missing, were added or moved since a scene was built."""
     kept, bodies = kept_values(scene, _BODIES, {}), body_settings_of(scene)
     try:
         built = {
@@ -66,7 +96,8 @@ def changed_bodies(scene: bpy.types.Scene) -> list[str]:
         raise edited(scene, _BODIES, "the positions of bodies by kind and name") from error
     if built.keys().isdisjoint(bodies.names):  # another demolition, or none that was built here
         return []
-    return [*_missing(kept, bodies), *_added(built, bodies), *_moved(scene, built, bodies)]
+    counted = _fewer_connections(scene)
+    return [*_missing(kept, bodies), *_added(built, bodies), *_moved(scene, built, bodies), *counted]
 
 
 def _missing(kept: dict[str, dict[str, list[float]]], bodies: BodySettings) -> Iterator[str]:
@@ -77,6 +108,15 @@ def _missing(kept: dict[str, dict[str, list[float]]], bodies: BodySettings) -> I
             yield f"{_count(missing, 'shard')} missing, such as {missing[0]!r}"
         elif kind != Kind.SHARD and len(bodies.of_kind(Kind(kind))) < len(built):
             yield f"the {kind} of the scenario is missing: {', '.join(map(repr, missing))}"
+
+
+def _fewer_connections(scene: bpy.types.Scene) -> Iterator[str]:
+    """Say how many more or fewer connections there are than were built; nothing where that was not kept."""
+    now = len(connections_of(scene))
+    built = int(kept_number(scene, _CONNECTIONS, now))
+    if now != built:
+        count = abs(built - now)
+        yield f"{count} connection{'s' * (count > 1)} {'fewer' if now < built else 'more'} than built"
 
 
 def _added(built: dict[str, np.ndarray], bodies: BodySettings) -> Iterator[str]:

@@ -15,7 +15,7 @@ from ..errors import OutputError
 from ..model.results.arrays import RESULTS_FILE, Results, load_results
 from ..model.run_folder.files import FORCE_CHART, SCENARIO_FILE
 from ..model.run_folder.folder import keep_ground_motion, keep_scenario
-from ..model.run_folder.summary import RunSummary, result_digest_in, write_summary
+from ..model.run_folder.summary import RunSummary, read_summary, result_digest_in, write_summary
 from ..model.schema import given
 from ..scene.blast.charges import blast_of, charges_of
 from ..scene.rendering.markers import mark_moments
@@ -49,6 +49,18 @@ def keep_results(folder: Path, results: Results, summary: Mapping[str, Any]) -> 
     from ..charts.histories import plot_forces
 
     plot_forces(results, folder / FORCE_CHART, summary["title"], RunSummary(summary).first_hit_s)
+
+
+def adopt_run(scene: bpy.types.Scene, folder: Path) -> Results:
+    """Keep the run in a folder with a scene that is built as its own was, and return what was recorded."""
+    try:
+        summary = read_summary(folder)
+    except ValueError as error:
+        raise OutputError(f"{folder}: its summary cannot be read: {error}") from error
+    results = load_results(folder / RESULTS_FILE)
+    scene[_FOLDER], scene[_DIGEST] = str(folder.resolve()), summary.result_digest
+    _mark_run(scene, results, summary)
+    return results
 
 
 def _mark_run(scene: bpy.types.Scene, results: Results, summary: RunSummary) -> None:

@@ -177,7 +177,8 @@ def _render_film(scene: bpy.types.Scene, folder: Path, view: PictureSettings, pr
 
 def _empty_scene(title: str) -> bpy.types.Scene:
     with interrupted_afterwards():
-        bpy.ops.wm.read_factory_settings(use_empty=True)
+        # Not the factory's preferences too: with them Blender deletes the libraries of the user's extensions.
+        bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
     scene = bpy.context.scene
     scene.name = title[:60]
     return scene

@@ -31,12 +31,22 @@ _kept: list[Message] = []
 def tell(operator: bpy.types.Operator, level: str, text: str) -> None:
     """Report a sentence as Blender does, which shows it for some seconds, and keep it for the sidebar."""
     operator.report({level}, text)
-    _kept.append(Message(operator.bl_idname, bpy.context.scene.session_uid, level, text))
+    note(bpy.context.scene, operator.bl_idname, level, text)
+
+
+def note(scene: bpy.types.Scene, button: str, level: str, text: str) -> None:
+    """Keep a sentence for the sidebar that belongs to a button, by its id, which is not at work itself."""
+    _kept.append(Message(button, scene.session_uid, level, text))
 
 
 def clear(operator: bpy.types.Operator) -> None:
     """Forget the messages of a button, as it is pressed again."""
-    _kept[:] = [message for message in _kept if message.button != operator.bl_idname]
+    clear_button(operator.bl_idname)
+
+
+def clear_button(button: str) -> None:
+    """Forget the messages of a button, by its id."""
+    _kept[:] = [message for message in _kept if message.button != button]
 
 
 def clear_of(scene: bpy.types.Scene) -> None:

@@ -26,8 +26,8 @@ from .ifc import ui as ifc_ui
 from .languages.words import in_own_context
 from .preview import gizmos
 from .preview import operator as preview_operator
+from .recording import beside, paths, run, session
 from .recording import operator as recording_operator
-from .recording import paths, run, session
 from .recording import ui as recording_ui
 from .results import operator as results_operator
 from .results import placed, shown_run
@@ -45,7 +45,7 @@ from .stages import ui as stages_ui
 _OPERATORS = (
     *(scenario_operator, ifc_operator, preset_menu, number_rows, messages, hints, workspace, chart_pictures),
     *(user_meshes, table_list, scenario_stability),
-    *(recording_operator, run, paths, blast_operator, contour_operator, ground_operator),
+    *(recording_operator, run, beside, paths, blast_operator, contour_operator, ground_operator),
     *(results_operator, stages_operator, preview_operator, gizmos, comparison_operator, section_operator),
 )
 _PANELS = (
@@ -98,6 +98,7 @@ def unregister() -> None:
     shown_stages.unregister()
     modal_task.unregister()
     workspace.unregister()
+    beside.unregister()
     session.unregister()
     ground_operator.unregister()
     for cls in reversed(classes()):

@@ -16,6 +16,7 @@ from .preview.prop import PreviewRunProperties
 from .results.report_language import ReportProperties
 from .scenario import prop as scenario_properties
 from .scenario.earlier import mark_defaults, read_earlier_bodies, read_earlier_defaults
+from .scenario.preset_menu import PresetProperties
 from .sections.prop import SectionProperties
 from .sidebar import path_property, tooltip
 from .stages.shown import StageProperties
@@ -37,6 +38,7 @@ class BDA_PG_settings(
     SectionProperties,
     KeyFigureProperties,
     ReportProperties,
+    PresetProperties,
     bpy.types.PropertyGroup,
 ):
     """Settings that the panels show; those from the schema are added when they are made."""

@@ -24,6 +24,8 @@ PRESET = PRESETS / "span_of_2019_explosives.toml"
 SHARDS, DENSITY_KG_M3, BREAKING_N = 60, 2500.0, 300000.0
 VOLUME_M3 = 14.0 * 8.5 * 0.4 + 2 * 1.0 * 8.5 * 0.6 + 4 * 0.7 * 0.7 * 4.9
 """Deck with its overhangs, two caps and four columns of the preset, by hand."""
+FACE_ACROSS_M = 8.5 / 4.0 - 0.7 / 2.0
+"""From the middle of the road to the inner face of a column, each in the middle of its half of the width."""
 
 WEST, EAST = "West pier", "East pier"
 MASS_KG, EAST_M, DELAY_S, EXPLOSIVE = 60.0, (13.0, 0.0, 1.0), 0.05, "C-4"
@@ -119,11 +121,14 @@ def out_of_sight(person: Person) -> list[tuple[float, ...]]:
 
 
 def place_charges(person: Person, panels: Panels) -> Steps:
-    """Add Charge, at the 3D cursor; edit the row of the list; drag it; a second; and a third, to be deleted."""
+    """Add Charge, which is put at a pier; edit its row; drag it; a second by the cursor; and a third, to be deleted."""
     scene = person.scene
     yield from panels.show_only("Charges in the Open")
     yield from person.click("bda.add_source_point")
-    person.expect("a charge is at the 3D cursor", charges(scene)[0].place_m, tuple(scene.cursor.location))
+    x, y, z = charges(scene)[0].place_m
+    at_face = math.isclose(abs(y), FACE_ACROSS_M, abs_tol=1e-5)
+    person.expect("a charge is at a face of a column of the first pier, 1 m up", (x, at_face, z), (0.0, True, 1.0))
+    scene.objects["Charge 1"].location = (0.0, 0.0, 0.0)
     yield from rename(person, "Charge 1", WEST)
     yield from person.fill_in(MASS, f"{MASS_KG:g}", of=WEST)
     yield from person.picture("row_edited")

@@ -93,7 +93,7 @@ def drag_height(person: Person) -> Steps:
 def drag_charge(person: Person) -> Steps:
     person.scene.cursor.location = (1.0, -1.0, 1.0)
     with person.in_sidebar():
-        bpy.ops.bda.add_source_point("INVOKE_DEFAULT")
+        bpy.ops.bda.add_source_point()  # at the cursor, where a script does it
         bpy.ops.ed.undo_push(message="Charge added")  # which Blender leaves out where a script does it
     yield 0.5
     charge = bpy.data.objects["Charge 1"]

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """From Blender as it starts to a demolition in 4 actions, and to a study that states a distance in 7.
 
-N and the tab are two of them. Then Build Scenario and Run; or a preset by the menu, the panel Study in its group, and
-Start. No folder or file is chosen.
+N and the tab are two of them. Then Build Scenario and Run; or a preset by its picture, the panel Study in its group,
+and Start. No folder or file is chosen.
 """
 
 import math
@@ -14,10 +14,10 @@ from traces import PRESETS, module, recording_runs, scenario_in, scenario_shown
 
 PRESET = "reinforced_span_ball"
 FRAMES = 12
-ABOVE_PX = 30
-"""From Build Scenario to Presets."""
-SECOND_PRESET_PX = (695, 464)
-"""Where the menu has its second name, in a window of 1280 x 800."""
+ABOVE_PX = 100
+"""From Build Scenario to the picture of the preset."""
+SECOND_PRESET_PX = (400, 460)
+"""Where the second of the pictures that it opens is, in a window of 1280 x 800."""
 
 
 SIDEBAR_ACTIONS = 2
@@ -82,7 +82,7 @@ def least_runs(quantile: float, confidence: float) -> int:
 
 
 def choose(person: Person) -> Steps:
-    """Open the menu, which is above Build Scenario, and click the second of its presets."""
+    """Click the picture, which is above Build Scenario, and the second of those that it opens."""
     yield from person.hover("bda.build_scenario")
     x, y = person.mouse
     yield from person.move(x, y + ABOVE_PX)

@@ -153,13 +153,31 @@ def test_shards_that_are_missing_added_or_moved_are_named(built, tmp_path):
     copy = third.copy()
     second.location.z += 0.5
     name = first.name
+    joints = [obj.rigid_body_constraint for obj in scene.objects if obj.rigid_body_constraint]
+    of_first = sum(first in (joint.object1, joint.object2) for joint in joints)
     built.data.objects.remove(first)
     built.ops.bda.remove_loose_connections()
     assert changed_bodies(scene) == [
         f"1 shard is missing, such as {name!r}",
         f"1 body is added, such as {copy.name!r}",
         f"1 shard is moved, such as {second.name!r} by 0.5 m",
+        f"{of_first} connections fewer than built",
     ]
+
+
+def test_the_end_of_a_run_says_what_is_missing_and_no_list_of_what_follows_from_it(built, tmp_path):
+    scene = built.context.scene
+    shard = bodies_of_kind(scene, Kind.SHARD)[0]
+    built.data.objects.remove(shard)
+    built.ops.bda.remove_loose_connections()
+    scene.gravity[2] = -5.0
+    assert built.ops.bda.run() == {"FINISHED"}
+    missing, by_hand = [text for text in told(scene) if "as it was built" in text or "Changed in Blender" in text]
+    assert missing.startswith("Not as it was built: 1 shard is missing, such as ")
+    assert missing.endswith("connections fewer than built")
+    assert by_hand == "Changed in Blender, and not in the scenario of the run: gravity"
+    kept = (tmp_path / "results" / "scenario_as_run.toml").read_text(encoding="utf-8")
+    assert "# Changed in Blender, and not in this scenario: which bodies there are" in kept  # the file says all of it
 
 
 def test_a_bridge_that_was_moved_as_a_whole_runs(built):

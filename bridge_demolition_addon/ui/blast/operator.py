@@ -1,9 +1,11 @@
 """Buttons for charges and for what pushes the shards."""
 
-from __future__ import annotations
+from dataclasses import replace
 
 import bpy
+from bpy.props import BoolProperty
 
+from ...engineering.blast.wave import Burst
 from ...model.blast.charges import Charge
 from ...model.blast.settings import Apply
 from ...model.scenario import BlastSettings
@@ -15,6 +17,7 @@ from ..languages.words import translated
 from ..operators import UndoableAction, no_world
 from ..scenario.values import table_of
 from ..scene_units import mass_text
+from .place import place_of_new
 from .prop import shown_charge
 
 _NEW_CHARGE_KG = 10.0
@@ -48,18 +51,31 @@ def total_mass_kg(scene: bpy.types.Scene) -> float:
 
 
 class BDA_OT_add_source_point(UndoableAction, bpy.types.Operator):
-    """Add a charge at the 3D cursor; it can be dragged like any object; called Add Source Point in 2019"""
+    """Add a charge at the pier nearest to the 3D cursor, to be dragged as you like; called Add Source Point in 2019"""
 
     bl_label = "Add Charge"
     changes_objects = True
+
+    at_pier: BoolProperty(
+        name="At a Pier",
+        description="Put it at the nearest pier, 1 m up, unless the 3D cursor is on the bridge; else at the 3D cursor",
+        options={"SKIP_SAVE"},
+    )
+
+    def invoke(self, context: bpy.types.Context, _event: bpy.types.Event) -> set[str]:
+        self.at_pier = True
+        return self.execute(context)
 
     def act(self, context: bpy.types.Context) -> None:
         scene = context.scene
         number = len(charge_objects(scene)) + 1
         while f"Charge {number}" in bpy.data.objects:
             number += 1
-        position = tuple(scene.cursor.location)
-        create_charges(scene, [Charge(name=f"Charge {number}", place_m=position, mass_kg=_NEW_CHARGE_KG)])
+        place = place_of_new(scene) if self.at_pier else None
+        charge = Charge(name=f"Charge {number}", place_m=tuple(scene.cursor.location), mass_kg=_NEW_CHARGE_KG)
+        if place:  # so near to the ground that it throws the wave back
+            charge = replace(charge, place_m=place, burst=Burst.SURFACE.value)
+        create_charges(scene, [charge])
         scene.bda.charge_index = len(charge_collection(scene).objects) - 1
 
 

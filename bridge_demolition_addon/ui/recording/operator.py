@@ -15,7 +15,7 @@ from ...model.scenario import RecordingSettings, Scenario
 from ...model.scenario.recording import PictureSettings
 from ...model.sequence.doubts import doubts_of_run
 from ...model.sequence.rest import Rest
-from ...scene.as_built import manual_edits
+from ...scene.as_built import edits_beside_bodies, manual_edits
 from ...scene.run_setup import run_setup_of
 from ...scene.world import start_over
 from ...simulation.blender_events import running_recording, shown_results, start_recording, stop_recording
@@ -164,7 +164,7 @@ def end_with_results(operator: bpy.types.Operator, recording: Recording, *, stop
         creep_text(summary),
         _changed_bodies_text(recording),
     ]
-    if by_hand := _contexts[recording].made_by_hand:
+    if by_hand := edits_beside_bodies(_contexts[recording].made_by_hand, recording.changed_bodies):
         warnings.append(f"Changed in Blender, and not in the scenario of the run: {'; '.join(by_hand)}")
     if moved:
         warnings.append(f"{recording.folder} was moved or deleted, and the logs with it")

@@ -10,6 +10,7 @@ from ..languages.words import translated
 from ..scenario.built import changed_in_blender, changes
 from ..scenario.ui import draw_changes, draw_run
 from ..sidebar import SidebarPanel, draw_sentence
+from .beside import draw_run_beside
 from .paths import BDA_OT_set_debris_log, BDA_OT_set_force_log
 
 
@@ -23,6 +24,7 @@ class BDA_PT_run(SidebarPanel, bpy.types.Panel):
         settings, recording = context.scene.bda, running_recording()
         changed = [] if recording else changes(settings)
         draw_run(self.layout.column(align=True), settings, has_changed=bool(changed))
+        draw_run_beside(self.layout.column(align=True), context)
         column = _draw_folder(self.layout, settings)
         column.prop(settings, "pictures_of_run")
         if recording:

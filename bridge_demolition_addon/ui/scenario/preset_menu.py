@@ -1,14 +1,16 @@
-"""Scenarios to start from: those made for the sidebar, and all examples, each with a picture."""
+"""Scenarios to start from: those made for the sidebar, and all examples, by their pictures or by their names."""
 
-from __future__ import annotations
-
+import tomllib
+from functools import cache
 from pathlib import Path
 
 import bpy
 import bpy.utils.previews
+from bpy.props import EnumProperty
 
 from ...model.scenario.file import read_scenario
 from ..languages.words import translated
+from ..messages import messages_of, note
 from .prop import PRESETS
 
 _PACKAGE = Path(__file__).parents[2]
@@ -22,9 +24,15 @@ _EARLIER_NAMES = {"one_span_wrecking_ball": "span_of_2019_ball", "one_span_explo
 """Presets that were renamed, by the names that scripts may still have."""
 
 _SUFFIX, _PICTURE_SUFFIX = ".toml", ".jpg"
-_COLUMNS = 4
-_PICTURE_SCALE = 5.0
-_COLUMN_UNITS = 9.0
+_COLUMNS = 2
+_SHOWN_SCALE = 5.0
+"""Height of the picture in the panel, over that of a line."""
+_PICTURE_SCALE = 4.5
+"""Of those to choose from, of which 8 are beside each other: all fit below it in a window of 1280 x 800."""
+
+_NO_ICON = "FILE_BLANK"
+_BUTTON, _REFUSED = "bda.load_preset", "poll()"
+"""The button of a preset, and what Blender says before its reason why that cannot work now."""
 
 _pictures: list[bpy.utils.previews.ImagePreviewCollection] = []
 """One collection, once the menu was opened."""
@@ -37,7 +45,7 @@ class BDA_MT_presets(bpy.types.Menu):
 
     def draw(self, _context: bpy.types.Context) -> None:
         of_2019 = presets_of_2019()
-        _draw_pictures(self.layout, [name for name in preset_files() if name not in of_2019])
+        _draw_names(self.layout, [name for name in preset_files() if name not in of_2019])
         if of_2019:
             self.layout.separator()
             self.layout.menu(BDA_MT_presets_of_2019.__name__)
@@ -49,18 +57,85 @@ class BDA_MT_presets_of_2019(bpy.types.Menu):
     bl_label = "Settings of the Report of 2019"
 
     def draw(self, _context: bpy.types.Context) -> None:
-        _draw_pictures(self.layout, presets_of_2019())
+        _draw_names(self.layout, presets_of_2019())
 
 
-def _draw_pictures(layout: bpy.types.UILayout, names: list[str]) -> None:
-    """Show presets in columns, each a picture above a button that loads it."""
-    pictures, row = loaded_pictures(), layout.row()
-    for number in range(_COLUMNS):
-        column = row.column()
-        column.ui_units_x = _COLUMN_UNITS
-        for name in names[number::_COLUMNS]:
-            column.template_icon(pictures[name].icon_id, scale=_PICTURE_SCALE)
-            column.operator("bda.load_preset", text=label_of_preset(name)).preset = name
+class PresetProperties:
+    """The preset that the panels began from, as a picture which opens those of all presets when it is clicked."""
+
+    preset: EnumProperty(
+        name="Presets",
+        description="Click to choose a scenario to start from, by its picture. There road, banks, figures, crane, dust "
+        "and bars are for looks only",
+        items=lambda settings, context: _items(settings, context),
+        get=lambda settings: _shown_number(settings),
+        set=lambda _, number: _load(number),
+    )
+
+
+def draw_presets(layout: bpy.types.UILayout, settings: bpy.types.PropertyGroup) -> None:
+    """Draw the picture of the preset that is shown, which opens all others."""
+    layout.template_icon_view(settings, "preset", show_labels=True, scale=_SHOWN_SCALE, scale_popup=_PICTURE_SCALE)
+
+
+def _items(
+    settings: bpy.types.PropertyGroup, _context: bpy.types.Context | None
+) -> list[tuple[str, str, str, int, int]]:
+    """Return all presets as Blender takes them, and one more where none of them is shown."""
+    items = _preset_items(bpy.app.translations.locale)
+    return items if _shown_number(settings) else _with_none(bpy.app.translations.locale)
+
+
+@cache
+def _preset_items(_locale: str) -> list[tuple[str, str, str, int, int]]:
+    """Return them with their numbers, which count from 1; a list that stays, as Blender keeps none of its texts."""
+    pictures = loaded_pictures()
+    return [
+        (name, label_of_preset(name), described_preset(name), pictures[name].icon_id, number)
+        for number, name in enumerate(preset_files(), start=1)
+    ]
+
+
+@cache
+def _with_none(locale: str) -> list[tuple[str, str, str, int | str, int]]:
+    """Return them after one that stands for a scenario of the user's own."""
+    none = ("NONE", translated("No Preset"), translated("The title of the scenario is that of no preset"), _NO_ICON, 0)
+    return [none, *_preset_items(locale)]
+
+
+@cache
+def _numbers_by_title() -> dict[str, int]:
+    """Return the number of each preset by the title of its scenario; no two have the same."""
+    return {_title_in(path): number for number, path in enumerate(preset_files().values(), start=1)}
+
+
+def _title_in(path: Path) -> str:
+    return str(tomllib.loads(path.read_text(encoding="utf-8"))["scenario"]["title"])
+
+
+def _shown_number(settings: bpy.types.PropertyGroup) -> int:
+    return _numbers_by_title().get(settings.scenario.title, 0)
+
+
+def _load(number: int) -> None:
+    """Load the preset of a number as its button does; Blender makes the step of undo."""
+    if not number:
+        return
+    try:
+        bpy.ops.bda.load_preset("INVOKE_DEFAULT", preset=list(preset_files())[number - 1])
+    except RuntimeError as error:  # refused: a reason that the button has kept itself is there already
+        scene, reason = bpy.context.scene, str(error).rpartition(_REFUSED)[2].strip()
+        if all(message.text not in reason for message in messages_of(scene)):
+            note(scene, _BUTTON, "ERROR", reason)
+
+
+def _draw_names(layout: bpy.types.UILayout, names: list[str]) -> None:
+    """Show presets in columns of buttons that load them, each with a small picture."""
+    pictures = loaded_pictures()
+    grid = layout.grid_flow(columns=_COLUMNS, even_columns=True)
+    for name in names:
+        picture = pictures[name].icon_id
+        grid.operator("bda.load_preset", text=label_of_preset(name), icon_value=picture).preset = name
 
 
 def preset_files() -> dict[str, Path]:
@@ -101,7 +176,9 @@ def label_of_preset(name: str) -> str:
 
 
 def unregister() -> None:
-    """Remove the pictures."""
+    """Remove the pictures, and what names them."""
+    for kept in (_preset_items, _with_none, _numbers_by_title):
+        kept.cache_clear()
     while _pictures:
         bpy.utils.previews.remove(_pictures.pop())
 

@@ -21,9 +21,11 @@ from ..task_progress import draw_task_progress, going_on
 from .built import ChangedValue, Kept, built_values, change_of, change_of_use, changes, changes_of_table
 from .hints import breaking_note, contact_note, draw_first_help, next_step
 from .number_rows import draw_rows, numbers_in_row, row_unit
+from .preset_menu import draw_presets
 from .prop import INDEX, USE, label_of, shown_keys, shown_tables, title_of, vector_length
 from .stability import draw_stability
 from .table_list import draw_list
+from .undone import undo_note
 
 _LABELS = {
     "bridge": "Sizes",
@@ -94,6 +96,9 @@ class BDA_PT_scenario(SidebarPanel, bpy.types.Panel):
             draw_task_progress(layout, context, progress)
         else:
             draw_sentence(layout, context, next_step(context.scene), icon="FORWARD")
+        if note := undo_note(context.scene):
+            draw_sentence(layout, context, note, icon="INFO")
+        draw_presets(layout, settings)
         column = layout.column(align=True)
         column.scale_y = _PROMINENT
         column.menu("BDA_MT_presets", icon="ASSET_MANAGER")

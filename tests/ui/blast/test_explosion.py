@@ -6,6 +6,8 @@ from support.checkout import SMALL
 
 from bridge_demolition_addon.model.blast.charges import EXPLOSIVES
 from bridge_demolition_addon.model.blast.settings import BlastSettings
+from bridge_demolition_addon.model.bridge.layout import deck_top
+from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.scene.blast.charges import blast_of, charge_objects, charges_of, keep_blast
 from bridge_demolition_addon.ui.blast.operator import keep_shown_blast
 
@@ -27,6 +29,41 @@ def test_a_source_point_is_added_at_the_cursor(extension, settings):
     assert first.place_m == (1.5, -2.0, 3.0)
     assert (first.mass_kg, first.explosive, first.delay_s) == (10.0, "TNT", 0.0)
     assert settings.charge_index == 1
+
+
+def test_the_button_puts_a_charge_at_the_face_of_the_nearest_pier(extension, settings):
+    """Two spans of 10 m, piers of two columns of 0.8 m by 0.6 m, in the middle of each half of a deck of 6 m."""
+    bridge = settings.scenario.bridge
+    bridge.span_lengths_m, bridge.deck.width_m, bridge.pier_caps.width_m = "[10.0, 10.0]", 6.0, 6.0
+    bridge.piers.columns, bridge.piers.column_length_m, bridge.piers.column_width_m = 2, 0.8, 0.6
+    scene = extension.context.scene
+    scene.cursor.location = (12.0, -1.2, 0.0)
+    extension.ops.bda.add_source_point(at_pier=True)
+    (charge,) = charges_of(scene)
+    assert charge.place_m == pytest.approx((10.4, -1.5, 1.0), abs=1e-6)
+    assert charge.burst == "surface"
+
+
+def test_a_built_pier_takes_it_and_a_cursor_on_the_bridge_keeps_it(built):
+    scene = built.context.scene
+    bridge = read_scenario(SMALL).bridge
+    scene.cursor.location = (-5.0, 0.0, 0.0)
+    built.ops.bda.add_source_point(at_pier=True)
+    (first,) = charges_of(scene)
+    across_m = bridge.deck.width_m * (0.5 / bridge.piers.columns - 0.5)
+    face = (-bridge.piers.column_length_m / 2.0, abs(across_m), 1.0)
+    assert (first.place_m[0], abs(first.place_m[1]), first.place_m[2]) == pytest.approx(face, abs=1e-5)
+    scene.cursor.location = (bridge.spans_m / 2.0, 0.0, deck_top(bridge))
+    built.ops.bda.add_source_point(at_pier=True)
+    assert charges_of(scene)[1].place_m == pytest.approx(tuple(scene.cursor.location))
+    assert charges_of(scene)[1].burst == "air"
+
+
+def test_without_a_pier_it_is_at_the_cursor(extension, settings):
+    settings.scenario.use_bridge = False
+    extension.context.scene.cursor.location = (1.5, -2.0, 3.0)
+    extension.ops.bda.add_source_point(at_pier=True)
+    assert charges_of(extension.context.scene)[0].place_m == (1.5, -2.0, 3.0)
 
 
 def test_choosing_a_charge_selects_it(extension, settings):

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The menu Presets: all examples, and the scenarios made for it, each with a picture."""
+"""Presets by picture and by name: all examples, and the scenarios made for them."""
 
 import pytest
 from PIL import Image
 from support.checkout import DEMOLITIONS, EXAMPLES
 
 from bridge_demolition_addon.model.scenario.file import read_scenario
+from bridge_demolition_addon.ui.messages import messages_of
 from bridge_demolition_addon.ui.scenario.values import scenario_of
 
 SMALLEST_PX = (256, 192)
@@ -74,3 +75,36 @@ def test_labels_are_all_different(presets):
     names = list(presets.preset_files())
     assert len({presets.label_of_preset(name) for name in names}) == len(names)
     assert presets.label_of_preset("i235_one_span") == "I-235 one span"
+
+
+def test_choosing_a_picture_loads_its_preset(extension, settings, presets):
+    for name in ("reinforced_span_ball", "i235_two_spans"):
+        settings.preset = name
+        assert scenario_of(settings) == read_scenario(presets.preset_file(name))
+        assert settings.preset == name
+
+
+def test_a_preset_that_is_loaded_otherwise_is_the_picture_shown(extension, settings, presets):
+    extension.ops.bda.load_preset(preset="i235_one_span")
+    assert settings.preset == "i235_one_span"
+    settings.scenario.title = "My own bridge"
+    assert settings.preset == "NONE"
+    extension.ops.bda.new_scenario()
+    assert settings.preset == "reinforced_span_ball"
+
+
+def test_a_picture_that_cannot_be_loaded_now_says_why_in_the_panel(extension, settings, presets):
+    cube = extension.data.objects.new("Cube", extension.data.meshes.new("Cube"))
+    extension.context.collection.objects.link(cube)
+    extension.context.view_layer.objects.active = cube
+    extension.ops.object.mode_set(mode="EDIT")
+    settings.preset = "i235_two_spans"
+    extension.ops.object.mode_set(mode="OBJECT")
+    assert [message.text for message in messages_of(extension.context.scene)] == ["Go to object mode first"]
+    assert settings.preset == "reinforced_span_ball"
+
+
+def test_no_two_scenarios_have_one_title(presets):
+    """The title says which picture is shown."""
+    titles = [read_scenario(path).title for path in presets.preset_files().values()]
+    assert len(set(titles)) == len(titles)
