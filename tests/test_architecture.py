@@ -143,3 +143,9 @@ def test_no_two_public_classes_have_one_name():
         if not class_.name.startswith("_"):
             modules.setdefault(class_.name, []).append(module)
     assert {name: found for name, found in modules.items() if len(found) > 1} == {}
+
+
+def test_nothing_resets_the_preferences_of_blender():
+    """Blender then deletes the libraries of all extensions from the disk of the user."""
+    sources = (ROOT / PACKAGE).rglob("*.py")
+    assert [path.name for path in sources if "read_factory_settings(" in path.read_text(encoding="utf-8")] == []
