@@ -215,9 +215,11 @@ def _result_facts(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
         yield "largest sum of forces", f"{force['force_N'] / 1000.0:.1f} kN {position}"
     if impact := summary["impact"]:
         yield "impact of the ball", f"{first_hit_s(summary):.3f} s, frame {impact['frame']}"
+    creeping = creep_text(summary)
     if summary["came_to_rest_s"] is not None:
-        yield "everything rests from", f"{summary['came_to_rest_s']:.3f} s"
-    if creeping := creep_text(summary):
+        but_for = ", but for what creeps" if creeping else ""
+        yield "everything rests from", f"{summary['came_to_rest_s']:.3f} s{but_for}"
+    if creeping:
         yield "creeping", creeping
     if moving := summary["moving_at_end"]:
         yield (
