@@ -130,6 +130,8 @@ def open_with_contours(person: Person) -> Steps:
     yield 2.0
     yield from person.picture("opened_with_contours")
     person.expect("contours are shown in the file that is opened", person.scene.bda.contours)
+    person.scene.frame_set(14)  # a file with a run opens at its start
+    yield 0.5
     person.expect("in the colours of before", bool((colours(person, shown=True) == before).all()))
     person.expect("bodies have others of their own", bool((colours(person) != before).any()))
     person.expect("the view shows them", person.view.spaces.active.shading.color_type, "OBJECT")
