@@ -265,9 +265,10 @@ def record(person: Person, panels: Panels) -> Steps:
     yield from person.picture("unregistered")
     person.expect("no recording runs", recording_runs(), False)
     person.expect_reports(
-        "the results are reported, that so coarse a bridge falls by itself, and that it still moves",
+        "the results are reported, that so coarse a bridge falls by itself, and that it still moves and creeps",
         "The bridge does not stand by itself",
         "still move at the end",
+        "creep at the end",
         f"Results are in {person.folder / 'results'}",
     )
 
