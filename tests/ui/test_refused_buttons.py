@@ -32,6 +32,7 @@ IN_A_LINKED_SCENE = {
     "show_picture": "This run has no pictures yet",
     "show_study": "Choose the folder of a study first",
     "stop_optimise": "No optimisation is at work",
+    "stop_run_beside": "No run goes on beside Blender",
     "stop_search": "No search is at work",
     "stop_study": "No study is at work",
     "unregister_handler": "No recording runs",

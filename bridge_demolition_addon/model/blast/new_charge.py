@@ -9,6 +9,7 @@ from manifold3d import CrossSection
 
 from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.plane_cuts import plane_cuts
+from ...engineering.geometry.vectors import distance
 
 ABOVE_FOOT_M = 1.0
 """Height of a new charge above the foot of its pier: where a person can fix it, and where columns are cut."""
@@ -39,7 +40,7 @@ def place_at_pier(piers: Sequence[TriangleMesh], near_m: np.ndarray) -> tuple[fl
     places = [place for pier in piers for place in _faces(pier)]
     if not places:
         return None
-    away_m = [np.hypot(*(place[:_UP] - near_m[:_UP])) for place in places]
+    away_m = [distance(place[:_UP], near_m[:_UP]) for place in places]
     x, y, z = places[int(np.argmin(away_m))].tolist()
     return x, y, z
 

@@ -19,7 +19,7 @@ from ...model.stages.stability import stability_texts
 from ...simulation.kept_run import digest_of_run, folder_of_run, has_run, results_of_run
 from ..languages.words import translated
 from ..recording.session import last_recording
-from ..scene_units import force_text, length_text, mass_text, units_of_texts
+from ..scene_units import length_text, mass_text, units_of_texts
 
 _N_PER_KN = 1000.0
 _MS_PER_S = 1000.0
@@ -77,7 +77,7 @@ class ShownRun:
                 summary=summary,
                 doubts=tuple(filter(None, (*stability_texts(summary.values), *doubts_of_run(summary.values)))),
                 lines=tuple(lines_of(summary.values)),
-                peak_force=force and LargestValue(force_text(force.value), force.body, force.frame),
+                peak_force=force and LargestValue(_force_text(force.value), force.body, force.frame),
                 largest_throw=throw and LargestValue(_throw_text(throw.value, summary.values), throw.body, last_frame),
                 explained_peak=explained_peak(summary.values),
                 bearings=bearing_rows(summary.bearings),
@@ -131,6 +131,10 @@ def bearing_rows(bearings: Sequence[Mapping[str, Any]]) -> tuple[tuple[str, ...]
 def _throw_text(throw_m: float, summary: Mapping[str, Any]) -> str:
     throw = length_text(throw_m, ".2f")
     return translated("{}, not final").format(throw) if summary.get("moving_at_end") else throw
+
+
+def _force_text(force_n: float) -> str:
+    return f"{force_n / _N_PER_KN:,.0f} kN".replace(",", " ")
 
 
 def _kilonewtons(force_n: float | None) -> str:

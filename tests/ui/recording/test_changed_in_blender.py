@@ -195,6 +195,14 @@ def test_a_second_run_finds_nothing_changed(built, tmp_path):
         assert text == built.context.scene.bda.built_scenario
 
 
+IN_PLAIN_WORDS = {
+    "positions, shapes or sizes": "1 shard is moved, such as 'Shard 000000'",
+    "which bodies there are": "1 shard is missing, such as 'Shard 000000'",
+    "which connections there are": "1 connection fewer than built",
+}
+"""What the run reports of some of them; of all others it says the same as the files."""
+
+
 @pytest.mark.parametrize("what", BY_HAND)
 def test_what_no_scenario_can_say_is_said_beside_it(built, settings, tmp_path, capfd, what):
     BY_HAND[what](built.context.scene)
@@ -202,7 +210,7 @@ def test_what_no_scenario_can_say_is_said_beside_it(built, settings, tmp_path, c
     folder = tmp_path / "results"
     told = summary_in(folder)["made_by_hand"]
     assert what in told[0]
-    assert what in capfd.readouterr().out
+    assert IN_PLAIN_WORDS.get(what, what) in capfd.readouterr().out
     first_line = (folder / "scenario_as_run.toml").read_text(encoding="utf-8").splitlines()[0]
     assert first_line.startswith("# Changed in Blender, and not in this scenario: ") and what in first_line
     assert scenario_text(read_scenario(folder / "scenario_as_run.toml")) == settings.built_scenario
