@@ -4,8 +4,9 @@
 It hangs between its piers, all awake, so that Bullet has all of it to solve.
 """
 
+import statistics
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
@@ -89,3 +90,12 @@ def frame_seconds(scene: bpy.types.Scene, frames: int, clock: Callable[[], float
         scene.frame_set(frame)
         marks.append(clock())
     return np.diff(marks)
+
+
+def ratios_to_bare_step(seconds: Mapping[str, Sequence[float]]) -> dict[str, float]:
+    """Print the least time of a frame in each way, and return by ways how much longer it is than the bare step's."""
+    bare = min(seconds["bare step"])
+    for way, times in seconds.items():
+        spread = statistics.median(times) / min(times) - 1.0
+        print(f"  {way:35} {1e3 * min(times):8.1f} ms a frame  {min(times) / bare:5.2f}  (spread {spread:.0%})")
+    return {way: min(times) / bare for way, times in seconds.items() if way != "bare step"}

@@ -5,7 +5,6 @@ The deck stands on its piers in more and more shards. Standing, rows and equatio
 they are made again in every sub-step. The last way forces that: equations are thrown away before each sub-step.
 """
 
-import statistics
 import tempfile
 import time
 from contextlib import nullcontext
@@ -13,7 +12,7 @@ from pathlib import Path
 from unittest.mock import patch
 
 import bpy
-from benches.deck import SMALLEST, deck, frame_seconds, make_world, recorded
+from benches.deck import SMALLEST, deck, frame_seconds, make_world, ratios_to_bare_step, recorded
 
 from bridge_demolition_addon.engineering.elasticity import structure
 from bridge_demolition_addon.model.scenario import ConnectionSettings
@@ -44,13 +43,13 @@ def main(smallest: bool) -> dict[str, float]:
         scene = bpy.context.scene
         build_demolition(scene, scenario, model)
         made = [obj for obj in bpy.data.objects if obj.rigid_body_constraint]
-        ratio, seconds = elasticity_of(scene, made).damping_ratio, {}
+        damping_ratio, seconds = elasticity_of(scene, made).damping_ratio, {}
         with tempfile.TemporaryDirectory() as folder:
             for _ in range(1 if smallest else ROUNDS):
                 for way in WAYS:
                     forget_elasticity(scene)
                     if way.startswith("elastic"):
-                        keep_elasticity(scene, made, model.stiffness, ratio, model.thicknesses_m())
+                        keep_elasticity(scene, made, model.stiffness, damping_ratio, model.thicknesses_m())
                     turned_rad = 0.0 if "again" in way else structure.TURNED_RAD
                     with (
                         nullcontext() if way == "bare step" else recorded(scene, Path(folder)),
@@ -59,10 +58,6 @@ def main(smallest: bool) -> dict[str, float]:
                         make_world(scene)
                         seconds.setdefault(way, []).append(frame_seconds(scene, FRAMES, time.process_time).mean())
         print(f"{shards} shards, {len(made)} connections")
-        bare = min(seconds["bare step"])
-        for way, times in seconds.items():
-            spread = statistics.median(times) / min(times) - 1.0
-            print(f"  {way:35} {1e3 * min(times):8.1f} ms a frame  {min(times) / bare:5.2f}  (spread {spread:.0%})")
-            if way != "bare step":
-                ratios[f"{way} over bare step, {shards} shards"] = min(times) / bare
+        for way, ratio in ratios_to_bare_step(seconds).items():
+            ratios[f"{way} over bare step, {shards} shards"] = ratio
     return ratios

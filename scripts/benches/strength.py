@@ -5,13 +5,12 @@ The deck is connected by steel, so that nothing breaks and Bullet has the same w
 no loads. CPU time, so that other programs weigh less.
 """
 
-import statistics
 import tempfile
 import time
 from contextlib import nullcontext
 from pathlib import Path
 
-from benches.deck import SMALLEST, build_scene, deck, frame_seconds, make_world, recorded
+from benches.deck import SMALLEST, build_scene, deck, frame_seconds, make_world, ratios_to_bare_step, recorded
 
 from bridge_demolition_addon.model.scenario import ConnectionSettings
 
@@ -38,10 +37,6 @@ def main(smallest: bool) -> dict[str, float]:
                         make_world(scene)
                         seconds.setdefault(name, []).append(frame_seconds(scene, FRAMES, time.process_time).mean())
         print(f"{shards} shards, {len(scene.rigidbody_world.constraints.objects)} connections")
-        bare = min(seconds["bare step"])
-        for name, times in seconds.items():
-            spread = statistics.median(times) / min(times) - 1.0
-            print(f"  {name:20} {1e3 * min(times):8.1f} ms a frame  {min(times) / bare:5.2f}  (spread {spread:.0%})")
-            if name != "bare step":
-                ratios[f"{name} over bare step, {shards} shards"] = min(times) / bare
+        for way, ratio in ratios_to_bare_step(seconds).items():
+            ratios[f"{way} over bare step, {shards} shards"] = ratio
     return ratios

@@ -5,7 +5,6 @@ It is the span of the example on supports, three times in a row and in more piec
 equations made again in every sub-step, as while it breaks.
 """
 
-import statistics
 import tempfile
 import time
 from contextlib import nullcontext
@@ -14,7 +13,7 @@ from pathlib import Path
 from unittest.mock import patch
 
 import bpy
-from benches.deck import frame_seconds, make_world, recorded
+from benches.deck import frame_seconds, make_world, ratios_to_bare_step, recorded
 
 from bridge_demolition_addon.engineering.elasticity import structure
 from bridge_demolition_addon.model.scenario import Scenario, ShardSettings
@@ -48,13 +47,7 @@ def main(smallest: bool) -> dict[str, float]:
     print(
         f"{len(scenario.steelwork.all_members)} bars, {len(model.shards)} bodies, {len(model.connections)} connections"
     )
-    bare, ratios = min(seconds["bare step"]), {}
-    for way, times in seconds.items():
-        spread = statistics.median(times) / min(times) - 1.0
-        print(f"  {way:35} {1e3 * min(times):8.1f} ms a frame  {min(times) / bare:5.2f}  (spread {spread:.0%})")
-        if way != "bare step":
-            ratios[f"{way} over bare step"] = min(times) / bare
-    return ratios
+    return {f"{way} over bare step": ratio for way, ratio in ratios_to_bare_step(seconds).items()}
 
 
 def truss(spans: int, pieces: int) -> Scenario:
