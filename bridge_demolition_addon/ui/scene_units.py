@@ -5,7 +5,7 @@ from __future__ import annotations
 import bpy
 
 from ..display.contour_quantities import FORCES
-from ..engineering.unit_systems import IMPERIAL
+from ..engineering.unit_systems import IMPERIAL, UnitSystem
 from ..engineering.units import kilograms
 
 _METRE, _SQUARE_METRE, _KILOGRAM, _KILONEWTON = (IMPERIAL[unit] for unit in ("m", "m²", "kg", "kN"))
@@ -14,9 +14,9 @@ _METRE, _SQUARE_METRE, _KILOGRAM, _KILONEWTON = (IMPERIAL[unit] for unit in ("m"
 _N_PER_KN = 1000.0
 
 
-def units_of_texts() -> str:
-    """Return Blender's name for the system of units that texts have now."""
-    return bpy.context.scene.unit_settings.system
+def units_of_texts() -> UnitSystem:
+    """Return the system of units that texts have now: that of the scene in the window."""
+    return UnitSystem.IMPERIAL if bpy.context.scene.unit_settings.system == "IMPERIAL" else UnitSystem.METRIC
 
 
 def length_text(length_m: float, spec: str) -> str:
@@ -43,4 +43,4 @@ def force_text(force_n: float) -> str:
 
 
 def _is_imperial() -> bool:
-    return units_of_texts() == "IMPERIAL"
+    return units_of_texts() is UnitSystem.IMPERIAL

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import NamedTuple
 
+from ...engineering.unit_systems import UnitSystem
 from ...errors import OutputError
 from ...model.debris.throws import debris_of
 from ...model.results.arrays import results_in
@@ -86,7 +87,7 @@ def figure_text(finding: Finding | None) -> str:
         case "m²":
             return area_text(value, ".0f")
         case "t":
-            return mass_text(value * _KG_PER_T) if units_of_texts() == "IMPERIAL" else f"{value:.1f} t"
+            return mass_text(value * _KG_PER_T) if units_of_texts() is UnitSystem.IMPERIAL else f"{value:.1f} t"
         case "1":
             return f"{value:.0f}"
         case "s":

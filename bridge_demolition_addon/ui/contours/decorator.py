@@ -18,13 +18,12 @@ from ...display.colour_scale import colours
 from ...display.contour_ranges import ContourSettings
 from ...display.contours import ContourFrame
 from ...display.force_arrows import arrows, body_forces, connection_forces, contact_forces
-from ...engineering.unit_systems import UnitSystem
 from ...model.blast.charges import Charge
 from ...model.blast.damage import THRESHOLDS, ring_radii
 from ...scene.blast.charges import blast_of, charges_of
 from ...simulation.blender_events import contours_of, shown_results
 from ..languages.words import translated
-from ..scene_units import length_text
+from ..scene_units import length_text, units_of_texts
 from ..view_drawing import (
     FONT_PX,
     PANEL_COLOUR,
@@ -167,8 +166,7 @@ class _BarLayout:
 
 def _draw_colour_bar(context: bpy.types.Context, settings: ContourSettings, frame: ContourFrame) -> None:
     scale = context.preferences.system.ui_scale
-    is_imperial = context.scene.unit_settings.system == "IMPERIAL"
-    bar = colour_bar(settings, frame, UnitSystem.IMPERIAL if is_imperial else UnitSystem.METRIC)
+    bar = colour_bar(settings, frame, units_of_texts())
     heading = [*filter(None, (translated(bar.title), bar.subtitle)), bar.unit]
     layout = _BarLayout(covered_px(context, "TOOLS") + _MARGIN_PX * scale, _BOTTOM_PX * scale, scale, len(heading))
     left, foot, width, height = layout.bar
