@@ -23,7 +23,7 @@ class Layout:
     def prop(self, *_names: object, **_settings: object) -> None:
         pass
 
-    label = menu = operator_menu_enum = progress = prop
+    label = menu = operator_menu_enum = progress = template_icon_view = prop
 
     def operator(self, _name: str, **_settings: object) -> SimpleNamespace:
         return SimpleNamespace()
