@@ -11,12 +11,12 @@ import os
 import struct
 import sys
 from collections.abc import Callable, Sequence
-from functools import cache
-from importlib.util import find_spec
+from types import ModuleType
 from typing import Any
 
 import numpy as np
 
+from ..engineering.compilation import where_compiled
 from ..errors import LayoutError
 
 _LOWEST = 4096
@@ -144,12 +144,10 @@ class Fields:
         return self._values.take(self._starts.take(rows) + further // self._size + self._offsets)
 
 
-@cache
-def field_loops() -> Any | None:
-    """Return the module of compiled loops over structures, loaded when a world is first read; None without Numba."""
-    if find_spec("numba") is None:
-        return None
-    from . import field_loops  # it takes a third of a second, and most calls of the program read no world
+@where_compiled
+def field_loops() -> ModuleType:
+    """Loops over structures in memory."""
+    from . import field_loops
 
     return field_loops
 

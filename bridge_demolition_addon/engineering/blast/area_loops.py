@@ -9,7 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from ..geometry.sum_loops import MOST_TERMS, compiled, total
+from ..compilation import compiled
+from ..geometry.sum_loops import MOST_TERMS, total
 
 
 @compiled

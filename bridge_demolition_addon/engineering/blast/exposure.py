@@ -6,14 +6,13 @@ through it; the visible share is that of the other rays. A wave also bends round
 anything narrow the load is more than this share. A body that contains the charge stops nothing: the charge breaks it.
 """
 
-from functools import cache
-from importlib.util import find_spec
 from itertools import pairwise
-from typing import Any
+from types import ModuleType
 
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
+from ..compilation import where_compiled
 from ..geometry.hulls import ConvexHulls
 from ..geometry.proximity import ranges
 from ..geometry.vectors import dot, length, transformed, transformed_back
@@ -69,12 +68,10 @@ def projected_areas(hulls: ConvexHulls, rotations: FloatArray, directions: Float
     return np.add.reduceat(shown, hulls.starts[:-1], axis=1).T
 
 
-@cache
-def area_loops() -> Any | None:
-    """Return the module of the compiled loop, loaded when areas are first asked for; None without Numba."""
-    if find_spec("numba") is None:
-        return None
-    from . import area_loops  # it takes a third of a second, and most calls of the program need none
+@where_compiled
+def area_loops() -> ModuleType:
+    """Loops over the areas of bodies."""
+    from . import area_loops
 
     return area_loops
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from functools import cache
-from importlib.util import find_spec
+from types import ModuleType
 from typing import Any, Protocol
 
 from ..arrays import FloatArray
+from ..compilation import where_compiled
 from .crack_law import DOWEL_SHARE, CrackLaw
 from .gaps import stiffness_of_points
 
@@ -80,11 +80,9 @@ def summed(values: FloatArray, corners: int) -> FloatArray:
     return total
 
 
-@cache
-def _loops() -> Any | None:
-    """The module of compiled loops, loaded when cracks first need it; None without Numba."""
-    if find_spec("numba") is None:
-        return None
-    from . import crack_loops  # it takes a third of a second, and most calls of the program need none
+@where_compiled
+def _loops() -> ModuleType:
+    """Loops over cracks."""
+    from . import crack_loops
 
     return crack_loops

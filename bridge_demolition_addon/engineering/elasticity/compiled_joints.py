@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from functools import cache
-from importlib.util import find_spec
-from typing import Any
+from types import ModuleType
+
+from ..compilation import where_compiled
 
 
-@cache
-def joint_loops() -> Any | None:
-    """Return the module of compiled loops, loaded when connections first need it; None without Numba."""
-    if find_spec("numba") is None:
-        return None
-    from . import joint_loops  # it takes a third of a second, and most calls of the program need none
+@where_compiled
+def joint_loops() -> ModuleType:
+    """Loops over elastic connections."""
+    from . import joint_loops
 
     return joint_loops

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from functools import cache
-from importlib.util import find_spec
-from typing import Any
+from types import ModuleType
 
 from ..arrays import FloatArray
+from ..compilation import where_compiled
 from .gaps import Gaps
 from .spring_law import PressedSprings
 
@@ -31,11 +30,9 @@ def rates(gaps: Gaps, velocities: FloatArray) -> FloatArray:
     return found
 
 
-@cache
-def spring_loops() -> Any | None:
-    """Return the module of compiled loops, loaded when springs first need it; None without Numba."""
-    if find_spec("numba") is None:
-        return None
-    from . import spring_loops  # it takes a third of a second, and most calls of the program need none
+@where_compiled
+def spring_loops() -> ModuleType:
+    """Loops over springs."""
+    from . import spring_loops
 
     return spring_loops

@@ -2,7 +2,6 @@
 
 For some hundred gaps numpy takes longer to call its functions than these to calculate. The loops give the same bits as
 `crack_law` and `gaps`, which are read, changed and tested first: every operation here stands there, in the same order.
-Numba neither fuses nor reorders any, as its `fastmath` is off.
 
 All arrays have their components first.
 """
@@ -11,10 +10,10 @@ from __future__ import annotations
 
 from typing import Any
 
-import numba
 import numpy as np
 
-compiled = numba.njit(cache=True, nogil=True, error_model="numpy")
+from ..compilation import compiled
+from ..geometry.vector_loops import crossed
 
 
 @compiled
@@ -174,19 +173,6 @@ def linear(
                     total += even * bars_across + rubs_across
                 tangents[axis, other, row] = total
     return result, tangents
-
-
-@compiled
-def dotted(first: Any, second: Any) -> Any:
-    """Dot product."""
-    return first[0] * second[0] + first[1] * second[1] + first[2] * second[2]
-
-
-@compiled
-def crossed(first: Any, second: Any) -> Any:
-    """Cross product."""
-    (x, y, z), (a, b, c) = first, second
-    return y * c - z * b, z * a - x * c, x * b - y * a
 
 
 @compiled

@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 
 from ..arithmetic import ARCTANGENT, ARCTANGENT_LIMITS, ARCTANGENT_STARTS, PI_REST
-from .crack_loops import compiled, crossed, dotted
+from ..compilation import compiled
+from ..geometry.vector_loops import crossed, dotted
 
 _COEFFICIENTS = np.array(ARCTANGENT)
 

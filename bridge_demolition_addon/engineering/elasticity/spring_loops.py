@@ -10,7 +10,8 @@ from typing import Any
 
 import numpy as np
 
-from .crack_loops import compiled, crossed
+from ..compilation import compiled
+from ..geometry.vector_loops import crossed
 
 
 @compiled

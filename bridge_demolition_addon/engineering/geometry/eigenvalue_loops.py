@@ -1,17 +1,16 @@
 """Eigenvalues of many small matrices as a loop, which Numba compiles: import this only where it is installed.
 
 It gives the same bits as `vectors`, which is read, changed and tested first: every operation here stands there, in the
-same order. Numba neither fuses nor reorders any, as its `fastmath` is off.
+same order.
 """
 
 from __future__ import annotations
 
 from typing import Any
 
-import numba
 import numpy as np
 
-compiled = numba.njit(cache=True, nogil=True, error_model="numpy")
+from ..compilation import compiled
 
 
 @compiled

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-import numba
-
-compiled = numba.njit(cache=True, nogil=True, error_model="numpy")
+from ..compilation import compiled
 
 MOST_TERMS = 128
 """Terms up to which `total` adds in numpy's order, which halves longer sums."""

@@ -9,13 +9,12 @@ Arrays whose components lie together in memory, all x and then all y, are worked
 `length` and `transformed` keep that order, `by_component` and `cross_by_component` give it.
 """
 
-from functools import cache
-from importlib.util import find_spec
-from typing import Any
+from types import ModuleType
 
 import numpy as np
 
 from ..arrays import FloatArray
+from ..compilation import where_compiled
 
 _SWEEPS = 8
 """Sweeps of Jacobi's method, each of which squares the rest beside the diagonal: double precision needs five."""
@@ -120,12 +119,10 @@ def symmetric_eigenvalues(matrices: FloatArray) -> FloatArray:
     return np.sort(loops.diagonals(stacked, _SWEEPS).reshape(matrices.shape[:-1]), axis=-1)
 
 
-@cache
-def eigenvalue_loops() -> Any | None:
-    """Return the module of the compiled loop, loaded when eigenvalues are first asked for; None without Numba."""
-    if find_spec("numba") is None:
-        return None
-    from . import eigenvalue_loops  # it takes a third of a second, and most calls of the program need none
+@where_compiled
+def eigenvalue_loops() -> ModuleType:
+    """Loops over matrices."""
+    from . import eigenvalue_loops
 
     return eigenvalue_loops
 

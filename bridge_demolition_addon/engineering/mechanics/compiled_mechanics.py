@@ -2,26 +2,22 @@
 
 from __future__ import annotations
 
-from functools import cache
-from importlib.util import find_spec
-from typing import Any
+from types import ModuleType
+
+from ..compilation import where_compiled
 
 
-@cache
-def overload_loops() -> Any | None:
-    """Return the module of compiled loops, loaded when connections are first judged; None without Numba."""
-    if find_spec("numba") is None:
-        return None
-    from . import overload_loops  # it takes a third of a second, and most calls of the program need none
+@where_compiled
+def overload_loops() -> ModuleType:
+    """Loops over connections that are judged."""
+    from . import overload_loops
 
     return overload_loops
 
 
-@cache
-def frame_loops() -> Any | None:
-    """Return the module of compiled loops, loaded when loads are first added up; None without Numba."""
-    if find_spec("numba") is None:
-        return None
-    from . import frame_loops  # it takes a third of a second, and most calls of the program need none
+@where_compiled
+def frame_loops() -> ModuleType:
+    """Loops over loads and their work."""
+    from . import frame_loops
 
     return frame_loops

@@ -10,8 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from ..elasticity.crack_loops import compiled, crossed, dotted
+from ..compilation import compiled
 from ..geometry.sum_loops import MOST_TERMS, total
+from ..geometry.vector_loops import crossed, dotted
 from .strength import ROUNDING, SINGLE_PRECISION
 
 
