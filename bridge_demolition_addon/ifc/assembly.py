@@ -16,7 +16,7 @@ from ..engineering.geometry.solids import from_manifold, to_manifold
 from ..engineering.units import mass_text
 from ..model.bridge.member import Member
 from ..model.scenario.bearings import PINNED, ROCKER, Bearing
-from ..model.scenario.connections import GROUND_NAME
+from ..model.scenario.connections_between import GROUND_NAME
 from ..model.schema import LINE_BREAKING_CATEGORIES, given
 from .added_supports import KIND, under_bearing, under_ends, with_one_pinned
 from .bearings import BearingElement, BearingTables, bearing_of, bearing_tables, seated, with_one_fixed

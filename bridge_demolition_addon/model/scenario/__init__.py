@@ -19,7 +19,8 @@ from .ball import Ball, BallCable, BallHit
 from .bodies import Equipment, Ground, GroundSurface, ShardSettings, Support
 from .bridge import Bridge
 from .bridge_parts import Abutments, BoxGirder, Deck, Girders, PierCaps, Piers
-from .connections import ConnectionBetween, ConnectionSettings
+from .connections import ConnectionSettings
+from .connections_between import ConnectionBetween
 from .contacts import ContactSettings, SurfaceValues
 from .fracture import Finer, FracturePoint, FractureSettings, MemberFracture
 from .frame import RigidFrame

@@ -38,6 +38,7 @@ from .ball import Ball
 from .bearings import Bearing
 from .bodies import Equipment, Ground, ShardSettings, Support
 from .bridge import Bridge
+from .connection_joints import joints_of_connections
 from .connections import ConnectionSettings
 from .contacts import BodyInContact, ContactSettings, SurfaceValues, check_not_both, with_own_values
 from .fracture import FractureSettings
@@ -349,18 +350,18 @@ def action_fields(scenario_class: type[Table]) -> tuple[str, ...]:
 def joints_of_faces(scenario: Scenario) -> tuple[Joint, ...]:
     """Return the joints of a scenario that are not those of steelwork, and stand before these."""
     connections = scenario.connections
-    own, *others = connections.joints(scenario.materials)
+    own, *others = joints_of_connections(connections, scenario.materials)
     factor, is_elastic = connections.strength_factor, connections.is_elastic
     pads = [table.joint(own, factor, is_elastic=is_elastic) for table in bearing_tables(scenario)]
     if not scenario.reinforcement and not rules_of_bars(scenario):
         return (own, *others, *pads)
-    return (own, *others, *pads, *connections.joints(scenario.materials, have_bars=True), *pads)
+    return (own, *others, *pads, *joints_of_connections(connections, scenario.materials, have_bars=True), *pads)
 
 
 def deck_joint(scenario: Scenario, span: GirderSpan) -> Joint:
     """Return the joint of connections within the deck on girders."""
     connections = scenario.connections
-    own, *others = connections.joints(scenario.materials)
+    own, *others = joints_of_connections(connections, scenario.materials)
     for rule, joint in zip(connections.between, others, strict=True):
         if not rule.none and all(name in (span.deck_name, DECK_KIND) for name in rule.members):
             return joint

@@ -18,7 +18,7 @@ from ...engineering.steelwork.sections import SteelSection
 from ...errors import Faults, ScenarioError
 from ..schema import SHORTEST_LENGTH_M, SIZE, Table, key, shown
 from .bearings import FIXED, PINNED, ROCKER
-from .connections import GROUND_NAME
+from .connections_between import GROUND_NAME
 from .girders import GirderSpan
 from .trusses import TrussSpan
 

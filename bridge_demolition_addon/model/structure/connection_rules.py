@@ -8,7 +8,7 @@ import numpy as np
 
 from ...errors import ScenarioError
 from ..bridge.member import Member
-from ..scenario.connections import GROUND_NAME, ConnectionBetween
+from ..scenario.connections_between import GROUND_NAME, ConnectionBetween
 
 
 def rules_of_pairs(

@@ -23,7 +23,7 @@ from ...engineering.structure.connections import GROUND, Connections
 from ..bridge.member import Member, members_named
 from ..scenario import Scenario
 from ..scenario.bearings import FIXED, ROCKER, UNYIELDING_MN_M
-from ..scenario.connections import GROUND_NAME
+from ..scenario.connections_between import GROUND_NAME
 from ..scenario.scenario import joints_of_faces
 from ..scenario.steelwork import Steelwork, leverage_of
 from ..schema import given

@@ -6,8 +6,9 @@ from pathlib import Path
 
 import bpy
 
-from ...model.scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS, STRENGTH_KEYS
+from ...model.scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
 from ...model.scenario.contacts import QUANTITIES
+from ...model.scenario.joint_settings import STRENGTH_KEYS
 from ...simulation.blender_events import running_recording
 from ...simulation.kept_run import has_run
 from ..languages.words import translated

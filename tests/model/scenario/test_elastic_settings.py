@@ -10,7 +10,9 @@ from bridge_demolition_addon.engineering.elasticity.section_stiffness import ELA
 from bridge_demolition_addon.engineering.elasticity.steel_bars import Steel
 from bridge_demolition_addon.engineering.mechanics.strength import MATERIALS
 from bridge_demolition_addon.errors import ScenarioError
-from bridge_demolition_addon.model.scenario.connections import ConnectionBetween, ConnectionSettings
+from bridge_demolition_addon.model.scenario.connection_joints import joints_of_connections
+from bridge_demolition_addon.model.scenario.connections import ConnectionSettings
+from bridge_demolition_addon.model.scenario.connections_between import ConnectionBetween
 
 ELASTIC = ConnectionSettings(type="FIXED", method="face", material="concrete", stiffness="elastic")
 
@@ -25,7 +27,7 @@ def test_reinforcement_is_of_class_b_unless_another_is_given():
 
 
 def test_moduli_are_those_of_the_material_unless_others_are_given():
-    own, steel, soft, bearing = replace(
+    settings = replace(
         ELASTIC,
         poisson_ratio=0.1,
         between=(
@@ -33,7 +35,8 @@ def test_moduli_are_those_of_the_material_unless_others_are_given():
             ConnectionBetween(members=("pier", "pier"), elastic_modulus_n_mm2=5000.0),
             ConnectionBetween(members=("deck", "pier"), type="GENERIC", free=("turn y",)),
         ),
-    ).joints()
+    )
+    own, steel, soft, bearing = joints_of_connections(settings)
     assert own.moduli == ElasticModuli(34e9, 0.1)
     assert steel.moduli == ELASTIC_MODULI["steel"]
     assert soft.moduli == ElasticModuli(5e9, 0.1)
@@ -45,7 +48,7 @@ def test_every_material_with_strengths_has_moduli():
 
 
 def test_rigid_connections_have_no_moduli():
-    assert all(joint.moduli is None for joint in replace(ELASTIC, stiffness="rigid").joints())
+    assert all(joint.moduli is None for joint in joints_of_connections(replace(ELASTIC, stiffness="rigid")))
 
 
 @pytest.mark.parametrize(

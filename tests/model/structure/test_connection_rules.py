@@ -13,6 +13,7 @@ from bridge_demolition_addon.engineering.mechanics.strength import MATERIALS
 from bridge_demolition_addon.engineering.structure.connections import GROUND
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.scenario import ConnectionBetween, ConnectionSettings
+from bridge_demolition_addon.model.scenario.connection_joints import joints_of_connections
 from bridge_demolition_addon.model.scenario.file import scenario_from_text, scenario_text
 from bridge_demolition_addon.model.structure.connection_rules import rules_of_pairs
 from bridge_demolition_addon.model.structure.model import build_model
@@ -110,7 +111,7 @@ def test_joints_take_over_what_is_not_given():
             between("pier", "ground", material="steel"),
         ),
     )
-    joints = settings.joints()
+    joints = joints_of_connections(settings)
     assert [joint.type for joint in joints] == ["GENERIC", "GENERIC", "FIXED", "GENERIC", "GENERIC"]
     assert [joint.free for joint in joints] == [("turn y",), ("move x", "turn y"), (), ("turn y",), ("turn y",)]
     assert [joint.breaking_force_n for joint in joints] == [None, None, None, pytest.approx(980.665), None]
@@ -127,7 +128,7 @@ def test_springs_are_taken_over_together_or_not_at_all():
         breaking_force_n=1.0,
         between=(between("deck", "deck", breaking_force_n=2.0), between("pier", "deck", type="FIXED")),
     )
-    own, same, fixed = settings.joints()
+    own, same, fixed = joints_of_connections(settings)
     assert own.springs == same.springs == Springs(stiffness_n_m=1e6)
     assert own.free == same.free == ("move z",)
     assert (fixed.free, fixed.springs) == ((), Springs())
