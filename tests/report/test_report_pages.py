@@ -15,7 +15,7 @@ from support.study_folders import told_runs
 from bridge_demolition_addon.charts.style import PAGE_WIDTH_MM
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.report import write as writing
-from bridge_demolition_addon.report.document import pdf
+from bridge_demolition_addon.report.document import page_style, pdf
 from bridge_demolition_addon.report.document.blocks import (
     Column,
     DataTable,
@@ -84,8 +84,10 @@ def test_nothing_is_beside_the_page_or_over_anything_else(report):
         boxes = list(boxes_mm(page))
         assert boxes
         for left, top, right, bottom in boxes:
-            assert left >= pdf.LEFT_MM - SLACK_MM and right <= pdf.LEFT_MM + PAGE_WIDTH_MM + SLACK_MM, number
-            assert top >= pdf.TOP_MM - SLACK_MM and bottom <= pdf.FOOT_MM + 5.0, number
+            assert left >= page_style.LEFT_MM - SLACK_MM and right <= page_style.LEFT_MM + PAGE_WIDTH_MM + SLACK_MM, (
+                number
+            )
+            assert top >= page_style.TOP_MM - SLACK_MM and bottom <= page_style.FOOT_MM + 5.0, number
         for first, second in itertools.combinations(boxes, 2):
             over = (
                 min(first[2], second[2]) - max(first[0], second[0]),
@@ -96,19 +98,23 @@ def test_nothing_is_beside_the_page_or_over_anything_else(report):
 
 def test_no_heading_stands_at_the_foot_of_a_page(report):
     for number, page in enumerate(pdf.laid_out(*report), start=1):
-        headings = [line.base_mm for line in page.lines if line.font == pdf.HEADING]
-        below = [line.base_mm for line in page.lines if line.font != pdf.HEADING and line.base_mm < pdf.BOTTOM_MM + 1.0]
+        headings = [line.base_mm for line in page.lines if line.font == page_style.HEADING]
+        below = [
+            line.base_mm
+            for line in page.lines
+            if line.font != page_style.HEADING and line.base_mm < page_style.BOTTOM_MM + 1.0
+        ]
         below += [placed.top_mm for placed in page.drawings]
         assert not headings or max(below, default=0.0) > max(headings), number
 
 
 def test_no_page_stands_half_empty(report):
     """But for the last one, and before a drawing that is higher than half a page and that no text follows."""
-    middle_mm = (pdf.TOP_MM + pdf.BOTTOM_MM) / 2.0
+    middle_mm = (page_style.TOP_MM + page_style.BOTTOM_MM) / 2.0
     for number, (page, following) in enumerate(itertools.pairwise(pdf.laid_out(*report)), start=1):
-        lowest_mm = max(bottom for _, _, _, bottom in boxes_mm(page) if bottom < pdf.FOOT_MM)
+        lowest_mm = max(bottom for _, _, _, bottom in boxes_mm(page) if bottom < page_style.FOOT_MM)
         highest_mm = max((placed.size_mm[1] for placed in following.drawings), default=0.0)
-        assert lowest_mm > middle_mm or highest_mm > middle_mm - pdf.TOP_MM, number
+        assert lowest_mm > middle_mm or highest_mm > middle_mm - page_style.TOP_MM, number
 
 
 def test_a_picture_that_does_not_fit_lets_the_text_after_it_go_first():
@@ -224,14 +230,14 @@ def test_long_texts_and_tables_go_on_over_lines_and_pages():
     )
     assert {f"{row:.1f}" for row in range(200)} <= set(texts)
     for page in pages:
-        assert all(box[2] <= pdf.LEFT_MM + PAGE_WIDTH_MM + SLACK_MM for box in measured_mm(page.lines))
+        assert all(box[2] <= page_style.LEFT_MM + PAGE_WIDTH_MM + SLACK_MM for box in measured_mm(page.lines))
 
 
 def test_a_table_of_many_columns_stays_between_the_margins():
     columns = tuple(Column(f"quantity {letter} (kg/m³)", letter, ".2f") for letter in "abcdefghijklmnop")
     table = DataTable("wide", "A wide table", columns, [tuple(1234.5 + number for number in range(16))] * 3)
     (page,) = pdf.laid_out(Document("", "", (Section("One", (table,)),)), {})
-    assert max(box[2] for box in measured_mm(page.lines)) <= pdf.LEFT_MM + PAGE_WIDTH_MM + SLACK_MM
+    assert max(box[2] for box in measured_mm(page.lines)) <= page_style.LEFT_MM + PAGE_WIDTH_MM + SLACK_MM
 
 
 def test_the_last_row_of_a_table_does_not_stand_alone():

@@ -10,7 +10,7 @@ import pytest
 from support.run_folders import flying_shards, keep_run
 
 from bridge_demolition_addon.cli.progress import Silence
-from bridge_demolition_addon.report.document import pdf
+from bridge_demolition_addon.report.document import page_style, pdf
 from bridge_demolition_addon.report.write import write_report
 
 ENGLISH = re.compile(r"\b(?:the|of|and|is|are|were|with|without|this|that|which|from|has|have|not|shards?)\b")
@@ -56,8 +56,10 @@ def made(tmp_path_factory):
 
     def noted(*arguments):
         pages = lay_out(*arguments)
-        lines.append([line.text for page in pages for line in page.lines if line.font != pdf.LISTING])
-        sentences.append([line.text for page in pages for line in page.lines if line.font in (pdf.TEXT, pdf.STRONG)])
+        lines.append([line.text for page in pages for line in page.lines if line.font != page_style.LISTING])
+        sentences.append(
+            [line.text for page in pages for line in page.lines if line.font in (page_style.TEXT, page_style.STRONG)]
+        )
         return pages
 
     patch.setattr(pdf, "laid_out", noted)

@@ -13,7 +13,7 @@ from support.run_folders import TOLD, flying_shards, keep_run
 from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.errors import OutputError
 from bridge_demolition_addon.model.scenario import Exclusion, ReportSettings
-from bridge_demolition_addon.report.document import pdf
+from bridge_demolition_addon.report.document import page_style, pdf
 from bridge_demolition_addon.report.write import write_report
 
 pytestmark = pytest.mark.slow  # two whole reports with their drawings
@@ -59,7 +59,7 @@ def made(tmp_path_factory):
 
     def noted(*arguments):
         pages = lay_out(*arguments)
-        lines.extend(line.text for page in pages for line in page.lines if line.font != pdf.LISTING)
+        lines.extend(line.text for page in pages for line in page.lines if line.font != page_style.LISTING)
         return pages
 
     metric, imperial = run.parent / "metric", run.parent / "imperial"
