@@ -20,6 +20,10 @@ from pathlib import Path
 
 import numpy as np
 
+sys.path.insert(1, str(Path(__file__).resolve().parents[2] / "tests"))
+
+from support.growing_weight import animate_gravity
+
 from bridge_demolition_addon.engineering.mechanics.strength import MATERIALS
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.model.results.arrays import Results
@@ -130,14 +134,8 @@ def simulated(scenario: Scenario, folder: Path) -> Results:
     bpy.ops.wm.read_factory_settings(use_empty=True)
     scene = bpy.context.scene
     build_demolition(scene, scenario, checked_model(scenario))
-    weight = scene.gravity[2]
-    # As keyframes: Blender begins its simulation again after any change of a setting.
-    for time_s, factor in reversed(GROWTH):
-        scene.gravity[2] = factor * weight
-        scene.keyframe_insert("gravity", index=2, frame=scene.frame_start + time_s * scenario.time.frames_per_second)
-    for curve in scene.animation_data.action.layers[0].strips[0].channelbags[0].fcurves:
-        for key in curve.keyframe_points:
-            key.interpolation = "LINEAR"
+    frames_per_second = scenario.time.frames_per_second
+    animate_gravity(scene, {scene.frame_start + time_s * frames_per_second: factor for time_s, factor in GROWTH})
     playing = Playing(Recording(scene, folder))
     while not playing.finished:
         playing.step()

@@ -12,7 +12,7 @@ import bpy
 import numpy as np
 
 from ...bullet.body_motion import BodyMotion
-from ...bullet.constraint_rows import ConstraintRows, check_frames
+from ...bullet.constraint_rows import check_frames
 from ...bullet.world import BulletWorld
 from ...engineering.arithmetic import power
 from ...engineering.elasticity.bearings import Bearings, PadSprings
@@ -20,10 +20,10 @@ from ...engineering.elasticity.crack_state import CrackState
 from ...engineering.elasticity.cracks import Cracks
 from ...engineering.elasticity.equations import RigidBodies, without
 from ...engineering.elasticity.equilibrium import Equilibrium, equilibrium
+from ...engineering.elasticity.inertia import effective_inverse_masses, inertia_tensors
 from ...engineering.elasticity.joint_forces import put_loads, velocities_alone
 from ...engineering.elasticity.joint_rows import (
     JointFrames,
-    JointRows,
     components_first,
     components_last,
     joint_positions,
@@ -43,6 +43,7 @@ from ...model.schema import given
 from ...model.structure.tendons import ModelTendons
 from ...scene.connections.breaking_settings import Breaking
 from ...scene.world import scene_time_step
+from .lifting_constraints import LiftingConstraints
 from .standing_bars import StandingBarsOfZones
 
 _SOFTEST = 0.1
@@ -143,7 +144,9 @@ class ElasticConnections:
         )
         self._axial_n_m = stiffness.axial_n_m
         self._masses = inventory.masses_kg
-        self._inertias = _inertias(self._reader.inverse_inertia_components(), motion.rotation_components, self._masses)
+        self._inertias = inertia_tensors(
+            self._reader.inverse_inertia_components(), motion.rotation_components, self._masses
+        )
         step = scene_time_step(scene)
         self._shortest_s, self._frame_s = step.substep_s, step.frame_s
         self._since_fit_s = np.inf
@@ -159,7 +162,7 @@ class ElasticConnections:
             self._stiffness = without(self._stiffness, pads.rows)
         tendons = springs.tendons if springs else None
         self.tendons: TendonForces | None = tendons.forces(*built) if tendons else None
-        self._lifting = [_Lifting(law) for law in (self._footings, self._bearings) if law]
+        self._lifting = [LiftingConstraints(law) for law in (self._footings, self._bearings) if law]
         self._rest = self._settle(motion)
         self._frequencies = np.full(len(self._frames), self._rest.frequency_hz)  # of the part of each connection
         self._structure: ElasticStructure | None = None
@@ -282,7 +285,7 @@ class ElasticConnections:
         arms = zip(turns, (joints.first_arms_m, joints.second_arms_m), strict=True)
         self._rows.move_frames(rows, axes, [turned_back(turn, arm) for turn, arm in arms])
         lines = joints.rows()
-        inverse = _effective_inverse_masses(
+        inverse = effective_inverse_masses(
             lines, ends, motion.inverse_masses, self._reader.inverse_inertia_components()
         )
         hardness = substep_s * substep_s * joints.stiffness * inverse
@@ -385,9 +388,7 @@ class ElasticConnections:
         positions = joint_positions(self._frames, motion.position_components_m, motion.rotation_components)
         intact = np.flatnonzero(self._world.constraints.intact())
         rows, ends = positions.rows(), (self._frames.first, self._frames.second)
-        inverse = _effective_inverse_masses(
-            rows, ends, motion.inverse_masses, self._reader.inverse_inertia_components()
-        )
+        inverse = effective_inverse_masses(rows, ends, motion.inverse_masses, self._reader.inverse_inertia_components())
         diagonal = self._stiffness[np.arange(6), np.arange(6)].copy()
         if self._bearings:
             diagonal[:, self._bearings.rows] = self._bearings.diagonal()
@@ -401,29 +402,6 @@ class ElasticConnections:
         self._rows.expect(intact, positions.deformations()[:, intact])
 
 
-class _Lifting:
-    """Makes Bullet's own constraints of footings or pads softer as less of them touches."""
-
-    def __init__(self, law: Footings | Bearings):
-        self._law, self._touching = law, np.ones(len(law.rows))
-
-    def begin(self) -> None:
-        """Take all of them for touching, as constraints are made."""
-        self._touching[:] = 1.0
-
-    def follow(self, constraints: ConstraintRows, softness: np.ndarray, intact: np.ndarray) -> None:
-        """Soften constraints (m,) that are intact, of which all (6, m) have a softness where they touch all over."""
-        touching, rows = self._law.touching, self._law.rows
-        changed = np.flatnonzero((touching != self._touching) & intact[rows])
-        if not len(changed):
-            return
-        share = touching[changed]
-        softness = softness[:, rows[changed]]
-        softer = np.divide(softness, share, out=np.full_like(softness, np.inf), where=share > 0.0)
-        constraints.soften(rows[changed], softer)
-        self._touching[changed] = share
-
-
 def _check_frames(frames: JointFrames, world: BulletWorld, motion: BodyMotion) -> None:
     """Check that frames are where Blender shows their connections."""
     positions = joint_positions(frames, motion.position_components_m, motion.rotation_components)
@@ -433,37 +411,3 @@ def _check_frames(frames: JointFrames, world: BulletWorld, motion: BodyMotion) -
     ):
         points = components_last(motion.position_components_m[:, bodies] + levers)
         check_frames(components_last(axes), points, world.connection_objects)
-
-
-def _inertias(inverse: np.ndarray, rotations: np.ndarray, masses_kg: np.ndarray) -> np.ndarray:
-    """Tensors of inertia (3, 3, n) in the axes of the bodies, from inverse ones in those of the world."""
-    local = matrix_products(matrix_products(transposed(rotations), inverse), rotations)
-    (a, b, c), (_, d, e), (_, _, f) = local
-    minors = np.stack(
-        (
-            np.stack((d * f - e * e, c * e - b * f, b * e - c * d)),
-            np.stack((c * e - b * f, a * f - c * c, b * c - a * e)),
-            np.stack((b * e - c * d, b * c - a * e, a * d - b * b)),
-        )
-    )
-    determinants = a * minors[0, 0] + b * minors[0, 1] + c * minors[0, 2]
-    moves = (masses_kg > 0.0) & (determinants > 0.0)
-    return np.divide(minors, determinants, out=np.zeros_like(minors), where=moves)
-
-
-def _effective_inverse_masses(
-    rows: JointRows, ends: tuple[np.ndarray, np.ndarray], inverse_masses: np.ndarray, inverse_inertias: np.ndarray
-) -> np.ndarray:
-    """By how much a unit impulse in each row (6, m) changes the velocity in it."""
-    of_bodies = []
-    for body, turning in zip(ends, (rows.first_turning, rows.second_turning), strict=True):
-        inertia = inverse_inertias[..., body]
-        shifts = inverse_masses[body] + _squares(turning, inertia)
-        of_bodies.append(np.concatenate((shifts, _squares(rows.turning, inertia))))
-    return of_bodies[0] + of_bodies[1]
-
-
-def _squares(vectors: np.ndarray, matrices: np.ndarray) -> np.ndarray:
-    """Products vᵀ M v (3, m) of vectors (3, 3, m), one after another, with matrices (3, 3, m)."""
-    turned = matrix_products(vectors, matrices)
-    return turned[:, 0] * vectors[:, 0] + turned[:, 1] * vectors[:, 1] + turned[:, 2] * vectors[:, 2]
