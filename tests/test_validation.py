@@ -81,6 +81,7 @@ def test_a_strip_rises_by_the_impulse_of_a_blast(blender, tmp_path):
     assert blasted_strip.by_impulse_m(blasted_strip.impulse_ns(25.0)) > risen.max()
 
 
+@pytest.mark.long
 def test_cubes_that_were_tossed_go_as_far_as_was_measured(blender, tmp_path):
     """57 of the tosses of Pfrommer, Halm and Posa (CoRL 2020), with friction and restitution as they give them."""
     import tossed_cubes

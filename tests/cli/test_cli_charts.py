@@ -6,6 +6,7 @@ from io import StringIO
 from pathlib import Path
 
 import pytest
+from support.long_cases import long_but
 
 from bridge_demolition_addon.charts.blast_design import CHARTS
 from bridge_demolition_addon.cli.main import main
@@ -38,7 +39,13 @@ def test_options_change_the_pictures(usual, tmp_path, capsys):
 
 @pytest.mark.parametrize(
     "option, changed",
-    [("--pulse-kg", {"pressure_over_time"}), ("--pier-kg", {name for name in CHARTS if name.startswith("two_span")})],
+    long_but(
+        [("--pulse-kg", {"pressure_over_time"})],
+        [
+            ("--pulse-kg", {"pressure_over_time"}),
+            ("--pier-kg", {name for name in CHARTS if name.startswith("two_span")}),
+        ],
+    ),
 )
 def test_a_charge_of_ones_own_changes_its_pictures_alone(usual, option, changed, tmp_path):
     assert main(["charts", "--quiet", "--output", str(tmp_path), option, "500"]) == 0

@@ -331,6 +331,7 @@ def test_running_without_blender_says_what_is_missing(tmp_path):
     assert not output.exists()
 
 
+@pytest.mark.long
 def test_a_title_that_the_console_cannot_show(tmp_path):
     path = tmp_path / "bridge.toml"
     path.write_text(scenario_text(replace(I235, title="다리")), encoding="utf-8")

@@ -52,6 +52,7 @@ def test_output_that_cannot_be_written_is_said():
     assert complained == "bda: error: <stdout>: No space left on device\n"
 
 
+@pytest.mark.long
 def test_no_file_of_a_run_takes_the_place_of_closed_streams(tmp_path):
     status, _, _ = in_shell(f'report "{tmp_path}"', ">&- 2>&-")
     assert status == 2
@@ -69,6 +70,7 @@ def test_ctrl_c_while_something_is_loaded_ends_it_in_one_line(module, tmp_path):
     assert (process.wait(TIMEOUT_S), said) == (130, ["bda: interrupted"])
 
 
+@pytest.mark.long
 def test_ctrl_c_while_blender_starts_again_ends_it_in_one_line(tmp_path):
     run = ("run", I235_FILE, "--output", tmp_path / "out", "--no-pictures", "--quiet")
     done = run_program("bda_interrupted_by_blender", *run)
@@ -99,6 +101,7 @@ def test_a_run_and_its_report_in_a_folder_whose_name_is_not_utf_8(tmp_path):
         assert "br\\xfccke" in page.read()
 
 
+@pytest.mark.long
 def test_a_scenario_in_a_folder_whose_name_is_not_utf_8(tmp_path):
     folder = os.fsencode(tmp_path) + b"/br\xfccke"
     os.mkdir(folder)

@@ -126,7 +126,7 @@ def processor_features():
     "program, argument",
     [
         ("bits_of_a_model", REPORT_2019 / "i235_one_span.toml"),
-        ("bits_of_a_model", EXAMPLES / "three_span_box_girder.toml"),
+        pytest.param("bits_of_a_model", EXAMPLES / "three_span_box_girder.toml", marks=pytest.mark.long),
         ("bits_of_a_blast", 200),
         pytest.param("bits_of_a_run", ROOT / "tests" / "simulation" / "everything.toml", marks=pytest.mark.long),
     ],

@@ -91,6 +91,7 @@ def test_it_carries_1_35_times_its_weight_and_1_5_times_its_traffic(name):
     assert_carries(FILES[name], POSITIONS.get(name, ()))
 
 
+@pytest.mark.long
 def test_so_does_what_bda_new_writes(tmp_path):
     assert_carries(starter(tmp_path, "removal"), {"LM1 on span 1", "LM1 on span 1 and 2"})
 

@@ -72,6 +72,7 @@ def test_all_that_is_imported_is_held(path, imported):
     assert not loose, names
 
 
+@pytest.mark.long
 def test_volumes_and_masses_are_those_of_tekla(imported):
     """The quantities that Tekla wrote (BaseQuantities): 242.334 m³ and 581.7 t of deck, and so for all others."""
     folder = imported(HERE / "v440_tekla_modell.ifc")

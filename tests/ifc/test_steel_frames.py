@@ -225,6 +225,7 @@ def odd_truss(tmp_path_factory):
     return imported(made, tmp_path_factory.mktemp("odd"))
 
 
+@pytest.mark.long
 def test_bars_that_meet_nothing_are_named_and_do_not_fall_silently(odd_truss):
     lines, scenario, _ = odd_truss
     assert "Stray" not in {member.name for member in scenario.steelwork.members}

@@ -136,6 +136,7 @@ def test_the_pdf_is_one(whole):
     assert len(re.findall(rb"/Type /Page\b", content)) >= 8
 
 
+@pytest.mark.long
 def test_the_same_run_gives_the_same_report(whole, tmp_path):
     folder, _, written = whole
     made(folder, output=tmp_path, trajectories=True)
@@ -239,6 +240,7 @@ def test_a_run_that_was_killed_tells_what_its_logs_hold(tmp_path, last_lines):
     assert len(page.pictures) == 1
 
 
+@pytest.mark.long
 def test_frames_of_a_killed_run_give_the_hits_that_its_summary_would_give(tmp_path):
     results = flying_shards()
     whole = keep_run(tmp_path / "whole", results)
@@ -338,6 +340,7 @@ def test_a_damaged_picture_is_said_and_left_out(tmp_path, damage):
     assert run.shortcomings == ("frames/before.png is no whole picture, and is left out.",)
 
 
+@pytest.mark.long
 def test_a_report_is_written_without_a_damaged_picture(tmp_path):
     # What was read is the same for every damage, and the report is of what was read.
     folder = run_with_damaged_picture(tmp_path / "run", "cut short")

@@ -70,6 +70,7 @@ def test_a_run_has_a_chapter_on_stages_where_its_folder_holds_them(tmp_path):
     assert "Collapse load factor" in page and "only its logs are here" in page
 
 
+@pytest.mark.long
 def test_stages_of_the_runs_scenario_are_worked_out_when_asked_for(tmp_path, capfd):
     folder = killed_run(tmp_path / "run")
     assert main(["report", str(folder), "--stages", "--quiet"]) == 2

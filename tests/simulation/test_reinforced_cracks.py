@@ -169,6 +169,7 @@ def test_bars_that_harden_hold_a_hinge_until_they_rupture(blender, tmp_path):
     )
 
 
+@pytest.mark.long
 def test_a_block_that_is_pushed_off_slides_beyond_friction_and_dowels(blender, tmp_path):
     """A crack under a flat block, with bars across it: 0.7 of what presses (EN 1992-1-1, 6.2.5) and 0.9 √(f_c f_y) of
     the bars' area (fib Model Code 2010, 7.3-51), for C35 and B500."""

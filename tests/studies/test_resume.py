@@ -73,6 +73,7 @@ def counted(log):
     return Counter(line.split(" ", 1)[1] for line in log.read_text(encoding="utf-8").splitlines())
 
 
+@pytest.mark.long
 def test_every_status_is_in_the_table(undisturbed):
     lines = (undisturbed / "runs.csv").read_text(encoding="utf-8").splitlines()
     assert [line.split(",")[0] for line in lines] == ["run", *map(str, range(1, RUNS + 1))]
@@ -89,7 +90,7 @@ def test_nothing_is_begun_once_more_but_what_shared_a_process(undisturbed):
     assert more <= {"crash", "crash if shared"} and max(counts.values()) == 2
 
 
-@pytest.mark.parametrize("jobs", [2, 5])
+@pytest.mark.parametrize("jobs", long_but([2], [2, 5]))
 def test_tables_are_the_same_with_any_number_of_jobs(study, undisturbed, tmp_path, jobs):
     finish(study, tmp_path / "out", tmp_path / "log", jobs)
     assert tables_in(tmp_path / "out") == tables_in(undisturbed)
@@ -164,6 +165,7 @@ def test_what_was_killed_twice_is_a_row_and_is_run_again(tmp_path):
     assert set(begun(tmp_path / "second log")[0]) == {"kill"}
 
 
+@pytest.mark.long
 def test_a_full_disk_ends_it_and_loses_nothing(tmp_path):
     study = study_file(tmp_path / "in", 12, ("nothing", "nothing", "write much"), seed=2)
     output, log = tmp_path / "out", tmp_path / "log"

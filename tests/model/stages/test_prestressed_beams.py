@@ -152,6 +152,7 @@ def test_a_saw_cut_through_the_tendon_cuts_it():
     assert cut.loose.any()
 
 
+@pytest.mark.long
 def test_stages_after_each_cut_of_a_tendon():
     """It comes down as it cracks, or, if that is more, at P d about the pressed edge."""
     cut = "[[tendon_cuts]]\ntime_s = 0.3\n"

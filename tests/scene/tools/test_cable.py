@@ -72,6 +72,7 @@ def test_swing_has_the_period_of_a_pendulum(blender, tmp_path, angle_degrees):
     assert len(results.inventory.connection_names) == 0
 
 
+@pytest.mark.long
 def test_ball_on_a_cable_knocks_a_pier_out(tmp_path):
     from bridge_demolition_addon.simulation.run import run_scenario
 

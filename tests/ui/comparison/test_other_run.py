@@ -84,6 +84,7 @@ def test_it_stands_beside_the_bridge_or_over_it(beside, settings, tmp_path):
     assert drawn(beside) is None
 
 
+@pytest.mark.long
 def test_figures_of_both_are_those_of_their_reports(beside, other, tmp_path):
     told = panel(beside)
     for folder in (tmp_path / "run", other):

@@ -157,6 +157,7 @@ def test_a_study_file_is_shown_with_its_scenario(blender, panel, tmp_path):
         blender.ops.bda.load_study()
 
 
+@pytest.mark.long
 @pytest.mark.skipif(sys.platform == "win32", reason="the launcher is a script of Unix")
 def test_draws_run_in_blenders_own_program_where_there_is_one(blender, tmp_path):
     """The launcher takes Blender's arguments as Blender does, and is no Python that knows this package."""
@@ -222,6 +223,7 @@ def test_switching_the_extension_off_ends_a_study(blender, tmp_path):
     assert read_runs(tmp_path / "study" / "runs.csv") is not None
 
 
+@pytest.mark.long
 def test_a_study_of_two_runs_states_no_limit_yet_and_is_raised_to_four(blender, panel, tmp_path):
     panel.study.runs, panel.study.confidence = 2, 0.9
     assert blender.ops.bda.start_study() == {"FINISHED"}

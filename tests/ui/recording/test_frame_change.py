@@ -239,6 +239,7 @@ def test_charts_are_drawn_into_the_folder(built, tmp_path):
     assert all(chart.read_bytes().startswith(b"\x89PNG") for chart in charts)
 
 
+@pytest.mark.long
 def test_charts_to_choose_charges_by_are_drawn_where_there_were_charges(built, settings, tmp_path):
     built.context.scene.cursor.location = (4.0, 0.0, 1.5)
     built.ops.bda.add_source_point()

@@ -39,7 +39,7 @@ def test_another_scenario_leaves_nothing_of_the_one_before(settings):
         assert scenario_of(settings) == scenario
 
 
-@pytest.mark.parametrize("seed", long_but(range(7, 12), range(12)))
+@pytest.mark.parametrize("seed", long_but((7, 10), range(12)))
 def test_random_scenarios_come_back_as_they_were(settings, seed):
     random = np.random.default_rng(seed)
     scenario = varied(read_scenario(FILES[seed % len(FILES)]), random)

@@ -100,6 +100,7 @@ def test_the_plane_is_put_at_the_cursor_and_at_the_chosen_shard(ran, settings):
     assert not shown(ran).is_empty
 
 
+@pytest.mark.long
 def test_drawings_go_into_the_folder_of_the_run(ran, settings, tmp_path):
     settings.show_section, settings.section_place_m = True, 4.0
     assert ran.ops.bda.write_section() == {"FINISHED"}
