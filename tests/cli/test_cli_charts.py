@@ -45,6 +45,7 @@ def test_options_change_the_pictures(usual, tmp_path, capsys):
             ("--pulse-kg", {"pressure_over_time"}),
             ("--pier-kg", {name for name in CHARTS if name.startswith("two_span")}),
         ],
+        several=True,
     ),
 )
 def test_a_charge_of_ones_own_changes_its_pictures_alone(usual, option, changed, tmp_path):

@@ -110,7 +110,8 @@ material = "of the ends"
 
 
 @pytest.mark.parametrize(
-    ("links_share", "stands"), long_but([(0.95, False), (1.05, True)], [(0.0, False), (0.95, False), (1.05, True)])
+    ("links_share", "stands"),
+    long_but([(0.95, False), (1.05, True)], [(0.0, False), (0.95, False), (1.05, True)], several=True),
 )
 def test_a_beam_stands_on_links_as_their_formula_says(blender, tmp_path, links_share, stands):
     """Within 5 %: dowels of the bars along it add less than 1 %, as both are on one ellipse."""

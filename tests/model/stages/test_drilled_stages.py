@@ -90,7 +90,9 @@ def pressed_n(height_m):
     return LOAD_N + 0.49 * (4.0 - 1.5 - height_m / 2.0) * 2400.0 * G
 
 
-@pytest.mark.parametrize(("height_m", "holes"), long_but([(0.4, 1), (0.9, 3)], [(0.4, 1), (0.9, 3), (1.5, 5)]))
+@pytest.mark.parametrize(
+    ("height_m", "holes"), long_but([(0.4, 1), (0.9, 3)], [(0.4, 1), (0.9, 3), (1.5, 5)], several=True)
+)
 def test_bare_bars_carry_up_to_yield_or_buckling(tmp_path, height_m, holes):
     """8 bars of 25 mm, by hand: 8 A f_y, or 8 π² E I / (h / 2)² where that is less; factors by weight."""
     zone = replace(ZONE, height_m=height_m, holes_a_row=holes, charge_g=100.0, bars=8, bar_diameter_mm=25.0)

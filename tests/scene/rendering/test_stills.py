@@ -53,7 +53,7 @@ QUICK = ((0.0, Renderer.WORKBENCH), (0.3, Renderer.WORKBENCH), (0.3, Renderer.CY
 """Where light is followed, a picture takes seconds."""
 
 
-@pytest.mark.parametrize(("gap_m", "renderer"), long_but(QUICK, product((0.0, 0.3), Renderer)))
+@pytest.mark.parametrize(("gap_m", "renderer"), long_but(QUICK, product((0.0, 0.3), Renderer), several=True))
 def test_a_cut_is_seen_when_it_opens_and_not_before(blender, tmp_path, renderer, gap_m):
     from bridge_demolition_addon.scene.rendering.stills import prepared_for_pictures, render_picture
 

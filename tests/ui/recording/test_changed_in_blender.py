@@ -144,7 +144,7 @@ def test_what_was_changed_is_written_and_runs_again_to_the_last_bit(built, setti
     assert getattr(getattr(written, table), name) == pytest.approx(value, rel=1e-12)
 
 
-@pytest.mark.parametrize(("table", "name"), long_but(QUICK_SURFACES, SURFACES))
+@pytest.mark.parametrize(("table", "name"), long_but(QUICK_SURFACES, SURFACES, several=True))
 def test_a_surface_that_was_changed_is_written_as_pairs_where_pairs_make_it(built, settings, tmp_path, table, name):
     kind, value, are_pairs = SURFACES[table, name]
     bodies_with(kind, name, value)(built.context.scene)
