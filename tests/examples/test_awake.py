@@ -13,7 +13,6 @@ def awake(session_folder):
     return begun("single_span_awake", session_folder)
 
 
-@pytest.mark.long
 def test_nothing_happens_to_it_but_its_own_weight(awake):
     scenario = awake.scenario
     assert scenario.ball is None and not scenario.charges and not scenario.changes and not scenario.jackhammers
