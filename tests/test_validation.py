@@ -54,6 +54,7 @@ def test_verification_and_validation_are_told_apart():
     assert f"| 228 kN | {line.found:.4g} kN | {line.found / 228.0:.2f} | **beyond its tolerance** of 20 % |" in rest
 
 
+@pytest.mark.long
 def test_one_case_runs_and_is_met(blender, tmp_path):
     """The cheapest: friction stops a block where Coulomb says."""
     import sliding_block

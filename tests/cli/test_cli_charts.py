@@ -6,7 +6,6 @@ from io import StringIO
 from pathlib import Path
 
 import pytest
-from support.long_cases import long_but
 
 from bridge_demolition_addon.charts.blast_design import CHARTS
 from bridge_demolition_addon.cli.main import main
@@ -37,16 +36,10 @@ def test_options_change_the_pictures(usual, tmp_path, capsys):
         assert len({(folder / f"{name}.png").read_bytes() for folder in (usual[0], *tmp_path.iterdir())}) == 3
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "option, changed",
-    long_but(
-        [("--pulse-kg", {"pressure_over_time"})],
-        [
-            ("--pulse-kg", {"pressure_over_time"}),
-            ("--pier-kg", {name for name in CHARTS if name.startswith("two_span")}),
-        ],
-        several=True,
-    ),
+    [("--pulse-kg", {"pressure_over_time"}), ("--pier-kg", {name for name in CHARTS if name.startswith("two_span")})],
 )
 def test_a_charge_of_ones_own_changes_its_pictures_alone(usual, option, changed, tmp_path):
     assert main(["charts", "--quiet", "--output", str(tmp_path), option, "500"]) == 0

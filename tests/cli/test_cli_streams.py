@@ -9,6 +9,7 @@ from dataclasses import replace
 
 import pytest
 from support.checkout import I235_FILE, ROOT
+from support.long_cases import long_but
 from support.processes import TIMEOUT_S, outcome, run_program, start_bda
 from support.scenarios import I235, SHORT_RUN
 
@@ -59,7 +60,11 @@ def test_no_file_of_a_run_takes_the_place_of_closed_streams(tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("module", ["numpy.linalg", "cycles.properties"], ids=["the command line", "Blender"])
+@pytest.mark.parametrize(
+    "module",
+    long_but(["cycles.properties"], ["numpy.linalg", "cycles.properties"]),
+    ids=["the command line", "Blender"],
+)
 def test_ctrl_c_while_something_is_loaded_ends_it_in_one_line(module, tmp_path):
     process = start_bda("run", I235_FILE, "--output", tmp_path / "out", "--no-pictures", PYTHONPROFILEIMPORTTIME="1")
     while (line := process.stderr.readline()) and line.split("|")[-1].strip() != module:

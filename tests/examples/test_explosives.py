@@ -65,6 +65,7 @@ def test_a_study_keeps_little_of_such_a_run(loud, tmp_path):
     assert (tmp_path / "outlines.npz").stat().st_size + len(json.dumps(outcome.outputs)) < 200_000
 
 
+@pytest.mark.long
 def test_fields_and_direct_loads_agree_where_nothing_breaks(blender, tmp_path):
     scenario = example("two_spans_20m_delays", 0.6, shards=60)
     scenario = replace(scenario, connections=replace(scenario.connections, breaking_force_n=1e12))

@@ -37,6 +37,7 @@ def test_the_first_section_begins_with_the_statement(runs, told):
     assert told.titles[0] == "What this study says"
 
 
+@pytest.mark.long
 def test_before_all_runs_are_there_nothing_is_said():
     told = told_of_study(told_runs(there=60))
     assert told.statement.startswith("60 of 93 runs are there: the study states nothing before all that it needs are")

@@ -173,6 +173,7 @@ def test_a_deck_lifts_off_its_far_support(run, tmp_path):
     assert middle + last == pytest.approx(weight_n + load_n, rel=0.1)
 
 
+@pytest.mark.long
 def test_a_bearing_breaks_as_a_whole_and_the_deck_comes_off(run, tmp_path):
     """It resists 300 kN along the road, which the load passes at 0.1 s; the rocker is left after 0.2 m."""
     push = load((1, 0, 0), (0.0, 0.1, 2.0), (0.0, 3e5, 6e6))

@@ -345,6 +345,7 @@ def test_a_span_rests_in_blender_as_it_does_without(blender, tmp_path, elastic_s
     assert abs(reactions.sum()) == pytest.approx(weight, rel=1e-4)
 
 
+@pytest.mark.long
 def test_the_digest_of_what_was_built_knows_the_stiffness(blender, tmp_path, elastic_span):
     softer = replace(elastic_span, connections=replace(elastic_span.connections, elastic_modulus_n_mm2=20e3))
     rigid = replace(

@@ -73,7 +73,6 @@ def counted(log):
     return Counter(line.split(" ", 1)[1] for line in log.read_text(encoding="utf-8").splitlines())
 
 
-@pytest.mark.long
 def test_every_status_is_in_the_table(undisturbed):
     lines = (undisturbed / "runs.csv").read_text(encoding="utf-8").splitlines()
     assert [line.split(",")[0] for line in lines] == ["run", *map(str, range(1, RUNS + 1))]
@@ -206,6 +205,7 @@ def test_two_at_once_are_refused(study, tmp_path):
     assert outcome(first)[0] == 0
 
 
+@pytest.mark.long
 def test_the_number_of_runs_may_be_raised_and_what_is_done_stays(tmp_path):
     output, few = tmp_path / "out", study_file(tmp_path / "in", 2, ("nothing", "fail"), seed=3)
     few.write_text(few.read_text(encoding="utf-8").replace("quantile = 0.5", "quantile = 0.8"), encoding="utf-8")

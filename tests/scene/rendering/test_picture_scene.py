@@ -103,6 +103,7 @@ def test_copies_stand_where_bodies_were_recorded_and_rough_ones_are_no_larger(bl
     assert rough
 
 
+@pytest.mark.long
 def test_nothing_is_seen_of_a_break_before_it_opens(ran):
     _, results, _ = ran
     opened, intact = parted(results), np.asarray(results.frames.intact)

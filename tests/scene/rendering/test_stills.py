@@ -49,7 +49,7 @@ def place_blocks(blender, gap_m):
     return scene
 
 
-QUICK = ((0.0, Renderer.WORKBENCH), (0.3, Renderer.WORKBENCH), (0.3, Renderer.CYCLES))
+QUICK = ((0.0, Renderer.WORKBENCH), (0.3, Renderer.WORKBENCH))
 """Where light is followed, a picture takes seconds."""
 
 

@@ -160,6 +160,7 @@ def test_rubble_in_the_cage_stays_stacked(tmp_path):
     assert event["effect"] == "rubble in the cage" and event["shards"] == [] and event["connections"] > 0
 
 
+@pytest.mark.long
 def test_loosened_concrete_carries_what_is_left(tmp_path):
     """Half of its strength in compression is far above 520 kN on 0.49 m²: 1.06 N/mm².
 

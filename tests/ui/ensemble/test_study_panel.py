@@ -191,6 +191,7 @@ def test_the_panels_show_what_varies_the_course_and_the_findings_and_those_of_a_
     assert len(WORK.result.runs.table) == 3
 
 
+@pytest.mark.long
 def test_the_panels_say_why_a_study_ended_before_its_end(blender, panel, tmp_path):
     blender.ops.bda.start_study()
     draws = tmp_path / "study" / "draws"

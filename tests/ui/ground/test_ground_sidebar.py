@@ -73,6 +73,7 @@ def test_zones_neighbours_and_distances_are_drawn_before_a_run(built):
     assert everything(built) == []
 
 
+@pytest.mark.long
 def test_after_a_run_zone_and_debris_are_those_of_the_report(ran, tmp_path):
     from bridge_demolition_addon.model.results.arrays import load_results
 

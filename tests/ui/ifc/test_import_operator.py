@@ -123,6 +123,7 @@ def test_elements_are_listed_corrected_and_imported(extension, settings, tmp_pat
     assert scenario_of(settings) == scenario
 
 
+@pytest.mark.long
 def test_a_material_that_the_table_lacks_is_refused(extension, settings, tmp_path):
     extension.ops.bda.look_into_ifc(filepath=str(whole_bridge().written(tmp_path / "two_spans.ifc")))
     settings.ifc_elements[0].material = "marzipan"

@@ -155,6 +155,7 @@ def running_again(beside, settings):
     return beside.process.process_id
 
 
+@pytest.mark.long
 def test_switching_the_extension_off_leaves_nothing(shown, beside, extension):
     from bridge_demolition_addon.ui.preview import run_beside
 

@@ -189,6 +189,7 @@ def test_the_panel_says_how_time_runs_otherwise_than_it_was_built(built):
     assert changed_in_blender(built.context.scene) == [ChangedValue("time.frames_per_second", "60", "with 24")]
 
 
+@pytest.mark.long
 def test_a_second_run_finds_nothing_changed(built, tmp_path):
     for _ in range(2):
         built.ops.bda.run()
@@ -238,6 +239,7 @@ def test_frames_of_another_length_are_refused_where_slow_motion_is_animated(exte
     assert told[1] == "the speed of the simulation, which is animated"
 
 
+@pytest.mark.long
 def test_values_that_single_precision_rounds_are_as_they_were_built(extension):
     """0.02 m is 0.0199999996 m in a panel, and all digits of it in the scene."""
     extension.ops.bda.load_preset(preset="drilled_spans")

@@ -25,6 +25,7 @@ def test_a_new_scene_shows_the_default(settings):
     assert scenario_of(settings) == default_scenario()
 
 
+@pytest.mark.long  # the next test shows it too
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
 def test_every_example_comes_back_as_it_was(settings, path):
     scenario = read_scenario(path)

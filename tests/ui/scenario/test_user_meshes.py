@@ -123,6 +123,7 @@ def painted(objects, weight=1.0):
     return deck
 
 
+@pytest.mark.long
 def test_the_painted_end_is_cut_finer(extension, settings, objects, tmp_path):
     painted(objects)
     extension.ops.bda.add_selected_members(directory=str(tmp_path))
