@@ -10,6 +10,8 @@ from typing import Any
 import pytest
 from support.bare_blender import run_bare
 
+pytestmark = pytest.mark.long  # a release is built, and a Blender started that has nothing
+
 MODULE = "bl_ext.user_default.bridge_demolition_addon"
 PYTHON = "{}.{}".format(*sys.version_info)
 
@@ -53,45 +55,38 @@ def test_zip_leaves_numpy_to_blender(archive: Path) -> None:
     assert "numpy" not in wheels
 
 
-@pytest.mark.long
 def test_installing_enables_it(record: dict[str, Any]) -> None:
     assert record["enabled"]
 
 
-@pytest.mark.long
 def test_bundled_packages_are_used(record: dict[str, Any], user_folder: Path) -> None:
     for path in record["packages"].values():
         assert Path(path).is_relative_to(user_folder / "extensions" / ".local")
 
 
-@pytest.mark.long
 def test_it_brings_its_interface(record: dict[str, Any]) -> None:
     brought = set(record["on"][0]["classes"]) - set(record["before"]["classes"])
     assert {name.split("_")[0] for name in brought} == {"BDA"}
     assert "bda" in record["on"][0]["properties"]["Scene"]
 
 
-@pytest.mark.long
 @pytest.mark.parametrize("trace", ["handlers", "classes", "properties", "shortcuts"])
 def test_switching_it_off_leaves_nothing(record: dict[str, Any], trace: str) -> None:
     for state in (*record["off"], record["removed"]):
         assert state[trace] == record["before"][trace]
 
 
-@pytest.mark.long
 def test_switching_it_off_stops_its_timers(record: dict[str, Any]) -> None:
     for state in record["off"]:
         assert not state["enabled"]
         assert state["timers"] == []
 
 
-@pytest.mark.long
 def test_switching_it_on_again_is_the_same(record: dict[str, Any]) -> None:
     first, second = record["on"]
     assert first == second
 
 
-@pytest.mark.long
 def test_removing_it_takes_its_files(record: dict[str, Any], user_folder: Path) -> None:
     assert not record["removed"]["enabled"]
     assert not list(user_folder.rglob("bridge_demolition_addon"))

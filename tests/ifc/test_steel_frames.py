@@ -177,6 +177,7 @@ def test_bearings_become_supports_of_nodes_on_what_they_lie_on(on_bearings):
     assert grades["Girder left 2"] == "S355"
 
 
+@pytest.mark.long
 def test_a_deck_touches_all_bars_that_it_lies_on(on_bearings):
     """Cross beams keep their place under the deck, 0.25 m above the axes of the girders."""
     _, scenario, _ = on_bearings

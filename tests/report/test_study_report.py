@@ -51,6 +51,7 @@ def test_the_first_run_alone_can_be_reported():
     assert told.column("study_areas", "area")[0] == "bridge"
 
 
+@pytest.mark.long
 def test_runs_that_did_not_finish_are_named_and_count():
     told = told_of_study(told_runs(ends={17: "crashed", 60: "timed_out"}))
     assert told.statement.startswith("These runs set no limit: 2 of 93 did not finish")
