@@ -189,7 +189,7 @@ def register() -> None:
 
 @cache
 def _groups() -> tuple[type[bpy.types.PropertyGroup], ...]:
-    """Return all groups, inner ones first; whoever switches the extension off and on need not wait for them again."""
+    """Return all groups, inner ones first; they stay where the user switches the extension off and on."""
     defaults: dict[type[Table], Table] = {}
     for table in (default_scenario(), *_default_ensembles()):
         defaults |= _default_tables(table)
