@@ -43,6 +43,7 @@ def test_small_sizes_are_not_kept(capsys, monkeypatch):
     assert "the smallest sizes say nothing of speed" in capsys.readouterr().err
 
 
+@pytest.mark.long
 def test_benches_return_their_ratios(tmp_path):
     """Recording at its smallest size: each way takes longer than nothing."""
     status = bench.run_all(["recording"], tmp_path, smallest=True, keep=False)

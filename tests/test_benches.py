@@ -9,8 +9,8 @@ from bench import BENCHES
 from support.checkout import ROOT
 from support.long_cases import long_but
 
-QUICK = ("building", "fracture", "recording")
-"""Those that take least."""
+QUICK = ("fracture",)
+"""That which takes least."""
 
 
 @pytest.mark.parametrize("name", long_but(QUICK, BENCHES))

@@ -4,9 +4,11 @@
 import subprocess
 import sys
 
+import pytest
 from support.checkout import ROOT
 
 
+@pytest.mark.long
 def test_it_runs_the_example_into_the_folder_that_is_named(tmp_path):
     in_the_way = tmp_path / "a file"
     in_the_way.touch()

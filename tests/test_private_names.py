@@ -2,6 +2,8 @@
 """No test and no script reaches into what another module keeps to itself: a name that begins with an underscore."""
 
 import ast
+from functools import cache
+from itertools import chain
 
 import pytest
 from support.checkout import ROOT
@@ -9,11 +11,10 @@ from support.checkout import ROOT
 PACKAGE, OUTSIDE = ROOT / "bridge_demolition_addon", ("tests", "scripts", "validation")
 
 
-def modules(*folders):
-    """Path and syntax tree of every module in some folders."""
-    for folder in folders:
-        for path in sorted((ROOT / folder).rglob("*.py")):
-            yield path, ast.parse(path.read_text(encoding="utf-8"))
+@cache
+def modules(folder):
+    """Path and syntax tree of every module in a folder."""
+    return [(path, ast.parse(path.read_text(encoding="utf-8"))) for path in sorted((ROOT / folder).rglob("*.py"))]
 
 
 def is_private(name):
@@ -32,6 +33,11 @@ def private_names(tree):
         yield from filter(is_private, names)
 
 
+def name_of(called):
+    """The last name of what is called, such as `object` of `patch.object`."""
+    return getattr(called, "attr", None) or getattr(called, "id", "")
+
+
 def reached_for(tree):
     """Private names that a module imports, patches by name, or asks of anything but itself."""
     for node in ast.walk(tree):
@@ -40,7 +46,7 @@ def reached_for(tree):
         elif isinstance(node, ast.Attribute) and is_private(node.attr):
             if not (isinstance(node.value, ast.Name) and node.value.id in ("self", "cls")):
                 yield node.attr
-        elif isinstance(node, ast.Call) and ast.unparse(node.func).endswith(("getattr", "setattr", "patch.object")):
+        elif isinstance(node, ast.Call) and name_of(node.func) in ("getattr", "setattr", "object"):
             texts = (arg.value for arg in node.args if isinstance(arg, ast.Constant) and isinstance(arg.value, str))
             yield from (name for text in texts for name in text.split(".") if is_private(name))
 
@@ -49,7 +55,7 @@ def reached_for(tree):
 def kept_private():
     """Private names of all modules, whose owners they are."""
     owners = {}
-    for path, tree in modules(PACKAGE.name, *OUTSIDE):
+    for path, tree in chain.from_iterable(map(modules, (PACKAGE.name, *OUTSIDE))):
         for name in private_names(tree):
             owners.setdefault(name, set()).add(path)
     return owners
@@ -58,7 +64,7 @@ def kept_private():
 @pytest.mark.slow
 def test_no_module_outside_the_package_reaches_for_a_private_name(kept_private):
     reaching = {}
-    for path, tree in modules(*OUTSIDE):
+    for path, tree in chain.from_iterable(map(modules, OUTSIDE)):
         for name in reached_for(tree):
             owners = kept_private.get(name, set())
             if owners and path not in owners:

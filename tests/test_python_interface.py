@@ -90,6 +90,7 @@ def test_the_page_lists_all_functions_with_their_arguments():
         assert ", ".join(told).replace("'", '"') == arguments
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "wrong", [lambda: interface.export("my_results", "dwg"), lambda: interface.run_study("no", "x")]
 )
@@ -99,6 +100,7 @@ def test_what_is_wrong_is_a_sentence(wrong, tried, folder, monkeypatch):
         wrong()
 
 
+@pytest.mark.long
 def test_every_array_has_the_shape_and_kind_that_the_table_says(tried):
     _, results = tried
     arrays, told, lengths = results.arrays(), told_arrays(), {}

@@ -48,6 +48,7 @@ def test_it_is_short():
     assert len(TEXT.splitlines()) <= MOST_LINES
 
 
+@pytest.mark.long
 def test_its_commands_run_one_after_the_other(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     (study,) = blocks("toml")

@@ -32,6 +32,7 @@ def test_what_is_noted_was_made_by_this_project():
     assert set(remake.notes()) <= set(PRODUCTS)
 
 
+@pytest.mark.long
 def test_the_list_says_what_is_left_and_how_long_that_takes():
     done = subprocess.run(
         [sys.executable, ROOT / "scripts" / "remake.py", "--list", "growth", "i235_one_span"],

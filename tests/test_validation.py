@@ -54,6 +54,7 @@ def test_verification_and_validation_are_told_apart():
     assert f"| 228 kN | {line.found:.4g} kN | {line.found / 228.0:.2f} | **beyond its tolerance** of 20 % |" in rest
 
 
+@pytest.mark.long
 def test_one_case_runs_and_is_met(blender, tmp_path):
     """The cheapest: friction stops a block where Coulomb says."""
     import sliding_block
@@ -81,6 +82,7 @@ def test_a_strip_rises_by_the_impulse_of_a_blast(blender, tmp_path):
     assert blasted_strip.by_impulse_m(blasted_strip.impulse_ns(25.0)) > risen.max()
 
 
+@pytest.mark.long
 def test_cubes_that_were_tossed_go_as_far_as_was_measured(blender, tmp_path):
     """57 of the tosses of Pfrommer, Halm and Posa (CoRL 2020), with friction and restitution as they give them."""
     import tossed_cubes

@@ -58,7 +58,15 @@ def drawn(name, settings):
 
 
 @pytest.mark.parametrize(
-    "settings", [KPA, RATIO, SCALED, GROUND, SMALL, LARGE], ids=["kPa", "ratio", "scaled", "ground", "small", "large"]
+    "settings",
+    [
+        pytest.param(KPA, id="kPa"),
+        pytest.param(RATIO, id="ratio", marks=pytest.mark.long),
+        pytest.param(SCALED, id="scaled", marks=pytest.mark.long),
+        pytest.param(GROUND, id="ground"),
+        pytest.param(SMALL, id="small", marks=pytest.mark.long),
+        pytest.param(LARGE, id="large", marks=pytest.mark.long),
+    ],
 )
 @pytest.mark.parametrize("name", CHARTS)
 def test_every_chart_is_drawn_without_complaint(name, settings):
@@ -203,6 +211,7 @@ def test_units_are_said_on_the_axes():
     assert "Kinney-Graham, surface burst" in words(two_span_total(GROUND))
 
 
+@pytest.mark.long
 def test_pictures_are_written_into_a_new_folder(tmp_path):
     paths = write_charts(tmp_path / "new" / "charts", KPA)
     assert [path.stem for path in paths] == list(CHARTS)

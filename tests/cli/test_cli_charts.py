@@ -36,6 +36,7 @@ def test_options_change_the_pictures(usual, tmp_path, capsys):
         assert len({(folder / f"{name}.png").read_bytes() for folder in (usual[0], *tmp_path.iterdir())}) == 3
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     "option, changed",
     [("--pulse-kg", {"pressure_over_time"}), ("--pier-kg", {name for name in CHARTS if name.startswith("two_span")})],

@@ -323,6 +323,7 @@ def test_checking_needs_no_blender():
     assert "impact speed" in done.stdout
 
 
+@pytest.mark.long
 def test_running_without_blender_says_what_is_missing(tmp_path):
     output = tmp_path / "results"
     done = run_program("bda_without_blender", "run", I235_FILE, "--output", output)
@@ -331,6 +332,7 @@ def test_running_without_blender_says_what_is_missing(tmp_path):
     assert not output.exists()
 
 
+@pytest.mark.long
 def test_a_title_that_the_console_cannot_show(tmp_path):
     path = tmp_path / "bridge.toml"
     path.write_text(scenario_text(replace(I235, title="다리")), encoding="utf-8")

@@ -64,6 +64,7 @@ def test_bearings_are_listed_and_long_names_keep_off_what_follows(path, tmp_path
     assert "  Carriageway between both abutments  " in capsys.readouterr().out
 
 
+@pytest.mark.long
 def test_the_same_file_gives_the_same_folder(path, tmp_path):
     folders = [tmp_path / "one", tmp_path / "other"]
     for folder in folders:

@@ -6,6 +6,7 @@ import re
 import sys
 
 import pytest
+from support.long_cases import long_but
 
 from bridge_demolition_addon.cli.check import scenario_facts
 from bridge_demolition_addon.cli.main import main
@@ -30,7 +31,7 @@ def facts(path):
     return {line[2:26].strip(): " ".join(line[26:].split()) for line in lines}
 
 
-@pytest.mark.parametrize("by", METHODS)
+@pytest.mark.parametrize("by", long_but(["removal"], METHODS))
 def test_every_method_passes_the_check_and_stands(tmp_path, capsys, by):
     path = tmp_path / "bridge.toml"
     assert main(["new", str(path), "--by", by]) == 0

@@ -73,6 +73,7 @@ def test_a_scenario_without_zones_is_refused(tmp_path, capsys):
     assert not (tmp_path / "plan").exists()
 
 
+@pytest.mark.long
 def test_a_check_says_what_zones_do(capsys):
     assert main(["check", str(DRILLED)]) == 0
     text = capsys.readouterr().out

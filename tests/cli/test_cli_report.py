@@ -31,6 +31,7 @@ def test_a_report_needs_no_blender(made):
     assert (done.returncode, done.stderr) == (0, "")
 
 
+@pytest.mark.long
 def test_a_report_says_how_far_it_is_and_where_it_lies(made):
     folder, done = made
     lines = done.stdout.splitlines()

@@ -45,6 +45,7 @@ def test_a_run_says_how_far_it_is_and_where_the_results_are(finished):
     assert "\r" not in printed
 
 
+@pytest.mark.long
 def test_what_is_printed_is_in_the_units_that_are_wanted_and_the_summary_in_si(finished, scenario_path, tmp_path):
     output, (_, printed, _) = finished
     wanted = "--no-pictures", "--units", "imperial"

@@ -9,6 +9,7 @@ from dataclasses import replace
 
 import pytest
 from support.checkout import I235_FILE, ROOT
+from support.long_cases import long_but
 from support.processes import TIMEOUT_S, outcome, run_program, start_bda
 from support.scenarios import I235, SHORT_RUN
 
@@ -52,13 +53,18 @@ def test_output_that_cannot_be_written_is_said():
     assert complained == "bda: error: <stdout>: No space left on device\n"
 
 
+@pytest.mark.long
 def test_no_file_of_a_run_takes_the_place_of_closed_streams(tmp_path):
     status, _, _ = in_shell(f'report "{tmp_path}"', ">&- 2>&-")
     assert status == 2
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("module", ["numpy.linalg", "cycles.properties"], ids=["the command line", "Blender"])
+@pytest.mark.parametrize(
+    "module",
+    long_but(["cycles.properties"], ["numpy.linalg", "cycles.properties"]),
+    ids=["the command line", "Blender"],
+)
 def test_ctrl_c_while_something_is_loaded_ends_it_in_one_line(module, tmp_path):
     process = start_bda("run", I235_FILE, "--output", tmp_path / "out", "--no-pictures", PYTHONPROFILEIMPORTTIME="1")
     while (line := process.stderr.readline()) and line.split("|")[-1].strip() != module:
@@ -69,6 +75,7 @@ def test_ctrl_c_while_something_is_loaded_ends_it_in_one_line(module, tmp_path):
     assert (process.wait(TIMEOUT_S), said) == (130, ["bda: interrupted"])
 
 
+@pytest.mark.long
 def test_ctrl_c_while_blender_starts_again_ends_it_in_one_line(tmp_path):
     run = ("run", I235_FILE, "--output", tmp_path / "out", "--no-pictures", "--quiet")
     done = run_program("bda_interrupted_by_blender", *run)
@@ -99,6 +106,7 @@ def test_a_run_and_its_report_in_a_folder_whose_name_is_not_utf_8(tmp_path):
         assert "br\\xfccke" in page.read()
 
 
+@pytest.mark.long
 def test_a_scenario_in_a_folder_whose_name_is_not_utf_8(tmp_path):
     folder = os.fsencode(tmp_path) + b"/br\xfccke"
     os.mkdir(folder)

@@ -50,12 +50,14 @@ def test_it_runs_a_scenario_where_the_shell_is(run: Run, tmp_path: Path) -> None
     assert (tmp_path / "results" / "summary.json").is_file()
 
 
+@pytest.mark.long
 def test_wrong_input_gives_its_status(run: Run) -> None:
     outcome = run("no_such.toml", "--output", "results")
     assert outcome.returncode == 2
     assert "no_such.toml" in outcome.stderr
 
 
+@pytest.mark.long
 def test_no_arguments_are_a_wrong_input(run: Run) -> None:
     assert run().returncode == 2
 

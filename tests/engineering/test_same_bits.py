@@ -110,9 +110,10 @@ def test_what_is_the_same_on_every_processor_is_let_pass(line):
     assert not list(chosen_by_processor(line))
 
 
-@pytest.mark.parametrize("path", MODULES, ids=lambda path: f"{path.parent.name}/{path.name}")
-def test_no_module_uses_what_differs_by_processor(path):
-    assert not list(chosen_by_processor(path.read_text(encoding="utf-8")))
+def test_no_module_uses_what_differs_by_processor():
+    assert len(MODULES) > 300
+    found = {str(path): list(chosen_by_processor(path.read_text(encoding="utf-8"))) for path in MODULES}
+    assert {path: lines for path, lines in found.items() if lines} == {}
 
 
 def processor_features():
@@ -126,7 +127,7 @@ def processor_features():
     "program, argument",
     [
         ("bits_of_a_model", REPORT_2019 / "i235_one_span.toml"),
-        ("bits_of_a_model", EXAMPLES / "three_span_box_girder.toml"),
+        pytest.param("bits_of_a_model", EXAMPLES / "three_span_box_girder.toml", marks=pytest.mark.long),
         ("bits_of_a_blast", 200),
         pytest.param("bits_of_a_run", ROOT / "tests" / "simulation" / "everything.toml", marks=pytest.mark.long),
     ],

@@ -24,6 +24,7 @@ def test_awake_it_breaks_under_its_own_weight(awake):
     assert_begins("single_span_awake", awake)
 
 
+@pytest.mark.long
 def test_deactivated_it_stands(blender, tmp_path):
     scenario = example("single_span_awake", 0.5)
     shards = replace(scenario.shards, use_deactivation=True, start_deactivated=True)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from support.example_claims import assert_begins
 from support.example_runs import begun, example, run_example
+from support.long_cases import long_but
 
 from bridge_demolition_addon.model.study.outcome import evaluate
 
@@ -21,7 +22,7 @@ def quiet(scenario):
     return replace(scenario, blast=replace(scenario.blast, explosion=False))
 
 
-@pytest.fixture(params=NAMES)
+@pytest.fixture(params=long_but(["two_spans_20m_delays"], NAMES))
 def loud(request, session_folder):
     return begun(request.param, session_folder)
 
@@ -44,7 +45,7 @@ def test_bridge_stands_until_its_charges_go_off(loud):
     assert (~loud.results.frames.intact[before]).sum(axis=1).max() <= 0.05 * loud.summary["connections"]["count"]
 
 
-@pytest.mark.parametrize("loud", NAMES, indirect=True)
+@pytest.mark.parametrize("loud", long_but(["two_spans_20m_delays"], NAMES), indirect=True)
 def test_charges_push_away_what_is_near(request, loud):
     assert_begins(request.node.callspec.params["loud"], loud)
 
@@ -64,6 +65,7 @@ def test_a_study_keeps_little_of_such_a_run(loud, tmp_path):
     assert (tmp_path / "outlines.npz").stat().st_size + len(json.dumps(outcome.outputs)) < 200_000
 
 
+@pytest.mark.long
 def test_fields_and_direct_loads_agree_where_nothing_breaks(blender, tmp_path):
     scenario = example("two_spans_20m_delays", 0.6, shards=60)
     scenario = replace(scenario, connections=replace(scenario.connections, breaking_force_n=1e12))

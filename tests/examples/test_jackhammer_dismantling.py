@@ -20,6 +20,7 @@ def test_it_stands_until_the_first_blow(dismantled):
     assert dismantled.moved_m(dismantled.shards, before).max() < 0.01
 
 
+@pytest.mark.long
 def test_the_slab_is_cut_fine_and_breaks_under_the_chisel_and_girders_stay(dismantled):
     assert not dismantled.results.frames.intact[-1].all()
     assert_begins(NAME, dismantled)

@@ -39,6 +39,7 @@ def test_every_zip_has_wheels_of_its_own_python(built: Path, python: str) -> Non
     assert sorted(manifest["wheels"]) == sorted(f"./wheels/{name}" for name in names)
 
 
+@pytest.mark.long
 def test_what_cannot_be_got_is_said_and_the_rest_is_built(tmp_path: Path) -> None:
     # Blender with Python 3.14 is Debian's, which is no Windows; that with 3.11 is there.
     result = build("--output", tmp_path, "--platform", "macos-x64", "--python", "3.14", "--python", "3.11")

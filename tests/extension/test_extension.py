@@ -10,6 +10,8 @@ from typing import Any
 import pytest
 from support.bare_blender import run_bare
 
+pytestmark = pytest.mark.long  # a release is built, and a Blender started that has nothing
+
 MODULE = "bl_ext.user_default.bridge_demolition_addon"
 PYTHON = "{}.{}".format(*sys.version_info)
 

@@ -54,6 +54,7 @@ def next_built(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return output
 
 
+@pytest.mark.long
 def test_checksums_are_those_of_all_files(built: Path) -> None:
     lines = (built / "SHA256SUMS").read_text(encoding="ascii").splitlines()
     stated = dict(reversed(line.split("  ")) for line in lines)
@@ -64,6 +65,7 @@ def test_checksums_are_those_of_all_files(built: Path) -> None:
     }
 
 
+@pytest.mark.long
 def test_index_lists_each_zip_with_its_system_and_version(built: Path, listed: list[dict[str, Any]]) -> None:
     assert {item["archive_url"] for item in listed} == {f"./{path.name}" for path in built.glob("*.zip")}
     for item in listed:
@@ -73,6 +75,7 @@ def test_index_lists_each_zip_with_its_system_and_version(built: Path, listed: l
         assert item["archive_hash"] == "sha256:" + hashlib.sha256(archive.read_bytes()).hexdigest()
 
 
+@pytest.mark.long
 @pytest.mark.skipif(sys.platform != "linux", reason="Blenders with Python 3.14 are those of Debian")
 @pytest.mark.parametrize(
     ("blender", "python"),
@@ -97,6 +100,7 @@ def parts(version: str) -> tuple[int, ...]:
     return tuple(map(int, version.split(".")))
 
 
+@pytest.mark.long
 def test_packages_hold_all_of_the_package_and_the_licence(built: Path) -> None:
     tracked = subprocess.run(
         ["git", "-C", ROOT, "ls-files", "bridge_demolition_addon/*.py", "bridge_demolition_addon/*.toml"],

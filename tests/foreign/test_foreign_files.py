@@ -72,6 +72,7 @@ def test_all_that_is_imported_is_held(path, imported):
     assert not loose, names
 
 
+@pytest.mark.long
 def test_volumes_and_masses_are_those_of_tekla(imported):
     """The quantities that Tekla wrote (BaseQuantities): 242.334 m³ and 581.7 t of deck, and so for all others."""
     folder = imported(HERE / "v440_tekla_modell.ifc")
@@ -86,6 +87,7 @@ def test_volumes_and_masses_are_those_of_tekla(imported):
     assert "994.411 t by the file for 18 elements" in mass  # 1032.828 t less two approach slabs of 38.417 t
 
 
+@pytest.mark.long
 def test_a_norwegian_slab_bridge_is_what_it_is(imported):
     """28 elements: 3 columns, 8 bearings of which the file says no material, 4 wings; approach slabs are out."""
     rows = elements(imported(HERE / "v440_tekla_modell.ifc"))
@@ -112,6 +114,7 @@ def test_the_example_is_that_bridge_with_a_valley_under_it():
     assert "DECK" not in dug
 
 
+@pytest.mark.long
 def test_of_three_bridges_in_a_file_each_can_be_had(imported, tmp_path):
     """Of the PCERT sample scene: 78 elements of a road bridge and two arches of granite of 4 segments."""
     road = elements(imported(HERE / "infra-bridge.ifc"))

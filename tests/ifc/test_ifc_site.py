@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from support.ifc_bridges import IfcBridge
+from support.long_cases import long_but
 
 from bridge_demolition_addon.ifc.bridge import read_bridge
 from bridge_demolition_addon.ifc.settings import ImportSettings
@@ -78,7 +79,7 @@ def test_a_map_that_is_not_known_gives_no_site(name, easting, why, tmp_path):
     assert why in source
 
 
-@pytest.mark.parametrize("unit", ["METRE", "MILLI"])
+@pytest.mark.parametrize("unit", long_but(["MILLI"], ["METRE", "MILLI"]))
 @pytest.mark.parametrize("has_map", [True, False])
 def test_ground_in_the_file_of_a_bridge_lies_under_it(has_map, unit, tmp_path):
     """A plane that rises by 1 in 100 along the road and 1 in 50 across it, from 1 m below the bridge's beginning."""

@@ -80,6 +80,7 @@ def test_an_element_that_ends_its_reader_is_left_out(what, why, path, library_th
     assert capfd.readouterr().out == ""
 
 
+@pytest.mark.long
 def test_progress_names_elements_and_a_stop_ends_the_process(path, tmp_path):
     progress = Titles()
     import_bridge(path, tmp_path / "made", ImportSettings(), progress)

@@ -177,6 +177,7 @@ def test_bearings_become_supports_of_nodes_on_what_they_lie_on(on_bearings):
     assert grades["Girder left 2"] == "S355"
 
 
+@pytest.mark.long
 def test_a_deck_touches_all_bars_that_it_lies_on(on_bearings):
     """Cross beams keep their place under the deck, 0.25 m above the axes of the girders."""
     _, scenario, _ = on_bearings
@@ -225,6 +226,7 @@ def odd_truss(tmp_path_factory):
     return imported(made, tmp_path_factory.mktemp("odd"))
 
 
+@pytest.mark.long
 def test_bars_that_meet_nothing_are_named_and_do_not_fall_silently(odd_truss):
     lines, scenario, _ = odd_truss
     assert "Stray" not in {member.name for member in scenario.steelwork.members}

@@ -45,11 +45,13 @@ def test_luck_of_the_search_is_warned_of(tmp_path):
     assert "Winner&#x27;s curse: in the search the chosen candidate looked better by" in page_of(folder)
 
 
+@pytest.mark.long
 def test_a_candidate_that_is_not_confirmed_is_warned_of(tmp_path):
     folder, _ = optimised(tmp_path, fails_at_last=True)
     assert "The chosen candidate is not confirmed" in page_of(folder)
 
 
+@pytest.mark.long
 def test_an_optimisation_that_goes_on_says_how_far_it_is(tmp_path):
     folder, _ = optimised(tmp_path, REACH, most=7)
     page = page_of(folder)

@@ -16,6 +16,7 @@ import pytest
 from manifold3d import CrossSection
 from matplotlib.figure import Figure
 from matplotlib.image import imsave
+from support.long_cases import long_but
 from support.moving_boxes import moving_boxes
 from support.report_texts import compared, told
 from support.run_folders import TOLD, flying_shards, keep_run, killed_run, stream_run
@@ -42,6 +43,7 @@ from bridge_demolition_addon.system.folder_lock import FolderLock
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 PNG = b"\x89PNG\r\n\x1a\n"
+TORN_LINES = ["5,1.5,Ground,1,2,3", "5,1.5,Sh"]
 
 
 class Page(HTMLParser):
@@ -136,6 +138,7 @@ def test_the_pdf_is_one(whole):
     assert len(re.findall(rb"/Type /Page\b", content)) >= 8
 
 
+@pytest.mark.long
 def test_the_same_run_gives_the_same_report(whole, tmp_path):
     folder, _, written = whole
     made(folder, output=tmp_path, trajectories=True)
@@ -213,6 +216,7 @@ def test_the_map_of_a_charge_whose_rings_do_not_reach_the_ground_shows_the_bridg
     assert left <= 0.0 and right >= max(9.0, place[0])
 
 
+@pytest.mark.long
 def test_a_run_of_one_frame_says_so(tmp_path):
     results = flying_shards(6)
     series = {name: array[:1] for name, array in results.arrays().items() if np.shape(array)[:1] == (25,)}
@@ -229,7 +233,7 @@ def test_a_run_that_was_stopped_says_so(tmp_path):
     assert notices_on_the_first_page(run) >= set(run.shortcomings)
 
 
-@pytest.mark.parametrize("last_lines", [[], ["5,1.5,Ground,1,2,3", "5,1.5,Sh"]], ids=["whole", "in mid-line"])
+@pytest.mark.parametrize("last_lines", long_but([[]], [[], TORN_LINES]), ids=["whole", "in mid-line"])
 def test_a_run_that_was_killed_tells_what_its_logs_hold(tmp_path, last_lines):
     page, _ = made(killed_run(tmp_path / "run", last_lines))
     assert any("was killed before it could write results.npz" in text for text in page.notices)
@@ -239,6 +243,7 @@ def test_a_run_that_was_killed_tells_what_its_logs_hold(tmp_path, last_lines):
     assert len(page.pictures) == 1
 
 
+@pytest.mark.long
 def test_frames_of_a_killed_run_give_the_hits_that_its_summary_would_give(tmp_path):
     results = flying_shards()
     whole = keep_run(tmp_path / "whole", results)
@@ -338,6 +343,7 @@ def test_a_damaged_picture_is_said_and_left_out(tmp_path, damage):
     assert run.shortcomings == ("frames/before.png is no whole picture, and is left out.",)
 
 
+@pytest.mark.long
 def test_a_report_is_written_without_a_damaged_picture(tmp_path):
     # What was read is the same for every damage, and the report is of what was read.
     folder = run_with_damaged_picture(tmp_path / "run", "cut short")

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from support.long_cases import long_but
 from support.run_folders import flying_shards, keep_run
 from support.study_folders import told_runs
 
@@ -39,7 +40,7 @@ BEGINNING = "bridge_of_three_long_spans_"
 ENDS = ("near_end", "neighbouring_deck", "between_decks", "mid_span", "without_ball")
 
 
-@pytest.fixture(scope="module", params=["one run", "five runs", "study"])
+@pytest.fixture(scope="module", params=long_but(["one run", "five runs"], ["one run", "five runs", "study"]))
 def report(request, tmp_path_factory):
     """The document of a run with everything in it, of several with long names, or of a study; and its drawings."""
     if request.param == "study":

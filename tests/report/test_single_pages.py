@@ -104,6 +104,7 @@ def test_what_is_planned_is_said_in_order():
     assert "2 bare charges with 7 kg" in means_text(SCENARIO) and "1 removal" in means_text(SCENARIO)
 
 
+@pytest.mark.long
 def test_the_command_writes_those_that_are_asked_for(tmp_path, capsys):
     folder = keep_run(tmp_path / "run", flying_shards(6, 13), SCENARIO)
     assert main(["report", str(folder), "--pages", "client,crew", "--quiet"]) == 0

@@ -60,6 +60,7 @@ def test_reactions_of_supports_are_told_by_their_extremes_over_the_stages(tmp_pa
     assert main(["report", str(folder), "--quiet"]) == 2
 
 
+@pytest.mark.long
 def test_a_run_has_a_chapter_on_stages_where_its_folder_holds_them(tmp_path):
     folder = killed_run(tmp_path / "run")
     assert main(["report", str(folder), "--quiet"]) == 0
@@ -70,6 +71,7 @@ def test_a_run_has_a_chapter_on_stages_where_its_folder_holds_them(tmp_path):
     assert "Collapse load factor" in page and "only its logs are here" in page
 
 
+@pytest.mark.long
 def test_stages_of_the_runs_scenario_are_worked_out_when_asked_for(tmp_path, capfd):
     folder = killed_run(tmp_path / "run")
     assert main(["report", str(folder), "--stages", "--quiet"]) == 2
@@ -112,6 +114,7 @@ def without_the_quantity(path):
     path.write_text(path.read_text(encoding="utf-8").replace("in.ball.mass_kg", "in.mass_kg"), encoding="utf-8")
 
 
+@pytest.mark.long
 def test_a_search_that_goes_on_has_a_report_that_says_so(tmp_path):
     folder, _ = search_folder(tmp_path / "search")
     without_last_row(folder / "trials.csv")

@@ -37,6 +37,7 @@ def test_the_first_section_begins_with_the_statement(runs, told):
     assert told.titles[0] == "What this study says"
 
 
+@pytest.mark.long
 def test_before_all_runs_are_there_nothing_is_said():
     told = told_of_study(told_runs(there=60))
     assert told.statement.startswith("60 of 93 runs are there: the study states nothing before all that it needs are")
@@ -50,6 +51,7 @@ def test_the_first_run_alone_can_be_reported():
     assert told.column("study_areas", "area")[0] == "bridge"
 
 
+@pytest.mark.long
 def test_runs_that_did_not_finish_are_named_and_count():
     told = told_of_study(told_runs(ends={17: "crashed", 60: "timed_out"}))
     assert told.statement.startswith("These runs set no limit: 2 of 93 did not finish")

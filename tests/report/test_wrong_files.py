@@ -10,6 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from support.long_cases import long_but
 from support.report_texts import told
 from support.run_folders import TOLD, flying_shards, keep_run
 
@@ -117,7 +118,7 @@ def test_a_picture_that_says_it_is_larger_than_there_is_memory(tmp_path):
     assert not run.pictures and any("frames/after.png is no whole picture" in text for text in run.shortcomings)
 
 
-@pytest.mark.parametrize("bodies", [slice(0, 1), slice(2, 5), slice(1, 6)])
+@pytest.mark.parametrize("bodies", long_but([slice(2, 5)], [slice(0, 1), slice(2, 5), slice(1, 6)]))
 def test_shards_whose_vertices_coincide_are_reported_with_the_others(tmp_path, bodies):
     results = flying_shards(6, 13)
     vertices, volumes = results.inventory.vertices_m.reshape(7, 8, 3).copy(), results.inventory.volumes_m3.copy()

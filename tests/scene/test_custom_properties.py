@@ -4,6 +4,7 @@
 import pytest
 from support.bearing_decks import deck_text
 from support.checkout import SMALL, TESTS
+from support.long_cases import long_but
 
 from bridge_demolition_addon.errors import DemolitionError, SimulationError
 from bridge_demolition_addon.model.scenario.file import scenario_from_text
@@ -84,7 +85,7 @@ OWN_KEYS = ("bda_mass_kg", "bda_explosive", "bda_delay_s", "bda_burst")
 """Properties of charges, whose messages name the key of the scenario."""
 
 
-@pytest.mark.parametrize("name", SCENARIOS)
+@pytest.mark.parametrize("name", long_but(["ball"], SCENARIOS))
 def test_every_property_may_be_edited(blender, name):
     from bridge_demolition_addon.scene.connections.breaking_settings import set_strength
     from bridge_demolition_addon.scene.demolition import build_demolition

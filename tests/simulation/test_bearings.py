@@ -96,6 +96,7 @@ def asleep(text):
     return text.replace(awake, "use_deactivation = true\nstart_deactivated = true")
 
 
+@pytest.mark.long
 def test_what_bearings_carry_is_not_known_while_a_deck_sleeps(run, tmp_path):
     """It carries its weight all the same, and has not lifted off: once it is pushed, its bearings have all of it."""
     deck = {"spans": (SPAN_M,), "shards": 12, "support_m": 1.2}
@@ -120,6 +121,7 @@ def test_what_bearings_carry_is_not_known_while_a_deck_sleeps(run, tmp_path):
     assert [cells[1] for cells in extremes.rows] == [None, None]
 
 
+@pytest.mark.long
 def test_a_deck_slides_where_friction_ends(run, tmp_path):
     """Pushed with 0.15 of its weight against a friction of 0.1, it is moved by the difference, a twentieth of g."""
     push = load((1, 0, 0), (0.05, 0.1, 1.0), (0.0, 0.15 * WEIGHT_N, 0.15 * WEIGHT_N))
@@ -171,6 +173,7 @@ def test_a_deck_lifts_off_its_far_support(run, tmp_path):
     assert middle + last == pytest.approx(weight_n + load_n, rel=0.1)
 
 
+@pytest.mark.long
 def test_a_bearing_breaks_as_a_whole_and_the_deck_comes_off(run, tmp_path):
     """It resists 300 kN along the road, which the load passes at 0.1 s; the rocker is left after 0.2 m."""
     push = load((1, 0, 0), (0.0, 0.1, 2.0), (0.0, 3e5, 6e6))

@@ -62,6 +62,7 @@ def test_studs_that_are_overloaded_yield_and_hold_on(tmp_path):
     assert 1.03 * whole < ends < apart
 
 
+@pytest.mark.long
 def test_a_deck_without_studs_presses_on_its_girders_by_its_weight(tmp_path):
     _, model, summary, results = run_of(tmp_path, "studs_per_m = 0")
     on_girders = [row for row in summary["bearings"] if row["name"].startswith("span deck on")]

@@ -9,6 +9,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from support.blocks import Blocks
+from support.long_cases import long_but
 from support.scenarios import I235
 from support.torn_block import check_fall, torn_block
 
@@ -151,6 +152,7 @@ def test_a_cantilever_swings_as_fast_as_theory_says(blender, tmp_path):
     assert 96 / np.diff(crossings).mean() == pytest.approx(0.993 * FIRST_HZ, rel=0.005)
 
 
+@pytest.mark.long
 def test_a_cantilever_is_damped_as_is_asked_for(blender, tmp_path):
     """From swing to swing its amplitude goes down by exp(-2π ζ / √(1 - ζ²)), the logarithmic decrement."""
     ratio = 0.05
@@ -241,7 +243,7 @@ def test_connections_are_as_blender_made_them_once_the_recording_has_ended(blend
     blocks.scene.frame_set(blocks.scene.frame_current + 1)
 
 
-@pytest.mark.parametrize("iterations", (10, 50))
+@pytest.mark.parametrize("iterations", long_but([10], [10, 50]))
 def test_a_beam_that_lies_on_supports_by_contact_alone_bends_as_theory_says(blender, tmp_path, iterations):
     """What Bullet finds of contacts reaches the connections through its rows alone."""
     support_m, count = 0.12, 20
@@ -343,6 +345,7 @@ def test_a_span_rests_in_blender_as_it_does_without(blender, tmp_path, elastic_s
     assert abs(reactions.sum()) == pytest.approx(weight, rel=1e-4)
 
 
+@pytest.mark.long
 def test_the_digest_of_what_was_built_knows_the_stiffness(blender, tmp_path, elastic_span):
     softer = replace(elastic_span, connections=replace(elastic_span.connections, elastic_modulus_n_mm2=20e3))
     rigid = replace(
@@ -415,6 +418,7 @@ def test_a_wave_runs_through_a_bar_at_the_speed_of_sound(blender, tmp_path):
     assert speeds[7, -10:] == pytest.approx(2 * speed, rel=0.02)
 
 
+@pytest.mark.long
 def test_a_heavy_body_that_falls_on_a_beam_is_thrown_back_as_theory_says(blender, tmp_path):
     """H. Cox (1849), On impacts on elastic beams: beside a heavy body the beam is a spring with 13/35 of its own mass.
 

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from support.checkout import TESTS
+from support.long_cases import long_but
 from support.scenarios import SHORT_RUN
 
 from bridge_demolition_addon.cli.progress import Silence
@@ -30,7 +31,11 @@ SCENARIOS = {
 }
 
 
-@pytest.fixture(scope="module", params=SCENARIOS)
+QUICK = ("a force breaks it", "by the frame", "elastic")
+"""Those that take least."""
+
+
+@pytest.fixture(scope="module", params=long_but(QUICK, SCENARIOS))
 def both(request, tmp_path_factory):
     """Results and summary of a whole run, and those of a run of which only motion is wanted."""
     from bridge_demolition_addon.simulation.motion_run import motion_run

@@ -126,7 +126,8 @@ class CrackedCantilever:
         self.opening_m = -self.results.frames.rotations[:, 1, 2, 0] * DEPTH_M
 
 
-@pytest.mark.parametrize(("substeps", "iterations"), [(10, 1), pytest.param(15, 20, marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize(("substeps", "iterations"), [(10, 1), (15, 20)])
 def test_a_cantilever_turns_in_a_plastic_hinge_at_the_moment_of_plastic_theory(blender, tmp_path, substeps, iterations):
     """Bars that do not harden hold it up to A_s f_y z, and not beyond."""
     steel, elongation_m = Steel(hardening=1.0), 0.2
@@ -169,6 +170,7 @@ def test_bars_that_harden_hold_a_hinge_until_they_rupture(blender, tmp_path):
     )
 
 
+@pytest.mark.long
 def test_a_block_that_is_pushed_off_slides_beyond_friction_and_dowels(blender, tmp_path):
     """A crack under a flat block, with bars across it: 0.7 of what presses (EN 1992-1-1, 6.2.5) and 0.9 √(f_c f_y) of
     the bars' area (fib Model Code 2010, 7.3-51), for C35 and B500."""

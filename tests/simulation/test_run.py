@@ -160,6 +160,7 @@ def test_files_of_a_run_that_has_ended_are_let_go_of(tmp_path):
         assert str(tmp_path) not in "\n".join([*open_files, mapped])
 
 
+@pytest.mark.long
 def test_same_scenario_gives_the_same_logs(tmp_path):
     short = replace(
         I235, time=replace(I235.time, duration_s=1.0), ball=replace(I235.ball, drop_height_m=0.5, release_time_s=0.1)
@@ -191,6 +192,7 @@ def test_awake_bridge_stands_where_its_strength_suffices_and_hands_its_weight_to
     assert results.frames.loads.body_forces_n[-1, ground, 2] == pytest.approx(-weight, rel=1e-3)
 
 
+@pytest.mark.long
 def test_pictures_show_before_impact_and_after(tmp_path):
     from matplotlib.image import imread
 

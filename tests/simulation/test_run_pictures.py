@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from matplotlib.image import imread
 from support.checkout import REPORT_2019
+from support.long_cases import long_but
 from support.scenarios import I235
 
 from bridge_demolition_addon.cli.progress import Silence
@@ -79,7 +80,7 @@ def has_changed(found):
     return abs(found["after"] - found["before"]).max(axis=2) > 0.1
 
 
-@pytest.mark.parametrize("engine", ["BLENDER_WORKBENCH", "CYCLES"])
+@pytest.mark.parametrize("engine", long_but(["BLENDER_WORKBENCH"], ["BLENDER_WORKBENCH", "CYCLES"]))
 def test_a_scene_just_built_renders_by_f12(extension, tmp_path, engine):
     scene = extension.context.scene
     scene.bda.scenario.fracture.shards = 20
@@ -95,6 +96,7 @@ def test_a_scene_just_built_renders_by_f12(extension, tmp_path, engine):
     assert abs(bridge.mean(axis=(0, 1)) - sky).max() > 0.05  # something stands before the sky
 
 
+@pytest.mark.long
 def test_an_orbiting_camera_goes_round_and_one_of_the_users_own_stands_where_it_is_put(extension, tmp_path):
     from bridge_demolition_addon.simulation.display.pictures import rendered_pictures
 

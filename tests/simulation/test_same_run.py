@@ -13,6 +13,8 @@ from support.checkout import TESTS
 from support.long_cases import long_but
 from support.processes import run_program
 
+pytestmark = pytest.mark.long  # tests/engineering/test_same_bits.py shows it of models, blast and short runs
+
 SCENARIOS = {
     "blast": TESTS / "simulation" / "same_run" / "blast.toml",
     "everything": TESTS / "simulation" / "same_run" / "everything.toml",  # strength, reinforcement, saw cut, charge

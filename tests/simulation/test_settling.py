@@ -69,6 +69,7 @@ def test_damping_is_a_share_of_the_velocity_in_a_second(blender, tmp_path):
     )
 
 
+@pytest.mark.long
 def test_summary_says_how_quiet_the_bridge_is_after_its_warm_up(tmp_path):
     from bridge_demolition_addon.simulation.run import run_scenario
 

@@ -139,6 +139,7 @@ def test_a_study_whose_scheduler_goes_can_go_on_here(cluster, tmp_path):
     assert tables_in(tmp_path / "out") == tables_in(tmp_path / "whole")
 
 
+@pytest.mark.long
 def test_blender_runs_on_the_workers(cluster, tmp_path, capsys):
     study = study_file(tmp_path / "in", 1, ("One",))
     far = ("study", study, "--output", tmp_path / "far", "--dask", cluster.address, "--quiet")

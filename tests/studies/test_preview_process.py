@@ -150,6 +150,7 @@ def test_it_ends_at_once_and_leaves_nothing(process, tmp_path, monkeypatch):
     process.end()  # again
 
 
+@pytest.mark.long
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows has no signals")
 def test_a_process_that_crashes_is_said_and_replaced(process):
     process.ask(scenario_text(LONG))

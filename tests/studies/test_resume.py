@@ -89,7 +89,7 @@ def test_nothing_is_begun_once_more_but_what_shared_a_process(undisturbed):
     assert more <= {"crash", "crash if shared"} and max(counts.values()) == 2
 
 
-@pytest.mark.parametrize("jobs", [2, 5])
+@pytest.mark.parametrize("jobs", long_but([2], [2, 5]))
 def test_tables_are_the_same_with_any_number_of_jobs(study, undisturbed, tmp_path, jobs):
     finish(study, tmp_path / "out", tmp_path / "log", jobs)
     assert tables_in(tmp_path / "out") == tables_in(undisturbed)
@@ -164,6 +164,7 @@ def test_what_was_killed_twice_is_a_row_and_is_run_again(tmp_path):
     assert set(begun(tmp_path / "second log")[0]) == {"kill"}
 
 
+@pytest.mark.long
 def test_a_full_disk_ends_it_and_loses_nothing(tmp_path):
     study = study_file(tmp_path / "in", 12, ("nothing", "nothing", "write much"), seed=2)
     output, log = tmp_path / "out", tmp_path / "log"
@@ -204,6 +205,7 @@ def test_two_at_once_are_refused(study, tmp_path):
     assert outcome(first)[0] == 0
 
 
+@pytest.mark.long
 def test_the_number_of_runs_may_be_raised_and_what_is_done_stays(tmp_path):
     output, few = tmp_path / "out", study_file(tmp_path / "in", 2, ("nothing", "fail"), seed=3)
     few.write_text(few.read_text(encoding="utf-8").replace("quantile = 0.5", "quantile = 0.8"), encoding="utf-8")

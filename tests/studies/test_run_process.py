@@ -73,6 +73,7 @@ def test_one_that_takes_too_long_is_ended(program, tmp_path):
     assert begun(program[1])[0] == ["nothing", "hang"]  # not once more, which would hang again
 
 
+@pytest.mark.long
 @pytest.mark.skipif(sys.platform != "linux", reason="memory is watched on Linux only")
 def test_one_that_takes_too_much_memory_is_ended(program, tmp_path):
     process = RunProcess(program[0], VERSIONS, RunLimits(time_s=60.0, memory_mb=400.0))

@@ -9,9 +9,12 @@ from typing import Any
 import pytest
 
 
-def long_but(shortly: Iterable[Any], cases: Iterable[Any]) -> list[Any]:
-    """Mark all cases as long but those that are always tried."""
+def long_but(shortly: Iterable[Any], cases: Iterable[Any], *, several: bool = False) -> list[Any]:
+    """Mark all cases as long but those that are always tried; `several` says that each has a value for each name."""
     always, cases = list(shortly), list(cases)
     missing = [case for case in always if case not in cases]
     assert not missing, f"no such cases: {missing}"
-    return [case if case in always else pytest.param(case, marks=pytest.mark.long) for case in cases]
+    return [
+        case if case in always else pytest.param(*(case if several else [case]), marks=pytest.mark.long)
+        for case in cases
+    ]

@@ -32,6 +32,7 @@ def test_pictures_are_those_of_the_run_with_charts_first(ran, tmp_path):
     assert chart_of(scene) == tmp_path / "run" / "charts" / "force_over_time.png"
 
 
+@pytest.mark.long
 def test_without_a_run_or_an_image_editor_the_buttons_say_so(extension, ran):
     with pytest.raises(RuntimeError, match="Go to the BDA Workspace first"):
         ran.ops.bda.show_picture()
@@ -65,6 +66,7 @@ def test_a_click_beside_the_axis_is_refused(ran):
         go_to_peak(ran.context, 0.001)
 
 
+@pytest.mark.long
 def test_a_chart_of_an_earlier_version_is_said_to_be_one(ran):
     path = chart_of(ran.context.scene)
     picture = path.read_bytes()

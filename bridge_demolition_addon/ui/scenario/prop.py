@@ -183,13 +183,20 @@ def _default_ensembles() -> tuple[EnsembleSettings, ...]:
 
 def register() -> None:
     """Register all groups with Blender: those of a whole scenario, study, search and optimisation last."""
+    for group in _groups():
+        bpy.utils.register_class(group)
+
+
+@cache
+def _groups() -> tuple[type[bpy.types.PropertyGroup], ...]:
+    """Return all groups, inner ones first; they stay where the user switches the extension off and on."""
     defaults: dict[type[Table], Table] = {}
     for table in (default_scenario(), *_default_ensembles()):
         defaults |= _default_tables(table)
     groups: dict[type[Table], type[bpy.types.PropertyGroup]] = {}
     for table_class in all_tables():
-        groups[table_class] = _group(table_class, defaults.get(table_class), groups)
-        bpy.utils.register_class(in_own_context(groups[table_class]))
+        groups[table_class] = in_own_context(_group(table_class, defaults.get(table_class), groups))
+    return tuple(groups.values())
 
 
 def unregister() -> None:

@@ -3,6 +3,7 @@
 
 import numpy as np
 import pytest
+from support.long_cases import long_but
 
 from bridge_demolition_addon.engineering.blast import exposure
 from bridge_demolition_addon.engineering.blast.exposure import visible_shares
@@ -120,7 +121,7 @@ def _enters(hulls, centres, rotations, points, body):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("at_once", [70, 10_000, 1_000_000])
+@pytest.mark.parametrize("at_once", long_but([70], [70, 10_000, 1_000_000]))
 def test_random_bodies_against_rays_walked_point_by_point(at_once, monkeypatch):
     monkeypatch.setattr(exposure, "PAIRS_AT_ONCE", at_once)
     random = np.random.default_rng(12)

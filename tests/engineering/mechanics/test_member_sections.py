@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
+from support.long_cases import long_but
 
 from bridge_demolition_addon.engineering.elasticity.section_stiffness import ElasticModuli
 from bridge_demolition_addon.engineering.fracture.shards import fracture
@@ -108,7 +109,7 @@ class PulledSlab:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("count", [40, 200, 1000])
+@pytest.mark.parametrize("count", long_but([40, 200], [40, 200, 1000]))
 def test_the_section_at_the_ground_bears_what_statics_says(count):
     slab = PulledSlab.cut(count, 1)
     rows = np.flatnonzero(~slab.moves[slab.pairs[:, 1]])
@@ -122,7 +123,7 @@ def test_the_section_at_the_ground_bears_what_statics_says(count):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("count", [200, 1000])
+@pytest.mark.parametrize("count", long_but([200], [200, 1000]))
 def test_sections_between_shards_bear_what_statics_says(count):
     slab = PulledSlab.cut(count, 2)
     connections = slab.connections
@@ -161,7 +162,7 @@ def test_what_clips_an_edge_is_no_section_of_the_member():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("count", [40, 200, 1000])
+@pytest.mark.parametrize("count", long_but([40, 200], [40, 200, 1000]))
 def test_a_slab_cracks_at_the_load_of_beam_theory_however_it_is_cut(count):
     # Shear adds 0.2 %; the foundation, where it cracks, is one plane.
     slab = PulledSlab.cut(count, 3)

@@ -4,6 +4,7 @@
 import numpy as np
 import pytest
 from scipy.special import ndtr, ndtri
+from support.long_cases import long_but
 
 from bridge_demolition_addon.engineering.search.bisection import median_interval
 from bridge_demolition_addon.engineering.search.neyer import NeyerTest, most_informative
@@ -47,7 +48,7 @@ def search(median, spread, rng, trials, pending=0):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("pending", [0, 3])
-@pytest.mark.parametrize("spread", [0.03, 0.1])
+@pytest.mark.parametrize("spread", long_but([0.1], [0.03, 0.1]))
 def test_limits_hold_as_often_as_they_say(pending, spread):
     rng = np.random.default_rng(2026)
     held = {"median": 0, "quantile": 0, "without a model": 0}

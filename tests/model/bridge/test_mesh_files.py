@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import trimesh
 from manifold3d import Manifold
+from support.long_cases import long_but
 from support.meshes import as_trimesh, turned
 from support.scenarios import I235
 
@@ -46,7 +47,7 @@ def member_of(path, **values):
     return Geometry(**({"name": "part", "file": path, "density_kg_m3": 2400} | values))
 
 
-@pytest.mark.parametrize("suffix", ["stl", "obj", "ply"])
+@pytest.mark.parametrize("suffix", long_but(["obj", "stl"], ["stl", "obj", "ply"]))
 def test_formats_give_the_same_member(file_of, suffix):
     (member,), notes = geometry_members([member_of(file_of(name=f"part.{suffix}"), kind="pier")])
     assert (member.name, member.kind, notes) == ("part", "pier", ())
@@ -115,8 +116,16 @@ def test_a_broken_file_is_repaired_and_that_is_said(file_of):
             "expected a file that ends in .stl, .obj, .ply or .glb; export it as one of these",
         ),
         (b"solid nothing", "part.stl", GeometryError, "part.stl"),
-        (b"glTF but not really", "part.glb", GeometryError, "cannot be read as GLB"),
-        (b"ply\nformat binary_little_endian 1.0\nend_header\n", "part.ply", GeometryError, "part.ply"),
+        pytest.param(
+            b"glTF but not really", "part.glb", GeometryError, "cannot be read as GLB", marks=pytest.mark.long
+        ),
+        pytest.param(
+            b"ply\nformat binary_little_endian 1.0\nend_header\n",
+            "part.ply",
+            GeometryError,
+            "part.ply",
+            marks=pytest.mark.long,
+        ),
     ],
 )
 def test_files_that_are_not_meshes_are_refused(tmp_path, content, name, error, text):

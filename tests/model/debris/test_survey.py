@@ -109,6 +109,7 @@ def test_what_is_no_survey_is_refused(tmp_path):
         compared(hanging_chain(), scan() + 1000.0, CELLS)
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_the_command_says_it_and_writes_a_report(tmp_path, capsys):
     folder = keep_run(tmp_path / "run", hanging_chain())

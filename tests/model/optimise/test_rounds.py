@@ -76,6 +76,7 @@ def played(rounds, bowl):
     return rounds
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_it_finds_better_values_than_as_many_by_chance():
     # Chance gets the same three rounds, finalists and all.

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from support.checkout import EXAMPLES
 from support.drilled_columns import LOAD_N, ZONE, column_model, column_scenario
+from support.long_cases import long_but
 
 from bridge_demolition_addon.model.scenario import Removal
 from bridge_demolition_addon.model.scenario.file import read_scenario
@@ -31,6 +32,7 @@ def test_a_column_holds_its_block_until_its_zone_fires(tmp_path):
     assert fired.removed.sum() > 0 and not fired.removed[block].any()
 
 
+@pytest.mark.long
 def test_examples_can_be_built():
     paths = sorted((EXAMPLES / "drilled").glob("*.toml"))
     assert paths
@@ -58,6 +60,7 @@ def test_what_stands_if_a_zone_fails(tmp_path):
     ]
 
 
+@pytest.mark.long
 def test_tables_and_report_have_the_misfires(tmp_path):
     scenario = column_scenario(tmp_path, ZONE)
     bridge = StandingBridge(column_model(scenario), scenario.joints)
@@ -87,7 +90,9 @@ def pressed_n(height_m):
     return LOAD_N + 0.49 * (4.0 - 1.5 - height_m / 2.0) * 2400.0 * G
 
 
-@pytest.mark.parametrize(("height_m", "holes"), [(0.4, 1), (0.9, 3), (1.5, 5)])
+@pytest.mark.parametrize(
+    ("height_m", "holes"), long_but([(0.4, 1), (0.9, 3)], [(0.4, 1), (0.9, 3), (1.5, 5)], several=True)
+)
 def test_bare_bars_carry_up_to_yield_or_buckling(tmp_path, height_m, holes):
     """8 bars of 25 mm, by hand: 8 A f_y, or 8 π² E I / (h / 2)² where that is less; factors by weight."""
     zone = replace(ZONE, height_m=height_m, holes_a_row=holes, charge_g=100.0, bars=8, bar_diameter_mm=25.0)

@@ -142,6 +142,7 @@ def test_a_cut_takes_the_force_over_the_transmission_length(straight):
     assert forces.forces_n == pytest.approx(FORCE_N * np.minimum(away_m / length_m, 1.0), rel=1e-6)
 
 
+@pytest.mark.long
 def test_a_saw_cut_through_the_tendon_cuts_it():
     saw = "[[saw_cuts]]\ntime_s = 0.5\npoint_m = [15.01, 0.0, 3.5]\nnormal = [1.0, 0.0, 0.0]\n"
     beam = Beam(beam_text(tendon(STRAIGHT, more="bonded = false") + saw))
@@ -152,6 +153,7 @@ def test_a_saw_cut_through_the_tendon_cuts_it():
     assert cut.loose.any()
 
 
+@pytest.mark.long
 def test_stages_after_each_cut_of_a_tendon():
     """It comes down as it cracks, or, if that is more, at P d about the pressed edge."""
     cut = "[[tendon_cuts]]\ntime_s = 0.3\n"

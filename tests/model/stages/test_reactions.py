@@ -189,6 +189,7 @@ def test_the_table_has_a_row_for_each_stage_and_support_whose_sums_are_those_of_
             assert sum(forces) == pytest.approx(float(stage[f"reaction_{axis}_kN"]), abs=1e-3)
 
 
+@pytest.mark.long
 def test_bearings_are_beside_supports_and_no_part_of_their_sum(tmp_path, capfd):
     """Walls of 4.5 t stand on the ground; the deck that they carry is held down at one end when it loses a wall."""
     bearings = (("pier 1", 'kind = "pinned"\ntension = true'), PINNED_AND_ROCKERS[1])

@@ -29,6 +29,7 @@ def test_prisms_in_a_row_come_down_at_the_moment_of_plastic_theory(blocks):
     assert blocks.collapse_factor() == pytest.approx(blocks.theory, rel=0.03)
 
 
+@pytest.mark.long
 def test_bars_that_harden_carry_up_to_their_tensile_strength():
     hardening = 1.2
     slab = Slab(slab_text(8, blocks=True, hardening=hardening))

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
+from support.long_cases import long_but
 
 from bridge_demolition_addon.engineering.elasticity.section_stiffness import ElasticModuli
 from bridge_demolition_addon.engineering.fracture.shards import fracture
@@ -85,7 +86,7 @@ COLUMN, WALL, GIRDER = Bar(0.7, 0.7, 5.0), Bar(0.6, 3.0, 12.0), Bar(0.4, 0.9, 12
 
 
 @pytest.mark.parametrize("bar", [COLUMN, WALL, GIRDER], ids=("column", "wall", "girder"))
-@pytest.mark.parametrize(("count", "within"), [(25, 0.1), (100, 0.06)])
+@pytest.mark.parametrize(("count", "within"), long_but([(25, 0.1)], [(25, 0.1), (100, 0.06)], several=True))
 def test_bars_in_irregular_shards_deform_as_beams_do(bar, count, within):
     along, one_way, other_way, twisted = np.median([bar.works(count, seed) for seed in (1, 2, 3)], axis=0)
     assert along == pytest.approx(1.0, abs=within / 2.0)

@@ -67,6 +67,7 @@ def test_bda_check_says_what_bolts_resist_and_which_is_used_most():
     )
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_a_cantilever_yields_at_the_moment_of_its_bolts():
     """Six bolts, I_p = 26 950 mm², farthest at 78.3 mm: 117.6 kN · 344.4 mm = 40.5 kN·m; the bar alone: 71.0 kN·m."""

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from support.long_cases import long_but
 
 from bridge_demolition_addon.engineering.elasticity.section_stiffness import ElasticModuli
 from bridge_demolition_addon.engineering.fracture.shards import fracture
@@ -86,7 +87,10 @@ def sag_by_theory(shard_count, seed):
 # Where a shard is about as deep as the slab, its sag is a matter of how the cuts happen to lie: over 4 seeds each it
 # was 1.03 ± 0.08 of theory in 40 shards, 1.01 ± 0.02 in 200, and 0.99 in 1000. The means of four are as far off at most
 # as two of their own standard errors.
-@pytest.mark.parametrize(("count", "seeds", "within"), [(40, 4, 0.12), (200, 4, 0.04), (1000, 1, 0.03)])
+@pytest.mark.parametrize(
+    ("count", "seeds", "within"),
+    long_but([(40, 4, 0.12), (200, 4, 0.04)], [(40, 4, 0.12), (200, 4, 0.04), (1000, 1, 0.03)], several=True),
+)
 def test_a_slab_in_shards_is_as_stiff_as_the_slab(count, seeds, within):
     assert np.mean([sag_by_theory(count, seed) for seed in range(seeds)]) == pytest.approx(1.0, abs=within)
 
@@ -119,7 +123,10 @@ def test_connections_to_the_ground_bear_the_whole_weight():
 
 
 # Means of seeds that test_a_slab_in_shards_is_as_stiff_as_the_slab has: what is redundant goes by the same stiffness.
-@pytest.mark.parametrize(("count", "seeds", "within"), [(40, 4, 0.05), (200, 4, 0.02), (1000, 1, 0.02)])
+@pytest.mark.parametrize(
+    ("count", "seeds", "within"),
+    long_but([(40, 4, 0.05), (200, 4, 0.02)], [(40, 4, 0.05), (200, 4, 0.02), (1000, 1, 0.02)], several=True),
+)
 def test_a_slab_held_at_both_ends_has_the_moments_of_a_fixed_beam(count, seeds, within):
     """Pulled sideways: w L² / 12 at both ends, and half of the load."""
     load = DENSITY_KG_M3 * GRAVITY_M_S2 * DEPTH_M * WIDTH_M

@@ -18,6 +18,7 @@ def study(folder, *zones, vary=()):
     return study_of(StudySettings(scenario="column.toml", vary=vary), column_scenario(folder, *zones))
 
 
+@pytest.mark.long
 def test_zones_fire_with_their_probability_each_by_itself(tmp_path):
     upper = replace(ZONE, name="upper", middle_m=3.2, probability_fires=0.9)
     whole = study(tmp_path, replace(ZONE, probability_fires=0.7), upper)

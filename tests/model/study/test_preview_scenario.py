@@ -86,6 +86,7 @@ def test_sub_steps_are_those_of_the_run_while_waves_of_charges_pass():
     assert lengths_s.max() == pytest.approx(1.0 / 36.0)
 
 
+@pytest.mark.long
 def test_bars_of_steel_are_not_cut_across_but_where_they_have_to_buckle():
     assert TRUSS.steelwork.pieces > 1
     found = coarse(TRUSS)

@@ -103,6 +103,7 @@ def test_the_sentence_has_all_that_stands_beside():
     )
 
 
+@pytest.mark.long
 @pytest.mark.slow
 def test_report_and_plan_have_the_limits():
     runs = runs_of()

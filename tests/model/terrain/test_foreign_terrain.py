@@ -153,6 +153,7 @@ def test_a_damaged_cloud_is_said_to_be(tmp_path):
         read(tmp_path / "a.las")
 
 
+@pytest.mark.long
 def test_the_ground_of_an_ifc_file_is_where_its_map_has_it(tmp_path):
     """A network of the plane, placed from a corner; the map conversion turns it by a quarter: x becomes north."""
     x, y = (grid.ravel() for grid in lattice())

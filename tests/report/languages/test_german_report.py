@@ -13,6 +13,8 @@ from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.report.document import page_style, pdf
 from bridge_demolition_addon.report.write import write_report
 
+pytestmark = pytest.mark.long  # test_nothing_is_missing.py shows of every text that it has a translation
+
 ENGLISH = re.compile(r"\b(?:the|of|and|is|are|were|with|without|this|that|which|from|has|have|not|shards?)\b")
 """Words that nearly every English sentence has one of, and no German one has."""
 

@@ -80,6 +80,7 @@ def numbers(text):
     return [float(number) for number in re.findall(r"-?\d+(?:\.\d+)?", text)]
 
 
+@pytest.mark.long
 def test_both_pages_say_the_same_in_their_units(made):
     metric, imperial, *_ = made
     for label, unit, own, size in (
@@ -95,6 +96,7 @@ def test_both_pages_say_the_same_in_their_units(made):
         assert numbers(after)[0] * size == pytest.approx(numbers(before)[0], rel=2e-3), label
 
 
+@pytest.mark.long
 def test_every_number_of_a_table_is_converted(made):
     metric, imperial, *_ = made
     heads = [row for row in metric.rows if "debris distance (m)" in row]
@@ -109,6 +111,7 @@ def test_every_number_of_a_table_is_converted(made):
             assert float(after[mass]) * SHORT_TON_KG / 2000.0 == pytest.approx(float(before[mass]), abs=0.6)
 
 
+@pytest.mark.long
 def test_no_distance_to_keep_is_less_than_in_metres(made):
     metric, imperial, *_ = made
     kept = (
@@ -128,6 +131,7 @@ def test_no_distance_to_keep_is_less_than_in_metres(made):
             assert Decimal(number) <= Decimal(own) * Decimal("0.3048") <= Decimal(number) * Decimal("1.002"), label
 
 
+@pytest.mark.long
 def test_pdf_and_word_file_have_the_same_numbers_as_the_page(made):
     _, imperial, lines, _, folder = made
     document = docx.Document(folder / "report.docx")
@@ -141,6 +145,7 @@ def test_pdf_and_word_file_have_the_same_numbers_as_the_page(made):
     assert "US customary units" in printed and "US customary units" in words
 
 
+@pytest.mark.long
 def test_no_metric_unit_is_left_but_in_formulas(made):
     _, imperial, lines, *_ = made
     unit = re.compile(r"\d (?:mm|cm|m|m²|m³|kg|t|N|kN|MN|kPa|MPa|J|kJ|MJ|mm/s|m/s|kN·s)(?![\w²³/·])")
@@ -151,6 +156,7 @@ def test_no_metric_unit_is_left_but_in_formulas(made):
         assert not unit.search(left) and not heading.search(left), text
 
 
+@pytest.mark.long
 def test_files_for_programs_are_the_same_in_both(made):
     *_, metric, imperial = made
     tables = sorted(path.name for path in (metric / "tables").iterdir())

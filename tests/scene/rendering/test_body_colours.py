@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from matplotlib.image import imread
 from support.blocks import Blocks
+from support.long_cases import long_but
 
 from bridge_demolition_addon.display.colour_scale import ColourMap, colours, linear
 from bridge_demolition_addon.display.contour_quantities import ContourQuantity
@@ -73,7 +74,7 @@ def render(scene, engine, path):
     return pixels[40, [40, 120]]  # the blocks' middles: 2 m from the picture's, of 8 m
 
 
-@pytest.mark.parametrize("engine", ["BLENDER_WORKBENCH", "CYCLES"])
+@pytest.mark.parametrize("engine", long_but(["BLENDER_WORKBENCH"], ["BLENDER_WORKBENCH", "CYCLES"]))
 def test_rendered_colours_are_those_of_the_map(hanging, tmp_path, engine):
     from bridge_demolition_addon.simulation.blender_events import contours_of
 
@@ -87,7 +88,7 @@ def test_rendered_colours_are_those_of_the_map(hanging, tmp_path, engine):
     assert (abs(render(scene, engine, tmp_path / "render.png") - expected) <= tolerance).all()
 
 
-@pytest.mark.parametrize("engine", ["BLENDER_WORKBENCH", "CYCLES"])
+@pytest.mark.parametrize("engine", long_but(["BLENDER_WORKBENCH"], ["BLENDER_WORKBENCH", "CYCLES"]))
 def test_a_shaded_picture_keeps_hues_and_darkens_what_looks_away(hanging, tmp_path, engine):
     from bridge_demolition_addon.simulation.blender_events import contours_of
 

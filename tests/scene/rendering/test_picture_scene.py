@@ -103,6 +103,7 @@ def test_copies_stand_where_bodies_were_recorded_and_rough_ones_are_no_larger(bl
     assert rough
 
 
+@pytest.mark.long
 def test_nothing_is_seen_of_a_break_before_it_opens(ran):
     _, results, _ = ran
     opened, intact = parted(results), np.asarray(results.frames.intact)
@@ -114,6 +115,7 @@ def test_nothing_is_seen_of_a_break_before_it_opens(ran):
     assert np.linalg.norm(first - second) > 0.03
 
 
+@pytest.mark.long
 def test_banks_hide_no_body_of_the_run(ran):
     _, results, _ = ran
     moving = np.flatnonzero(results.inventory.masses_kg > 0.0)
@@ -126,6 +128,7 @@ def test_banks_hide_no_body_of_the_run(ran):
             assert not ((boxes[:, 1, 0] > begin) & (boxes[:, 0, 0] < end)).any()
 
 
+@pytest.mark.long
 def test_railings_and_markings_stand_on_the_deck_and_go_with_its_shards(ran):
     _, results, _ = ran
     parts = road_furniture(results)

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from support.checkout import REPORT_2019
+from support.long_cases import long_but
 from support.scenarios import I235, SHORT_RUN
 
 from bridge_demolition_addon.cli.progress import Silence
@@ -109,7 +110,7 @@ BY_FIELDS = replace(
 )
 
 
-@pytest.mark.parametrize("scenario", [SHORT_RUN, BY_FIELDS], ids=["ball", "force fields"])
+@pytest.mark.parametrize("scenario", long_but([SHORT_RUN], [SHORT_RUN, BY_FIELDS]), ids=["ball", "force fields"])
 def test_symbols_are_hidden_and_the_simulation_is_the_same(blender, tmp_path, scenario):
     from bridge_demolition_addon.simulation.motion_run import motion_run
     from bridge_demolition_addon.simulation.run import run_scenario

@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Pictures by each renderer: no cut is seen before it opens, and the scene keeps its own settings."""
 
+from itertools import product
+
 import numpy as np
 import pytest
 from matplotlib.image import imread
+from support.long_cases import long_but
 
 from bridge_demolition_addon.engineering.geometry.solids import box
 from bridge_demolition_addon.model.scenario.recording import PictureSettings, Renderer
@@ -46,8 +49,11 @@ def place_blocks(blender, gap_m):
     return scene
 
 
-@pytest.mark.parametrize("renderer", list(Renderer))
-@pytest.mark.parametrize("gap_m", [0.0, 0.3])
+QUICK = ((0.0, Renderer.WORKBENCH), (0.3, Renderer.WORKBENCH))
+"""Where light is followed, a picture takes seconds."""
+
+
+@pytest.mark.parametrize(("gap_m", "renderer"), long_but(QUICK, product((0.0, 0.3), Renderer), several=True))
 def test_a_cut_is_seen_when_it_opens_and_not_before(blender, tmp_path, renderer, gap_m):
     from bridge_demolition_addon.scene.rendering.stills import prepared_for_pictures, render_picture
 

@@ -78,6 +78,7 @@ def test_jackhammer_removes_material_where_it_is_driven(slab):
     assert slab.frames.intact[-1][slab.inventory.points_m[:, 0] < -1.5].mean() > 0.7
 
 
+@pytest.mark.long
 def test_chisel_is_where_it_is_led(slab):
     (tool,) = slab.inventory.of_kind("tool")
     np.testing.assert_allclose(

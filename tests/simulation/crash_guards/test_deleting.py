@@ -10,6 +10,7 @@ import json
 from collections.abc import Iterator
 
 import pytest
+from support.long_cases import long_but
 from support.processes import ProgramAtWork
 
 DELETIONS = (
@@ -21,6 +22,8 @@ DELETIONS = (
     "remove_connections_then_body",
     "remove_everything",
 )
+QUICK = ("delete_body", "remove_connections_then_body", "remove_everything")
+"""Those that are always tried wherever else something is deleted than while it is recorded."""
 
 
 @pytest.fixture(scope="module")
@@ -99,7 +102,7 @@ def test_deleting_again_where_connections_were_left_over(do):
     do("watch", twice, "update", "stand_still_until_the_start")
 
 
-@pytest.mark.parametrize("deletion", DELETIONS)
+@pytest.mark.parametrize("deletion", long_but(QUICK, DELETIONS))
 def test_deleting_at_the_start_frame_what_was_simulated(do, deletion):
     do("watch", "go_to_start", deletion, "update", "fall_from_the_start")
 
@@ -152,7 +155,7 @@ def test_deleting_before_the_first_frame_after_the_add_on_was_switched_on(do, de
     do("play_unwatched", *switched, deletion, "update", "stand_still_until_the_start", "switch_off")
 
 
-@pytest.mark.parametrize("deletion", DELETIONS)
+@pytest.mark.parametrize("deletion", long_but(QUICK, DELETIONS))
 def test_deleting_in_a_baked_scene(do, deletion):
     # At the start frame Blender sees that a body is missing, and frees the world that was simulated for the bake.
     do("watch", "bake", deletion, "update", "play_the_bake_and_simulate_again")
@@ -199,7 +202,7 @@ def test_editing_and_then_deleting(do, edit):
     do("watch", edit, "update", "remove_body", "update", "stand_still_until_the_start")
 
 
-@pytest.mark.parametrize("edit", EDITS)
+@pytest.mark.parametrize("edit", long_but(EDITS[:2], EDITS))
 def test_editing_others_after_going_back(do, edit):
     do("watch", edit, "update", "edit_others_after_going_back", "go_on_falling")
 
@@ -209,7 +212,7 @@ def test_editing_a_connection_ends_a_recording(do, edit):
     do("record", edit, "update", "recording_has_ended", "go_on_falling")
 
 
-@pytest.mark.parametrize("edit", EDITS)
+@pytest.mark.parametrize("edit", long_but(EDITS[:2], EDITS))
 def test_editing_others_after_an_edit_has_ended_a_recording(do, edit):
     do("record_shards", edit, "update", "edit_others", "go_on_falling")
 

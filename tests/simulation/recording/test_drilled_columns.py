@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from support.blocks import Blocks
 from support.drilled_columns import ZONE, column_model, column_scenario
+from support.long_cases import long_but
 
 from bridge_demolition_addon.bullet import layout
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
@@ -44,7 +45,7 @@ def test_it_stands_with_a_tenth_of_a_kilogram_a_cubic_metre(tmp_path):
     assert summary["connections"]["broken"] == 0
 
 
-@pytest.mark.parametrize("shards", [6, 40, 120])
+@pytest.mark.parametrize("shards", long_but([6, 40], [6, 40, 120]))
 @pytest.mark.parametrize("debris", ["rubble", "thrown"])
 def test_it_falls_freely_with_a_kilogram_a_cubic_metre(tmp_path, debris, shards):
     """0.3 m in 0.25 s by g t² / 2, within 10 %, whatever the number of shards: nothing in the zone carries."""
@@ -159,6 +160,7 @@ def test_rubble_in_the_cage_stays_stacked(tmp_path):
     assert event["effect"] == "rubble in the cage" and event["shards"] == [] and event["connections"] > 0
 
 
+@pytest.mark.long
 def test_loosened_concrete_carries_what_is_left(tmp_path):
     """Half of its strength in compression is far above 520 kN on 0.49 m²: 1.06 N/mm².
 

@@ -51,6 +51,7 @@ def test_a_cable_that_moves_nothing_pulls_by_its_stiffness(blender, tmp_path):
     assert course[-1, 1] > 9e3
 
 
+@pytest.mark.long
 def test_the_work_of_a_cable_is_what_a_block_has_and_what_friction_took(blender, tmp_path):
     """½ m v² + μ m g s; it slides at the speed of the winch at last, against μ m g."""
     friction = 0.5

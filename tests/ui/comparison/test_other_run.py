@@ -84,6 +84,7 @@ def test_it_stands_beside_the_bridge_or_over_it(beside, settings, tmp_path):
     assert drawn(beside) is None
 
 
+@pytest.mark.long
 def test_figures_of_both_are_those_of_their_reports(beside, other, tmp_path):
     told = panel(beside)
     for folder in (tmp_path / "run", other):
@@ -107,7 +108,7 @@ def test_every_finding_has_a_name_in_the_panel(other):
     assert {row.this for row in rows} == {"-"} and "-" not in {row.other for row in rows}
 
 
-def testcolours_of_contours_are_by_the_scale_of_this_run(beside, settings):
+def test_colours_of_contours_are_by_the_scale_of_this_run(beside, settings):
     from bridge_demolition_addon.simulation.blender_events import contours_of
     from bridge_demolition_addon.ui.comparison.shown import other_run
 
@@ -150,6 +151,7 @@ def test_it_is_only_drawn_and_gone_by_its_button_and_with_the_add_on(beside, set
     assert drawn(beside) is not None  # the file still names the run
 
 
+@pytest.mark.long
 def test_a_folder_that_has_gone_is_said_and_draws_nothing(beside, other):
     from bridge_demolition_addon.ui.comparison import shown
 
@@ -161,6 +163,7 @@ def test_a_folder_that_has_gone_is_said_and_draws_nothing(beside, other):
     shown.forget()
 
 
+@pytest.mark.long
 def test_what_is_no_run_is_refused(ran, settings, tmp_path):
     assert not ran.ops.bda.compare_run.poll()
     settings.compared_directory = str(tmp_path / "none")

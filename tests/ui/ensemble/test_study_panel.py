@@ -100,15 +100,6 @@ def test_a_study_of_which_no_draw_finishes_says_so_and_frees_its_folder(blender,
     look_in_until(WORK)
 
 
-def test_a_study_is_shown_from_its_folder(blender, panel, tmp_path):
-    blender.ops.bda.start_study()
-    look_in_until(WORK)
-    session.unregister()
-    assert WORK.result is None
-    assert blender.ops.bda.show_study() == {"FINISHED"}
-    assert len(WORK.result.runs.table) == 3
-
-
 def test_a_folder_of_another_study_is_refused_and_kept(blender, panel, tmp_path):
     blender.ops.bda.start_study()
     blender.ops.bda.stop_study()
@@ -157,6 +148,7 @@ def test_a_study_file_is_shown_with_its_scenario(blender, panel, tmp_path):
         blender.ops.bda.load_study()
 
 
+@pytest.mark.long
 @pytest.mark.skipif(sys.platform == "win32", reason="the launcher is a script of Unix")
 def test_draws_run_in_blenders_own_program_where_there_is_one(blender, tmp_path):
     """The launcher takes Blender's arguments as Blender does, and is no Python that knows this package."""
@@ -178,7 +170,7 @@ def test_draws_run_in_blenders_own_program_where_there_is_one(blender, tmp_path)
     assert end.outputs["reach_m"] >= 0.0
 
 
-def test_the_panels_show_what_varies_the_course_and_the_findings(blender, panel):
+def test_the_panels_show_what_varies_the_course_and_the_findings_and_those_of_a_folder(blender, panel):
     assert {"bda.start_study", "1  ball.drop_height_m"} <= set(drawn(blender, sidebar))
     blender.ops.bda.start_study()
     running = drawn(blender, sidebar)
@@ -193,7 +185,13 @@ def test_the_panels_show_what_varies_the_course_and_the_findings(blender, panel)
     assert found[-len(WORK.result.sentences) - 2 : -2] == list(WORK.result.sentences)
     assert found[-2:] == ["show_study", "bda.open_worst_draw"]
 
+    session.unregister()
+    assert WORK.result is None
+    assert blender.ops.bda.show_study() == {"FINISHED"}
+    assert len(WORK.result.runs.table) == 3
 
+
+@pytest.mark.long
 def test_the_panels_say_why_a_study_ended_before_its_end(blender, panel, tmp_path):
     blender.ops.bda.start_study()
     draws = tmp_path / "study" / "draws"
@@ -222,6 +220,7 @@ def test_switching_the_extension_off_ends_a_study(blender, tmp_path):
     assert read_runs(tmp_path / "study" / "runs.csv") is not None
 
 
+@pytest.mark.long
 def test_a_study_of_two_runs_states_no_limit_yet_and_is_raised_to_four(blender, panel, tmp_path):
     panel.study.runs, panel.study.confidence = 2, 0.9
     assert blender.ops.bda.start_study() == {"FINISHED"}

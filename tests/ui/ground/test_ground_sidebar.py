@@ -73,6 +73,7 @@ def test_zones_neighbours_and_distances_are_drawn_before_a_run(built):
     assert everything(built) == []
 
 
+@pytest.mark.long
 def test_after_a_run_zone_and_debris_are_those_of_the_report(ran, tmp_path):
     from bridge_demolition_addon.model.results.arrays import load_results
 
@@ -83,6 +84,7 @@ def test_after_a_run_zone_and_debris_are_those_of_the_report(ran, tmp_path):
     assert by_text(ran, "Debris").text.endswith("m²")
 
 
+@pytest.mark.long
 def test_a_flash_is_drawn_while_a_charge_goes_off(ran):
     from bridge_demolition_addon.simulation.blender_events import shown_results
 
@@ -107,6 +109,7 @@ def test_charges_without_a_world_to_go_off_in_are_no_trouble(extension):
     assert everything(scene) == []
 
 
+@pytest.mark.long
 def test_the_chosen_shard_is_drawn_with_its_name_where_it_is(ran):
     from bridge_demolition_addon.scene.bodies import Kind, bodies_of, kind_of
 

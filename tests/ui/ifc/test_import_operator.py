@@ -16,6 +16,7 @@ _SINGLE = 1e-6
 """Blender keeps masses in single precision, which holds seven digits."""
 
 
+@pytest.mark.long
 def test_an_imported_bridge_is_shown_built_and_stands(extension, settings, tmp_path):
     """No connection breaks and nothing moves: footings are held, and 277 t are within what the members bear."""
     from bridge_demolition_addon.scene.bodies import Kind, bodies_of, kind_of
@@ -37,6 +38,7 @@ def test_an_imported_bridge_is_shown_built_and_stands(extension, settings, tmp_p
     assert max(moved) < 0.01  # 5 frames of free fall are 0.21 m
 
 
+@pytest.mark.long
 def test_what_is_left_out_is_shown_as_wire(extension, tmp_path):
     """A block of 1 m³ that touches nothing, 4 m over the deck; it takes no part in the simulation."""
     made = whole_bridge()
@@ -69,7 +71,7 @@ def test_importing_again_takes_another_folder(extension, settings, tmp_path):
         ({"filepath": "//bridge.ifc"}, "save it or give a full path"),
         ({"kinds": "deck"}, 'kinds has "deck": expected NAME=KIND'),
         ({"kinds": "IfcWall=dock"}, 'kind of "IfcWall" is "dock"'),
-        ({"material": "marzipan"}, "the table of materials does not know"),
+        pytest.param({"material": "marzipan"}, "the table of materials does not know", marks=pytest.mark.long),
         ({"own_ground": True, "ground_m": 50.0}, "would cover the bridge"),
     ],
 )
@@ -121,6 +123,7 @@ def test_elements_are_listed_corrected_and_imported(extension, settings, tmp_pat
     assert scenario_of(settings) == scenario
 
 
+@pytest.mark.long
 def test_a_material_that_the_table_lacks_is_refused(extension, settings, tmp_path):
     extension.ops.bda.look_into_ifc(filepath=str(whole_bridge().written(tmp_path / "two_spans.ifc")))
     settings.ifc_elements[0].material = "marzipan"

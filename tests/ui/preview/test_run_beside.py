@@ -105,6 +105,7 @@ def test_it_says_what_elastic_previews_are_worth_and_what_still_falls(shown, bes
         assert (trust in said()[1]) == is_said
 
 
+@pytest.mark.long
 def test_what_was_shown_before_needs_no_run(shown, beside, extension):
     first = follow_to_end(beside, shown)
     extension.ops.bda.drag_handle(kind="TARGET", place_m=(4.0, 1.0, 0.0))
@@ -154,6 +155,7 @@ def running_again(beside, settings):
     return beside.process.process_id
 
 
+@pytest.mark.long
 def test_switching_the_extension_off_leaves_nothing(shown, beside, extension):
     from bridge_demolition_addon.ui.preview import run_beside
 
@@ -175,6 +177,7 @@ def test_switching_the_extension_off_leaves_nothing(shown, beside, extension):
         bridge_demolition_addon.register()
 
 
+@pytest.mark.long
 def test_the_timer_never_raises_and_ends_with_the_switch(shown, beside):
     from bridge_demolition_addon.ui.preview.run_beside import LOOK_EVERY_S, look_in
 

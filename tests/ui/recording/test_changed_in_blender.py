@@ -129,7 +129,9 @@ def test_every_setting_of_time_is_tried():
     assert {f"time.{field.name}" for field in fields(TimeSettings) if field.name not in taken_at_run} <= set(CHANGES)
 
 
-QUICK = ("ball.mass_kg", "shards.linear_damping", "time.duration_s", "time.time_scale")
+QUICK = ("ball.mass_kg", "shards.linear_damping", "time.duration_s")
+QUICK_SURFACES = (("shards", "friction"), ("ground", "restitution"))
+QUICK_BY_HAND = ("gravity", "positions, shapes or sizes", "which connections there are", "the speed of the simulation")
 """Of each kind one that takes little."""
 
 
@@ -142,7 +144,7 @@ def test_what_was_changed_is_written_and_runs_again_to_the_last_bit(built, setti
     assert getattr(getattr(written, table), name) == pytest.approx(value, rel=1e-12)
 
 
-@pytest.mark.parametrize(("table", "name"), SURFACES)
+@pytest.mark.parametrize(("table", "name"), long_but(QUICK_SURFACES, SURFACES, several=True))
 def test_a_surface_that_was_changed_is_written_as_pairs_where_pairs_make_it(built, settings, tmp_path, table, name):
     kind, value, are_pairs = SURFACES[table, name]
     bodies_with(kind, name, value)(built.context.scene)
@@ -187,6 +189,7 @@ def test_the_panel_says_how_time_runs_otherwise_than_it_was_built(built):
     assert changed_in_blender(built.context.scene) == [ChangedValue("time.frames_per_second", "60", "with 24")]
 
 
+@pytest.mark.long
 def test_a_second_run_finds_nothing_changed(built, tmp_path):
     for _ in range(2):
         built.ops.bda.run()
@@ -203,7 +206,7 @@ IN_PLAIN_WORDS = {
 """What the run reports of some of them; of all others it says the same as the files."""
 
 
-@pytest.mark.parametrize("what", BY_HAND)
+@pytest.mark.parametrize("what", long_but(QUICK_BY_HAND, BY_HAND))
 def test_what_no_scenario_can_say_is_said_beside_it(built, settings, tmp_path, capfd, what):
     BY_HAND[what](built.context.scene)
     built.ops.bda.run()
@@ -217,6 +220,7 @@ def test_what_no_scenario_can_say_is_said_beside_it(built, settings, tmp_path, c
     assert any(what in shortcoming for shortcoming in read_run(folder).shortcomings)
 
 
+@pytest.mark.long
 def test_frames_of_another_length_are_refused_where_slow_motion_is_animated(extension, settings, tmp_path):
     extension.ops.bda.load_preset(preset="span_of_2019_explosives")
     settings.scenario.fracture.shards = 20
@@ -235,6 +239,7 @@ def test_frames_of_another_length_are_refused_where_slow_motion_is_animated(exte
     assert told[1] == "the speed of the simulation, which is animated"
 
 
+@pytest.mark.long
 def test_values_that_single_precision_rounds_are_as_they_were_built(extension):
     """0.02 m is 0.0199999996 m in a panel, and all digits of it in the scene."""
     extension.ops.bda.load_preset(preset="drilled_spans")

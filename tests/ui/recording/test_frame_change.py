@@ -70,6 +70,7 @@ def test_a_recording_that_a_deletion_ends_was_not_completed(built, tmp_path):
     assert summary["frames"] == FRAMES - 1
 
 
+@pytest.mark.long
 @pytest.mark.skipif(sys.platform == "win32", reason="Windows keeps a folder as long as files in it are open")
 def test_a_folder_that_went_away_while_recording_is_made_again_for_the_results(built, tmp_path, capfd):
     built.ops.bda.register_handler()
@@ -141,6 +142,7 @@ def test_a_wrong_value_of_the_blast_is_refused_before_anything_is_made(built, se
     assert not (tmp_path / "results").exists()
 
 
+@pytest.mark.long
 def test_an_explosion_without_charges_changes_nothing(extension, tmp_path):
     logs = []
     for explosion in (False, True):
@@ -239,6 +241,7 @@ def test_charts_are_drawn_into_the_folder(built, tmp_path):
     assert all(chart.read_bytes().startswith(b"\x89PNG") for chart in charts)
 
 
+@pytest.mark.long
 def test_charts_to_choose_charges_by_are_drawn_where_there_were_charges(built, settings, tmp_path):
     built.context.scene.cursor.location = (4.0, 0.0, 1.5)
     built.ops.bda.add_source_point()

@@ -58,6 +58,7 @@ def test_each_run_of_an_unsaved_file_gets_a_folder_in_the_documents(small, home)
     assert small.context.scene.bda.output_directory == ""
 
 
+@pytest.mark.long
 def test_a_run_of_a_saved_file_is_beside_it_and_its_report_in_it(small, home, tmp_path):
     (tmp_path / "job").mkdir()
     small.ops.wm.save_as_mainfile(filepath=str(tmp_path / "job" / "scene.blend"))

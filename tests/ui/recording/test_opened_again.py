@@ -7,6 +7,7 @@ import shutil
 import numpy as np
 import pytest
 from support.checkout import SMALL
+from support.long_cases import long_but
 
 from bridge_demolition_addon.errors import OutputError
 from bridge_demolition_addon.model.results.arrays import load_results
@@ -41,7 +42,7 @@ def shown(scene, names):
     return np.array([objects[name].evaluated_get(depsgraph).matrix_world.translation for name in names])
 
 
-@pytest.mark.parametrize("contours", [False, True])
+@pytest.mark.parametrize("contours", long_but([False], [False, True]))
 def test_it_shows_what_was_recorded_whatever_frame_is_gone_to(ran, tmp_path, contours):
     results = load_results(tmp_path / "results" / "results.npz")
     ran.context.scene.bda.contours = contours
@@ -143,7 +144,7 @@ def test_results_of_a_run_that_is_gone_are_said_to_be_gone(ran, tmp_path):
         ran.ops.bda.draw_charts()
 
 
-@pytest.mark.parametrize("key", ["mass_kg", "connections", "largest_resultant", "title"])
+@pytest.mark.parametrize("key", long_but(["connections"], ["mass_kg", "connections", "largest_resultant", "title"]))
 def test_a_summary_that_lacks_something_is_refused(ran, tmp_path, key):
     session.unregister()
     path = tmp_path / "results" / "summary.json"

@@ -62,6 +62,7 @@ def test_a_zone_that_cannot_be_is_named_and_nothing_is_written(ran, settings, tm
     assert not (tmp_path / "run" / "report.html").exists()
 
 
+@pytest.mark.long
 def test_what_is_changed_by_hand_stays_said_beside_the_zones(extension, settings, tmp_path):
     settings.scenario_path = str(SMALL)
     extension.ops.bda.build_scenario()

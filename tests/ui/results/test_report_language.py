@@ -27,6 +27,7 @@ def test_at_first_it_is_that_of_blender_where_there_is_a_table(locale, language)
     assert language_of_blender(locale) == language
 
 
+@pytest.mark.long
 def test_what_is_shown_is_what_a_report_is_made_in(extension, settings, tmp_path):
     assert settings.report_language == "en"  # Blender as a module has no language
     settings.output_directory = str(keep_run(tmp_path / "run", flying_shards()))

@@ -71,6 +71,7 @@ def test_a_deleted_shard_can_be_cleared_up_after(built):
     assert shown_results(built.context.scene).recording.error is None
 
 
+@pytest.mark.long
 def test_slow_motion_of_other_charges_is_refused(extension, settings, tmp_path):
     settings.scenario_path = str(EXPLOSIVES)
     extension.ops.bda.load_scenario()

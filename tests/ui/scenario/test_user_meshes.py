@@ -64,6 +64,7 @@ def test_the_default_bridge_is_built_too_only_where_that_was_said(extension, set
     assert {mesh.name for mesh in scenario.geometry} == {"deck", "west wall", "east wall"}
 
 
+@pytest.mark.long
 def test_the_saved_scenario_needs_no_objects(extension, settings, objects, tmp_path):
     extension.ops.bda.add_selected_members(directory=str(tmp_path / "members"))
     extension.ops.bda.save_scenario(filepath=str(tmp_path / "saved.toml"))
@@ -73,6 +74,7 @@ def test_the_saved_scenario_needs_no_objects(extension, settings, objects, tmp_p
     assert sum(member.mass_kg for member in model.members) == pytest.approx(2400 * 36, rel=1e-5)
 
 
+@pytest.mark.long
 def test_a_changed_mesh_takes_the_place_of_what_was_added_before(extension, settings, objects, tmp_path):
     extension.ops.bda.add_selected_members(directory=str(tmp_path))
     objects[0].hide_set(False)
@@ -121,6 +123,7 @@ def painted(objects, weight=1.0):
     return deck
 
 
+@pytest.mark.long
 def test_the_painted_end_is_cut_finer(extension, settings, objects, tmp_path):
     painted(objects)
     extension.ops.bda.add_selected_members(directory=str(tmp_path))

@@ -47,6 +47,7 @@ def test_before_a_run_there_is_nothing_to_cut(built):
         assert not getattr(built.ops.bda, button).poll()
 
 
+@pytest.mark.long
 def test_it_is_that_of_the_results_and_follows_the_timeline(ran, settings, tmp_path):
     results, scene = load_results(tmp_path / "run"), ran.context.scene
     settings.show_section, settings.section_place_m = True, 4.0
@@ -100,6 +101,7 @@ def test_the_plane_is_put_at_the_cursor_and_at_the_chosen_shard(ran, settings):
     assert not shown(ran).is_empty
 
 
+@pytest.mark.long
 def test_drawings_go_into_the_folder_of_the_run(ran, settings, tmp_path):
     settings.show_section, settings.section_place_m = True, 4.0
     assert ran.ops.bda.write_section() == {"FINISHED"}

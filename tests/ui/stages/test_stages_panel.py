@@ -97,6 +97,7 @@ def test_stages_are_checked_told_and_shown_before_anything_is_run(blender, panel
     panel.contours = False
 
 
+@pytest.mark.long
 def test_stages_of_another_bridge_are_not_shown(blender, panel):
     ops, scene = blender.ops.bda, blender.context.scene
     ops.check_stages()
