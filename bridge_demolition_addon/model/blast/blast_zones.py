@@ -14,7 +14,7 @@ from ...engineering.drilled_charges.drill_holes import charge_length_m, hole_cap
 from ...engineering.drilled_charges.specific_charge import THROW_KG_M3, DrilledElement
 from ...engineering.geometry.sides import AXES, SIDES
 from ...errors import ScenarioError
-from ..actions import Fact, Plan, PlannedAction, Worksite
+from ..actions import CutPlane, Fact, Plan, PlannedAction, Worksite
 from ..schema import POSITION, SHARE, SIZE, given, key, shown
 from .charges import LARGEST_CHARGE_KG, MS_PER_S
 
@@ -223,6 +223,9 @@ class BlastZone(PlannedAction):
 
     def facts(self, site: Worksite) -> Iterator[Fact]:
         yield from site.facts_of_zone(self)
+
+    def cut_planes(self) -> tuple[CutPlane, ...]:
+        return tuple(CutPlane(self.member, self.along, end_m, self.table) for end_m in self.ends_along_m)
 
     def check_plan(self, plan: Plan) -> None:
         """Check that it fires after the settling and before the end of the run, if at all."""
