@@ -236,8 +236,8 @@ def _cut_along(member: Member, planes: Sequence[CutPlane], points: np.ndarray) -
     """Return a member whose parts end at planes, all across one axis, so that no shard lies across one."""
     if len(points):
         raise GeometryError(
-            f"{member.name} has {planes[0].table}, along which it is cut, and {len(points)} points of fracture.points or its "
-            "file: take these points out of it"
+            f"{member.name} has {planes[0].table}, along which it is cut, and {len(points)} points of fracture.points "
+            "or its file: take these points out of it"
         )
     axis = AXES.index(planes[0].along)
     positions_m = [plane.position_m for plane in planes]

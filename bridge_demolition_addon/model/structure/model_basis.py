@@ -1,7 +1,7 @@
 """What a model is built from: all of a scenario but what is done to its bridge, and when.
 
-`build_model` sees nothing else. So two scenarios with the same basis have the same model, to the last bit: a key that is
-new belongs to the basis, and whatever a scenario is stripped of cannot change a model.
+`build_model` sees nothing else. So two scenarios with the same basis have the same model, to the last bit: a key that
+is new belongs to the basis, and what a scenario is stripped of cannot change a model.
 """
 
 from __future__ import annotations
