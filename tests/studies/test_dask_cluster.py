@@ -139,6 +139,7 @@ def test_a_study_whose_scheduler_goes_can_go_on_here(cluster, tmp_path):
     assert tables_in(tmp_path / "out") == tables_in(tmp_path / "whole")
 
 
+@pytest.mark.long
 def test_a_worker_keeps_its_process_from_run_to_run(cluster, tmp_path):
     study = read_study(study_file(tmp_path / "in", 8, ("nothing",), seed=4))
     command, log = program_in(tmp_path)

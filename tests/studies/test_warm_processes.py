@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs of a worker go to a process that is warm, one at a time, and it is ended once there are none."""
 
-import os
 import time
 
 import pytest
+from support.processes import is_alive
 from support.run_programs import VERSIONS, begun, program_in, request
 
 from bridge_demolition_addon.studies.run_process import RunLimits
@@ -27,14 +27,6 @@ def processes(program):
     return begun(program[1])[1]
 
 
-def is_there(process):
-    """Whether a process that this one started is there; one that has ended is only left to be waited for."""
-    try:
-        return os.waitpid(process, os.WNOHANG)[0] == 0
-    except ChildProcessError:
-        return False
-
-
 def test_the_next_run_has_the_process_of_the_one_before(program, tmp_path):
     warm = WarmProcesses(idle_s=60.0)
     assert [play(warm, program, tmp_path / "run") for _ in range(3)] == ["done"] * 3
@@ -55,7 +47,7 @@ def test_one_that_nobody_asks_is_ended(program, tmp_path):
     assert play(warm, program, tmp_path / "1") == "done"
     (process,) = processes(program)
     deadline = time.monotonic() + 20.0
-    while is_there(process):
+    while is_alive(process):
         assert time.monotonic() < deadline
         time.sleep(0.02)
     assert play(warm, program, tmp_path / "2") == "done"
