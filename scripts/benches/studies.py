@@ -80,10 +80,10 @@ def draws(folder: Path, study: Path, count: int) -> dict[str, float]:
 
 def shared_models(study: Path, seeds: int) -> dict[str, float]:
     """Compare runs of candidates on the same seeds with models that are kept, and with each building its own."""
-    shared_s, own_s = _times_of(sys.executable, SHARED, study, CANDIDATES)
-    print(
-        f"{CANDIDATES} candidates on {seeds} seeds: models kept over own ones {shared_s / own_s:.3f}, by processor time"
-    )
+    shared_s, of_kept_s, own_s, of_own_s = _times_of(sys.executable, SHARED, study, CANDIDATES)
+    print(f"{CANDIDATES} candidates on {seeds} seeds, models kept over own ones, by processor time:")
+    print(f"whole runs {shared_s / own_s:.3f}, their models alone {of_kept_s / of_own_s:.3f}")
+    print(f"models are {of_own_s / own_s:.3f} of runs that build their own")
     return {"runs that share models over runs with their own": shared_s / own_s}
 
 
@@ -125,7 +125,7 @@ def _study_command(study: Path, output: Path, jobs: int) -> list[str]:
     return [*module, "study", str(study), "--output", str(output), "--quiet", "--jobs", str(jobs)]
 
 
-def _times_of(*command: object) -> tuple[float, float]:
+def _times_of(*command: object) -> tuple[float, ...]:
     """Seconds of the clock and of the processors that a command takes, or those that it prints."""
     before, began = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
     done = subprocess.run([*map(str, command)], check=True, capture_output=True, text=True, cwd=ROOT)

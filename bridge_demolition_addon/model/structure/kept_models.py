@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections import OrderedDict
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import fields, is_dataclass
 from typing import Any
 
 import numpy as np
 
+from ..bridge.member import Member
 from ..scenario import Scenario
 from .model import Model, model_on
 from .model_basis import ModelBasis
@@ -36,12 +37,15 @@ class KeptModels:
     def __len__(self) -> int:
         return len(self._models)
 
-    def model_of(self, scenario: Scenario) -> Model:
-        """Return the model of a scenario, which has the bits of `build_model`; built where it is not kept."""
+    def model_of(self, scenario: Scenario, members: Sequence[Member] | None = None) -> Model:
+        """Return the model of a scenario, which has the bits of `build_model`; built where it is not kept.
+
+        Its own members may be given where they are prepared already.
+        """
         basis = ModelBasis.of(scenario)
         digest = basis.digest
         if digest not in self._models:
-            self._keep(digest, model_on(basis))
+            self._keep(digest, model_on(basis, members))
         self._models.move_to_end(digest)
         return self._models[digest]
 
