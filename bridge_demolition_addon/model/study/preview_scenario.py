@@ -65,7 +65,8 @@ def preview_model(scenario: Scenario, models: KeptModels | None = None) -> tuple
     members = prepared_members(scenario).members
     coarse = preview_scenario(scenario, members)
     is_as_prepared = coarse.steelwork == scenario.steelwork  # other pieces are other members
-    model = (models or KeptModels()).model_of(coarse, members if is_as_prepared else None)
+    models = KeptModels() if models is None else models  # one that is empty counts as false
+    model = models.model_of(coarse, members if is_as_prepared else None)
     check_actions(coarse, model)
     return coarse, model
 
