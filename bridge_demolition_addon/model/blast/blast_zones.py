@@ -177,11 +177,6 @@ class BlastZone(PlannedAction):
         return DRILLED_EXPLOSIVES[self.explosive]
 
     @property
-    def charge_length_m(self) -> float:
-        """Length of the charge in each hole, m."""
-        return charge_length_m(self.charge_kg, self.hole_diameter_m, self.made_of.density_kg_m3)
-
-    @property
     def ends_along_m(self) -> tuple[float, float]:
         """Where it begins and ends along its member, m."""
         return self.middle_m - self.height_m / 2.0, self.middle_m + self.height_m / 2.0
@@ -261,6 +256,11 @@ class BlastZone(PlannedAction):
                 f"at most {most_kg / KG_PER_G:.1f} (g), which a hole of {self.hole_diameter_mm:g} mm holds in "
                 f"{self.depth_m - self.stemming_m:.3g} m below its stemming",
             )
+
+
+def length_of_charge_m(zone: BlastZone) -> float:
+    """Return the length of the charge in each hole of a zone, m."""
+    return charge_length_m(zone.charge_kg, zone.hole_diameter_m, zone.made_of.density_kg_m3)
 
 
 def named_zones(zones: Sequence[BlastZone]) -> tuple[BlastZone, ...]:
