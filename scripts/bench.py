@@ -39,14 +39,17 @@ def main() -> int:
     parser.add_argument("names", nargs="*", metavar="NAME", help="benches, all by default: " + ", ".join(BENCHES))
     parser.add_argument("--smallest", action="store_true", help="the smallest sizes, once: shows that benches work")
     parser.add_argument("--keep", action="store_true", help="note the ratios in docs/data/bench.csv, and draw them")
+    parser.add_argument("--runs", type=int, metavar="N", help="runs of the study of the bench `studies`, by default 16")
     parser.add_argument("--ratios", type=Path, help=argparse.SUPPRESS)
     options = parser.parse_args()
     if unknown := set(options.names) - set(BENCHES):
         parser.error(f"no bench has the name {', '.join(sorted(unknown))}")
     if options.keep and options.smallest:
         parser.error("the smallest sizes say nothing of speed: keep ratios of whole benches")
+    if options.runs and (options.names != ["studies"] or options.keep):
+        parser.error("--runs is for the bench studies alone, and its ratios are not kept beside those of others")
     if options.ratios or (len(options.names) == 1 and not options.keep):
-        return run(options.names[0], options.smallest, options.ratios)
+        return run(options.names[0], options.smallest, options.ratios, options.runs)
     with tempfile.TemporaryDirectory() as folder:
         return run_all(options.names or BENCHES, Path(folder), smallest=options.smallest, keep=options.keep)
 
@@ -68,10 +71,10 @@ def run_all(names: Sequence[str], folder: Path, *, smallest: bool, keep: bool) -
     return status
 
 
-def run(name: str, smallest: bool, ratios: Path | None) -> int:
-    """Run a bench in this process, and write its ratios where they are wanted."""
+def run(name: str, smallest: bool, ratios: Path | None, runs: int | None = None) -> int:
+    """Run a bench in this process, maybe with a number of runs, and write its ratios where they are wanted."""
     try:
-        found = importlib.import_module(f"benches.{name}").main(smallest)
+        found = importlib.import_module(f"benches.{name}").main(smallest, **({"runs": runs} if runs else {}))
     except Exception:
         traceback.print_exc()
         return 1

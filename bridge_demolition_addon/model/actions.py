@@ -99,6 +99,16 @@ class Worksite(Protocol):
         """Check that a member can be severed where a cut is."""
 
 
+@dataclass(frozen=True, slots=True)
+class CutPlane:
+    """A plane along which a member is cut into shards, so that an action can part it there."""
+
+    member: str
+    along: str  # the axis that it lies across
+    position_m: float
+    table: str  # of the action that asks for it
+
+
 class PlannedAction(Table):
     """Base of the tables of what is done to a bridge."""
 
@@ -129,6 +139,10 @@ class PlannedAction(Table):
     def targets(self) -> Iterator[tuple[str, Place]]:
         """Yield the keys and values of positions that have to be on the deck."""
         yield from ()
+
+    def cut_planes(self) -> tuple[CutPlane, ...]:
+        """Return the planes that shards end at: all that the model of a bridge takes of what is done to it."""
+        return ()
 
     def starts_above(self) -> tuple[Place, ...]:
         """Return the positions at which a member has to be below it."""

@@ -1,4 +1,4 @@
-"""Runs on an existing Dask cluster: each task starts a process of its own, whose crash a worker survives.
+"""Runs on an existing Dask cluster, in processes beside its workers, which survive their crashes.
 
 Files come back through Dask: no shared file system is needed.
 """
@@ -17,15 +17,19 @@ from ..errors import ClusterError, SimulationError
 from ..model.study.runs_table import KILLED, RunOutcome
 from ..system.disk import writing
 from .engine import Task, ended_items
-from .run_process import RunLimits, RunProcess
+from .run_process import RunLimits
 from .run_program import run_program_command
 from .versions import installed_blender, versions_with
+from .warm_processes import WarmProcesses
 
 if TYPE_CHECKING:
     from distributed import Future
 
 _ANSWERS_WITHIN_S = 5.0
 _COUNT_EVERY_S = 5.0
+_WARM = WarmProcesses()
+"""Those of this worker, for all of its threads."""
+
 _GONE = "the scheduler has gone; once it is back, the same command goes on"
 
 
@@ -133,13 +137,12 @@ def _versions_here() -> dict[str, str]:
 def _play_here(
     request: Mapping[str, Any], command: Sequence[str] | None, versions: Mapping[str, str], limits: RunLimits
 ) -> tuple[RunOutcome, dict[str, bytes]]:
-    """Make a run in a process of its own; return its outcome, and its files by their paths in its folder."""
-    process = RunProcess(command or run_program_command(), versions, limits)
-    try:
-        with tempfile.TemporaryDirectory(prefix="bda-run-") as folder:
-            target = Path(folder) / "run"
-            outcome = process.play(request, target)
-            paths = [path for path in target.rglob("*") if path.is_file()]
-            return outcome, {path.relative_to(target).as_posix(): path.read_bytes() for path in paths}
-    finally:
-        process.close()
+    """Make a run in a process beside the worker; return its outcome, and its files by their paths in its folder."""
+    with (
+        _WARM.process(command or run_program_command(), versions, limits) as process,
+        tempfile.TemporaryDirectory(prefix="bda-run-") as folder,
+    ):
+        target = Path(folder) / "run"
+        outcome = process.play(request, target)
+        paths = [path for path in target.rglob("*") if path.is_file()]
+        return outcome, {path.relative_to(target).as_posix(): path.read_bytes() for path in paths}

@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any, NoReturn
 from ..display.bridge_preview import sharp_edges
 from ..display.preview_outcome import PreviewOutcome
 from ..model.scenario.file import scenario_from_text
+from ..model.structure.kept_models import KeptModels
 from ..model.study.preview_scenario import preview_model
 from ..system.programs import program_command
 from .own_blender import versions_here
@@ -90,7 +91,7 @@ def main() -> NoReturn:
     from ..simulation import motion_run  # noqa: F401, loaded before anything is asked
 
     service.say({"versions": versions})
-    is_warm = False
+    is_warm, models = False, KeptModels()
     while True:
         request = service.next_request()
         if "folder" in request:
@@ -98,7 +99,7 @@ def main() -> NoReturn:
         if service.is_asked or "scenario" not in request:
             continue
         with suppress(_SupersededError):
-            answer = answer_of(request, partial(play, service))
+            answer = answer_of(request, partial(play, service, models))
             service.say({"number": request["number"], "is_over": True, **answer})
             is_warm = is_warm or warm_up(lambda: service.is_asked, Path(request["folder"]))
 
@@ -129,13 +130,13 @@ def warm_up(is_asked: Callable[[], bool], folder: Path) -> bool:
         return False
 
 
-def play(service: RunService, request: Mapping[str, Any], folder: Path) -> dict[str, Any]:
+def play(service: RunService, models: KeptModels, request: Mapping[str, Any], folder: Path) -> dict[str, Any]:
     """Make the run of a request, whose frames are kept in a folder meanwhile, and return its outcome."""
     from ..simulation.motion_run import motion_run
 
     answer_at_s = time.monotonic() + FIRST_ANSWER_S
     scenario = scenario_from_text(Path(request["scenario"]).read_text(encoding="utf-8"))
-    scenario, model = preview_model(scenario)
+    scenario, model = preview_model(scenario, models)
     outcome_of = partial(
         PreviewOutcome.of,
         edges_m=[sharp_edges(shard) for shard in model.shards],

@@ -7,6 +7,7 @@ what is recorded, both in TOML: motion alone, or everything as `bda run` does.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import partial
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -16,7 +17,9 @@ from ..model.results.arrays import RESULTS_FILE, Results, load_results
 from ..model.run_folder.files import BLEND_FILE, FORCE_CHART
 from ..model.scenario import Scenario
 from ..model.scenario.file import scenario_from_text
-from ..model.sequence.checked_model import checked_model
+from ..model.sequence.checked_model import check_actions
+from ..model.structure.kept_models import KeptModels
+from ..model.structure.model import Model
 from ..model.study.files import OUTLINES_FILE, RUN_FOLDER
 from ..model.study.outcome import evaluate
 from ..model.study.settings import EnsembleSettings
@@ -36,26 +39,32 @@ def run_program_command(blender: str = "") -> list[str]:
 def main() -> NoReturn:
     """Answer requests until there are no more."""
     service = RunService()
-    service.serve(versions_here(service), play)
+    service.serve(versions_here(service), partial(play, KeptModels()))
 
 
-def play(request: Mapping[str, Any], folder: Path) -> dict[str, Any]:
-    """Make the run of a request, leave its files in a folder, and return its outputs and its fingerprint."""
+def play(models: KeptModels, request: Mapping[str, Any], folder: Path) -> dict[str, Any]:
+    """Make the run of a request, leave its files in a folder, and return its outputs and its fingerprint.
+
+    Runs of one bridge that is cut alike share its model, as those of all candidates of an optimisation do.
+    """
     scenario = scenario_from_text(request["scenario"])
+    model = models.model_of(scenario)
+    check_actions(scenario, model)
     settings = table_of_document(EnsembleSettings, toml_document(request["study"]))
     if settings.keep == "outcome":
         from ..simulation.motion_run import motion_run
 
-        with motion_run(scenario, checked_model(scenario), folder) as (results, summary):
+        with motion_run(scenario, model, folder) as (results, summary):
             return _kept(results, summary, scenario, settings, folder)
-    return _play_whole(scenario, settings, folder)
+    return _play_whole(scenario, model, settings, folder)
 
 
-def _play_whole(scenario: Scenario, settings: EnsembleSettings, folder: Path) -> dict[str, Any]:
+def _play_whole(scenario: Scenario, model: Model, settings: EnsembleSettings, folder: Path) -> dict[str, Any]:
     from ..simulation.run import run_scenario
 
     run = folder / RUN_FOLDER
-    summary = run_scenario(scenario, run, overwrite=True, pictures=settings.keep == "all", progress=Progress())
+    pictures = settings.keep == "all"
+    summary = run_scenario(scenario, run, overwrite=True, pictures=pictures, progress=Progress(), model=model)
     answer = _kept(load_results(run), summary, scenario, settings, folder)
     if settings.keep == "logs":
         for name in (RESULTS_FILE, BLEND_FILE, FORCE_CHART):

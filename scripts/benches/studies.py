@@ -5,6 +5,8 @@ Blender's own time is taken in one process that builds each draw and plays it wi
 plays it by itself, where pieces that broke apart still pass through each other, and once with only what changes the
 outcome. A study of the same draws is taken as a user starts it: the command line with its start, that of
 Blender, building, recording and writing included. Draws that do nothing show what is left where Blender takes no time.
+
+Candidates of an optimisation have the same seeds, so that their runs share models: they are made with and without that.
 """
 
 import json
@@ -25,7 +27,10 @@ ROOT = Path(__file__).resolve().parents[2]
 SCENARIO, DRAWS, NOTHING = ROOT / "examples" / "report_2019" / "i235_one_span.toml", 16, 1000
 SMALLEST = ROOT / "tests" / "gui" / "small.toml", 1, 20
 """Scenario, how many draws of it, and how many that do nothing."""
-BARE = Path(__file__).with_name("bare_study.py")
+BARE, SHARED = (Path(__file__).with_name(name) for name in ("bare_study.py", "shared_runs.py"))
+CANDIDATES, SEEDS = 4, 3
+"""Candidates of an optimisation, and runs of each."""
+
 VERSIONS = {"program": "that does nothing"}
 LIMITS = RunLimits()
 
@@ -38,12 +43,14 @@ for line in sys.stdin:
 """A program of draws without anything of ours in it."""
 
 
-def main(smallest: bool) -> dict[str, float]:
-    """Print all ratios, and return those of a study over Blender's own steps."""
-    scenario, count, empty = SMALLEST if smallest else (SCENARIO, DRAWS, NOTHING)
+def main(smallest: bool, runs: int | None = None) -> dict[str, float]:
+    """Print all ratios, and return those of a study of so many runs over Blender's own steps, and of shared models."""
+    scenario, count, empty = SMALLEST if smallest else (SCENARIO, runs or DRAWS, NOTHING)
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         ratios = draws(folder, _study_file(folder / "study.toml", scenario, count), count)
+        seeds = 1 if smallest else SEEDS
+        ratios |= shared_models(_study_file(folder / "optimisation.toml", scenario, seeds), seeds)
         scheduling(folder, empty)
         scheduling_on_dask(folder, max(empty // 5, 20))
     return ratios
@@ -71,6 +78,15 @@ def draws(folder: Path, study: Path, count: int) -> dict[str, float]:
     return ratios
 
 
+def shared_models(study: Path, seeds: int) -> dict[str, float]:
+    """Compare runs of candidates on the same seeds with models that are kept, and with each building its own."""
+    shared_s, of_kept_s, own_s, of_own_s = _times_of(sys.executable, SHARED, study, CANDIDATES)
+    print(f"{CANDIDATES} candidates on {seeds} seeds, models kept over own ones, by processor time:")
+    print(f"whole runs {shared_s / own_s:.3f}, their models alone {of_kept_s / of_own_s:.3f}")
+    print(f"models are {of_own_s / own_s:.3f} of runs that build their own")
+    return {"runs that share models over runs with their own": shared_s / own_s}
+
+
 def scheduling(folder: Path, count: int) -> None:
     """Time draws that do nothing, here."""
     engine = LocalProcesses(1, LIMITS, [sys.executable, "-c", DOES_NOTHING], VERSIONS)
@@ -81,7 +97,7 @@ def scheduling(folder: Path, count: int) -> None:
 
 
 def scheduling_on_dask(folder: Path, count: int) -> None:
-    """Time draws that do nothing, each in a process of its own, on two workers of a cluster on this machine."""
+    """Time draws that do nothing on two workers of a cluster on this machine, each with a process that stays warm."""
     from distributed import LocalCluster
 
     from bridge_demolition_addon.studies.dask_cluster import DaskCluster
@@ -90,7 +106,7 @@ def scheduling_on_dask(folder: Path, count: int) -> None:
         command = [sys.executable, "-S", "-c", DOES_NOTHING]
         engine = DaskCluster(cluster.scheduler_address, LIMITS, command, VERSIONS)
         seconds = _play(folder / "dask", engine, count)
-    print(f"scheduling a draw on Dask, start of its process included: {1e3 * seconds / count:.1f} ms")
+    print(f"scheduling a draw on Dask: {1e3 * seconds / count:.1f} ms")
 
 
 def _play(output: Path, engine, count: int) -> float:
@@ -109,7 +125,7 @@ def _study_command(study: Path, output: Path, jobs: int) -> list[str]:
     return [*module, "study", str(study), "--output", str(output), "--quiet", "--jobs", str(jobs)]
 
 
-def _times_of(*command: object) -> tuple[float, float]:
+def _times_of(*command: object) -> tuple[float, ...]:
     """Seconds of the clock and of the processors that a command takes, or those that it prints."""
     before, began = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
     done = subprocess.run([*map(str, command)], check=True, capture_output=True, text=True, cwd=ROOT)

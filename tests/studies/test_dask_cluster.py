@@ -139,6 +139,15 @@ def test_a_study_whose_scheduler_goes_can_go_on_here(cluster, tmp_path):
     assert tables_in(tmp_path / "out") == tables_in(tmp_path / "whole")
 
 
+def test_a_worker_keeps_its_process_from_run_to_run(cluster, tmp_path):
+    study = read_study(study_file(tmp_path / "in", 8, ("nothing",), seed=4))
+    command, log = program_in(tmp_path)
+    play(study, tmp_path / "out", DaskCluster(cluster.address, LIMITS, command, VERSIONS))
+    deeds, processes = begun(log)
+    assert len(deeds) == 8
+    assert len(set(processes)) <= 2  # workers, each with one thread
+
+
 @pytest.mark.long
 def test_blender_runs_on_the_workers(cluster, tmp_path, capsys):
     study = study_file(tmp_path / "in", 1, ("One",))

@@ -14,7 +14,7 @@ from ...engineering.drilled_charges.drill_holes import charge_length_m, hole_cap
 from ...engineering.drilled_charges.specific_charge import THROW_KG_M3, DrilledElement
 from ...engineering.geometry.sides import AXES, SIDES
 from ...errors import ScenarioError
-from ..actions import Fact, Plan, PlannedAction, Worksite
+from ..actions import CutPlane, Fact, Plan, PlannedAction, Worksite
 from ..schema import POSITION, SHARE, SIZE, given, key, shown
 from .charges import LARGEST_CHARGE_KG, MS_PER_S
 
@@ -177,11 +177,6 @@ class BlastZone(PlannedAction):
         return DRILLED_EXPLOSIVES[self.explosive]
 
     @property
-    def charge_length_m(self) -> float:
-        """Length of the charge in each hole, m."""
-        return charge_length_m(self.charge_kg, self.hole_diameter_m, self.made_of.density_kg_m3)
-
-    @property
     def ends_along_m(self) -> tuple[float, float]:
         """Where it begins and ends along its member, m."""
         return self.middle_m - self.height_m / 2.0, self.middle_m + self.height_m / 2.0
@@ -224,6 +219,9 @@ class BlastZone(PlannedAction):
     def facts(self, site: Worksite) -> Iterator[Fact]:
         yield from site.facts_of_zone(self)
 
+    def cut_planes(self) -> tuple[CutPlane, ...]:
+        return tuple(CutPlane(self.member, self.along, end_m, self.table) for end_m in self.ends_along_m)
+
     def check_plan(self, plan: Plan) -> None:
         """Check that it fires after the settling and before the end of the run, if at all."""
         first_s, last_s = self.begins_s(plan), self.ends_s(plan)
@@ -258,6 +256,11 @@ class BlastZone(PlannedAction):
                 f"at most {most_kg / KG_PER_G:.1f} (g), which a hole of {self.hole_diameter_mm:g} mm holds in "
                 f"{self.depth_m - self.stemming_m:.3g} m below its stemming",
             )
+
+
+def length_of_charge_m(zone: BlastZone) -> float:
+    """Return the length of the charge in each hole of a zone, m."""
+    return charge_length_m(zone.charge_kg, zone.hole_diameter_m, zone.made_of.density_kg_m3)
 
 
 def named_zones(zones: Sequence[BlastZone]) -> tuple[BlastZone, ...]:

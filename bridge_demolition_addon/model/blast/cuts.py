@@ -7,7 +7,7 @@ from typing import ClassVar
 
 from ...engineering.geometry.sides import AXES
 from ...errors import ScenarioError
-from ..actions import Fact, Plan, PlannedAction, Worksite
+from ..actions import CutPlane, Fact, Plan, PlannedAction, Worksite
 from ..schema import POSITION, SHARE, key, shown
 from .blast_zones import DETONATORS, NO_SCATTER, BlastZone, check_fires_within, scattered_time_s
 from .charges import LARGEST_CHARGE_KG, MS_PER_S
@@ -68,6 +68,9 @@ class MemberCut(PlannedAction):
         when = f"{self.begins_s(site.plan):.3f} s" if self.fires else "misfires"
         where = f"{self.member}, severed at {self.along} = {self.position_m:g} m"
         yield f"{self.name}", f"{where}, {self.mass_kg:.3g} kg, {when}"
+
+    def cut_planes(self) -> tuple[CutPlane, ...]:
+        return (CutPlane(self.member, self.along, self.position_m, self.table),)
 
     def check_plan(self, plan: Plan) -> None:
         """Check that it fires after the settling and before the end of the run, if at all."""

@@ -3,6 +3,7 @@
 A file may be a variant, which only says how it differs from the file that it is based on.
 """
 
+import hashlib
 import logging
 from collections.abc import Iterable, Iterator
 from os import PathLike, fspath
@@ -87,6 +88,17 @@ def files_of(scenario: Scenario) -> Iterator[Path]:
             values = [getattr(table, step) for table in tables]
             tables = [inner for value in values for inner in (value if isinstance(value, tuple) else [value]) if inner]
         yield from (Path(path) for table in tables if (path := getattr(table, key)))
+
+
+def file_digests(scenario: Scenario) -> list[str]:
+    """Return the SHA-256, in hexadecimal digits, of each file that a scenario names, in the order of `files_of`."""
+    digests = []
+    for path in files_of(scenario):
+        try:
+            digests.append(hashlib.sha256(path.read_bytes()).hexdigest())
+        except OSError as error:
+            raise ScenarioError(f"{path}: cannot be read: {error.strerror}") from error
+    return digests
 
 
 def _scenario_of_document(document: dict[str, Any]) -> Scenario:

@@ -347,6 +347,12 @@ def action_fields(scenario_class: type[Table]) -> tuple[str, ...]:
     )
 
 
+def no_actions(scenario: Scenario) -> dict[str, Any]:
+    """Return the fields of all actions where nothing is done to the bridge, as `replace` takes them."""
+    held = {name: getattr(scenario, name) for name in action_fields(Scenario)}
+    return {name: () if isinstance(value, tuple) else None for name, value in held.items()}
+
+
 def joints_of_faces(scenario: Scenario) -> tuple[Joint, ...]:
     """Return the joints of a scenario that are not those of steelwork, and stand before these."""
     connections = scenario.connections

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import fields, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -12,7 +12,7 @@ import numpy as np
 from ..results.arrays import Results
 from ..results.motion import MOVED_M, travel
 from ..scenario import Scenario
-from ..scenario.scenario import action_fields
+from ..scenario.scenario import no_actions
 
 AWAKE_S = 5.0
 """How long a bridge is left alone to see whether it stands: what slides off its cracks has come down in 5 s, and not in
@@ -31,16 +31,10 @@ def first_event_s(scenario: Scenario) -> float:
 
 def left_alone(scenario: Scenario, seconds: float = AWAKE_S) -> Scenario:
     """Return a scenario in which nothing is done to the bridge, awake, for so long after its warm-up."""
-    names = set(action_fields(Scenario))
-    nothing: dict[str, Any] = {
-        item.name: () if isinstance(getattr(scenario, item.name), tuple) else None
-        for item in fields(scenario)
-        if item.name in names
-    }
     at_rest = (0.0, 0.0, 0.0)
     return replace(
         scenario,
-        **nothing,
+        **no_actions(scenario),
         geometry=tuple(replace(table, velocity_m_s=at_rest, spin_rad_s=at_rest) for table in scenario.geometry),
         shards=replace(scenario.shards, start_deactivated=False),
         time=replace(scenario.time, duration_s=scenario.warm_up_s + seconds, stop_at_rest=False),

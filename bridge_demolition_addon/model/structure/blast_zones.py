@@ -27,7 +27,7 @@ from ...engineering.drilled_charges.specific_charge import (
 from ...engineering.fracture.slabs import slab_between
 from ...engineering.mechanics.strength import NEWTON_PER_SQUARE_MILLIMETRE
 from ..actions import Fact
-from ..blast.blast_zones import THROWN_AWAY, BlastZone, element_of
+from ..blast.blast_zones import THROWN_AWAY, BlastZone, element_of, length_of_charge_m
 from ..bridge.member import Member, members_named
 from ..materials.bar_layers import BarLayer
 from ..reinforcement.design import all_layers
@@ -77,7 +77,7 @@ class PlacedZone:
     def burden_m(self) -> float:
         """Distance of the charges to the nearest free face beside them or behind them."""
         beside = (self.width_m - (self.zone.rows - 1) * self.row_spacing_m) / 2.0
-        behind = self.thickness_m - self.zone.depth_m + self.zone.charge_length_m / 2.0
+        behind = self.thickness_m - self.zone.depth_m + length_of_charge_m(self.zone) / 2.0
         return min(beside, behind)
 
     @property
@@ -127,7 +127,7 @@ class PlacedZone:
         """Scaled depth of burial of its charges, m/kg^(1/3)."""
         zone = self.zone
         density = zone.made_of.density_kg_m3
-        return float(scaled_depth_of_burial(zone.charge_length_m, zone.stemming_m, zone.hole_diameter_m, density))
+        return float(scaled_depth_of_burial(length_of_charge_m(zone), zone.stemming_m, zone.hole_diameter_m, density))
 
     @property
     def fragment_speed_m_s(self) -> float:

@@ -29,9 +29,10 @@ from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.sides import AXES
 from ...engineering.geometry.solids import contains
 from ...errors import GeometryError
+from ..actions import CutPlane
 from ..bridge.member import Member, members_named
 from ..reinforcement.concrete_members import names_with_bars
-from ..scenario import BlastZone, FractureSettings, MemberCut, Scenario
+from ..scenario import FractureSettings, Scenario
 from ..scenario.fracture import MemberFracture
 from ..schema import SHORTEST_LENGTH_M, given
 from .point_files import paint_from_file, points_from_file
@@ -81,8 +82,10 @@ class FracturedMembers:
     bar_joints: BarJoints
 
 
-def fractured_members(scenario: Scenario, members: Sequence[Member]) -> FracturedMembers:
-    """Return members in shards as a scenario asks for; the same seed gives the same shards."""
+def fractured_members(
+    scenario: Scenario, members: Sequence[Member], planes: Sequence[CutPlane] = ()
+) -> FracturedMembers:
+    """Return members in shards as a scenario asks for, cut along planes; the same seed gives the same shards."""
     settings = scenario.fracture
     density = _density(settings)
     own_points = _points_by_member(settings, members)
@@ -103,10 +106,9 @@ def fractured_members(scenario: Scenario, members: Sequence[Member]) -> Fracture
             through_plates=bool({member.name, member.kind} & with_bars),
             recursion=_recursion(settings),
         )
-        zones = [zone for zone in scenario.blast_zones if zone.member == member.name]
-        cuts = [cut for cut in scenario.cuts if cut.member == member.name]
+        own_planes = [plane for plane in planes if plane.member == member.name]
         whole = member if len(own_points[index]) else _in_convex_parts(member, int(counts[index]))
-        cut = _cut_for_blasting(whole, zones, cuts, own_points[index]) if zones or cuts else whole
+        cut = _cut_along(whole, own_planes, own_points[index]) if own_planes else whole
         # Each part takes one shard at least, but of those that a bridge is made of by rule.
         as_planned = cut is member and not (member.keeps_parts or member.is_in_pieces)
         count = int(counts[index]) if as_planned else max(int(counts[index]), len(cut.parts))
@@ -230,19 +232,16 @@ def _fractured(member: Member, count: int, points: np.ndarray, seed: int, option
         raise GeometryError(f"{member.name}: {error}") from error
 
 
-def _cut_for_blasting(
-    member: Member, zones: Sequence[BlastZone], cuts: Sequence[MemberCut], points: np.ndarray
-) -> Member:
-    """Return a member whose parts end at the planes of its blast zones and cuts, so that no shard lies across one."""
+def _cut_along(member: Member, planes: Sequence[CutPlane], points: np.ndarray) -> Member:
+    """Return a member whose parts end at planes, all across one axis, so that no shard lies across one."""
     if len(points):
-        planned = BlastZone.table if zones else MemberCut.table
         raise GeometryError(
-            f"{member.name} has {planned}, along which it is cut, and {len(points)} points of fracture.points or its "
-            "file: take these points out of it"
+            f"{member.name} has {planes[0].table}, along which it is cut, and {len(points)} points of fracture.points "
+            "or its file: take these points out of it"
         )
-    axis = AXES.index(zones[0].along if zones else cuts[0].along)
-    planes = [*(end_m for zone in zones for end_m in zone.ends_along_m), *(cut.position_m for cut in cuts)]
-    pieces = [slabs(part, axis, planes) for part in member.parts or (member.solid,)]
+    axis = AXES.index(planes[0].along)
+    positions_m = [plane.position_m for plane in planes]
+    pieces = [slabs(part, axis, positions_m) for part in member.parts or (member.solid,)]
     columns = zip(pieces, member.directions, strict=True) if member.directions else ()
     directions = tuple(direction for own, direction in columns for _ in own)
     return replace(member, parts=tuple(chain.from_iterable(pieces)), directions=directions)

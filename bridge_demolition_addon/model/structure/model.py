@@ -17,7 +17,7 @@ from ...engineering.mechanics.reinforcement import FaceBars
 from ...engineering.structure import connections as connecting
 from ...engineering.structure.connections import Connections
 from ...engineering.structure.face_sections import second_moments
-from ..bridge.extent import room_around
+from ..bridge.extent import ground_half_size
 from ..bridge.member import Member, mean_density
 from ..bridge.preparation import prepared_members
 from ..reinforcement.design import all_layers
@@ -43,6 +43,7 @@ from .crack_bars import CrackBars, even_bars_n
 from .face_bars import CrackedShards, face_bars, within_reinforced
 from .footings import on_footings, second_moments_of, soil_springs, with_soil
 from .members import FracturedMembers, fractured_members, shards_with_gaps
+from .model_basis import ModelBasis
 from .starter_bars import starter_bars
 from .steelwork import (
     SteelConnections,
@@ -137,10 +138,16 @@ class Model:
 
 def build_model(scenario: Scenario, members: Sequence[Member] | None = None) -> Model:
     """Return the model of a scenario, always the same; of members without overlap, by default all its own."""
+    return model_on(ModelBasis.of(scenario), members)
+
+
+def model_on(basis: ModelBasis, members: Sequence[Member] | None = None) -> Model:
+    """Return the model of all scenarios that have a basis; of members as in `build_model`."""
+    scenario = basis.scenario
     members = prepared_members(scenario).members if members is None else tuple(members)
     solids = [(member.name, member.solid) for member in members]
-    ground = built_ground(scenario, solids, room_around(scenario, members))
-    fractured = fractured_members(scenario, members)
+    ground = built_ground(scenario, solids, ground_half_size(members, basis.clear_height_m))
+    fractured = fractured_members(scenario, members, basis.planes)
     shards, centres, faces = fractured.shards, fractured.centres_m, fractured.faces
     rules = scenario.connections.between
     rules_of = partial(rules_of_pairs, rules, members, fractured.member_of_shard)

@@ -13,7 +13,8 @@ from ..scenario import Scenario
 from ..scenario.fracture import FractureSettings
 from ..scenario.steelwork import Steelwork
 from ..scenario.time import TimeSettings
-from ..sequence.checked_model import checked_model
+from ..sequence.checked_model import check_actions
+from ..structure.kept_models import KeptModels
 from ..structure.model import Model
 
 SHARDS, ELASTIC_SHARDS = 80, 50
@@ -56,12 +57,18 @@ def preview_scenario(scenario: Scenario, members: Sequence[Member]) -> Scenario:
     return scenario if found == scenario else found
 
 
-def preview_model(scenario: Scenario) -> tuple[Scenario, Model]:
-    """Return the coarse scenario of a preview, and its model; an action that acts on nothing raises ScenarioError."""
+def preview_model(scenario: Scenario, models: KeptModels | None = None) -> tuple[Scenario, Model]:
+    """Return the coarse scenario of a preview, and its model; an action that acts on nothing raises ScenarioError.
+
+    Previews of one bridge share its model where models are kept.
+    """
     members = prepared_members(scenario).members
     coarse = preview_scenario(scenario, members)
     is_as_prepared = coarse.steelwork == scenario.steelwork  # other pieces are other members
-    return coarse, checked_model(coarse, members if is_as_prepared else None)
+    models = KeptModels() if models is None else models  # one that is empty counts as false
+    model = models.model_of(coarse, members if is_as_prepared else None)
+    check_actions(coarse, model)
+    return coarse, model
 
 
 def in_shards(fracture: FractureSettings, most: int) -> FractureSettings:

@@ -16,9 +16,8 @@ from typing import Any
 
 import numpy as np
 
-from ...errors import ScenarioError
 from ..scenario import Scenario
-from ..scenario.file import files_of, scenario_text
+from ..scenario.file import file_digests, scenario_text
 from .file import SEED, Ensemble
 from .keys import ScenarioKey, changed
 
@@ -47,7 +46,7 @@ class SampledRun:
 
     def cache_key(self, versions: Mapping[str, str]) -> str:
         """Return the SHA-256, in hexadecimal digits, of all that the result of the run depends on."""
-        parts = [scenario_text(self.scenario), evaluation_settings(self.ensemble), *_file_digests(self.scenario)]
+        parts = [scenario_text(self.scenario), evaluation_settings(self.ensemble), *file_digests(self.scenario)]
         parts += [f"{name} {version}" for name, version in sorted(versions.items())]
         return _digest(*(part.encode() for part in parts)).hex()
 
@@ -79,17 +78,6 @@ def _random_bits(ensemble: Ensemble, number: int, name: str) -> int:
     words = np.frombuffer(_digest(name.encode()), "<u4")[:_WORDS_OF_NAME].tolist()
     sequence = np.random.SeedSequence(ensemble.settings.seed, spawn_key=(number, *words))
     return int(np.random.PCG64(sequence).random_raw())
-
-
-def _file_digests(scenario: Scenario) -> list[str]:
-    """Return digests of the files that a scenario names."""
-    digests = []
-    for path in files_of(scenario):
-        try:
-            digests.append(_digest(path.read_bytes()).hex())
-        except OSError as error:
-            raise ScenarioError(f"{path}: cannot be read: {error.strerror}") from error
-    return digests
 
 
 def _digest(*parts: bytes) -> bytes:

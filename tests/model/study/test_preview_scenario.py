@@ -12,6 +12,7 @@ from bridge_demolition_addon.model.bridge.preparation import prepared_members
 from bridge_demolition_addon.model.scenario import FractureSettings
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.scenario.fracture import FracturePoint, MemberFracture
+from bridge_demolition_addon.model.structure.kept_models import KeptModels
 from bridge_demolition_addon.model.structure.model import build_model
 from bridge_demolition_addon.model.study.preview_scenario import (
     ELASTIC_SHARDS,
@@ -121,3 +122,11 @@ def test_each_member_has_a_shard_at_least():
     members = prepared_members(I235).members
     found = preview_scenario(with_fracture(shards=5000), members * SHARDS)
     assert found.fracture.shards == SHARDS * len(members)
+
+
+def test_previews_of_one_bridge_share_its_model():
+    models = KeptModels()
+    first, model = preview_model(I235, models)
+    second, shared = preview_model(replace(I235, ball=replace(I235.ball, drop_height_m=2.0)), models)
+    assert shared is model and first != second
+    assert preview_model(replace(I235, seed=2), models)[1] is not model
