@@ -244,6 +244,8 @@ def record(person: Person, panels: Panels) -> Steps:
     """Start Recording, and play; contours and colour bar meanwhile."""
     yield from panels.show_only("Record by Hand")
     save_file(person)
+    for name in ("debris", "force"):  # those that were chosen, as a picture shows them
+        setattr(person.scene.bda, f"{name}_log_path", f"//my_{name}_log.csv")
     person.take_reports()
     yield from register(person, "//results")
     person.expect_reports("nothing but the registering is reported", "Recording to")

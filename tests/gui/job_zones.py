@@ -37,7 +37,8 @@ def steps(person: Person) -> Steps:
     yield from delete_all(person)
     person.take_reports()
     with person.in_sidebar():
-        bpy.ops.bda.load_preset(preset=SCENARIO.stem)  # without a path, which a picture would show
+        # Without a path, which a picture would show, and with a step to undo to.
+        bpy.ops.bda.load_preset("EXEC_DEFAULT", True, preset=SCENARIO.stem)
     yield 0.5
     person.expect("nothing is built", len(person.scene.objects), 0)
     yield from see_zones(person)
