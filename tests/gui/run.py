@@ -67,6 +67,7 @@ EXPECTED_ON_CONSOLE = re.compile(
     r"|Warning: (Changed in Blender, and not in the scenario of the run|The bridge does not stand by itself)"
     r"|(Scene: |Warning: Not as it was built: )\d+ (shards?|body|bodies) (is|are) (moved|missing|added)"
     r"|(Scene: |Warning: Not as it was built: )the \w+ of the scenario is missing"
+    r"|Scene: \d+ connections? (fewer|more) than built"
     r"|Info: (\d+ force fields made|\d+ members added from the selected meshes)"
     r"|Warning: \d+ shards? creeps? "
 )
