@@ -29,7 +29,12 @@ def build(person: Person, scenario: Path = SCENARIO) -> Steps:
     yield 1.0
 
 
-def register(person: Person, results: Path) -> Steps:
+def save_file(person: Person) -> None:
+    """Save what is open, so that paths beside it are short in pictures."""
+    bpy.ops.wm.save_as_mainfile(filepath=str(person.folder / "bridge.blend"))
+
+
+def register(person: Person, results: Path | str) -> Steps:
     """Choose a folder and register the handler."""
     yield from person.fill_in("output_directory", str(results))
     yield from person.click("bda.register_handler")

@@ -14,7 +14,7 @@ import bpy
 import numpy as np
 from bpy_extras.view3d_utils import location_3d_to_region_2d
 from file_browser import choose_file
-from habits import delete_all, load, play_or_pause, register, undo_and_redo
+from habits import delete_all, load, play_or_pause, register, save_file, undo_and_redo
 from panels import Panels
 from person import Person, Steps, region_of
 from traces import PRESETS, charges, colours, recording_runs, rows, scenario_in
@@ -243,7 +243,11 @@ def choose_logs(person: Person, panels: Panels) -> Steps:
 def record(person: Person, panels: Panels) -> Steps:
     """Start Recording, and play; contours and colour bar meanwhile."""
     yield from panels.show_only("Record by Hand")
-    yield from register(person, person.folder / "results")
+    save_file(person)
+    for name in ("debris", "force"):  # those that were chosen, as a picture shows them
+        setattr(person.scene.bda, f"{name}_log_path", f"//my_{name}_log.csv")
+    person.take_reports()
+    yield from register(person, "//results")
     person.expect_reports("nothing but the registering is reported", "Recording to")
     yield 1.0  # Blender moves the panels below slowly
     yield from person.illustrate("registered", person.sidebar)

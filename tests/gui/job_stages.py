@@ -11,7 +11,7 @@ from traces import module, rows
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "stages" / "excavator_on_the_deck.toml"
 STAGES_S = 600.0
-"""The example's stages take eight seconds on one core; a machine may be busy."""
+"""The example's stages take about a minute on one core; a machine may be busy."""
 SEARCH_S = 300.0
 LOWEST_M, HIGHEST_M = 0.05, 0.1
 """Drops that never bring a bridge down, so that the search ends after its opening trials."""

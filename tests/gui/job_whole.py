@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from dragging import handle_of, hold, on_screen, out_of_sight
 from file_browser import choose_file
-from habits import delete_all, undo, undo_and_redo
+from habits import delete_all, save_file, undo, undo_and_redo
 from panels import Panels
 from person import Person, Steps
 from timeline import drag_to_frame, timeline
@@ -68,6 +68,8 @@ def steps(person: Person) -> Steps:
     yield from empty_scene(person, panels)
     yield from choose_preset(person)
     yield from save_and_compare(person)
+    settings = person.scene.bda
+    settings.scenario_path = settings.loaded_path = ""  # pictures would show the path
     yield from change_density(person, panels)
     yield from build_bridge(person, panels)
     yield from move_a_zone(person)
@@ -187,7 +189,8 @@ def show_contours(person: Person, panels: Panels) -> Steps:
 def run(person: Person, panels: Panels) -> Steps:
     """Choose a folder and click Run; contours and progress meanwhile; pictures at its end."""
     yield from panels.show_only("Run")
-    yield from person.fill_in("output_directory", str(person.folder / "results"))
+    save_file(person)
+    yield from person.fill_in("output_directory", "//results")
     yield from person.click("bda.run")
     yield from person.wait_for("it runs", recording_runs, 20.0)
     shown = []

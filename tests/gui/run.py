@@ -17,7 +17,6 @@ import re
 import shutil
 import subprocess
 import sys
-import sysconfig
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
@@ -41,8 +40,10 @@ JOB_SECONDS = 3600
 PICTURES = "pictures"
 """Folder of a job's pictures for the walk-through."""
 
-LIBRARIES = {"import": ("ifcopenshell", "lark", "shapely", "shapely.libs", "typing_extensions.py")}
-"""What another extension would have brought for a job, by names in the site-packages that this runs with."""
+LIBRARIES = {"import": ("ifcopenshell", "lark", "shapely", "typing_extensions")}
+"""What another extension would have brought for a job."""
+LIBRARY_TAGS = ("manylinux_2_31_x86_64", "manylinux_2_28_x86_64", "manylinux2014_x86_64")
+"""Systems that its wheels are for."""
 
 ENDED_BY_SIGNAL = 128
 """Exit statuses above this one are signals."""
@@ -66,6 +67,7 @@ EXPECTED_ON_CONSOLE = re.compile(
     r"|Warning: (Changed in Blender, and not in the scenario of the run|The bridge does not stand by itself)"
     r"|(Scene: |Warning: Not as it was built: )\d+ (shards?|body|bodies) (is|are) (moved|missing|added)"
     r"|(Scene: |Warning: Not as it was built: )the \w+ of the scenario is missing"
+    r"|Scene: \d+ connections? (fewer|more) than built"
     r"|Info: (\d+ force fields made|\d+ members added from the selected meshes)"
     r"|Warning: \d+ shards? creeps? "
 )
@@ -75,13 +77,18 @@ EXPECTED_ON_CONSOLE = re.compile(
 def main() -> int:
     options = parse()
     try:
-        machine = found_system(options.blender) if not options.root else None
-        machine = machine or debian_root(options.root or CHECKOUT / "build" / "gui_test" / options.suite, options.suite)
-        output = emptied(options.output.resolve())
-        install(machine, build(machine, output), output)
+        return do_jobs(options)
     except SetupError as error:
         print(f"gui_test: {error}", file=sys.stderr)
         return 1
+
+
+def do_jobs(options: argparse.Namespace) -> int:
+    """Make Blender ready with the extension, and do the jobs in it; the exit status."""
+    machine = found_system(options.blender) if not options.root else None
+    machine = machine or debian_root(options.root or CHECKOUT / "build" / "gui_test" / options.suite, options.suite)
+    output = emptied(options.output.resolve())
+    install(machine, build(machine, output), output)
     jobs = options.job or JOBS
     if options.repeat > 1:
         failures = sum([repeat_job(machine, output, job, options.repeat) for job in jobs])
@@ -147,12 +154,7 @@ def keep_pictures(output: Path, jobs: Sequence[str], folder: Path) -> None:
 
 def build(machine: System | DebianRoot, output: Path) -> Path:
     """The extension's zip for the Python and the numpy of that Blender, whatever series they make."""
-    question = "import sys, numpy; print('versions %d.%d' % sys.version_info[:2], numpy.__version__)"
-    answer = blender(machine, output, "--background", "--factory-startup", "--python-expr", question)
-    versions = re.search(r"^versions (\S+) (\S+)$", answer.stdout, re.MULTILINE)
-    if not versions:
-        raise SetupError(f"{machine.blender} does not start:\n{answer.stdout}{answer.stderr}")
-    python, numpy = versions.groups()
+    python, numpy = versions_of(machine, output)
     builder = build_extension()
     known = builder.SERIES.get(python) or builder.Series("", python, numpy, "", None, ())
     series = replace(known, name="gui-test", blender_min="4.2.0", blender_max=None, platforms=("linux-x64",))
@@ -165,6 +167,16 @@ def build(machine: System | DebianRoot, output: Path) -> Path:
     if failures:
         raise SetupError("; ".join(map(str, failures)))
     return archives[0]
+
+
+def versions_of(machine: System | DebianRoot, output: Path) -> tuple[str, str]:
+    """The Python and the numpy of that Blender."""
+    question = "import sys, numpy; print('versions %d.%d' % sys.version_info[:2], numpy.__version__)"
+    answer = blender(machine, output, "--background", "--factory-startup", "--python-expr", question)
+    versions = re.search(r"^versions (\S+) (\S+)$", answer.stdout, re.MULTILINE)
+    if not versions:
+        raise SetupError(f"{machine.blender} does not start:\n{answer.stdout}{answer.stderr}")
+    return versions.groups()
 
 
 def build_extension() -> ModuleType:
@@ -244,8 +256,8 @@ def do(machine: System | DebianRoot, output: Path, job: str, folder: Path) -> tu
     The home is empty at first: the results of another job are kept there.
     """
     make_empty(output / "home")
-    for name in LIBRARIES.get(job, ()):
-        copy_library(name, folder / "libraries" / name)
+    if job in LIBRARIES:
+        bring_libraries(LIBRARIES[job], versions_of(machine, output)[0], folder / "libraries")
     window = ("--enable-event-simulate", "--gpu-backend", "opengl", "--window-geometry", "0", "0", *window_size(job))
     driven = ("--python", str(HERE / "drive.py"), "--", job, str(folder))
     session = ("python3", str(HERE / "session.py"), str(JOB_SECONDS), machine.blender, *window, *driven)
@@ -257,14 +269,13 @@ def do(machine: System | DebianRoot, output: Path, job: str, folder: Path) -> tu
     return status, checks
 
 
-def copy_library(name: str, target: Path) -> None:
-    """Copy a package or module of the Python that this runs with, if it has it."""
-    target.parent.mkdir(exist_ok=True)
-    source = Path(sysconfig.get_path("platlib")) / name
-    if source.is_dir():
-        shutil.copytree(source, target)
-    elif source.is_file():
-        shutil.copyfile(source, target)
+def bring_libraries(names: Sequence[str], python: str, folder: Path) -> None:
+    """Put libraries for a Python, which need not be the one that this runs with, into a folder."""
+    command = [sys.executable, "-m", "pip", "install", "--quiet", "--no-deps", "--only-binary=:all:"]
+    command += [f"--python-version={python}", *(f"--platform={tag}" for tag in LIBRARY_TAGS), f"--target={folder}"]
+    result = subprocess.run([*command, *names], capture_output=True, text=True)
+    if result.returncode:
+        raise SetupError(f"pip could not install {', '.join(names)} for Python {python}:\n{result.stderr.strip()}")
 
 
 def checked(folder: Path) -> list[tuple[str, str]]:

@@ -110,8 +110,8 @@ class CrackedStructure:
     def load(self, accelerations: FloatArray, overloaded: Overloaded, tear: Tear, pause: Pause) -> bool:
         """Let it come to rest under loads by mass (6, n), connections breaking one after another.
 
-        Return whether it did. What falls, or goes on moving, is not held any more. `pause` is called in each step, each
-        time that something breaks.
+        Return whether it did. What falls, or goes on moving, is not held any more. `pause` is called before each
+        solving.
         """
         built = self._built
         structure = ElasticStructure(
@@ -156,8 +156,7 @@ class CrackedStructure:
     ) -> tuple[bool, ElasticStep]:
         """Whether anything broke in a step, and the step without that."""
         self._step_s = _STEPS_S[-1] if self._falls else _STEPS_S[0]
-        pause()
-        step = self._short_step(structure, accelerations)
+        step = self._short_step(structure, accelerations, pause)
         for number in range(_MOST_ROUNDS):
             self._falls = self._farthest_m(step) > _FALLS_M[_STEPS_S.index(self._step_s)]
             if self._falls:
@@ -167,16 +166,16 @@ class CrackedStructure:
                 return number > 0, step
             self.intact[rows] = False
             tear(self.cracks, rows, self.positions_m, self.rotations)
-            pause()
-            step = self._short_step(structure, accelerations)
+            step = self._short_step(structure, accelerations, pause)
         return True, step
 
-    def _short_step(self, structure: ElasticStructure, accelerations: FloatArray) -> ElasticStep:
+    def _short_step(self, structure: ElasticStructure, accelerations: FloatArray, pause: Pause) -> ElasticStep:
         """Return a step in which nothing goes farther than `_LONGEST_M`, or the shortest; no longer than the last."""
         for step_s in _STEPS_S[_STEPS_S.index(self._step_s) :]:
             self._step_s = step_s
             free = np.where(self.held, self._step_s * accelerations, 0.0)
-            step = self._with_friction(structure, StepInput(self.positions_m, self.rotations, free, ~self.held))
+            start = StepInput(self.positions_m, self.rotations, free, ~self.held)
+            step = self._with_friction(structure, start, pause)
             if self._farthest_m(step) <= _LONGEST_M:
                 break
         return step
@@ -184,13 +183,15 @@ class CrackedStructure:
     def _farthest_m(self, step: ElasticStep) -> float:
         return self._step_s * float(abs(self._moving(step)[:3]).max())
 
-    def _with_friction(self, structure: ElasticStructure, start: StepInput) -> ElasticStep:
+    def _with_friction(self, structure: ElasticStructure, start: StepInput, pause: Pause) -> ElasticStep:
         """Return a step in which sides of cracks rub by how they are pressed in it."""
+        pause()
         step = structure.step(start, self.intact, self._step_s)
         for _ in range(_REGRIPS if len(self.cracks) else 0):
             moving = self._moving(step)
             if not self.cracks.grip(*self._moved(moving)):
                 break
+            pause()
             step = structure.step(start, self.intact, self._step_s)
         return step
 

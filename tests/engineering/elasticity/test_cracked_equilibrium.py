@@ -11,6 +11,7 @@ from bridge_demolition_addon.engineering.elasticity.equations import RigidBodies
 from bridge_demolition_addon.engineering.elasticity.equilibrium import equilibrium
 from bridge_demolition_addon.engineering.elasticity.joint_rows import JointFrames
 from bridge_demolition_addon.engineering.elasticity.steel_bars import Steel
+from bridge_demolition_addon.engineering.elasticity.structure import ElasticStructure
 
 MASS_KG, SIDE_M, THICK_M, STIFFNESS_N_M, GRAVITY_M_S2 = 2000.0, 4.0, 0.1, 1e9, 10.0
 WEIGHT_N = MASS_KG * GRAVITY_M_S2
@@ -36,7 +37,7 @@ def plates(yield_n, opening_m, steel, side):
     return CrackedStructure(BuiltStructure(frames, stiffness, bodies), cracks, left, one, rest)
 
 
-def carries(structure, side, acceleration_m_s2):
+def carries(structure, side, acceleration_m_s2, pause=lambda: None):
     """Whether it comes to rest, once its connection has cracked, with this acceleration."""
 
     def tear(cracks, rows, positions_m, rotations):
@@ -47,7 +48,7 @@ def carries(structure, side, acceleration_m_s2):
 
     accelerations = np.zeros((6, 2))
     accelerations[:3, 1] = acceleration_m_s2
-    return structure.load(accelerations, lambda loads, intact: np.flatnonzero(intact), tear, lambda: None)
+    return structure.load(accelerations, lambda loads, intact: np.flatnonzero(intact), tear, pause)
 
 
 @pytest.mark.slow
@@ -90,3 +91,18 @@ def test_a_copy_goes_on_by_itself():
     assert hanging.held[1]
     np.testing.assert_array_equal(hanging.positions_m, before_m)
     assert carries(hanging, -1, (0.0, 0.0, -0.4 * GRAVITY_M_S2))
+
+
+def test_others_go_on_before_each_solving(monkeypatch):
+    """Also where sides of the crack rub and it is solved again with that: one after another they would take long."""
+    done, solve = [], ElasticStructure.step
+
+    def noted(structure, *arguments):
+        done.append("solved")
+        return solve(structure, *arguments)
+
+    monkeypatch.setattr(ElasticStructure, "step", noted)
+    lying = plates(0.0, 0.0, Steel(), 1)
+    carries(lying, 1, (0.95 * FRICTION * GRAVITY_M_S2, 0.0, -GRAVITY_M_S2), lambda: done.append("paused"))
+    assert len(done) > 2
+    assert done == ["paused", "solved"] * (len(done) // 2)
