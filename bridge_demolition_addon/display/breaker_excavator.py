@@ -20,7 +20,7 @@ _ASIDE_M = (-2.0, 2.0, 0.0, -5.0, 5.0, -8.0, 8.0)
 """How far from its work it may stand, away from the bridge and along it."""
 
 _ELBOW_SHARES, _ELBOW_RISES_M = (0.45, 0.6, 0.75), (0.8, 2.0, 4.0)
-"""Where its elbow may be: as parts of the way from the tool to the heel of its arm, and how high above the upper one."""
+"""Where its elbow may be: as parts of the way from the tool to the heel of its arm, and how high above both."""
 
 _HEEL_M = (1.2, -0.3, 2.0)
 _BOOM_M, _STICK_M = 0.55, 0.4
