@@ -76,8 +76,8 @@ def tradeoff(figure: FigureBase, best: Best) -> None:
     axes.plot(*points[holds].T, "ko", markersize=4, fillstyle="none", label="succeeds often enough")
     if front.any():
         on_front = points[front][np.argsort(points[front, 0], kind="stable")]
-        style = {"drawstyle": "steps-post", "marker": "o", "markersize": 4} | line_style(0)
-        axes.plot(*on_front.T, **style, label="no other has less of both")  # of one point it has no length
+        label = "no other has less of both"
+        axes.plot(*on_front.T, "o", drawstyle="steps-post", markersize=4, **line_style(0), label=label)
     chosen = points[[candidate.number == best.candidate for candidate in tried]]
     axes.plot(*chosen.T, "k*", markersize=12, label="the answer")
     axes.set_xlabel("all charges (kg)")

@@ -34,7 +34,7 @@ _ROWS = 6
 def breaker_excavators(results: Results, row: int, room: StandingRoom) -> list[DrawnPart]:
     """Return an excavator for every jackhammer of a run in a row of its frames, with its hammer around the chisel.
 
-    It stands in the same place all the time, where it cuts neither the bridge nor debris.
+    It stays where it stands, and cuts neither the bridge nor debris.
     """
     parts: list[DrawnPart] = []
     some = np.unique(np.linspace(0, len(results.frames) - 1, _ROWS).astype(int))
