@@ -29,8 +29,8 @@ REALISTIC_PICTURES = PICTURES / "realistic.json"
 """Names of the examples whose pictures are by `pictures.renderer = "realistic"`."""
 
 LOOKS = """\
-They are by `pictures.renderer = "realistic"`. Road, banks, figures, crane, dust, chips, bent bars and rough faces are
-for looks only: they are no bodies, and change no motion ([what is drawn](pictures.md#looks))."""
+They are by `pictures.renderer = "realistic"`. Road, banks, figures, machines, dust, chips, bent bars and rough faces
+are for looks only: they are no bodies, and change no motion ([what is drawn](pictures.md#looks))."""
 
 MOMENTS = ("before", "impact", "after")
 PICTURE_PX, GAP_PX = (480, 270), 8

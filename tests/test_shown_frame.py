@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Pictures of presets show what comes down where the key frame shows a bridge that stands."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from pictures.shown_frame import shown_frame
@@ -24,6 +26,13 @@ def test_what_stands_at_the_key_frame_is_shown_as_it_comes_down():
 
 def test_a_key_frame_in_which_something_has_moved_is_shown():
     assert shown_frame(falling(), 4) == 4
+
+
+def test_a_deck_that_has_only_begun_to_come_down_is_shown_at_its_fastest():
+    begun = falling()
+    places = np.array(begun.frames.positions_m)
+    places[1, 1, 2] = -0.5
+    assert shown_frame(replace(begun, frames=replace(begun.frames, positions_m=places)), 3) == 5
 
 
 def test_where_nothing_comes_down_the_key_frame_is_shown():

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import FigureBase
-from matplotlib.ticker import PercentFormatter
+from matplotlib.ticker import LogLocator, NullFormatter, PercentFormatter
 
 from ..model.optimise.conclusions import Best
 from ..model.search.conclusions import Answer
@@ -43,10 +43,12 @@ def search_curve(figure: FigureBase, answer: Answer) -> None:
         axes.plot([answer.limit], [settings.probability], arrow, label="the answer")
     if settings.logarithmic:
         axes.set_xscale("log")
+        axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        axes.xaxis.set_major_formatter("{x:.10g}")
+        axes.xaxis.set_minor_formatter(NullFormatter())
     span = settings.highest - settings.lowest
     axes.set_xlim(settings.lowest - (0 if settings.logarithmic else 0.05 * span), settings.highest + 0.05 * span)
-    unit = f" ({search.unit})" if search.unit else (" (factor)" if settings.factor else "")
-    axes.set_xlabel(plain(settings.key + unit))
+    axes.set_xlabel(plain(search.shown_quantity))
     axes.set_ylabel("runs that meet all criteria")
     axes.yaxis.set_major_formatter(PercentFormatter(1.0))
     axes.grid(color="0.9", linewidth=0.5)
@@ -74,11 +76,13 @@ def tradeoff(figure: FigureBase, best: Best) -> None:
     axes.plot(*points[holds].T, "ko", markersize=4, fillstyle="none", label="succeeds often enough")
     if front.any():
         on_front = points[front][np.argsort(points[front, 0], kind="stable")]
-        axes.plot(*on_front.T, drawstyle="steps-post", **line_style(0), label="no other has less of both")
+        label = "no other has less of both"
+        axes.plot(*on_front.T, "o", drawstyle="steps-post", markersize=4, **line_style(0), label=label)
     chosen = points[[candidate.number == best.candidate for candidate in tried]]
     axes.plot(*chosen.T, "k*", markersize=12, label="the answer")
     axes.set_xlabel("all charges (kg)")
-    axes.set_ylabel(f"{settings.quantile:g} quantile of the debris distance (m), {settings.runs_each} runs each")
+    of_several = f"{settings.quantile:g} quantile of the debris distance (m), {settings.runs_each} runs each"
+    axes.set_ylabel(of_several if settings.runs_each > 1 else "debris distance (m), 1 run each")
     axes.grid(color="0.9", linewidth=0.5)
     axes.set_axisbelow(True)
     figure.legend(loc="outside upper center", ncols=4, frameon=False)

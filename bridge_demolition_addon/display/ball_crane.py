@@ -6,48 +6,68 @@ from itertools import pairwise
 
 import numpy as np
 
-from ..engineering.geometry.solids import box
-from ..engineering.terrain.recorded import RecordedGround
+from ..engineering.arrays import FloatArray
 from ..model.results.arrays import Results
+from .crawlers import Crawler, freest, stands
 from .dressing import DrawnPart, Stuff, rod
+from .standing_room import StandingRoom
 
-_ABOVE_M, _BEYOND_M = 4.0, 16.0
-"""How far its tip is above the highest place of the ball, and how far it stands from it."""
+_ABOVE_M = (6.0, 12.0, 20.0, 35.0)
+"""How far its tip may be above the highest place of the ball, where the crane is not the run's own."""
 
-_BOOM_M, _LATTICE = 0.9, 12
+_BEYOND_M, _ASIDE_M = (20.0, 23.0, 26.0, 30.0, 35.0), (-4.0, 4.0, 0.0, -8.0, 8.0)
+"""How far from its tip it may stand: far enough to be seen over the deck."""
+
+_HEEL_M = (1.2, 0.0, 2.0)
+_BOOM_M, _LATTICE = 0.9, 14
 _ROPE_M = 0.07
-_PLATFORM_M = (9.0, 9.0)
-"""Length and width of the level soil that it stands on where the ground is not level."""
 
 
-def ball_cranes(results: Results, row: int) -> list[DrawnPart]:
+def ball_cranes(results: Results, row: int, room: StandingRoom) -> list[DrawnPart]:
     """Return a crane for every ball of a run in a row of its frames, with its rope to the ball.
 
-    Its tip is above where the ball was when it was last at its highest, or where the ball's own crane stands.
+    Its tip is above where the ball was when it was last at its highest, or where the ball's own crane stands. It stands
+    where it cuts neither the bridge nor debris.
     """
-    inventory, frames, ground = results.inventory, results.frames, results.ground()
-    own = inventory.of_kind("crane")
     parts: list[DrawnPart] = []
-    for number, ball in enumerate(inventory.of_kind("ball").tolist()):
-        path = frames.positions_m[: row + 1, ball]
-        if number < len(own):
-            tip = np.array(frames.positions_m[row, own[number]], float)
-        else:
-            highest = frames.positions_m[:, ball, 2].max()
-            at_top = np.flatnonzero(path[:, 2] >= path[:, 2].max() - 0.5)[-1]
-            tip = np.array((*path[at_top, :2], highest + _ABOVE_M), float)
-        parts += [DrawnPart(Stuff.BLACK, rod(tip, path[-1], _ROPE_M)), *_crane(tip, ground)]
+    for number, ball in enumerate(results.inventory.of_kind("ball").tolist()):
+        crane, tip = _crane(_tips(results, row, number, ball), room)
+        rope = DrawnPart(Stuff.BLACK, rod(tip, results.frames.positions_m[row, ball], _ROPE_M))
+        parts += [rope, *_boom(*crane.arm_to(tip)), *crane.parts(room.ground)]
     return parts
 
 
-def _crane(tip: np.ndarray, ground: RecordedGround) -> list[DrawnPart]:
-    """Return a crawler crane on the far side of the road, whose lattice boom ends at a point (3,), m."""
-    x, y = float(tip[0]) + 4.0, float(tip[1]) + _BEYOND_M
-    z, platform = _platform(x, y, ground)
-    foot = np.array((x, y, z))
-    heel = foot + np.array((0.0, -1.5, 2.0))
-    across = np.array((0.0, 0.0, _BOOM_M)), np.array((_BOOM_M, 0.0, 0.0))
-    corners = [(a * across[0] + b * across[1]) / 2.0 for a, b in ((-1, -1), (-1, 1), (1, 1), (1, -1))]
+def _tips(results: Results, row: int, number: int, ball: int) -> list[FloatArray]:
+    """Return where the tip of a ball's crane may be (3,), m, the best place first."""
+    frames, own = results.frames, results.inventory.of_kind("crane")
+    if number < len(own):
+        return [np.array(frames.positions_m[row, own[number]], float)]
+    path = frames.positions_m[: row + 1, ball]
+    at_top = np.flatnonzero(path[:, 2] >= path[:, 2].max() - 0.5)[-1]
+    highest = float(frames.positions_m[:, ball, 2].max())
+    return [np.array((*path[at_top, :2], highest + above), float) for above in _ABOVE_M]
+
+
+def _crane(tips: list[FloatArray], room: StandingRoom) -> tuple[Crawler, FloatArray]:
+    """Return the crane that cuts least, and its tip (3,), m."""
+    found = []
+    for tip in tips:
+        machines = (Crawler(*stand, _HEEL_M) for stand in stands(tip[:2], room.ground, _BEYOND_M, _ASIDE_M))
+        crane, cuts = freest(machines, tip[None], room, _BOOM_M)
+        found.append((cuts, crane, tip))
+        if not cuts:
+            break
+    _, crane, tip = min(found, key=lambda one: one[0])
+    return crane, tip
+
+
+def _boom(heel: FloatArray, tip: FloatArray) -> list[DrawnPart]:
+    """Return the lattice boom of a crane, which tapers towards its tip."""
+    axis = (tip - heel) / np.linalg.norm(tip - heel)
+    sideways = np.cross(axis, (0.0, 0.0, 1.0))
+    sideways /= np.linalg.norm(sideways)
+    upwards = np.cross(sideways, axis)
+    corners = [_BOOM_M * (a * upwards + b * sideways) / 2.0 for a, b in ((-1, -1), (-1, 1), (1, 1), (1, -1))]
     shares = np.linspace(0.0, 1.0, _LATTICE + 1)
     rods = []
     for number, corner in enumerate(corners):
@@ -59,22 +79,4 @@ def _crane(tip: np.ndarray, ground: RecordedGround) -> list[DrawnPart]:
                 for share, place in ((begin, corner), (end, following))
             ]
             rods.append(rod(ends[0], ends[1], 0.06))
-    tracks = [box((6.0, 1.0, 1.1), (x, y + side * 2.2, z + 0.55)) for side in (-1.0, 1.0)]
-    house = box((5.0, 3.2, 2.2), (x + 0.5, y, z + 2.3))
-    return [
-        *(DrawnPart(Stuff.RED, one) for one in rods),
-        *(DrawnPart(Stuff.BLACK, track) for track in tracks),
-        DrawnPart(Stuff.YELLOW, house),
-        *platform,
-    ]
-
-
-def _platform(x: float, y: float, ground: RecordedGround) -> tuple[float, list[DrawnPart]]:
-    """Return how high the ground is that a crane stands on, and a level platform where it is not level."""
-    length, width = _PLATFORM_M
-    corners = np.array([(x + a * length / 2.0, y + b * width / 2.0) for a in (-1, 0, 1) for b in (-1, 0, 1)])
-    heights = ground.heights_at(corners)
-    high, low = float(heights.max()), float(heights.min())
-    if high - low < 1e-3:
-        return high, []
-    return high, [DrawnPart(Stuff.SOIL, box((length, width, high - low + 1.0), (x, y, (high + low - 1.0) / 2.0)))]
+    return [DrawnPart(Stuff.RED, one) for one in rods]

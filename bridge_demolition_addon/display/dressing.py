@@ -9,7 +9,7 @@ import numpy as np
 
 from ..engineering.geometry.mesh import TriangleMesh, joined_meshes
 
-LOOKS_ONLY = "For looks only: surroundings, figures, crane, dust, chips, bars, rough faces"
+LOOKS_ONLY = "For looks only: surroundings, figures, machines, dust, chips, bars, rough faces"
 """What every dressed picture says of itself."""
 
 
@@ -56,6 +56,6 @@ def rod(start_m: np.ndarray, end_m: np.ndarray, thickness_m: float) -> TriangleM
     half = thickness_m / 2.0
     ring = np.array([x * right + y * up for x, y in ((-half, -half), (half, -half), (half, half), (-half, half))])
     vertices = np.concatenate((ring + start_m, ring + end_m))
-    sides = [(a, (a + 1) % 4, (a + 1) % 4 + 4) for a in range(4)] + [(a, (a + 1) % 4 + 4, a + 4) for a in range(4)]
-    ends = [(0, 2, 1), (0, 3, 2), (4, 5, 6), (4, 6, 7)]
+    sides = [(a, (a + 1) % 4 + 4, (a + 1) % 4) for a in range(4)] + [(a, a + 4, (a + 1) % 4 + 4) for a in range(4)]
+    ends = [(0, 1, 2), (0, 2, 3), (4, 6, 5), (4, 7, 6)]
     return TriangleMesh(vertices, np.array(sides + ends))

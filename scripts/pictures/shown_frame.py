@@ -9,6 +9,9 @@ from bridge_demolition_addon.model.results.motion import without_removed
 LITTLE_M = 0.3
 """Where no shard has moved farther by the key frame, a picture of it shows a bridge that stands."""
 
+LITTLE_SHARE = 0.25
+"""The same, as a part of how far any shard moves in the run: a deck that has begun to come down still looks whole."""
+
 
 def shown_frame(results: Results, key_frame: int) -> int:
     """Return the frame that shows most: the key frame of a run, or that in which what comes down is fastest.
@@ -25,7 +28,7 @@ def shown_frame(results: Results, key_frame: int) -> int:
     places_m, speeds_m_s = staying.frames.positions_m[:, shards], staying.frames.velocities_m_s[:, shards]
     moved_m = np.linalg.norm(places_m - places_m[0], axis=2).max(axis=1, initial=0.0)
     row = int(np.argmin(np.abs(frames.number - key_frame)))
-    if moved_m[row] > LITTLE_M or moved_m.max() <= LITTLE_M:
+    if moved_m[row] > max(LITTLE_M, LITTLE_SHARE * moved_m.max()) or moved_m.max() <= LITTLE_M:
         return key_frame
     energies_j = np.square(speeds_m_s).sum(axis=2) @ staying.inventory.masses_kg[shards] / 2.0
     return int(frames.number[energies_j.argmax()])

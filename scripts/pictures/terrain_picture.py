@@ -76,8 +76,8 @@ release_time_s = 0.2
 
 [pictures]
 renderer = "realistic"
-width_px = 960
-height_px = 540
+width_px = 640
+height_px = 360
 """
 
 

@@ -11,9 +11,9 @@ from support.report_texts import told_of_study
 from support.study_folders import BRIDGE, TOLD_SCENARIO, VARIED, told_debris, told_runs, told_study
 
 from bridge_demolition_addon.engineering.geometry.plan_areas import outlines
+from bridge_demolition_addon.model.study.shown_names import shown
 from bridge_demolition_addon.report.ensemble.influence import correlation_table
 from bridge_demolition_addon.report.ensemble.plan import layers
-from bridge_demolition_addon.report.ensemble.reported_ensemble import shown
 
 
 @pytest.fixture(scope="module")

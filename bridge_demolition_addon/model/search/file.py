@@ -13,6 +13,7 @@ from ..study.file import SEED, Ensemble, read_ensemble_file, variations_of
 from ..study.files import ANSWER_FILE, SEARCH_FILE, TRIALS_FILE
 from ..study.keys import ScenarioKey, changed, keys_named
 from ..study.sampled_runs import SampledRun, sampled_run
+from ..study.shown_names import shown
 from .settings import LevelScale, SearchSettings
 
 
@@ -37,6 +38,14 @@ class Search(Ensemble):
     def unit(self) -> str:
         """Unit of the quantity, empty for a plain number."""
         return "" if self.settings.factor else self.keys[0].unit
+
+    @property
+    def shown_quantity(self) -> str:
+        """The quantity as people read it, with its unit in brackets, or the word factor."""
+        words = shown(self.settings.key)
+        if self.settings.factor:
+            return f"{words.rpartition(' (')[0] or words} (factor)"
+        return words if not self.unit or words.endswith(")") else f"{words} ({self.unit})"
 
     def run_at(self, number: int, value: float) -> SampledRun:
         """Return a run, from 1 on, at a value of the quantity."""

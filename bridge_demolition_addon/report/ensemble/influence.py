@@ -20,8 +20,9 @@ from ...charts.study_charts import (
 from ...engineering.statistics.ranks import correlation_by_chance, rank_correlation
 from ...model.study.distributions import Distribution
 from ...model.study.file import Study, Variation
+from ...model.study.shown_names import shown
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section
-from .reported_ensemble import ReportedEnsemble, shown
+from .reported_ensemble import ReportedEnsemble
 
 _PANELS_AT_ONCE = 20
 """What fits on a page."""

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from ...model.study.shown_names import shown
 from ..document.blocks import Column, DataTable, Paragraph, Section
-from .reported_ensemble import shown
 from .study_runs import StudyRuns
 
 _OF_NEIGHBOURS = "neighbours."

@@ -13,6 +13,7 @@ from ...model.optimise.conclusions import CANDIDATE, ROUND, Best, TriedCandidate
 from ...model.optimise.file import Optimisation
 from ...model.optimise.rounds import CONFIRMATION
 from ...model.study.runs_table import RunsTable
+from ...model.study.shown_names import shown
 from ...system.progress import Progress
 from ...version import VERSION
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Report, Section
@@ -20,7 +21,7 @@ from ..wording.numbers import percent
 from ..wording.optimise import optimise_sentences
 from .document import doubts_of, ensemble_document, statement_section, unfinished_sentence
 from .influence import correlation_table
-from .reported_ensemble import ReportedEnsemble, names_of_runs, shown
+from .reported_ensemble import ReportedEnsemble, names_of_runs
 from .runs import runs_section
 
 _MOST_CANDIDATES = 200
@@ -77,8 +78,8 @@ def _asked(optimisation: Optimisation, runs: ReportedEnsemble) -> Iterator[tuple
     yield (
         "Rounds",
         (
-            f"{settings.candidates} candidates with {settings.runs_each} runs each, {settings.finalists} finalists "
-            f"with {settings.finalist_runs} fresh runs each, {settings.confirmation_runs} fresh runs of the one chosen"
+            f"{settings.candidates} candidates, runs of each: {settings.runs_each}; {settings.finalists} finalists, "
+            f"fresh runs of each: {settings.finalist_runs}; fresh runs of the one chosen: {settings.confirmation_runs}"
         ),
     )
     yield "What may change", ", ".join(optimisation.space.names)

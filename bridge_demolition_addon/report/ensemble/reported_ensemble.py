@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -11,13 +10,12 @@ from typing import Any, Self
 
 import numpy as np
 
-from ...engineering.units import name_and_unit
 from ...errors import OutputError
 from ...model.ensemble.folder import read_ensemble
 from ...model.optimise.conclusions import CANDIDATE, ROUND
-from ...model.study.criteria import Criterion
 from ...model.study.file import SEED, Ensemble
 from ...model.study.runs_table import REACH, RunsTable
+from ...model.study.shown_names import shown
 from ..names import names_of
 
 
@@ -63,26 +61,6 @@ class ReportedEnsemble:
         """Names of all outputs that are numbers, not all of them the same."""
         of_numbers = [name for name in self.table.outputs if self.table.output(name).dtype == float]
         return tuple(name for name in of_numbers if len(np.unique(_finite(self.table.output(name)))) > 1)
-
-
-def shown(name: str) -> str:
-    """Return the name of an input or output as people read it: its unit in brackets, of a criterion only its own."""
-    if name.startswith(_CRITERION):
-        return name.removeprefix(_CRITERION).strip('"')
-    name = name.replace("reach", "debris_distance")
-    in_list = _IN_LIST.search(name)
-    position = in_list[0] if in_list else ""
-    name = name.removesuffix(position)
-    name = _QUOTED_OR_DOT.sub(lambda part: " " if part[0] == "." else part[0], name)
-    name, unit = name_and_unit(name)
-    return f"{name.replace('_', ' ')}{position.replace('.', ' ')}" + (f" ({unit})" if unit else "")
-
-
-_IN_LIST = re.compile(r"\.\d+$")
-"""The position of a value in a list, at the end of a name."""
-
-_QUOTED_OR_DOT = re.compile(r'"[^"]*"|\.')
-_CRITERION = f"{Criterion.table}."
 
 
 def _finite(values: np.ndarray) -> np.ndarray:

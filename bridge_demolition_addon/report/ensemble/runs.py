@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 
 from ...model.study.runs_table import DONE, REACH, RunRow
+from ...model.study.shown_names import shown
 from ..document.blocks import Block, Column, DataTable, Paragraph, Photo, Section
 from .influence import correlations_of
-from .reported_ensemble import ReportedEnsemble, shown
+from .reported_ensemble import ReportedEnsemble
 from .study_runs import StudyRuns
 
 _MOST_RUNS = 200

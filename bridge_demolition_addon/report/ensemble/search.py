@@ -70,10 +70,9 @@ def _curve_section(answer: Answer) -> Section:
 
 def _runs_section(answer: Answer) -> Section:
     search = answer.search
-    unit = f" ({search.unit})" if search.unit else ""
     columns = (
         Column("run", "trial", "d"),
-        Column(f"{search.settings.key}{unit}", "value", ".6g"),
+        Column(search.shown_quantity, "value", ".6g"),
         Column("all criteria", "success"),
     )
     rows = [

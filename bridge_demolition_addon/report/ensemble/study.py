@@ -14,6 +14,7 @@ from ...engineering.units import rounded_up
 from ...model.scenario import Scenario
 from ...model.study.conclusions import SimultaneousLimits
 from ...model.study.files import PLAN_DXF, PLAN_GEOJSON
+from ...model.study.shown_names import shown
 from ...system.progress import Progress
 from ...version import VERSION
 from ..document.blocks import Block, Column, DataTable, Document, Paragraph, Picture, Report, Section
@@ -30,7 +31,7 @@ from .fragments import fragments_section
 from .influence import correlation_table
 from .neighbours import neighbours_section
 from .plan import layers, plan_section
-from .reported_ensemble import names_of_runs, shown
+from .reported_ensemble import names_of_runs
 from .runs import extremes_section, runs_section
 from .study_runs import StudyRuns
 from .summary import study_summary

@@ -16,12 +16,14 @@ from mathutils import Matrix, Vector
 from ...display.approaches import approaches
 from ...display.ball_crane import ball_cranes
 from ...display.bent_bars import bent_bars
+from ...display.breaker_excavator import breaker_excavators
 from ...display.chips import Chips, chips_of
 from ...display.dressing import LOOKS_ONLY, DrawnPart, Stuff, joined_by_stuff, rod
 from ...display.dust import are_steel, puffs, touchdowns
 from ...display.road_furniture import road_furniture
 from ...display.scale_bar import ScaleBar, scale_bar
 from ...display.shard_motion import moved, parted
+from ...display.standing_room import StandingRoom
 from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.solids import box
 from ...errors import OutputError
@@ -95,7 +97,9 @@ class DressedScene:
         self._caption: Caption | None = None
         self._show_bodies()
         self._show_others()
-        for body, made in self._add_parts([*road_furniture(results), *approaches(results)]):
+        beside = [*road_furniture(results), *approaches(results)]
+        self._room = StandingRoom.of_run(results, beside)
+        for body, made in self._add_parts(beside):
             if body is not None:
                 self._carried.append((made, body))
         times = dict(zip(results.frames.number.tolist(), results.frames.time_s.tolist(), strict=True))
@@ -152,9 +156,10 @@ class DressedScene:
             self._caption.show_time(float(frames.time_s[row]))
 
     def _show_of_frame(self, row: int, frame: int, hidden: set[int]) -> None:
-        """Show what has another shape in every frame: ropes, bars and chips."""
+        """Show what has another shape in every frame: ropes, arms, bars and chips."""
         _remove(self._of_frame)
-        parts = ball_cranes(self._results, row)
+        parts = ball_cranes(self._results, row, self._room)
+        parts += breaker_excavators(self._results, row, self._room)
         if self._has_bars:
             parts += [
                 self._at(part, row) for part in bent_bars(self._results, self._opened[row]) if part.body not in hidden

@@ -94,7 +94,7 @@ class BDA_OT_load_preset(UndoableAction, bpy.types.Operator):
     bl_label = "Load Preset"
     bl_description = (
         "Show the values of this preset in the panels, and its charges in the scene. In its picture road, banks, "
-        "figures, crane, dust and bars are for looks only"
+        "figures, machines, dust and bars are for looks only"
     )
     changes_objects = True
 

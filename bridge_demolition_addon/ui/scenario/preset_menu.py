@@ -65,8 +65,8 @@ class PresetProperties:
 
     preset: EnumProperty(
         name="Presets",
-        description="Click to choose a scenario to start from, by its picture. There road, banks, figures, crane, dust "
-        "and bars are for looks only",
+        description="Click to choose a scenario to start from, by its picture. There road, banks, figures, machines, "
+        "dust and bars are for looks only",
         items=lambda settings, context: _items(settings, context),
         get=lambda settings: _shown_number(settings),
         set=lambda _, number: _load(number),
