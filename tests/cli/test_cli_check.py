@@ -192,6 +192,7 @@ def test_what_its_own_weight_breaks_is_told_of(tmp_path, capsys, material, stand
     assert ("the bridge may fall by itself" in capsys.readouterr().out) != stands
 
 
+@pytest.mark.long
 def test_how_a_bridge_that_breaks_by_a_force_would_stand_is_said_too(tmp_path, capsys):
     file = tmp_path / "span.toml"
     for force_n, count in ((1.0, None), (1e12, 0)):

@@ -6,7 +6,6 @@ import re
 import numpy as np
 import pytest
 from support.checkout import EXAMPLES, PRESETS, ROOT
-from support.long_cases import long_but
 
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
@@ -31,7 +30,8 @@ def test_the_table_names_presets():
     assert set(QUICK) < set(rows()) <= set(FILES)
 
 
-@pytest.mark.parametrize("name", long_but(["beam_cut_in_stages"], QUICK))
+@pytest.mark.long
+@pytest.mark.parametrize("name", QUICK)
 def test_it_comes_down_at_as_many_times_its_weight_as_the_page_says(blender, name):
     row, scenario = rows()[name], read_scenario(FILES[name])
     model = checked_model(scenario)

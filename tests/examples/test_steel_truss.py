@@ -3,6 +3,7 @@
 
 from dataclasses import replace
 
+import pytest
 from support.checkout import EXAMPLES
 
 from bridge_demolition_addon.model.scenario.file import read_scenario
@@ -24,6 +25,7 @@ def test_it_stands_and_none_of_its_bars_buckles():
     assert max(use.used for use in uses) < 0.5
 
 
+@pytest.mark.long
 def test_no_seed_changes_it():
     """Its header says that one run is all that there is."""
     scenario = read_scenario(FILE)

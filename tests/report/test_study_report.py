@@ -91,6 +91,7 @@ def test_likely_places_are_within_rarer_ones(runs):
     assert found["probability above 50 %"].area() > 24.0 * 6.0 - 1e-6  # what every run covers
 
 
+@pytest.mark.long
 def test_many_runs_resolve_what_is_rare_and_show_some_dots():
     runs = told_runs(told_study(runs=510, vary=VARIED[2:3], criteria=()))
     assert "probability above 1 %" in layers(runs)

@@ -42,6 +42,7 @@ def reinforced(blocks, connection, normal, sides_m, yield_n, elongation_m, steel
     keep_breaking(blocks.scene, Breaking(strength, 0.0, Ductility(1.0, elongation_m), 0.0, steel))
 
 
+@pytest.mark.long
 def test_a_block_stretches_its_bars_as_the_bilinear_law_says(blender, tmp_path):
     """It hangs by them, and its weight grows past the force at which they yield, and is taken off them again."""
     blocks, mass_kg, elongation_m = Blocks(), 2000.0, 0.1

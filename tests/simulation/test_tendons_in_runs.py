@@ -49,6 +49,7 @@ def test_connections_carry_the_prestress_from_the_first_frame_on(blender, tmp_pa
     assert np.abs(moments[:, 1]) == pytest.approx(np.abs(by_statics.moments_nm[row, 1]), rel=0.01)
 
 
+@pytest.mark.long
 def test_a_beam_without_its_tendons_comes_down(blender, tmp_path):
     """Its weight alone is more than plain concrete resists; a saw cut takes all of a tendon without bond."""
     saw = "[[saw_cuts]]\ntime_s = 0.1\npoint_m = [18.01, 0.0, 3.5]\nnormal = [1.0, 0.0, 0.0]\n"

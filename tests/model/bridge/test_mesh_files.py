@@ -56,6 +56,7 @@ def test_formats_give_the_same_member(file_of, suffix):
     np.testing.assert_allclose(member.solid.bounds, [[-2, -0.5, 0], [2, 0.5, 4]], atol=SINGLE_M)
 
 
+@pytest.mark.long
 def test_a_glb_file_gives_vertices_of_its_own_precision_wherever_they_are_placed(tmp_path):
     """The product that places them has other last bits on other processors."""
     scene = trimesh.Scene()

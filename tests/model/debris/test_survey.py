@@ -99,6 +99,7 @@ def test_surveys_are_read_and_placed(ending, tmp_path):
     assert points == pytest.approx(there, abs=0.011)
 
 
+@pytest.mark.long
 def test_what_is_no_survey_is_refused(tmp_path):
     with pytest.raises(ScenarioError, match=r"scan\.dwg: expected a survey that ends in one of \.las"):
         read_survey(tmp_path / "scan.dwg", STAY)

@@ -109,6 +109,7 @@ def test_bare_bars_carry_up_to_yield_or_buckling(tmp_path, height_m, holes):
     assert fired.standing.sag_m > shortened_m
 
 
+@pytest.mark.long
 def test_bars_that_resist_less_than_the_weight_are_no_support(tmp_path):
     """7 bars of 25 mm over 1.5 m resist 471 kN of 520 kN."""
     scenario = column_scenario(tmp_path, replace(ZONE, bars=7, bar_diameter_mm=25.0))
@@ -163,6 +164,7 @@ def test_what_comes_down_at_most_is_that_on_bars_that_sway_or_are_pressed_twice(
     )
 
 
+@pytest.mark.long
 def test_bars_of_what_was_taken_away_are_gone(tmp_path):
     zone = replace(ZONE, height_m=0.9, holes_a_row=3, bars=8, bar_diameter_mm=25.0)
     scenario = replace(column_scenario(tmp_path, zone), removals=(Removal(time_s=0.6, members=("block",)),))

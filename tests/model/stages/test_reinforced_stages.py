@@ -78,6 +78,7 @@ def test_a_bridge_that_does_not_crack_is_solved_as_without_bars(blocks):
     np.testing.assert_array_equal(standing.loads.forces_n, plain.rest(factor).loads.forces_n)
 
 
+@pytest.mark.long
 def test_check_says_what_cracks_and_what_bars_hold():
     text = slab_text(8, blocks=True)
     lines = list(scenario_facts(scenario_from_text(text)))

@@ -264,6 +264,7 @@ def test_a_composite_span_comes_down_at_its_plastic_load(shards):
     assert bridge.fallen.any()
 
 
+@pytest.mark.long
 def test_few_studs_slip_and_make_the_span_weaker():
     """Partial shear connection: with n P = 0.4 N_c,f, M = M_a + 0.4 (M - M_a) by EN 1994-1-1, 6.2.1.3 (5), at least.
 

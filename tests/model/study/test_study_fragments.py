@@ -47,6 +47,7 @@ def runs_of(study=STUDY):
     return replace(runs, table=RunsTable(rows))
 
 
+@pytest.mark.long
 def test_a_run_has_the_distances_of_its_zones():
     """By hand: Lundborg 260 (38 / 25.4)^(2/3) m; McKenzie with 54 mm of 1200 kg/m³ under 0.25 m of stemming."""
     outputs = fragment_outputs(DRILLED)

@@ -159,6 +159,7 @@ def test_an_explosion_without_charges_changes_nothing(extension, tmp_path):
     assert not (tmp_path / "True" / "explosion_log.csv").exists()
 
 
+@pytest.mark.long
 def test_a_charge_that_is_ticked_off_changes_nothing_and_one_that_is_on_does(built, settings, tmp_path):
     built.context.scene.cursor.location = (4.0, 0.0, 1.5)
     built.ops.bda.add_source_point()

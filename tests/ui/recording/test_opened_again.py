@@ -103,6 +103,7 @@ def test_results_that_are_not_its_own_are_not_shown_and_it_says_so(ran, tmp_path
     assert np.abs(start).max() > 0.5, "no shard is at the origin"
 
 
+@pytest.mark.long
 def test_what_is_recorded_next_is_shown_instead(ran, tmp_path):
     scene = reopen(ran, tmp_path / "scene.blend")
     scene.bda.overwrite = True

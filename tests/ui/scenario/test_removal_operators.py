@@ -89,6 +89,7 @@ def test_slow_motion_of_other_charges_is_refused(extension, settings, tmp_path):
     record(extension)
 
 
+@pytest.mark.long
 def test_a_bridge_whose_ground_was_deleted_is_not_run_and_the_advice_fits(built, settings):
     scene = built.context.scene
     built.data.objects.remove(scene.rigidbody_world.collection.objects["Ground"])
