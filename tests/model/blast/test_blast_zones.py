@@ -78,7 +78,7 @@ def test_zones_are_written_without_loss(tmp_path):
 
 def test_totals_of_the_worked_example():
     assert (ZONE.holes, ZONE.mass_kg, ZONE.drilled_m) == pytest.approx((10, 0.735, 4.5))
-    assert ZONE.charge_length_m == pytest.approx(0.0735 / (np.pi / 4 * 0.038**2 * 1200))
+    assert length_of_charge_m(ZONE) == pytest.approx(0.0735 / (np.pi / 4 * 0.038**2 * 1200))
 
 
 def test_rows_fire_one_after_the_other():
