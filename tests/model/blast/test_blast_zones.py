@@ -10,7 +10,7 @@ from support.drilled_columns import ZONE, column_scenario
 from support.scenarios import I235
 
 from bridge_demolition_addon.errors import ScenarioError
-from bridge_demolition_addon.model.blast.blast_zones import charges_fired
+from bridge_demolition_addon.model.blast.blast_zones import charges_fired, length_of_charge_m
 from bridge_demolition_addon.model.scenario import BlastZone
 from bridge_demolition_addon.model.scenario.file import scenario_text
 
