@@ -10,7 +10,7 @@ from support.drilled_columns import ZONE, column_scenario
 from support.scenarios import I235
 
 from bridge_demolition_addon.errors import ScenarioError
-from bridge_demolition_addon.model.blast.blast_zones import charges_fired
+from bridge_demolition_addon.model.blast.blast_zones import charges_fired, length_of_charge_m
 from bridge_demolition_addon.model.scenario import BlastZone
 from bridge_demolition_addon.model.scenario.file import scenario_text
 
@@ -78,7 +78,7 @@ def test_zones_are_written_without_loss(tmp_path):
 
 def test_totals_of_the_worked_example():
     assert (ZONE.holes, ZONE.mass_kg, ZONE.drilled_m) == pytest.approx((10, 0.735, 4.5))
-    assert ZONE.charge_length_m == pytest.approx(0.0735 / (np.pi / 4 * 0.038**2 * 1200))
+    assert length_of_charge_m(ZONE) == pytest.approx(0.0735 / (np.pi / 4 * 0.038**2 * 1200))
 
 
 def test_rows_fire_one_after_the_other():
