@@ -146,13 +146,15 @@ def test_railings_and_markings_stand_on_the_deck_and_go_with_its_shards(ran):
 
 def test_a_ball_hangs_on_a_rope_all_the_time(blender, tmp_path):
     from bridge_demolition_addon.display.ball_crane import ball_cranes
+    from bridge_demolition_addon.display.standing_room import StandingRoom
     from bridge_demolition_addon.simulation.run import run_scenario
 
     run_scenario(BALL, tmp_path / "run", overwrite=False, pictures=False, progress=Silence())
     results = load_results(tmp_path / "run")
     (ball,) = results.inventory.of_kind("ball")
+    room = StandingRoom.of_run(results)
     for row in (0, len(results.frames) - 1):
-        rope = ball_cranes(results, row)[0].solid.vertices
+        rope = ball_cranes(results, row, room)[0].solid.vertices
         reaches = np.linalg.norm(rope - results.frames.positions_m[row, ball], axis=1).min()
         assert reaches < 0.1
 
