@@ -2,7 +2,6 @@
 """No test and no script reaches into what another module keeps to itself: a name that begins with an underscore."""
 
 import ast
-from functools import cache
 from itertools import chain
 
 import pytest
@@ -11,10 +10,9 @@ from support.checkout import ROOT
 PACKAGE, OUTSIDE = ROOT / "bridge_demolition_addon", ("tests", "scripts", "validation")
 
 
-@cache
 def modules(folder):
-    """Path and syntax tree of every module in a folder."""
-    return [(path, ast.parse(path.read_text(encoding="utf-8"))) for path in sorted((ROOT / folder).rglob("*.py"))]
+    """Paths of all modules in a folder."""
+    return sorted((ROOT / folder).rglob("*.py"))
 
 
 def is_private(name):
@@ -51,22 +49,17 @@ def reached_for(tree):
             yield from (name for text in texts for name in text.split(".") if is_private(name))
 
 
-@pytest.fixture(scope="module")
-def kept_private():
-    """Private names of all modules, whose owners they are."""
-    owners = {}
-    for path, tree in chain.from_iterable(map(modules, (PACKAGE.name, *OUTSIDE))):
+@pytest.mark.slow
+def test_no_module_outside_the_package_reaches_for_a_private_name():
+    owners, reached = {}, {}
+    for path in chain.from_iterable(map(modules, (PACKAGE.name, *OUTSIDE))):
+        tree = ast.parse(path.read_text(encoding="utf-8"))
         for name in private_names(tree):
             owners.setdefault(name, set()).add(path)
-    return owners
-
-
-@pytest.mark.slow
-def test_no_module_outside_the_package_reaches_for_a_private_name(kept_private):
-    reaching = {}
-    for path, tree in chain.from_iterable(map(modules, OUTSIDE)):
-        for name in reached_for(tree):
-            owners = kept_private.get(name, set())
-            if owners and path not in owners:
-                reaching.setdefault(path.relative_to(ROOT).as_posix(), set()).add(name)
+        reached[path] = set() if PACKAGE in path.parents else set(reached_for(tree))
+    reaching = {
+        path.relative_to(ROOT).as_posix(): found
+        for path, names in reached.items()
+        if (found := {name for name in names if owners.get(name) and path not in owners[name]})
+    }
     assert reaching == {}

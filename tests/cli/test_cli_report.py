@@ -69,6 +69,7 @@ def test_an_output_that_is_a_file_is_wrong_input(folder, tmp_path, capsys):
     assert (tmp_path / "file").read_text() == "mine"
 
 
+@pytest.mark.long
 def test_a_run_ends_with_a_report_when_asked(tmp_path):
     short = replace(SHORT_RUN, exclusion=Exclusion(buffer_m=3.0))
     path, output = tmp_path / "short.toml", tmp_path / "out"

@@ -42,6 +42,7 @@ def run(request: pytest.FixtureRequest, tmp_path: Path) -> Run:
     return started
 
 
+@pytest.mark.long
 def test_it_runs_a_scenario_where_the_shell_is(run: Run, tmp_path: Path) -> None:
     short = replace(SHORT_RUN, time=replace(SHORT_RUN.time, duration_s=0.25))
     (tmp_path / "short.toml").write_text(scenario_text(short), encoding="utf-8")

@@ -45,7 +45,8 @@ def test_bridge_stands_until_its_charges_go_off(loud):
     assert (~loud.results.frames.intact[before]).sum(axis=1).max() <= 0.05 * loud.summary["connections"]["count"]
 
 
-@pytest.mark.parametrize("loud", long_but(["two_spans_20m_delays"], NAMES), indirect=True)
+@pytest.mark.long
+@pytest.mark.parametrize("loud", NAMES, indirect=True)
 def test_charges_push_away_what_is_near(request, loud):
     assert_begins(request.node.callspec.params["loud"], loud)
 

@@ -68,6 +68,7 @@ def test_it_is_off_at_first_and_no_process_runs(extension, beside, settings):
     assert beside.process is None and said() == []
 
 
+@pytest.mark.long
 def test_what_is_dragged_is_run_and_nothing_of_it_gets_into_the_scene(shown, beside, extension):
     before, text = everything(extension), scenario_text(SHORT_RUN)
     first = follow_to_end(beside, shown)

@@ -129,9 +129,9 @@ def test_every_setting_of_time_is_tried():
     assert {f"time.{field.name}" for field in fields(TimeSettings) if field.name not in taken_at_run} <= set(CHANGES)
 
 
-QUICK = ("ball.mass_kg", "shards.linear_damping", "time.duration_s")
-QUICK_SURFACES = (("shards", "friction"), ("ground", "restitution"))
-QUICK_BY_HAND = ("gravity", "positions, shapes or sizes", "which connections there are", "the speed of the simulation")
+QUICK = ("ball.mass_kg",)
+QUICK_SURFACES = (("shards", "friction"),)
+QUICK_BY_HAND = ("gravity", "positions, shapes or sizes")
 """Of each kind one that takes little."""
 
 
