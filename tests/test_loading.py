@@ -5,7 +5,6 @@ import pytest
 from support.long_cases import long_but
 from support.processes import run_program
 
-
 BROUGHT = [("command line", []), ("extension", ["bpy"])]
 
 
