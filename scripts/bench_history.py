@@ -92,13 +92,15 @@ def drawn(rows: list[dict[str, str]]) -> Figure:
     of_ratios = series(rows)
     benches = list(dict.fromkeys(bench for _, bench, _ in of_ratios))
     commits = list(dict.fromkeys(row["commit"] for row in rows))
-    figure = Figure(figsize=(11.0, 4.0 * len(benches)), dpi=100, layout="constrained")
+    figure = Figure(figsize=(11.0, 3.0 * len(benches)), dpi=100, layout="constrained")
     for axes, bench in zip(figure.subplots(len(benches), squeeze=False)[:, 0], benches, strict=True):
         for (_, of_bench, name), values in of_ratios.items():
             if of_bench == bench:
                 places = [commits.index(made) for made, _ in values]
                 axes.plot(places, [value for _, value in values], marker="o", label=name)
         axes.set_xticks(range(len(commits)), commits, rotation=45, ha="right")
-        axes.set(title=bench, ylabel="ratio", yscale="log")
+        axes.set(title=bench, ylabel="ratio", yscale="log", xlim=(-0.5, len(commits) - 0.5))
+        axes.yaxis.set_major_formatter("{x:g}")
+        axes.yaxis.set_minor_formatter("{x:.2g}")
         axes.legend(fontsize="x-small", loc="center left", bbox_to_anchor=(1.0, 0.5))
     return figure
