@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from itertools import product
 
 import numpy as np
@@ -31,25 +31,43 @@ _ROWS = 6
 """Frames in which its arm must cut nothing."""
 
 
-def breaker_excavators(results: Results, row: int, room: StandingRoom) -> list[DrawnPart]:
-    """Return an excavator for every jackhammer of a run in a row of its frames, with its hammer around the chisel.
+def breaker_excavators(results: Results, room: StandingRoom) -> dict[int, Crawler]:
+    """Return an excavator for every jackhammer of a run, by its body, which stays where it cuts nothing.
 
-    It stays where it stands, and cuts neither the bridge nor debris.
+    Finding its place looks at the whole run: once is enough for all pictures.
     """
-    parts: list[DrawnPart] = []
     some = np.unique(np.linspace(0, len(results.frames) - 1, _ROWS).astype(int))
+    found = {}
     for tool in results.inventory.of_kind("tool").tolist():
-        length = float(np.ptp(results.inventory.vertices_of(tool)[:, 2]))
-        wrists = np.array(results.frames.positions_m[:, tool], float) + np.array((0.0, 0.0, length + _OVER_M))
-        excavator, _ = freest(_excavators(wrists[some].mean(axis=0), room), wrists[some], room, _BOOM_M)
-        heel, elbow, wrist = excavator.arm_to(wrists[row])
+        wrists = _wrists(results, tool)[some]
+        found[tool], _ = freest(_excavators(wrists.mean(axis=0), room), wrists, room, _BOOM_M)
+    return found
+
+
+def excavator_parts(
+    results: Results, row: int, room: StandingRoom, excavators: Mapping[int, Crawler]
+) -> list[DrawnPart]:
+    """Return what is drawn of excavators in a row of a run's frames, each with its hammer around the chisel."""
+    parts: list[DrawnPart] = []
+    for tool, excavator in excavators.items():
+        heel, elbow, wrist = excavator.arm_to(_wrists(results, tool)[row])
         parts += [
             DrawnPart(Stuff.YELLOW, rod(heel, elbow, _BOOM_M)),
             DrawnPart(Stuff.YELLOW, rod(elbow, wrist, _STICK_M)),
-            DrawnPart(Stuff.BLACK, _housing(wrist, length)),
+            DrawnPart(Stuff.BLACK, _housing(wrist, _chisel_m(results, tool))),
             *excavator.parts(room.ground),
         ]
     return parts
+
+
+def _wrists(results: Results, tool: int) -> FloatArray:
+    """Return where the end of an arm is in all frames (f, 3), m: above its chisel."""
+    places: FloatArray = np.array(results.frames.positions_m[:, tool], float)
+    return places + np.array((0.0, 0.0, _chisel_m(results, tool) + _OVER_M))
+
+
+def _chisel_m(results: Results, tool: int) -> float:
+    return float(np.ptp(results.inventory.vertices_of(tool)[:, 2]))
 
 
 def _excavators(work: FloatArray, room: StandingRoom) -> Iterator[Crawler]:

@@ -8,7 +8,7 @@ import pytest
 from support.sample_results import CUBE, changed, hanging_chain
 
 from bridge_demolition_addon.display.ball_crane import ball_cranes
-from bridge_demolition_addon.display.breaker_excavator import breaker_excavators
+from bridge_demolition_addon.display.breaker_excavator import breaker_excavators, excavator_parts
 from bridge_demolition_addon.display.dressing import DrawnPart, Stuff
 from bridge_demolition_addon.display.standing_room import StandingRoom, boxes_around
 from bridge_demolition_addon.engineering.geometry.solids import box, to_manifold
@@ -46,9 +46,13 @@ def shared_m3(parts, solid):
     return sum((to_manifold(part.solid) ^ to_manifold(solid)).volume() for part in parts)
 
 
+def excavators_in(results, row, room):
+    return excavator_parts(results, row, room, breaker_excavators(results, room))
+
+
 @pytest.mark.parametrize("width_m", [3.0, 12.0, 30.0])
 @pytest.mark.parametrize("height_m", [2.0, 6.0, 20.0])
-@pytest.mark.parametrize("kind, draw", [("ball", ball_cranes), ("tool", breaker_excavators)])
+@pytest.mark.parametrize("kind, draw", [("ball", ball_cranes), ("tool", excavators_in)])
 def test_machines_cut_neither_the_bridge_nor_what_falls_beside_it(width_m, height_m, kind, draw):
     results = run(width_m, height_m, kind)
     room = StandingRoom.of_run(results)
@@ -83,7 +87,7 @@ def test_an_excavator_holds_its_hammer_around_the_chisel_and_stays_where_it_is()
     positions[-1, 3] += (0.5, 0.0, -0.6)
     results = moved_to(results, positions)
     room = StandingRoom.of_run(results)
-    first, last = (breaker_excavators(results, row, room) for row in (0, len(positions) - 1))
+    first, last = (excavators_in(results, row, room) for row in (0, len(positions) - 1))
     for row, parts in ((0, first), (-1, last)):
         chisel = box((0.2, 0.2, TOOL_HIGH_M), positions[row, 3] + (0.0, 0.0, TOOL_HIGH_M / 2.0))
         (hammer,) = [part for part in parts if shared_m3([part], chisel) > 0.0 and part.stuff == Stuff.BLACK]

@@ -16,7 +16,7 @@ from mathutils import Matrix, Vector
 from ...display.approaches import approaches
 from ...display.ball_crane import ball_cranes
 from ...display.bent_bars import bent_bars
-from ...display.breaker_excavator import breaker_excavators
+from ...display.breaker_excavator import breaker_excavators, excavator_parts
 from ...display.chips import Chips, chips_of
 from ...display.dressing import LOOKS_ONLY, DrawnPart, Stuff, joined_by_stuff, rod
 from ...display.dust import are_steel, puffs, touchdowns
@@ -99,6 +99,7 @@ class DressedScene:
         self._show_others()
         beside = [*road_furniture(results), *approaches(results)]
         self._room = StandingRoom.of_run(results, beside)
+        self._excavators = breaker_excavators(results, self._room)
         for body, made in self._add_parts(beside):
             if body is not None:
                 self._carried.append((made, body))
@@ -159,7 +160,7 @@ class DressedScene:
         """Show what has another shape in every frame: ropes, arms, bars and chips."""
         _remove(self._of_frame)
         parts = ball_cranes(self._results, row, self._room)
-        parts += breaker_excavators(self._results, row, self._room)
+        parts += excavator_parts(self._results, row, self._room, self._excavators)
         if self._has_bars:
             parts += [
                 self._at(part, row) for part in bent_bars(self._results, self._opened[row]) if part.body not in hidden
