@@ -12,7 +12,15 @@ from pathlib import Path
 from unittest.mock import patch
 
 import bpy
-from benches.deck import SMALLEST, deck, frame_seconds, make_world, ratios_to_bare_step, recorded
+from benches.deck import (
+    SMALLEST,
+    deck,
+    frame_seconds,
+    frames_and_rounds,
+    make_world,
+    ratios_to_bare_step,
+    recorded,
+)
 
 from bridge_demolition_addon.engineering.elasticity import structure
 from bridge_demolition_addon.model.scenario import ConnectionSettings
@@ -20,7 +28,6 @@ from bridge_demolition_addon.model.structure.model import build_model
 from bridge_demolition_addon.scene.connections.elasticity import elasticity_of, forget_elasticity, keep_elasticity
 from bridge_demolition_addon.scene.demolition import build_demolition
 
-FRAMES, ROUNDS = 4, 3
 SIZES = (200, 1000, 3000)
 SETTINGS = ConnectionSettings(
     type="FIXED",
@@ -44,8 +51,9 @@ def main(smallest: bool) -> dict[str, float]:
         build_demolition(scene, scenario, model)
         made = [obj for obj in bpy.data.objects if obj.rigid_body_constraint]
         damping_ratio, seconds = elasticity_of(scene, made).damping_ratio, {}
+        frames, rounds = frames_and_rounds(shards)
         with tempfile.TemporaryDirectory() as folder:
-            for _ in range(1 if smallest else ROUNDS):
+            for _ in range(rounds):
                 for way in WAYS:
                     forget_elasticity(scene)
                     if way.startswith("elastic"):
@@ -56,7 +64,7 @@ def main(smallest: bool) -> dict[str, float]:
                         patch.object(structure, "TURNED_RAD", turned_rad),
                     ):
                         make_world(scene)
-                        seconds.setdefault(way, []).append(frame_seconds(scene, FRAMES, time.process_time).mean())
+                        seconds.setdefault(way, []).append(frame_seconds(scene, frames, time.process_time).mean())
         print(f"{shards} shards, {len(made)} connections")
         for way, ratio in ratios_to_bare_step(seconds).items():
             ratios[f"{way} over bare step, {shards} shards"] = ratio

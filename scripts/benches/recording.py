@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What recording costs in a frame, next to Blender's bare step and to the way of 2019, in the same run.
 
-The deck in 1000 shards and some 4300 connections is played in each way from the start. Three ways do a part of
-recording each, in the order in which they add up: Bullet writes the loads of connections, calls back around sub-steps,
-and what it holds is copied after each. Takes some 80 s where the bare step takes 0.2 s.
+The deck in 200 shards, and in 1000 with some 4300 connections, is played in each way from the start. Three ways do a
+part of recording each, in the order in which they add up: Bullet writes the loads of connections, calls back around
+sub-steps, and what it holds is copied after each.
 """
 
 import statistics
@@ -14,7 +14,7 @@ from pathlib import Path
 
 import bpy
 import numpy as np
-from benches.deck import DECK, SMALLEST, build_scene, deck, frame_seconds, make_world, recorded
+from benches.deck import SMALLEST, build_scene, deck, frame_seconds, frames_and_rounds, make_world, recorded
 from benches.way_of_2019 import forces_and_colours
 
 from bridge_demolition_addon.bullet.snapshots import SnapshotTaker
@@ -24,14 +24,21 @@ from bridge_demolition_addon.scene.connections.constraints import connections_of
 from bridge_demolition_addon.scene.world import START_FRAME
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 
-FRAMES = 5
-ROUNDS = 4
-"""Of all ways in turn: what else the machine does only ever adds, so that the least of several is the way's own."""
+SIZES = (200, 1000)
 
 
 def main(smallest: bool) -> dict[str, float]:
-    """Build the deck, play it every way in turn, print the least times and their spread, and return the ratios."""
-    scene = build_scene(deck(SMALLEST) if smallest else DECK)
+    """Build the deck in each number of shards, play it every way in turn, print the least times, and return ratios."""
+    ratios = {}
+    for shards in (SMALLEST,) if smallest else SIZES:
+        ratios |= {f"{name}, {shards} shards": ratio for name, ratio in measured(shards).items()}
+    return ratios
+
+
+def measured(shards: int) -> dict[str, float]:
+    """Build the deck in so many shards, play it every way in turn, print the least times, and return ratios."""
+    scene = build_scene(deck(shards))
+    frames, rounds = frames_and_rounds(shards)
     world = scene.rigidbody_world
     print(f"{len(world.collection.objects)} bodies, {len(world.constraints.objects)} connections")
     with tempfile.TemporaryDirectory() as name:
@@ -47,14 +54,14 @@ def main(smallest: bool) -> dict[str, float]:
         }
         seconds: dict[str, list[float]] = {name: [] for name in ways}
         own: dict[str, list[np.ndarray]] = {"every sub-step": [], "last sub-step": []}
-        for _ in range(1 if smallest else ROUNDS):
+        for _ in range(rounds):
             for name, way in ways.items():
                 with way() as recording:
                     make_world(scene)
                     before = _own_seconds(recording) if recording else None
-                    seconds[name].append(frame_seconds(scene, FRAMES).mean())
+                    seconds[name].append(frame_seconds(scene, frames).mean())
                     if recording:
-                        own[name].append((_own_seconds(recording) - before) / FRAMES)
+                        own[name].append((_own_seconds(recording) - before) / frames)
     _print_table(seconds, own)
     bare = min(seconds["bare step"])
     return {f"{name} over bare step": min(seconds[name]) / bare for name in (*own, "way of 2019")}

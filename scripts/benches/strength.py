@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What connections that break by the strength of a material cost in a frame, next to the bare step in the same run.
+"""What rigid connections that break by a material's strength cost in a frame, next to the bare step in the same run.
 
 The deck is connected by steel, so that nothing breaks and Bullet has the same work each time. A run of a study records
-no loads. CPU time, so that other programs weigh less.
+no loads. CPU time, so that other programs weigh less. The bench `elastic` has connections that deform.
 """
 
 import tempfile
@@ -10,16 +10,21 @@ import time
 from contextlib import nullcontext
 from pathlib import Path
 
-from benches.deck import SMALLEST, build_scene, deck, frame_seconds, make_world, ratios_to_bare_step, recorded
+from benches.deck import (
+    SMALLEST,
+    build_scene,
+    deck,
+    frame_seconds,
+    frames_and_rounds,
+    make_world,
+    ratios_to_bare_step,
+    recorded,
+)
 
 from bridge_demolition_addon.model.scenario import ConnectionSettings
 
-ROUNDS = 4
 SIZES = (200, 1000, 3000)
-FRAMES = {200: 40, 1000: 10, 3000: 5}
-"""Frames of each size: the first ones of a world take longer, which few short frames would be full of."""
-
-SETTINGS = ConnectionSettings(type="FIXED", method="face", limit_per_shard=10, material="steel")
+SETTINGS = ConnectionSettings(type="FIXED", method="face", limit_per_shard=10, material="steel", stiffness="rigid")
 WAYS = {
     "every sub-step": {"every_substep": True},
     "last sub-step": {"every_substep": False},
@@ -32,15 +37,14 @@ def main(smallest: bool) -> dict[str, float]:
     ratios = {}
     for shards in (SMALLEST,) if smallest else SIZES:
         scene = build_scene(deck(shards, connections=SETTINGS))
+        frames, rounds = frames_and_rounds(shards)
         seconds: dict[str, list[float]] = {}
         with tempfile.TemporaryDirectory() as folder:
-            for _ in range(1 if smallest else ROUNDS):
+            for _ in range(rounds):
                 for name, settings in ({"bare step": None} | WAYS).items():
                     with nullcontext() if settings is None else recorded(scene, Path(folder), **settings):
                         make_world(scene)
-                        seconds.setdefault(name, []).append(
-                            frame_seconds(scene, FRAMES.get(shards, 5), time.process_time).mean()
-                        )
+                        seconds.setdefault(name, []).append(frame_seconds(scene, frames, time.process_time).mean())
         print(f"{shards} shards, {len(scene.rigidbody_world.constraints.objects)} connections")
         for way, ratio in ratios_to_bare_step(seconds).items():
             ratios[f"{way} over bare step, {shards} shards"] = ratio
