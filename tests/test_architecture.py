@@ -5,6 +5,7 @@ import ast
 import re
 import tomllib
 from collections import Counter
+from functools import cache
 from itertools import chain
 from xml.etree import ElementTree
 
@@ -108,13 +109,15 @@ def test_no_two_test_modules_have_one_name():
 MOST_METHODS, MOST_PARAMETERS = 20, 7
 
 
+@cache
 def classes():
     """All classes of the package with their modules."""
-    for path in sorted((ROOT / PACKAGE).rglob("*.py")):
-        tree = ast.parse(path.read_text(encoding="utf-8"))
-        for node in ast.walk(tree):
-            if isinstance(node, ast.ClassDef):
-                yield path.relative_to(ROOT).as_posix(), node
+    return [
+        (path.relative_to(ROOT).as_posix(), node)
+        for path in sorted((ROOT / PACKAGE).rglob("*.py"))
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(node, ast.ClassDef)
+    ]
 
 
 def size_of(class_):

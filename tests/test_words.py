@@ -51,12 +51,17 @@ def text_of_module(path):
             strings.append("".join(part.value if isinstance(part, ast.Constant) else "`" for part in node.values))
         elif isinstance(node, ast.Constant) and isinstance(node.value, str) and " " in node.value:
             strings.append(node.value)
-    comments = [
-        token.string.lstrip("# ")
-        for token in tokenize.generate_tokens(io.StringIO(source).readline)
-        if token.type == tokenize.COMMENT
-    ]
-    return "\n".join(re.sub(r"`[^`]*`|\b\w+(?:[_.]\w+)+\b|\{[^}]*\}", "`", text) for text in [*strings, *comments])
+    return "\n".join(
+        re.sub(r"`[^`]*`|\b\w+(?:[_.]\w+)+\b|\{[^}]*\}", "`", text) for text in [*strings, *comments_of(source)]
+    )
+
+
+def comments_of(source):
+    """Comments of a module; most modules have no sign of one, and are not taken apart for it."""
+    if "#" not in source:
+        return []
+    tokens = tokenize.generate_tokens(io.StringIO(source).readline)
+    return [token.string.lstrip("# ") for token in tokens if token.type == tokenize.COMMENT]
 
 
 def text_of_example(path):

@@ -14,6 +14,8 @@ from bridge_demolition_addon.charts.histories import plot_forces
 from bridge_demolition_addon.charts.time_axis import TimeAxis
 from bridge_demolition_addon.model.results.frames import FrameSeries
 
+pytestmark = pytest.mark.slow
+
 # Nothing acts in the first frame, in which no time passes; in the fourth, the largest is not the mean.
 SUMS_KN = np.array([0.0, 700 * G, 700 * G, 500 * G + np.hypot(200 * G, 1000), 300 * G]) / 1e3
 RESULTANTS_KN = np.array([0.0, 300 * G, 300 * G, np.hypot(300 * G, 1000), 300 * G]) / 1e3

@@ -15,6 +15,8 @@ from bridge_demolition_addon.model.blast.charges import Charge
 from bridge_demolition_addon.model.debris.exclusion import ExclusionZone, widened
 from bridge_demolition_addon.model.scenario import Neighbour, Zone
 
+pytestmark = pytest.mark.slow
+
 
 def strip(name, x_m, width_m=1.0):
     """A zone across the road."""

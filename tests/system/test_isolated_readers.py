@@ -14,6 +14,8 @@ from bridge_demolition_addon.model.mesh_reading import MESH_FILES, read_mesh
 from bridge_demolition_addon.model.terrain.geotiff import read_geotiff
 from bridge_demolition_addon.system import isolated
 
+pytestmark = pytest.mark.slow
+
 CRASHING = [sys.executable, "-c", "import os, signal; os.kill(os.getpid(), signal.SIGSEGV)"]
 
 

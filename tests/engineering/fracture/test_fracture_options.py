@@ -22,6 +22,8 @@ from bridge_demolition_addon.engineering.geometry.overlap import overlaps
 from bridge_demolition_addon.engineering.geometry.solids import bodies, box, contains, from_manifold, to_manifold, union
 from bridge_demolition_addon.errors import GeometryError
 
+pytestmark = pytest.mark.slow
+
 # What the project promises for sums of volumes.
 VOLUME = 1e-9
 

@@ -25,6 +25,8 @@ from bridge_demolition_addon.engineering.geometry.solids import (
 )
 from bridge_demolition_addon.errors import GeometryError
 
+pytestmark = pytest.mark.slow
+
 # What the project promises for sums of volumes.
 VOLUME = 1e-9
 # Lengths of some metres after some dozens of operations of 2e-16 each.

@@ -10,6 +10,8 @@ from scipy.spatial.transform import Rotation
 from bridge_demolition_addon.engineering.geometry.hull_depths import ConvexBody, convex_body, depth_m
 from bridge_demolition_addon.engineering.geometry.solids import hull
 
+pytestmark = pytest.mark.slow
+
 CUBE_M = np.array([(x, y, z) for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
 COUNT = 200
 

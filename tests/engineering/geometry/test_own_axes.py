@@ -8,6 +8,8 @@ from bridge_demolition_addon.engineering.geometry.mesh import TriangleMesh
 from bridge_demolition_addon.engineering.geometry.own_axes import lying_axes, standing_axes
 from bridge_demolition_addon.engineering.geometry.solids import box
 
+pytestmark = pytest.mark.slow
+
 ROAD = np.array([1.0, 0.0])
 
 

@@ -150,6 +150,7 @@ def test_a_cavity_belongs_to_the_body_around_it() -> None:
     assert volumes == pytest.approx([ball_inside.volume(), 4 * 4 * 2 - 3 * 3 * 1], rel=ROUNDING)
 
 
+@pytest.mark.slow
 def test_contains_knows_holes_and_cavities() -> None:
     torus = of_trimesh(trimesh.creation.torus(3.0, 1.0))
     points = np.random.default_rng(0).uniform(-4, 4, (2_000, 3))

@@ -28,6 +28,8 @@ from bridge_demolition_addon.model.bridge.member import Member
 from bridge_demolition_addon.model.structure.equilibrium import at_rest, box_inertia
 from bridge_demolition_addon.model.structure.stiffness import CutMembers, connection_stiffness
 
+pytestmark = pytest.mark.slow
+
 DENSITY_KG_M3, PULL_M_S2 = 2400.0, 9.80665
 DEPTH_M, WIDTH_M, HEIGHT_M = 0.5, 1.0, 6.0
 SOLID = box((DEPTH_M, WIDTH_M, HEIGHT_M), (0.0, 0.0, HEIGHT_M / 2.0))

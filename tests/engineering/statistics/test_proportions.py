@@ -8,6 +8,8 @@ from support.long_cases import long_but
 
 from bridge_demolition_addon.engineering.statistics.binomial import lower_limit, upper_limit
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.mark.parametrize(
     "runs, left, limit",

@@ -8,6 +8,8 @@ from bridge_demolition_addon.engineering.steelwork.catalogue import rolled_names
 from bridge_demolition_addon.engineering.steelwork.grades import DENSITY_KG_M3, strengths_pa
 from bridge_demolition_addon.errors import ScenarioError
 
+pytestmark = pytest.mark.slow
+
 CM2, CM3, CM4 = 1e-4, 1e-6, 1e-8
 
 # A (cm²), Iy, Iz, IT (cm⁴), Wel,y, Wpl,y, Wpl,z (cm³), Avz (cm²) of the tables.

@@ -31,6 +31,8 @@ from bridge_demolition_addon.model.scenario import (
 )
 from bridge_demolition_addon.model.structure.model import build_model
 
+pytestmark = pytest.mark.slow
+
 # Sums and differences of some ten metres in double precision.
 ROUNDING = 1e-12
 # What the project promises for the sum of the shards' volumes.

@@ -15,6 +15,8 @@ from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.debris.survey import SurveySettings, compared, read_survey
 from bridge_demolition_addon.model.terrain.placed import Placing
 
+pytestmark = pytest.mark.slow
+
 SIDE_M = 0.5**0.5
 CELLS = SurveySettings(cell_m=0.05)
 STAY = Placing(np.zeros(3), np.eye(2), 1.0)

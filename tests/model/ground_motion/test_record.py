@@ -138,6 +138,7 @@ def test_wrong_keys_are_refused_in_words(given, said):
         GroundMotion(**given)
 
 
+@pytest.mark.slow
 def test_a_study_can_vary_the_factor_and_a_draw_depends_on_the_file(tmp_path):
     """The example's record is made: it names no file; one that is named counts by what is in it."""
     scenario = read_scenario(EXAMPLES / "ground_motion" / "span_in_an_earthquake.toml")

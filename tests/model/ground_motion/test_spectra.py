@@ -10,6 +10,8 @@ from bridge_demolition_addon.model.ground_motion.response_spectrum import design
 from bridge_demolition_addon.model.ground_motion.settings import DesignSpectrum, GroundMotion
 from bridge_demolition_addon.model.ground_motion.sources import ground_record
 
+pytestmark = pytest.mark.slow
+
 STIFF = DesignSpectrum(acceleration_m_s2=2.0, ground_type="C")
 
 

@@ -69,6 +69,7 @@ def test_what_is_left_out_stays_left_out():
     assert "ball" not in tomllib.loads(text)
 
 
+@pytest.mark.slow
 def test_any_number_is_written_without_loss():
     random = np.random.default_rng(235)
     for mass, friction, radius in np.exp(random.uniform(-80, 80, (200, 3))):

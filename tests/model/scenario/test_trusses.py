@@ -10,6 +10,8 @@ from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.bridge.steelwork import steelwork_members
 from bridge_demolition_addon.model.scenario import Steelwork, TrussSpan
 
+pytestmark = pytest.mark.slow
+
 
 def span(**keys):
     sections = dict.fromkeys(("top_chord", "bottom_chord", "posts", "diagonals", "cross_beams", "bracing"), "HEB 200")

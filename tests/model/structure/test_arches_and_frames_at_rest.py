@@ -21,6 +21,8 @@ from support.plane_frames import PlaneFrame
 from bridge_demolition_addon.engineering.geometry.mesh import volumes_and_centres
 from bridge_demolition_addon.model.scenario.bridge_axes import arch_axis, axes_m, axes_on_arch_m
 
+pytestmark = pytest.mark.slow
+
 # Of the portal: axes of legs and deck, load of the deck, relative stiffness.
 SPAN_M, HEIGHT_M = 15.0, 5.5 + 0.35
 DECK_N_M = WEIGHT_N_M3 * 2.0 * 0.7

@@ -12,6 +12,8 @@ from bridge_demolition_addon.model.scenario import BarLayer, FractureSettings
 from bridge_demolition_addon.model.structure.face_bars import layers_of_members
 from bridge_demolition_addon.model.structure.model import build_model
 
+pytestmark = pytest.mark.slow
+
 WHOLE = BarLayer(members=("deck",), side="bottom", depth_m=0.05, area_mm2=8_000.0)
 TOP = BarLayer(members=("deck",), side="top", depth_m=0.05, area_mm2=4_000.0, from_m=8.0, to_m=11.0)
 

@@ -10,6 +10,8 @@ from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.scenario.file import scenario_from_text, scenario_text
 from bridge_demolition_addon.model.scenario.scenario import bearing_tables
 
+pytestmark = pytest.mark.slow
+
 BRIDGE = """
 [scenario]
 title = "bridge with bearings"

@@ -110,6 +110,7 @@ def test_a_round_column_has_the_volume_of_a_cylinder():
     assert zone.width_m == pytest.approx(1.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("shards", [6, 40, 200, 1000])
 def test_shards_end_at_the_planes_of_a_zone_whatever_their_number(tmp_path, shards):
     model = column_model(column_scenario(tmp_path, ZONE, shards=shards))

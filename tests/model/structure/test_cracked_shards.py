@@ -12,6 +12,8 @@ from bridge_demolition_addon.engineering.mechanics.strength import MATERIALS
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.scenario.file import scenario_from_text
 
+pytestmark = pytest.mark.slow
+
 
 def deflection_m(*, within, blocks, area):
     """Deflection of the beam's middle by its weight."""

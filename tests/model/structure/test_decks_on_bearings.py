@@ -15,6 +15,8 @@ from bridge_demolition_addon.model.stages.stages import stages_of
 from bridge_demolition_addon.model.stages.standing import StandingBridge
 from bridge_demolition_addon.model.structure.bearings import shards_at
 
+pytestmark = pytest.mark.slow
+
 SPANS_M = (10.0, 15.0)
 WHOLE_N = WEIGHT_N_M * (sum(SPANS_M) + 2.0 * OVERHANG_M)
 OPENSEES_KN, OPENSEES_HOGGING_KNM, OPENSEES_MM, OPENSEES_HZ = (171.8, 829.2, 337.6), -1120.0, 7.20, 5.935

@@ -18,6 +18,8 @@ from bridge_demolition_addon.model.structure.members import fractured_members
 from bridge_demolition_addon.model.structure.model import build_model
 from bridge_demolition_addon.model.structure.point_files import points_from_file
 
+pytestmark = pytest.mark.slow
+
 MEMBERS = prepared_members(I235).members
 NAMES = [member.name for member in MEMBERS]
 MASSES = [member.mass_kg for member in MEMBERS]

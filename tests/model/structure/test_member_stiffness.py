@@ -26,6 +26,8 @@ from bridge_demolition_addon.model.bridge.member import Member
 from bridge_demolition_addon.model.structure.equilibrium import at_rest, box_inertia
 from bridge_demolition_addon.model.structure.stiffness import CutMembers, connection_stiffness
 
+pytestmark = pytest.mark.slow
+
 MODULI = ElasticModuli(30e9, 0.2)
 DENSITY_KG_M3, PULL_M_S2 = 2400.0, 0.1
 

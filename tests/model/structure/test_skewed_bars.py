@@ -13,6 +13,8 @@ from bridge_demolition_addon.model.scenario import BarLayer, Deck, FractureSetti
 from bridge_demolition_addon.model.structure.face_bars import layers_of_members
 from bridge_demolition_addon.model.structure.model import build_model
 
+pytestmark = pytest.mark.slow
+
 WALL = Piers(kind="wall", column_length_m=0.9, column_width_m=3.7, height_m=6.0)
 COLUMN = Piers(column_length_m=0.7, column_width_m=1.2, height_m=6.0)
 UPRIGHT = BarLayer(members=("pier",), along="z", side="start", depth_m=0.06, area_mm2=6_000.0)

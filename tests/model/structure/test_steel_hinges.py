@@ -16,6 +16,8 @@ from bridge_demolition_addon.model.structure.equilibrium import model_at_rest
 from bridge_demolition_addon.model.structure.model import build_model
 from bridge_demolition_addon.model.structure.utilisation import Utilisations
 
+pytestmark = pytest.mark.slow
+
 SECTION, LENGTH_M, PLATE_M = section_named("HEB 200"), 8.0, 0.1
 WEIGHT_N_M = DENSITY_KG_M3 * SECTION.area_m2 * STANDARD_GRAVITY_M_S2
 PLASTIC_NM = 235e6 * SECTION.shape.plastic_moduli_m3[0]

@@ -15,6 +15,8 @@ from bridge_demolition_addon.model.scenario.file import scenario_from_text, scen
 from bridge_demolition_addon.model.structure.model import build_model
 from bridge_demolition_addon.model.structure.supports import DIRECTIONS, on_outermost_face
 
+pytestmark = pytest.mark.slow
+
 CONNECTIONS = replace(I235.connections, method="face", search_radius_m=None)
 SCENARIO = replace(I235, connections=CONNECTIONS, fracture=FractureSettings(shards=80))
 

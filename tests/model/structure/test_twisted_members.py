@@ -18,6 +18,8 @@ from bridge_demolition_addon.engineering.structure.face_sections import second_m
 from bridge_demolition_addon.model.bridge.member import Member
 from bridge_demolition_addon.model.structure.stiffness import CutMembers, connection_stiffness
 
+pytestmark = pytest.mark.slow
+
 MODULI = ElasticModuli(30e9, 0.2)
 PLATE_M, BAR_M = (12.0, 6.0, 0.6), (12.0, 1.0, 1.0)
 INNER = np.array([[4.0, 1.0, 1.0], [1.0, 4.0, 1.0], [1.0, 1.0, 4.0]]) / 6.0

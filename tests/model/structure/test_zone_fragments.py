@@ -10,6 +10,8 @@ from support.drilled_columns import ZONE, column_members
 from bridge_demolition_addon.model.structure.blast_zones import placed_zone
 from bridge_demolition_addon.model.structure.zone_fragments import flyrock_of, zone_fragments
 
+pytestmark = pytest.mark.slow
+
 MEMBERS = column_members()
 
 

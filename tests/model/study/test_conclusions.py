@@ -11,6 +11,8 @@ from bridge_demolition_addon.errors import OutputError
 from bridge_demolition_addon.model.study.conclusions import conclusions
 from bridge_demolition_addon.model.study.runs_table import RunsTable
 
+pytestmark = pytest.mark.slow
+
 STUDY = told_study()
 
 

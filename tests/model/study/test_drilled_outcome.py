@@ -13,6 +13,8 @@ from bridge_demolition_addon.model.scenario import Neighbour
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.study.outcome import evaluate
 
+pytestmark = pytest.mark.slow
+
 DRILLED = replace(
     read_scenario(EXAMPLES / "drilled" / "two_spans.toml"),
     neighbours=(Neighbour(name="house", place_m=(13.0, 40.0, 1.5)),),

@@ -14,6 +14,8 @@ from bridge_demolition_addon.model.study.file import SEED, study_of
 from bridge_demolition_addon.model.study.sampled_runs import sampled_run
 from bridge_demolition_addon.model.study.settings import StudySettings, Vary
 
+pytestmark = pytest.mark.slow
+
 HEIGHT = Vary(key="ball.drop_height_m", distribution="normal", mean=5.0, deviation=0.3)
 MASS = Vary(key="ball.mass_kg", distribution="lognormal", median=1.0, variation=0.1, factor=True)
 PLACE = Vary(key="ball.target_m.1", distribution="uniform", lowest=6.0, highest=7.0)

@@ -22,6 +22,8 @@ from bridge_demolition_addon.model.study.settings import Vary
 from bridge_demolition_addon.report.ensemble.plan import layers
 from bridge_demolition_addon.report.wording.study import fragments_sentence, study_sentences
 
+pytestmark = pytest.mark.slow
+
 DRILLED = replace(
     read_scenario(EXAMPLES / "drilled" / "two_spans.toml"), exclusion=Exclusion(buffer_m=5.0, cordon_m=300.0)
 )

@@ -26,6 +26,8 @@ from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.terrain.files import read_terrain
 from bridge_demolition_addon.model.terrain.placed import terrain_of
 
+pytestmark = pytest.mark.slow
+
 PLACE = [(33550, "d", 3, (1e-4, 1e-4, 0.0)), (33922, "d", 6, (0.0, 0.0, 0.0, 10.0, 53.0, 0.0))]
 FOOT_M = 0.304800609601
 

@@ -22,6 +22,8 @@ from bridge_demolition_addon.errors import GeometryError, ScenarioError
 from bridge_demolition_addon.model.scenario import Ground, Site
 from bridge_demolition_addon.model.terrain.placed import terrain_of
 
+pytestmark = pytest.mark.slow
+
 ORIGIN = (EASTING + 50.0, NORTHING + 50.0, HEIGHT + 12.5)
 """The middle of the files, at whose height the plane is: 0.2 × 50 + 0.05 × 50 = 12.5."""
 
