@@ -7,6 +7,7 @@ front arrived; the pulse is over at τ = t_d. The suction that follows, the nega
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from math import factorial
+from types import ModuleType
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,6 +15,7 @@ from numpy.typing import ArrayLike
 from ...errors import BlastError
 from ..arithmetic import cube_root, exponential
 from ..arrays import BoolArray, FloatArray, IntArray
+from ..compilation import where_compiled
 from . import kingery_bulmash, kinney_graham
 from .wave import Burst, NamedChoice, Wave, checked, scaled_distance
 
@@ -23,11 +25,11 @@ REPORT_DECAY = 1.0
 LARGEST_SHARE = 0.5
 """Share of p₀ t_d that the impulse of a pulse without decay has, a triangle; no decay gives more."""
 
-_SERIES_BELOW = 0.5
+SERIES_BELOW = 0.5
 _SERIES_TERMS = 15
 """Enough for the last term to be below rounding where the series is used: 0.5^15 / 15! is 2e-17."""
 
-_SERIES = [
+SERIES = [
     [1.0 / (factorial(term) * (term + order + 1)) for order in range(3)] for term in reversed(range(_SERIES_TERMS))
 ]
 """Coefficients of the series of three moments, the last term first."""
@@ -166,9 +168,20 @@ def impulse_between(pulses: Pulses, start_s: float, end_s: float) -> FloatArray:
     """Return the exact impulse per area (n, c) of every pulse from `start_s` to `end_s`, Pa·s."""
     if not end_s >= start_s:
         raise BlastError(f"end of the step is {end_s:g}: expected at least its start, {start_s:g} (s)")
-    return pulse_impulse(
-        pulses.peaks_pa, pulses.durations_s, pulses.decays, start_s - pulses.arrivals_s, end_s - pulses.arrivals_s
-    )
+    starts, ends = start_s - pulses.arrivals_s, end_s - pulses.arrivals_s
+    loops = pulse_loops()
+    if loops is not None and starts.ndim == 1:
+        found: FloatArray = loops.impulses(pulses.peaks_pa, pulses.durations_s, pulses.decays, starts, ends)
+        return found
+    return pulse_impulse(pulses.peaks_pa, pulses.durations_s, pulses.decays, starts, ends)
+
+
+@where_compiled
+def pulse_loops() -> ModuleType:
+    """Return the loop of impulses."""
+    from . import pulse_loops
+
+    return pulse_loops
 
 
 def pressure_at(pulses: Pulses, time_s: float | FloatArray) -> FloatArray:
@@ -259,21 +272,21 @@ def _share(decay: FloatArray) -> FloatArray:
 
 def _moments(exponent: FloatArray, count: int) -> list[FloatArray]:
     """Return ∫₀¹ uⁿ e^(-y u) du for y ≥ 0 and n from 0 on; a series where the closed form would lose its digits."""
-    is_small = exponent < _SERIES_BELOW
+    is_small = exponent < SERIES_BELOW
     # Both are costly: most steps are so short, or so long, that one of them serves all pulses.
     if is_small.all():
         return list(_series_of_moments(exponent, count))
     if not is_small.any():
         return _closed_moments(exponent, count)
-    series = _series_of_moments(np.minimum(exponent, _SERIES_BELOW), count)
-    closed = _closed_moments(np.maximum(exponent, _SERIES_BELOW), count)
+    series = _series_of_moments(np.minimum(exponent, SERIES_BELOW), count)
+    closed = _closed_moments(np.maximum(exponent, SERIES_BELOW), count)
     return [np.where(is_small, *moments) for moments in zip(series, closed, strict=True)]
 
 
 def _series_of_moments(exponent: FloatArray, count: int) -> FloatArray:
     """Return the moments (count, ...) by their series, for small exponents."""
     sums = np.zeros((count, *exponent.shape))
-    for coefficients in np.array(_SERIES)[:, :count].reshape(-1, count, *[1] * exponent.ndim):
+    for coefficients in np.array(SERIES)[:, :count].reshape(-1, count, *[1] * exponent.ndim):
         np.multiply(exponent, sums, out=sums)
         np.subtract(coefficients, sums, out=sums)
     return sums

@@ -6,10 +6,12 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
+from bridge_demolition_addon.engineering.blast import pulses as pulses_module
 from bridge_demolition_addon.engineering.blast.pulses import (
     REPORT_DECAY,
     BlastModel,
     Loading,
+    Pulses,
     blast_pulses,
     blast_wave,
     impulse_between,
@@ -164,3 +166,17 @@ def test_the_smallest_stand_off_is_what_a_body_around_the_charge_gets():
     around, touching = (blast_pulses([[r]], [27.0], [0.0], ["air"]) for r in (0.0, 3.0 * 0.0531))
     assert around.impulses_pa_s == pytest.approx(touching.impulses_pa_s, rel=1e-12)
     assert whole_impulse(around.peaks_pa, around.durations_s, around.decays).item() > 0.0
+
+
+def test_the_compiled_loop_gives_the_bits_of_numpy(monkeypatch):
+    random = np.random.default_rng(4)
+    arrivals, peaks, durations = random.uniform(0.0, 0.02, 4000), random.uniform(1e2, 1e7, 4000), random.random(4000)
+    durations *= random.choice([0.0, 1e-4, 1e-2, 1.0], 4000)
+    decays = random.uniform(0.0, 40.0, 4000) * random.choice([0.0, 1e-3, 1.0, 20.0], 4000)
+    all_of_them = Pulses(arrivals, peaks, durations, decays)
+    assert pulses_module.pulse_loops() is not None
+    times_s = [(0.0, 0.03), (0.01, 0.01), (0.012, 0.0121), (0.05, 4.0)]
+    compiled = [impulse_between(all_of_them, *between) for between in times_s]
+    monkeypatch.setattr(pulses_module, "pulse_loops", lambda: None)
+    np.testing.assert_array_equal(compiled, [impulse_between(all_of_them, *between) for between in times_s])
+    assert np.count_nonzero(compiled) > 4000
