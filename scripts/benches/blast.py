@@ -20,10 +20,10 @@ from benches.way_of_2019 import blast_by_fields
 from bridge_demolition_addon.model.blast.charges import Charge
 from bridge_demolition_addon.model.blast.explosion import Explosion
 from bridge_demolition_addon.model.blast.settings import Apply, BlastSettings
+from bridge_demolition_addon.scene import run_setup
 from bridge_demolition_addon.scene.blast.charges import create_charges, keep_blast
 from bridge_demolition_addon.scene.blast.force_fields import build_force_objects
 from bridge_demolition_addon.scene.bodies import bodies_of
-from bridge_demolition_addon.simulation.recording import blast
 
 FRAMES = 5
 """Of each kind."""
@@ -43,12 +43,16 @@ CHARGES = (
 
 
 class SteadyLoads(Explosion):
-    """Loads some bodies in every frame, as if charges went off in each."""
+    """Loads some bodies in every sub-step, as if charges went off in each, and counts the steps."""
 
     every = 1
+    steps = 0
 
     def loads(self, start_s, end_s, centres, rotations):
+        SteadyLoads.steps += 1
         loads = super().loads(0.0, 1.0, centres, rotations)
+        if self.every == 1:
+            return loads
         chosen = loads.bodies % self.every == 0 if self.every else np.zeros(len(loads), bool)
         return replace(loads, **{name: getattr(loads, name)[chosen] for name in loads.__dataclass_fields__})
 
@@ -80,9 +84,12 @@ def _show(shards: int, name: str, seconds: float, bare: float | None = None) -> 
 
 
 def _with_blast(shards: int, apply: Apply, every: int) -> float:
-    SteadyLoads.every = every
-    with patch.object(blast, "Explosion", SteadyLoads):
-        return _seconds(shards, apply, record=True)
+    SteadyLoads.every, SteadyLoads.steps = every, 0
+    with patch.object(run_setup, "Explosion", SteadyLoads):
+        seconds = _seconds(shards, apply, record=True)
+    if every and SteadyLoads.steps < FRAMES:
+        raise AssertionError(f"loaded in {SteadyLoads.steps} steps of {FRAMES} frames")
+    return seconds
 
 
 def _seconds(shards: int, apply: Apply | None = None, *, record: bool = False) -> float:

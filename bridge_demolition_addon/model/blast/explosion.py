@@ -131,14 +131,30 @@ def sum_of_loads(steps: Sequence[StepLoads]) -> StepLoads:
     """
     if not steps:
         return no_loads()
+    if len(steps) > 1 and all(_load_the_same(steps[0], step) for step in steps[1:]):
+        once = steps[0]
+        impulses, pressures = once.impulses_ns.copy(), once.pressure_impulses_pa_s.copy()
+        for step in steps[1:]:  # one after another, as they are added below
+            impulses += step.impulses_ns
+            pressures += step.pressure_impulses_pa_s
+        return _with_sums(once, impulses, pressures)
     every = StepLoads(*(np.concatenate([getattr(step, name) for step in steps]) for name in _COLUMNS))
     pairs = every.bodies * (1 + every.charges.max(initial=0)) + every.charges
     pairs, rows, groups = np.unique(pairs, return_index=True, return_inverse=True)
     impulses = np.bincount(groups.ravel(), every.impulses_ns, len(pairs))
     pressures = np.bincount(groups.ravel(), every.pressure_impulses_pa_s, len(pairs))
-    areas = np.divide(impulses, pressures, where=pressures > 0.0, out=every.areas_m2[rows])
-    once = StepLoads(*(getattr(every, name)[rows] for name in _COLUMNS))
-    return replace(once, impulses_ns=impulses, pressure_impulses_pa_s=pressures, areas_m2=areas)
+    return _with_sums(StepLoads(*(getattr(every, name)[rows] for name in _COLUMNS)), impulses, pressures)
+
+
+def _load_the_same(one: StepLoads, other: StepLoads) -> bool:
+    """Return whether two steps have the same pairs of bodies and charges."""
+    return np.array_equal(one.bodies, other.bodies) and np.array_equal(one.charges, other.charges)
+
+
+def _with_sums(first: StepLoads, impulses: np.ndarray, pressures: np.ndarray) -> StepLoads:
+    """Return the loads of k pairs in the first step of each, with sums (k,) of impulses and of pressure impulses."""
+    areas = np.divide(impulses, pressures, where=pressures > 0.0, out=first.areas_m2.copy())
+    return replace(first, impulses_ns=impulses, pressure_impulses_pa_s=pressures, areas_m2=areas)
 
 
 _COLUMNS = tuple(StepLoads.__dataclass_fields__)

@@ -8,7 +8,7 @@ import pytest
 
 from bridge_demolition_addon.engineering.geometry.hulls import convex_hulls
 from bridge_demolition_addon.model.blast.charges import Charge
-from bridge_demolition_addon.model.blast.explosion import Explosion, sum_of_loads
+from bridge_demolition_addon.model.blast.explosion import Explosion, StepLoads, sum_of_loads
 from bridge_demolition_addon.model.blast.settings import BlastSettings
 from bridge_demolition_addon.scene.blast.field_reach import LONGEST_M, WIDEST_M, isolating_reaches
 
@@ -102,6 +102,20 @@ def test_loads_of_two_steps_become_those_of_one():
     for name in whole.__dataclass_fields__:
         np.testing.assert_allclose(getattr(sum_of_loads(parts), name), getattr(whole, name), rtol=1e-12)
     assert not len(sum_of_loads([]))
+
+
+def test_steps_that_load_the_same_pairs_add_up_as_those_that_do_not():
+    """A last step with one pair fewer takes the other way; its pair must have the bits of the shorter sum."""
+    random = np.random.default_rng(8)
+    columns = {"bodies": np.array([0, 0, 2]), "charges": np.array([0, 1, 1]), "directions": np.ones((3, 3))}
+    steps = []
+    for _ in range(10):
+        values = {name: random.random(3) for name in StepLoads.__dataclass_fields__ if name not in columns}
+        steps.append(StepLoads(**columns, **values))
+    last = StepLoads(*(getattr(steps[-1], name)[:2] for name in StepLoads.__dataclass_fields__))
+    same, other = sum_of_loads(steps), sum_of_loads([*steps[:-1], last])
+    for name in StepLoads.__dataclass_fields__:
+        np.testing.assert_array_equal(getattr(same, name)[:2], getattr(other, name)[:2])
 
 
 def test_no_field_holds_the_centre_of_another_body():
