@@ -54,6 +54,20 @@ def _distance_to_sides(x: float, y: float, starts: Any, sides: Any, lengths_squa
 
 
 @compiled
+def path_of_corners(rotations: Any, positions: Any, corners: Any) -> Any:
+    """Corners (v, 3) in plan (k, v, 2) by rotations (k, 3, 3) and positions (k, 3)."""
+    path = np.empty((len(rotations), len(corners), 2))
+    for step in range(len(rotations)):
+        for corner in range(len(corners)):
+            for axis in range(2):
+                turned = rotations[step, axis, 0] * corners[corner, 0]
+                turned = turned + rotations[step, axis, 1] * corners[corner, 1]
+                turned = turned + rotations[step, axis, 2] * corners[corner, 2]
+                path[step, corner, axis] = turned + positions[step, axis]
+    return path
+
+
+@compiled
 def bends_and_moves(plans: Any) -> Any:
     """Largest change of a coordinate of points in plan (k, v, 2) in each step, and of that change from step to step.
 

@@ -8,6 +8,16 @@ import numpy as np
 
 from ..arrays import FloatArray
 from .plan_areas import plan_loops
+from .vectors import transformed
+
+
+def path_of_corners(rotations: FloatArray, positions: FloatArray, corners: FloatArray) -> FloatArray:
+    """Corners (v, 3) of a body in plan (k, v, 2) at all steps, by its rotations (k, 3, 3) and positions (k, 3)."""
+    if (loops := plan_loops()) is not None:
+        arrays = (np.ascontiguousarray(of, float) for of in (rotations, positions, corners))
+        path: FloatArray = loops.path_of_corners(*arrays)
+        return path
+    return transformed(rotations[:, None, :2], corners) + positions[:, None, :2]
 
 
 def ends_of_straight_parts(plans: FloatArray, off: float) -> list[int]:

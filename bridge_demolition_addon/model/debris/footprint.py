@@ -9,7 +9,7 @@ from manifold3d import CrossSection, OpType
 
 from ...engineering.arrays import Rows
 from ...engineering.geometry.plan_areas import distances_outside, united
-from ...engineering.geometry.plan_paths import ends_of_straight_parts
+from ...engineering.geometry.plan_paths import ends_of_straight_parts, path_of_corners
 from ...engineering.geometry.vectors import distance, transformed
 from ...errors import OutputError
 from ..results.arrays import Results
@@ -70,8 +70,7 @@ def swept_footprint(results: Results, bodies: Rows) -> CrossSection:
 
 def plans_of(results: Results, body: int, corners: np.ndarray) -> np.ndarray:
     """Return the corners (k, v, 2) of a body in plan at all recorded steps."""
-    positions, rotations = results.frames.positions_m[:, body, :2], results.frames.rotations[:, body, :2]
-    return transformed(rotations[:, None], corners) + positions[:, None]
+    return path_of_corners(results.frames.rotations[:, body], results.frames.positions_m[:, body], corners)
 
 
 def straightened(area: CrossSection) -> CrossSection:

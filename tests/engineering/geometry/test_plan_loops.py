@@ -7,7 +7,11 @@ from manifold3d import CrossSection
 
 from bridge_demolition_addon.engineering.geometry import plan_areas, plan_paths
 from bridge_demolition_addon.engineering.geometry.plan_areas import distances_outside, plan_loops
-from bridge_demolition_addon.engineering.geometry.plan_paths import bends_and_moves, ends_of_straight_parts
+from bridge_demolition_addon.engineering.geometry.plan_paths import (
+    bends_and_moves,
+    ends_of_straight_parts,
+    path_of_corners,
+)
 
 pytest.importorskip("numba")
 
@@ -57,3 +61,13 @@ def test_bends_and_moves_are_those_of_numpy(without_numba, steps):
         np.testing.assert_array_equal(found, expected)
     assert ends == ends_of_straight_parts(plans, 0.01)
     assert ends[0] == 0 and ends[-1] == steps - 1
+
+
+def test_corners_in_plan_are_those_of_numpy(without_numba):
+    rng = np.random.default_rng(4)
+    rotations, positions = rng.normal(size=(60, 3, 3)), rng.normal(scale=50.0, size=(60, 3))
+    corners = rng.normal(size=(14, 3))
+    compiled = path_of_corners(rotations, positions, corners)
+    without_numba()
+    np.testing.assert_array_equal(compiled, path_of_corners(rotations, positions, corners))
+    assert compiled.shape == (60, 14, 2)
