@@ -82,6 +82,9 @@ def straightened(area: CrossSection) -> CrossSection:
 def _covers_box(area: CrossSection, points: np.ndarray) -> bool:
     """Return whether an area covers the box around points (..., 2)."""
     lowest, highest = points.min(axis=(0, 1)), points.max(axis=(0, 1))
+    bounds = np.array(area.bounds())
+    if (lowest < bounds[:2] - _STRAIGHT_SIDE_M).any() or (highest > bounds[2:] + _STRAIGHT_SIDE_M).any():
+        return False  # without cutting the box
     box = CrossSection.square((highest - lowest).tolist()).translate(lowest.tolist())
     return (box - area).is_empty()
 
