@@ -170,7 +170,13 @@ def _structure(address: int, size: int, name: str) -> Callable[[str, int], Any]:
     raw = read(address, size)
     if raw is None:
         raise LayoutError(f"memory {name} cannot be read")
-    return lambda format_, offset: struct.unpack_from("<" + format_, raw, offset)[0]
+
+    def value(format_: str, offset: int) -> Any:
+        if not 0 <= offset <= size - struct.calcsize("<" + format_):
+            raise LayoutError(f"a value {name} lies outside of it")
+        return struct.unpack_from("<" + format_, raw, offset)[0]
+
+    return value
 
 
 def _expect(name: str, value: object, expected: object) -> None:
