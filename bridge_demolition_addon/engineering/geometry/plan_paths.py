@@ -23,7 +23,7 @@ def path_of_corners(rotations: FloatArray, positions: FloatArray, corners: Float
 def ends_of_straight_parts(plans: FloatArray, off: float) -> list[int]:
     """Steps at which straight parts of a path of corners (k, v, 2) meet, and the first and last.
 
-    Corners stray from a straight way, or from a place where they stay, by `off` at most.
+    Corners stray from a straight way, or from the position at which they stay, by `off` at most.
     """
     last = len(plans) - 1
     bends, moves = bends_and_moves(plans)
