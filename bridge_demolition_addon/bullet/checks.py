@@ -6,7 +6,7 @@ All reads here are fault-free, so that a wrong offset ends in a `LayoutError` an
 from __future__ import annotations
 
 import struct
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 import bpy
@@ -99,13 +99,7 @@ def check_connections(
 
 def _check_body(layout: Layout, body: bpy.types.Object, holder: int, address: int, gravity: np.ndarray) -> None:
     offsets, settings, name = layout.body, body.rigid_body, f"of body {body.name!r}"
-    raw = read(address, offsets.linear_damping + 8)
-    if raw is None:
-        raise LayoutError(f"memory {name} cannot be read")
-
-    def value(format_: str, offset: int) -> Any:
-        return struct.unpack_from("<" + format_, raw, offset)[0]
-
+    value = _structure(address, offsets.linear_damping + 8, name)
     _expect(f"user pointer {name}", value("Q", offsets.user_pointer), holder)
     _expect_member(f"activation state {name}", value("i", offsets.activation), ACTIVATION_STATES)
     slow_s = value("d", offsets.deactivation_time)
@@ -115,7 +109,8 @@ def _check_body(layout: Layout, body: bpy.types.Object, holder: int, address: in
     _expect_close(f"friction {name}", value("d", offsets.friction), settings.friction)
     _expect_close(f"damping {name}", value("d", offsets.linear_damping), settings.linear_damping)
     _check_inverse_mass(name, value("d", offsets.inverse_mass), settings)
-    _check_weight(name, struct.unpack_from("<3d", raw, offsets.gravity), value("d", offsets.inverse_mass), gravity)
+    weight = [value("d", offsets.gravity + 8 * axis) for axis in range(3)]
+    _check_weight(name, weight, value("d", offsets.inverse_mass), gravity)
 
 
 def _check_inverse_mass(name: str, inverse_mass: float, settings: bpy.types.RigidBodyObject) -> None:
@@ -128,7 +123,7 @@ def _check_inverse_mass(name: str, inverse_mass: float, settings: bpy.types.Rigi
     _expect_close(f"mass {name}", 1.0 / inverse_mass, settings.mass)
 
 
-def _check_weight(name: str, weight: tuple[float, ...], inverse_mass: float, gravity: np.ndarray) -> None:
+def _check_weight(name: str, weight: Sequence[float], inverse_mass: float, gravity: np.ndarray) -> None:
     """Bullet keeps the weight of every body that moves; Blender has just set it from the scene's gravity."""
     if inverse_mass == 0.0:
         return
@@ -158,16 +153,30 @@ def _check_position(layout: Layout, body: bpy.types.Object, address: int) -> Non
 
 def _check_connection(layout: Layout, connection: bpy.types.Object, address: int, bodies: dict) -> None:
     offsets, settings, name = layout.constraint, connection.rigid_body_constraint, f"of connection {connection.name!r}"
-    _expect_member(f"type {name}", read_value(address + offsets.type, "i"), CONSTRAINT_TYPES[settings.type])
+    value = _structure(address, offsets.drawing_size + 8, name)
+    _expect_member(f"type {name}", value("i", offsets.type), CONSTRAINT_TYPES[settings.type])
     expected = {bodies.get(settings.object1), bodies.get(settings.object2)}
     if None not in expected:
-        pair = {read_pointer(address + offsets.body_a), read_pointer(address + offsets.body_b)}
-        _expect(f"bodies {name}", pair, expected)
+        _expect(f"bodies {name}", {value("Q", offsets.body_a), value("Q", offsets.body_b)}, expected)
     if settings.use_breaking:
-        threshold = read_value(address + offsets.breaking_threshold, "d")
+        threshold = value("d", offsets.breaking_threshold)
         _expect_close(f"breaking threshold {name}", threshold, settings.breaking_threshold)
-    _expect_member(f"enabled flag {name}", read_value(address + offsets.enabled, "B"), {0, 1})
-    _expect_close(f"drawing size {name}", read_value(address + offsets.drawing_size, "d"), DRAWING_SIZE)
+    _expect_member(f"enabled flag {name}", value("B", offsets.enabled), {0, 1})
+    _expect_close(f"drawing size {name}", value("d", offsets.drawing_size), DRAWING_SIZE)
+
+
+def _structure(address: int, size: int, name: str) -> Callable[[str, int], Any]:
+    """Read a structure, and return what gives one of its values, in `struct` notation, by its offset."""
+    raw = read(address, size)
+    if raw is None:
+        raise LayoutError(f"memory {name} cannot be read")
+
+    def value(format_: str, offset: int) -> Any:
+        if not 0 <= offset <= size - struct.calcsize("<" + format_):
+            raise LayoutError(f"a value {name} lies outside of it")
+        return struct.unpack_from("<" + format_, raw, offset)[0]
+
+    return value
 
 
 def _expect(name: str, value: object, expected: object) -> None:

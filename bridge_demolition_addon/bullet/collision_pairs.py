@@ -23,14 +23,13 @@ _MOST_IGNORED = 1_000_000
 class CollisionPairs:
     """The entries that connections have in the lists of their bodies.
 
-    The connections at addresses (m,) keep their bodies from colliding; all bodies are at addresses (n,).
+    The connections at checked addresses (m,) keep their bodies from colliding; all bodies are at addresses (n,).
     """
 
     def __init__(self, layout: Layout, connections: np.ndarray, bodies: np.ndarray):
         self._list_offset = np.uint64(layout.body.ignored_bodies_data)
-        fields = (layout.constraint.body_a, layout.constraint.body_b)
-        pairs = [[read_pointer(int(address) + field) for field in fields] for address in connections]
-        self._pairs = np.array(pairs, np.uint64).reshape(-1, 2)
+        fields = np.array((layout.constraint.body_a, layout.constraint.body_b), np.uint64)
+        self._pairs = POINTERS.gather(connections[:, None] + fields)
         lists = {body: _ignored_bodies(layout, body) for body in bodies.tolist()}
         self._slots = _slots(self._pairs, lists)
 

@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from importlib import import_module
 from types import ModuleType
 
 from ..errors import SimulationError
+from ..system.one_core import on_one_core
 from ..system.signals import interrupted_afterwards
 
 
-def simulation_module(name: str) -> ModuleType:
-    """Return a module of `simulation`: scenarios can be read and checked where Blender is not installed."""
+def simulation_module(name: str, *, one_thread: bool = False) -> ModuleType:
+    """Return a module of `simulation`: scenarios can be read and checked where Blender is not installed.
+
+    A command that renders nothing has it with `one_thread`, where Blender was not loaded before.
+    """
     try:
-        with interrupted_afterwards():
+        with interrupted_afterwards(), on_one_core() if one_thread else nullcontext():
             return import_module(f"...simulation.{name}", __name__)
     except ModuleNotFoundError as error:
         if error.name != "bpy":

@@ -147,7 +147,7 @@ def _cost_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
 
 def _awake_facts(scenario: Scenario) -> Iterator[Fact]:
     """Run a bridge alone and awake, and yield whether it stood."""
-    summary = simulation_module("motion_run").left_alone_run(scenario)
+    summary = simulation_module("motion_run", one_thread=True).left_alone_run(scenario)
     fall, moving = self_collapse_text(summary), moving_text(summary)
     if fall or moving:
         yield "comes down", fall or moving

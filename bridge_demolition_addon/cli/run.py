@@ -137,8 +137,9 @@ def _run_and_report(
     path: str, scenario: Scenario, model: Model | None, output: Path, arguments: argparse.Namespace, progress: Progress
 ) -> None:
     plain = plain_concrete_text(scenario)
+    is_rendered = arguments.film or not arguments.no_pictures
     with naming(path):
-        summary = simulation_module("run").run_scenario(
+        summary = simulation_module("run", one_thread=not is_rendered).run_scenario(
             scenario,
             output,
             model=model,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import isnan
 from typing import Any
 
 import bpy
@@ -35,12 +36,12 @@ def kept_series(holder: bpy.types.ID, name: str, expected: str) -> np.ndarray:
     """Return the numbers (k,) of a property, of which none is nan; an error says what was expected there."""
     value = holder.get(name)
     try:
-        numbers = np.array([] if isinstance(value, str | bytes) else [float(number) for number in value])
+        numbers = [] if isinstance(value, str | bytes) else [float(number) for number in value]
     except (TypeError, ValueError) as error:
         raise edited(holder, name, expected) from error
-    if isinstance(value, str | bytes) or np.isnan(numbers).any():
+    if isinstance(value, str | bytes) or any(map(isnan, numbers)):
         raise edited(holder, name, expected)
-    return numbers
+    return np.array(numbers, float)
 
 
 def kept_values(holder: bpy.types.ID, name: str, nothing: Any) -> Any:

@@ -139,7 +139,7 @@ def _play_here(
 ) -> tuple[RunOutcome, dict[str, bytes]]:
     """Make a run in a process beside the worker; return its outcome, and its files by their paths in its folder."""
     with (
-        _WARM.process(command or run_program_command(), versions, limits) as process,
+        _WARM.process(command or run_program_command(one_thread=limits.one_thread), versions, limits) as process,
         tempfile.TemporaryDirectory(prefix="bda-run-") as folder,
     ):
         target = Path(folder) / "run"

@@ -82,7 +82,8 @@ class LocalProcesses:
         self._tasks: queue.SimpleQueue[Task | None] = queue.SimpleQueue()
         self._ended: queue.SimpleQueue[tuple[Task, RunOutcome | Exception]] = queue.SimpleQueue()
         self._is_closed = False
-        self._processes = [RunProcess(command or run_program_command(), self.versions, limits) for _ in range(jobs)]
+        command = command or run_program_command(one_thread=limits.one_thread)
+        self._processes = [RunProcess(command, self.versions, limits) for _ in range(jobs)]
         self._threads = [
             threading.Thread(target=self._work, args=(process,), name="runs", daemon=True)
             for process in self._processes

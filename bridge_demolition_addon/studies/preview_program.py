@@ -80,7 +80,7 @@ class _SupersededError(BaseException):
 
 def preview_program_command(blender: str = "") -> list[str]:
     """Return the command of this program, run by this Python or by a program of Blender."""
-    return program_command("studies.preview_program", blender)
+    return program_command("studies.preview_program", blender, one_thread=True)
 
 
 def main() -> NoReturn:

@@ -36,17 +36,18 @@ _VMSTAT = Path("/proc/vmstat")
 
 @dataclass(frozen=True, slots=True)
 class RunLimits:
-    """When a run is ended."""
+    """What a run may take: it is ended above its time or memory."""
 
     time_s: float | None = None  # wall time
     memory_mb: float | None = None  # of its process
+    one_thread: bool = True  # of Blender; pictures are rendered with all
 
     @classmethod
     def of(cls, settings: EnsembleSettings) -> Self:
         """Return the limits of a study, a search or an optimisation."""
         if settings.memory_limit_mb is not None and sys.platform != "linux":
             raise ScenarioError(f"{settings.table}.memory_limit_mb: memory can be limited on Linux only; leave it out")
-        return cls(settings.time_limit_s, settings.memory_limit_mb)
+        return cls(settings.time_limit_s, settings.memory_limit_mb, one_thread=settings.keep != "all")
 
 
 class RunProcess:

@@ -31,9 +31,9 @@ from .own_blender import versions_here
 from .run_service import RunService
 
 
-def run_program_command(blender: str = "") -> list[str]:
-    """Return the command of this program, run by this Python or by a program of Blender."""
-    return program_command("studies.run_program", blender)
+def run_program_command(blender: str = "", *, one_thread: bool = True) -> list[str]:
+    """Return the command of this program, run by this Python or by a program of Blender, which may have one thread."""
+    return program_command("studies.run_program", blender, one_thread=one_thread)
 
 
 def main() -> NoReturn:

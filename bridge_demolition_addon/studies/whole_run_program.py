@@ -21,9 +21,12 @@ from .run_service import RunService
 _SAID_EVERY_S = 0.3
 
 
-def whole_run_program_command(blender: str = "") -> list[str]:
-    """Return the command of this program, run by this Python or by a program of Blender."""
-    return program_command("studies.whole_run_program", blender)
+def whole_run_program_command(blender: str = "", *, pictures: bool = True) -> list[str]:
+    """Return the command of this program, run by this Python or by a program of Blender.
+
+    It renders no pictures without `pictures`: Blender has one thread then.
+    """
+    return program_command("studies.whole_run_program", blender, one_thread=not pictures)
 
 
 def main() -> NoReturn:

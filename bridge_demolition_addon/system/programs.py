@@ -9,21 +9,27 @@ from typing import IO
 _PACKAGE = Path(__file__).resolve().parents[1]
 
 
-def program_command(module: str, blender: str = "", *, with_libraries: bool = False) -> list[str]:
+def program_command(
+    module: str, blender: str = "", *, with_libraries: bool = False, one_thread: bool = False
+) -> list[str]:
     """Return the command that runs `main` of a module of this package, from any folder; arguments may follow.
 
     A program of Blender runs it, without a window; this Python where none is given. Blender without preferences knows
     no extensions and none of their libraries, so it gets the paths of this process; so does this Python
-    `with_libraries`, as Blender's own Python does not know them either.
+    `with_libraries`, as Blender's own Python does not know them either. With `one_thread`, Blender has one, which is
+    for programs that render nothing; see `one_core`.
     """
     libraries = f"sys.path += {sys.path!r}; " if blender or with_libraries else ""
-    start = (
-        f"import sys; sys.path.insert(0, {str(_PACKAGE.parent)!r}); {libraries}"
-        f"from {_PACKAGE.name}.{module} import main; main()"
-    )
+    paths = f"import sys; sys.path.insert(0, {str(_PACKAGE.parent)!r}); {libraries}"
+    start = f"from {_PACKAGE.name}.{module} import main; main()"
     if not blender:
-        return [sys.executable, "-c", start]
-    return [blender, "--background", "--factory-startup", "--python-exit-code", "1", "--python-expr", start]
+        load = f"from {_PACKAGE.name}.system.one_core import load_on_one_core; load_on_one_core('bpy'); "
+        return [sys.executable, "-c", paths + (load if one_thread else "") + start]
+    threads = ["--threads", "1"] if one_thread else []
+    return [
+        *(blender, "--background", "--factory-startup", *threads),
+        *("--python-exit-code", "1", "--python-expr", paths + start),
+    ]
 
 
 def start_program(

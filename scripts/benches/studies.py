@@ -3,8 +3,9 @@
 
 Blender's own time is taken in one process that builds each draw and plays it with nothing recorded: once as Blender
 plays it by itself, where pieces that broke apart still pass through each other, and once with only what changes the
-outcome. A study of the same draws is taken as a user starts it: the command line with its start, that of
-Blender, building, recording and writing included. Draws that do nothing show what is left where Blender takes no time.
+outcome. Blender has one thread there, as in the processes of a study. A study of the same draws is taken as a user
+starts it: the command line with its start, that of Blender, building, recording and writing included. Draws that do
+nothing show what is left where Blender takes no time.
 
 Candidates of an optimisation have the same seeds, so that their runs share models: they are made with and without that.
 """
@@ -34,6 +35,15 @@ CANDIDATES, SEEDS = 4, 3
 VERSIONS = {"program": "that does nothing"}
 LIMITS = RunLimits()
 
+WITH_ONE_THREAD = """
+import runpy, sys
+from bridge_demolition_addon.system.one_core import load_on_one_core
+load_on_one_core("bpy")
+del sys.argv[0]
+runpy.run_path(sys.argv[0], run_name="__main__")
+"""
+"""Runs a script, whose arguments follow it, in a process like that of a study's runs."""
+
 DOES_NOTHING = """
 import sys
 print('bda-draw {"versions": {"program": "that does nothing"}}', flush=True)
@@ -58,10 +68,10 @@ def main(smallest: bool, runs: int | None = None) -> dict[str, float]:
 
 def draws(folder: Path, study: Path, count: int) -> dict[str, float]:
     """Compare a study with Blender's own time for the same draws; two jobs take two of them at least."""
-    ratios = {}
-    alone = _times_of(sys.executable, BARE, "alone", study)
+    ratios, bare = {}, (sys.executable, "-c", WITH_ONE_THREAD, BARE)
+    alone = _times_of(*bare, "alone", study)
     one = _times_of(*_study_command(study, folder / "one", 1))
-    same = _times_of(sys.executable, BARE, "same", study)
+    same = _times_of(*bare, "same", study)
     times = {"steps as Blender plays them by itself": alone, "steps as they are": same, "study with one job": one}
     if count > 1:
         times["study with two jobs"] = _times_of(*_study_command(study, folder / "two", 2))

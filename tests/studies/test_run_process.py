@@ -95,6 +95,11 @@ def test_limits_are_those_of_the_study(monkeypatch, limit):
         assert RunLimits.of(settings) == RunLimits(7.0)
 
 
+@pytest.mark.parametrize("keep, one_thread", [("outcome", True), ("logs", True), ("all", False)])
+def test_pictures_are_rendered_with_all_threads(keep, one_thread):
+    assert RunLimits.of(StudySettings(scenario="a.toml", keep=keep)).one_thread == one_thread
+
+
 def test_draws_share_a_process_until_it_is_replaced(process, program, tmp_path):
     for number in range(RUNS_PER_PROCESS + 1):
         assert play(process, "nothing", tmp_path / str(number)) == ("done", "")

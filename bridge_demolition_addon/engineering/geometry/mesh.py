@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
-from .vectors import dot, length, unit
+from .vectors import cross, dot, length, unit
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -59,7 +59,7 @@ def joined_meshes(meshes: Sequence[TriangleMesh]) -> TriangleMesh:
 
 def triangle_areas_and_normals(corners: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Areas (t,) and unit normals (t, 3) of triangles (t, 3, 3); a zero normal where there is no area."""
-    doubled = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    doubled = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     return length(doubled) / 2.0, unit(doubled)
 
 
@@ -74,7 +74,7 @@ def volumes_and_centres(meshes: Sequence[TriangleMesh]) -> tuple[FloatArray, Flo
     middles = np.array([mesh.vertices.mean(axis=0) for mesh in meshes])
     corners = np.concatenate([mesh.corners - middle for mesh, middle in zip(meshes, middles, strict=True)])
     starts = np.cumsum([0] + [len(mesh.triangles) for mesh in meshes[:-1]])
-    six_volumes = dot(corners[:, 0], np.cross(corners[:, 1], corners[:, 2]))
+    six_volumes = dot(corners[:, 0], cross(corners[:, 1], corners[:, 2]))
     moments = six_volumes[:, None] * corners.sum(axis=1) / 24.0
     volumes = np.add.reduceat(six_volumes / 6.0, starts)
     first_moments = np.add.reduceat(moments, starts)

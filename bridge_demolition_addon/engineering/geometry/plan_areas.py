@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from types import ModuleType
 
 import numpy as np
 from manifold3d import CrossSection, JoinType, OpType
 
 from ..arrays import FloatArray, IntArray
+from ..compilation import where_compiled
 from .vectors import cross_2d, distance, dot
 
 FEWEST_CORNERS = 3
@@ -57,6 +59,9 @@ def distances_outside(area: CrossSection, points: FloatArray) -> FloatArray:
     rings = outlines(area)
     starts = np.concatenate(rings)
     ends = np.concatenate([np.roll(ring, -1, axis=0) for ring in rings])
+    if (loops := plan_loops()) is not None:
+        found: FloatArray = loops.distances_outside(np.ascontiguousarray(points, float), starts, ends)
+        return found
     distances = np.empty(len(points))
     rows = max(1, PAIRS_PER_BLOCK // len(starts))
     for first in range(0, len(points), rows):
@@ -65,6 +70,14 @@ def distances_outside(area: CrossSection, points: FloatArray) -> FloatArray:
         distances[first : first + rows] = 0.0
         distances[first : first + rows][outside] = _distances_to_sides(block[outside], starts, ends).min(axis=1)
     return distances
+
+
+@where_compiled
+def plan_loops() -> ModuleType:
+    """Loops over points in plan."""
+    from . import plan_loops
+
+    return plan_loops
 
 
 def _distances_to_sides(points: FloatArray, starts: FloatArray, ends: FloatArray) -> FloatArray:

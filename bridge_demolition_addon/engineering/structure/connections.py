@@ -156,6 +156,8 @@ def _standing_face(
         on_ground = heights_at(corners[..., :2].reshape(-1, 2)).reshape(-1, 3)
         corners = corners[(np.abs(on_ground - corners[:, :, 2]) <= _LEVEL_TOLERANCE_M).all(axis=1)]
     flat = corners[(abs(corners[:, :, 2] - level) <= _LEVEL_TOLERANCE_M).all(axis=1)]
+    if not len(flat):
+        return 0.0, np.zeros(3)
     areas, _ = triangle_areas_and_normals(flat)
     total = float(areas.sum())
     centre = (areas[:, None] * flat.mean(axis=1)).sum(axis=0) / total if total > 0.0 else np.zeros(3)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from bisect import bisect_right
 from itertools import pairwise
 
 import numpy as np
@@ -10,6 +9,7 @@ from manifold3d import CrossSection, OpType
 
 from ...engineering.arrays import Rows
 from ...engineering.geometry.plan_areas import distances_outside, united
+from ...engineering.geometry.plan_paths import ends_of_straight_parts, path_of_corners
 from ...engineering.geometry.vectors import distance, transformed
 from ...errors import OutputError
 from ..results.arrays import Results
@@ -70,8 +70,7 @@ def swept_footprint(results: Results, bodies: Rows) -> CrossSection:
 
 def plans_of(results: Results, body: int, corners: np.ndarray) -> np.ndarray:
     """Return the corners (k, v, 2) of a body in plan at all recorded steps."""
-    positions, rotations = results.frames.positions_m[:, body, :2], results.frames.rotations[:, body, :2]
-    return transformed(rotations[:, None], corners) + positions[:, None]
+    return path_of_corners(results.frames.rotations[:, body], results.frames.positions_m[:, body], corners)
 
 
 def straightened(area: CrossSection) -> CrossSection:
@@ -83,44 +82,17 @@ def straightened(area: CrossSection) -> CrossSection:
 def _covers_box(area: CrossSection, points: np.ndarray) -> bool:
     """Return whether an area covers the box around points (..., 2)."""
     lowest, highest = points.min(axis=(0, 1)), points.max(axis=(0, 1))
+    bounds = np.array(area.bounds())
+    if (lowest < bounds[:2] - _STRAIGHT_SIDE_M).any() or (highest > bounds[2:] + _STRAIGHT_SIDE_M).any():
+        return False  # without cutting the box
     box = CrossSection.square((highest - lowest).tolist()).translate(lowest.tolist())
     return (box - area).is_empty()
 
 
 def _sweeps(plans: np.ndarray) -> list[CrossSection]:
     """Return the areas that plans (k, v, 2) cover on each straight part of a path, and at rest."""
-    steps = _ends_of_parts(plans)
+    steps = ends_of_straight_parts(plans, _STRAIGHT_M)
     return [CrossSection.hull_points(np.concatenate(plans[start : end + 1])) for start, end in pairwise(steps)]
-
-
-def _ends_of_parts(plans: np.ndarray) -> list[int]:
-    """Return the steps at which parts of a path (k, v, 2) meet, and the first and last."""
-    last = len(plans) - 1
-    bends = np.zeros(last + 1)
-    bends[1:-1] = np.abs(np.diff(plans, 2, axis=0)).max(axis=(1, 2), initial=0.0)
-    bent = np.cumsum(bends).tolist()
-    leaves_at_once = (np.abs(np.diff(plans, axis=0)).max(axis=(1, 2), initial=0.0) > _STRAIGHT_M).tolist()
-    ends = [0]
-    while ends[-1] < last:
-        start = ends[-1]
-        away = 0 if leaves_at_once[start] else _steps_near(plans, start)
-        ends.append(start + max(1, away, _straight_steps(bent, start, last)))
-    return ends if last else [0, 0]
-
-
-def _steps_near(plans: np.ndarray, start: int) -> int:
-    """Return how many steps after one all corners stay where they were."""
-    is_away = np.abs(plans[start + 1 :] - plans[start]).max(axis=(1, 2)) > _STRAIGHT_M
-    return int(is_away.argmax()) if is_away.any() else len(is_away)
-
-
-def _straight_steps(bent: list[float], start: int, last: int) -> int:
-    """Return how many steps after one lie on a straight line, by the sums of second differences up to each step.
-
-    A way of n steps strays from its chord by n / 4 times the sum of its second differences at most.
-    """
-    steps = range(1, last - start + 1)
-    return bisect_right(steps, _STRAIGHT_M, key=lambda step: step / 4.0 * (bent[start + step - 1] - bent[start]))
 
 
 def bodies_that_moved(results: Results, bodies: np.ndarray) -> np.ndarray:

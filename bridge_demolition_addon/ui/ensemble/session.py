@@ -144,9 +144,11 @@ def look_in() -> float | None:
 
 def engine_for(ensemble: Ensemble, jobs: int) -> LocalProcesses:
     """Return processes that make runs, each in a Blender like this one, `jobs` at a time."""
-    command = run_program_command(bpy.app.binary_path)  # an empty path where Blender is a module of Python
+    limits = RunLimits.of(ensemble.settings)
+    # An empty path where Blender is a module of Python.
+    command = run_program_command(bpy.app.binary_path, one_thread=limits.one_thread)
     versions = versions_with(".".join(map(str, bpy.app.version)))
-    return LocalProcesses(jobs, RunLimits.of(ensemble.settings), command, versions)
+    return LocalProcesses(jobs, limits, command, versions)
 
 
 def unregister() -> None:

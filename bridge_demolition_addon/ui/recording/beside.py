@@ -52,7 +52,7 @@ class RunsBeside:
         """Begin the run of what is built in a scene; a program that cannot start raises SimulationError."""
         settings = scene.bda
         self.run = WholeRun(
-            whole_run_program_command(bpy.app.binary_path),
+            whole_run_program_command(bpy.app.binary_path, pictures=settings.pictures_of_run),
             scenario_text(scenario),
             folder,
             overwrite=settings.overwrite,
