@@ -117,24 +117,25 @@ def velocities_alone(
 
 def put_loads(
     loads: FloatArray,
+    on_first: BoolArray,
     holding: BoolArray,
     parts: Sequence[tuple[IntArray, FloatArray, FloatArray]],
     substep_s: float,
 ) -> None:
-    """Write the loads (2, 6, m) of connections that hold (m,) in a sub-step, and 0 for the others.
+    """Write the loads (6, m) of connections that hold (m,) in a sub-step, and 0 for the others.
 
-    `parts` are numbers (k,) of some with their impulses (6, k) on first and on second bodies.
+    They are those on first bodies, or on second ones (m,). `parts` are numbers (k,) of some connections with their
+    impulses (6, k) on both.
     """
     loops = joint_loops()
     if loops is not None:
         loops.clear_loads(loads, holding)
         for numbers, of_first, of_second in parts:
-            loops.put_loads(loads, numbers, of_first, of_second, substep_s)
+            loops.put_loads(loads, on_first, numbers, of_first, of_second, substep_s)
         return
-    loads[:, :, ~holding] = 0.0
-    for numbers, *of_bodies in parts:
-        for side, impulses in zip(loads, of_bodies, strict=True):
-            side[:, numbers] = impulses / substep_s
+    loads[:, ~holding] = 0.0
+    for numbers, of_first, of_second in parts:
+        loads[:, numbers] = np.where(on_first[numbers], of_first, of_second) / substep_s
 
 
 def stored(stiffness: FloatArray, strains: FloatArray) -> FloatArray:

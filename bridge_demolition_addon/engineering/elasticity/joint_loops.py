@@ -243,16 +243,16 @@ def clear_loads(loads: Any, holding: Any) -> None:
     """Write 0 for connections that do not hold."""
     for row in range(len(holding)):
         if not holding[row]:
-            loads[:, :, row] = 0.0
+            loads[:, row] = 0.0
 
 
 @compiled
-def put_loads(loads: Any, numbers: Any, of_first: Any, of_second: Any, substep_s: float) -> None:
+def put_loads(loads: Any, on_first: Any, numbers: Any, of_first: Any, of_second: Any, substep_s: float) -> None:
     """Write the loads of some connections by their impulses."""
-    for row in range(len(numbers)):
-        for axis in range(6):
-            loads[0, axis, numbers[row]] = of_first[axis, row] / substep_s
-            loads[1, axis, numbers[row]] = of_second[axis, row] / substep_s
+    for axis in range(6):
+        for row in range(len(numbers)):
+            number = numbers[row]
+            loads[axis, number] = (of_first[axis, row] if on_first[number] else of_second[axis, row]) / substep_s
 
 
 @compiled

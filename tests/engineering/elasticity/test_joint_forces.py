@@ -121,9 +121,10 @@ def test_loads_of_what_holds_have_the_same_bits(rng, by_numpy):
     numbers = rng.permutation(CONNECTIONS)[:200]
     holding = np.isin(np.arange(CONNECTIONS), numbers)
     parts = [(chosen, *rng.normal(size=(2, 6, len(chosen)))) for chosen in np.split(np.sort(numbers), [0, 150])]
-    compiled, plain = np.ones((2, 2, 6, CONNECTIONS))
-    put_loads(compiled, holding, parts, 1 / 240)
-    by_numpy(put_loads, plain, holding, parts, 1 / 240)
+    compiled, plain = np.ones((2, 6, CONNECTIONS))
+    on_first = rng.random(CONNECTIONS) < 0.5
+    put_loads(compiled, on_first, holding, parts, 1 / 240)
+    by_numpy(put_loads, plain, on_first, holding, parts, 1 / 240)
     assert_same_bits([compiled], [plain])
     assert not compiled[..., ~holding].any() and compiled[..., holding].all()
 
