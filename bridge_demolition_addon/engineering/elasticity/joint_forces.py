@@ -29,12 +29,12 @@ class ActingJoints:
     implicit_s2: FloatArray  # (k,)
 
     @cached_property
-    def packed(self) -> FloatArray:
-        """Rows and stiffness (k, 72) as compiled loops take them."""
+    def grouped(self) -> FloatArray:
+        """Rows and stiffness (g, 72, 64) as compiled loops take them."""
         rows = self.rows
         of_rows = rows.along, rows.first_turning, rows.second_turning, rows.turning
-        packed: FloatArray = _loops().packed(*of_rows, self.stiffness)
-        return packed
+        grouped: FloatArray = _loops().grouped(*of_rows, self.stiffness)
+        return grouped
 
 
 def deformations(frames: JointFrames, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
@@ -65,7 +65,7 @@ def begun(
     loops, frames, rows = joint_loops(), joints.frames, joints.rows
     if loops is not None:
         found: tuple[FloatArray, FloatArray, FloatArray] = loops.begun(
-            frames.first, frames.second, joints.packed, joints.implicit_s2, strains, substep_s, velocities
+            frames.first, frames.second, joints.grouped, joints.implicit_s2, strains, substep_s, velocities
         )
         return found
     rates = rows.rates(*(velocities.take(ends, axis=1) for ends in (frames.first, frames.second)))
@@ -84,7 +84,7 @@ def slowed(
     loops, frames, rows = joint_loops(), joints.frames, joints.rows
     if loops is not None:
         found: tuple[FloatArray, FloatArray, FloatArray, FloatArray] = loops.slowed(
-            frames.first, frames.second, joints.packed, joints.implicit_s2, rates, amounts, changes
+            frames.first, frames.second, joints.grouped, joints.implicit_s2, rates, amounts, changes
         )
         return found
     slowing = rows.rates(*(changes.take(ends, axis=1) for ends in (frames.first, frames.second)))

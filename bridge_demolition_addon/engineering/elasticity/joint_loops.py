@@ -17,6 +17,9 @@ from ..geometry.vector_loops import crossed, dotted
 
 _COEFFICIENTS = np.array(ARCTANGENT)
 
+_LANES = 64
+"""Connections in a group: processors work on several beside each other in memory at once, and all of it fits a cache."""
+
 
 @compiled
 def deformations(
@@ -106,21 +109,22 @@ def _angle(y: float, x: float) -> float:
 
 
 @compiled
-def packed(along: Any, first_turning: Any, second_turning: Any, turning: Any, stiffness: Any) -> Any:
-    """All of a connection in a row (72,), so that it lies together in memory: rows, 9 numbers each, and stiffness."""
+def grouped(along: Any, first_turning: Any, second_turning: Any, turning: Any, stiffness: Any) -> Any:
+    """Rows of connections, 9 numbers each, and stiffness in groups (g, 72, 64); the last group is filled up with 0."""
     count = along.shape[2]
-    found = np.empty((count, 72))
+    found = np.zeros(((count + _LANES - 1) // _LANES, 72, _LANES))
     for row in range(count):
+        group, lane = found[row // _LANES], row % _LANES
         for line in range(3):
             for column in range(3):
                 at = 3 * line + column
-                found[row, at] = along[line, column, row]
-                found[row, 9 + at] = first_turning[line, column, row]
-                found[row, 18 + at] = second_turning[line, column, row]
-                found[row, 27 + at] = turning[line, column, row]
+                group[at, lane] = along[line, column, row]
+                group[9 + at, lane] = first_turning[line, column, row]
+                group[18 + at, lane] = second_turning[line, column, row]
+                group[27 + at, lane] = turning[line, column, row]
         for line in range(6):
             for column in range(6):
-                found[row, 36 + 6 * line + column] = stiffness[line, column, row]
+                group[36 + 6 * line + column, lane] = stiffness[line, column, row]
     return found
 
 
@@ -128,23 +132,31 @@ def packed(along: Any, first_turning: Any, second_turning: Any, turning: Any, st
 def begun(
     first: Any, second: Any, joints: Any, implicit: Any, strains: Any, substep_s: float, velocities: Any
 ) -> tuple[Any, Any, Any]:
-    """`joint_forces.begun`, with joints (k, 72) as `packed`."""
+    """`joint_forces.begun`, with joints as `grouped`."""
     count = len(first)
     rates, amounts = np.empty((6, count)), np.empty((6, count))
-    of_first, of_second, of_bodies = np.empty(6), np.empty((count, 6)), np.zeros((velocities.shape[1], 6))
-    moving, rate, strain, amount = np.ascontiguousarray(velocities.T), np.empty(6), np.empty(6), np.empty(6)
-    for row in range(count):
-        joint = joints[row]
-        _rates(joint, moving[first[row]], moving[second[row]], rate)
+    of_seconds, of_bodies = np.empty((count, 6)), np.zeros((velocities.shape[1], 6))
+    moving, room = np.ascontiguousarray(velocities.T), np.zeros((7, 6, _LANES))
+    rate, strain, amount, of_first, of_second = room[0], room[1], room[2], room[3], room[4]
+    for group in range(len(joints)):
+        start, size = group * _LANES, min(_LANES, count - group * _LANES)
+        _rates(joints[group], first, second, start, size, moving, room[5:], rate)
         for axis in range(6):
-            rates[axis, row] = rate[axis]
-            strain[axis] = substep_s * strains[axis, row] - implicit[row] * rate[axis]
+            for lane in range(size):
+                row = start + lane
+                rates[axis, row] = rate[axis, lane]
+                strain[axis, lane] = substep_s * strains[axis, row] - implicit[row] * rate[axis, lane]
         for axis in range(6):
-            amounts[axis, row] = amount[axis] = _stressed(joint, strain, axis)
-        _loads(joint, amount, of_first, of_second[row])
-        for axis in range(6):
-            of_bodies[first[row], axis] += of_first[axis]
-    _add_seconds(second, of_second, of_bodies)
+            _stressed(joints[group], 36 + 6 * axis, strain, amount[axis])
+            for lane in range(size):
+                amounts[axis, start + lane] = amount[axis, lane]
+        _loads(joints[group], amount, of_first, of_second)
+        for lane in range(size):
+            row = start + lane
+            for axis in range(6):
+                of_bodies[first[row], axis] += of_first[axis, lane]
+                of_seconds[row, axis] = of_second[axis, lane]
+    _add_seconds(second, of_seconds, of_bodies)
     return rates, amounts, np.ascontiguousarray(of_bodies.T)
 
 
@@ -152,61 +164,111 @@ def begun(
 def slowed(
     first: Any, second: Any, joints: Any, implicit: Any, rates: Any, amounts: Any, changes: Any
 ) -> tuple[Any, Any, Any, Any]:
-    """`joint_forces.slowed`, with joints (k, 72) as `packed`."""
+    """`joint_forces.slowed`, with joints as `grouped`."""
     count = len(first)
     slowing, on_first, on_second = np.empty((6, count)), np.empty((6, count)), np.empty((6, count))
-    of_first, of_second, of_bodies = np.empty(6), np.empty((count, 6)), np.zeros((changes.shape[1], 6))
-    moving, rate, strain, amount = np.ascontiguousarray(changes.T), np.empty(6), np.empty(6), np.empty(6)
-    for row in range(count):
-        joint = joints[row]
-        _rates(joint, moving[first[row]], moving[second[row]], rate)
+    of_seconds, of_bodies = np.empty((count, 6)), np.zeros((changes.shape[1], 6))
+    moving, room = np.ascontiguousarray(changes.T), np.zeros((7, 6, _LANES))
+    rate, strain, amount, of_first, of_second = room[0], room[1], room[2], room[3], room[4]
+    for group in range(len(joints)):
+        start, size = group * _LANES, min(_LANES, count - group * _LANES)
+        _rates(joints[group], first, second, start, size, moving, room[5:], rate)
         for axis in range(6):
-            strain[axis] = implicit[row] * rate[axis]
-            slowing[axis, row] = rates[axis, row] + rate[axis]
+            for lane in range(size):
+                row = start + lane
+                slowing[axis, row] = rates[axis, row] + rate[axis, lane]
+                strain[axis, lane] = implicit[row] * rate[axis, lane]
         for axis in range(6):
-            amount[axis] = amounts[axis, row] - _stressed(joint, strain, axis)
-        _loads(joint, amount, of_first, of_second[row])
+            _stressed(joints[group], 36 + 6 * axis, strain, amount[axis])
+            for lane in range(size):
+                amount[axis, lane] = amounts[axis, start + lane] - amount[axis, lane]
+        _loads(joints[group], amount, of_first, of_second)
         for axis in range(6):
-            on_first[axis, row], on_second[axis, row] = of_first[axis], of_second[row, axis]
-            of_bodies[first[row], axis] += of_first[axis]
-    _add_seconds(second, of_second, of_bodies)
+            for lane in range(size):
+                on_first[axis, start + lane] = of_first[axis, lane]
+                on_second[axis, start + lane] = of_second[axis, lane]
+        for lane in range(size):
+            row = start + lane
+            for axis in range(6):
+                of_bodies[first[row], axis] += of_first[axis, lane]
+                of_seconds[row, axis] = of_second[axis, lane]
+    _add_seconds(second, of_seconds, of_bodies)
     return slowing, on_first, on_second, np.ascontiguousarray(of_bodies.T)
 
 
 @compiled
-def _rates(joint: Any, first: Any, second: Any, rates: Any) -> None:
-    """`JointRows.rates` of one connection, by the velocities (6,) of its bodies."""
-    x, y, z = first[0] - second[0], first[1] - second[1], first[2] - second[2]
-    p, q, r = first[3] - second[3], first[4] - second[4], first[5] - second[5]
+def _rates(joints: Any, first: Any, second: Any, start: int, size: int, velocities: Any, room: Any, rates: Any) -> None:
+    """`JointRows.rates` of a group by velocities (n, 6) of bodies; room (2, 6, 64) is for those of its own bodies."""
+    one, other = room[0], room[1]
+    for lane in range(size):
+        a, b = first[start + lane], second[start + lane]
+        for axis in range(6):
+            one[axis, lane], other[axis, lane] = velocities[a, axis], velocities[b, axis]
     for axis in range(3):
-        at = 3 * axis
-        shifting = joint[at] * x + joint[at + 1] * y + joint[at + 2] * z
-        shifting += joint[at + 9] * first[3] + joint[at + 10] * first[4] + joint[at + 11] * first[5]
-        shifting += joint[at + 18] * second[3] + joint[at + 19] * second[4] + joint[at + 20] * second[5]
-        rates[axis] = shifting
-        rates[3 + axis] = joint[at + 27] * p + joint[at + 28] * q + joint[at + 29] * r
+        at, shifting, turning = 3 * axis, rates[axis], rates[3 + axis]
+        for lane in range(_LANES):
+            x, y, z = one[0, lane] - other[0, lane], one[1, lane] - other[1, lane], one[2, lane] - other[2, lane]
+            shifting[lane] = joints[at, lane] * x + joints[at + 1, lane] * y + joints[at + 2, lane] * z
+        _add_products(joints, at + 9, one, shifting)
+        _add_products(joints, at + 18, other, shifting)
+        for lane in range(_LANES):
+            x, y, z = one[3, lane] - other[3, lane], one[4, lane] - other[4, lane], one[5, lane] - other[5, lane]
+            turning[lane] = joints[at + 27, lane] * x + joints[at + 28, lane] * y + joints[at + 29, lane] * z
 
 
 @compiled
-def _stressed(joint: Any, strain: Any, axis: int) -> Any:
-    """One of the amounts of `equations.stressed`."""
-    at = 36 + 6 * axis
-    amount = joint[at] * strain[0]
-    for column in range(1, 6):
-        amount += joint[at + column] * strain[column]
-    return amount
+def _add_products(joints: Any, at: int, velocities: Any, rates: Any) -> None:
+    """Add what angular velocities, the last of velocities (6, 64), do in a row that begins at a number."""
+    for lane in range(_LANES):
+        rates[lane] += (
+            joints[at, lane] * velocities[3, lane]
+            + joints[at + 1, lane] * velocities[4, lane]
+            + joints[at + 2, lane] * velocities[5, lane]
+        )
 
 
 @compiled
-def _loads(joint: Any, amount: Any, of_first: Any, of_second: Any) -> None:
-    """`JointRows.loads` of one connection."""
-    x, y, z, p, q, r = amount[0], amount[1], amount[2], amount[3], amount[4], amount[5]
+def _stressed(joints: Any, at: int, strains: Any, amounts: Any) -> None:
+    """One row of `equations.stressed` of a group, whose stiffness begins at a number."""
+    for lane in range(_LANES):
+        amounts[lane] = (
+            joints[at, lane] * strains[0, lane]
+            + joints[at + 1, lane] * strains[1, lane]
+            + joints[at + 2, lane] * strains[2, lane]
+            + joints[at + 3, lane] * strains[3, lane]
+            + joints[at + 4, lane] * strains[4, lane]
+            + joints[at + 5, lane] * strains[5, lane]
+        )
+
+
+@compiled
+def _loads(joints: Any, amounts: Any, of_first: Any, of_second: Any) -> None:
+    """`JointRows.loads` of a group."""
     for axis in range(3):
-        force = joint[axis] * x + joint[axis + 3] * y + joint[axis + 6] * z
-        torque = joint[axis + 27] * p + joint[axis + 30] * q + joint[axis + 33] * r
-        of_first[axis], of_second[axis] = force, -force
-        of_first[3 + axis] = (joint[axis + 9] * x + joint[axis + 12] * y + joint[axis + 15] * z) + torque
-        of_second[3 + axis] = (joint[axis + 18] * x + joint[axis + 21] * y + joint[axis + 24] * z) - torque
+        force, on_first, on_second = of_first[axis], of_first[3 + axis], of_second[3 + axis]
+        _turned_back(joints, axis, amounts, force)
+        _turned_back(joints, axis + 9, amounts, on_first)
+        _turned_back(joints, axis + 18, amounts, on_second)
+        for lane in range(_LANES):
+            torque = (
+                joints[axis + 27, lane] * amounts[3, lane]
+                + joints[axis + 30, lane] * amounts[4, lane]
+                + joints[axis + 33, lane] * amounts[5, lane]
+            )
+            of_second[axis, lane] = -force[lane]
+            on_first[lane] += torque
+            on_second[lane] -= torque
+
+
+@compiled
+def _turned_back(joints: Any, at: int, amounts: Any, loads: Any) -> None:
+    """`joint_rows.turned_back` of the first three amounts of a group."""
+    for lane in range(_LANES):
+        loads[lane] = (
+            joints[at, lane] * amounts[0, lane]
+            + joints[at + 3, lane] * amounts[1, lane]
+            + joints[at + 6, lane] * amounts[2, lane]
+        )
 
 
 @compiled

@@ -259,7 +259,7 @@ class ElasticConnections:
         self._start = StepInput(motion.position_components_m, motion.rotation_components, velocities, motion.asleep)
 
     def predict(self) -> np.ndarray:
-        """Return forces and torques (6, m) in the sub-step, on the bodies where they are read, as if nothing touched."""
+        """Return forces and torques (6, m) in the sub-step, on the bodies where they are read, without contacts."""
         intact = self._world.constraints.intact()
         self._coming = step = given(self._structure).step(self._start, intact, self._substep_s)
         of_connections = step.acting, step.of_first, step.of_second
