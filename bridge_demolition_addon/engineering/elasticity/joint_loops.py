@@ -18,7 +18,7 @@ from ..geometry.vector_loops import crossed, dotted
 _COEFFICIENTS = np.array(ARCTANGENT)
 
 _LANES = 64
-"""Connections in a group: processors work on several beside each other in memory at once, and all of it fits a cache."""
+"""Connections in a group: processors work on several at once that are beside each other, and a group fits a cache."""
 
 
 @compiled

@@ -1,7 +1,8 @@
 """Symmetric systems of equations with six unknowns a body, solved the same on every processor.
 
 QDLDL (B. Stellato, P. Goulart) factors as LDLᵀ in plain C: one multiplication and one addition after another. LAPACK
-and the solvers of scipy go through BLAS, which rounds by processor.
+and the solvers of scipy go through BLAS, which rounds by processor. Equations of which only the numbers change are
+factored again by compiled loops, with the same bits.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from scipy.sparse import csc_matrix
 
 from ..arrays import FloatArray, IntArray
 from .compiled_joints import joint_loops
+from .panel_factors import PanelFactors, loops_like_qdldl
 
 _BLOCK = 6
 
@@ -28,6 +30,7 @@ class BlockSystem:
         self._count = body_count
         self._matrix: csc_matrix | None = None
         self._solver: qdldl.Solver | None = None
+        self._panels: PanelFactors | None = None  # once numbers have changed
         bodies = np.arange(body_count)
         self._find_positions(((bodies, bodies), (first, first), (second, second), (first, second)))
         self._assembled = np.zeros(self._size)
@@ -58,15 +61,23 @@ class BlockSystem:
                     for places, values in zip(self._of_connections, blocks, strict=True)
                 ]
             )
+        loops = loops_like_qdldl()
         if self._matrix is None or self._solver is None:
             self._matrix = csc_matrix((data, self._indices, self._starts), shape=(_BLOCK * self._count,) * 2)
             self._solver = qdldl.Solver(self._matrix, upper=True)
-        else:
+        elif loops is None:
             self._matrix.data = data  # scipy takes longer to make a matrix than QDLDL to factor a small one
             self._solver.update(self._matrix, upper=True)
+        else:
+            if self._panels is None:
+                order = np.asarray(self._solver.factors()[2])
+                self._panels = PanelFactors(loops, self._starts, self._indices, order)
+            self._panels.factor(data)
 
     def solve(self, right: FloatArray) -> FloatArray:
         """Return the unknowns (6, b) for a right-hand side (6, b)."""
+        if self._panels is not None:
+            return self._panels.solve(right)
         assert self._solver is not None, "numbers come first, by `factor`"
         unknowns: FloatArray = self._solver.solve(np.ascontiguousarray(right.T).reshape(-1))
         return unknowns.reshape(-1, _BLOCK).T
