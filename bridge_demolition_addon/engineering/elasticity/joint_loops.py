@@ -113,18 +113,18 @@ def grouped(along: Any, first_turning: Any, second_turning: Any, turning: Any, s
     """Rows of connections, 9 numbers each, and stiffness in groups (g, 72, 64); the last group is filled up with 0."""
     count = along.shape[2]
     found = np.zeros(((count + _LANES - 1) // _LANES, 72, _LANES))
-    for row in range(count):
-        group, lane = found[row // _LANES], row % _LANES
-        for line in range(3):
-            for column in range(3):
-                at = 3 * line + column
-                group[at, lane] = along[line, column, row]
-                group[9 + at, lane] = first_turning[line, column, row]
-                group[18 + at, lane] = second_turning[line, column, row]
-                group[27 + at, lane] = turning[line, column, row]
-        for line in range(6):
-            for column in range(6):
-                group[36 + 6 * line + column, lane] = stiffness[line, column, row]
+    for group in range(len(found)):
+        start, size = group * _LANES, min(_LANES, count - group * _LANES)
+        for at in range(9):
+            line, column = at // 3, at % 3
+            for lane in range(size):
+                found[group, at, lane] = along[line, column, start + lane]
+                found[group, 9 + at, lane] = first_turning[line, column, start + lane]
+                found[group, 18 + at, lane] = second_turning[line, column, start + lane]
+                found[group, 27 + at, lane] = turning[line, column, start + lane]
+        for at in range(36):
+            for lane in range(size):
+                found[group, 36 + at, lane] = stiffness[at // 6, at % 6, start + lane]
     return found
 
 
@@ -364,6 +364,28 @@ def _put_unit(turning: Any, axis: int, row: int, vector: Any) -> None:
     size = np.sqrt(dotted(vector, vector))
     for other in range(3):
         turning[axis, other, row] = vector[other] / size if size > 0.0 else 0.0
+
+
+@compiled
+def mass_matrices(masses: Any, inertias: Any, rotations: Any, bodies: Any) -> Any:
+    """`RigidBodies.mass_matrices`."""
+    found, half = np.zeros((6, 6, len(bodies))), np.empty((3, 3))
+    for row in range(len(bodies)):
+        turn, inertia = rotations[:, :, bodies[row]], inertias[:, :, bodies[row]]
+        for line in range(3):
+            for column in range(3):
+                half[line, column] = (
+                    turn[line, 0] * inertia[0, column]
+                    + turn[line, 1] * inertia[1, column]
+                    + turn[line, 2] * inertia[2, column]
+                )
+        for line in range(3):
+            found[line, line, row] = masses[bodies[row]]
+            for column in range(3):
+                found[3 + line, 3 + column, row] = (
+                    half[line, 0] * turn[column, 0] + half[line, 1] * turn[column, 1] + half[line, 2] * turn[column, 2]
+                )
+    return found
 
 
 @compiled

@@ -6,7 +6,8 @@ from dataclasses import fields
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.engineering.elasticity import joint_forces
+from bridge_demolition_addon.engineering.elasticity import equations, joint_forces
+from bridge_demolition_addon.engineering.elasticity.equations import RigidBodies
 from bridge_demolition_addon.engineering.elasticity.joint_forces import (
     ActingJoints,
     added_blocks,
@@ -108,6 +109,15 @@ def test_impulses_have_the_same_bits(rng, by_numpy):
     assert_same_bits(first, by_numpy(begun, acting, stretched, 1.0 / 240.0, velocities))
     given = acting, *first[:2], changes
     assert_same_bits(slowed(*given), by_numpy(slowed, *given))
+
+
+def test_mass_matrices_have_the_same_bits(rng, monkeypatch):
+    masses = np.where(np.arange(BODIES) % 5, rng.uniform(1e2, 1e6, BODIES), 0.0)
+    of_all = RigidBodies(masses, rng.normal(size=(3, 3, BODIES)), *bodies(rng))
+    given = rotations(rng, BODIES), np.flatnonzero(rng.random(BODIES) < 0.7)
+    compiled = of_all.mass_matrices(*given)
+    monkeypatch.setattr(equations, "joint_loops", lambda: None)
+    assert_same_bits([compiled], [of_all.mass_matrices(*given)])
 
 
 def test_velocities_without_connections_have_the_same_bits(rng, by_numpy):
