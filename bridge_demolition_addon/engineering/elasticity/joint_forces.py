@@ -162,7 +162,10 @@ def rows_at(frames: JointFrames, positions_m: FloatArray, rotations: FloatArray)
 def added_blocks(
     rows: JointRows, stiffness: FloatArray, implicit_s2: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return what connections (r,) add to the equations of their bodies, and between; zeros have any sign."""
+    """Return what connections (r,) add to the equations of their bodies, and between; zeros have any sign.
+
+    Of the first two only numbers on and above the diagonal count: they are symmetric.
+    """
     loops = joint_loops()
     if loops is None:
         return stiffness_blocks(rows, implicit_s2 * stiffness)

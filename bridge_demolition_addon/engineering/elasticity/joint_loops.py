@@ -392,52 +392,72 @@ def mass_matrices(masses: Any, inertias: Any, rotations: Any, bodies: Any) -> An
 def blocks(
     along: Any, first_turning: Any, second_turning: Any, turning: Any, stiffness: Any, implicit: Any
 ) -> tuple[Any, Any, Any]:
-    """`equations.stiffness_blocks`, with stiffness times `implicit`."""
+    """`equations.stiffness_blocks`, with stiffness times `implicit`; own ones have no numbers below the diagonal.
+
+    Sums leave out the zeros of rows: they differ at most in the sign of a 0.
+    """
     count = along.shape[2]
-    of_first, of_second, between = np.empty((6, 6, count)), np.empty((6, 6, count)), np.empty((6, 6, count))
-    one, other = np.zeros((6, 6)), np.zeros((6, 6))
-    hard, by_one, by_other = np.empty((6, 6)), np.empty((6, 6)), np.empty((6, 6))
-    for row in range(count):
+    of_first, of_second, between = np.zeros((6, 6, count)), np.zeros((6, 6, count)), np.empty((6, 6, count))
+    hard, one, other = np.zeros((6, 6, _LANES)), np.zeros((6, 6, _LANES)), np.zeros((6, 6, _LANES))
+    by_one, by_other = np.empty((6, 6, _LANES)), np.empty((6, 6, _LANES))
+    for start in range(0, count, _LANES):
+        size = min(_LANES, count - start)
         for line in range(6):
             for column in range(6):
-                hard[line, column] = implicit[row] * stiffness[line, column, row]
+                for lane in range(size):
+                    hard[line, column, lane] = implicit[start + lane] * stiffness[line, column, start + lane]
         for line in range(3):
             for column in range(3):
-                one[line, column], other[line, column] = along[line, column, row], -along[line, column, row]
-                one[line, 3 + column] = first_turning[line, column, row]
-                other[line, 3 + column] = second_turning[line, column, row]
-                one[3 + line, 3 + column] = turning[line, column, row]
-                other[3 + line, 3 + column] = -turning[line, column, row]
-        _multiply(hard, one, by_one)
-        _multiply(hard, other, by_other)
+                for lane in range(size):
+                    row = start + lane
+                    one[column, line, lane], other[column, line, lane] = (
+                        along[line, column, row],
+                        -along[line, column, row],
+                    )
+                    one[3 + column, line, lane] = first_turning[line, column, row]
+                    other[3 + column, line, lane] = second_turning[line, column, row]
+                    one[3 + column, 3 + line, lane] = turning[line, column, row]
+                    other[3 + column, 3 + line, lane] = -turning[line, column, row]
+        for column in range(6):
+            for line in range(6):
+                _sum(hard[line], one[column], column, by_one[column, line])
+                _sum(hard[line], other[column], column, by_other[column, line])
         for line in range(6):
             for column in range(6):
-                here, there, across = 0.0, 0.0, 0.0
-                for middle in range(6):
-                    here += one[middle, line] * by_one[middle, column]
-                    there += other[middle, line] * by_other[middle, column]
-                    across += one[middle, line] * by_other[middle, column]
-                of_first[line, column, row] = here
-                of_second[line, column, row] = there
-                between[line, column, row] = across
+                if line <= column:
+                    _sum(one[line], by_one[column], line, of_first[line, column, start : start + size])
+                    _sum(other[line], by_other[column], line, of_second[line, column, start : start + size])
+                _sum(one[line], by_other[column], line, between[line, column, start : start + size])
     return of_first, of_second, between
 
 
 @compiled
-def _multiply(one: Any, other: Any, product: Any) -> None:
-    """`joint_rows.matrix_products` of two matrices; a sum that begins with 0 differs at most in the sign of a 0."""
-    for line in range(6):
-        for column in range(6):
-            product[line, column] = 0.0
-        for middle in range(6):
-            for column in range(6):
-                product[line, column] += one[line, middle] * other[middle, column]
+def _sum(first: Any, second: Any, column: int, sums: Any) -> None:
+    """Sums of products over the six rows of a group; shifts, columns up to 2, are in the first three of them alone."""
+    if column < 3:
+        for lane in range(len(sums)):
+            sums[lane] = (
+                first[0, lane] * second[0, lane] + first[1, lane] * second[1, lane] + first[2, lane] * second[2, lane]
+            )
+    else:
+        for lane in range(len(sums)):
+            sums[lane] = (
+                first[0, lane] * second[0, lane]
+                + first[1, lane] * second[1, lane]
+                + first[2, lane] * second[2, lane]
+                + first[3, lane] * second[3, lane]
+                + first[4, lane] * second[4, lane]
+                + first[5, lane] * second[5, lane]
+            )
 
 
 @compiled
-def add(totals: Any, places: Any, at: Any, values: Any, chosen: Any) -> None:
-    """Add chosen values (k,) of (6, 6, c) to totals, whose places are (6, 6, d) at (k,), number after number."""
+def add(totals: Any, places: Any, at: Any, values: Any, chosen: Any, upper: bool) -> None:
+    """Add chosen values (k,) of (6, 6, c) to totals, whose places are (6, 6, d) at (k,), number after number.
+
+    Some belong to blocks of which only the upper triangle counts.
+    """
     for line in range(6):
-        for column in range(6):
+        for column in range(line if upper else 0, 6):
             for row in range(len(at)):
                 totals[places[line, column, at[row]]] += values[line, column, chosen[row]]

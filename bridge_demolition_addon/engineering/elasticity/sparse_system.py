@@ -87,8 +87,8 @@ class BlockSystem:
         loops = joint_loops()
         if loops is not None:
             totals = np.zeros(self._size + 1)
-            for term in terms:
-                loops.add(totals, *term)
+            for places, *term in terms:
+                loops.add(totals, places, *term, places is not self._of_connections[-1])
             return totals[: self._size]
         places = np.concatenate([places[..., at].reshape(-1) for places, at, _, _ in terms])
         values = np.concatenate([blocks[..., chosen].reshape(-1) for _, _, blocks, chosen in terms])

@@ -149,8 +149,9 @@ def test_stored_energy_has_the_same_bits(rng, by_numpy):
 def test_equations_have_the_same_numbers(rng, by_numpy):
     acting = joints(rng)
     given = acting.rows, acting.stiffness, acting.implicit_s2
-    for one, other in zip(added_blocks(*given), by_numpy(added_blocks, *given), strict=True):
-        np.testing.assert_array_equal(one, other)  # sums that begin with 0 take no notice of the sign of a 0
+    counts = np.triu(np.ones((6, 6), bool)), np.triu(np.ones((6, 6), bool)), np.ones((6, 6), bool)
+    for one, other, numbers in zip(added_blocks(*given), by_numpy(added_blocks, *given), counts, strict=True):
+        np.testing.assert_array_equal(one[numbers], other[numbers])  # a 0 has any sign
 
 
 def test_loops_are_used_where_numba_is_installed():
