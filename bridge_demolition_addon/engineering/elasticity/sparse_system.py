@@ -103,24 +103,24 @@ class BlockSystem:
         rows, columns = (np.concatenate(ends) for ends in zip(*kinds, strict=True))
         is_known = (rows < 0) | (columns < 0)
         keys = np.where(is_known, 0, np.maximum(rows, columns) * self._count + np.minimum(rows, columns))
-        kept, which = np.unique(keys, return_inverse=True)
+        kept, which = np.unique(keys, return_inverse=True)  # column by column, with the diagonal as the last of each
         block_columns, block_rows = np.divmod(kept, self._count)
-        row, column = np.meshgrid(np.arange(_BLOCK), np.arange(_BLOCK), indexing="ij")
-        all_rows = _BLOCK * block_rows[:, None, None] + row
-        all_columns = _BLOCK * block_columns[:, None, None] + column
-        upper = all_rows <= all_columns
-        order = np.lexsort((all_rows[upper], all_columns[upper]))
-        self._size = len(order)
-        positions = np.full(upper.shape, self._size)
-        sorted_positions = np.empty(self._size, int)
-        sorted_positions[order] = np.arange(self._size)
-        positions[upper] = sorted_positions
-        places = positions[which]
-        places[rows > columns] = np.swapaxes(places[rows > columns], 1, 2)
-        places[is_known] = self._size
+        in_column = np.bincount(block_columns, minlength=self._count)
+        within = np.arange(_BLOCK)
+        lengths = _BLOCK * (in_column[:, None] - 1) + within + 1
+        self._starts = np.concatenate(([0], np.cumsum(lengths))).astype(np.int32)
+        self._size = int(self._starts[-1])
+        above = np.arange(len(kept)) - (np.cumsum(in_column) - in_column)[block_columns]
+        starts = self._starts[:-1].reshape(-1, _BLOCK)[block_columns].T + _BLOCK * above
+        positions = starts + within[:, None, None]
+        positions[np.tri(_BLOCK, k=-1, dtype=bool)[..., None] & (block_rows == block_columns)] = self._size
+        indices = np.empty(self._size + 1, np.int32)
+        indices[positions] = (_BLOCK * block_rows + within[:, None])[:, None]
+        self._indices = indices[:-1]
+        places = positions[..., which]
+        is_below = rows > columns
+        places[..., is_below] = np.swapaxes(places[..., is_below], 0, 1)
+        places[..., is_known] = self._size
         ends = np.cumsum([len(of_kind) for of_kind, _ in kinds])[:-1]
-        split = np.split(np.moveaxis(places, 0, 2), ends, axis=2)
+        split = np.split(places, ends, axis=2)
         self._of_bodies, *self._of_connections = (np.ascontiguousarray(part) for part in split)
-        self._indices = all_rows[upper][order].astype(np.int32)
-        per_column = np.bincount(all_columns[upper], minlength=_BLOCK * self._count)
-        self._starts = np.concatenate(([0], np.cumsum(per_column))).astype(np.int32)
