@@ -123,4 +123,5 @@ class BlockSystem:
         places[..., is_known] = self._size
         ends = np.cumsum([len(of_kind) for of_kind, _ in kinds])[:-1]
         split = np.split(places, ends, axis=2)
-        self._of_bodies, *self._of_connections = (np.ascontiguousarray(part) for part in split)
+        # Without a sign, so that loops need not look for places before the first.
+        self._of_bodies, *self._of_connections = (np.ascontiguousarray(part, np.uint32) for part in split)
