@@ -34,7 +34,7 @@ def deformations(
 ) -> Any:
     """`JointPositions.deformations` at once with `joint_positions`."""
     count = len(first)
-    found = np.empty((6, count))
+    found, sines, cosines = np.empty((6, count)), np.empty((3, count)), np.empty((3, count))
     for row in range(count):
         a, b = first[row], second[row]
         one, other = _axes(rotations, a, first_axes, row), _axes(rotations, b, second_axes, row)
@@ -47,10 +47,11 @@ def deformations(
         for axis in range(3):
             found[axis, row] = one[axis][0] * shift[0] + one[axis][1] * shift[1] + one[axis][2] * shift[2]
         about_y = dotted(one[0], other[2])
-        upright = np.sqrt(max(1.0 - about_y * about_y, 0.0))
-        found[3, row] = _angle(-dotted(one[1], other[2]), dotted(one[2], other[2]))
-        found[4, row] = _angle(about_y, upright)
-        found[5, row] = _angle(-dotted(one[0], other[1]), dotted(one[0], other[0]))
+        sines[0, row], cosines[0, row] = -dotted(one[1], other[2]), dotted(one[2], other[2])
+        sines[1, row], cosines[1, row] = about_y, np.sqrt(max(1.0 - about_y * about_y, 0.0))
+        sines[2, row], cosines[2, row] = -dotted(one[0], other[1]), dotted(one[0], other[0])
+    for axis in range(3):
+        _put_angles(sines[axis], cosines[axis], found[3 + axis])
     return found
 
 
@@ -78,6 +79,30 @@ def _turned(rotations: Any, body: int, x: float, y: float, z: float) -> Any:
         rotations[1, 0, body] * x + rotations[1, 1, body] * y + rotations[1, 2, body] * z,
         rotations[2, 0, body] * x + rotations[2, 1, body] * y + rotations[2, 2, body] * z,
     )
+
+
+@compiled
+def _put_angles(y: Any, x: Any, angles: Any) -> None:
+    """`arithmetic.arctangent`; of several points at once where all angles of a group are small, as they mostly are."""
+    slopes = np.empty(_LANES)
+    for start in range(0, len(y), _LANES):
+        of_y, of_x, found = y[start : start + _LANES], x[start : start + _LANES], angles[start : start + _LANES]
+        are_small = True
+        for lane in range(len(of_y)):
+            slopes[lane] = abs(of_y[lane] / of_x[lane])
+            are_small &= (of_x[lane] > 0.0) & (slopes[lane] < ARCTANGENT_LIMITS[0])
+        if are_small:
+            for lane in range(len(of_y)):
+                square = slopes[lane] * slopes[lane]
+                value = _COEFFICIENTS[-1]
+                for number in range(len(_COEFFICIENTS) - 2, -1, -1):
+                    value = _COEFFICIENTS[number] + square * value
+                less = slopes[lane] * square * value
+                angle = ARCTANGENT_STARTS[0, 0] - ((less - ARCTANGENT_STARTS[0, 1]) - slopes[lane])
+                found[lane] = math.copysign(angle, of_y[lane])
+        else:
+            for lane in range(len(of_y)):
+                found[lane] = _angle(of_y[lane], of_x[lane])
 
 
 @compiled

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Compiled loops of elastic connections give the bits of numpy, at all angles, with numbers of all sizes."""
 
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
@@ -81,6 +81,18 @@ def assert_same_bits(one, other):
 def test_deformations_have_the_same_bits(rng, by_numpy):
     given = frames(rng), *bodies(rng)
     assert_same_bits([deformations(*given)], [by_numpy(deformations, *given)])
+
+
+def test_small_deformations_have_the_same_bits(rng, by_numpy):
+    """All angles of a group are small, as they are while a bridge stands."""
+    of, axes = frames(rng), rotations(rng, CONNECTIONS)
+    turns = rng.normal(size=(BODIES, 3)) * 10.0 ** rng.uniform(-9.0, -2.0, (BODIES, 1))
+    turns[:9] = 0.0
+    turned = np.ascontiguousarray(np.moveaxis(rotated(np.tile(np.eye(3), (BODIES, 1, 1)), turns), 0, -1))
+    given = replace(of, first_axes=axes, second_axes=axes), rng.normal(size=(3, BODIES)), turned
+    found = deformations(*given)
+    assert_same_bits([found], [by_numpy(deformations, *given)])
+    assert abs(found[3:]).max() < 0.2
 
 
 def test_deformations_at_right_angles_have_the_same_bits(by_numpy):
