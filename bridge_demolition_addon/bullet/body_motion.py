@@ -52,6 +52,7 @@ class BodyMotionReader:
         self._motion = Fields(bodies, np.concatenate(offsets))
         self._inertia = Fields(bodies, np.concatenate([body.inverse_inertia + 32 * row + _VECTOR for row in range(3)]))
         self._torques = Fields(bodies, body.total_torque + _VECTOR)
+        self._loads = Fields(bodies, np.concatenate((body.total_force + _VECTOR, body.total_torque + _VECTOR)))
         self._spins = Fields(bodies, body.angular_velocity + _VECTOR)
         self._states = Fields(bodies, [body.activation], INTEGERS)
 
@@ -69,10 +70,16 @@ class BodyMotionReader:
             raise LayoutError(_WRONG_INERTIA)
         return tensors
 
-    def set_loads(self, rows: np.ndarray, load_components: np.ndarray) -> None:
-        """Set the forces and torques (6, r) that act on bodies (r,) in the coming sub-step."""
-        body = self._body
-        self._write([body.total_force + _VECTOR, body.total_torque + _VECTOR], rows, load_components)
+    def push(self, motion: BodyMotion, impulses: np.ndarray, substep_s: float) -> None:
+        """Give bodies that move freely impulses (6, n) in the coming sub-step, beside the loads of their motion."""
+        loops, loads = field_loops(), motion.load_components
+        if loops is not None:
+            moving = loads, motion.inverse_masses, impulses
+            loops.push(DOUBLES.everywhere, *self._loads.places, *moving, substep_s)
+            return
+        rows, body = np.flatnonzero(impulses.any(axis=0) & (motion.inverse_masses > 0.0)), self._body
+        pushed = loads[:, rows] + impulses[:, rows] / substep_s
+        self._write([body.total_force + _VECTOR, body.total_torque + _VECTOR], rows, pushed)
 
     def turn_by_torques(self, times_s: np.ndarray) -> None:
         """Change the angular velocities of bodies that are awake by what torques do in times (n,), and end the torques.

@@ -30,8 +30,10 @@ _SOFTEST = 0.5
 _FREE_FROM = 2.0
 """Softness from which on a row is freer if it is left free than if it is as soft as rows can be."""
 
-_SIGNS = np.array([1.0, 1.0, 1.0, -1.0, -1.0, -1.0])[:, None]
+_SIGNS = np.array([1.0, 1.0, 1.0, -1.0, -1.0, -1.0])
 """Bullet takes limits of rotations with the opposite sign."""
+
+_AS_THEY_ARE = np.ones(6)
 
 
 class ConstraintRows:
@@ -85,20 +87,21 @@ class ConstraintRows:
         for start, built in zip(self._starts, self._built, strict=True):
             _write_frames(self._addresses[moved] + np.uint64(start), built[moved])
         self._resists[:, rows] = self.held[:, rows]
-        self._hold_at(rows, self._limits[:, rows])
+        self._hold_at(rows, self._limits[:, rows], _AS_THEY_ARE)
         self._write(rows, SPRING_CORRECTION, 0.0, 0)
 
     def expect(self, rows: np.ndarray, deformations: np.ndarray) -> None:
         """Set how constraints (r,) will be deformed (6, r) at the end of the coming sub-step, if nothing else acts."""
-        self._hold_at(rows, deformations * _SIGNS)
+        self._hold_at(rows, deformations, _SIGNS)
 
-    def _hold_at(self, rows: np.ndarray, limits: np.ndarray) -> None:
+    def _hold_at(self, rows: np.ndarray, limits: np.ndarray, signs: np.ndarray) -> None:
+        """Write limits (6, r) times signs (6,)."""
         spring, loops = self._layout.spring, field_loops()
         if loops is not None:
-            loops.write_limits(
-                DOUBLES.everywhere, *self._places, rows, self.held, self._resists, np.ascontiguousarray(limits)
-            )
+            held = self.held, self._resists, np.ascontiguousarray(limits), signs
+            loops.write_limits(DOUBLES.everywhere, *self._places, rows, *held)
             return
+        limits = limits * signs[:, None]
         held, resists = self.held.take(rows, axis=-1), self._resists.take(rows, axis=-1)
         for offsets, when_free in ((spring.lower, 1.0), (spring.upper, -1.0)):
             DOUBLES.write(self._fields(offsets, rows)[held], np.where(resists, limits, when_free)[held])

@@ -70,17 +70,31 @@ def write(values: Any, starts: Any, offsets: Any, written: Any) -> None:
 
 
 @compiled
+def push(
+    values: Any, starts: Any, offsets: Any, loads: Any, inverse_masses: Any, impulses: Any, substep_s: float
+) -> None:
+    """`BodyMotionReader.push`: write loads (6, n) with those of impulses (6, n) to bodies that have any and move."""
+    for body in range(len(starts)):
+        is_pushed = False
+        for axis in range(6):
+            is_pushed = is_pushed or impulses[axis, body] != 0.0
+        if is_pushed and inverse_masses[body] > 0.0:
+            for axis in range(6):
+                values[starts[body] + offsets[axis]] = loads[axis, body] + impulses[axis, body] / substep_s
+
+
+@compiled
 def write_limits(
-    values: Any, starts: Any, lower: Any, upper: Any, rows: Any, held: Any, resists: Any, limits: Any
+    values: Any, starts: Any, lower: Any, upper: Any, rows: Any, held: Any, resists: Any, limits: Any, signs: Any
 ) -> None:
     """Write limits (c, r) of rows (r,) where they are held, both alike; those of what does not resist leave it free."""
     for number in range(len(rows)):
         row = rows[number]
         for field in range(len(lower)):
             if held[field, row]:
-                rests = resists[field, row]
-                values[starts[row] + lower[field]] = limits[field, number] if rests else 1.0
-                values[starts[row] + upper[field]] = limits[field, number] if rests else -1.0
+                limit, rests = limits[field, number] * signs[field], resists[field, row]
+                values[starts[row] + lower[field]] = limit if rests else 1.0
+                values[starts[row] + upper[field]] = limit if rests else -1.0
 
 
 @compiled

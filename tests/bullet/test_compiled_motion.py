@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Bodies are turned by torques by a compiled loop as by numpy, bit by bit, in memory of our own."""
+"""Bodies are turned by torques and pushed by compiled loops as by numpy, bit by bit, in memory of our own."""
+
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -66,3 +68,17 @@ def test_a_wrong_inertia_turns_nothing(memory, reader, without_numba, numba):
     with pytest.raises(LayoutError, match="inertia of a body"):
         reader.turn_by_torques(np.full(BODIES, 1 / 240))
     np.testing.assert_array_equal(memory, before)
+
+
+def test_impulses_are_given_with_the_same_bits(memory, reader, without_numba):
+    """Where a body has none, or does not move, its loads stay."""
+    moves = np.arange(BODIES) % 5 > 0
+    impulses = np.where(np.arange(BODIES) % 4, np.random.default_rng(6).normal(size=(6, BODIES)), 0.0)
+    motion = replace(reader.read(), inverse_masses=np.where(moves, 0.01, 0.0))
+    before = memory.copy()
+    reader.push(motion, impulses, 1 / 240)
+    compiled, memory[:] = memory.copy(), before
+    without_numba()
+    reader.push(motion, impulses, 1 / 240)
+    np.testing.assert_array_equal(compiled, memory)
+    assert (compiled != before).sum() == 6 * (moves & (np.arange(BODIES) % 4 > 0)).sum()

@@ -29,12 +29,12 @@ class ActingJoints:
     implicit_s2: FloatArray  # (k,)
 
     @cached_property
-    def packed(self) -> FloatArray:
-        """Rows and stiffness (k, 72) as compiled loops take them."""
+    def grouped(self) -> FloatArray:
+        """Rows and stiffness (g, 72, 64) as compiled loops take them."""
         rows = self.rows
         of_rows = rows.along, rows.first_turning, rows.second_turning, rows.turning
-        packed: FloatArray = _loops().packed(*of_rows, self.stiffness)
-        return packed
+        grouped: FloatArray = _loops().grouped(*of_rows, self.stiffness)
+        return grouped
 
 
 def deformations(frames: JointFrames, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
@@ -65,7 +65,7 @@ def begun(
     loops, frames, rows = joint_loops(), joints.frames, joints.rows
     if loops is not None:
         found: tuple[FloatArray, FloatArray, FloatArray] = loops.begun(
-            frames.first, frames.second, joints.packed, joints.implicit_s2, strains, substep_s, velocities
+            frames.first, frames.second, joints.grouped, joints.implicit_s2, strains, substep_s, velocities
         )
         return found
     rates = rows.rates(*(velocities.take(ends, axis=1) for ends in (frames.first, frames.second)))
@@ -84,7 +84,7 @@ def slowed(
     loops, frames, rows = joint_loops(), joints.frames, joints.rows
     if loops is not None:
         found: tuple[FloatArray, FloatArray, FloatArray, FloatArray] = loops.slowed(
-            frames.first, frames.second, joints.packed, joints.implicit_s2, rates, amounts, changes
+            frames.first, frames.second, joints.grouped, joints.implicit_s2, rates, amounts, changes
         )
         return found
     slowing = rows.rates(*(changes.take(ends, axis=1) for ends in (frames.first, frames.second)))
@@ -117,24 +117,25 @@ def velocities_alone(
 
 def put_loads(
     loads: FloatArray,
+    on_first: BoolArray,
     holding: BoolArray,
     parts: Sequence[tuple[IntArray, FloatArray, FloatArray]],
     substep_s: float,
 ) -> None:
-    """Write the loads (2, 6, m) of connections that hold (m,) in a sub-step, and 0 for the others.
+    """Write the loads (6, m) of connections that hold (m,) in a sub-step, and 0 for the others.
 
-    `parts` are numbers (k,) of some with their impulses (6, k) on first and on second bodies.
+    They are those on first bodies, or on second ones (m,). `parts` are numbers (k,) of some connections with their
+    impulses (6, k) on both.
     """
     loops = joint_loops()
     if loops is not None:
         loops.clear_loads(loads, holding)
         for numbers, of_first, of_second in parts:
-            loops.put_loads(loads, numbers, of_first, of_second, substep_s)
+            loops.put_loads(loads, on_first, numbers, of_first, of_second, substep_s)
         return
-    loads[:, :, ~holding] = 0.0
-    for numbers, *of_bodies in parts:
-        for side, impulses in zip(loads, of_bodies, strict=True):
-            side[:, numbers] = impulses / substep_s
+    loads[:, ~holding] = 0.0
+    for numbers, of_first, of_second in parts:
+        loads[:, numbers] = np.where(on_first[numbers], of_first, of_second) / substep_s
 
 
 def stored(stiffness: FloatArray, strains: FloatArray) -> FloatArray:
@@ -161,7 +162,10 @@ def rows_at(frames: JointFrames, positions_m: FloatArray, rotations: FloatArray)
 def added_blocks(
     rows: JointRows, stiffness: FloatArray, implicit_s2: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return what connections (r,) add to the equations of their bodies, and between; zeros have any sign."""
+    """Return what connections (r,) add to the equations of their bodies, and between; zeros have any sign.
+
+    Of the first two only numbers on and above the diagonal count: they are symmetric.
+    """
     loops = joint_loops()
     if loops is None:
         return stiffness_blocks(rows, implicit_s2 * stiffness)

@@ -71,7 +71,10 @@ class KeptJoints:
 
     def set_rows(self, numbers: IntArray, rows: JointRows) -> None:
         """Take over the rows of some connections (k,)."""
-        self._rows.set(numbers, rows)
+        if len(numbers) == len(self._frames):
+            self._rows = rows
+        else:
+            self._rows.set(numbers, rows)
         self._acting = None
 
     def acting(self, chosen: ChosenJoints, substep_s: float, damping_s: FloatArray) -> ActingJoints:

@@ -1,7 +1,8 @@
 """Symmetric systems of equations with six unknowns a body, solved the same on every processor.
 
 QDLDL (B. Stellato, P. Goulart) factors as LDLᵀ in plain C: one multiplication and one addition after another. LAPACK
-and the solvers of scipy go through BLAS, which rounds by processor.
+and the solvers of scipy go through BLAS, which rounds by processor. Equations of which only the numbers change are
+factored again by compiled loops, with the same bits.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from scipy.sparse import csc_matrix
 
 from ..arrays import FloatArray, IntArray
 from .compiled_joints import joint_loops
+from .panel_factors import PanelFactors, loops_like_qdldl
 
 _BLOCK = 6
 
@@ -28,6 +30,7 @@ class BlockSystem:
         self._count = body_count
         self._matrix: csc_matrix | None = None
         self._solver: qdldl.Solver | None = None
+        self._panels: PanelFactors | None = None  # once numbers have changed
         bodies = np.arange(body_count)
         self._find_positions(((bodies, bodies), (first, first), (second, second), (first, second)))
         self._assembled = np.zeros(self._size)
@@ -58,15 +61,23 @@ class BlockSystem:
                     for places, values in zip(self._of_connections, blocks, strict=True)
                 ]
             )
+        loops = loops_like_qdldl()
         if self._matrix is None or self._solver is None:
             self._matrix = csc_matrix((data, self._indices, self._starts), shape=(_BLOCK * self._count,) * 2)
             self._solver = qdldl.Solver(self._matrix, upper=True)
-        else:
+        elif loops is None:
             self._matrix.data = data  # scipy takes longer to make a matrix than QDLDL to factor a small one
             self._solver.update(self._matrix, upper=True)
+        else:
+            if self._panels is None:
+                order = np.asarray(self._solver.factors()[2])
+                self._panels = PanelFactors(loops, self._starts, self._indices, order)
+            self._panels.factor(data)
 
     def solve(self, right: FloatArray) -> FloatArray:
         """Return the unknowns (6, b) for a right-hand side (6, b)."""
+        if self._panels is not None:
+            return self._panels.solve(right)
         assert self._solver is not None, "numbers come first, by `factor`"
         unknowns: FloatArray = self._solver.solve(np.ascontiguousarray(right.T).reshape(-1))
         return unknowns.reshape(-1, _BLOCK).T
@@ -76,8 +87,8 @@ class BlockSystem:
         loops = joint_loops()
         if loops is not None:
             totals = np.zeros(self._size + 1)
-            for term in terms:
-                loops.add(totals, *term)
+            for places, *term in terms:
+                loops.add(totals, places, *term, places is not self._of_connections[-1])
             return totals[: self._size]
         places = np.concatenate([places[..., at].reshape(-1) for places, at, _, _ in terms])
         values = np.concatenate([blocks[..., chosen].reshape(-1) for _, _, blocks, chosen in terms])
@@ -92,24 +103,25 @@ class BlockSystem:
         rows, columns = (np.concatenate(ends) for ends in zip(*kinds, strict=True))
         is_known = (rows < 0) | (columns < 0)
         keys = np.where(is_known, 0, np.maximum(rows, columns) * self._count + np.minimum(rows, columns))
-        kept, which = np.unique(keys, return_inverse=True)
+        kept, which = np.unique(keys, return_inverse=True)  # column by column, with the diagonal as the last of each
         block_columns, block_rows = np.divmod(kept, self._count)
-        row, column = np.meshgrid(np.arange(_BLOCK), np.arange(_BLOCK), indexing="ij")
-        all_rows = _BLOCK * block_rows[:, None, None] + row
-        all_columns = _BLOCK * block_columns[:, None, None] + column
-        upper = all_rows <= all_columns
-        order = np.lexsort((all_rows[upper], all_columns[upper]))
-        self._size = len(order)
-        positions = np.full(upper.shape, self._size)
-        sorted_positions = np.empty(self._size, int)
-        sorted_positions[order] = np.arange(self._size)
-        positions[upper] = sorted_positions
-        places = positions[which]
-        places[rows > columns] = np.swapaxes(places[rows > columns], 1, 2)
-        places[is_known] = self._size
+        in_column = np.bincount(block_columns, minlength=self._count)
+        within = np.arange(_BLOCK)
+        lengths = _BLOCK * (in_column[:, None] - 1) + within + 1
+        self._starts = np.concatenate(([0], np.cumsum(lengths))).astype(np.int32)
+        self._size = int(self._starts[-1])
+        above = np.arange(len(kept)) - (np.cumsum(in_column) - in_column)[block_columns]
+        starts = self._starts[:-1].reshape(-1, _BLOCK)[block_columns].T + _BLOCK * above
+        positions = starts + within[:, None, None]
+        positions[np.tri(_BLOCK, k=-1, dtype=bool)[..., None] & (block_rows == block_columns)] = self._size
+        indices = np.empty(self._size + 1, np.int32)
+        indices[positions] = (_BLOCK * block_rows + within[:, None])[:, None]
+        self._indices = indices[:-1]
+        places = positions[..., which]
+        is_below = rows > columns
+        places[..., is_below] = np.swapaxes(places[..., is_below], 0, 1)
+        places[..., is_known] = self._size
         ends = np.cumsum([len(of_kind) for of_kind, _ in kinds])[:-1]
-        split = np.split(np.moveaxis(places, 0, 2), ends, axis=2)
-        self._of_bodies, *self._of_connections = (np.ascontiguousarray(part) for part in split)
-        self._indices = all_rows[upper][order].astype(np.int32)
-        per_column = np.bincount(all_columns[upper], minlength=_BLOCK * self._count)
-        self._starts = np.concatenate(([0], np.cumsum(per_column))).astype(np.int32)
+        split = np.split(places, ends, axis=2)
+        # Without a sign, so that loops need not look for places before the first.
+        self._of_bodies, *self._of_connections = (np.ascontiguousarray(part, np.uint32) for part in split)

@@ -76,9 +76,9 @@ class Breaker:
             self._break(rows, self._meter.moment(reading))
         return rows
 
-    def break_predicted(self, both_sides: np.ndarray, begin_s: float, substep_s: float) -> np.ndarray:
-        """Break the connections (b,) that predicted loads (2, 6, m) on their bodies overload, and return them."""
-        loads, motion = self._meter.predicted_loads(both_sides), given(self._resistance.elastic).motion
+    def break_predicted(self, loads: np.ndarray, begin_s: float, substep_s: float) -> np.ndarray:
+        """Break the connections (b,) that predicted loads (6, m) on the bodies overload, and return them."""
+        motion = given(self._resistance.elastic).motion
         rows = self._overloaded(loads, motion.position_components_m, motion.rotation_components)
         failed = self._failed_bearings()
         if len(failed):

@@ -110,6 +110,8 @@ class ElasticConnections:
     ----------
     motion : BodyMotion
         How all bodies moved as the sub-step began.
+    loads : (6, m) float
+        Forces and torques in the last sub-step that was predicted, on the bodies on which they are read.
 
     Raises
     ------
@@ -172,7 +174,8 @@ class ElasticConnections:
         self.bare_bars = StandingBarsOfZones(self._reader, motion, self._masses, len(self._frames))
         self._built = motion
         self._substep_s, self._left = 0.0, np.ones_like(self._left_per_second)
-        self._loads = np.zeros((2, 6, len(self._frames)))
+        self._on_first = np.ones(len(self._frames), bool)
+        self.loads = np.zeros((6, len(self._frames)))
         world.constraints.hold_thresholds(held=True)
 
     def reinforce(self, breaking: Breaking, left: np.ndarray) -> None:
@@ -249,25 +252,26 @@ class ElasticConnections:
             motion.velocity_components, self._left, motion.inverse_masses, inertias, motion.load_components, substep_s
         )
         gone = given(self._structure).settle(motion.position_components_m, motion.rotation_components)
-        self._world.constraints.break_rows(gone)
+        if len(gone):
+            self._world.constraints.break_rows(gone)
         for lifting in self._lifting:
             lifting.follow(self._rows, self._softness, self._world.constraints.intact())
         self._start = StepInput(motion.position_components_m, motion.rotation_components, velocities, motion.asleep)
 
     def predict(self) -> np.ndarray:
-        """Return forces and torques (2, 6, m) in the sub-step on Bullet's bodies A and B, as if nothing touched."""
+        """Return forces and torques (6, m) in the sub-step, on the bodies where they are read, without contacts."""
         intact = self._world.constraints.intact()
         self._coming = step = given(self._structure).step(self._start, intact, self._substep_s)
         of_connections = step.acting, step.of_first, step.of_second
         of_cracks = step.cracks, step.of_cracks_on_first, step.of_cracks_on_second
-        put_loads(self._loads, self.holding(intact), (of_connections, of_cracks), self._substep_s)
-        return self._loads
+        parts = (of_connections, of_cracks) if len(step.cracks) else (of_connections,)
+        put_loads(self.loads, self._on_first, self.holding(intact), parts, self._substep_s)
+        return self.loads
 
     def apply(self) -> None:
         """Put the predicted sub-step into Bullet."""
         motion, step = self.motion, self._coming
-        moved = np.flatnonzero(step.of_bodies.any(axis=0) & (motion.inverse_masses > 0.0))
-        self._reader.set_loads(moved, motion.load_components[:, moved] + step.of_bodies[:, moved] / self._substep_s)
+        self._reader.push(motion, step.of_bodies, self._substep_s)
         self._rows.expect(step.acting, step.deformations - self._substep_s * step.rates)
         self._expect_cracks(motion, step)
         given(self._structure).end_substep()
@@ -307,9 +311,9 @@ class ElasticConnections:
         """Connections (m,) whose cracks bars cross; None without reinforcement."""
         return self._cracks.have_bars if self._cracks is not None else None
 
-    def loads_on(self, sides: np.ndarray) -> np.ndarray:
-        """Return forces and torques (6, m) in the last sub-step on Bullet's body A or B of each connection (m,)."""
-        return np.where(sides == 0, self._loads[0], self._loads[1])
+    def read_on(self, sides: np.ndarray) -> None:
+        """Read loads on Bullet's body A (0) or B (1) of each connection (m,); to be called before any time passes."""
+        self._on_first = sides == 0
 
     def holding(self, intact: np.ndarray) -> np.ndarray:
         """Return which connections (m,) hold, intact or by reinforcement."""

@@ -41,8 +41,10 @@ class Meter:
         # On a fixed body Bullet leaves out a part of a hinge's torque: loads are read on the other.
         side = np.where(inventory.moves[pairs[:, 0]], 0, 1)
         rows = np.arange(len(pairs))
-        self._sides = np.where(world.first_is_body_a(), side, 1 - side)
-        self._snapshots = world.snapshots(2 * rows + self._sides)
+        sides = np.where(world.first_is_body_a(), side, 1 - side)
+        self._snapshots = world.snapshots(2 * rows + sides)
+        if elastic:
+            elastic.read_on(sides)
         self._bodies = pairs[rows, side]
         # Positions of connections are those of the bridge as it was built, not as it rests under its weight.
         positions_m, rotations = elastic.built_positions if elastic else world.bodies.positions()
@@ -61,12 +63,8 @@ class Meter:
         """
         snapshot = self._snapshots.take(contacts=contacts)
         if self._elastic:
-            snapshot = replace(snapshot, load_components=snapshot.load_components + self._elastic.loads_on(self._sides))
+            snapshot = replace(snapshot, load_components=snapshot.load_components + self._elastic.loads)
         return Reading(snapshot, substep_s, end_s)
-
-    def predicted_loads(self, both_sides: np.ndarray) -> np.ndarray:
-        """Return loads (6, m) on the bodies where they are read, from those (2, 6, m) on Bullet's bodies A and B."""
-        return np.where(self._sides == 0, both_sides[0], both_sides[1])
 
     def predicted(self, loads: np.ndarray, substep_s: float, begin_s: float) -> Reading:
         """Return Bullet's state before a sub-step, with the loads (6, m) that connections will have in it."""

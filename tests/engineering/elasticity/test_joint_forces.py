@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Compiled loops of elastic connections give the bits of numpy, at all angles, with numbers of all sizes."""
 
-from dataclasses import fields
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.engineering.elasticity import joint_forces
+from bridge_demolition_addon.engineering.elasticity import equations, joint_forces
+from bridge_demolition_addon.engineering.elasticity.equations import RigidBodies
 from bridge_demolition_addon.engineering.elasticity.joint_forces import (
     ActingJoints,
     added_blocks,
@@ -82,6 +83,18 @@ def test_deformations_have_the_same_bits(rng, by_numpy):
     assert_same_bits([deformations(*given)], [by_numpy(deformations, *given)])
 
 
+def test_small_deformations_have_the_same_bits(rng, by_numpy):
+    """All angles of a group are small, as they are while a bridge stands."""
+    of, axes = frames(rng), rotations(rng, CONNECTIONS)
+    turns = rng.normal(size=(BODIES, 3)) * 10.0 ** rng.uniform(-9.0, -2.0, (BODIES, 1))
+    turns[:9] = 0.0
+    turned = np.ascontiguousarray(np.moveaxis(rotated(np.tile(np.eye(3), (BODIES, 1, 1)), turns), 0, -1))
+    given = replace(of, first_axes=axes, second_axes=axes), rng.normal(size=(3, BODIES)), turned
+    found = deformations(*given)
+    assert_same_bits([found], [by_numpy(deformations, *given)])
+    assert abs(found[3:]).max() < 0.2
+
+
 def test_deformations_at_right_angles_have_the_same_bits(by_numpy):
     """Where a sine or a cosine is 0, the angle is decided by its sign."""
     quarter = np.array([[0.0, -1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
@@ -110,6 +123,15 @@ def test_impulses_have_the_same_bits(rng, by_numpy):
     assert_same_bits(slowed(*given), by_numpy(slowed, *given))
 
 
+def test_mass_matrices_have_the_same_bits(rng, monkeypatch):
+    masses = np.where(np.arange(BODIES) % 5, rng.uniform(1e2, 1e6, BODIES), 0.0)
+    of_all = RigidBodies(masses, rng.normal(size=(3, 3, BODIES)), *bodies(rng))
+    given = rotations(rng, BODIES), np.flatnonzero(rng.random(BODIES) < 0.7)
+    compiled = of_all.mass_matrices(*given)
+    monkeypatch.setattr(equations, "joint_loops", lambda: None)
+    assert_same_bits([compiled], [of_all.mass_matrices(*given)])
+
+
 def test_velocities_without_connections_have_the_same_bits(rng, by_numpy):
     velocities, loads = rng.normal(size=(2, 6, BODIES))
     inverse_masses = np.where(np.arange(BODIES) % 5, rng.uniform(1e-6, 1e-2, BODIES), 0.0)
@@ -121,9 +143,10 @@ def test_loads_of_what_holds_have_the_same_bits(rng, by_numpy):
     numbers = rng.permutation(CONNECTIONS)[:200]
     holding = np.isin(np.arange(CONNECTIONS), numbers)
     parts = [(chosen, *rng.normal(size=(2, 6, len(chosen)))) for chosen in np.split(np.sort(numbers), [0, 150])]
-    compiled, plain = np.ones((2, 2, 6, CONNECTIONS))
-    put_loads(compiled, holding, parts, 1 / 240)
-    by_numpy(put_loads, plain, holding, parts, 1 / 240)
+    compiled, plain = np.ones((2, 6, CONNECTIONS))
+    on_first = rng.random(CONNECTIONS) < 0.5
+    put_loads(compiled, on_first, holding, parts, 1 / 240)
+    by_numpy(put_loads, plain, on_first, holding, parts, 1 / 240)
     assert_same_bits([compiled], [plain])
     assert not compiled[..., ~holding].any() and compiled[..., holding].all()
 
@@ -138,8 +161,9 @@ def test_stored_energy_has_the_same_bits(rng, by_numpy):
 def test_equations_have_the_same_numbers(rng, by_numpy):
     acting = joints(rng)
     given = acting.rows, acting.stiffness, acting.implicit_s2
-    for one, other in zip(added_blocks(*given), by_numpy(added_blocks, *given), strict=True):
-        np.testing.assert_array_equal(one, other)  # sums that begin with 0 take no notice of the sign of a 0
+    counts = np.triu(np.ones((6, 6), bool)), np.triu(np.ones((6, 6), bool)), np.ones((6, 6), bool)
+    for one, other, numbers in zip(added_blocks(*given), by_numpy(added_blocks, *given), counts, strict=True):
+        np.testing.assert_array_equal(one[numbers], other[numbers])  # a 0 has any sign
 
 
 def test_loops_are_used_where_numba_is_installed():
