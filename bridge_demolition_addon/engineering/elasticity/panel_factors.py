@@ -56,7 +56,7 @@ def factor_loops() -> ModuleType:
 def loops_like_qdldl() -> Any | None:
     """Return the loops where they give the bits of QDLDL, which some compilers let multiply and add without rounding.
 
-    Those for processors of Apple do. There all is left to QDLDL, so that results are the same without Numba.
+    Those for ARM do. There all is left to QDLDL, so that results are the same without Numba.
     """
     loops = factor_loops()
     if loops is None:
