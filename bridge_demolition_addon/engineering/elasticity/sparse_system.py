@@ -1,8 +1,8 @@
 """Symmetric systems of equations with six unknowns a body, solved the same on every x86-64 processor.
 
 QDLDL (B. Stellato, P. Goulart) factors as LDLᵀ in plain C: one multiplication and one addition after another, which its
-wheels for ARM join. LAPACK and the solvers of scipy go through BLAS, which rounds by processor. Equations of which only the numbers change are
-factored again by compiled loops, with the same bits.
+wheels for ARM join. LAPACK and the solvers of scipy go through BLAS, which rounds by processor. Equations of which only
+the numbers change are factored again by compiled loops, with the same bits.
 """
 
 from __future__ import annotations
