@@ -111,20 +111,14 @@ class Breaker:
     def _overloaded(self, loads: np.ndarray, positions_m: np.ndarray, rotations: np.ndarray) -> np.ndarray:
         """Which connections (k,) break by loads (6, m) about the centres of bodies.
 
-        Bodies are at positions (3, n) in rotations (3, 3, n). What all connections carry, which judges them with
-        others, is worked out only where one is overloaded alone: mostly nothing breaks.
+        Bodies are at positions (3, n) in rotations (3, 3, n).
         """
         if not self._warm_up.is_over or not self.uses_strength:
             return _NONE
-        meter, resistance = self._meter, self._resistance
-        overloads, left = given(resistance.overloads), resistance.remaining_strength
-        rows, alone = overloads.over_alone(self._intact, meter.sections, loads, positions_m, rotations, left)
-        if not len(rows):
-            return _NONE
-        of_all = meter.connection_loads(loads, positions_m, rotations)
-        axes = meter.section_axes(rotations.transpose(2, 0, 1), rows)
+        resistance = self._resistance
         parts = resistance.elastic.parts if resistance.elastic else None
-        return overloads.breaking(rows, alone, of_all, axes, self._intact, left, parts)
+        judging, left = given(resistance.overloads), resistance.remaining_strength
+        return judging.breaking(self._intact, self._meter.sections, loads, positions_m, rotations, left, parts)
 
     def _break(self, rows: np.ndarray, loads: Moment) -> None:
         """Break connections (b,) under loads; their reinforcement holds on."""
