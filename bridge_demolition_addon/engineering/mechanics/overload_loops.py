@@ -1,7 +1,7 @@
 """Overloads of connections as loops, which Numba compiles: import this only where it is installed.
 
 They give the same bits as `carried_sections`, `section_cuts` and `strength`, as the loops of cracks do: see
-`elasticity.crack_loops`. Strengths (5, m) are in the order of `Strength`, friction is (0,) where none counts.
+`elasticity.crack_loops`. Strengths (m, 5) are in the order of `Strength`, friction is (0,) where none counts.
 """
 
 from __future__ import annotations
@@ -81,30 +81,23 @@ def over_in_cuts(
     """Connections (k,) that are overloaded alone and in their cuts, and their utilisations (k,) in these.
 
     Others are as `over_alone` takes them, `cuts` and `faces` as `used_in_cuts` does. What a face carries is worked out
-    where it is in such a cut: mostly few are overloaded alone.
+    for each cut: mostly few are overloaded alone, and numbers that are kept take longer to find again.
     """
     (loads, positions, rotations), (bodies, signs, points, axes, _) = places, sections
     intact, left = judged
     rows, found = over_alone(places, sections, judged, bounds, of_sections, resisting)
-    shape, count = (len(bodies), 3), 0
-    forces, moments, middles = np.empty(shape), np.empty(shape), np.empty(shape)
-    is_known, room = np.zeros(len(bodies), np.bool_), _room()
+    room, count, sides = _room(), 0, np.empty(2)
     for row in rows:
-        for cut in (row, row + len(bodies)):
-            for entry in range(cuts[0][cut], cuts[0][cut + 1]):
-                face = cuts[1][entry]
-                if is_known[face] or not intact[face]:
-                    continue
-                body = bodies[face]
-                force, moment, middle = _carried(
-                    loads[:, face], positions[:, body], rotations[:, :, body], signs[face], points[face]
-                )
-                for axis in range(3):
-                    forces[face, axis], moments[face, axis] = force[axis], moment[axis]
-                    middles[face, axis] = middle[axis]
-                is_known[face] = True
         turned = _turned(rotations[:, :, bodies[row]], axes[row])
-        used = _used_in_cuts(row, intact, (forces, moments, middles), turned, cuts, faces, resisting, room) / left[row]
+        for side in range(2):
+            number = _intact_faces(row + side * len(bodies), intact, cuts, room)
+            for at in range(number):
+                face = cuts[1][room[0][at]]
+                body = bodies[face]
+                carried = _carried(loads[:, face], positions[:, body], rotations[:, :, body], signs[face], points[face])
+                _note(room, at, carried)
+            sides[side] = _used_in_cut(row, number, room, turned, cuts, faces, resisting)
+        used = (sides[0] + sides[1]) / 2.0 / left[row]
         if used > 1.0:
             rows[count], found[count] = row, used
             count += 1
@@ -118,7 +111,8 @@ def used_in_cuts(rows: Any, intact: Any, loads: Any, axes: Any, cuts: Any, faces
     `loads` are forces, moments and points (m, 3) of all, `cuts` their starts, faces, signs and cosines, and `faces`
     areas and second moments.
     """
-    used, room = np.empty(len(rows)), _room()
+    used, room, sides = np.empty(len(rows)), _room(), np.empty(2)
+    forces, moments, points = loads
     for number in range(len(rows)):
         own = axes[number]
         columns = (
@@ -126,61 +120,72 @@ def used_in_cuts(rows: Any, intact: Any, loads: Any, axes: Any, cuts: Any, faces
             (own[0, 1], own[1, 1], own[2, 1]),
             (own[0, 2], own[1, 2], own[2, 2]),
         )
-        used[number] = _used_in_cuts(rows[number], intact, loads, columns, cuts, faces, resisting, room)
+        for side in range(2):
+            count = _intact_faces(rows[number] + side * len(intact), intact, cuts, room)
+            for at in range(count):
+                face = cuts[1][room[0][at]]
+                _note(room, at, (forces[face], moments[face], points[face]))
+            sides[side] = _used_in_cut(rows[number], count, room, columns, cuts, faces, resisting)
+        used[number] = (sides[0] + sides[1]) / 2.0
     return used
 
 
 @compiled
 def _room() -> Any:
-    """Room for the faces of a cut, and for what is added up over them."""
-    return np.empty(MOST_TERMS, np.int64), np.empty((9, MOST_TERMS))
+    """Room for the faces of a cut, for what each carries, and for what is added up over them."""
+    return np.empty(MOST_TERMS, np.int64), np.empty((MOST_TERMS, 9)), np.empty((9, MOST_TERMS))
 
 
 @compiled
-def _used_in_cuts(
-    row: int, intact: Any, loads: Any, axes: Any, cuts: Any, faces: Any, resisting: Any, room: Any
-) -> float:
-    """Mean utilisation of the two cuts of a connection, whose section has these axes."""
-    starts, members, _, _ = cuts
-    both = 0.0
-    for cut in (row, row + len(intact)):
-        count = 0
-        for entry in range(starts[cut], starts[cut + 1]):
-            if intact[members[entry]]:
-                room[0][count] = entry
-                count += 1
-        force, moment, area, second = _cut(count, room, loads, axes, cuts, faces)
-        area, directions, moduli, torsion_modulus = rectangle(area, second)
-        both += _used(force, moment, area, directions, moduli, torsion_modulus, _resistance(resisting, row))
-    return both / 2.0
+def _intact_faces(cut: int, intact: Any, cuts: Any, room: Any) -> int:
+    """Find the intact faces of a cut, and return how many there are."""
+    count = 0
+    for entry in range(cuts[0][cut], cuts[0][cut + 1]):
+        if intact[cuts[1][entry]]:
+            room[0][count] = entry
+            count += 1
+    return count
 
 
 @compiled
-def _cut(count: int, room: Any, loads: Any, axes: Any, cuts: Any, faces: Any) -> Any:
-    """`section_cuts.cut_loads` of one cut, whose faces are the first so many in the room."""
-    (entries, lines), (forces, moments, points) = room, loads
-    (_, members, signs, cosines), (areas, second_moments) = cuts, faces
+def _note(room: Any, at: int, load: Any) -> None:
+    """Note the force, the moment and the point of a face of a cut."""
+    force, moment, point = load
+    for axis in range(3):
+        room[1][at, axis], room[1][at, 3 + axis], room[1][at, 6 + axis] = force[axis], moment[axis], point[axis]
+
+
+@compiled
+def _used_in_cut(row: int, count: int, room: Any, axes: Any, cuts: Any, faces: Any, resisting: Any) -> Any:
+    """Utilisation of a cut through so many faces that are noted, by the strength of a connection."""
+    force, moment, area, second = _cut(count, room, axes, cuts, faces)
+    area, directions, moduli, torsion_modulus = rectangle(area, second)
+    return _used(force, moment, area, directions, moduli, torsion_modulus, _resistance(resisting, row))
+
+
+@compiled
+def _cut(count: int, room: Any, axes: Any, cuts: Any, faces: Any) -> Any:
+    """`section_cuts.cut_loads` of one cut through so many faces that are noted."""
+    (entries, loads, lines), (_, members, signs, cosines), (areas, second_moments) = room, cuts, faces
     for at in range(count):
-        face = members[entries[at]]
-        lines[0, at] = areas[face] * cosines[entries[at]]
+        lines[0, at] = areas[members[entries[at]]] * cosines[entries[at]]
         for axis in range(3):
-            lines[1 + axis, at] = lines[0, at] * points[face, axis]
+            lines[1 + axis, at] = lines[0, at] * loads[at, 6 + axis]
     area = total_of_row(lines, 0, count)
     x, y, z = total_of_row(lines, 1, count), total_of_row(lines, 2, count), total_of_row(lines, 3, count)
     middle = x / area, y / area, z / area
     for at in range(count):
         face, sign, cosine = members[entries[at]], signs[entries[at]], cosines[entries[at]]
-        lever = points[face, 0] - middle[0], points[face, 1] - middle[1], points[face, 2] - middle[2]
-        pull = sign * forces[face, 0], sign * forces[face, 1], sign * forces[face, 2]
+        lever = loads[at, 6] - middle[0], loads[at, 7] - middle[1], loads[at, 8] - middle[2]
+        pull = sign * loads[at, 0], sign * loads[at, 1], sign * loads[at, 2]
         turn = crossed(lever, pull)
         for axis in range(3):
             lines[axis, at] = pull[axis]
-            lines[3 + axis, at] = sign * moments[face, axis] + turn[axis]
-        share = areas[face] * cosine
-        y, z = dotted(axes[1], lever), dotted(axes[2], lever)
-        lines[6, at] = second_moments[face, 0, 0] * cosine + share * (z * z)
-        lines[7, at] = second_moments[face, 0, 1] * cosine + share * (-y * z)
-        lines[8, at] = second_moments[face, 1, 1] * cosine + share * (y * y)
+            lines[3 + axis, at] = sign * loads[at, 3 + axis] + turn[axis]
+        share, (across, up) = areas[face] * cosine, (dotted(axes[1], lever), dotted(axes[2], lever))
+        lines[6, at] = second_moments[face, 0, 0] * cosine + share * (up * up)
+        lines[7, at] = second_moments[face, 0, 1] * cosine + share * (-across * up)
+        lines[8, at] = second_moments[face, 1, 1] * cosine + share * (across * across)
     force = total_of_row(lines, 0, count), total_of_row(lines, 1, count), total_of_row(lines, 2, count)
     moment = total_of_row(lines, 3, count), total_of_row(lines, 4, count), total_of_row(lines, 5, count)
     second = total_of_row(lines, 6, count), total_of_row(lines, 7, count), total_of_row(lines, 8, count)
@@ -256,7 +261,7 @@ def _carried(load: Any, centre: Any, rotation: Any, sign: float, point: Any) -> 
 def _resistance(resisting: Any, row: int) -> Any:
     """Strengths of a connection, by how much more it has in compression, and its friction, nan where none counts."""
     strengths, pressed, friction = resisting
-    all_five = strengths[0, row], strengths[1, row], strengths[2, row], strengths[3, row], strengths[4, row]
+    all_five = strengths[row, 0], strengths[row, 1], strengths[row, 2], strengths[row, 3], strengths[row, 4]
     return all_five, pressed[row], friction[row] if len(friction) else np.nan
 
 

@@ -66,7 +66,7 @@ class Overloads:
             for item in fields(strength)
         ]
         everywhere = np.ones(len(faces.pairs)) if pressed is None else pressed
-        self._resisting = np.stack(of_all), everywhere, np.zeros(0) if friction is None else friction
+        self._resisting = np.stack(of_all, axis=1), everywhere, np.zeros(0) if friction is None else friction
         of_sections = tuple(getattr(self._sections, item.name) for item in fields(self._sections))
         self._of_alone = self._largest_utilisations, of_sections, self._resisting
         self._of_cuts = (cuts.starts, cuts.faces, cuts.signs, cuts.cosines), (faces.areas_m2, faces.second_moments_m4)
