@@ -14,26 +14,28 @@ from ..compilation import compiled
 
 @compiled
 def returned(
-    pairs: Any, work: Any, ends: Any, known: Any, taken: Any, last: Any, substep: int, apart: int
+    pairs: Any, work: Any, order: Any, ends: Any, known: Any, taken: Any, last: Any, substep: int, apart: int
 ) -> tuple[Any, Any, Any, Any]:
-    """`Touches.returned`, with the accounts after it: known pairs, what each has taken, and when it last did work."""
-    given_back = np.zeros(len(work))
+    """`Touches.returned`, with the accounts after it: known pairs, what each has taken, and when it last did work.
+
+    `order` (k,) are the rows of each sub-step, by their pairs.
+    """
+    given_back, working = np.zeros(len(work)), np.empty(len(work), np.int64)
     for number in range(len(ends) - 1):
-        rows, count = np.empty(ends[number + 1] - ends[number], np.int64), 0
-        for row in range(ends[number], ends[number + 1]):
+        count = 0
+        for row in order[ends[number] : ends[number + 1]]:
             if work[row] != 0.0:
-                rows[count] = row
+                working[count] = row
                 count += 1
         if count:
-            rows = rows[:count]
-            order = rows[np.argsort(pairs[rows])]  # each pair is there once
-            known, taken, last = _booked(order, pairs, work, given_back, known, taken, last, substep + number, apart)
+            accounts, now = (known, taken, last), substep + number
+            known, taken, last = _booked(working[:count], pairs, work, given_back, *accounts, now, apart)
     return given_back, known, taken, last
 
 
 @compiled
 def _booked(
-    order: Any,
+    rows: Any,
     pairs: Any,
     work: Any,
     given_back: Any,
@@ -43,11 +45,11 @@ def _booked(
     substep: int,
     apart: int,
 ) -> tuple[Any, Any, Any]:
-    """`Touches._book` of the pairs of some rows, in ascending order; notes what they give back."""
-    most = len(order) + len(known)
+    """`Touches._book` of the pairs of rows, in ascending order; notes what they give back."""
+    most = len(rows) + len(known)
     all_pairs, all_taken, all_last = np.empty(most, known.dtype), np.empty(most), np.empty(most, last.dtype)
     count, place = 0, 0
-    for row in order:
+    for row in rows:
         while known[place] < pairs[row]:
             if last[place] >= substep - apart:
                 all_pairs[count], all_taken[count], all_last[count] = known[place], taken[place], last[place]

@@ -50,7 +50,8 @@ class Touches:
         returned_j: FloatArray = np.zeros_like(work_j)
         if loops is not None:
             accounts = self._pairs, self._taken_j, self._last
-            found = loops.returned(pairs, work_j, ends, *accounts, self._substep, _APART)
+            order = np.lexsort((pairs, np.repeat(np.arange(len(ends) - 1), np.diff(ends))))
+            found = loops.returned(pairs, work_j, order, ends, *accounts, self._substep, _APART)
             returned_j, self._pairs, self._taken_j, self._last = found
             self._substep += len(ends) - 1
             return returned_j
