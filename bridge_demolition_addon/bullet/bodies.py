@@ -52,7 +52,8 @@ class BodyTable:
     def asleep(self) -> np.ndarray:
         """Return whether each body (n,) is asleep; one that can never move is not."""
         states = INTEGERS.gather(self._fields(self._body.activation))
-        return np.isin(states, list(SLEEPING)) & self.can_move()
+        one, other = SLEEPING
+        return ((states == one) | (states == other)) & self.can_move()
 
     def motion(self) -> BodyMotionReader:
         """Return the reader of the motion of all bodies, which also moves them."""

@@ -12,6 +12,7 @@ from .layout import SLEEPING, Layout
 from .memory import DOUBLES, INTEGERS, Fields, field_loops
 
 _VECTOR = 8 * np.arange(3)
+_SLEEPING = tuple(SLEEPING)
 
 SYMMETRIC = 1e-9
 
@@ -55,6 +56,8 @@ class BodyMotionReader:
         self._loads = Fields(bodies, np.concatenate((body.total_force + _VECTOR, body.total_torque + _VECTOR)))
         self._spins = Fields(bodies, body.angular_velocity + _VECTOR)
         self._states = Fields(bodies, [body.activation], INTEGERS)
+        turning = self._inertia, self._torques, self._spins, self._states
+        self._turning = tuple(fields.places for fields in turning)
 
     def read(self) -> BodyMotion:
         """Return how all bodies move."""
@@ -88,9 +91,8 @@ class BodyMotionReader:
         """
         loops = field_loops()
         if loops is not None:
-            places = self._inertia.places, self._torques.places, self._spins.places, self._states.places
             everywhere = DOUBLES.everywhere, INTEGERS.everywhere
-            if not loops.turn_by_torques(*everywhere, *places, tuple(SLEEPING), times_s, SYMMETRIC):
+            if not loops.turn_by_torques(*everywhere, *self._turning, _SLEEPING, times_s, SYMMETRIC):
                 raise LayoutError(_WRONG_INERTIA)
             return
         torques = self._torques.copy()
@@ -113,7 +115,7 @@ class BodyMotionReader:
     def _asleep(self) -> np.ndarray:
         """Whether each body (n,) is not simulated."""
         states = self._states.copy()[0]
-        one, other = SLEEPING
+        one, other = _SLEEPING
         return (states == one) | (states == other)
 
     def _write(self, offsets: list[np.ndarray], rows: np.ndarray, values: np.ndarray) -> None:

@@ -14,7 +14,7 @@ import numpy as np
 
 from ..errors import LayoutError
 from .layout import ACTIVATION_STATES, CONSTRAINT_TYPES, DRAWING_SIZE, FIRST_STEP_S, RIGID_BODY, WARM_STARTING, Layout
-from .memory import read, read_pointer, read_value
+from .memory import read, read_pointer, read_pointers_at, read_value, read_values
 
 _LONGEST_S = 1e9
 
@@ -27,26 +27,24 @@ _ROTATION = 1e-4
 
 def check_settings(layout: Layout, world: bpy.types.RigidBodyWorld) -> None:
     """Blender's own world structure holds the sub-steps, iterations and time scale that Python shows."""
-    address, blender = world.as_pointer(), layout.blender
-    _expect("sub-steps of the world", read_value(address + blender.world_substeps, "h"), world.substeps_per_frame)
-    _expect("iterations of the world", read_value(address + blender.world_iterations, "h"), world.solver_iterations)
-    _expect_close("time scale of the world", read_value(address + blender.world_time_scale, "f"), world.time_scale)
+    blender = layout.blender
+    fields = (blender.world_substeps, "h"), (blender.world_iterations, "h"), (blender.world_time_scale, "f")
+    substeps, iterations, time_scale = read_values(world.as_pointer(), *fields)
+    _expect("sub-steps of the world", substeps, world.substeps_per_frame)
+    _expect("iterations of the world", iterations, world.solver_iterations)
+    _expect_close("time scale of the world", time_scale, world.time_scale)
 
 
 def is_physics_world(layout: Layout, address: int) -> bool:
     """Return whether an rbDynamicsWorld lies there: it names the same dispatcher, broadphase and solver as Bullet."""
     blender, bullet = layout.blender, layout.world
+    of_blender = blender.physics_world_dispatcher, blender.physics_world_broadphase, blender.physics_world_solver
     try:
-        dynamics = read_pointer(address)
-        partners = (
-            (blender.physics_world_dispatcher, bullet.dispatcher),
-            (blender.physics_world_broadphase, bullet.broadphase),
-            (blender.physics_world_solver, bullet.solver),
-        )
-        pairs = [(read_pointer(address + here), read_pointer(dynamics + there)) for here, there in partners]
+        dynamics, *here = read_pointers_at(address, 0, *of_blender)
+        there = read_pointers_at(dynamics, bullet.dispatcher, bullet.broadphase, bullet.solver)
     except LayoutError:
         return False
-    return all(here == there != 0 for here, there in pairs)
+    return here == there and all(here)
 
 
 def check_solver(layout: Layout, dynamics: int, world: bpy.types.RigidBodyWorld, substep_s: float) -> None:

@@ -50,6 +50,10 @@ class ConstraintTable:
         self._layout, self._constraint = layout, layout.constraint
         self._thresholds = gather_doubles(self._fields(layout.constraint.breaking_threshold))[:, 0]
         self._threshold_factor, self._holds = 1.0, False
+        self._feedback_fields = POINTERS.indices(addresses + np.uint64(layout.constraint.joint_feedback))
+        self._feedback_addresses = feedback.ctypes.data + np.arange(
+            0, feedback.nbytes, 8 * FEEDBACK_DOUBLES, dtype=np.uint64
+        )
         self._forbids_collision, self._collision_pairs = forbids_collision, collision_pairs
         self._pair_rows = np.cumsum(forbids_collision) - 1
         self._fingerprints = Fingerprints(layout, addresses[self.exists])
@@ -71,9 +75,8 @@ class ConstraintTable:
 
     def write_loads(self, *, wanted: bool) -> None:
         """Have Bullet write the loads after every sub-step, as from `prepare` on, or leave them as they are."""
-        starts = self.feedback.ctypes.data + 8 * FEEDBACK_DOUBLES * np.arange(len(self), dtype=np.uint64)
-        targets = starts[self.exists] if wanted else np.uint64(0)
-        POINTERS.write(self._fields(self._constraint.joint_feedback), targets)
+        targets = self._feedback_addresses[self.exists] if wanted else np.uint64(0)
+        POINTERS.everywhere[self._feedback_fields[self.exists]] = targets
 
     def intact(self) -> np.ndarray:
         """Return whether each connection (m,) exists and has not broken."""

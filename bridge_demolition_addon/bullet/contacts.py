@@ -24,6 +24,8 @@ _MOST_MANIFOLDS = 50_000_000
 _CHECKED_POINTS = 200
 """Contact points looked at in a check; a wrong offset is wrong in the first of them."""
 
+_TOO_MANY_POINTS = "a contact has more than four points"
+
 _MANIFOLD_END = struct.Struct("<QQi")
 """Both bodies of a contact, then the number of its points."""
 
@@ -103,7 +105,7 @@ class ContactReader:
         self._layout, self._dispatcher = layout, dispatcher
         self._order = np.argsort(bodies, kind="stable")
         self._sorted = bodies[self._order]
-        self._is_checked = False
+        self._is_checked, self._point_doubles = False, layout.manifold.point.size // DOUBLES.size
         point = layout.manifold.point
         vectors = np.array([point.position_on_b, point.normal, point.lateral_directions, point.lateral_directions + 32])
         impulses = np.array([point.normal_impulse, point.lateral_impulses, point.lateral_impulses + 8])
@@ -116,13 +118,16 @@ class ContactReader:
         manifolds = self._checked_manifolds()
         if not same(manifolds, self._known_manifolds):
             self._find(manifolds)
-        counts, loops = self._counts.copy()[0], field_loops()
-        if len(counts) and (counts.min() < 0 or counts.max() > _MOST_POINTS):
-            raise LayoutError("a contact has more than four points")
+        loops = field_loops()
         if loops is not None:
-            point_doubles = self._layout.manifold.point.size // DOUBLES.size
-            points = self._impulses.places, self._vectors.places, point_doubles, self._bodies.places
-            return ContactCopies(*loops.loaded_points(DOUBLES.everywhere, POINTERS.everywhere, counts, *points))
+            everywhere, points = (DOUBLES.everywhere, POINTERS.everywhere, INTEGERS.everywhere), self._places
+            components, bodies, are_few = loops.loaded_points(*everywhere, *points, self._point_doubles, _MOST_POINTS)
+            if not are_few:
+                raise LayoutError(_TOO_MANY_POINTS)
+            return ContactCopies(components, bodies)
+        counts = self._counts.copy()[0]
+        if len(counts) and (counts.min() < 0 or counts.max() > _MOST_POINTS):
+            raise LayoutError(_TOO_MANY_POINTS)
         used = np.flatnonzero(counts)
         counts = counts.take(used)
         rows = np.repeat(used, counts)
@@ -165,16 +170,17 @@ class ContactReader:
         self._bodies = Fields(manifolds, [layout.body_a, layout.body_b], POINTERS)
         self._impulses = Fields(manifolds, self._impulse_offsets)
         self._vectors = Fields(manifolds, self._vector_offsets)
+        self._places = tuple(each.places for each in (self._counts, self._impulses, self._vectors, self._bodies))
 
     def _checked_manifolds(self) -> np.ndarray:
         """Addresses of all manifolds, from Bullet's pool and from beyond it; checked when the first are there."""
         layout, address = self._layout.dispatcher, self._dispatcher
         count_field, data_field = address + layout.manifold_count, address + layout.manifold_data
-        count = int(INTEGERS.gather(np.array([count_field]))[0] if self._is_checked else read_value(count_field, "i"))
+        count = INTEGERS.one(count_field) if self._is_checked else read_value(count_field, "i")
         if not 0 <= count <= _MOST_MANIFOLDS:
             raise LayoutError(f"{count} contacts")
         if self._is_checked:
-            return copy_pointers(int(POINTERS.gather(np.array([data_field]))[0]), count)
+            return copy_pointers(POINTERS.one(data_field), count)
         manifolds = read_pointers(data_field, count, "the list of contacts")
         _check_contacts(self._layout, manifolds, set(self._sorted.tolist()))
         self._is_checked = count > 0

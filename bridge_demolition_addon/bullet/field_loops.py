@@ -24,23 +24,54 @@ def copied(values: Any, starts: Any, offsets: Any) -> Any:
 
 
 @compiled
+def of_connections(
+    values: Any, flags: Any, impulses: Any, enabled: Any, exists: Any, cracked: Any, feedback: Any, sides: Any
+) -> tuple[Any, Any, Any]:
+    """Loads (6, k), impulses (m,) and whether each is intact (m,), as `SnapshotTaker.take` has them.
+
+    Impulses, and the flags of what is enabled, are given by `Fields.places`.
+    """
+    (starts, of_impulse), (places, of_flag) = impulses, enabled
+    loads, applied, intact = np.empty((6, len(sides))), np.zeros(len(starts)), np.zeros(len(starts), np.bool_)
+    for row in range(len(sides)):
+        start = 8 * sides[row]
+        for axis in range(3):
+            loads[axis, row], loads[3 + axis, row] = feedback[start + axis], feedback[start + 4 + axis]
+    for row in range(len(starts)):
+        if exists[row]:
+            applied[row] = values[starts[row] + of_impulse[0]]
+            intact[row] = flags[places[row] + of_flag[0]] != 0 and not cracked[row]
+    return loads, applied, intact
+
+
+@compiled
 def loaded_points(
-    values: Any, pointers: Any, counts: Any, impulses: Any, vectors: Any, size: int, bodies: Any
-) -> tuple[Any, Any]:
+    values: Any,
+    pointers: Any,
+    integers: Any,
+    counts: Any,
+    impulses: Any,
+    vectors: Any,
+    bodies: Any,
+    size: int,
+    most: int,
+) -> tuple[Any, Any, bool]:
     """`ContactReader.copy`: components (15, k) of points with an impulse, and pointers (2, k) to their bodies.
 
-    Each of `counts` (n,) contacts has so many points, `size` values after each other. Impulses, vectors and bodies are
-    given by `Fields.places`.
+    The points of a contact lie `size` values after each other. Their counts, impulses, vectors and bodies are given by
+    `Fields.places`. Also returns whether each contact has 0 to `most` points; where not, nothing is copied.
     """
-    (starts, of_impulses), (_, of_vectors), (owners, of_bodies) = impulses, vectors, bodies
-    found = 0
-    for contact in range(len(counts)):
-        for point in range(counts[contact]):
+    (numbers, of_count), (starts, of_impulses), (_, of_vectors), (owners, of_bodies) = counts, impulses, vectors, bodies
+    found, are_few = 0, True
+    for contact in range(len(starts)):
+        count = integers[numbers[contact] + of_count[0]]
+        are_few = are_few and 0 <= count <= most
+        for point in range(count if are_few else 0):
             found += _is_loaded(values, starts[contact] + point * size, of_impulses)
-    components, pairs = np.empty((15, found)), np.empty((2, found), pointers.dtype)
-    row = 0
-    for contact in range(len(counts)):
-        for point in range(counts[contact]):
+    found = found if are_few else 0
+    components, pairs, row = np.empty((15, found)), np.empty((2, found), pointers.dtype), 0
+    for contact in range(len(starts) if found else 0):
+        for point in range(integers[numbers[contact] + of_count[0]]):
             start = starts[contact] + point * size
             if _is_loaded(values, start, of_impulses):
                 for field in range(6):
@@ -51,7 +82,7 @@ def loaded_points(
                 for field in range(2):
                     pairs[field, row] = pointers[owners[contact] + of_bodies[field]]
                 row += 1
-    return components, pairs
+    return components, pairs, are_few
 
 
 @compiled

@@ -38,12 +38,32 @@ def read_value(address: int, format_: str) -> Any:
     return struct.unpack("<" + format_, raw)[0]
 
 
+def read_values(address: int, *fields: tuple[int, str]) -> tuple[Any, ...]:
+    """Values at offsets in bytes from `address`, each in `struct` notation, of one structure that is read at once."""
+    first = min(offset for offset, _ in fields)
+    size = max(offset + struct.calcsize("<" + format_) for offset, format_ in fields) - first
+    raw = read(address + first, size)
+    if raw is None:
+        raise LayoutError(f"address {address + first:#x} cannot be read")
+    return tuple(struct.unpack_from("<" + format_, raw, offset - first)[0] for offset, format_ in fields)
+
+
 def read_pointer(address: int) -> int:
     """Pointer at `address`, 0 where it is null."""
-    pointer: int = read_value(address, "Q")
-    if pointer and (pointer < _LOWEST or pointer >= _HIGHEST or pointer % 8):
-        raise LayoutError(f"no pointer at {address:#x} but {pointer:#x}")
-    return pointer
+    return _as_pointer(address, read_value(address, "Q"))
+
+
+def read_pointers_at(address: int, *offsets: int) -> list[int]:
+    """Pointers at offsets in bytes from `address`, 0 where they are null, of one structure that is read at once."""
+    pointers = read_values(address, *((offset, "Q") for offset in offsets))
+    return [_as_pointer(address + offset, pointer) for offset, pointer in zip(offsets, pointers, strict=True)]
+
+
+def _as_pointer(address: int, value: int) -> int:
+    """Return a value that was read at an address, which has to be a pointer."""
+    if value and (value < _LOWEST or value >= _HIGHEST or value % 8):
+        raise LayoutError(f"no pointer at {address:#x} but {value:#x}")
+    return value
 
 
 def read_pointers(field: int, count: int, name: str) -> np.ndarray:
@@ -70,6 +90,10 @@ class Values:
         """Return where in the array the values at addresses are."""
         shift = self.size.bit_length() - 1  # all sizes are powers of two
         return (np.asarray(addresses).astype(np.int64) >> shift) - (_LOWEST >> shift)
+
+    def one(self, address: int) -> Any:
+        """Return the value at a checked address as a number of Python."""
+        return self.everywhere.item((address - _LOWEST) // self.size)
 
     def gather(self, addresses: np.ndarray) -> np.ndarray:
         """Copy the values at addresses."""
@@ -116,6 +140,11 @@ class Fields:
     """The same c fields of n structures, to be copied again and again.
 
     The structures begin at checked addresses (n,); the fields lie at offsets (c,) in bytes.
+
+    Attributes
+    ----------
+    places : tuple of arrays
+        Where the structures (n,) begin among all values, and the fields (c,) from there.
     """
 
     def __init__(self, addresses: np.ndarray, offsets: Sequence[int] | np.ndarray, values: Values = DOUBLES):
@@ -123,17 +152,13 @@ class Fields:
         self._starts = values.indices(addresses)
         self._offsets = np.asarray(offsets, np.int64)[:, None] // self._size
         self._indices: np.ndarray | None = None
-
-    @property
-    def places(self) -> tuple[np.ndarray, np.ndarray]:
-        """Where the structures (n,) begin among all values, and the fields (c,) from there."""
-        return self._starts, self._offsets[:, 0]
+        self.places = self._starts, self._offsets[:, 0]
 
     def copy(self) -> np.ndarray:
         """Return the values (c, n) as they are now."""
         loops = field_loops()
         if loops is not None:
-            found: np.ndarray = loops.copied(self._values, self._starts, self._offsets[:, 0])
+            found: np.ndarray = loops.copied(self._values, *self.places)
             return found
         if self._indices is None:
             self._indices = self._starts + self._offsets

@@ -12,13 +12,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..engineering.arrays import same
 from ..engineering.geometry.vectors import as_vectors
 from .bodies import BodyTable
 from .constraints import ConstraintTable
 from .contacts import ContactCopies, Contacts
 from .layout import Layout
-from .memory import BYTES, Fields
+from .memory import BYTES, DOUBLES, Fields, field_loops
 
 _VECTOR = 8 * np.arange(3)
 _FEEDBACK_COLUMNS = np.array([0, 1, 2, 4, 5, 6])
@@ -92,26 +91,26 @@ class SnapshotTaker:
     """
 
     def __init__(self, layout: Layout, bodies: BodyTable, constraints: ConstraintTable, sides: np.ndarray):
-        self._constraint, self._connections = layout.constraint, constraints.addresses
         self._exists, self._removed, self._contacts = constraints.exists, bodies.removed, bodies.contacts
         self._cracked = constraints.cracked
         self._feedback = constraints.feedback.reshape(-1)
-        self._loads = 8 * np.asarray(sides) + _FEEDBACK_COLUMNS[:, None]
+        self._sides = np.asarray(sides)
+        self._loads = 8 * self._sides + _FEEDBACK_COLUMNS[:, None]
         body = layout.body
         rows = [body.transform + 32 * row for row in range(4)]
         vectors = [start + _VECTOR for start in (*rows, body.linear_velocity, body.angular_velocity)]
         self._bodies = Fields(bodies.addresses, np.concatenate([*vectors, [body.inverse_mass]]))
-        self._find_existing()
+        self._impulses = Fields(constraints.addresses, [layout.constraint.applied_impulse])
+        self._enabled = Fields(constraints.addresses, [layout.constraint.enabled], BYTES)
 
     def take(self, *, contacts: bool = True) -> Snapshot:
         """Return a snapshot of the last sub-step, with contacts or as if there were none."""
-        if not same(self._exists, self._existed):
-            self._find_existing()
+        loads, impulses, intact = self._of_connections()
         return Snapshot(
             body_components=self._bodies.copy(),
-            load_components=self._feedback.take(self._loads),
-            applied_impulses=self._of_all(self._impulses.copy()[0]),
-            intact=self._of_all(self._enabled.copy()[0] != 0) & ~self._cracked,
+            load_components=loads,
+            applied_impulses=impulses,
+            intact=intact,
             contacts=self._contacts.copy() if contacts else ContactCopies.none(),
             removed=self._removed.copy() if self._removed.any() else None,
         )
@@ -124,19 +123,21 @@ class SnapshotTaker:
         # Two bodies that rest on each other keep their last contact when both are removed.
         return contacts.without(_removed(snapshots))
 
-    def _find_existing(self) -> None:
-        self._existed = self._exists.copy()
-        addresses = self._connections[self._existed]
-        self._impulses = Fields(addresses, [self._constraint.applied_impulse])
-        self._enabled = Fields(addresses, [self._constraint.enabled], BYTES)
-
-    def _of_all(self, values: np.ndarray) -> np.ndarray:
-        """Values (m,), 0 for connections that do not exist, from those (e,) of the ones that do."""
-        if len(values) == len(self._existed):
-            return values
-        of_all = np.zeros(len(self._existed), values.dtype)
-        of_all[self._existed] = values
-        return of_all
+    def _of_connections(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Loads (6, k), impulses (m,), and whether each is intact (m,); none of connections that do not exist."""
+        loops = field_loops()
+        if loops is not None:
+            fields, known = (self._impulses.places, self._enabled.places), (self._exists, self._cracked)
+            everywhere = DOUBLES.everywhere, BYTES.everywhere
+            found: tuple[np.ndarray, np.ndarray, np.ndarray] = loops.of_connections(
+                *everywhere, *fields, *known, self._feedback, self._sides
+            )
+            return found
+        rows, impulses = np.flatnonzero(self._exists), np.zeros(len(self._exists))
+        intact = np.zeros(len(self._exists), bool)
+        impulses[rows] = self._impulses.copy_at(rows)[0]
+        intact[rows] = self._enabled.copy_at(rows)[0] != 0
+        return self._feedback.take(self._loads), impulses, intact & ~self._cracked
 
 
 def _removed(snapshots: Sequence[Snapshot]) -> np.ndarray:

@@ -26,7 +26,7 @@ from .constraint_rows import ConstraintRows
 from .constraints import FEEDBACK_DOUBLES, ConstraintTable
 from .contacts import ContactReader
 from .layout import Layout, platform_layout
-from .memory import DOUBLES, POINTERS, gather_doubles, read_pointer, read_value
+from .memory import DOUBLES, POINTERS, read_pointer, read_value
 from .snapshots import SnapshotTaker
 from .teardown import detach_freed, take_bodies_from, take_out_constraints
 
@@ -154,8 +154,8 @@ class BulletWorld:
         Bullet writes the length at every sub-step and never reads it: so frames that were simulated differ from frames
         that Blender played back from its cache.
         """
-        field = np.array([self._world.dynamics + self._layout.world.step])
-        substep = float(gather_doubles(field)[0, 0])
+        field = self._world.dynamics + self._layout.world.step
+        substep: float = DOUBLES.one(field)
         DOUBLES.write(field, 0.0)
         return substep
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from ..arrays import FloatArray, IntArray
-from ..geometry.rotations import carried_points
+from ..geometry.rotations import carried_axes, carried_points
 from ..geometry.vectors import by_component, length, product
 from .compiled_mechanics import overload_loops
 from .forces import moments_at
@@ -62,6 +62,15 @@ class CarriedSections:
         centres = positions_m.take(self.bodies, axis=-1).transpose(1, 2, 0)
         sections = CarriedSections(self.bodies, self.signs, by_component(*self.points_m.T), self.axes)
         return sections._about_points(loads.transpose(1, 2, 0), centres, turned)
+
+    def loads_at_once(self, loads: FloatArray, positions_m: FloatArray, rotations: FloatArray) -> ConnectionLoads:
+        """Return the loads of all connections at one time, as arrays (m, 3); all is given as `forces` takes it."""
+        found = self.loads(loads[:, None], positions_m[:, None], rotations[:, :, None])
+        return ConnectionLoads(found.forces_n[0], found.moments_nm[0], found.points_m[0])
+
+    def carried_axes(self, rows: IntArray, rotations: FloatArray) -> FloatArray:
+        """Return the axes (r, 3, 3) of connections (r,), as columns, under rotations (3, 3, n) of the bodies."""
+        return carried_axes(self.axes[rows], self.bodies[rows], rotations.transpose(2, 0, 1))
 
     def _about_points(self, loads: FloatArray, centres_m: FloatArray, rotations: FloatArray) -> ConnectionLoads:
         """Loads on first bodies, about the connections, from those (..., m, 6) about centres (..., m, 3)."""

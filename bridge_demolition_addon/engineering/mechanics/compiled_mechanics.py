@@ -21,3 +21,11 @@ def frame_loops() -> ModuleType:
     from . import frame_loops
 
     return frame_loops
+
+
+@where_compiled
+def touch_loops() -> ModuleType:
+    """Loops over bodies that touch."""
+    from . import touch_loops
+
+    return touch_loops

@@ -258,7 +258,12 @@ class LoadAccumulator:
 
     def _stresses_of_connections(self, loads: Moment, forces: FloatArray, moments: FloatArray) -> FloatArray:
         """Stresses (n, 3, 3) under forces and moments (m, 3) of the connections, where they are in a sub-step."""
-        normals = self._normals_at(loads.rotations)
+        normals, loops = self._normals_at(loads.rotations), frame_loops()
+        if loops is not None:
+            found: FloatArray = loops.stresses_of_connections(
+                self._pairs, forces, moments, normals, loads.connection_points_m, loads.centres_m, self._volumes
+            )
+            return found
         of_moments = average_stress_of_moments(
             self._pairs.T.ravel(),
             np.concatenate((moments, -moments)),

@@ -1,7 +1,7 @@
 """Overloads of connections as loops, which Numba compiles: import this only where it is installed.
 
 They give the same bits as `carried_sections`, `section_cuts` and `strength`, as the loops of cracks do: see
-`elasticity.crack_loops`. Strengths (5, m) are in the order of `Strength`, friction is (0,) where none counts.
+`elasticity.crack_loops`. Strengths (m, 5) are in the order of `Strength`, friction is (0,) where none counts.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ..compilation import compiled
-from ..geometry.sum_loops import MOST_TERMS, total
+from ..geometry.sum_loops import MOST_TERMS, total_of_row
 from ..geometry.vector_loops import crossed, dotted
 from .strength import ROUNDING, SINGLE_PRECISION
 
@@ -38,28 +38,16 @@ def carried_loads(
 
 
 @compiled
-def over_alone(
-    loads: Any,
-    positions: Any,
-    rotations: Any,
-    bodies: Any,
-    signs: Any,
-    points: Any,
-    axes: Any,
-    levers: Any,
-    intact: Any,
-    left: Any,
-    most_by_force: Any,
-    most_by_moment: Any,
-    areas: Any,
-    directions: Any,
-    bending_moduli: Any,
-    torsion_moduli: Any,
-    strengths: Any,
-    pressed: Any,
-    friction: Any,
-) -> tuple[Any, Any]:
-    """`Overloads.over_alone`."""
+def over_alone(places: Any, sections: Any, judged: Any, bounds: Any, of_sections: Any, resisting: Any) -> Any:
+    """`Overloads.over_alone`: connections (k,) and their utilisations (k,).
+
+    `places` are loads, positions and rotations, `sections` those of `CarriedSections.arrays`, `judged` what is intact
+    and what is left, `bounds` those of `largest_utilisations`, `of_sections` all of `Sections`, `resisting` strengths,
+    what more of them is pressed, and friction.
+    """
+    (loads, positions, rotations), (bodies, signs, points, axes, levers) = places, sections
+    (intact, left), (most_by_force, most_by_moment) = judged, bounds
+    areas, directions, bending_moduli, torsion_moduli = of_sections
     rows, found, count = np.empty(len(bodies), np.int64), np.empty(len(bodies)), 0
     for row in range(len(bodies)):
         load = loads[:, row]
@@ -70,19 +58,15 @@ def over_alone(
         body = bodies[row]
         rotation = rotations[:, :, body]
         carried_force, moment, _ = _carried(load, positions[:, body], rotation, signs[row], points[row])
-        normal = _product(rotation, axes[row, :, 0])
-        level = _product(rotation, axes[row, :, 1])
-        steep = _product(rotation, axes[row, :, 2])
+        turned = _turned(rotation, axes[row])
         used = _used(
-            (dotted(normal, carried_force), dotted(level, carried_force), dotted(steep, carried_force)),
-            (dotted(normal, moment), dotted(level, moment), dotted(steep, moment)),
+            _in_axes(turned, carried_force),
+            _in_axes(turned, moment),
             areas[row],
             ((directions[row, 0, 0], directions[row, 0, 1]), (directions[row, 1, 0], directions[row, 1, 1])),
             (bending_moduli[row, 0], bending_moduli[row, 1]),
             torsion_moduli[row],
-            _all_five(strengths, row),
-            pressed[row],
-            friction[row] if len(friction) else np.nan,
+            _resistance(resisting, row),
         )
         if used / left[row] > 1.0:
             rows[count], found[count] = row, used / left[row]
@@ -91,103 +75,120 @@ def over_alone(
 
 
 @compiled
-def used_in_cuts(
-    rows: Any,
-    intact: Any,
-    forces: Any,
-    moments: Any,
-    points: Any,
-    axes: Any,
-    starts: Any,
-    faces: Any,
-    signs: Any,
-    cosines: Any,
-    areas: Any,
-    second_moments: Any,
-    strengths: Any,
-    pressed: Any,
-    friction: Any,
+def over_in_cuts(
+    places: Any, sections: Any, judged: Any, bounds: Any, of_sections: Any, resisting: Any, cuts: Any, faces: Any
 ) -> Any:
-    """`Overloads.in_cuts` of intact connections (r,), whose sections have axes (r, 3, 3), with loads (m, 3) of all."""
-    used = np.empty(len(rows))
-    entries, lines, sides = np.empty(MOST_TERMS, np.int64), np.empty((9, MOST_TERMS)), np.empty(2)
-    for number in range(len(rows)):
-        row = rows[number]
+    """Connections (k,) that are overloaded alone and in their cuts, and their utilisations (k,) in these.
+
+    Others are as `over_alone` takes them, `cuts` and `faces` as `used_in_cuts` does. What a face carries is worked out
+    for each cut: mostly few are overloaded alone, and numbers that are kept take longer to find again.
+    """
+    (loads, positions, rotations), (bodies, signs, points, axes, _) = places, sections
+    intact, left = judged
+    rows, found = over_alone(places, sections, judged, bounds, of_sections, resisting)
+    room, count, sides = _room(), 0, np.empty(2)
+    for row in rows:
+        turned = _turned(rotations[:, :, bodies[row]], axes[row])
         for side in range(2):
-            cut, count = row + side * len(intact), 0
-            for entry in range(starts[cut], starts[cut + 1]):
-                if intact[faces[entry]]:
-                    entries[count] = entry
-                    count += 1
-            force, moment, area, second = _cut(
-                entries[:count],
-                lines,
-                forces,
-                moments,
-                points,
-                axes[number],
-                faces,
-                signs,
-                cosines,
-                areas,
-                second_moments,
-            )
-            area, directions, moduli, torsion_modulus = rectangle(area, second)
-            slides = friction[row] if len(friction) else np.nan
-            sides[side] = _used(
-                force,
-                moment,
-                area,
-                directions,
-                moduli,
-                torsion_modulus,
-                _all_five(strengths, row),
-                pressed[row],
-                slides,
-            )
+            number = _intact_faces(row + side * len(bodies), intact, cuts, room)
+            for at in range(number):
+                face = cuts[1][room[0][at]]
+                body = bodies[face]
+                carried = _carried(loads[:, face], positions[:, body], rotations[:, :, body], signs[face], points[face])
+                _note(room, at, carried)
+            sides[side] = _used_in_cut(row, number, room, turned, cuts, faces, resisting)
+        used = (sides[0] + sides[1]) / 2.0 / left[row]
+        if used > 1.0:
+            rows[count], found[count] = row, used
+            count += 1
+    return rows[:count].copy(), found[:count].copy()
+
+
+@compiled
+def used_in_cuts(rows: Any, intact: Any, loads: Any, axes: Any, cuts: Any, faces: Any, resisting: Any) -> Any:
+    """`Overloads.in_cuts` of intact connections (r,), whose sections have axes (r, 3, 3).
+
+    `loads` are forces, moments and points (m, 3) of all, `cuts` their starts, faces, signs and cosines, and `faces`
+    areas and second moments.
+    """
+    used, room, sides = np.empty(len(rows)), _room(), np.empty(2)
+    forces, moments, points = loads
+    for number in range(len(rows)):
+        own = axes[number]
+        columns = (
+            (own[0, 0], own[1, 0], own[2, 0]),
+            (own[0, 1], own[1, 1], own[2, 1]),
+            (own[0, 2], own[1, 2], own[2, 2]),
+        )
+        for side in range(2):
+            count = _intact_faces(rows[number] + side * len(intact), intact, cuts, room)
+            for at in range(count):
+                face = cuts[1][room[0][at]]
+                _note(room, at, (forces[face], moments[face], points[face]))
+            sides[side] = _used_in_cut(rows[number], count, room, columns, cuts, faces, resisting)
         used[number] = (sides[0] + sides[1]) / 2.0
     return used
 
 
 @compiled
-def _cut(
-    entries: Any,
-    lines: Any,
-    forces: Any,
-    moments: Any,
-    points: Any,
-    axes: Any,
-    faces: Any,
-    signs: Any,
-    cosines: Any,
-    areas: Any,
-    second_moments: Any,
-) -> Any:
-    """`section_cuts.cut_loads` of one cut; `lines` are room to work in."""
-    count = len(entries)
+def _room() -> Any:
+    """Room for the faces of a cut, for what each carries, and for what is added up over them."""
+    return np.empty(MOST_TERMS, np.int64), np.empty((MOST_TERMS, 9)), np.empty((9, MOST_TERMS))
+
+
+@compiled
+def _intact_faces(cut: int, intact: Any, cuts: Any, room: Any) -> int:
+    """Find the intact faces of a cut, and return how many there are."""
+    count = 0
+    for entry in range(cuts[0][cut], cuts[0][cut + 1]):
+        if intact[cuts[1][entry]]:
+            room[0][count] = entry
+            count += 1
+    return count
+
+
+@compiled
+def _note(room: Any, at: int, load: Any) -> None:
+    """Note the force, the moment and the point of a face of a cut."""
+    force, moment, point = load
+    for axis in range(3):
+        room[1][at, axis], room[1][at, 3 + axis], room[1][at, 6 + axis] = force[axis], moment[axis], point[axis]
+
+
+@compiled
+def _used_in_cut(row: int, count: int, room: Any, axes: Any, cuts: Any, faces: Any, resisting: Any) -> Any:
+    """Utilisation of a cut through so many faces that are noted, by the strength of a connection."""
+    force, moment, area, second = _cut(count, room, axes, cuts, faces)
+    area, directions, moduli, torsion_modulus = rectangle(area, second)
+    return _used(force, moment, area, directions, moduli, torsion_modulus, _resistance(resisting, row))
+
+
+@compiled
+def _cut(count: int, room: Any, axes: Any, cuts: Any, faces: Any) -> Any:
+    """`section_cuts.cut_loads` of one cut through so many faces that are noted."""
+    (entries, loads, lines), (_, members, signs, cosines), (areas, second_moments) = room, cuts, faces
     for at in range(count):
-        face = faces[entries[at]]
-        lines[0, at] = areas[face] * cosines[entries[at]]
+        lines[0, at] = areas[members[entries[at]]] * cosines[entries[at]]
         for axis in range(3):
-            lines[1 + axis, at] = lines[0, at] * points[face, axis]
-    area = total(lines[0, :count])
-    middle = total(lines[1, :count]) / area, total(lines[2, :count]) / area, total(lines[3, :count]) / area
+            lines[1 + axis, at] = lines[0, at] * loads[at, 6 + axis]
+    area = total_of_row(lines, 0, count)
+    x, y, z = total_of_row(lines, 1, count), total_of_row(lines, 2, count), total_of_row(lines, 3, count)
+    middle = x / area, y / area, z / area
     for at in range(count):
-        face, sign, cosine = faces[entries[at]], signs[entries[at]], cosines[entries[at]]
-        lever = points[face, 0] - middle[0], points[face, 1] - middle[1], points[face, 2] - middle[2]
-        pull = sign * forces[face, 0], sign * forces[face, 1], sign * forces[face, 2]
+        face, sign, cosine = members[entries[at]], signs[entries[at]], cosines[entries[at]]
+        lever = loads[at, 6] - middle[0], loads[at, 7] - middle[1], loads[at, 8] - middle[2]
+        pull = sign * loads[at, 0], sign * loads[at, 1], sign * loads[at, 2]
         turn = crossed(lever, pull)
         for axis in range(3):
             lines[axis, at] = pull[axis]
-            lines[3 + axis, at] = sign * moments[face, axis] + turn[axis]
-        share, own = areas[face] * cosine, second_moments[face]
-        y, z = dotted(axes[:, 1], lever), dotted(axes[:, 2], lever)
-        lines[6, at] = own[0, 0] * cosine + share * (z * z)
-        lines[7, at] = own[0, 1] * cosine + share * (-y * z)
-        lines[8, at] = own[1, 1] * cosine + share * (y * y)
-    force = total(lines[0, :count]), total(lines[1, :count]), total(lines[2, :count])
-    moment = total(lines[3, :count]), total(lines[4, :count]), total(lines[5, :count])
-    second = total(lines[6, :count]), total(lines[7, :count]), total(lines[8, :count])
+            lines[3 + axis, at] = sign * loads[at, 3 + axis] + turn[axis]
+        share, (across, up) = areas[face] * cosine, (dotted(axes[1], lever), dotted(axes[2], lever))
+        lines[6, at] = second_moments[face, 0, 0] * cosine + share * (up * up)
+        lines[7, at] = second_moments[face, 0, 1] * cosine + share * (-across * up)
+        lines[8, at] = second_moments[face, 1, 1] * cosine + share * (across * across)
+    force = total_of_row(lines, 0, count), total_of_row(lines, 1, count), total_of_row(lines, 2, count)
+    moment = total_of_row(lines, 3, count), total_of_row(lines, 4, count), total_of_row(lines, 5, count)
+    second = total_of_row(lines, 6, count), total_of_row(lines, 7, count), total_of_row(lines, 8, count)
     return _in_axes(axes, force), _in_axes(axes, moment), area, second
 
 
@@ -223,12 +224,10 @@ def _used(
     directions: Any,
     bending_moduli: Any,
     torsion_modulus: float,
-    strengths: Any,
-    pressed: float,
-    friction: float,
+    resistance: Any,
 ) -> Any:
     """`strength.utilisation` of one section, with friction where it is a number."""
-    compression, tension, shear_pa, torsion, bending_pa = strengths
+    (compression, tension, shear_pa, torsion, bending_pa), pressed, friction = resistance
     axial = force[0] / area
     first = abs(directions[0][0] * moment[1] + directions[1][0] * moment[2])
     second = abs(directions[0][1] * moment[1] + directions[1][1] * moment[2])
@@ -259,9 +258,11 @@ def _carried(load: Any, centre: Any, rotation: Any, sign: float, point: Any) -> 
 
 
 @compiled
-def _all_five(strengths: Any, row: int) -> Any:
-    """Strengths of a connection."""
-    return strengths[0, row], strengths[1, row], strengths[2, row], strengths[3, row], strengths[4, row]
+def _resistance(resisting: Any, row: int) -> Any:
+    """Strengths of a connection, by how much more it has in compression, and its friction, nan where none counts."""
+    strengths, pressed, friction = resisting
+    all_five = strengths[row, 0], strengths[row, 1], strengths[row, 2], strengths[row, 3], strengths[row, 4]
+    return all_five, pressed[row], friction[row] if len(friction) else np.nan
 
 
 @compiled
@@ -276,6 +277,12 @@ def _product(rotation: Any, vector: Any) -> Any:
 
 
 @compiled
+def _turned(rotation: Any, axes: Any) -> Any:
+    """Axes of a section, the columns (3, 3), that turn with a body."""
+    return _product(rotation, axes[:, 0]), _product(rotation, axes[:, 1]), _product(rotation, axes[:, 2])
+
+
+@compiled
 def _in_axes(axes: Any, vector: Any) -> Any:
-    """Components of a vector along axes, which are columns (3, 3)."""
-    return dotted(axes[:, 0], vector), dotted(axes[:, 1], vector), dotted(axes[:, 2], vector)
+    """Components of a vector along three axes."""
+    return dotted(axes[0], vector), dotted(axes[1], vector), dotted(axes[2], vector)

@@ -59,31 +59,43 @@ class Overloads:
         self._member_sections = member_sections
         self._sections = rectangular_sections(faces.areas_m2, faces.second_moments_m4)
         self._largest_utilisations = largest_utilisations(self._sections, strength)
-        self._section_arrays = tuple(getattr(self._sections, item.name) for item in fields(self._sections))
-        self._cuts = SectionCuts.through(faces, moves)
-        self._most_faces = int(np.diff(self._cuts.starts).max(initial=0))
+        self._cuts = cuts = SectionCuts.through(faces, moves)
+        self._most_faces = int(np.diff(cuts.starts).max(initial=0))
         of_all = [
             np.broadcast_to(np.asarray(getattr(strength, item.name), float), len(faces.pairs))
             for item in fields(strength)
         ]
         everywhere = np.ones(len(faces.pairs)) if pressed is None else pressed
-        self._resisting = np.stack(of_all), everywhere, np.zeros(0) if friction is None else friction
+        self._resisting = np.stack(of_all, axis=1), everywhere, np.zeros(0) if friction is None else friction
+        of_sections = tuple(getattr(self._sections, item.name) for item in fields(self._sections))
+        self._of_alone = self._largest_utilisations, of_sections, self._resisting
+        self._of_cuts = (cuts.starts, cuts.faces, cuts.signs, cuts.cosines), (faces.areas_m2, faces.second_moments_m4)
 
     def breaking(
         self,
-        rows: IntArray,
-        alone: FloatArray,
-        loads: ConnectionLoads,
-        axes: FloatArray,
         intact: BoolArray,
+        sections: CarriedSections,
+        loads: FloatArray,
+        positions_m: FloatArray,
+        rotations: FloatArray,
         left: FloatArray,
         parts: IntArray | None = None,
     ) -> IntArray:
-        """Return which connections (k,), overloaded alone (r,), are so in their sections, and each the worst around.
+        """Return which intact connections (k,) loads (6, m) overload alone and in sections, and each the worst around.
 
-        When one breaks, its neighbours take over its load: they are judged again after the next sub-step.
+        Loads and places are as `over_alone` takes them. When one breaks, its neighbours take over its load: they are
+        judged again after the next sub-step.
         """
-        rows, used = _overloaded(rows, self.together(rows, alone, loads, axes, intact, left, parts))
+        rows: IntArray
+        places, loops = (loads, positions_m, rotations), overload_loops()
+        by_cuts = self._member_sections is None or parts is None
+        if loops is not None and by_cuts and self._most_faces <= loops.MOST_TERMS:
+            rows, used = loops.over_in_cuts(places, sections.arrays, (intact, left), *self._of_alone, *self._of_cuts)
+        else:
+            rows, used = self.over_alone(intact, sections, *places, left)
+            if len(rows):  # mostly nothing is overloaded: then what the others carry is not worked out
+                of_all, axes = sections.loads_at_once(*places), sections.carried_axes(rows, rotations)
+                rows, used = _overloaded(rows, self.together(rows, used, of_all, axes, intact, left, parts))
         return rows[worst_around(self._pairs[rows], used, self._moves)] if len(rows) else rows
 
     def overloaded(
@@ -123,8 +135,8 @@ class Overloads:
             return _overloaded(
                 rows, self.of_forces(rows, sections.forces(rows, loads, positions_m, rotations)) / left[rows]
             )
-        places, bounds = (loads, positions_m, rotations), (intact, left, *self._largest_utilisations)
-        rows, used = loops.over_alone(*places, *sections.arrays, *bounds, *self._section_arrays, *self._resisting)
+        places = loads, positions_m, rotations
+        rows, used = loops.over_alone(places, sections.arrays, (intact, left), *self._of_alone)
         return rows, used
 
     def candidates(self, loads: FloatArray, lever_arms_m: FloatArray, left: FloatArray) -> IntArray:
@@ -174,14 +186,12 @@ class Overloads:
 
     def in_cuts(self, rows: IntArray, loads: ConnectionLoads, axes: FloatArray, intact: BoolArray) -> FloatArray:
         """Mean utilisations (r,), of whole strengths, of the cuts through the two shards of some connections."""
-        loops, cuts = overload_loops(), self._cuts
+        loops = overload_loops()
         if loops is not None and self._most_faces <= loops.MOST_TERMS:
-            of_cuts = cuts.starts, cuts.faces, cuts.signs, cuts.cosines
-            faces = cuts.connected.areas_m2, cuts.connected.second_moments_m4
-            of_loads = (np.ascontiguousarray(each) for each in (loads.forces_n, loads.moments_nm, loads.points_m))
-            found: FloatArray = loops.used_in_cuts(rows, intact, *of_loads, axes, *of_cuts, *faces, *self._resisting)
+            of_loads = tuple(np.ascontiguousarray(each) for each in (loads.forces_n, loads.moments_nm, loads.points_m))
+            found: FloatArray = loops.used_in_cuts(rows, intact, of_loads, axes, *self._of_cuts, self._resisting)
             return found
-        cut_loads, areas, second_moments = cuts.sections(rows, intact, loads, axes)
+        cut_loads, areas, second_moments = self._cuts.sections(rows, intact, loads, axes)
         both = np.concatenate((rows, rows))
         sections = rectangular_sections(areas, second_moments)
         used = utilisation(cut_loads, sections, self._strength_at(both), self._friction_at(both))

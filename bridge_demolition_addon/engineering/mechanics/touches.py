@@ -12,6 +12,7 @@ import itertools
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
+from .compiled_mechanics import touch_loops
 
 _APART = 3
 """Sub-steps without any work after which bodies have parted; what trembles touches again before."""
@@ -45,7 +46,15 @@ class Touches:
         ends : (s + 1,) int
             Where the rows of each of s sub-steps begin and end.
         """
-        returned_j = np.zeros_like(work_j)
+        loops = touch_loops()
+        returned_j: FloatArray = np.zeros_like(work_j)
+        if loops is not None:
+            accounts = self._pairs, self._taken_j, self._last
+            order = np.lexsort((pairs, np.repeat(np.arange(len(ends) - 1), np.diff(ends))))
+            found = loops.returned(pairs, work_j, order, ends, *accounts, self._substep, _APART)
+            returned_j, self._pairs, self._taken_j, self._last = found
+            self._substep += len(ends) - 1
+            return returned_j
         for start, end in itertools.pairwise(ends.tolist()):
             working = start + np.flatnonzero(work_j[start:end])
             if len(working):

@@ -235,31 +235,19 @@ class WorkAccumulator:
         total = on_first - on_second
         if between.stored_j is not None:
             total = self._after_storing(total, between.stored_j)
-        is_free = free.ravel()
-        first_free, second_free = is_free[first], is_free[second]
-        total[~(first_free | second_free)] = 0.0
-        bodies = free.shape[1]
-        ends = np.searchsorted(first // bodies, np.arange(len(free) + 1))  # of sub-steps
-        taken = np.minimum(total, 0.0)
+        is_free, bodies, returned_j = free.ravel(), free.shape[1], np.zeros(0)
+        ends = np.array([0, *(substep.stop for substep in substeps)])
         if between.substeps is not None:
+            ends = np.searchsorted(first // bodies, np.arange(len(free) + 1))
+            total[~(is_free[first] | is_free[second])] = 0.0
             lower, upper = np.minimum(first, second) % bodies, np.maximum(first, second) % bodies
             returned_j = self._touches.returned(bodies * lower + upper, total, ends)
-            total, taken = total - returned_j, taken + returned_j
-        rows = np.flatnonzero(total > 0.0)
-        gains = [
-            np.maximum(gain.take(rows), 0.0) * are_free.take(rows)
-            for gain, are_free in ((on_first, first_free), (-on_second, second_free))
-        ]
-        both, made = gains[0] + gains[1], total.take(rows)
-        share = np.divide(made, both, out=np.zeros_like(both), where=both > 0.0)
-        starts = np.searchsorted(rows, ends)
+        shared = _shared(total, returned_j, on_first, on_second, first, second, is_free)
+        starts = np.searchsorted(shared.rows, ends)
         return PairWork(
-            taken_j=[float(taken[start:end].sum()) for start, end in itertools.pairwise(ends.tolist())],
-            made_j=[float(made[start:end].sum()) for start, end in itertools.pairwise(starts.tolist())],
-            made_by_body_j=[
-                np.bincount(bodies.take(rows), share * gain, free.size).reshape(free.shape)
-                for bodies, gain in zip((first, second), gains, strict=True)
-            ],
+            taken_j=[float(shared.taken_j[start:end].sum()) for start, end in itertools.pairwise(ends.tolist())],
+            made_j=[float(shared.made_j[start:end].sum()) for start, end in itertools.pairwise(starts.tolist())],
+            made_by_body_j=[made_j.reshape(free.shape) for made_j in (shared.by_first_j, shared.by_second_j)],
             tools_j=_of_tools(sums, between, motion, is_free, substeps),
         )
 
@@ -334,6 +322,52 @@ def _works(
         first, second, _rows(between.impulses_ns), _rows(between.points_m), turning, motion
     )
     return found
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _SharedWork:
+    """Work of k pairs in all of s sub-steps, J: what is taken, and what is made, by the bodies that get it."""
+
+    taken_j: FloatArray  # (k,), less what comes back of it, as negative numbers
+    rows: IntArray  # (r,), pairs that make energy
+    made_j: FloatArray  # (r,)
+    by_first_j: FloatArray  # (s n,), of it, by first bodies
+    by_second_j: FloatArray
+
+
+def _shared(
+    total: FloatArray,
+    returned_j: FloatArray,
+    on_first: FloatArray,
+    on_second: FloatArray,
+    first: IntArray,
+    second: IntArray,
+    is_free: BoolArray,
+) -> _SharedWork:
+    """Return the works (k,) of pairs of bodies, rows of `is_free` (s n,), by what they do; (0,) where none is returned.
+
+    Pairs of bodies that are both led do no work that counts.
+    """
+    loops = frame_loops()
+    if loops is not None:
+        return _SharedWork(*loops.shared(total, returned_j, on_first, on_second, first, second, is_free))
+    first_free, second_free = is_free[first], is_free[second]
+    total = np.where(first_free | second_free, total, 0.0)
+    taken = np.minimum(total, 0.0)
+    if len(returned_j):
+        total, taken = total - returned_j, taken + returned_j
+    rows = np.flatnonzero(total > 0.0)
+    gains = [
+        np.maximum(gain.take(rows), 0.0) * are_free.take(rows)
+        for gain, are_free in ((on_first, first_free), (-on_second, second_free))
+    ]
+    both, made = gains[0] + gains[1], total.take(rows)
+    share = np.divide(made, both, out=np.zeros_like(both), where=both > 0.0)
+    by_body = [
+        np.bincount(bodies.take(rows), share * gain, len(is_free))
+        for bodies, gain in zip((first, second), gains, strict=True)
+    ]
+    return _SharedWork(taken, rows, made, *by_body)
 
 
 def _of_both_bodies(

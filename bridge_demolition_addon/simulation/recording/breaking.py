@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -69,12 +71,13 @@ class Breaker:
         self._broken_before: list[Breaks] = []
 
     def break_overloaded(self, reading: Reading) -> np.ndarray:
-        """Break connections (b,) that a sub-step has overloaded, and return them, without those broken by Bullet."""
+        """Break connections that a sub-step has overloaded; return which (m,) are intact then."""
         snapshot = reading.snapshot
-        rows = self._overloaded(snapshot.load_components, *snapshot.places)
+        intact, rows = snapshot.intact, self._overloaded(snapshot.load_components, *snapshot.places)
         if len(rows):
-            self._break(rows, self._meter.moment(reading))
-        return rows
+            self._break(rows, partial(self._meter.moment, reading))
+            intact[rows] = False
+        return intact
 
     def break_predicted(self, loads: np.ndarray, begin_s: float, substep_s: float) -> np.ndarray:
         """Break the connections (b,) that predicted loads (6, m) on the bodies overload, and return them."""
@@ -86,7 +89,7 @@ class Breaker:
         if len(rows):
             moment = self._meter.moment(self._meter.predicted(loads, substep_s, begin_s))
             self._broken_before.append(Breaks(begin_s, rows, self._meter.section_forces(moment, rows)))
-            self._break(rows, moment)
+            self._break(rows, lambda: moment)
             self._intact[rows] = False
             self._let_collide()
         return rows
@@ -98,7 +101,7 @@ class Breaker:
 
     def follow(self, intact: np.ndarray) -> np.ndarray:
         """Take over which connections (m,) are intact after a sub-step; return those that broke in it (b,)."""
-        broken = np.flatnonzero(self._intact & ~intact)
+        broken = (self._intact & ~intact).nonzero()[0]
         self._intact = intact
         self._let_collide()
         return broken
@@ -111,25 +114,20 @@ class Breaker:
     def _overloaded(self, loads: np.ndarray, positions_m: np.ndarray, rotations: np.ndarray) -> np.ndarray:
         """Which connections (k,) break by loads (6, m) about the centres of bodies.
 
-        Bodies are at positions (3, n) in rotations (3, 3, n). What all connections carry, which judges them with
-        others, is worked out only where one is overloaded alone: mostly nothing breaks.
+        Bodies are at positions (3, n) in rotations (3, 3, n).
         """
         if not self._warm_up.is_over or not self.uses_strength:
             return _NONE
-        meter, resistance = self._meter, self._resistance
-        overloads, left = given(resistance.overloads), resistance.remaining_strength
-        rows, alone = overloads.over_alone(self._intact, meter.sections, loads, positions_m, rotations, left)
-        if not len(rows):
-            return _NONE
-        of_all = meter.connection_loads(loads, positions_m, rotations)
-        axes = meter.section_axes(rotations.transpose(2, 0, 1), rows)
+        resistance = self._resistance
         parts = resistance.elastic.parts if resistance.elastic else None
-        return overloads.breaking(rows, alone, of_all, axes, self._intact, left, parts)
+        judging, left = given(resistance.overloads), resistance.remaining_strength
+        return judging.breaking(self._intact, self._meter.sections, loads, positions_m, rotations, left, parts)
 
-    def _break(self, rows: np.ndarray, loads: Moment) -> None:
-        """Break connections (b,) under loads; their reinforcement holds on."""
+    def _break(self, rows: np.ndarray, moment: Callable[[], Moment]) -> None:
+        """Break connections (b,) under the loads of a moment; their reinforcement holds on."""
         self._constraints.break_rows(rows)
-        if len(rows) and self._resistance.reinforcement:
+        if self._resistance.reinforcement:
+            loads = moment()
             axes = self._meter.section_axes(loads.rotations, rows)
             carried = loads.connection_forces_n[rows], loads.connection_moments_nm[rows]
             self._resistance.reinforcement.tear(rows, loads.connection_points_m[rows], axes, *carried)

@@ -82,6 +82,7 @@ class BulletReader:
         self._last_loads = None if every_substep else LastSubstepLoads(world.constraints)
         self._sums: FrameSums | None = None
         self._no_loads = None if loads else unknown_loads(setup.inventory)
+        self._no_work = FrameWork.unknown(len(setup.inventory.masses_kg))
         self._substeps = self._substep_recorder(elastic, blast, loads)
         self.have_bars = elastic.have_bars if elastic and loads else None
         world.call_around_substeps(
@@ -264,7 +265,7 @@ class BulletReader:
         self._substeps.skip(substep_s * self._scene.rigidbody_world.substeps_per_frame)
         loads, work, _ = self._finish_frame()
         if substep_s > 0.0:
-            loads, work = loads.unknown(), FrameWork.unknown(len(self._inventory.masses_kg))
+            loads, work = loads.unknown(), self._no_work
         frame = self._frame(substep_s, loads, work)
         if self.resting_state is None or substep_s > 0.0:
             return frame
@@ -279,14 +280,14 @@ class BulletReader:
             raise self._substeps.error
         loads, work, breaks = self._finish_frame()
         if not self._every_substep:
-            work = FrameWork.unknown(len(self._inventory.masses_kg))
+            work = self._no_work
         return self._frame(substep_s, loads, work), breaks
 
     def _finish_frame(self) -> tuple[FrameLoads, FrameWork, list[Breaks]]:
         """Return loads and work of the frame, unknown where loads are not read, and the breaks in it."""
         if self._sums:
             return self._sums.finish_frame()
-        return given(self._no_loads), FrameWork.unknown(len(self._inventory.masses_kg)), []
+        return given(self._no_loads), self._no_work, []
 
     def _frame(self, substep_s: float, loads: FrameLoads, work: FrameWork) -> Frame:
         bodies = self._world.bodies

@@ -14,7 +14,6 @@ from ...engineering.geometry.rotations import axes_in_bodies, carried_axes
 from ...engineering.geometry.vectors import transformed, transformed_back
 from ...engineering.mechanics.carried_sections import CarriedSections
 from ...engineering.mechanics.frame_loads import Moment, SubstepLoads
-from ...engineering.mechanics.section_cuts import ConnectionLoads
 from ...engineering.mechanics.section_forces import SectionForces, section_axes, section_forces
 from ...model.results.inventory import Inventory
 from .elastic_connections import ElasticConnections, ElasticEnergy
@@ -84,11 +83,6 @@ class Meter:
     def moment(self, reading: Reading) -> Moment:
         """Return the loads in one sub-step."""
         return self.loads([reading])[1].moment(0)
-
-    def connection_loads(self, loads: np.ndarray, positions_m: np.ndarray, rotations: np.ndarray) -> ConnectionLoads:
-        """Return what connections carry, by loads and places of bodies as `CarriedSections.forces` takes them."""
-        found = self.sections.loads(loads[:, None], positions_m[:, None], rotations[:, :, None])
-        return ConnectionLoads(found.forces_n[0], found.moments_nm[0], found.points_m[0])
 
     def contacts(self, reading: Reading) -> Contacts:
         """Return the contacts after a sub-step."""

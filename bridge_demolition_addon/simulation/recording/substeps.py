@@ -110,8 +110,7 @@ class SubstepRecorder:
         sums.let_work_count(self._warm_up.is_over)
         reading = self._meter.read(substep_s, self.elapsed_s)
         self._warm_up.end_when_due(self.elapsed_s)
-        intact = reading.snapshot.intact.copy()
-        intact[self._breaker.break_overloaded(reading)] = False
+        intact = self._breaker.break_overloaded(reading)
         broken = self._breaker.follow(intact)
         energy = self._meter.elastic_energy(reading, intact)
         sums.add(MeasuredSubstep(reading, broken, self._breaker.take_broken_before(), energy))
@@ -120,6 +119,9 @@ class SubstepRecorder:
         """Break connections that are overloaded in a sub-step whose loads are not kept."""
         self._warm_up.end_when_due(self.elapsed_s)
         if self._breaker.uses_strength:
-            self._breaker.break_overloaded(self._meter.read(substep_s, self.elapsed_s, contacts=False))
+            reading = self._meter.read(substep_s, self.elapsed_s, contacts=False)
+            intact = self._breaker.break_overloaded(reading)
+        else:
+            intact = self._constraints.intact()
         self._breaker.take_broken_before()
-        self._breaker.follow(self._constraints.intact())
+        self._breaker.follow(intact)

@@ -6,6 +6,7 @@ from dataclasses import fields
 import numpy as np
 import pytest
 
+from bridge_demolition_addon.engineering.geometry import sum_loops
 from bridge_demolition_addon.engineering.geometry.rotations import rotated
 from bridge_demolition_addon.engineering.mechanics import carried_sections, overloads
 from bridge_demolition_addon.engineering.mechanics import overload_loops as loops
@@ -79,6 +80,29 @@ def test_cuts_are_judged_with_the_same_bits(rng, monkeypatch, counts):
     assert np.isfinite(plain).all() and (plain > 0.0).all()
 
 
+@pytest.mark.parametrize("counts", [{}, {"pressed", "friction"}], ids=["plain", "pressed with friction"])
+def test_the_same_connections_break(rng, monkeypatch, counts):
+    """One loop judges alone and in cuts, and sees what faces carry only where it needs it."""
+    further = {name: rng.uniform(0.5, 1.5, CONNECTIONS) for name in sorted(counts)}
+    pairs, judging = judge(rng, **further)
+    signs = np.where(np.arange(CONNECTIONS) % 3 > 0, 1.0, -1.0)
+    sections = CarriedSections(pairs[:, 0], signs, rng.normal(size=(CONNECTIONS, 3)), turned(rng, CONNECTIONS))
+    loads = rng.normal(size=(6, CONNECTIONS)) * 10.0 ** rng.uniform(3.0, 7.0, CONNECTIONS)
+    places = rng.normal(size=(3, BODIES)), np.ascontiguousarray(np.moveaxis(turned(rng, BODIES), 0, -1))
+    intact = rng.uniform(size=CONNECTIONS) < 0.8
+    intact[4] = False
+    rows = np.flatnonzero(intact)
+    of_all, axes = sections.loads_at_once(loads, *places), sections.carried_axes(rows, places[1])
+    used = judging.in_cuts(rows, of_all, axes, intact)
+    left = np.ones(CONNECTIONS)
+    left[rows] = np.where(rows % 2, used, np.nextafter(used, 0.0))
+    compiled = judging.breaking(intact, sections, loads, *places, left)
+    monkeypatch.setattr(overloads, "overload_loops", lambda: None)
+    plain = judging.breaking(intact, sections, loads, *places, left)
+    assert compiled.tolist() == plain.tolist() != []
+    assert not (plain % 2).any()
+
+
 def test_a_section_of_equal_sides_is_a_square_either_way():
     sides = np.array([[[1.0, 0.0], [0.0, 1.0]], [[2.0, 1e-12], [1e-12, 2.0]], [[1.0, 0.0], [0.0, 3.0]]])
     expected = rectangular_sections(np.full(3, 1.5), sides)
@@ -92,7 +116,9 @@ def test_a_section_of_equal_sides_is_a_square_either_way():
 def test_sums_are_those_of_numpy(rng):
     for count in range(1, loops.MOST_TERMS + 1):
         values = rng.normal(size=(count, 3)) * 10.0 ** rng.uniform(-6.0, 6.0, (count, 1))
-        assert [loops.total(column) for column in values.T] == np.add.reduceat(values, [0], axis=0)[0].tolist()
+        expected = np.add.reduceat(values, [0], axis=0)[0].tolist()
+        assert [sum_loops.total(column) for column in values.T] == expected
+        assert [sum_loops.total_of_row(values.T.copy(), row, count) for row in range(3)] == expected
 
 
 def test_loads_are_carried_with_the_same_bits(rng, monkeypatch):
