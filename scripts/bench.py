@@ -18,6 +18,8 @@ from pathlib import Path
 
 import bench_history
 
+from bridge_demolition_addon.system.one_core import load_on_one_core
+
 BENCHES = (
     "building",
     "fracture",
@@ -72,8 +74,12 @@ def run_all(names: Sequence[str], folder: Path, *, smallest: bool, keep: bool) -
 
 
 def run(name: str, smallest: bool, ratios: Path | None, runs: int | None = None) -> int:
-    """Run a bench in this process, maybe with a number of runs, and write its ratios where they are wanted."""
+    """Run a bench in this process, maybe with a number of runs, and write its ratios where they are wanted.
+
+    Blender has one thread, as in programs that make runs without pictures.
+    """
     try:
+        load_on_one_core("bpy")
         found = importlib.import_module(f"benches.{name}").main(smallest, **({"runs": runs} if runs else {}))
     except Exception:
         traceback.print_exc()

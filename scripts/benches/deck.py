@@ -50,11 +50,11 @@ SMALLEST = 40
 FIRST_FRAMES = 3
 """In these Blender makes a new world, which is not timed."""
 
-FRAMES, ROUNDS = {200: 40, 1000: 10}, {200: 7, 1000: 7}
-"""Of each number of shards: the first frames of a world take longer, which few short frames would be full of."""
+FRAMES, ROUNDS = {200: 40, 1000: 10}, 7
+"""Frames of each number of shards: the first of a world take longer, which few short ones would be full of. The rest of
+the computer only ever adds time, so that the least of several rounds of all ways in turn is their own."""
 
-FRAMES_OF_OTHERS, ROUNDS_OF_OTHERS = 5, 3
-"""What else the computer does only ever adds, so that the least of several rounds of all ways in turn is their own."""
+FRAMES_OF_OTHERS = 5
 
 
 def deck(shards: int, **settings: object) -> Scenario:
@@ -91,8 +91,7 @@ def make_world(scene: bpy.types.Scene) -> None:
 
 def frames_and_rounds(shards: int) -> tuple[int, int]:
     """How many frames to time of a deck in so many shards, and how often; once with the smallest."""
-    rounds = 1 if shards == SMALLEST else ROUNDS.get(shards, ROUNDS_OF_OTHERS)
-    return FRAMES.get(shards, FRAMES_OF_OTHERS), rounds
+    return FRAMES.get(shards, FRAMES_OF_OTHERS), 1 if shards == SMALLEST else ROUNDS
 
 
 def frame_seconds(scene: bpy.types.Scene, frames: int, clock: Callable[[], float] = time.perf_counter) -> np.ndarray:

@@ -28,7 +28,7 @@ from bridge_demolition_addon.model.structure.model import build_model
 from bridge_demolition_addon.scene.connections.elasticity import elasticity_of, forget_elasticity, keep_elasticity
 from bridge_demolition_addon.scene.demolition import build_demolition
 
-SIZES = (200, 1000, 3000)
+SIZES = (200, 1000)
 SETTINGS = ConnectionSettings(
     type="FIXED",
     method="face",

@@ -23,7 +23,7 @@ from benches.deck import (
 
 from bridge_demolition_addon.model.scenario import ConnectionSettings
 
-SIZES = (200, 1000, 3000)
+SIZES = (200, 1000)
 SETTINGS = ConnectionSettings(type="FIXED", method="face", limit_per_shard=10, material="steel", stiffness="rigid")
 WAYS = {
     "every sub-step": {"every_substep": True},

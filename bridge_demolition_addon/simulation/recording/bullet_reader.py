@@ -140,6 +140,8 @@ class BulletReader:
             follows_bars = elastic is not None and elastic.have_bars is not None
             cracks = CrackAccumulator(len(inventory.pairs)) if follows_bars else None
             self._sums = FrameSums(meter, inventory, self._work(), bearings, cracks, every_substep=self._every_substep)
+        elif not breaker.uses_strength:
+            constraints.write_loads(wanted=False)  # nothing reads them
         return SubstepRecorder(constraints, drivers, meter, breaker, warm_up, self._sums)
 
     def before_frame(self, substeps: int) -> None:

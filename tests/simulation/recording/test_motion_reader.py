@@ -129,6 +129,23 @@ def test_loads_of_the_last_substep_alone_are_written(blender, tmp_path, monkeypa
     assert np.ptp(frames.loads.body_forces_n[1:, 1, 2]) > 100.0
 
 
+def test_loads_that_nothing_reads_are_not_written(blender, tmp_path):
+    """Without loads, of connections that break by forces; their motion is that of a run that records them."""
+    positions = []
+    for loads in (True, False):
+        blocks = Blocks(substeps_per_frame=5)
+        ceiling, block = blocks.block((0, 0, 10)), blocks.block((3, 0, 9), 100.0)
+        blocks.connect("POINT", (0, 0, 9), ceiling, block)
+        (folder := tmp_path / str(loads)).mkdir()
+        start_recording(recording := Recording(blocks.scene, folder, loads=loads))
+        for frame in range(1, 10):
+            blocks.scene.frame_set(frame)
+        assert recording.world.constraints.feedback.any() == loads
+        stop_recording()
+        positions.append(recording.results().frames.positions_m[:, 1])
+    np.testing.assert_array_equal(*positions)
+
+
 def test_a_last_substep_that_comes_too_soon_is_told_of(blender, tmp_path):
     blocks = Blocks(substeps_per_frame=10)
     ceiling, block = blocks.block((0, 0, 10)), blocks.block((0, 0, 9), 100.0)
