@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Newton's second law for every body, in every sub-step: nothing that acts on it is missed."""
 
+import bpy
 import numpy as np
 import pytest
 from support.blocks import Blocks
@@ -133,6 +134,7 @@ def test_loads_that_nothing_reads_are_not_written(blender, tmp_path):
     """Without loads, of connections that break by forces; their motion is that of a run that records them."""
     positions = []
     for loads in (True, False):
+        bpy.ops.wm.read_factory_settings(use_empty=True)
         blocks = Blocks(substeps_per_frame=5)
         ceiling, block = blocks.block((0, 0, 10)), blocks.block((3, 0, 9), 100.0)
         blocks.connect("POINT", (0, 0, 9), ceiling, block)
