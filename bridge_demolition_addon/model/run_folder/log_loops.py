@@ -68,7 +68,7 @@ def _written(text: Any, at: int, value: float, digits: Any) -> int:
     if np.isnan(value):
         text[at], text[at + 1], text[at + 2] = _N, _A, _N
         return at + 3
-    if value < 0.0:
+    if np.signbit(value):
         text[at] = _MINUS
         at += 1
     size = abs(value)

@@ -33,7 +33,7 @@ def test_numbers_have_the_text_of_python(largest):
 def test_numbers_beside_powers_of_ten_have_the_text_of_python():
     powers = 10.0 ** np.arange(-280, 280)
     both = [np.nextafter(powers, 0.0), powers, np.nextafter(powers, np.inf), powers * (1.0 - 4e-10)]
-    for number in (0.0, np.nan, 0.1, -2.5, 123456789.4, 999999999.6, *np.concatenate(both).tolist()):
+    for number in (0.0, -0.0, np.nan, 0.1, -2.5, 123456789.4, 999999999.6, *np.concatenate(both).tolist()):
         assert text_of(number) == f",{number:.9g}\n"
 
 
