@@ -61,11 +61,10 @@ class BlockSystem:
                     for places, values in zip(self._of_connections, blocks, strict=True)
                 ]
             )
-        loops = loops_like_qdldl()
         if self._matrix is None or self._solver is None:
             self._matrix = csc_matrix((data, self._indices, self._starts), shape=(_BLOCK * self._count,) * 2)
             self._solver = qdldl.Solver(self._matrix, upper=True)
-        elif loops is None:
+        elif (loops := loops_like_qdldl()) is None:
             self._matrix.data = data  # scipy takes longer to make a matrix than QDLDL to factor a small one
             self._solver.update(self._matrix, upper=True)
         else:
