@@ -11,7 +11,11 @@ import pytest
 from bridge_demolition_addon.system.one_core import on_one_core
 from bridge_demolition_addon.system.programs import program_command
 
-COUNT_THREADS = "import os, bpy; print(len(os.listdir('/proc/self/task')), len(os.sched_getaffinity(0))); os._exit(0)"
+COUNT_THREADS = """
+import os, bpy
+print(len(os.listdir("/proc/self/task")), len(os.sched_getaffinity(0)), flush=True)
+os._exit(0)
+"""
 on_linux = pytest.mark.skipif(sys.platform != "linux", reason="only Linux holds a process to a core")
 
 
@@ -59,4 +63,4 @@ def test_a_program_of_blender_is_started_with_one_thread():
 
 def _counts(program):
     done = subprocess.run([sys.executable, "-c", program], check=True, capture_output=True, text=True)
-    return map(int, done.stdout.split())
+    return map(int, done.stdout.splitlines()[-1].split())  # Blender may print lines of its own before
