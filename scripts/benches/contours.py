@@ -14,7 +14,7 @@ from contextlib import contextmanager, nullcontext
 from pathlib import Path
 
 import bpy
-from benches.deck import DECK, SMALLEST, build_scene, deck, frame_seconds, make_world, recorded
+from benches.deck import DECK, SMALLEST, build_scene, deck, frame_s, make_world, recorded
 from benches.way_of_2019 import forces_and_colours
 
 from bridge_demolition_addon.display.contour_quantities import ContourQuantity
@@ -42,7 +42,7 @@ def main(smallest: bool) -> None:
             for name, way in ways.items():
                 with way():
                     make_world(scene)
-                    seconds[name].append(frame_seconds(scene, FRAMES).mean())
+                    seconds[name].append(frame_s(scene, FRAMES))
                     if name == "with contours":
                         painting.append(_painting_seconds(scene))
     medians = {name: statistics.median(times) for name, times in seconds.items()}

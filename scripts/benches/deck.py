@@ -103,6 +103,11 @@ def frame_seconds(scene: bpy.types.Scene, frames: int, clock: Callable[[], float
     return np.diff(marks)
 
 
+def frame_s(scene: bpy.types.Scene, frames: int, clock: Callable[[], float] = time.perf_counter) -> float:
+    """Median of the seconds of those frames, which are alike: the rest of the computer makes some of them longer."""
+    return float(np.median(frame_seconds(scene, frames, clock)))
+
+
 def ratios_to_bare_step(seconds: Mapping[str, Sequence[float]]) -> dict[str, float]:
     """Print the least time of a frame in each way, and return by ways how much longer it is than the bare step's."""
     bare = min(seconds["bare step"])

@@ -15,7 +15,7 @@ import bpy
 from benches.deck import (
     SMALLEST,
     deck,
-    frame_seconds,
+    frame_s,
     frames_and_rounds,
     make_world,
     ratios_to_bare_step,
@@ -64,7 +64,7 @@ def main(smallest: bool) -> dict[str, float]:
                         patch.object(structure, "TURNED_RAD", turned_rad),
                     ):
                         make_world(scene)
-                        seconds.setdefault(way, []).append(frame_seconds(scene, frames, time.process_time).mean())
+                        seconds.setdefault(way, []).append(frame_s(scene, frames, time.process_time))
         print(f"{shards} shards, {len(made)} connections")
         for way, ratio in ratios_to_bare_step(seconds).items():
             ratios[f"{way} over bare step, {shards} shards"] = ratio

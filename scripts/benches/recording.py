@@ -14,7 +14,7 @@ from pathlib import Path
 
 import bpy
 import numpy as np
-from benches.deck import SMALLEST, build_scene, deck, frame_seconds, frames_and_rounds, make_world, recorded
+from benches.deck import SMALLEST, build_scene, deck, frame_s, frames_and_rounds, make_world, recorded
 from benches.way_of_2019 import forces_and_colours
 
 from bridge_demolition_addon.bullet.snapshots import SnapshotTaker
@@ -59,7 +59,7 @@ def measured(shards: int) -> dict[str, float]:
                 with way() as recording:
                     make_world(scene)
                     before = _own_seconds(recording) if recording else None
-                    seconds[name].append(frame_seconds(scene, frames).mean())
+                    seconds[name].append(frame_s(scene, frames))
                     if recording:
                         own[name].append((_own_seconds(recording) - before) / frames)
     _print_table(seconds, own)

@@ -14,7 +14,7 @@ from benches.deck import (
     SMALLEST,
     build_scene,
     deck,
-    frame_seconds,
+    frame_s,
     frames_and_rounds,
     make_world,
     ratios_to_bare_step,
@@ -44,7 +44,7 @@ def main(smallest: bool) -> dict[str, float]:
                 for name, settings in ({"bare step": None} | WAYS).items():
                     with nullcontext() if settings is None else recorded(scene, Path(folder), **settings):
                         make_world(scene)
-                        seconds.setdefault(name, []).append(frame_seconds(scene, frames, time.process_time).mean())
+                        seconds.setdefault(name, []).append(frame_s(scene, frames, time.process_time))
         print(f"{shards} shards, {len(scene.rigidbody_world.constraints.objects)} connections")
         for way, ratio in ratios_to_bare_step(seconds).items():
             ratios[f"{way} over bare step, {shards} shards"] = ratio

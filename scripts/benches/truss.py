@@ -13,7 +13,7 @@ from pathlib import Path
 from unittest.mock import patch
 
 import bpy
-from benches.deck import frame_seconds, make_world, ratios_to_bare_step, recorded
+from benches.deck import frame_s, make_world, ratios_to_bare_step, recorded
 
 from bridge_demolition_addon.engineering.elasticity import structure
 from bridge_demolition_addon.model.scenario import Scenario, ShardSettings
@@ -43,7 +43,7 @@ def main(smallest: bool) -> dict[str, float]:
                     patch.object(structure, "TURNED_RAD", 0.0 if "again" in way else structure.TURNED_RAD),
                 ):
                     make_world(scene)
-                    seconds.setdefault(way, []).append(frame_seconds(scene, FRAMES, time.process_time).mean())
+                    seconds.setdefault(way, []).append(frame_s(scene, FRAMES, time.process_time))
     print(
         f"{len(scenario.steelwork.all_members)} bars, {len(model.shards)} bodies, {len(model.connections)} connections"
     )
