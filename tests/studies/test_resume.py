@@ -59,13 +59,15 @@ def finish(study, output, log, jobs=2):
 
 
 def wait_for_draws(process, output, count):
-    while len(list(output.glob("draws/*/outcome.json"))) < count:
+    while len(kept(output)) < count:
         assert process.poll() is None, process.communicate()
         time.sleep(0.005)
 
 
 def kept(output):
-    return {path.parent.name for path in output.glob("draws/*/outcome.json")}
+    """Draws that are kept whole: one that is just being kept has its outcome in a folder of another name."""
+    names = {path.parent.name for path in output.glob("draws/*/outcome.json")}
+    return {name for name in names if not name.endswith(".part")}
 
 
 def counted(log):
