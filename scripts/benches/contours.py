@@ -33,7 +33,7 @@ def main(smallest: bool) -> None:
         folder = Path(name)
         ways = {
             "bare step": nullcontext,
-            "recorded": lambda: recorded(scene, folder),
+            "recorded": lambda: recorded(scene, folder, in_window=True),
             "with contours": lambda: _contours(scene, folder),
             "way of 2019": lambda: forces_and_colours(folder / "forces.log"),
         }
@@ -58,7 +58,7 @@ def main(smallest: bool) -> None:
 
 @contextmanager
 def _contours(scene: bpy.types.Scene, folder: Path) -> Iterator[None]:
-    with recorded(scene, folder):
+    with recorded(scene, folder, in_window=True):
         contours_of(scene).show(ContourSettings(quantity=ContourQuantity.VON_MISES))
         yield
         if error := contours_of(scene).error:

@@ -70,9 +70,14 @@ def build_scene(scenario: Scenario) -> bpy.types.Scene:
 
 
 @contextmanager
-def recorded(scene: bpy.types.Scene, folder: Path, **settings: object) -> Iterator[Recording]:
-    """Record the frames that are played meanwhile."""
-    start_recording(recording := Recording(scene, folder, **settings))
+def recorded(
+    scene: bpy.types.Scene, folder: Path, *, in_window: bool = False, **settings: object
+) -> Iterator[Recording]:
+    """Record the frames that are played meanwhile, as `bda run` and studies do.
+
+    In a window the scene can be edited meanwhile, and is guarded.
+    """
+    start_recording(recording := Recording(scene, folder, **settings), alone=not in_window)
     try:
         yield recording
     finally:

@@ -50,6 +50,7 @@ def measured(shards: int) -> dict[str, float]:
             "copies alone": lambda: _part(scene, SnapshotTaker.take),
             "every sub-step": lambda: recorded(scene, folder, every_substep=True),
             "last sub-step": lambda: recorded(scene, folder, every_substep=False),
+            "every, in a window": lambda: recorded(scene, folder, every_substep=True, in_window=True),
             "way of 2019": lambda: forces_and_colours(folder / "forces.log"),
         }
         seconds: dict[str, list[float]] = {name: [] for name in ways}
@@ -64,7 +65,7 @@ def measured(shards: int) -> dict[str, float]:
                         own[name].append((_own_seconds(recording) - before) / frames)
     _print_table(seconds, own)
     bare = min(seconds["bare step"])
-    return {f"{name} over bare step": min(seconds[name]) / bare for name in (*own, "way of 2019")}
+    return {f"{name} over bare step": min(seconds[name]) / bare for name in (*own, "every, in a window", "way of 2019")}
 
 
 @contextmanager

@@ -29,6 +29,7 @@ WAYS = {
     "every sub-step": {"every_substep": True},
     "last sub-step": {"every_substep": False},
     "as in a study": {"every_substep": True, "loads": False},
+    "every sub-step, in a window": {"every_substep": True, "in_window": True},
 }
 
 

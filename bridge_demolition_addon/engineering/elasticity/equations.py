@@ -9,7 +9,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
 from ..arrays import BoolArray, FloatArray, IntArray
-from .compiled_joints import joint_loops
+from .compiled_joints import equation_loops
 from .joint_rows import JointRows, matrix_products, transposed
 
 
@@ -32,7 +32,7 @@ class RigidBodies:
 
     def mass_matrices(self, rotations: FloatArray, bodies: IntArray) -> FloatArray:
         """Return mass and inertia (6, 6, b) in the axes of the world, of some bodies (b,) in rotations (3, 3, n)."""
-        loops = joint_loops()
+        loops = equation_loops()
         if loops is not None:
             found: FloatArray = loops.mass_matrices(self.masses_kg, self.inertias_kg_m2, rotations, bodies)
             return found

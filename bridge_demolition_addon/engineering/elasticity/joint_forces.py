@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
-from .compiled_joints import joint_loops
+from .compiled_joints import equation_loops, joint_loops, joint_position_loops
 from .equations import stiffness_blocks, stressed, summed_on_bodies
 from .joint_rows import JointFrames, JointRows, joint_positions
 
@@ -39,7 +39,7 @@ class ActingJoints:
 
 def deformations(frames: JointFrames, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
     """Return deformations (6, m) with bodies at positions (3, n) in rotations (3, 3, n)."""
-    loops = joint_loops()
+    loops = joint_position_loops()
     if loops is None:
         return joint_positions(frames, positions_m, rotations).deformations()
     found: FloatArray = loops.deformations(
@@ -152,7 +152,7 @@ def stored(stiffness: FloatArray, strains: FloatArray) -> FloatArray:
 
 def rows_at(frames: JointFrames, positions_m: FloatArray, rotations: FloatArray) -> JointRows:
     """Return the rows of connections with bodies at positions (3, n) in rotations (3, 3, n)."""
-    loops = joint_loops()
+    loops = joint_position_loops()
     if loops is None:
         return joint_positions(frames, positions_m, rotations).rows()
     axes, points = (frames.first_axes, frames.second_axes), (frames.first_points_m, frames.second_points_m)
@@ -166,7 +166,7 @@ def added_blocks(
 
     Of the first two only numbers on and above the diagonal count: they are symmetric.
     """
-    loops = joint_loops()
+    loops = equation_loops()
     if loops is None:
         return stiffness_blocks(rows, implicit_s2 * stiffness)
     found: tuple[FloatArray, FloatArray, FloatArray] = loops.blocks(

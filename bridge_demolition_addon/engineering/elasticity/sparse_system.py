@@ -14,7 +14,7 @@ import qdldl
 from scipy.sparse import csc_matrix
 
 from ..arrays import FloatArray, IntArray
-from .compiled_joints import joint_loops
+from .compiled_joints import equation_loops
 from .panel_factors import PanelFactors, loops_like_qdldl
 
 _BLOCK = 6
@@ -83,7 +83,7 @@ class BlockSystem:
 
     def _summed(self, terms: Sequence[tuple[IntArray, IntArray, FloatArray, IntArray]]) -> FloatArray:
         """Return numbers of the upper triangle: terms have places and which of them (k,), blocks and which of them."""
-        loops = joint_loops()
+        loops = equation_loops()
         if loops is not None:
             totals = np.zeros(self._size + 1)
             for places, *term in terms:

@@ -5,11 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 
+import numpy as np
+
 from ..arrays import FloatArray, IntArray
 from ..geometry.rotations import carried_axes, carried_points
 from ..geometry.vectors import by_component, length, product
 from .compiled_mechanics import overload_loops
 from .forces import moments_at
+from .packed_faces import CARRIED, packed
 from .section_cuts import ConnectionLoads
 from .section_forces import SectionForces, section_forces
 
@@ -29,9 +32,9 @@ class CarriedSections:
         return length(self.points_m)
 
     @cached_property
-    def arrays(self) -> tuple[IntArray | FloatArray, ...]:
-        """All of it in order, as compiled loops take it."""
-        return self.bodies, self.signs, self.points_m, self.axes, self.lever_arms_m
+    def packed(self) -> np.ndarray:
+        """All of it (m,), as compiled loops take it."""
+        return packed(CARRIED, body=self.bodies, sign=self.signs, point=self.points_m, axes=self.axes)
 
     def forces(
         self, rows: IntArray, loads: FloatArray, positions_m: FloatArray, rotations: FloatArray

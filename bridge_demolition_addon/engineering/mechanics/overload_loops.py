@@ -1,7 +1,9 @@
 """Overloads of connections as loops, which Numba compiles: import this only where it is installed.
 
 They give the same bits as `carried_sections`, `section_cuts` and `strength`, as the loops of cracks do: see
-`elasticity.crack_loops`. Strengths (m, 5) are in the order of `Strength`, friction is (0,) where none counts.
+`elasticity.crack_loops`. Everywhere `places` are loads, positions and rotations, and what `CarriedSections` packs,
+`resisting` is what `Overloads` packs, by how much more of it is pressed, and friction, which is (0,) where none counts,
+and `cuts` are starts and packed faces.
 """
 
 from __future__ import annotations
@@ -38,34 +40,33 @@ def carried_loads(
 
 
 @compiled
-def over_alone(places: Any, sections: Any, judged: Any, bounds: Any, of_sections: Any, resisting: Any) -> Any:
+def over_alone(places: Any, judged: Any, resisting: Any) -> Any:
     """`Overloads.over_alone`: connections (k,) and their utilisations (k,).
 
-    `places` are loads, positions and rotations, `sections` those of `CarriedSections.arrays`, `judged` what is intact
-    and what is left, `bounds` those of `largest_utilisations`, `of_sections` all of `Sections`, `resisting` strengths,
-    what more of them is pressed, and friction.
+    `judged` are what is intact and what is left, the bounds of `largest_utilisations`, and lever arms.
     """
-    (loads, positions, rotations), (bodies, signs, points, axes, levers) = places, sections
-    (intact, left), (most_by_force, most_by_moment) = judged, bounds
-    areas, directions, bending_moduli, torsion_moduli = of_sections
-    rows, found, count = np.empty(len(bodies), np.int64), np.empty(len(bodies)), 0
-    for row in range(len(bodies)):
+    loads, positions, rotations, carried = places
+    intact, left, most_by_force, most_by_moment, levers = judged
+    rows, found, count = np.empty(len(carried), np.int64), np.empty(len(carried)), 0
+    for row in range(len(carried)):
         load = loads[:, row]
         force, torque = np.sqrt(dotted(load[:3], load[:3])), np.sqrt(dotted(load[3:], load[3:]))
         most = (most_by_force[row] + most_by_moment[row] * levers[row]) * force + most_by_moment[row] * torque
         if not (intact[row] and most * (1.0 + SINGLE_PRECISION) > left[row]):
             continue
-        body = bodies[row]
-        rotation = rotations[:, :, body]
-        carried_force, moment, _ = _carried(load, positions[:, body], rotation, signs[row], points[row])
-        turned = _turned(rotation, axes[row])
+        own = carried[row]
+        rotation = rotations[:, :, own.body]
+        carried_force, moment, _ = _carried(load, positions[:, own.body], rotation, own.sign, own.point)
+        turned = _turned(rotation, own.axes)
+        section = resisting[0][row]
+        directions, moduli = section.directions, section.moduli
         used = _used(
             _in_axes(turned, carried_force),
             _in_axes(turned, moment),
-            areas[row],
-            ((directions[row, 0, 0], directions[row, 0, 1]), (directions[row, 1, 0], directions[row, 1, 1])),
-            (bending_moduli[row, 0], bending_moduli[row, 1]),
-            torsion_moduli[row],
+            section.area if section.area > 0.0 else np.nan,
+            ((directions[0], directions[1]), (directions[2], directions[3])),
+            (moduli[0], moduli[1]),
+            section.torsion_modulus,
             _resistance(resisting, row),
         )
         if used / left[row] > 1.0:
@@ -75,28 +76,26 @@ def over_alone(places: Any, sections: Any, judged: Any, bounds: Any, of_sections
 
 
 @compiled
-def over_in_cuts(
-    places: Any, sections: Any, judged: Any, bounds: Any, of_sections: Any, resisting: Any, cuts: Any, faces: Any
-) -> Any:
+def over_in_cuts(places: Any, judged: Any, resisting: Any, cuts: Any) -> Any:
     """Connections (k,) that are overloaded alone and in their cuts, and their utilisations (k,) in these.
 
-    Others are as `over_alone` takes them, `cuts` and `faces` as `used_in_cuts` does. What a face carries is worked out
-    for each cut: mostly few are overloaded alone, and numbers that are kept take longer to find again.
+    What a face carries is worked out for each cut: mostly few are overloaded alone, and numbers that are kept take
+    longer to find again.
     """
-    (loads, positions, rotations), (bodies, signs, points, axes, _) = places, sections
-    intact, left = judged
-    rows, found = over_alone(places, sections, judged, bounds, of_sections, resisting)
+    loads, positions, rotations, carried = places
+    intact, left = judged[0], judged[1]
+    rows, found = over_alone(places, judged, resisting)
     room, count, sides = _room(), 0, np.empty(2)
     for row in rows:
-        turned = _turned(rotations[:, :, bodies[row]], axes[row])
+        turned = _turned(rotations[:, :, carried[row].body], carried[row].axes)
         for side in range(2):
-            number = _intact_faces(row + side * len(bodies), intact, cuts, room)
+            number = _intact_faces(row + side * len(carried), intact, cuts, room)
             for at in range(number):
-                face = cuts[1][room[0][at]]
-                body = bodies[face]
-                carried = _carried(loads[:, face], positions[:, body], rotations[:, :, body], signs[face], points[face])
-                _note(room, at, carried)
-            sides[side] = _used_in_cut(row, number, room, turned, cuts, faces, resisting)
+                face = cuts[1][room[0][at]].face
+                own = carried[face]
+                place, rotation = positions[:, own.body], rotations[:, :, own.body]
+                _note(room, at, _carried(loads[:, face], place, rotation, own.sign, own.point))
+            sides[side] = _used_in_cut(row, number, room, turned, cuts, resisting)
         used = (sides[0] + sides[1]) / 2.0 / left[row]
         if used > 1.0:
             rows[count], found[count] = row, used
@@ -105,11 +104,10 @@ def over_in_cuts(
 
 
 @compiled
-def used_in_cuts(rows: Any, intact: Any, loads: Any, axes: Any, cuts: Any, faces: Any, resisting: Any) -> Any:
+def used_in_cuts(rows: Any, intact: Any, loads: Any, axes: Any, cuts: Any, resisting: Any) -> Any:
     """`Overloads.in_cuts` of intact connections (r,), whose sections have axes (r, 3, 3).
 
-    `loads` are forces, moments and points (m, 3) of all, `cuts` their starts, faces, signs and cosines, and `faces`
-    areas and second moments.
+    `loads` are forces, moments and points (m, 3) of all.
     """
     used, room, sides = np.empty(len(rows)), _room(), np.empty(2)
     forces, moments, points = loads
@@ -123,9 +121,9 @@ def used_in_cuts(rows: Any, intact: Any, loads: Any, axes: Any, cuts: Any, faces
         for side in range(2):
             count = _intact_faces(rows[number] + side * len(intact), intact, cuts, room)
             for at in range(count):
-                face = cuts[1][room[0][at]]
+                face = cuts[1][room[0][at]].face
                 _note(room, at, (forces[face], moments[face], points[face]))
-            sides[side] = _used_in_cut(rows[number], count, room, columns, cuts, faces, resisting)
+            sides[side] = _used_in_cut(rows[number], count, room, columns, cuts, resisting)
         used[number] = (sides[0] + sides[1]) / 2.0
     return used
 
@@ -141,7 +139,7 @@ def _intact_faces(cut: int, intact: Any, cuts: Any, room: Any) -> int:
     """Find the intact faces of a cut, and return how many there are."""
     count = 0
     for entry in range(cuts[0][cut], cuts[0][cut + 1]):
-        if intact[cuts[1][entry]]:
+        if intact[cuts[1][entry].face]:
             room[0][count] = entry
             count += 1
     return count
@@ -156,36 +154,38 @@ def _note(room: Any, at: int, load: Any) -> None:
 
 
 @compiled
-def _used_in_cut(row: int, count: int, room: Any, axes: Any, cuts: Any, faces: Any, resisting: Any) -> Any:
+def _used_in_cut(row: int, count: int, room: Any, axes: Any, cuts: Any, resisting: Any) -> Any:
     """Utilisation of a cut through so many faces that are noted, by the strength of a connection."""
-    force, moment, area, second = _cut(count, room, axes, cuts, faces)
+    force, moment, area, second = _cut(count, room, axes, cuts[1], resisting[0])
     area, directions, moduli, torsion_modulus = rectangle(area, second)
     return _used(force, moment, area, directions, moduli, torsion_modulus, _resistance(resisting, row))
 
 
 @compiled
-def _cut(count: int, room: Any, axes: Any, cuts: Any, faces: Any) -> Any:
+def _cut(count: int, room: Any, axes: Any, members: Any, faces: Any) -> Any:
     """`section_cuts.cut_loads` of one cut through so many faces that are noted."""
-    (entries, loads, lines), (_, members, signs, cosines), (areas, second_moments) = room, cuts, faces
+    entries, loads, lines = room
     for at in range(count):
-        lines[0, at] = areas[members[entries[at]]] * cosines[entries[at]]
+        member = members[entries[at]]
+        lines[0, at] = faces[member.face].area * member.cosine
         for axis in range(3):
             lines[1 + axis, at] = lines[0, at] * loads[at, 6 + axis]
     area = total_of_row(lines, 0, count)
     x, y, z = total_of_row(lines, 1, count), total_of_row(lines, 2, count), total_of_row(lines, 3, count)
     middle = x / area, y / area, z / area
     for at in range(count):
-        face, sign, cosine = members[entries[at]], signs[entries[at]], cosines[entries[at]]
+        member = members[entries[at]]
+        face, sign, cosine = faces[member.face], member.sign, member.cosine
         lever = loads[at, 6] - middle[0], loads[at, 7] - middle[1], loads[at, 8] - middle[2]
         pull = sign * loads[at, 0], sign * loads[at, 1], sign * loads[at, 2]
         turn = crossed(lever, pull)
         for axis in range(3):
             lines[axis, at] = pull[axis]
             lines[3 + axis, at] = sign * loads[at, 3 + axis] + turn[axis]
-        share, (across, up) = areas[face] * cosine, (dotted(axes[1], lever), dotted(axes[2], lever))
-        lines[6, at] = second_moments[face, 0, 0] * cosine + share * (up * up)
-        lines[7, at] = second_moments[face, 0, 1] * cosine + share * (-across * up)
-        lines[8, at] = second_moments[face, 1, 1] * cosine + share * (across * across)
+        share, (across, up) = face.area * cosine, (dotted(axes[1], lever), dotted(axes[2], lever))
+        lines[6, at] = face.second[0] * cosine + share * (up * up)
+        lines[7, at] = face.second[1] * cosine + share * (-across * up)
+        lines[8, at] = face.second[2] * cosine + share * (across * across)
     force = total_of_row(lines, 0, count), total_of_row(lines, 1, count), total_of_row(lines, 2, count)
     moment = total_of_row(lines, 3, count), total_of_row(lines, 4, count), total_of_row(lines, 5, count)
     second = total_of_row(lines, 6, count), total_of_row(lines, 7, count), total_of_row(lines, 8, count)
@@ -260,9 +260,9 @@ def _carried(load: Any, centre: Any, rotation: Any, sign: float, point: Any) -> 
 @compiled
 def _resistance(resisting: Any, row: int) -> Any:
     """Strengths of a connection, by how much more it has in compression, and its friction, nan where none counts."""
-    strengths, pressed, friction = resisting
-    all_five = strengths[row, 0], strengths[row, 1], strengths[row, 2], strengths[row, 3], strengths[row, 4]
-    return all_five, pressed[row], friction[row] if len(friction) else np.nan
+    of_all, pressed, friction = resisting
+    own = of_all[row].strength
+    return (own[0], own[1], own[2], own[3], own[4]), pressed[row], friction[row] if len(friction) else np.nan
 
 
 @compiled

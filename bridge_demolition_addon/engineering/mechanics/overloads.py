@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import fields, replace
+from typing import Any
 
 import numpy as np
 
@@ -11,10 +12,12 @@ from ..geometry.vectors import length
 from .carried_sections import CarriedSections
 from .compiled_mechanics import overload_loops
 from .member_sections import MemberSections
+from .packed_faces import CUT_THROUGH, RESISTING, packed
 from .section_cuts import ConnectedFaces, ConnectionLoads, SectionCuts, worst_around
 from .section_forces import SectionForces
 from .strength import (
     SINGLE_PRECISION,
+    Sections,
     Strength,
     largest_utilisations,
     rectangular_sections,
@@ -61,15 +64,13 @@ class Overloads:
         self._largest_utilisations = largest_utilisations(self._sections, strength)
         self._cuts = cuts = SectionCuts.through(faces, moves)
         self._most_faces = int(np.diff(cuts.starts).max(initial=0))
-        of_all = [
-            np.broadcast_to(np.asarray(getattr(strength, item.name), float), len(faces.pairs))
-            for item in fields(strength)
-        ]
         everywhere = np.ones(len(faces.pairs)) if pressed is None else pressed
-        self._resisting = np.stack(of_all, axis=1), everywhere, np.zeros(0) if friction is None else friction
-        of_sections = tuple(getattr(self._sections, item.name) for item in fields(self._sections))
-        self._of_alone = self._largest_utilisations, of_sections, self._resisting
-        self._of_cuts = (cuts.starts, cuts.faces, cuts.signs, cuts.cosines), (faces.areas_m2, faces.second_moments_m4)
+        resisting = _packed(faces, self._sections, strength)
+        self._resisting = resisting, everywhere, np.zeros(0) if friction is None else friction
+        self._packed_cuts = (
+            cuts.starts,
+            packed(CUT_THROUGH, face=cuts.faces, sign=cuts.signs, cosine=cuts.cosines),
+        )
 
     def breaking(
         self,
@@ -90,7 +91,7 @@ class Overloads:
         places, loops = (loads, positions_m, rotations), overload_loops()
         by_cuts = self._member_sections is None or parts is None
         if loops is not None and by_cuts and self._most_faces <= loops.MOST_TERMS:
-            rows, used = loops.over_in_cuts(places, sections.arrays, (intact, left), *self._of_alone, *self._of_cuts)
+            rows, used = loops.over_in_cuts(*self._judged(places, sections, intact, left), self._packed_cuts)
         else:
             rows, used = self.over_alone(intact, sections, *places, left)
             if len(rows):  # mostly nothing is overloaded: then what the others carry is not worked out
@@ -135,8 +136,7 @@ class Overloads:
             return _overloaded(
                 rows, self.of_forces(rows, sections.forces(rows, loads, positions_m, rotations)) / left[rows]
             )
-        places = loads, positions_m, rotations
-        rows, used = loops.over_alone(places, sections.arrays, (intact, left), *self._of_alone)
+        rows, used = loops.over_alone(*self._judged((loads, positions_m, rotations), sections, intact, left))
         return rows, used
 
     def candidates(self, loads: FloatArray, lever_arms_m: FloatArray, left: FloatArray) -> IntArray:
@@ -174,6 +174,13 @@ class Overloads:
         used = self._in_members(self._member_sections, rows, loads, axes, intact, parts) / left[rows]
         return np.maximum(used, alone / _MOST_REDISTRIBUTED)
 
+    def _judged(
+        self, places: tuple[FloatArray, ...], sections: CarriedSections, intact: BoolArray, left: FloatArray
+    ) -> tuple[tuple[Any, ...], ...]:
+        """What compiled loops need to judge each connection alone."""
+        bounds = *self._largest_utilisations, sections.lever_arms_m
+        return (*places, sections.packed), (intact, left, *bounds), self._resisting
+
     def _strength_at(self, rows: IntArray) -> Strength:
         """Strength (r,) of some connections, without what is lost of it in all directions."""
         strength = strength_at(self._strength, rows)
@@ -189,7 +196,7 @@ class Overloads:
         loops = overload_loops()
         if loops is not None and self._most_faces <= loops.MOST_TERMS:
             of_loads = tuple(np.ascontiguousarray(each) for each in (loads.forces_n, loads.moments_nm, loads.points_m))
-            found: FloatArray = loops.used_in_cuts(rows, intact, of_loads, axes, *self._of_cuts, self._resisting)
+            found: FloatArray = loops.used_in_cuts(rows, intact, of_loads, axes, self._packed_cuts, self._resisting)
             return found
         cut_loads, areas, second_moments = self._cuts.sections(rows, intact, loads, axes)
         both = np.concatenate((rows, rows))
@@ -219,6 +226,21 @@ class Overloads:
         if not whole.all():
             used[~whole] = self.in_cuts(rows[~whole], loads, axes[~whole], intact)
         return used
+
+
+def _packed(faces: ConnectedFaces, sections: Sections, strength: Strength) -> np.ndarray:
+    """Faces, sections and strengths (m,) as compiled loops take them."""
+    count, second = len(faces.pairs), faces.second_moments_m4
+    strengths = [np.broadcast_to(np.asarray(getattr(strength, item.name), float), count) for item in fields(strength)]
+    return packed(
+        RESISTING,
+        area=faces.areas_m2,
+        second=np.stack((second[:, 0, 0], second[:, 0, 1], second[:, 1, 1]), axis=1),
+        directions=sections.directions.reshape(-1, 4),
+        moduli=sections.bending_moduli_m3,
+        torsion_modulus=sections.torsion_moduli_m3,
+        strength=np.stack(strengths, axis=1),
+    )
 
 
 def _overloaded(rows: IntArray, used: FloatArray) -> tuple[IntArray, FloatArray]:

@@ -23,6 +23,7 @@ from bridge_demolition_addon.engineering.elasticity.joint_rows import JointFrame
 from bridge_demolition_addon.engineering.geometry.rotations import rotated
 
 CONNECTIONS, BODIES = 300, 90
+LOOPS = "joint_position_loops", "joint_loops", "equation_loops"
 
 
 @pytest.fixture(params=range(4))
@@ -36,7 +37,8 @@ def by_numpy(monkeypatch):
 
     def called(function, *arguments):
         with monkeypatch.context() as without:
-            without.setattr(joint_forces, "joint_loops", lambda: None)
+            for loops in LOOPS:
+                without.setattr(joint_forces, loops, lambda: None)
             return function(*arguments)
 
     return called
@@ -128,7 +130,7 @@ def test_mass_matrices_have_the_same_bits(rng, monkeypatch):
     of_all = RigidBodies(masses, rng.normal(size=(3, 3, BODIES)), *bodies(rng))
     given = rotations(rng, BODIES), np.flatnonzero(rng.random(BODIES) < 0.7)
     compiled = of_all.mass_matrices(*given)
-    monkeypatch.setattr(equations, "joint_loops", lambda: None)
+    monkeypatch.setattr(equations, "equation_loops", lambda: None)
     assert_same_bits([compiled], [of_all.mass_matrices(*given)])
 
 
@@ -167,4 +169,4 @@ def test_equations_have_the_same_numbers(rng, by_numpy):
 
 
 def test_loops_are_used_where_numba_is_installed():
-    assert joint_forces.joint_loops() is not None
+    assert all(getattr(joint_forces, loops)() is not None for loops in LOOPS)

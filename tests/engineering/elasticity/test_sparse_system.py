@@ -17,7 +17,7 @@ def rng(request):
 
 @pytest.fixture
 def without_numba(monkeypatch):
-    monkeypatch.setattr(sparse_system, "joint_loops", lambda: None)
+    monkeypatch.setattr(sparse_system, "equation_loops", lambda: None)
 
 
 def problem(rng):
