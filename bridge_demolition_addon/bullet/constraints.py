@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..engineering.arrays import same
 from .collision_pairs import CollisionPairs
 from .constraint_rows import ConstraintRows
 from .layout import Layout
-from .memory import BYTES, DOUBLES, POINTERS, Fields, gather_doubles
+from .memory import BYTES, DOUBLES, POINTERS, Fields, field_loops, gather_doubles
 from .teardown import Fingerprints
 
 FEEDBACK_DOUBLES = 16
@@ -57,7 +56,7 @@ class ConstraintTable:
         self._forbids_collision, self._collision_pairs = forbids_collision, collision_pairs
         self._pair_rows = np.cumsum(forbids_collision) - 1
         self._fingerprints = Fingerprints(layout, addresses[self.exists])
-        self._enabled: tuple[np.ndarray, Fields] | None = None  # of those that exist
+        self._enabled = Fields(addresses, [layout.constraint.enabled], BYTES)
         self._rows: ConstraintRows | None = None
 
     def __len__(self) -> int:
@@ -80,10 +79,12 @@ class ConstraintTable:
 
     def intact(self) -> np.ndarray:
         """Return whether each connection (m,) exists and has not broken."""
-        if self._enabled is None or not same(self.exists, self._enabled[0]):
-            self._enabled = self.exists.copy(), Fields(self.existing, [self._constraint.enabled], BYTES)
-        intact = np.zeros(len(self), bool)
-        intact[self.exists] = self._enabled[1].copy()[0] != 0
+        loops = field_loops()
+        if loops is not None:
+            found: np.ndarray = loops.intact(BYTES.everywhere, self._enabled.places, self.exists, self.cracked)
+            return found
+        rows, intact = np.flatnonzero(self.exists), np.zeros(len(self), bool)
+        intact[rows] = self._enabled.copy_at(rows)[0] != 0
         intact[self.cracked] = False
         return intact
 

@@ -45,6 +45,15 @@ def of_connections(
 
 
 @compiled
+def intact(flags: Any, enabled: Any, exists: Any, cracked: Any) -> Any:
+    """`ConstraintTable.intact`; the flags of what is enabled are given by `Fields.places`."""
+    (places, of_flag), found = enabled, np.zeros(len(exists), np.bool_)
+    for row in range(len(exists)):
+        found[row] = exists[row] and flags[places[row] + of_flag[0]] != 0 and not cracked[row]
+    return found
+
+
+@compiled
 def loaded_points(
     values: Any,
     pointers: Any,
