@@ -3,8 +3,8 @@
 
 Blender's own time is taken in a process that builds each draw and plays it with nothing recorded: once as Blender plays
 it by itself, where pieces that broke apart still pass through each other, and once with only what changes the outcome,
-in turns with the same draws as a study makes them. Blender has one thread there, as in the processes of a study. A study
-of the same draws is taken as a user starts it: the command line with its start, that of Blender, building, recording
+in turns with the same draws as a study makes them. Blender has one thread there, as in processes of a study. A study of
+the same draws is taken as a user starts it: the command line with its start, that of Blender, building, recording
 and writing included. Draws that do nothing show what is left where Blender takes no time.
 
 Candidates of an optimisation have the same seeds, so that their runs share models: they are made with and without that.
@@ -71,7 +71,8 @@ def draws(folder: Path, study: Path, count: int) -> dict[str, float]:
     ratios, bare = {}, (sys.executable, "-c", WITH_ONE_THREAD, BARE)
     alone = _times_of(*bare, "alone", study)
     one = _times_of(*_study_command(study, folder / "one", 1))
-    *same, run_s, processor_s = _times_of(*bare, "turns", study)
+    in_turns = _times_of(*bare, "turns", study)
+    same, of_runs = in_turns[:2], in_turns[2:]
     times = {"steps as Blender plays them by itself": alone, "steps as they are": same, "study with one job": one}
     if count > 1:
         times["study with two jobs"] = _times_of(*_study_command(study, folder / "two", 2))
@@ -81,8 +82,8 @@ def draws(folder: Path, study: Path, count: int) -> dict[str, float]:
     for name, bare in (("as Blender plays them by itself", alone), ("as they are", same)):
         print(f"study with one job over steps {name}: {one[0] / bare[0]:.2f} and {one[1] / bare[1]:.2f}")
         ratios[f"study with one job over steps {name}"] = one[0] / bare[0]
-    print(f"its runs over these steps, by turns: {run_s / same[0]:.2f} and {processor_s / same[1]:.2f}")
-    ratios["runs over steps as they are, by turns"] = run_s / same[0]
+    print(f"its runs over these steps, by turns: {of_runs[0] / same[0]:.2f} and {of_runs[1] / same[1]:.2f}")
+    ratios["runs over steps as they are, by turns"] = of_runs[0] / same[0]
     if count > 1:
         shorter = one[0] / times["study with two jobs"][0]
         print(f"two jobs over one: {shorter:.2f} times as fast")
