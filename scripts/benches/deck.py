@@ -4,7 +4,6 @@
 It hangs between its piers, all awake, so that Bullet has all of it to solve.
 """
 
-import statistics
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -50,9 +49,9 @@ SMALLEST = 40
 FIRST_FRAMES = 3
 """In these Blender makes a new world, which is not timed."""
 
-FRAMES, ROUNDS = {200: 40, 1000: 10}, 7
-"""Frames of each number of shards: the first of a world take longer, which few short ones would be full of. The rest of
-the computer only ever adds time, so that the least of several rounds of all ways in turn is their own."""
+FRAMES, ROUNDS = {200: 15, 1000: 6}, 15
+"""Frames of each number of shards: the first of a world take longer, which few short ones would be full of. Rounds of
+all ways in turn are short, as the speed of a computer drifts that shares its memory with others."""
 
 FRAMES_OF_OTHERS = 5
 
@@ -114,9 +113,13 @@ def frame_s(scene: bpy.types.Scene, frames: int, clock: Callable[[], float] = ti
 
 
 def ratios_to_bare_step(seconds: Mapping[str, Sequence[float]]) -> dict[str, float]:
-    """Print the least time of a frame in each way, and return by ways how much longer it is than the bare step's."""
-    bare = min(seconds["bare step"])
+    """Print how much longer a frame takes in each way than the bare step of the same round, and return the medians."""
+    bare, found = np.array(seconds["bare step"]), {}
     for way, times in seconds.items():
-        spread = statistics.median(times) / min(times) - 1.0
-        print(f"  {way:35} {1e3 * min(times):8.1f} ms a frame  {min(times) / bare:5.2f}  (spread {spread:.0%})")
-    return {way: min(times) / bare for way, times in seconds.items() if way != "bare step"}
+        low, middle, high = np.quantile(np.array(times) / bare, (0.25, 0.5, 0.75))
+        print(
+            f"  {way:35} {1e3 * np.median(times):8.1f} ms a frame  {middle:5.2f}  (half of all {low:.2f} to {high:.2f})"
+        )
+        if way != "bare step":
+            found[way] = float(middle)
+    return found

@@ -41,7 +41,7 @@ WAYS = ("bare step", "rigid", "elastic", "elastic, again in every sub-step")
 
 
 def main(smallest: bool) -> dict[str, float]:
-    """Build the deck in each number of shards, play it every way in turn, print the least times, and return ratios."""
+    """Build the deck in each number of shards, play it every way in turn, print and return ratios."""
     ratios = {}
     for shards in (SMALLEST,) if smallest else SIZES:
         scenario = deck(shards, connections=SETTINGS)

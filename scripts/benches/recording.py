@@ -6,7 +6,6 @@ part of recording each, in the order in which they add up: Bullet writes the loa
 sub-steps, and what it holds is copied after each.
 """
 
-import statistics
 import tempfile
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, nullcontext
@@ -14,7 +13,16 @@ from pathlib import Path
 
 import bpy
 import numpy as np
-from benches.deck import SMALLEST, build_scene, deck, frame_s, frames_and_rounds, make_world, recorded
+from benches.deck import (
+    SMALLEST,
+    build_scene,
+    deck,
+    frame_s,
+    frames_and_rounds,
+    make_world,
+    ratios_to_bare_step,
+    recorded,
+)
 from benches.way_of_2019 import forces_and_colours
 
 from bridge_demolition_addon.bullet.snapshots import SnapshotTaker
@@ -28,7 +36,7 @@ SIZES = (200, 1000)
 
 
 def main(smallest: bool) -> dict[str, float]:
-    """Build the deck in each number of shards, play it every way in turn, print the least times, and return ratios."""
+    """Build the deck in each number of shards, play it every way in turn, print and return ratios."""
     ratios = {}
     for shards in (SMALLEST,) if smallest else SIZES:
         ratios |= {f"{name}, {shards} shards": ratio for name, ratio in measured(shards).items()}
@@ -36,7 +44,7 @@ def main(smallest: bool) -> dict[str, float]:
 
 
 def measured(shards: int) -> dict[str, float]:
-    """Build the deck in so many shards, play it every way in turn, print the least times, and return ratios."""
+    """Build the deck in so many shards, play it every way in turn, print and return ratios."""
     scene = build_scene(deck(shards))
     frames, rounds = frames_and_rounds(shards)
     world = scene.rigidbody_world
@@ -54,7 +62,9 @@ def measured(shards: int) -> dict[str, float]:
             "way of 2019": lambda: forces_and_colours(folder / "forces.log"),
         }
         seconds: dict[str, list[float]] = {name: [] for name in ways}
-        own: dict[str, list[np.ndarray]] = {"every sub-step": [], "last sub-step": []}
+        own: dict[str, list[np.ndarray]] = {
+            name: [] for name in ("every sub-step", "last sub-step", "every, in a window")
+        }
         for _ in range(rounds):
             for name, way in ways.items():
                 with way() as recording:
@@ -63,9 +73,9 @@ def measured(shards: int) -> dict[str, float]:
                     seconds[name].append(frame_s(scene, frames))
                     if recording:
                         own[name].append((_own_seconds(recording) - before) / frames)
-    _print_table(seconds, own)
-    bare = min(seconds["bare step"])
-    return {f"{name} over bare step": min(seconds[name]) / bare for name in (*own, "every, in a window", "way of 2019")}
+    ratios = ratios_to_bare_step(seconds)
+    _print_own(seconds, own)
+    return {f"{name} over bare step": ratios[name] for name in (*own, "way of 2019")}
 
 
 @contextmanager
@@ -89,21 +99,8 @@ def _own_seconds(recording: Recording) -> np.ndarray:
     return np.array([recording.seconds, recording.reading_seconds])
 
 
-def _print_table(seconds: dict[str, list[float]], own: dict[str, list[np.ndarray]]) -> None:
-    """The whole frame, what our own code takes in it and in sub-steps, all against the bare step: least of all rounds.
-
-    The spread is by how much the median and the most of them are longer.
-    """
-    bare = min(seconds["bare step"])
-    print(
-        f"{'least of all rounds':>20}{'ms a frame':>12}{'median, most':>16}{'over bare step':>16}"
-        f"{'ours, ms':>10}{'of bare step':>14}{'in sub-steps':>14}"
-    )
-    for name, times in seconds.items():
-        frame = min(times)
-        spread = f"{statistics.median(times) / frame - 1.0:+.0%}, {max(times) / frame - 1.0:+.0%}"
-        line = f"{name:>20}{1e3 * frame:>12.1f}{spread:>16}{frame / bare - 1.0:>16.1%}"
-        if name in own:
-            ours, reading = np.min(own[name], axis=0)
-            line += f"{1e3 * ours:>10.1f}{ours / bare:>14.1%}{reading / bare:>14.1%}"
-        print(line)
+def _print_own(seconds: dict[str, list[float]], own: dict[str, list[np.ndarray]]) -> None:
+    """What our own code takes of the bare step in the same rounds, and the part of it in sub-steps: medians."""
+    for name, times in own.items():
+        ours, reading = np.median(np.array(times) / np.array(seconds["bare step"])[:, None], axis=0)
+        print(f"  our own code, {name}: {ours:.1%} of the bare step, in sub-steps {reading:.1%}")

@@ -34,7 +34,7 @@ WAYS = {
 
 
 def main(smallest: bool) -> dict[str, float]:
-    """Build the deck in each number of shards, play it every way in turn, print the least times, and return ratios."""
+    """Build the deck in each number of shards, play it every way in turn, print and return ratios."""
     ratios = {}
     for shards in (SMALLEST,) if smallest else SIZES:
         scene = build_scene(deck(shards, connections=SETTINGS))

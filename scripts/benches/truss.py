@@ -28,7 +28,7 @@ WAYS = ("bare step", "truss at rest", "truss, again in every sub-step")
 
 
 def main(smallest: bool) -> dict[str, float]:
-    """Build the truss, play it every way in turn, print the least times, and return ratios."""
+    """Build the truss, play it every way in turn, print and return ratios."""
     scenario = truss(1, 2) if smallest else truss(SPANS, PIECES)
     model = build_model(scenario)
     bpy.ops.wm.read_factory_settings(use_empty=True)
