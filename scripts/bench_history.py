@@ -23,7 +23,8 @@ ROOT = Path(__file__).resolve().parent.parent
 TABLE, PICTURE = ROOT / "docs" / "data" / "bench.csv", ROOT / "docs" / "pictures" / "bench_history.png"
 COLUMNS = ("commit", "date", "processor", "python", "load", "bench", "ratio", "value")
 SEEN = 1.05
-"""Growth that is named: what a ratio scatters by on an idle machine is less."""
+"""Growth that is named. Where a computer shares its memory with others, ratios scatter by more: run a bench again
+before you look for a change."""
 
 
 def keep(found: Mapping[str, Mapping[str, float]], table: Path = TABLE, picture: Path = PICTURE) -> None:

@@ -12,7 +12,7 @@ from ..geometry.rotations import carried_axes, carried_points
 from ..geometry.vectors import by_component, length, product
 from .compiled_mechanics import overload_loops
 from .forces import moments_at
-from .packed_faces import CARRIED, packed
+from .packed_faces import CARRIED, pack
 from .section_cuts import ConnectionLoads
 from .section_forces import SectionForces, section_forces
 
@@ -34,7 +34,7 @@ class CarriedSections:
     @cached_property
     def packed(self) -> np.ndarray:
         """All of it (m,), as compiled loops take it."""
-        return packed(CARRIED, body=self.bodies, sign=self.signs, point=self.points_m, axes=self.axes)
+        return pack(CARRIED, body=self.bodies, sign=self.signs, point=self.points_m, axes=self.axes)
 
     def forces(
         self, rows: IntArray, loads: FloatArray, positions_m: FloatArray, rotations: FloatArray

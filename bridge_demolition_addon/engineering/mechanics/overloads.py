@@ -12,7 +12,7 @@ from ..geometry.vectors import length
 from .carried_sections import CarriedSections
 from .compiled_mechanics import overload_loops
 from .member_sections import MemberSections
-from .packed_faces import CUT_THROUGH, RESISTING, packed
+from .packed_faces import CUT_THROUGH, RESISTING, pack
 from .section_cuts import ConnectedFaces, ConnectionLoads, SectionCuts, worst_around
 from .section_forces import SectionForces
 from .strength import (
@@ -69,7 +69,7 @@ class Overloads:
         self._resisting = resisting, everywhere, np.zeros(0) if friction is None else friction
         self._packed_cuts = (
             cuts.starts,
-            packed(CUT_THROUGH, face=cuts.faces, sign=cuts.signs, cosine=cuts.cosines),
+            pack(CUT_THROUGH, face=cuts.faces, sign=cuts.signs, cosine=cuts.cosines),
         )
 
     def breaking(
@@ -232,7 +232,7 @@ def _packed(faces: ConnectedFaces, sections: Sections, strength: Strength) -> np
     """Faces, sections and strengths (m,) as compiled loops take them."""
     count, second = len(faces.pairs), faces.second_moments_m4
     strengths = [np.broadcast_to(np.asarray(getattr(strength, item.name), float), count) for item in fields(strength)]
-    return packed(
+    return pack(
         RESISTING,
         area=faces.areas_m2,
         second=np.stack((second[:, 0, 0], second[:, 0, 1], second[:, 1, 1]), axis=1),

@@ -41,7 +41,7 @@ CUT_THROUGH = np.dtype([("face", np.int64), ("sign", float), ("cosine", float)])
 """One face of a cut."""
 
 
-def packed(kind: np.dtype[Any], **values: FloatArray | IntArray) -> np.ndarray:
+def pack(kind: np.dtype[Any], **values: FloatArray | IntArray) -> np.ndarray:
     """Return records (m,) that begin at cache lines, by values (m, ...) of their fields."""
     count = len(next(iter(values.values())))
     room = np.zeros(count * kind.itemsize + _CACHE_LINE, np.uint8)
