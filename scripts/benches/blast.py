@@ -7,14 +7,16 @@ slow motion, or none, which is what every other frame of a run costs.
 """
 
 import tempfile
+from collections.abc import Callable
 from contextlib import nullcontext
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from unittest.mock import patch
 
 import bpy
 import numpy as np
-from benches.deck import SMALLEST, build_scene, deck, frame_seconds, make_world, recorded
+from benches.deck import SMALLEST, build_scene, deck, frame_seconds, make_world, ratios_to_bare_step, recorded
 from benches.way_of_2019 import blast_by_fields
 
 from bridge_demolition_addon.model.blast.charges import Charge
@@ -25,8 +27,8 @@ from bridge_demolition_addon.scene.blast.charges import create_charges, keep_bla
 from bridge_demolition_addon.scene.blast.force_fields import build_force_objects
 from bridge_demolition_addon.scene.bodies import bodies_of
 
-FRAMES = 5
-"""Of each kind."""
+FRAMES, ROUNDS = 5, 5
+"""Of each way."""
 
 SIZES = (250, 500, 1000, 2000)
 WAY_OF_2019_UP_TO = 500
@@ -61,26 +63,34 @@ class SteadyLoads(Explosion):
 
 
 def main(smallest: bool) -> dict[str, float]:
-    """Print the time of a frame for each number of shards, and return its ratios to the bare step."""
+    """Play every way in turn for each number of shards, print and return ratios to the bare step."""
     ratios = {}
-    print(f"{'shards':>7}{'frame':>24}{'ms':>10}{'of bare step':>14}")
     for shards in (SMALLEST,) if smallest else SIZES:
-        bare = _show(shards, "bare step", _seconds(shards))
-        _show(shards, "motion recorded", _seconds(shards, record=True), bare)
-        for apply in Apply:
-            for name, every in LOADED.items():
-                seconds = _show(shards, f"{apply.value}, {name}", _with_blast(shards, apply, every), bare)
-                ratios[f"{apply.value}, {name}, over bare step, {shards} shards"] = seconds / bare
-        if shards <= WAY_OF_2019_UP_TO:
-            scene = build_scene(deck(shards))
-            with blast_by_fields(scene, np.array(CHARGES[0].place_m)):
-                _show(shards, "way of 2019", _least(scene), bare)
+        seconds: dict[str, list[float]] = {}
+        for _ in range(1 if smallest else ROUNDS):
+            for name, way in _ways(shards).items():
+                seconds.setdefault(name, []).append(way())
+        print(f"{shards} shards")
+        for name, ratio in ratios_to_bare_step(seconds).items():
+            ratios[f"{name}, over bare step, {shards} shards"] = ratio
     return ratios
 
 
-def _show(shards: int, name: str, seconds: float, bare: float | None = None) -> float:
-    print(f"{shards:>7}{name:>24}{1e3 * seconds:>10.1f}{seconds / (bare or seconds):>14.2f}", flush=True)
-    return seconds
+def _ways(shards: int) -> dict[str, Callable[[], float]]:
+    """Ways to play the deck, by what they are: each builds it, and returns the seconds of a frame."""
+    ways = {"bare step": partial(_seconds, shards), "motion recorded": partial(_seconds, shards, record=True)}
+    for apply in Apply:
+        for name, every in LOADED.items():
+            ways[f"{apply.value}, {name}"] = partial(_with_blast, shards, apply, every)
+    if shards <= WAY_OF_2019_UP_TO:
+        ways["way of 2019"] = partial(_in_the_way_of_2019, shards)
+    return ways
+
+
+def _in_the_way_of_2019(shards: int) -> float:
+    scene = build_scene(deck(shards))
+    with blast_by_fields(scene, np.array(CHARGES[0].place_m)):
+        return _least(scene)
 
 
 def _with_blast(shards: int, apply: Apply, every: int) -> float:
