@@ -13,6 +13,8 @@ from bridge_demolition_addon.display.dressing import DrawnPart, Stuff
 from bridge_demolition_addon.display.standing_room import StandingRoom, boxes_around
 from bridge_demolition_addon.engineering.geometry.solids import box, to_manifold
 
+pytestmark = pytest.mark.slow
+
 DEBRIS_M = np.array((4.0, 21.0, 0.5))
 """Where a piece comes to lie in the end: where the crane would stand otherwise."""
 

@@ -14,6 +14,8 @@ from bridge_demolition_addon.model.foundations import Foundation
 from bridge_demolition_addon.model.scenario import Scenario
 from bridge_demolition_addon.model.scenario.file import scenario_from_text
 
+pytestmark = pytest.mark.slow
+
 MASS_KG = 20_000.0
 SIDE_M = 2.0
 STIFFNESS_N_M3 = 2e8

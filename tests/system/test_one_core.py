@@ -11,6 +11,8 @@ import pytest
 from bridge_demolition_addon.system.one_core import on_one_core
 from bridge_demolition_addon.system.programs import program_command
 
+pytestmark = pytest.mark.slow
+
 COUNT_THREADS = """
 import os, bpy
 print(len(os.listdir("/proc/self/task")), len(os.sched_getaffinity(0)), flush=True)

@@ -28,6 +28,8 @@ from bridge_demolition_addon.engineering.drilled_charges.fragments import (
     size_of_share_m,
 )
 
+pytestmark = pytest.mark.slow
+
 G = 9.80665
 DIAGONAL = np.array([1.0, 0.0, 1.0]) / np.sqrt(2.0)
 

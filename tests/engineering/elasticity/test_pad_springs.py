@@ -12,6 +12,8 @@ from bridge_demolition_addon.engineering.elasticity.equilibrium import equilibri
 from bridge_demolition_addon.engineering.elasticity.joint_rows import JointFrames
 from bridge_demolition_addon.engineering.elasticity.structure import ElasticStructure, StepInput
 
+pytestmark = pytest.mark.slow
+
 VERTICAL_N_M, SIDEWAYS_N_M = 4e8, 1e8
 SUBSTEP_S = 0.001
 PLACES_M = np.array([[-0.5, -0.5, 1.0], [0.5, -0.5, 1.0], [-0.5, 0.5, 1.0], [0.5, 0.5, 1.0]])

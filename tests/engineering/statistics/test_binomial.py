@@ -10,6 +10,8 @@ from scipy.stats import beta, binom
 
 from bridge_demolition_addon.engineering.statistics.binomial import binomial_cdf, binomial_cdf_inverse
 
+pytestmark = pytest.mark.slow
+
 RANDOM = np.random.default_rng(1)
 
 

@@ -10,6 +10,8 @@ from scipy.stats import t as student
 
 from bridge_demolition_addon.engineering.statistics.ranks import correlation_by_chance, rank_correlation, ranks_of
 
+pytestmark = pytest.mark.slow
+
 RANDOM = np.random.default_rng(6)
 
 

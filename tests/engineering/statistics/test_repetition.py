@@ -10,6 +10,8 @@ from scipy.stats import nhypergeom
 from bridge_demolition_addon.engineering.statistics.order_limits import nth_largest
 from bridge_demolition_addon.engineering.statistics.repetition import chances_above, repeated_limit
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.mark.parametrize("runs, rank", [(1, 1), (3, 1), (4, 2), (5, 5)])
 def test_chances_are_shares_of_all_orders(runs, rank):

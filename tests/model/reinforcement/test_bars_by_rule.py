@@ -30,6 +30,8 @@ from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.structure.face_bars import layers_of_members
 from bridge_demolition_addon.model.structure.model import build_model
 
+pytestmark = pytest.mark.slow
+
 F_CD, F_YD = 35e6 / 1.5, 500e6 / 1.15
 G = 2.4 * STANDARD_GRAVITY_M_S2  # kN/m³
 

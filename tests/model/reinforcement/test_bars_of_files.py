@@ -17,6 +17,8 @@ from bridge_demolition_addon.model.reinforcement.facts import schedule_facts
 from bridge_demolition_addon.model.scenario import BarLayer, ConnectionBetween, ConnectionSettings
 from bridge_demolition_addon.model.structure.model import build_model
 
+pytestmark = pytest.mark.slow
+
 F_YD = 500.0 / 1.15
 WEIGHT = 2400.0 * STANDARD_GRAVITY_M_S2 / 1000.0  # kN/m³
 

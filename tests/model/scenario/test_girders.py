@@ -11,6 +11,8 @@ from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.bridge.steelwork import steelwork_members
 from bridge_demolition_addon.model.scenario import GirderSpan, Steelwork
 
+pytestmark = pytest.mark.slow
+
 MAIN, OVER = "PG 1200x12x300x25x400x30", "PG 1200x14x400x40x500x50"
 
 

@@ -18,6 +18,8 @@ from bridge_demolition_addon.model.scenario.file import scenario_from_text, scen
 from bridge_demolition_addon.model.structure.connection_rules import rules_of_pairs
 from bridge_demolition_addon.model.structure.model import build_model
 
+pytestmark = pytest.mark.slow
+
 SCENARIO = replace(
     I235,
     fracture=replace(I235.fracture, shards=60),

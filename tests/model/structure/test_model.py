@@ -14,6 +14,8 @@ from bridge_demolition_addon.model.scenario import ConnectionSettings
 from bridge_demolition_addon.model.structure.members import shards_per_member
 from bridge_demolition_addon.model.structure.model import build_model
 
+pytestmark = pytest.mark.slow
+
 # Members by hand, m³: the deck, one pier cap, one column; 44.794 m³ together.
 DECK, CAP, COLUMN = 14 * 8.5 * 0.25, 0.8 * 8.5 * 0.4, 0.7 * 0.7 * 4.9
 VOLUMES = [DECK, CAP, COLUMN, COLUMN, CAP, COLUMN, COLUMN]

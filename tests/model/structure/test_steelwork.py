@@ -33,6 +33,8 @@ from bridge_demolition_addon.model.structure.facts import connection_facts
 from bridge_demolition_addon.model.structure.model import build_model
 from bridge_demolition_addon.model.structure.steel_bars import bar_uses
 
+pytestmark = pytest.mark.slow
+
 YOUNG_PA, SHEAR_PA = 210e9, 210e9 / 2.6
 
 LOAD_KG = 1000.0

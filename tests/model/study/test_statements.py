@@ -27,6 +27,8 @@ from bridge_demolition_addon.report.wording.study import (
     verified_sentence,
 )
 
+pytestmark = pytest.mark.slow
+
 REACHES_M = np.random.default_rng(1).permutation(np.arange(93) / 4.0 + 0.01)
 """From 0.01 m to 23.01 m; the second largest is 22.76 m."""
 

@@ -17,6 +17,8 @@ from bridge_demolition_addon.model.scenario import Geometry, Ground, GroundSurfa
 from bridge_demolition_addon.model.structure.model import build_model
 from bridge_demolition_addon.model.terrain.built import built_ground
 
+pytestmark = pytest.mark.slow
+
 ORIGIN = (EASTING + 150.0, NORTHING + 150.0, HEIGHT + 37.5)
 """The plane is at height 0 there: 0.2 × 150 + 0.05 × 150 = 37.5."""
 
