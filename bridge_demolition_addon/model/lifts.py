@@ -152,14 +152,6 @@ def sling_of(lift: Lift, number: int, point_m: Point, hook_m: Point, force_n: fl
     )
 
 
-def check_lift_names(lifts: Sequence[Lift]) -> None:
-    """Check that each lift has a name of its own."""
-    names = [lift.name for lift in lifts]
-    for number, name in enumerate(names):
-        if name in names[:number]:
-            raise ScenarioError(f"lifts.name is {shown(name)} twice: expected a name of its own for each lift")
-
-
 def radius_m(lift: Lift, hook_m: Sequence[float]) -> float | None:
     """Return the distance on plan of the hook from where the crane turns; None where that is not given."""
     return None if lift.crane_m is None else math.dist(lift.crane_m, hook_m[:2])

@@ -1,7 +1,7 @@
 """Pulls: a winch or a machine on the ground pulls a part of the bridge over by a cable, as a scenario gives them."""
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -9,7 +9,7 @@ from ..engineering.mechanics.cables import rope_stiffness_n, stored_j
 from ..errors import ScenarioError
 from .actions import Fact, HeightAt, Plan, Point, Worksite
 from .loads import Part
-from .schema import POSITION, check_exactly_one, given, key, shown
+from .schema import POSITION, check_exactly_one, given, key
 
 _SHORTEST_M = 0.5
 
@@ -137,11 +137,3 @@ class Pull(Part):
                 f"pulls.{name} is {getattr(self, name):g}: expected a cable that its force of {self.most_n / 1e3:g} kN "
                 "stretches by less than half of its length"
             )
-
-
-def check_names(pulls: Sequence[Pull]) -> None:
-    """Check that each cable has a name of its own."""
-    names = [pull.name for pull in pulls]
-    for number, name in enumerate(names):
-        if name in names[:number]:
-            raise ScenarioError(f"pulls.name is {shown(name)} twice: expected a name of its own for each cable")

@@ -7,12 +7,12 @@ messages (`expected`), the reference of all keys and the sidebar follow from thi
 import json
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import MISSING, Field, dataclass, field, fields
+from dataclasses import MISSING, Field, dataclass, field, fields, replace
 from functools import cache
 from numbers import Integral, Real
 from types import NoneType
 from typing import Any, ClassVar, TypeVar, get_args, get_origin
-from unicodedata import category
+from unicodedata import category, normalize
 
 import numpy as np
 
@@ -101,6 +101,12 @@ class Table:
     __slots__ = ()
     __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
     table: ClassVar[str]
+    named_beside: ClassVar[str] = ""
+    """Another list of tables that names are shared with: those of both are told apart by name."""
+    may_share_names: ClassVar[bool] = False
+    """Whether several tables of a list may have one name, as nothing refers to one of them by it."""
+    numbered: ClassVar[str] = ""
+    """What a table without a name is called, with its number after it."""
 
     def __post_init__(self) -> None:
         faults = Faults()
@@ -109,6 +115,7 @@ class Table:
                 value = checked(item, key_name(type(self), item), getattr(self, item.name))
                 object.__setattr__(self, item.name, value)
         faults.check()
+        settle_names(self)
         self._check_together()
 
     def _check_together(self) -> None:
@@ -117,6 +124,38 @@ class Table:
     def unexpected(self, name: str, wanted: str) -> ScenarioError:
         """Return the error of a value, with its key and what was expected in its place."""
         return ScenarioError(f"{self.table}.{name} is {shown(getattr(self, name))}: expected {wanted}")
+
+
+def settle_names(holder: Table) -> None:
+    """Call tables without a name after their number, and check that no two that are told apart by it have one."""
+    places: dict[tuple[str, str], list[str]] = {}
+    for item in fields(holder):
+        inner = subtable_class(item)
+        if inner is None or not holds_many(item) or "name" not in inner.__dataclass_fields__:
+            continue
+        if inner.numbered:
+            object.__setattr__(holder, item.name, named(getattr(holder, item.name)))
+        for number, table in enumerate(() if inner.may_share_names else getattr(holder, item.name) or (), start=1):
+            alike = normalize("NFC", " ".join(table.name.split()))
+            places.setdefault((inner.named_beside or inner.table, alike), []).append(
+                f"[[{inner.table}]] number {number}"
+            )
+    twice = {name: found for (_, name), found in places.items() if len(found) > 1}
+    if twice:
+        raise ScenarioError(
+            *(
+                f"{' and '.join(found)} have one name, {shown(name)}: expected a name of its own for each"
+                for name, found in twice.items()
+            )
+        )
+
+
+def named(tables: Sequence[_Table]) -> tuple[_Table, ...]:
+    """Return the tables of a list, where those without a name are called after their number."""
+    return tuple(
+        table if table.name else replace(table, name=f"{table.numbered} {number}")  # type: ignore[attr-defined]
+        for number, table in enumerate(tables, start=1)
+    )
 
 
 def given(value: _Value | None) -> _Value:
@@ -303,13 +342,14 @@ def shown(value: Any) -> str:
         return "a whole number of more than 64 bits"
     if isinstance(value, str):
         letters = value.encode(errors="backslashreplace").decode()  # halves of letters cannot be written
-        return json.dumps(_shortened(letters), ensure_ascii=False)
+        return json.dumps(shortened(letters), ensure_ascii=False)
     if isinstance(value, list | tuple):
         return f"a list of length {len(value)}"
     if isinstance(value, dict):
         return "a table"
-    return _shortened(" ".join(str(value).split()))
+    return shortened(" ".join(str(value).split()))
 
 
-def _shortened(text: str) -> str:
+def shortened(text: str) -> str:
+    """Return a text of the user's as a message has it: its beginning where it is long."""
     return text if len(text) <= LONGEST_SHOWN_TEXT else text[:LONGEST_SHOWN_TEXT] + "…"

@@ -22,6 +22,7 @@ from .schema import (
     key_fields,
     key_name,
     numbered_tables,
+    shortened,
     shown,
     subtable_class,
     subtable_fields,
@@ -124,7 +125,7 @@ def tables_text(root: Table, *, defaults: bool = True) -> str:
 
 def dotted(table: str, name: str) -> str:
     """Return the name of a key in a table as TOML has it, in quotation marks where it needs them."""
-    part = name if BARE_KEY.fullmatch(name) else shown(name)
+    part = name if BARE_KEY.fullmatch(name) else toml_value(name)
     return f"{table}.{part}" if table else part
 
 
@@ -191,7 +192,9 @@ def _meant(
     for name in values:
         if name not in known:
             alike = _alike(name, known)
-            faults.found.append(f"{dotted(table, name)} is unknown: {_suggestion(root, table, name, known, alike)}")
+            faults.found.append(
+                f"{dotted(table, shortened(name))} is unknown: {_suggestion(root, table, name, known, alike)}"
+            )
             if alike:
                 meant.setdefault(alike[0], values[name])
     return meant

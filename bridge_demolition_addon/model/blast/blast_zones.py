@@ -3,7 +3,7 @@
 import math
 import zlib
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import pairwise
 from typing import ClassVar
 
@@ -63,6 +63,7 @@ class BlastZone(PlannedAction):
 
     table: ClassVar[str] = "blast_zones"
     heading: ClassVar[str] = "Blast zones"
+    numbered: ClassVar[str] = "Zone"
 
     name: str | None = key("What it is called in plans; by default Zone and its number.", default=None)
     member: str = key("The member, by a name that `bda check` lists.")
@@ -261,18 +262,6 @@ class BlastZone(PlannedAction):
 def length_of_charge_m(zone: BlastZone) -> float:
     """Return the length of the charge in each hole of a zone, m."""
     return charge_length_m(zone.charge_kg, zone.hole_diameter_m, zone.made_of.density_kg_m3)
-
-
-def named_zones(zones: Sequence[BlastZone]) -> tuple[BlastZone, ...]:
-    """Return zones where those without a name are called after their number; refuse two of one name."""
-    named = tuple(
-        zone if zone.name else replace(zone, name=f"Zone {number}") for number, zone in enumerate(zones, start=1)
-    )
-    names = [zone.name for zone in named]
-    for name in names:
-        if names.count(name) > 1:
-            raise ScenarioError(f"blast_zones.name is {shown(name)} for {names.count(name)} zones: expected one each")
-    return named
 
 
 def check_zones_apart(zones: Sequence[BlastZone]) -> None:

@@ -1,15 +1,15 @@
 """Charges, and the TNT equivalents of explosives."""
 
 import math
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator
+from dataclasses import dataclass
 from typing import ClassVar
 
 from ...engineering.arithmetic import cube_root
 from ...engineering.blast.wave import Burst
 from ...errors import BlastError, ScenarioError
 from ..actions import Fact, Plan, PlannedAction, Worksite
-from ..schema import given, key, shown
+from ..schema import given, key
 
 SWISDAK = "air blast; Swisdak, NSWC/WOL/TR 75-116 (1975), as in TM 5-855-1 and UFC 3-340-02"
 SWISDAK_PRESSURE = "air blast, pressure only; Swisdak, NSWC/WOL/TR 75-116 (1975), as in TM 5-855-1 and UFC 3-340-02"
@@ -73,6 +73,7 @@ class Charge(PlannedAction):
 
     table: ClassVar[str] = "charges"
     heading: ClassVar[str] = "Charges"
+    numbered: ClassVar[str] = "Charge"
 
     name: str | None = key("What it is called in the logs; by default Charge and its number.", default=None)
     place_m: tuple[float, float, float] = key("Position: along the road, across it, and above the ground.", unit="m")
@@ -128,16 +129,3 @@ class Charge(PlannedAction):
                 f"{self.name} detonates at {detonation_s:g} s (blast.start_s and its charges.delay_ms): "
                 f"expected less than time.duration_s, {plan.time.duration_s:g} (s)"
             )
-
-
-def named_charges(charges: Sequence[Charge]) -> tuple[Charge, ...]:
-    """Return charges where those without a name are called after their number; refuse two of one name."""
-    named = tuple(
-        charge if charge.name else replace(charge, name=f"Charge {number}")
-        for number, charge in enumerate(charges, start=1)
-    )
-    names = [charge.name for charge in named]
-    for name in names:
-        if names.count(name) > 1:
-            raise ScenarioError(f"charges.name is {shown(name)} for {names.count(name)} charges: expected one each")
-    return named

@@ -2,11 +2,10 @@
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import ClassVar
 
 from ...engineering.geometry.sides import AXES
-from ...errors import ScenarioError
 from ..actions import CutPlane, Fact, Plan, PlannedAction, Worksite
 from ..schema import POSITION, SHARE, key, shown
 from .blast_zones import DETONATORS, NO_SCATTER, BlastZone, check_fires_within, scattered_time_s
@@ -22,6 +21,8 @@ class MemberCut(PlannedAction):
 
     table: ClassVar[str] = "cuts"
     heading: ClassVar[str] = "Severed members"
+    numbered: ClassVar[str] = "Cut"
+    named_beside: ClassVar[str] = BlastZone.table
 
     name: str | None = key("What it is called in plans; by default Cut and its number.", default=None)
     member: str = key("The member, by a name that `bda check` lists.")
@@ -81,18 +82,10 @@ class MemberCut(PlannedAction):
         site.check_cut(self)
 
 
-def named_cuts(cuts: Sequence[MemberCut], zones: Sequence[BlastZone]) -> tuple[MemberCut, ...]:
-    """Return cuts where those without a name are called after their number.
-
-    Refuse names that are taken, and cuts within a blast zone or across another axis than the zones of their member.
-    """
-    named = tuple(cut if cut.name else replace(cut, name=f"Cut {number}") for number, cut in enumerate(cuts, start=1))
-    taken = [zone.name for zone in zones]
-    for cut in named:
-        if cut.name in taken:
-            raise ScenarioError(f"cuts.name is {shown(cut.name)} twice: expected a name of its own for each")
-        taken.append(cut.name)
-        others: list[BlastZone | MemberCut] = [*zones, *named]
+def check_cuts(cuts: Sequence[MemberCut], zones: Sequence[BlastZone]) -> None:
+    """Refuse cuts within a blast zone or across another axis than the zones and cuts of their member."""
+    others: list[BlastZone | MemberCut] = [*zones, *cuts]
+    for cut in cuts:
         for other in others:
             if other.member != cut.member:
                 continue
@@ -100,4 +93,3 @@ def named_cuts(cuts: Sequence[MemberCut], zones: Sequence[BlastZone]) -> tuple[M
                 raise cut.unexpected("along", f'"{other.along}" as {shown(other.name)} of {cut.member} has')
             if isinstance(other, BlastZone) and other.ends_along_m[0] < cut.position_m < other.ends_along_m[1]:
                 raise cut.unexpected("position_m", f"a position outside {shown(other.name)}, a zone of that member")
-    return named

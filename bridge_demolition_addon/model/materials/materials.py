@@ -57,12 +57,10 @@ class Material(Table):
 
 
 def check_materials(materials: Iterable[Material]) -> None:
-    """Check that materials differ by name from each other and from those that are known."""
-    names = list(MATERIALS)
+    """Check that materials differ by name from those that are known."""
     for material in materials:
-        if material.name in names:
+        if material.name in MATERIALS:
             raise material.unexpected("name", "a name that no other material has")
-        names.append(material.name)
 
 
 def strengths(materials: Iterable[Material]) -> Mapping[str, Strength]:

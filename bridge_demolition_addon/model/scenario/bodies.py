@@ -126,12 +126,6 @@ class Ground(BodyInContact):
     def _check_together(self) -> None:
         if self.origin is not None and len(self.origin) != _AXES:
             raise self.unexpected("origin", "3 numbers: easting, northing and height")
-        names = [surface.name for surface in self.surfaces]
-        for name in names:
-            if names.count(name) > 1:
-                raise ScenarioError(
-                    f'ground.surfaces.name is "{name}" for {names.count(name)} surfaces: expected one each'
-                )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -177,6 +171,7 @@ class Equipment(Table):
     a run does not have it."""
 
     table: ClassVar[str] = "equipment"
+    may_share_names: ClassVar[bool] = True  # a machine may stand at several places, one after the other
 
     name: str = key("What it is called.")
     mass_kg: float = key("Mass: a crawler excavator has 20 000 to 40 000 kg.", unit="kg", above=0)

@@ -22,6 +22,7 @@ class Geometry(Table):
     where not. Files of the same name become one solid; what a member has in common with those before it is cut off."""
 
     table: ClassVar[str] = "geometry"
+    may_share_names: ClassVar[bool] = True  # its files become one solid
 
     name: str = key("Name of the member.")
     file: str = key("Path of the file, from the scenario file's folder.")

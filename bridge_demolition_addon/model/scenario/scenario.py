@@ -11,18 +11,18 @@ from ...engineering.mechanics.joint import Joint
 from ...engineering.timing.timeline import Timeline
 from ...errors import Faults, ScenarioError
 from ..actions import PlannedAction
-from ..blast.blast_zones import BlastZone, check_zones_apart, named_zones
-from ..blast.charges import Charge, named_charges
-from ..blast.cuts import MemberCut, named_cuts
+from ..blast.blast_zones import BlastZone, check_zones_apart
+from ..blast.charges import Charge
+from ..blast.cuts import MemberCut, check_cuts
 from ..blast.settings import BlastSettings
 from ..foundations import Foundation
 from ..ground_motion.settings import GroundMotion
 from ..ground_motion.sources import ground_record
-from ..lifts import Lift, check_lift_names
+from ..lifts import Lift
 from ..loads import Load
 from ..materials.bar_layers import BarLayer
 from ..materials.materials import Material, check_materials
-from ..pulls import Pull, check_names
+from ..pulls import Pull
 from ..schema import (
     LARGEST_INTEGER,
     ROUNDING,
@@ -214,10 +214,8 @@ class Scenario(Table):
 
     def _check_together(self) -> None:
         self._settle_contacts()
-        object.__setattr__(self, "charges", named_charges(self.charges))
-        object.__setattr__(self, "blast_zones", named_zones(self.blast_zones))
         check_zones_apart(self.blast_zones)
-        object.__setattr__(self, "cuts", named_cuts(self.cuts, self.blast_zones))
+        check_cuts(self.cuts, self.blast_zones)
         self._check_slow_motion()
         object.__setattr__(self, "connections", self.connections.with_strength(self.fracture.shards))
         object.__setattr__(self, "connections", self.connections.with_stiffness(self.materials))
@@ -226,8 +224,6 @@ class Scenario(Table):
         check_materials(self.materials)
         self._check_reinforcement()
         check_tendons(self.tendons, self.tendon_cuts, self.connections)
-        check_names(self.pulls)
-        check_lift_names(self.lifts)
         if not self.connections.is_elastic:
             for table in self.bearings:
                 table.check_rigid()

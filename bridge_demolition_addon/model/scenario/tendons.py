@@ -126,15 +126,12 @@ class Tendon(Table):
 
 
 def check_tendons(tendons: Sequence[Tendon], cuts: Sequence[TendonCut], connections: ConnectionSettings) -> None:
-    """Check that each tendon has a name of its own, cuts name tendons, and connections can be pressed."""
+    """Check that cuts name tendons, and connections can be pressed."""
     if not tendons:
         if cuts:
             raise ScenarioError("tendon_cuts is given: expected none without [[tendons]]")
         return
     known = [tendon.name for tendon in tendons]
-    for number, name in enumerate(known):
-        if name in known[:number]:
-            raise ScenarioError(f"tendons.name is {shown(name)} twice: expected a name of its own for each tendon")
     if connections.material is None:
         raise ScenarioError("connections.material is missing: expected it with [[tendons]]")
     if not connections.is_elastic:

@@ -130,12 +130,9 @@ class Criterion(Table):
 
 
 def check_criteria(criteria: tuple[Criterion, ...], scenario: Scenario) -> None:
-    """Check that criteria differ by name, and fit the scenario."""
-    names = [criterion.name for criterion in criteria]
+    """Check that criteria fit the scenario."""
     for number, criterion in enumerate(criteria, start=1):
         try:
-            if names.count(criterion.name) > 1:
-                raise criterion.unexpected("name", "another name for each")
             criterion.check_against(scenario)
         except ScenarioError as error:
             raise ScenarioError(f"[[{Criterion.table}]] number {number}: {error}") from error

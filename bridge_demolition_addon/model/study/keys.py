@@ -13,7 +13,7 @@ from ...errors import ScenarioError
 from ..scenario import Scenario
 from ..scenario.contacts import BodyInContact
 from ..schema import Table, holds_many, key_name, key_of, shown, subtable_class, value_type
-from ..toml_tables import BARE_KEY
+from ..toml_tables import dotted
 
 _LEAF = "the key itself"
 
@@ -111,7 +111,7 @@ def _keys(table: Table, name: str, parts: list[str], before: str, steps: tuple) 
     if first not in known:
         raise ScenarioError(f"{name} is unknown: expected one of {', '.join(known)} after {table.table}")
     item, value = _field(type(table), first), _value_of(table, first)
-    so_far, way = _dotted(before, first), (*steps, first)
+    so_far, way = dotted(before, first), (*steps, first)
     if subtable_class(item) is None:
         yield from _values(item, value, name, rest, so_far, way)
     elif holds_many(item):
@@ -149,7 +149,7 @@ def _in_list(tables: tuple[Table, ...], name: str, parts: list[str], before: str
         raise ScenarioError(f"{name} is a table: expected a key of it, such as {name}.{_first_key(tables)}")
     for index in chosen:
         label = names[index] if names.count(names[index]) == 1 else str(index + 1)
-        yield from _keys(tables[index], name, rest, _dotted(before, label), (*steps, index))
+        yield from _keys(tables[index], name, rest, dotted(before, label), (*steps, index))
 
 
 def _values(item: Field, value: Any, name: str, parts: list[str], before: str, steps: tuple) -> Iterator[ScenarioKey]:
@@ -173,11 +173,6 @@ def _name_of(table: Table) -> str | None:
 
 def _first_key(tables: tuple[Table, ...]) -> str:
     return fields(tables[0])[0].name
-
-
-def _dotted(before: str, part: str) -> str:
-    written = part if BARE_KEY.fullmatch(part) else json.dumps(part, ensure_ascii=False)
-    return f"{before}.{written}" if before else written
 
 
 def _changed(value: Any, changes: Mapping[tuple, Any]) -> Any:

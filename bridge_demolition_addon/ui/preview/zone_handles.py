@@ -9,10 +9,11 @@ from typing import Any
 import bpy
 
 from ...errors import GeometryError, ScenarioError
-from ...model.blast.blast_zones import BlastZone, named_zones
+from ...model.blast.blast_zones import BlastZone
 from ...model.bridge.member import Member
 from ...model.bridge.preparation import prepared_members
 from ...model.scenario import Scenario
+from ...model.schema import named
 from ...model.structure.blast_zones import PlacedZone, placed_zone
 from ..scenario.prop import INDEX, shown_tables
 from ..scenario.values import inner_of, scenario_of
@@ -40,7 +41,7 @@ def zones_shown(settings: bpy.types.PropertyGroup) -> list[PlacedZone | None]:
     group = settings.scenario
     if not len(group.blast_zones):
         return []
-    zones = named_zones(inner_of(group, _FIELDS[BlastZone.table]))
+    zones = named(inner_of(group, _FIELDS[BlastZone.table]))
     members = _members(settings)
     if _kept.get("zones") != zones or _kept.get("placed_in") is not members:
         _kept["placed"] = [_placed(zone, members) for zone in zones]

@@ -6,7 +6,8 @@ import pytest
 
 from bridge_demolition_addon.engineering.blast.wave import Burst
 from bridge_demolition_addon.errors import BlastError, ScenarioError
-from bridge_demolition_addon.model.blast.charges import EXPLOSIVES, Charge, explosive_named, named_charges
+from bridge_demolition_addon.model.blast.charges import EXPLOSIVES, Charge, explosive_named
+from bridge_demolition_addon.model.schema import named
 
 
 def charge(**changes):
@@ -55,9 +56,9 @@ def test_values_are_kept_as_what_they_are():
 
 
 def test_charges_without_a_name_are_called_after_their_number():
-    named = named_charges([charge(), charge(name=None), charge(name="last")])
-    assert [charge.name for charge in named] == ["mid pier", "Charge 2", "last"]
-    assert named_charges(named) == named
+    called = named([charge(), charge(name=None), charge(name="last")])
+    assert [charge.name for charge in called] == ["mid pier", "Charge 2", "last"]
+    assert named(called) == called
 
 
 @pytest.mark.parametrize(

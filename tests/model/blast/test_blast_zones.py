@@ -64,7 +64,7 @@ def test_names_are_their_own():
     unnamed = replace(ZONE, name=None)
     names = [zone.name for zone in replace(I235, blast_zones=(unnamed, replace(unnamed, member="b"))).blast_zones]
     assert names == ["Zone 1", "Zone 2"]
-    with pytest.raises(ScenarioError, match=r'blast_zones\.name is "zone" for 2 zones: expected one each'):
+    with pytest.raises(ScenarioError, match=r'number 1 and \[\[blast_zones\]\] number 2 have one name, "zone"'):
         replace(I235, blast_zones=(ZONE, replace(ZONE, member="b")))
 
 

@@ -60,7 +60,7 @@ def test_cuts_beside_their_member_are_refused(tmp_path, values, text):
 @pytest.mark.parametrize(
     ("values", "text"),
     [
-        ({"name": "zone"}, 'cuts.name is "zone" twice'),
+        ({"name": "zone"}, r'blast_zones\]\] number 1 and \[\[cuts\]\] number 1 have one name, "zone"'),
         ({"along": "x"}, 'along is "x": expected "z" as "zone" of column has'),
         ({"position_m": 1.5}, 'position_m is 1.5: expected a position outside "zone"'),
         ({"delay_ms": 5000.0}, "Cut 1 fires at 5.3 s"),

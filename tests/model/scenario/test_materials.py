@@ -94,7 +94,7 @@ def test_materials_are_written_and_read_without_loss():
         ),
         (
             {"materials": (LIKE_CONCRETE, LIKE_CONCRETE)},
-            'materials.name is "cores of 2026": expected a name that no other material has',
+            '[[materials]] number 1 and [[materials]] number 2 have one name, "cores of 2026": expected a name',
         ),
         (
             {"materials": (LIKE_CONCRETE, replace(LIKE_CONCRETE, name="steel"))},

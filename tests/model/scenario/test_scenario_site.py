@@ -63,7 +63,7 @@ def test_a_zone_has_a_height():
 
 
 def test_a_file_names_the_zone_that_is_wrong():
-    text = scenario_text(replace(I235, zones=(Zone(name="A", corners_m=SQUARE),) * 2))
+    text = scenario_text(replace(I235, zones=[Zone(name=name, corners_m=SQUARE) for name in "AB"]))
     wrong = 'kind = "railroad"'.join(text.rsplit('kind = "other"', 1))
     with pytest.raises(
         ScenarioError, match=r'\[\[zones\]\] number 2: zones.kind is "railroad": expected one of "road"'

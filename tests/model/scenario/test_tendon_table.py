@@ -44,7 +44,7 @@ def test_forces_are_area_times_stress():
 @pytest.mark.parametrize(
     ("more", "message"),
     [
-        (tendon(STRAIGHT) + tendon(STRAIGHT), 'tendons.name is "tendon" twice'),
+        (tendon(STRAIGHT) + tendon(STRAIGHT), r'number 1 and \[\[tendons\]\] number 2 have one name, "tendon"'),
         (f"[[tendon_cuts]]\ntime_s = 0.5\n{BOX}", r"tendon_cuts is given: expected none without \[\[tendons\]\]"),
         (
             tendon(STRAIGHT) + f'[[tendon_cuts]]\ntime_s = 0.5\ntendons = ["b"]\n{BOX}',

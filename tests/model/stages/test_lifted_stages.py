@@ -212,5 +212,5 @@ def test_a_lift_of_nothing_is_refused():
 
 
 def test_each_lift_has_a_name_of_its_own():
-    with pytest.raises(ScenarioError, match=r'lifts\.name is "middle" twice'):
+    with pytest.raises(ScenarioError, match=r'number 1 and \[\[lifts\]\] number 2 have one name, "middle"'):
         beam(lift_text() + lift_text())

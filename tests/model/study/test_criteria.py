@@ -82,9 +82,3 @@ def test_a_scenario_without_zones_says_so():
     bare = replace(I235, zones=())
     with pytest.raises(ScenarioError, match=r"expected none, as the scenario has no \[\[zones\]\]"):
         check_criteria((Criterion(name="it", kind="zone not entered", zone="Side road"),), bare)
-
-
-def test_two_criteria_of_one_name_are_refused():
-    one = Criterion(name="it", kind="collapsed")
-    with pytest.raises(ScenarioError, match=r'number 1: criteria\.name is "it": expected another name for each'):
-        check_criteria((one, replace(one, share=0.9)), SITE)

@@ -9,7 +9,7 @@ from support.scenarios import I235
 
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.blast.charges import Charge
-from bridge_demolition_addon.model.scenario import Removal
+from bridge_demolition_addon.model.scenario import Equipment, Removal
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.study.keys import changed, keys_named, names_to_propose
 
@@ -76,9 +76,12 @@ def test_each_name_that_is_found_leads_back_to_the_same_value():
 
 
 def test_tables_of_one_name_are_told_apart_by_their_numbers():
-    zones = tuple(replace(I235.zones[0], name=name) for name in ("road", "road", "track"))
-    found = keys_named(replace(I235, zones=zones), "zones.bottom_m")
-    assert [key.name for key in found] == ["zones.1.bottom_m", "zones.2.bottom_m", "zones.track.bottom_m"]
+    machines = tuple(
+        Equipment(name=name, mass_kg=30_000, place_m=(5, 0), footprint_m=(4, 3))
+        for name in ("breaker", "breaker", "crane")
+    )
+    found = keys_named(replace(I235, equipment=machines), "equipment.mass_kg")
+    assert [key.name for key in found] == ["equipment.1.mass_kg", "equipment.2.mass_kg", "equipment.crane.mass_kg"]
 
 
 def test_other_values_are_those_of_the_keys_alone():

@@ -218,7 +218,7 @@ def test_grounds_that_cannot_be_are_refused():
     with pytest.raises(ScenarioError, match=r"ground.origin is a list of length 2: expected 3 numbers"):
         Ground(origin=(1.0, 2.0))
     twice = tuple(GroundSurface(**WATER, height_m=height) for height in (0.0, 1.0))
-    with pytest.raises(ScenarioError, match=r'ground.surfaces.name is "river" for 2 surfaces'):
+    with pytest.raises(ScenarioError, match=r'number 1 and \[\[ground.surfaces\]\] number 2 have one name, "river"'):
         Ground(surfaces=twice)
 
 

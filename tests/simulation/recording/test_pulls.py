@@ -7,7 +7,7 @@ from support.blocks import Blocks
 
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.errors import ScenarioError
-from bridge_demolition_addon.model.pulls import Pull, check_names
+from bridge_demolition_addon.model.pulls import Pull
 from bridge_demolition_addon.model.scenario import Removal
 from bridge_demolition_addon.scene.bodies import mark_member
 from bridge_demolition_addon.scene.structural_changes import keep_changes, keep_pulls, pulls_of
@@ -136,8 +136,3 @@ def test_cables_are_kept_with_the_scene(blender):
 def test_what_is_no_cable_is_refused(keys, message):
     with pytest.raises(ScenarioError, match=message):
         Pull(**(KEYS | keys))
-
-
-def test_each_cable_has_a_name_of_its_own():
-    with pytest.raises(ScenarioError, match=r'pulls\.name is "cable" twice'):
-        check_names([Pull(**KEYS), Pull(**KEYS)])

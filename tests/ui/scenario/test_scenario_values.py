@@ -110,6 +110,14 @@ def test_one_of_a_list_that_is_wrong_is_named_by_its_number(settings):
         scenario_of(settings)
 
 
+def test_two_zones_of_one_name_are_refused_with_both_places(settings):
+    for name in ("road", "road"):
+        zone = settings.scenario.zones.add()
+        zone.name, zone.corners_m = name, "[[0, 0], [9, 0], [9, 9]]"
+    with pytest.raises(ScenarioError, match=r'number (\d) and \[\[zones\]\] number (\d) have one name, "road"'):
+        scenario_of(settings)
+
+
 def test_charges_are_read_from_where_they_are_now(settings):
     scene = settings.id_data
     scenario = read_scenario(PRESETS / "span_of_2019_explosives.toml")
