@@ -72,6 +72,10 @@ class MissingLibraryError(DemolitionError):
     """A library that is no part of the installation is needed for this; the text says how to install it."""
 
 
+class CoreError(DemolitionError):
+    """The compiled core is missing, or another than is needed; the text says what to do."""
+
+
 class LayoutError(DemolitionError):
     """Blender's memory does not look as expected; nothing in it was used or changed."""
 

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from types import ModuleType
 
+import build_core
 import pytest
 from support.processes import end_started
 
@@ -121,6 +122,9 @@ def pytest_configure(config: pytest.Config) -> None:
     # Blender reads this once, when bpy is imported. A person's own preferences and add-ons must
     # neither change a test nor be changed by one.
     config.stash[_user_folder] = os.environ["BLENDER_USER_RESOURCES"] = tempfile.mkdtemp(prefix="bda-tests-")
+
+    if not hasattr(config, "workerinput"):  # once, and not in each process of pytest-xdist
+        build_core.update()
 
 
 def pytest_sessionstart(session: pytest.Session) -> None:

@@ -1,0 +1,91 @@
+"""Structs of C that point to arrays of numpy: what is handed to the core is checked here, once for each array."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import Any, ClassVar
+
+import numpy as np
+import numpy.typing as npt
+
+Count = ctypes.c_int64
+
+
+class Pointer(ctypes.c_void_p):
+    """A field that points to the numbers of an array, which the core reads."""
+
+    dtype: ClassVar[np.dtype[Any]]
+    written: ClassVar[bool] = False
+
+
+class Doubles(Pointer):
+    """`const double *`."""
+
+    dtype = np.dtype(np.float64)
+
+
+class WrittenDoubles(Doubles):
+    """`double *`."""
+
+    written = True
+
+
+class Indices(Pointer):
+    """`const int64_t *`."""
+
+    dtype = np.dtype(np.int64)
+
+
+class WrittenIndices(Indices):
+    """`int64_t *`."""
+
+    written = True
+
+
+class Flags(Pointer):
+    """`const uint8_t *`, each 0 or 1."""
+
+    dtype = np.dtype(np.bool_)
+
+
+class WrittenFlags(Flags):
+    """`uint8_t *`, each 0 or 1."""
+
+    written = True
+
+
+class Struct(ctypes.Structure):
+    """A struct of the core. It keeps the arrays that its fields point to; list the fields in `_fields_` as in C."""
+
+    _pointers: ClassVar[dict[str, type[Pointer]]]
+
+    def __init_subclass__(cls) -> None:
+        super().__init_subclass__()
+        cls._pointers = {name: kind for name, kind, *_ in cls._fields_ if issubclass(kind, Pointer)}
+
+    def __init__(self, **values: int | float) -> None:
+        super().__init__(**values)
+        self._kept: dict[str, npt.NDArray[Any]] = {}
+
+    def point(self, name: str, array: npt.NDArray[Any], size: int) -> None:
+        """Let a field point to an array, which has this number of elements.
+
+        Raises
+        ------
+        ValueError
+            The array is of another type or size, is not in the order of C, or cannot be written and has to be.
+        """
+        if self._kept.get(name) is array and array.size == size:
+            return
+        kind = self._pointers[name]
+        if array.dtype != kind.dtype:
+            raise ValueError(f"{name} has numbers of type {array.dtype}: expected {kind.dtype}")
+        if array.size != size:
+            raise ValueError(f"{name} has {array.size} numbers: expected {size}")
+        flags = array.flags
+        if not (flags.c_contiguous and flags.aligned):
+            raise ValueError(f"{name} is not one block in the order of C: use numpy.ascontiguousarray")
+        if kind.written and not flags.writeable:
+            raise ValueError(f"{name} cannot be written, and the core writes to it")
+        setattr(self, name, array.ctypes.data)
+        self._kept[name] = array
