@@ -60,6 +60,8 @@ def test_the_package_of_its_own_is_found(tmp_path, monkeypatch):
     library = build_core.compile_to(tmp_path / "built" / core.FILE)
     wheel = build_core.wheel(tmp_path, build_core.here(), library)
     shutil.unpack_archive(wheel, tmp_path / "packages", "zip")
+    monkeypatch.delitem(sys.modules, core.PACKAGE, raising=False)  # that of the checkout, which has no library
     monkeypatch.syspath_prepend(tmp_path / "packages")
     found = core.load(tmp_path / "nowhere" / core.FILE)
+    monkeypatch.delitem(sys.modules, core.PACKAGE)
     assert isinstance(found, ctypes.CDLL) and Path(found._name).is_relative_to(tmp_path / "packages")
