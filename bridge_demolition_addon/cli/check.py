@@ -22,12 +22,13 @@ from ..model.sequence.undisturbed import AWAKE_S, self_collapse_text
 from ..model.stages.stability_by_statics import stability_of
 from ..model.stages.stages import equipment_facts
 from ..model.stages.standing import made_elastic
+from ..model.structure.bearing_ranges import LEAST_CUTS, MOST_CUTS, bearing_ranges
 from ..model.structure.blast_zones import placed_zones, zone_totals
 from ..model.structure.convergence import convergence_facts
 from ..model.structure.deck_facts import deck_facts
 from ..model.structure.equilibrium import model_at_rest
 from ..model.structure.facts import accuracy_facts, connection_facts, foundation_facts, overlap_facts, rest_facts
-from ..model.structure.model import Model
+from ..model.structure.model import Model, build_model
 from ..model.structure.steel_bars import steel_facts
 from ..model.structure.tendon_facts import tendon_facts
 from ..model.structure.usual_sizes import size_facts
@@ -56,6 +57,12 @@ def add_to(commands: argparse._SubParsersAction) -> None:
         action="store_true",
         help=f"run the bridge awake for {AWAKE_S:g} s without anything that is done to it, and say whether it stood",
     )
+    parser.add_argument(
+        "--cuts",
+        type=_cuts,
+        metavar="NUMBER",
+        help=f"cut the bridge by so many seeds, {LEAST_CUTS} to {MOST_CUTS}, and say what each bearing carries in them",
+    )
     parser.set_defaults(execute=check)
 
 
@@ -65,9 +72,26 @@ def check(arguments: argparse.Namespace) -> None:
     with naming(arguments.scenario), _said_if_long():
         for line in scenario_facts(scenario, stand=arguments.stand):
             print(line)
+        if arguments.cuts:
+            for line in _cut_lines(scenario, arguments.cuts):
+                print(line)
         if arguments.awake:
             for line in _section("Awake", _awake_facts(scenario)):
                 print(line)
+
+
+def _cuts(text: str) -> int:
+    """Return a number of cuts that can be compared."""
+    if not text.isdecimal() or not LEAST_CUTS <= int(text) <= MOST_CUTS:
+        raise argparse.ArgumentTypeError(f"{text!r} is wrong: expected a whole number from {LEAST_CUTS} to {MOST_CUTS}")
+    return int(text)
+
+
+def _cut_lines(scenario: Scenario, count: int) -> Iterator[str]:
+    """Yield what bearings carry in several cuts, as with elastic connections."""
+    elastic = made_elastic(scenario)
+    ranges = bearing_ranges(elastic, build_model(elastic), count)
+    yield from _section(f"Bearings in {count} cuts, seeds {ranges.seeds[0]} to {ranges.seeds[-1]}", ranges.facts())
 
 
 @contextmanager

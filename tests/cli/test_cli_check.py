@@ -385,7 +385,7 @@ def test_how_finely_an_elastic_bridge_is_cut(tmp_path):
     said = facts(read_scenario(beam_file(tmp_path, 4.0, more=whole)))
     # 59 cubes of 0.324 m fill 4 m × 1 m × 0.5 m; what stays in its position has no line.
     assert said["shards of beam"] == "12 along its length, 2 in its depth"
-    assert said["expected deviation"].startswith("up to 10% of reactions")
+    assert said["expected deviation"].startswith("10% of moments, deflections")
     assert "shards of start" not in said
 
 

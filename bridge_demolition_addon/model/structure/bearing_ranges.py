@@ -1,0 +1,153 @@
+"""Forces of single bearings over several cuts of one bridge, and their sums over axes.
+
+Coarse shards share loads between girders, or between feet, otherwise than the bridge does, and each cut in a way of its
+own. Sums of an axis differ less.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from ...errors import ScenarioError
+from ..actions import Fact
+from ..scenario import Scenario
+from ..schema import LARGEST_INTEGER, given
+from .bearings import BearingForce
+from .cracking import cracked_by_weight
+from .equilibrium import loads_of, model_at_rest, overloaded
+from .model import Model, build_model
+
+ONE_CUT = "not known by one cut: each seed shares what an axis carries otherwise"
+"""What is said of bearings that carry an axis together, by one cut of the bridge."""
+
+LEAST_CUTS, MOST_CUTS = 2, 100
+
+_SAME_AXIS_M = 0.05
+"""Distance along the road up to which bearings on several members are in one axis."""
+
+_SAME_LEVEL_M = 0.3
+
+_KILO = 1e-3
+
+
+@dataclass(frozen=True, slots=True)
+class BearingAxis:
+    """Bearings, by their numbers, that carry together: on one member, or side by side on several."""
+
+    name: str
+    bearings: tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BearingRanges:
+    """Upward forces (k, b) of bearings at rest, in k cuts of one bridge: those by the seeds with which it stands."""
+
+    names: tuple[str, ...]
+    axes: tuple[BearingAxis, ...]
+    seeds: tuple[int, ...]
+    upwards_n: np.ndarray
+
+    def facts(self) -> Iterator[Fact]:
+        """Yield the least, the largest and the mean force of each bearing, and of each axis."""
+        count = len(self.upwards_n)
+        if count < len(self.seeds):
+            yield "not counted", f"{len(self.seeds) - count} cuts, which come down by their own weight"
+        if count < LEAST_CUTS:
+            return
+        for name, forces_n in zip(self.names, self.upwards_n.T, strict=True):
+            yield name, _range_text(forces_n)
+        for axis in self.axes:
+            yield axis.name, f"{_range_text(self.upwards_n[:, list(axis.bearings)].sum(axis=1))}, in all"
+        # Of k + 1 exchangeable values each is as likely to be the least or the largest.
+        yield "no bounds", f"one more cut is outside the range of a bearing with a chance of {2.0 / (count + 1):.0%}."
+        yield "", "On the whole the mean is nearer than one cut to what the bridge does, which is not cut."
+
+
+def bearing_axes(model: Model, bearings: Sequence[BearingForce]) -> tuple[BearingAxis, ...]:
+    """Return the axes of a model in which two bearings or more carry together."""
+    if model.bearings is None:
+        return ()
+    below = {
+        number: int(model.connections.pairs[rows[0], 1])
+        for number in range(len(bearings))
+        if len(rows := model.bearings.rows_of(number))
+    }
+    members = {number: int(model.member_of_shard[shard]) if shard >= 0 else -1 for number, shard in below.items()}
+
+    def are_beside(one: int, other: int) -> bool:
+        if members[one] == members[other]:
+            return True
+        places = [model.members[members[n]].without_skew(bearings[n].axis_m) for n in (one, other)]
+        along, _, up = np.abs(places[0] - places[1])
+        return bool(along <= _SAME_AXIS_M and up <= _SAME_LEVEL_M)
+
+    axes: list[list[int]] = []
+    for number in below:
+        together = [axis for axis in axes if any(are_beside(number, other) for other in axis)]
+        joined = [*(other for axis in together for other in axis), number]
+        axes = [*(axis for axis in axes if axis not in together), joined]
+    names = [model.members[member].name for member in range(len(model.members))]
+    return tuple(
+        BearingAxis(f"on {_common_name([names[members[number]] for number in axis])}", tuple(axis))
+        for axis in axes
+        if len(axis) > 1
+    )
+
+
+def axis_facts(model: Model, bearings: Sequence[BearingForce]) -> Iterator[Fact]:
+    """Yield what each axis with several bearings carries, and how little is known of each of these."""
+    axes = bearing_axes(model, bearings)
+    for axis in axes:
+        sum_n = sum(float(bearings[number].force_n[2]) for number in axis.bearings)
+        yield axis.name, f"{_KILO * sum_n:z.1f} kN up in all"
+    if axes:
+        yield "single bearings", ONE_CUT
+        yield "", "(bda check --cuts 5 says by how much). The sums differ less"
+
+
+def bearing_ranges(scenario: Scenario, model: Model, count: int) -> BearingRanges:
+    """Return what the bearings of an elastic bridge carry in so many cuts: by its seed, and by those that follow.
+
+    Raises
+    ------
+    ScenarioError
+        The bridge has no bearings, or every seed cuts it alike.
+    """
+    if model.bearings is None:
+        raise ScenarioError("there are no [[bearings]] or [bridge.bearings]: expected some whose cuts can be compared")
+    seeds = tuple((scenario.seed + number) % (LARGEST_INTEGER + 1) for number in range(count))
+    axes: tuple[BearingAxis, ...] = ()
+    forces_n = []
+    for seed in seeds:
+        cut = model if seed == scenario.seed else build_model(replace(scenario, seed=seed), model.members)
+        if cut is not model and np.array_equal(cut.centres_m, model.centres_m):
+            raise ScenarioError(
+                f"scenario.seed {seed} cuts the bridge as {scenario.seed} does: expected members that the seed cuts, "
+                "not ones in single shards or with fracture.points"
+            )
+        rest = model_at_rest(cut, scenario.joints)
+        cracked = (
+            cracked_by_weight(cut, scenario.joints, rest) if overloaded(cut, rest, scenario.joints).any() else None
+        )
+        if cracked and cracked.fallen.any():
+            continue
+        bearings = given(cut.bearings).forces(cracked.loads if cracked else loads_of(cut, rest))
+        axes = axes or bearing_axes(cut, bearings)
+        forces_n.append([float(bearing.force_n[2]) for bearing in bearings])
+    names = model.bearings.names
+    return BearingRanges(names, axes, seeds, np.array(forces_n).reshape(-1, len(names)))
+
+
+def _range_text(forces_n: np.ndarray) -> str:
+    least, largest, mean = (_KILO * float(value) for value in (forces_n.min(), forces_n.max(), forces_n.mean()))
+    return f"{least:z.0f} to {largest:z.0f} kN up, {mean:z.0f} kN in the mean"
+
+
+def _common_name(names: Sequence[str]) -> str:
+    """Return the words that names of members begin with alike; else all of them."""
+    unique = list(dict.fromkeys(names))
+    words = [alike[0] for alike in zip(*(name.split() for name in unique), strict=False) if len(set(alike)) == 1]
+    return " ".join(words) or ", ".join(unique)
