@@ -24,7 +24,6 @@ DENSITY_KG_M3 = 2400.0
 _MEMBER = "member"
 _MM_PER_M = 1000.0
 _KG_PER_T = 1000.0
-_MEGA = 1e6
 _MOST_HOLES = 1000
 
 
@@ -160,8 +159,7 @@ def _facts(arguments: argparse.Namespace, placed: PlacedZone, rule: HolesByRule)
         f"{limits.throw_kg_m3:.2f}",
     )
     if zone.bars:
-        tension_n, pressed_n = placed.cage_n
-        yield "bars", f"{tension_n / _MEGA:.2f} MN in tension, {pressed_n / _MEGA:.2f} MN in compression"
+        yield "bars", placed.cage_text
         by_rule = zone_height_m(max(arguments.zone_m[:2]), (zone.bar_diameter_mm or 0.0) / _MM_PER_M)
         yield "  height by rule", f"{by_rule:.2f} m: 1.5 × (larger side + 40 diameters)"
     flyrock = flyrock_of(placed)

@@ -26,6 +26,7 @@ from ..model.run_folder.summary import RunSummary, read_summary
 from ..model.scenario import ReportSettings, Scenario
 from ..model.scenario.file import read_scenario
 from ..model.schema import given
+from ..model.sequence.bare_bars import bare_bars_text
 from ..model.sequence.held_parts import held_parts_text
 from ..model.sequence.undisturbed import self_collapse_text
 from ..system.reading import MEGABYTE, check_file
@@ -104,7 +105,8 @@ def read_run(folder: Path) -> ReportedRun:
     if summary and not summary.completed:
         shortcomings.append("The run was stopped before its time: everything here ends where it was stopped.")
     if summary:
-        doubts = self_collapse_text(summary.values), held_parts_text(summary.values)
+        values = summary.values
+        doubts = self_collapse_text(values), held_parts_text(values), bare_bars_text(values)
         shortcomings.extend(f"{doubt}." for doubt in doubts if doubt)
     if summary and summary.made_by_hand:
         shortcomings.append(

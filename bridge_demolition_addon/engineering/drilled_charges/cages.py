@@ -8,7 +8,8 @@ A sub-step is implicit, as of cracks. What groups have yielded or folded by foll
 in a sub-step are those of its beginning.
 
 At rest, the ends of bars are taken for held sideways, as their buckling load takes them: a bridge that is not quite
-upright would tip over on bars without any stiffness sideways.
+upright would tip over on bars without any stiffness sideways. There bars resist what they may be counted on for, and in
+a run as much as straight ones.
 
 All arrays have their components first.
 """
@@ -71,15 +72,16 @@ class _Groups:
     holds: BoolArray  # (g,)
     lines_m: FloatArray  # (3, g), from their first to their second points as they were bared, in the axes of the world
     shares: FloatArray  # (g,), part of what they resist that is counted on
+    straight: bool  # whether they are without any bow
 
     def joined(self, others: _Groups) -> _Groups:
         """Return these and others."""
-        pairs = ((getattr(self, item.name), getattr(others, item.name)) for item in fields(self))
-        return _Groups(*(np.concatenate(pair, axis=-1) for pair in pairs))
+        pairs = ((getattr(self, item.name), getattr(others, item.name)) for item in fields(self)[:-1])
+        return _Groups(*(np.concatenate(pair, axis=-1) for pair in pairs), self.straight)
 
     def only(self, which: IntArray) -> _Groups:
         """Return some of them."""
-        return _Groups(*(getattr(self, item.name)[..., which] for item in fields(self)))
+        return _Groups(*(getattr(self, item.name)[..., which] for item in fields(self)[:-1]), self.straight)
 
     @property
     def stiffness_n_m(self) -> FloatArray:
@@ -91,7 +93,9 @@ class _Groups:
         """Largest forces (g,) in tension and in compression."""
         yields = self.counts * yield_force_n(self.diameters_m, self.yields_pa)
         folded_m = np.maximum(-self.stays_m, 0.0)
-        folding = self.counts * folding_force_n(self.diameters_m, self.bared_m, folded_m, self.yields_pa)
+        folding = self.counts * folding_force_n(
+            self.diameters_m, self.bared_m, folded_m, self.yields_pa, straight=self.straight
+        )
         return self.shares * np.where(folded_m > 0.0, folding, yields), self.shares * folding
 
     def forces_n(self, elongations_m: FloatArray) -> FloatArray:
@@ -113,15 +117,16 @@ class Cages:
     """All bare bars of a structure; `rows` (g,) are their numbers among what connects bodies, from a number on.
 
     Ends that are `held_sideways` are so as stiffly as the bars are along their lines. `share` is the part of what bars
-    resist that is counted on: a half where their load comes upon them at once.
+    resist that is counted on: a half where their load comes upon them at once. Bars are `straight`, or have the bow of
+    curve c.
     """
 
-    def __init__(self, from_row: int, *, held_sideways: bool = False, share: float = 1.0):
+    def __init__(self, from_row: int, *, held_sideways: bool = False, share: float = 1.0, straight: bool = True):
         self._from_row, self._held_sideways, self._share = from_row, held_sideways, share
         none, numbers = np.zeros(0), np.zeros(0, int)
         points = np.zeros((3, 0))
         self._groups = _Groups(
-            numbers, numbers, points, points, none, none, none, none, none, none, np.zeros(0, bool), points, none
+            numbers, numbers, points, points, none, none, none, none, none, none, none > 0.0, points, none, straight
         )
         self._solved_for = np.zeros((3, 3, 0))
 
@@ -158,6 +163,7 @@ class Cages:
             np.ones(count, bool),
             line,
             np.full(count, self._share),
+            self._groups.straight,
         )
         self._groups = self._groups.joined(added)
         self._solved_for = np.concatenate((self._solved_for, np.full((3, 3, count), np.nan)), axis=2)

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from ..elasticity.buckling_curves import IMPERFECTIONS
 from .grades import STEEL_MODULI
-from .resistance import IMPERFECTIONS
 from .sections import SteelSection
 
 _PLATEAU, _BETA = 0.4, 0.75

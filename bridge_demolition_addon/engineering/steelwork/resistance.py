@@ -11,17 +11,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import FloatArray
+from ..elasticity.buckling_curves import IMPERFECTIONS, NO_BUCKLING, reduction_factor
 from ..elasticity.member_shapes import principal_moments
 from ..geometry.vectors import unit
 from ..mechanics.strength import Strength, rectangular_sections
 from .grades import STEEL_MODULI
 from .sections import SteelSection
-
-IMPERFECTIONS = {"a0": 0.13, "a": 0.21, "b": 0.34, "c": 0.49, "d": 0.76}
-"""Imperfection factor α of each buckling curve: EN 1993-1-1:2005, table 6.1."""
-
-_NO_BUCKLING = 0.2
-"""Slenderness up to which a bar does not buckle: EN 1993-1-1:2005, 6.3.1.2 (4)."""
 
 _ROUNDING = 1e-9
 
@@ -110,7 +105,7 @@ def buckling(section: SteelSection, yield_pa: float, lengths_m: tuple[float, flo
         euler_n = math.pi * math.pi * STEEL_MODULI.young_pa * moment / (long * long)
         slenderness = math.sqrt(plastic_n / euler_n)
         curve = section.buckling_curves[row]
-        reduction = reduction_factor(slenderness, curve)
+        reduction = float(reduction_factor(slenderness, curve))
         about.append(Buckling(axis, curve, slenderness, reduction, euler_n, reduction * plastic_n))
     return min(about, key=lambda one: one.resistance_n)
 
@@ -126,13 +121,5 @@ def initial_bow_m(section: SteelSection, yield_pa: float, lengths_m: tuple[float
     if about is None:
         about = unit(np.array((moments[0, 1], principal_moments(moments[None])[0][0] - moments[0, 0])))
     modulus = float(section.shape.plastic_moduli_m3[0 if strut.axis == "y" else 1])
-    size = IMPERFECTIONS[strut.curve] * max(0.0, strut.slenderness - _NO_BUCKLING) * modulus / section.area_m2
+    size = IMPERFECTIONS[strut.curve] * max(0.0, strut.slenderness - NO_BUCKLING) * modulus / section.area_m2
     return np.asarray(size * np.array((-about[1], about[0])))
-
-
-def reduction_factor(slenderness: float, curve: str) -> float:
-    """Return χ of a buckling curve: EN 1993-1-1:2005, equation 6.49."""
-    if slenderness <= _NO_BUCKLING:
-        return 1.0
-    phi = 0.5 * (1.0 + IMPERFECTIONS[curve] * (slenderness - _NO_BUCKLING) + slenderness * slenderness)
-    return min(1.0, 1.0 / (phi + math.sqrt(phi * phi - slenderness * slenderness)))

@@ -206,6 +206,8 @@ def _checked(summary: Any) -> dict[str, Any]:
         _check_table(f"pulls[{number}]", pull, _PULL)
     for number, lift in enumerate(summary.get("lifts", ())):
         _check_table(f"lifts[{number}]", lift, _LIFT)
+    for number, event in enumerate(summary.get("events", ())):
+        _check_table(f"events[{number}]", event, _EVENT if "cage_pressed_n" in event else {})
     for number, hit in enumerate(summary.get("hits_of_the_ball", ())):
         _check_table(f"hits_of_the_ball[{number}]", hit, _HIT, optional=_ESTIMATES)
     return summary
@@ -353,6 +355,13 @@ _PULL = {
     "work_J": _is_number,
 }
 _LIFT = {"name": _is_text, "largest_hook_N": _is_number, "largest_hook_s": _is_number, "weight_N": _is_number}
+_EVENT = {
+    "zone": _is_text,
+    "cage_compression_n": _is_number,
+    "cage_pressed_n": _is_number,
+    "cage_folded_m": _is_number,
+}
+"""What is read of a blast zone whose bars stood bare."""
 _RELEASE = {"time_s": _is_number, "how": _is_text, "energy_J": _is_number}
 _LEVELLED = {"name": _is_text, "dug_m": _is_number, "filled_m": _is_number}
 _SUMMARY = {
@@ -376,6 +385,7 @@ _SUMMARY = {
     "tendons": _is_list,
     "pulls": _is_list,
     "lifts": _is_list,
+    "events": lambda value: _is_list(value) and all(isinstance(event, dict) for event in value),
 }
 
 _ESTIMATES = {"half_sine_peak_force_N": _is_number, "hertz_peak_force_N": _is_number}

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -12,6 +14,9 @@ from ..scenario import ZoneFiring
 from ..schema import given
 
 _CORNERS = np.array([(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)])
+
+_HOLD_M = 0.01
+"""By how much the ends of bars come closer at most where they hold."""
 
 _AT_PLANE = 0.02
 """Part of the height of a zone within which a connection is at one of its two planes."""
@@ -75,4 +80,23 @@ def standing_bars(
         zone.bars / len(corners),
         1e-3 * zone.bar_diameter_mm,
         NEWTON_PER_SQUARE_MILLIMETRE * zone.bar_yield_n_mm2,
+    )
+
+
+def bare_bars_text(summary: Mapping[str, Any]) -> str:
+    """Return which bars held more in a run than may be counted on, as a sentence without a full stop; empty for none.
+
+    `summary` is that of the run, with its events.
+    """
+    used = {
+        event["zone"]: event["cage_pressed_n"] / event["cage_compression_n"]
+        for event in summary.get("events", ())
+        if event.get("cage_pressed_n", 0.0) > event.get("cage_compression_n", 0.0) > 0.0
+        and event["cage_folded_m"] < _HOLD_M
+    }
+    if not used:
+        return ""
+    return (
+        f"Bare bars of {', '.join(used)} held though they were pressed with up to {max(used.values()):.2f} times what "
+        "may be counted on (EN 1993-1-1, curve c): bars of a run are straight, so that those of the bridge may fold"
     )

@@ -119,8 +119,22 @@ class PlacedZone:
 
     @property
     def cage_n(self) -> tuple[float, float]:
-        """What its bars resist in tension and in compression, where all concrete is gone."""
+        """What its bars resist in tension, and may be counted on for in compression, where all concrete is gone."""
         return self.bars.resisted_n(self.zone.height_m) if self.bars else (0.0, 0.0)
+
+    @property
+    def cage_text(self) -> str:
+        """The same as text."""
+        tension_n, pressed_n = self.cage_n
+        return (
+            f"{tension_n / _MEGA:.2f} MN in tension and {pressed_n / _MEGA:.2f} MN in compression by EN 1993-1-1, "
+            f"curve c; {self.straight_cage_n / _MEGA:.2f} MN if straight, as in a run"
+        )
+
+    @property
+    def straight_cage_n(self) -> float:
+        """What its bars resist in compression if they have no bow at all, as in a run."""
+        return self.bars.straight_n(self.zone.height_m) if self.bars else 0.0
 
     @property
     def scaled_burial(self) -> float:
@@ -171,8 +185,9 @@ class PlacedZone:
             slender_m = float(slender_from_m(bars.diameter_m, bars.yield_pa))
             if zone.height_m < slender_m:
                 yield (
-                    f"bars of {_MM_PER_M * bars.diameter_m:.3g} mm bared over {zone.height_m:.2f} m yield before they "
-                    f"buckle: from {slender_m:.2f} m on they buckle"
+                    f"bars of {_MM_PER_M * bars.diameter_m:.3g} mm bared over {zone.height_m:.2f} m resist "
+                    f"{self.cage_n[1] / self.cage_n[0]:.0%} of their yield force, and all of it if they are straight: "
+                    f"from {slender_m:.2f} m on these buckle, too"
                 )
         if zone.mass_kg and zone.cover_factor == 1.0 and self.scaled_burial < RISKY_BURIAL:
             yield (
@@ -189,13 +204,8 @@ class PlacedZone:
         limits = f"breaks from {self.thresholds.break_kg_m3:.2f}, is thrown out from {self.thresholds.throw_kg_m3:.2f}"
         yield "", f"{self.specific_kg_m3:.2f} kg/m³ in {self.volume_m3:.3f} m³ ({limits}): {self.effect}"
         if self.bars:
-            tension_n, pressed_n = self.cage_n
             in_run = "" if scenario.connections.is_elastic else "; rigid connections leave them out of a run"
-            yield (
-                "",
-                f"{self.bars.text} resist {tension_n / _MEGA:.2f} MN in tension and {pressed_n / _MEGA:.2f} MN in "
-                f"compression{in_run}",
-            )
+            yield "", f"{self.bars.text} resist {self.cage_text}{in_run}"
         for warning in self.warnings():
             yield "look at", warning
 

@@ -245,7 +245,8 @@ def _factors_between(before: float | None, factor: float) -> list[float]:
 
 def _standing(bare: StandingBare, from_row: int, built: RigidBodies, rest: Equilibrium) -> Cages:
     """Return bars between points of bodies as they were built, without force where these are at rest."""
-    cages = Cages(from_row, held_sideways=not bare.at_worst, share=_AT_ONCE if bare.at_worst else 1.0)
+    share = _AT_ONCE if bare.at_worst else 1.0
+    cages = Cages(from_row, held_sideways=not bare.at_worst, share=share, straight=False)
     bars, points = bare.bars, []
     for ends, built_m in ((bars.first, bars.first_points_m), (bars.second, bars.second_points_m)):
         anchors = built_m - built.positions_m[:, ends]

@@ -7,7 +7,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...engineering.drilled_charges.bare_bars import bar_area_m2, compression_n, yield_force_n
+from ...engineering.drilled_charges.bare_bars import (
+    bar_area_m2,
+    compression_n,
+    straight_compression_n,
+    yield_force_n,
+)
 from ...engineering.elasticity.steel_bars import YIELD_PA
 from ...engineering.geometry.sides import AXES
 from ..blast.blast_zones import M_PER_MM, BlastZone
@@ -49,11 +54,15 @@ class ZoneBars:
         return f"{self.sizes}, as the member has," if self.of_member else self.sizes
 
     def resisted_n(self, bared_m: float) -> tuple[float, float]:
-        """Return what they resist in tension and in compression, bared over a height."""
+        """Return what they resist in tension, and may be counted on for in compression, bared over a height."""
         return (
             self.count * float(yield_force_n(self.diameter_m, self.yield_pa)),
             self.count * float(compression_n(self.diameter_m, bared_m, self.yield_pa)),
         )
+
+    def straight_n(self, bared_m: float) -> float:
+        """Return what they resist in compression without any bow, as in a run."""
+        return self.count * float(straight_compression_n(self.diameter_m, bared_m, self.yield_pa))
 
 
 def zone_bars(zone: BlastZone, member: Member, box_m: np.ndarray, layers: Sequence[BarLayer]) -> ZoneBars | None:

@@ -23,8 +23,10 @@ _BY_WHOM = (
     "Thresholds of the specific charge are known within a factor of 2."
 )
 _BARS = (
-    "Bars that stay resist this much once their concrete is gone. What comes upon them at once, by the fall of what "
-    "stood on it, presses them with up to twice its weight."
+    "Bars that stay resist this much once their concrete is gone, in compression by EN 1993-1-1, curve c: more may not "
+    "be counted on. Straight ones, as in a run, resist up to yield or Euler's load: for the bridge to come down it has "
+    "to overcome these. What comes upon bars at once, by the fall of what stood on them, presses them with up to twice "
+    "its weight."
 )
 _SEVERED = (
     "Whether its explosive severs a member is for a licensed blaster to say: it counts for the ground, as bare for the "
@@ -72,6 +74,7 @@ _LOADED = (
     Column("over burden", "stemming_over_burden", ".2f", lambda placed: placed.zone.stemming_m / placed.burden_m),
     Column("bars in tension (MN)", "bars_tension_MN", ".2f", lambda placed: placed.cage_n[0] / _MEGA),
     Column("in compression (MN)", "bars_compression_MN", ".2f", lambda placed: placed.cage_n[1] / _MEGA),
+    Column("straight ones (MN)", "bars_straight_compression_MN", ".2f", lambda placed: placed.straight_cage_n / _MEGA),
 )
 _CUTS = (
     Column("cut", "cut", "", lambda cut: cut.name),

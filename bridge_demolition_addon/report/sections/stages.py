@@ -85,10 +85,10 @@ _CRITICALITY_AT_FIRST = 4
 
 _MISFIRES = (
     "The bridge at rest after all changes but one blast zone: masses of what connections to supports held at first. "
-    "Bare bars of zones that fired carry up to their force at yield or buckling, with their ends held sideways. At "
-    "most so much comes down where their load comes upon them at once, which presses them up to twice as much, and "
-    "where they hold nothing sideways and the bridge is inclined by 1/200. A bridge that stands on charges that did "
-    "not fire must not be approached."
+    "Bare bars of zones that fired carry up to what EN 1993-1-1, curve c, lets them resist, with their ends held "
+    "sideways. At most so much comes down where their load comes upon them at once, which presses them up to twice as "
+    "much, and where they hold nothing sideways and the bridge is inclined by 1/200. A bridge that stands on charges "
+    "that did not fire must not be approached."
 )
 _MISFIRE = (
     Column("Fails", "fails", "", lambda row: row["fails"]),

@@ -8,6 +8,7 @@ from scipy import integrate
 from bridge_demolition_addon.engineering.drilled_charges.bare_bars import (
     bow_m,
     buckling_force_n,
+    compression_n,
     folding_force_n,
     yield_force_n,
 )
@@ -21,13 +22,13 @@ DIAMETER_M = 0.025
 AREA_M2 = np.pi * DIAMETER_M**2 / 4.0
 
 
-def cage(bared_m, count=8.0):
+def cage(bared_m, count=8.0, **law):
     """A group of bars between two bodies, the upper one 4 m above the lower, and its positions."""
     positions = np.array([(0.0, 0.0), (0.0, 0.0), (0.0, 4.0)])
     below, above = 2.0 - bared_m / 2.0, 2.0 + bared_m / 2.0
     points = [np.array([[0.3], [0.2], [height]]) for height in (below, above)]
     one = np.ones(1)
-    cages = Cages(10)
+    cages = Cages(10, **law)
     bars = BareBars(np.array([0]), np.array([1]), *points, count * one, DIAMETER_M * one, 500e6 * one)
     assert cages.add(bars, positions, LEVEL).tolist() == [0]
     return cages, positions
@@ -53,6 +54,9 @@ def test_a_bar_folds_in_three_hinges():
     # Before it has folded it buckles; a short one yields.
     assert folding_force_n(0.025, 1.5, 0.0) == pytest.approx(buckling_force_n(0.025, 1.5))
     assert folding_force_n(0.025, 0.4, 0.0) == pytest.approx(yield_force_n(0.025))
+    for bared_m in (0.4, 1.5):
+        assert folding_force_n(0.025, bared_m, 0.0, straight=False) == pytest.approx(compression_n(0.025, bared_m))
+    assert folding_force_n(0.025, 1.5, 0.3, straight=False) == pytest.approx(5.79e3, rel=2e-3)
     assert folding_force_n(0.025, 1.5, 1.5) == pytest.approx(2.0 * 1302.0 / 0.75, rel=1e-3)
 
 
@@ -95,6 +99,12 @@ def test_bars_press_with_what_they_resist_and_less_once_they_have_folded():
     assert force_n(cages, positions, -0.1) == pytest.approx(-folded, rel=0.02)
     force_n(cages, positions, 0.001)
     assert force_n(cages, positions, 0.01) == pytest.approx(-1963.5e3, rel=1e-3)
+
+
+def test_bars_with_a_bow_press_with_what_they_may_be_counted_on_for():
+    """8 of 25 mm over 0.9 m: λ 1.146, χ 0.4605 of 8 × 245.4 kN."""
+    cages, positions = cage(0.9, straight=False)
+    assert force_n(cages, positions, -0.002) == pytest.approx(904.1e3, rel=1e-3)
 
 
 def test_bars_without_a_body_hold_nothing():

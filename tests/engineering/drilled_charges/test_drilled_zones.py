@@ -9,6 +9,7 @@ from bridge_demolition_addon.engineering.drilled_charges.bare_bars import (
     buckling_force_n,
     compression_n,
     slender_from_m,
+    straight_compression_n,
     yield_force_n,
 )
 from bridge_demolition_addon.engineering.drilled_charges.drill_holes import (
@@ -45,14 +46,39 @@ def test_yield_force_by_hand():
     assert yield_force_n(0.016) == pytest.approx(100.5e3, rel=5e-4)
 
 
-def test_eight_bars_hold_by_yield_and_by_buckling():
+def test_straight_bars_resist_by_yield_and_by_buckling():
     # 8 bars of 25 mm: 8 × 245.4 kN where they are short, 8 × 186.9 kN over 0.9 m.
-    assert 8 * compression_n(0.025, 0.4) == pytest.approx(1.963e6, rel=5e-4)
-    assert 8 * compression_n(0.025, 0.9) == pytest.approx(1.495e6, rel=5e-4)
+    assert 8 * straight_compression_n(0.025, 0.4) == pytest.approx(1.963e6, rel=5e-4)
+    assert 8 * straight_compression_n(0.025, 0.9) == pytest.approx(1.495e6, rel=5e-4)
+
+
+@pytest.mark.parametrize(("diameters", "part"), [(20.0, 0.763), (10.0 * np.pi, 0.540), (40.0, 0.400), (50.0, 0.286)])
+def test_bars_are_counted_on_by_curve_c(diameters, part):
+    """By hand: λ = l / (10 π d) with 500 N/mm² and 200 GPa; for 20 d λ 0.637, φ 0.810, χ 1 / (0.810 + 0.500)."""
+    for diameter_m in (0.012, 0.02, 0.032):
+        resisted = compression_n(diameter_m, diameters * diameter_m) / yield_force_n(diameter_m)
+        assert resisted == pytest.approx(part, abs=1e-3)
+
+
+def test_ten_bars_of_16_mm_over_1_2_m():
+    # λ 2.387, φ 3.885, χ 0.1439 of 10 × 100.5 kN; Euler's load is 0.176 MN.
+    assert 10 * compression_n(0.016, 1.2) == pytest.approx(0.1446e6, rel=2e-3)
+    assert 10 * straight_compression_n(0.016, 1.2) == pytest.approx(0.1764e6, rel=2e-3)
+
+
+@pytest.mark.parametrize("yield_pa", [220e6, 420e6, 500e6, 600e6])
+def test_a_bar_may_be_counted_on_for_less_the_longer_it_is_and_never_for_more_than_a_straight_one(yield_pa):
+    heights_m = np.linspace(0.05, 4.0, 80)
+    counted = compression_n(0.02, heights_m, yield_pa)
+    assert counted[0] == pytest.approx(float(yield_force_n(0.02, yield_pa)))  # 2.5 diameters
+    assert (np.diff(counted[heights_m > 0.2]) < 0.0).all()
+    assert (counted <= straight_compression_n(0.02, heights_m, yield_pa)).all()
+    # Far beyond 31 diameters it is Euler's load, but for its bow.
+    assert counted[-1] == pytest.approx(buckling_force_n(0.02, 4.0), rel=0.12)
 
 
 def test_bars_are_slender_from_31_diameters_on():
-    # (π/2) √(200 000 / 500) = 31.4: the blasters' "30 to 50 bar diameters".
+    # (π/2) √(200 000 / 500) = 31.4: the blasters' "30 to 50 bar diameters". There λ is 1, and curve c 0.540.
     assert slender_from_m(0.02) == pytest.approx(31.416 * 0.02, rel=1e-4)
     limit = float(slender_from_m(0.028))
     assert buckling_force_n(0.028, limit) == pytest.approx(float(yield_force_n(0.028)), rel=1e-12)

@@ -68,7 +68,7 @@ LOAD_N = 500e3 + 0.49 * 1.75 * 2400.0 * STANDARD_GRAVITY_M_S2
 @pytest.mark.long
 @pytest.mark.parametrize("shards", [40, 120])
 def test_bars_hold_what_they_resist_twice(tmp_path, shards):
-    """8 bars of 25 mm over 0.9 m resist 1.5 MN, and 520 kN that come at once press them with 1.04 MN at most."""
+    """8 bars of 25 mm over 0.9 m resist 1.5 MN without a bow; 520 kN that come at once press with 1.04 MN at most."""
     zone = replace(ZONE, height_m=0.9, holes_a_row=3, bars=8, bar_diameter_mm=25.0)
     _, heights, summary, _ = run(tmp_path, zone, shards, duration_s=0.8)
     (event,) = summary["events"]
@@ -105,7 +105,7 @@ def fall_on_bars_m(mass_kg, count, diameter_m, bared_m, until_s):
 @pytest.mark.long
 @pytest.mark.parametrize("shards", [40, 120])
 def test_bars_that_hold_the_column_at_rest_fold_where_it_comes_upon_them_at_once(tmp_path, shards):
-    """Over 1.5 m they resist 538 kN: more than 520 kN, and less than twice that."""
+    """Over 1.5 m they resist 538 kN without a bow: more than 520 kN, and less than twice that."""
     times, heights, summary, _ = run(tmp_path, replace(ZONE, bars=8, bar_diameter_mm=25.0), shards, 0.85)
     (event,) = summary["events"]
     assert event["cage_pressed_n"] == pytest.approx(538.3e3, rel=0.01)
@@ -117,9 +117,12 @@ def test_bars_that_hold_the_column_at_rest_fold_where_it_comes_upon_them_at_once
 
 
 def test_thin_bars_hardly_slow_it_down(tmp_path):
-    """4 bars of 12 mm resist 14 kN of 520 kN: 0.3 m in 0.25 s within 10 %."""
+    """4 bars of 12 mm resist 14 kN of 520 kN without a bow: 0.3 m in 0.25 s within 10 %.
+
+    By curve c, λ 3.979 and χ 0.0562, they may be counted on for 12.7 kN.
+    """
     times, heights, summary, _ = run(tmp_path, replace(ZONE, bars=4, bar_diameter_mm=12.0))
-    assert summary["events"][0]["cage_compression_n"] == pytest.approx(14.3e3, rel=0.01)
+    assert summary["events"][0]["cage_compression_n"] == pytest.approx(12.7e3, rel=0.01)
     assert np.interp(FIRED_S + 0.25, times, heights[0] - heights) == pytest.approx(0.3065, rel=0.1)
 
 
@@ -261,7 +264,7 @@ def test_a_scene_that_is_built_keeps_its_zones_and_forgets_them_with_its_bodies(
     build_demolition(scene, scenario, column_model(scenario))
     (kept,) = changes_of(scene)
     assert (kept.name, kept.members, kept.time_s) == ("zone", ("column",), pytest.approx(FIRED_S))
-    assert kept.cage_compression_n == pytest.approx(538.3e3, rel=1e-3)  # 8 × 186.9 kN × (0.9 / 1.5)²
+    assert kept.cage_compression_n == pytest.approx(416.7e3, rel=1e-3)  # 8 × 0.2122 × 245.4 kN
     remove_demolition(scene)
     assert changes_of(scene) == ()
 
