@@ -74,13 +74,16 @@ def shapes_of(source: IfcSource, elements: Iterable[Element], kept: KeptShapes) 
         number = element.entity.id()
         if number in kept.failed:
             continue
+        if number in source.unknown:
+            kept.failed[number] = source.unknown[number]
+            continue
         mesh = kept.load(number)
         if mesh is None:
             kept.begins(done, len(wanted), element)
             try:
                 mesh = _own_or_none(source, element.entity) or _shape(element.entity, settings, source.scale)
-            except _CONTRADICTIONS as error:
-                kept.failed[number] = f"contradicts its schema ({error})"
+            except _CONTRADICTIONS:
+                kept.failed[number] = "its geometry contradicts its schema"
                 continue
             if mesh is None:
                 kept.failed[number] = FAILED

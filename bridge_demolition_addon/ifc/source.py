@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import re
 import traceback
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
+from types import FrameType
 from typing import Any
 
 from ..errors import IfcError, UnreadableError
+from ..model.schema import given
 from ..system.reading import MEGABYTE, check_file
 from .library import library
 from .linear_placements import place_along_curves
+from .missing_references import opened, remove_incomplete, unknown_shapes
 from .older_schemas import translated
 from .settings import UNITS, ImportSettings
 
@@ -22,9 +25,13 @@ MOST_BYTES = 2000 * MEGABYTE
 
 SCHEMAS = ("IFC2X3", "IFC4", "IFC4X3")
 
-_READ_AS = re.compile(r"IFC4X(1|2|3_(RC|TC|ADD1)\w*)(_\w*)?")
 _NEWEST = "IFC4X3_ADD2"
-"""Schemas that came before IFC4X3, whose elements it has too, and what they are read as."""
+_READ_AS = (
+    (re.compile(r"IFC2X3(_?(FINAL|TC|ADD|RC)\w*)?"), "IFC2X3"),
+    (re.compile(r"IFC(4|2X4)(_?(FINAL|TC|ADD|RC)\w*)?"), "IFC4"),
+    (re.compile(r"IFC4[X.][123](_?(FINAL|TC|ADD|RC|DEV)\w*)?"), _NEWEST),
+)
+"""Names of schemas with those of their editions, as programs write them, and the one of the library's that has it."""
 
 _CLASS = re.compile(rb"=\s*(IFC[A-Z0-9_]+)\s*\(")
 
@@ -32,7 +39,7 @@ _BEGINNING, _END = b"ISO-10303-21;", b"END-ISO-10303-21;"
 _HEAD = 100_000
 """Bytes in which the header of a file ends."""
 
-_SCHEMA = re.compile(rb"FILE_SCHEMA\s*\(\s*\(\s*'([^']*)'", flags=re.IGNORECASE)
+_SCHEMA = re.compile(rb"FILE_SCHEMA\s*\(\s*\(?\s*'([^']*)'", flags=re.IGNORECASE)
 _AMERICAN = re.compile(rb"(IFCSIUNIT\s*\([^;]*?\.(?:SQUARE_|CUBIC_)?)METER(\.\s*\)\s*;)", flags=re.IGNORECASE)
 """A unit as some programs spell it; the standard's metre is METRE."""
 
@@ -57,7 +64,9 @@ class IfcSource:
     angle_rad: float = 1.0
     notes: tuple[str, ...] = ()
     lost_classes: tuple[str, ...] = ()
-    """Classes of an older schema that the one that the file is read as does not have."""
+    """Classes that the schema that the file is read as does not have."""
+    unknown: Mapping[int, str] = field(default_factory=dict)
+    """Why products have no shape, by their numbers in the file, where lines are missing that these need."""
 
 
 @contextmanager
@@ -66,33 +75,46 @@ def naming_contradictions(path: Path) -> Iterator[None]:
     try:
         yield
     except (AttributeError, IndexError, KeyError, RuntimeError, TypeError, ValueError) as error:
-        frames = traceback.extract_tb(error.__traceback__)
-        if Path(library().__file__ or "").parent not in Path(frames[-1].filename).parents:
+        frames = [frame for frame, _ in traceback.walk_tb(error.__traceback__)]
+        if Path(library().__file__ or "").parent not in Path(frames[-1].f_code.co_filename).parents:
             raise
         raise IfcError(
-            f"{path}: contradicts its schema ({error}); check it with a validator of IFC, or export it again"
+            f"{path}: contradicts its schema{_place_of(frames)}; check it with a validator of IFC, or export it again"
         ) from error
+
+
+def _place_of(frames: Sequence[FrameType]) -> str:
+    """Return the statement that was read last; empty where none was."""
+    for frame in reversed(frames):
+        for value in reversed(frame.f_locals.values()):
+            if hasattr(value, "is_a") and hasattr(value, "id") and value.id():
+                return f" in {value.is_a()} #{value.id()}"
+    return ""
 
 
 def open_source(path: Path, settings: ImportSettings) -> IfcSource:
     """Open an IFC file."""
-    openshell = library()
-    content = _content(path)
+    content, schema = _content(path)
     mended, count = _AMERICAN.subn(rb"\1METRE\2", content)
-    mended, schema, assumed = _relabelled(mended)
+    mended, read_as, assumed = _relabelled(mended, schema)
     try:
-        # By its text, as a file opened by its path is not closed before the interpreter ends.
-        model = openshell.file.from_string(_text(mended))
-    except (RuntimeError, ValueError, openshell.Error) as error:
-        raise IfcError(f"{path}: cannot be read as IFC ({error}); export it again") from error
+        model, missing = opened(_text(mended))
+    except (RuntimeError, ValueError, library().Error) as error:
+        raise IfcError(f"{path}: cannot be read as IFC; export it again") from error
     if not model.by_type("IfcProject"):
         raise IfcError(f"{path}: has no IfcProject, so no units and no bridge; export the whole project")
     notes = ("METER is taken for METRE, as the standard spells it",) if count else ()
-    lost = _lost_classes(mended) if schema else ()
-    if schema:
-        notes = (*notes, f"the schema {schema} is read as {_NEWEST}, which came after it", *assumed)
+    lost = _lost_classes(mended, read_as)
+    if read_as != schema:
+        notes = (*notes, f"the schema {schema} is read as {read_as}", *assumed)
     if lost:
-        notes = (*notes, f"{_NEWEST} has no {', '.join(lost)}: what is placed along these has no shape")
+        said = "they are left out, and what is placed along these has no shape"
+        notes = (*notes, f"{read_as} has no {', '.join(lost)}: {said}")
+    unknown = unknown_shapes(model, missing)
+    incomplete = remove_incomplete(model)
+    if incomplete and settings.strict:
+        raise IfcError(f"{path}: {incomplete[0]}; export it again")
+    notes = (*notes, *incomplete)
     own_m = _unit_of_file(model)
     unit_m = own_m if settings.unit is None else UNITS[settings.unit]
     if unit_m is None and not settings.strict and (guessed := _guessed_unit(model)):
@@ -107,10 +129,11 @@ def open_source(path: Path, settings: ImportSettings) -> IfcSource:
     notes = (*notes, *place_along_curves(model, unit_m))
     taken_m = library("util.unit").calculate_unit_scale(model)
     angle_rad = float(library("util.unit").calculate_unit_scale(model, "PLANEANGLEUNIT")) or 1.0
-    return IfcSource(path, model, unit_m / taken_m, unit_m, angle_rad, notes, lost)
+    return IfcSource(path, model, unit_m / taken_m, unit_m, angle_rad, notes, lost, unknown)
 
 
-def _content(path: Path) -> bytes:
+def _content(path: Path) -> tuple[bytes, str]:
+    """Return what a file holds, and the name of its schema, as it writes it."""
     try:
         check_file(path, MOST_BYTES)
         content = path.read_bytes()
@@ -128,29 +151,43 @@ def _content(path: Path) -> bytes:
     if _END not in content[-_HEAD:]:
         raise IfcError(f"{path}: is cut short, as {_END.decode()} is missing at its end; copy or export it again")
     schema = _SCHEMA.search(beginning)
-    name = schema.group(1).decode("latin-1").upper() if schema else ""
-    if not schema or (name.split("_")[0] not in SCHEMAS and not _READ_AS.fullmatch(name)):
-        actual = f"of the schema {schema.group(1).decode('latin-1')}" if schema else "of no schema"
+    name = schema.group(1).decode("latin-1") if schema else ""
+    if not _read_as(name):
+        actual = f"of the schema {name}" if name else "of no schema"
         raise IfcError(f"{path}: is {actual}: expected one of {', '.join(SCHEMAS)}; export it as one of them")
-    return content
+    known = library().ifcopenshell_wrapper.schema_names()
+    if _read_as(name) not in known:
+        raise IfcError(
+            f"{path}: is of the schema {name}, and the IfcOpenShell that is installed reads only "
+            f"{', '.join(one for one in known if one.startswith('IFC'))}; export it as one of them, or install a newer "
+            "IfcOpenShell"
+        )
+    return content, name
 
 
-def _relabelled(content: bytes) -> tuple[bytes, str, tuple[str, ...]]:
-    """Return a file with the schema that it is read as, its own where that is another, and what was assumed."""
-    found = _SCHEMA.search(content[:_HEAD])
-    name = found.group(1).decode("latin-1").upper() if found else ""
-    if not found or not _READ_AS.fullmatch(name):
-        return content, "", ()
-    relabelled = content[: found.start(1)] + _NEWEST.encode() + content[found.end(1) :]
-    mended, notes = translated(relabelled)
-    return mended, name, notes
+def _read_as(name: str) -> str:
+    """Return the schema that one is read as by its name, whatever its case and spaces; empty for none."""
+    plain = re.sub(r"[\s-]+", "_", name.strip()).upper().removeprefix("IFC_")
+    plain = plain if plain.startswith("IFC") else f"IFC{plain}"
+    return next((schema for pattern, schema in _READ_AS if pattern.fullmatch(plain)), "")
 
 
-def _lost_classes(content: bytes) -> tuple[str, ...]:
-    """Return the classes of a file that the newest schema does not have, as their names are written there."""
-    schema = library().ifcopenshell_wrapper.schema_by_name(_NEWEST)
+def _relabelled(content: bytes, name: str) -> tuple[bytes, str, tuple[str, ...]]:
+    """Return a file with the schema that it is read as, that schema, and what was assumed."""
+    read_as = _read_as(name)
+    if name == read_as:
+        return content, read_as, ()
+    found = given(_SCHEMA.search(content[:_HEAD]))
+    content = content[: found.start(1)] + read_as.encode() + content[found.end(1) :]
+    mended, notes = translated(content) if read_as == _NEWEST else (content, ())
+    return mended, read_as, notes
+
+
+def _lost_classes(content: bytes, read_as: str) -> tuple[str, ...]:
+    """Return the classes of a file that a schema does not have, as their names are written there."""
+    schema = library().ifcopenshell_wrapper.schema_by_name(read_as)
     lost = []
-    for name in sorted({match.group(1).decode("ascii") for match in _CLASS.finditer(content)}):
+    for name in sorted({name.decode("ascii") for name in set(_CLASS.findall(content))}):
         try:
             schema.declaration_by_name(name)
         except RuntimeError:
