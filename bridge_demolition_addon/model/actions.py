@@ -83,6 +83,9 @@ class Worksite(Protocol):
     def affected_by(self, action: PlannedAction) -> Affected:
         """Return the shards that a change or a load acts on; refuse one that acts on nothing."""
 
+    def pick_of(self, lift: Any) -> Any:
+        """Return what a crane takes in a lift."""
+
     def cut_tendons_text(self, action: Any) -> str:
         """Return which tendons a cut meets, where, and what energy they let go; refuse one that meets none."""
 

@@ -19,6 +19,42 @@ _TAKES_UP_S = 1.0
 _LEAST_N = 1.0
 """Force of a sling that is just taut."""
 
+_MOST_OFF = 0.02
+"""Part of its mass by which the shards of a pick may be lighter or heavier without a word."""
+
+
+@dataclass(frozen=True, slots=True)
+class Pick:
+    """What a crane takes: the mass of its shards, which run and stages move, and of its volume, which the crane lifts.
+
+    They differ where shards end beside the box of the lift.
+    """
+
+    lift: str
+    shards_kg: float
+    volume_kg: float
+
+    @property
+    def heavier_by(self) -> float:
+        """Return by how much the larger of both is heavier than the shards, as a factor: the crane is judged by it."""
+        return max(self.volume_kg / self.shards_kg, 1.0)
+
+    @property
+    def masses(self) -> str:
+        """Return both masses, to as many digits as they are worth."""
+        return f"{mass_text(self.volume_kg, 1)} by volume, {mass_text(self.shards_kg, 1)} in shards"
+
+    @property
+    def warning(self) -> str:
+        """Return that they differ, without a full stop; empty where they hardly do."""
+        if abs(self.shards_kg - self.volume_kg) <= _MOST_OFF * self.volume_kg:
+            return ""
+        return (
+            f"{self.lift} weighs {mass_text(self.volume_kg, 1)} by the volume in its box, but "
+            f"{mass_text(self.shards_kg, 1)} by the shards with their centres in it, which runs and stages lift: order "
+            "no crane by the smaller one. Take more shards, or place fracture.points in pairs on both sides of its box"
+        )
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Lift(Part):
@@ -79,15 +115,17 @@ class Lift(Part):
             yield self.hook_m
 
     def facts(self, site: Worksite) -> Iterator[Fact]:
-        part = site.affected_by(self)
-        used = part.mass_kg / self.capacity_kg
+        part, pick = site.affected_by(self), site.pick_of(self)
+        used = pick.heavier_by * pick.shards_kg / self.capacity_kg
         yield (
             self.name,
-            f"{mass_text(part.mass_kg)} of {', '.join(part.members)}, {used:.0%} of what the crane lifts; slings hold "
+            f"{pick.masses}, of {', '.join(part.members)}, {used:.0%} of what the crane lifts; slings hold "
             f"from {self.from_s:g} s with {self.pretension:.0%} of it, lifted away at {self.lift_s:g} s",
         )
         if used > 1.0:
             yield "", "heavier than the crane lifts: cut it into smaller parts, or choose a larger crane"
+        if pick.warning:
+            yield "", pick.warning
 
     def check_plan(self, plan: Plan) -> None:
         latest_s = plan.time.duration_s - plan.time.step.frame_s
@@ -123,6 +161,7 @@ class Sling(Pull):
 
     lift: str = key("Name of its lift.")
     part_kg: float = key("Mass of the part.", unit="kg", above=0)
+    volume_kg: float | None = key("Mass of the volume in its box.", default=None, unit="kg", at_least=0)
 
     @property
     def keeps_its_length(self) -> bool:
@@ -132,7 +171,7 @@ class Sling(Pull):
         Part._check_together(self)
 
 
-def sling_of(lift: Lift, number: int, point_m: Point, hook_m: Point, force_n: float, part_kg: float) -> Sling:
+def sling_of(lift: Lift, number: int, point_m: Point, hook_m: Point, force_n: float, pick: Pick) -> Sling:
     """Return a sling of a lift, counted from 1, with the force that it takes up."""
     taken_up_n = max(force_n, _LEAST_N)
     return Sling(
@@ -148,7 +187,8 @@ def sling_of(lift: Lift, number: int, point_m: Point, hook_m: Point, force_n: fl
         breaking_force_n=lift.elastic_n,  # never
         stiffness_n=lift.elastic_n,
         lift=lift.name,
-        part_kg=part_kg,
+        part_kg=pick.shards_kg,
+        volume_kg=pick.volume_kg,
     )
 
 

@@ -27,7 +27,7 @@ from ..model.scenario import ReportSettings, Scenario
 from ..model.scenario.file import read_scenario
 from ..model.schema import given
 from ..model.sequence.bare_bars import bare_bars_text
-from ..model.sequence.held_parts import held_parts_text
+from ..model.sequence.held_parts import held_parts_text, pick_texts
 from ..model.sequence.undisturbed import self_collapse_text
 from ..system.reading import MEGABYTE, check_file
 
@@ -106,7 +106,7 @@ def read_run(folder: Path) -> ReportedRun:
         shortcomings.append("The run was stopped before its time: everything here ends where it was stopped.")
     if summary:
         values = summary.values
-        doubts = self_collapse_text(values), held_parts_text(values), bare_bars_text(values)
+        doubts = self_collapse_text(values), held_parts_text(values), *pick_texts(values), bare_bars_text(values)
         shortcomings.extend(f"{doubt}." for doubt in doubts if doubt)
     if summary and summary.made_by_hand:
         shortcomings.append(

@@ -21,6 +21,7 @@ from ..model.scenario import Scenario
 from ..model.scenario.contact_facts import own_values_sentence
 from ..model.scenario.recording import PictureSettings
 from ..model.sequence.checked_model import checked_model
+from ..model.sequence.lifts import pick_warnings
 from ..model.stages.stability_by_statics import stability_of
 from ..model.structure.model import Model
 from ..scene.demolition import build_demolition
@@ -79,6 +80,8 @@ def run_scenario(
     progress.stage(stability.sentence)
     if stability.is_asleep:
         progress.stage(stability.asleep_sentence)
+    for warning in pick_warnings(scenario.lifts, model):
+        progress.stage(warning)
     with ExitStack() as locks:
         lock = locks.enter_context(prepare_folder(output, overwrite=overwrite))
         keep_scenario(lock.folder, scenario)

@@ -48,7 +48,9 @@ SUMMARY = {
         {"name": "lower", "member": "deck", "force_N": 63e4, "stored_J": 34e3}
         | {"released": [{"time_s": 0.5, "how": "cut", "energy_J": 10e3}]}
     ],
-    "lifts": [{"name": "panel", "largest_hook_N": 4e5, "largest_hook_s": 2.1, "weight_N": 3e5}],
+    "lifts": [
+        {"name": "panel", "largest_hook_N": 4e5, "largest_hook_s": 2.1, "weight_N": 3e5, "volume_weight_N": 3.2e5}
+    ],
     "reinforcement": {
         **_CRACKED,
         "with_bars": 9,

@@ -205,7 +205,7 @@ def _checked(summary: Any) -> dict[str, Any]:
     for number, pull in enumerate(summary.get("pulls", ())):
         _check_table(f"pulls[{number}]", pull, _PULL)
     for number, lift in enumerate(summary.get("lifts", ())):
-        _check_table(f"lifts[{number}]", lift, _LIFT)
+        _check_table(f"lifts[{number}]", lift, _LIFT, optional=("volume_weight_N",))
     for number, event in enumerate(summary.get("events", ())):
         _check_table(f"events[{number}]", event, _EVENT if "cage_pressed_n" in event else {})
     for number, hit in enumerate(summary.get("hits_of_the_ball", ())):
@@ -354,7 +354,13 @@ _PULL = {
     "let_go_J": _is_number_or_none,
     "work_J": _is_number,
 }
-_LIFT = {"name": _is_text, "largest_hook_N": _is_number, "largest_hook_s": _is_number, "weight_N": _is_number}
+_LIFT = {
+    "name": _is_text,
+    "largest_hook_N": _is_number,
+    "largest_hook_s": _is_number,
+    "weight_N": _is_number,
+    "volume_weight_N": _is_number,
+}
 _EVENT = {
     "zone": _is_text,
     "cage_compression_n": _is_number,

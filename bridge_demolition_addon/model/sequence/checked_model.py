@@ -15,7 +15,7 @@ from ..actions import Affected, Fact, Place, PlannedAction, Point
 from ..blast.blast_zones import BlastZone
 from ..bridge.extent import surface_height
 from ..bridge.member import Member
-from ..lifts import Lift
+from ..lifts import Lift, Pick
 from ..loads import Load
 from ..materials.bar_layers import BarLayer
 from ..pulls import Pull
@@ -82,6 +82,9 @@ class ModelWorksite:
             shards = shards[shards >= 0]  # without the ground
         names = sorted({model.members[row].name for row in model.member_of_shard[shards]})
         return Affected(len(shards), float(model.masses_kg[shards].sum()), tuple(names))
+
+    def pick_of(self, lift: Lift) -> Pick:
+        return placed_lift(lift, self.model, self._structure).pick
 
     def facts_of_zone(self, zone: BlastZone) -> Iterator[Fact]:
         return placed_zone(zone, self.model.members, self._layers).facts(self.plan)

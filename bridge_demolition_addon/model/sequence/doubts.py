@@ -7,11 +7,12 @@ from typing import Any
 
 from ..results.moving import moving_text
 from .bare_bars import bare_bars_text
-from .held_parts import held_parts_text
+from .held_parts import held_parts_text, pick_texts
 from .undisturbed import self_collapse_text
 
 
 def doubts_of_run(summary: Mapping[str, Any]) -> tuple[str, ...]:
     """Return all that is doubtful as sentences without full stops."""
-    texts = self_collapse_text(summary), held_parts_text(summary), bare_bars_text(summary), moving_text(summary)
+    of_parts = held_parts_text(summary), *pick_texts(summary)
+    texts = self_collapse_text(summary), *of_parts, bare_bars_text(summary), moving_text(summary)
     return tuple(text for text in texts if text)

@@ -9,12 +9,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...engineering.elasticity.equations import connected_parts
+from ...engineering.geometry.mesh import TriangleMesh
+from ...engineering.geometry.solids import box, to_manifold
 from ...engineering.geometry.vectors import cross, length, unit
 from ...engineering.mechanics.slings import Hanging, hanging, sling_forces_n
 from ...engineering.structure.connections import GROUND
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...errors import ScenarioError
-from ..lifts import Lift, Sling, radius_m, sling_of
+from ..lifts import Lift, Pick, Sling, radius_m, sling_of
 from ..schema import given
 from ..structure.model import Model
 from .events import Structure, in_box, model_structure, of_members
@@ -37,8 +39,10 @@ class PlacedLift:
     ----------
     shards : (s,) int
         Its part.
-    mass_kg, centre_m : float, (3,) float
-        Of the part.
+    pick : Pick
+        What the part weighs.
+    centre_m : (3,) float
+        Its centre of gravity.
     points_m, hook_m : (k, 3), (3,) float
         Where slings hold the part, and where they end.
     carriers : (k,) int
@@ -47,7 +51,7 @@ class PlacedLift:
 
     lift: Lift
     shards: np.ndarray
-    mass_kg: float
+    pick: Pick
     centre_m: np.ndarray
     points_m: np.ndarray
     hook_m: np.ndarray
@@ -61,7 +65,7 @@ class PlacedLift:
     @property
     def taken_up_n(self) -> np.ndarray:
         """Forces (k,) of slings that have taken up their share of the weight: upright at the hook."""
-        weight_n = self.lift.pretension * STANDARD_GRAVITY_M_S2 * self.mass_kg
+        weight_n = self.lift.pretension * STANDARD_GRAVITY_M_S2 * self.pick.shards_kg
         return sling_forces_n(self.points_m, self.hook_m, np.array((0.0, 0.0, weight_n)), self.lift.elastic_n)
 
     def vertical_n(self, forces_n: np.ndarray) -> float:
@@ -120,14 +124,15 @@ def placed_lift(lift: Lift, model: Model, structure: Structure) -> PlacedLift:
     """Return a lift on the shards of a model with a structure; refuse one whose slings cannot hold its part."""
     shards = shards_of_lift(lift, structure)
     mass_kg, centre_m = _gravity(model, shards)
+    pick = Pick(lift.name, mass_kg, volume_kg(lift, model, structure))
     boxes_m = np.array([model.shards[shard].bounds for shard in shards.tolist()])
     points_m = np.array(lift.sling_points_m or ((*centre_m[:2].tolist(), float(boxes_m[:, 1, 2].max())),))
     aside_m = float(length(points_m[:, :2] - centre_m[:2]).max())
     above_m = float(points_m[:, 2].max()) + max(_STEEP * aside_m, _LEAST_HEIGHT_M)
     hook_m = np.array((*centre_m[:2].tolist(), above_m) if lift.hook_m is None else lift.hook_m)
-    slings = _slings(lift, points_m, hook_m, np.ones(len(points_m)), mass_kg)
+    slings = _slings(lift, points_m, hook_m, np.ones(len(points_m)), pick)
     carriers = [int(placed_on_model(sling, 1, model, structure).bodies[0]) for sling in slings]
-    return PlacedLift(lift, shards, mass_kg, centre_m, points_m, hook_m, np.array(carriers))
+    return PlacedLift(lift, shards, pick, centre_m, points_m, hook_m, np.array(carriers))
 
 
 def shards_of_lift(lift: Lift, structure: Structure) -> np.ndarray:
@@ -141,20 +146,48 @@ def shards_of_lift(lift: Lift, structure: Structure) -> np.ndarray:
     return np.flatnonzero(inside & structure.is_shard)
 
 
+def volume_kg(lift: Lift, model: Model, structure: Structure) -> float:
+    """Return the mass of what of a lift's members lies in its box, however they are cut, but for what is held."""
+    meant = of_members(lift, structure)[: len(model.shards)]
+    masses_kg = []
+    for number, member in enumerate(model.members):
+        own = meant & (model.member_of_shard == number)
+        if not (own & ~model.fixed).any():
+            continue
+        held = (model.shards[shard] for shard in np.flatnonzero(own & model.fixed).tolist())
+        volume_m3 = _volume_in_box(member.solid, lift) - math.fsum(_volume_in_box(solid, lift) for solid in held)
+        masses_kg.append(float(model.masses_kg[own].sum()) * volume_m3 / member.volume_m3)
+    return math.fsum(masses_kg)
+
+
+def _volume_in_box(solid: TriangleMesh, lift: Lift) -> float:
+    if lift.lowest_corner_m is None:
+        return solid.volume
+    low, high = np.array((lift.lowest_corner_m, lift.highest_corner_m))
+    if (solid.bounds[0] >= low).all() and (solid.bounds[1] <= high).all():
+        return solid.volume
+    return (to_manifold(solid) ^ to_manifold(box(high - low, (low + high) / 2.0))).volume()
+
+
+def pick_warnings(lifts: Sequence[Lift], model: Model) -> list[str]:
+    """Return sentences on picks whose shards weigh otherwise than their volume."""
+    return [warning for placed in placed_lifts(lifts, model) if (warning := placed.pick.warning)]
+
+
 def slings_of(lifts: Sequence[Lift], model: Model) -> tuple[Sling, ...]:
     """Return the slings of lifts as cables of a run."""
     return tuple(
         sling
         for placed in placed_lifts(lifts, model)
-        for sling in _slings(placed.lift, placed.points_m, placed.hook_m, placed.taken_up_n, placed.mass_kg)
+        for sling in _slings(placed.lift, placed.points_m, placed.hook_m, placed.taken_up_n, placed.pick)
     )
 
 
-def _slings(lift: Lift, points_m: np.ndarray, hook_m: np.ndarray, forces_n: np.ndarray, mass_kg: float) -> list[Sling]:
+def _slings(lift: Lift, points_m: np.ndarray, hook_m: np.ndarray, forces_n: np.ndarray, pick: Pick) -> list[Sling]:
     """Return the slings of a lift, with the forces (k,) that they take up."""
     x, y, z = hook_m.tolist()
     return [
-        sling_of(lift, number, (point[0], point[1], point[2]), (x, y, z), force_n, mass_kg)
+        sling_of(lift, number, (point[0], point[1], point[2]), (x, y, z), force_n, pick)
         for number, (point, force_n) in enumerate(zip(points_m.tolist(), forces_n.tolist(), strict=True), start=1)
     ]
 

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...engineering.units import STANDARD_GRAVITY_M_S2, mass_text, with_digits
-from ..lifts import Lift
+from ..lifts import Lift, Pick
 from ..scenario.structural_changes import lifting_away
 from ..sequence.events import Event, Structure, schedule
 from ..sequence.lifts import PlacedLift
@@ -44,6 +44,7 @@ LIFT_COLUMNS = (
     "tilt_deg",
     "held_by",
     "not_on_slings_kg",
+    "volume_kg",
 )
 
 _KILO = 1000.0
@@ -64,6 +65,8 @@ class PartOnHook:
         One of `STATES`.
     shards : (h,) int
         Those that slings hold.
+    pick : Pick
+        What the whole part weighs.
     forces_n : (k,) float
         Forces of the slings.
     hook_n, tilt_rad : float
@@ -79,7 +82,7 @@ class PartOnHook:
     lift: Lift
     state: str
     shards: np.ndarray
-    part_kg: float
+    pick: Pick
     forces_n: np.ndarray
     hook_n: float
     tilt_rad: float
@@ -90,8 +93,8 @@ class PartOnHook:
 
     @property
     def used(self) -> float:
-        """Load on the hook, by what the crane lifts."""
-        return self.hook_n / (STANDARD_GRAVITY_M_S2 * self.lift.capacity_kg)
+        """Load on the hook, by what the crane lifts: of its shards or of its volume, whichever is heavier."""
+        return self.pick.heavier_by * self.hook_n / (STANDARD_GRAVITY_M_S2 * self.lift.capacity_kg)
 
 
 class CraneWork:
@@ -146,12 +149,12 @@ class CraneWork:
             hangs = placed.hanging(on_slings, model)
             forces_n, tilt_rad = hangs.forces_n, hangs.tilt_rad
             held_kg = math.fsum(model.masses_kg[on_slings].tolist())
-            hook_n, not_on_slings_kg = STANDARD_GRAVITY_M_S2 * held_kg, placed.mass_kg - held_kg
+            hook_n, not_on_slings_kg = STANDARD_GRAVITY_M_S2 * held_kg, placed.pick.shards_kg - held_kg
         return PartOnHook(
             lift=lift,
             state=GONE if is_gone else HELD if held_by else HANGS,
             shards=on_slings,
-            part_kg=placed.mass_kg,
+            pick=placed.pick,
             forces_n=forces_n,
             hook_n=hook_n,
             tilt_rad=tilt_rad,
@@ -175,7 +178,7 @@ def _row(number: int, time_s: float, part: PartOnHook) -> dict[str, Any]:
         time_s,
         part.lift.name,
         part.state,
-        part.part_kg,
+        part.pick.shards_kg,
         part.hook_n / _KILO,
         part.hook_n / STANDARD_GRAVITY_M_S2 / _KILO,
         part.lift.capacity_kg / _KILO,
@@ -185,6 +188,7 @@ def _row(number: int, time_s: float, part: PartOnHook) -> dict[str, Any]:
         math.degrees(part.tilt_rad),
         ", ".join(part.held_by),
         part.not_on_slings_kg,
+        part.pick.volume_kg,
     )
     return dict(zip(LIFT_COLUMNS, values, strict=True))
 
@@ -219,6 +223,8 @@ def _of_part(part: PartOnHook) -> Iterator[str]:
     state = "lifted away, " if part.state == GONE else "hangs free, " if part.state == HANGS else ""
     shares = f"; slings carry {slings} kN" if many else ""
     yield f"{part.lift.name}: {state}{load} on the hook, {part.used:.0%} of what the crane lifts{radius}{shares}"
+    if part.pick.warning:
+        yield part.pick.warning
     if part.used > 1.0:
         yield f"{part.lift.name} is too heavy for the crane: cut it into smaller parts, or choose a larger crane"
     if part.overdue:
@@ -230,5 +236,5 @@ def _of_part(part: PartOnHook) -> Iterator[str]:
         yield f"{part.lift.name} turns by {tilt_deg:.0f}° as it comes free: move slings or hook over its middle"
     if many and float(part.forces_n.min()) < _SLACK * float(part.forces_n.max()):
         yield f"a sling of {part.lift.name} is slack"
-    if part.not_on_slings_kg > FALLEN_SHARE * part.part_kg:
+    if part.not_on_slings_kg > FALLEN_SHARE * part.pick.shards_kg:
         yield f"{mass_text(part.not_on_slings_kg, 1)} of {part.lift.name} are cut off from its slings"

@@ -21,18 +21,21 @@ _COLUMNS = (
     Column("work (kJ)", "work_kJ", ".1f", lambda pull: pull["work_J"] / _KILO),
     Column("ended", "ended", "", lambda pull: pull["ended"] or "held to the end"),
     Column("then (s)", "ended_s", ".3f", lambda pull: pull["ended_s"]),
-    Column(
-        "let go (kJ)", "let_go_kJ", ".1f", lambda pull: None if pull["let_go_J"] is None else pull["let_go_J"] / _KILO
-    ),
+    Column("let go (kJ)", "let_go_kJ", ".1f", lambda pull: _in_thousands(pull["let_go_J"])),
 )
 
 _HOOKS = (
     Column("Lift", "lift", "", lambda lift: lift["name"]),
     Column("weight (kN)", "weight_kN", ".1f", lambda lift: lift["weight_N"] / _KILO),
+    Column("by volume (kN)", "volume_weight_kN", ".1f", lambda lift: _in_thousands(lift.get("volume_weight_N"))),
     Column("largest load on the hook (kN)", "largest_hook_kN", ".1f", lambda lift: lift["largest_hook_N"] / _KILO),
     Column("by its weight", "by_weight", ".2f", lambda lift: lift["largest_hook_N"] / lift["weight_N"]),
     Column("at (s)", "at_s", ".3f", lambda lift: lift["largest_hook_s"]),
 )
+
+
+def _in_thousands(value: float | None) -> float | None:
+    return None if value is None else value / _KILO
 
 
 def pull_section(run: ReportedRun) -> Section | None:

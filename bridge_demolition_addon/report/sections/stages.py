@@ -12,7 +12,9 @@ from typing import Any
 
 from ...engineering.units import mass_text
 from ...errors import OutputError, UnreadableError
+from ...model.lifts import Pick
 from ...model.stages.bearing_rows import BEARING_COLUMNS, BEARINGS_FILE
+from ...model.stages.lifted import LIFT_COLUMNS, LIFTS_FILE
 from ...model.stages.misfires import MISFIRE_COLUMNS, MISFIRES_FILE
 from ...model.stages.tables import (
     CRITICALITY_COLUMNS,
@@ -144,6 +146,7 @@ def stages_section(folder: Path) -> Section:
         Paragraph(_WORDS),
         *_warnings(stages),
         *_released(stages),
+        *_picks(folder),
         table,
         *_reaction_blocks(folder),
         *_bearing_blocks(folder),
@@ -168,6 +171,18 @@ def _released(stages: Sequence[dict[str, str]]) -> list[Block]:
         return []
     text = "Tendons let go at once, and hurt people along their lines and at their anchorages: "
     return [Paragraph(f"{text}{', '.join(parts)}.", is_notice=True)]
+
+
+def _picks(folder: Path) -> list[Block]:
+    """Return notices of parts whose shards weigh otherwise than their volume; none of what earlier versions wrote."""
+    path = folder / LIFTS_FILE
+    rows = _rows(path, LIFT_COLUMNS[:-1], may_be_empty=True) if path.is_file() else []
+    known = rows and "volume_kg" in rows[0]
+    try:
+        picks = [Pick(row["lift"], *(float(row[key]) for key in ("part_kg", "volume_kg"))) for row in rows if known]
+    except ValueError as error:
+        raise _damaged(path, error) from error
+    return [Paragraph(f"{text}.", True) for text in dict.fromkeys(pick.warning for pick in picks) if text]
 
 
 def _misfire_blocks(folder: Path) -> list[Block]:

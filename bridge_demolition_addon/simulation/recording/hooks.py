@@ -21,7 +21,7 @@ class Hooks:
         self._rows: dict[str, list[int]] = {}
         for row, sling in slings:
             self._rows.setdefault(sling.lift, []).append(row)
-        self._parts_kg = {sling.lift: sling.part_kg for _, sling in slings}
+        self._masses_kg = {sling.lift: (sling.part_kg, sling.volume_kg or sling.part_kg) for _, sling in slings}
         self._largest = dict.fromkeys(self._rows, (0.0, 0.0))
 
     def measure(self, time_s: float, upwards_n: np.ndarray) -> None:
@@ -32,13 +32,14 @@ class Hooks:
                 self._largest[lift] = load_n, time_s
 
     def summary(self) -> list[dict[str, Any]]:
-        """Return the largest load on each hook so far, and the weight of its part, ready for JSON."""
+        """Return the largest load on each hook so far, and the weights of its part, ready for JSON."""
         return [
             {
                 "name": lift,
                 "largest_hook_N": load_n,
                 "largest_hook_s": time_s,
-                "weight_N": STANDARD_GRAVITY_M_S2 * self._parts_kg[lift],
+                "weight_N": STANDARD_GRAVITY_M_S2 * self._masses_kg[lift][0],
+                "volume_weight_N": STANDARD_GRAVITY_M_S2 * self._masses_kg[lift][1],
             }
             for lift, (load_n, time_s) in self._largest.items()
         ]

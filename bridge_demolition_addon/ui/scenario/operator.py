@@ -8,6 +8,7 @@ from ...display.camera_targets import points_to_see
 from ...model.scenario import Scenario
 from ...model.scenario.file import read_scenario, scenario_text
 from ...model.sequence.checked_model import checked_model
+from ...model.sequence.lifts import pick_warnings
 from ...model.stages.stability_by_statics import stability_of
 from ...scene.as_built import keep_as_built
 from ...scene.bodies import lacks_ground
@@ -252,6 +253,8 @@ def build_and_show(scene: bpy.types.Scene, scenario: Scenario, *, is_shown: bool
         show_scenario(settings, scenario)
     settings.total_mass = ""
     messages.clear_of(scene)
+    for warning in pick_warnings(scenario.lifts, model):
+        messages.note(scene, "bda.build_scenario", "WARNING", warning)
     keep_built(settings, scenario)
     keep_as_built(scene)
     if len(model.shards) <= _MOST_SHARDS_JUDGED:

@@ -184,7 +184,7 @@ def test_slings_of_a_run_take_up_the_pretension():
     (placed,) = placed_lifts(scenario.lifts, model)
     assert [sling.name for sling in slings] == ["middle, sling 1", "middle, sling 2"]
     forces = np.array([sling.largest_force_n for sling in slings])
-    assert placed.vertical_n(forces) == pytest.approx(0.5 * STANDARD_GRAVITY_M_S2 * placed.mass_kg, rel=1e-6)
+    assert placed.vertical_n(forces) == pytest.approx(0.5 * STANDARD_GRAVITY_M_S2 * placed.pick.shards_kg, rel=1e-6)
 
 
 @pytest.mark.parametrize(

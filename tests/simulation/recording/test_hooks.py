@@ -9,7 +9,7 @@ from support.blocks import Blocks
 from support.long_cases import long_but
 
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
-from bridge_demolition_addon.model.lifts import sling_of
+from bridge_demolition_addon.model.lifts import Pick, sling_of
 from bridge_demolition_addon.model.scenario import Lift, LiftingAway, Removal
 from bridge_demolition_addon.scene.bodies import mark_member
 from bridge_demolition_addon.scene.structural_changes import changes_of, keep_changes, keep_pulls, pulls_of
@@ -35,7 +35,7 @@ def lifted_block(folder, pretension):
         pretension=pretension,
         diameter_mm=10.0,
     )
-    sling = sling_of(lift, 1, (0.0, 0.0, 2.0), (0.0, 0.0, 12.0), pretension * WEIGHT_N, MASS_KG)
+    sling = sling_of(lift, 1, (0.0, 0.0, 2.0), (0.0, 0.0, 12.0), pretension * WEIGHT_N, Pick("pick", MASS_KG, MASS_KG))
     keep_pulls(blocks.scene, [sling])
     away = LiftingAway(time_s=LIFT_S, name="pick", members=("part",))
     changes = (Removal(time_s=FREE_S, members=("below",)), away)

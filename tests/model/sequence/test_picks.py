@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What picks of a crane weigh, by hand: the volume in the box of a lift, by its density."""
+
+import pytest
+from support.stage_folders import with_stages
+
+from bridge_demolition_addon.model.lifts import Pick
+from bridge_demolition_addon.model.scenario.file import scenario_from_text
+from bridge_demolition_addon.model.sequence.checked_model import checked_model
+from bridge_demolition_addon.model.sequence.doubts import doubts_of_run
+from bridge_demolition_addon.model.sequence.events import model_structure
+from bridge_demolition_addon.model.sequence.lifts import placed_lifts, volume_kg
+from bridge_demolition_addon.model.stages.lifted import LIFT_COLUMNS
+from bridge_demolition_addon.report.sections.stages import stages_section
+
+DENSITY_KG_M3 = 2500.0
+BRIDGE = """
+[scenario]
+title = "Picks"
+seed = {seed}
+[time]
+duration_s = 5.0
+[bridge]
+density_kg_m3 = 2500.0
+span_lengths_m = [12.0]
+skew_deg = {skew}
+[bridge.deck]
+width_m = 4.0
+thickness_m = 0.5
+[bridge.girders]
+number = 2
+width_m = 0.4
+depth_m = 0.8
+[bridge.abutments]
+length_m = 1.0
+width_m = 4.0
+height_m = 3.0
+[[supports]]
+member = "abutment"
+[fracture]
+shards = {shards}
+[connections]
+type = "FIXED"
+method = "face"
+material = "reinforced concrete slab"
+stiffness = "elastic"
+"""
+DECK_Z = (3.8, 4.3)
+
+
+def model_with(tables, seed=1, shards=60, skew=0.0):
+    scenario = scenario_from_text(BRIDGE.format(seed=seed, shards=shards, skew=skew) + tables)
+    return scenario, checked_model(scenario)
+
+
+def lift(name, members, low, high, capacity_kg=20000.0):
+    return (
+        f'[[lifts]]\nname = "{name}"\nmembers = {members}\nlowest_corner_m = {low}\nhighest_corner_m = {high}\n'
+        f"from_s = 0.5\nlift_s = 3.0\ncapacity_kg = {capacity_kg}\n"
+    ).replace("'", '"')
+
+
+@pytest.mark.parametrize("seed", [3, 8])
+@pytest.mark.parametrize(
+    ("members", "low", "high", "volume_m3"),
+    [
+        (["deck"], [3.0, -1.0, 3.0], [7.0, 1.0, 5.0], 4.0 * 2.0 * 0.5),
+        (["deck"], [6.0, -9.0, 0.0], [99.0, 9.0, 9.0], 6.0 * 4.0 * 0.5),  # sticks out beyond its end, at 12 m
+        (["girder"], [3.0, -9.0, 0.0], [7.0, 9.0, 9.0], 2 * 4.0 * 0.4 * 0.8),
+        (["deck", "girder"], [3.0, 0.0, 3.0], [7.0, 9.0, 9.0], 4.0 * (2.0 * 0.5 + 0.4 * 0.8)),
+        (["deck", "girder"], [3.0, 0.0, 3.4], [7.0, 9.0, 4.0], 4.0 * (2.0 * 0.2 + 0.4 * 0.4)),
+        # Abutments are held: nothing of them is lifted.
+        (["deck", "abutment"], [-9.0, -9.0, 0.0], [2.0, 9.0, 9.0], 2.0 * 4.0 * 0.5),
+    ],
+)
+def test_a_pick_weighs_what_is_in_its_box(seed, members, low, high, volume_m3):
+    scenario, model = model_with(lift("pick", members, low, high), seed)
+    found = volume_kg(scenario.lifts[0], model, model_structure(model))
+    assert found == pytest.approx(DENSITY_KG_M3 * volume_m3, rel=1e-9)
+    (placed,) = placed_lifts(scenario.lifts, model)
+    assert placed.pick.shards_kg == pytest.approx(float(model.masses_kg[placed.shards].sum()), rel=1e-12)
+
+
+def test_a_skewed_deck_in_a_box_weighs_what_lies_in_it():
+    """Each strip of a parallelogram is as long as the box, which lies within its ends."""
+    scenario, model = model_with(lift("pick", ["deck"], [4.0, -1.0, 3.0], [8.0, 1.0, 5.0]), skew=20.0)
+    assert placed_lifts(scenario.lifts, model)[0].pick.volume_kg == pytest.approx(DENSITY_KG_M3 * 4.0, rel=1e-9)
+
+
+def test_the_crane_is_judged_by_the_larger_mass_and_both_are_said():
+    pick = Pick("strip", 50734.0, 66406.0)
+    assert pick.heavier_by == pytest.approx(66406.0 / 50734.0) and Pick("strip", 88134.0, 66406.0).heavier_by == 1.0
+    assert pick.masses == "66.4 t by volume, 50.7 t in shards"
+    assert "66.4 t by the volume in its box, but 50.7 t by the shards" in pick.warning
+    assert Pick("strip", 67100.0, 66406.0).warning == ""
+
+
+def test_picks_that_differ_are_said_in_report_and_summary(tmp_path):
+    part = {"name": "strip", "weight_N": 9.80665 * 88134.0, "volume_weight_N": 9.80665 * 66406.0}
+    (said,) = doubts_of_run({"lifts": [part]})
+    assert said == Pick("strip", 88134.0, 66406.0).warning and doubts_of_run({"lifts": [{"name": "strip"}]}) == ()
+    folder = with_stages(tmp_path / "stages")
+    values = dict.fromkeys(LIFT_COLUMNS, "1") | {"lift": "strip", "part_kg": "88134", "volume_kg": "66406"}
+    for columns, times in ((LIFT_COLUMNS, 1), (LIFT_COLUMNS[:-1], 0)):  # earlier versions did not say
+        line = ",".join(values[name] for name in columns)
+        (folder / "lifts.csv").write_text(f"{','.join(columns)}\n{line}\n{line}\n", encoding="utf-8")
+        texts = [getattr(block, "text", "") for block in stages_section(folder).blocks]
+        assert texts.count(f"{said}.") == times
