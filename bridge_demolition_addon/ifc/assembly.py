@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import chain, count
-from unicodedata import category
 
 import numpy as np
 from manifold3d import Manifold
 
 from ..engineering.geometry.level_contacts import level_contacts
 from ..engineering.geometry.mesh import TriangleMesh
+from ..engineering.geometry.overlap import shells_left
 from ..engineering.geometry.solids import from_manifold, to_manifold
 from ..engineering.units import mass_text
 from ..model.bridge.member import Member
 from ..model.scenario.bearings import PINNED, ROCKER, Bearing
-from ..model.scenario.connections_between import GROUND_NAME
-from ..model.schema import LINE_BREAKING_CATEGORIES, given
+from ..model.schema import FARTHEST_M, SHORTEST_LENGTH_M, given
 from .added_supports import KIND, under_bearing, under_ends, with_one_pinned
 from .bearings import BearingElement, BearingTables, bearing_of, bearing_tables, seated, with_one_fixed
 from .bodies import Bodies
@@ -34,7 +34,6 @@ from .missing_bearings import pads_under, with_one_support_pinned
 from .outcome import ADDED, BAR, CONNECTION, LEFT_OUT, MEMBER, Outcome
 from .placement import Placement
 from .quantities import Quantities
-from .settings import KINDS
 
 _SAME = 0.99
 """Part of two members' volumes that they have in common where one is the other's double."""
@@ -48,7 +47,11 @@ _WITHIN = 0.5
 _NUDGE_M = 5e-4
 """How far a member is moved into what it is to touch: what they have in common is cut off."""
 
-_SMALLEST_M3 = 1e-6
+_SMALLEST_M3, _LEAST_LEFT = 1e-6, 1e-4
+"""Volume below which nothing is left of a member that others are cut off, and part of its own."""
+
+_THINNEST_M = 1.1 * SHORTEST_LENGTH_M
+"""Extent below which an element is no member; dummies of grillages are 1 mm thick, give or take its rounding."""
 
 
 @dataclass(slots=True)
@@ -67,6 +70,8 @@ class Assembly:
         Numbers of elements that are bars of steel.
     joined
         Pairs of names of members that bars join, or that hold bars, though they may not touch.
+    unfit
+        Why elements that are too thin or too far away for members are left out, by their titles.
     """
 
     elements: Sequence[Element]
@@ -78,6 +83,7 @@ class Assembly:
     added: list[Member] = field(default_factory=list)
     bars: Collection[int] = ()
     joined: list[tuple[str, str]] = field(default_factory=list)
+    unfit: dict[str, str] = field(default_factory=dict)
     _bearings: list[tuple[BearingElement, str]] = field(default_factory=list)
     _more_bearings: list[Bearing] = field(default_factory=list)
     _on_pads: list[Bearing] = field(default_factory=list)
@@ -88,8 +94,6 @@ class Assembly:
 
     def add_members(self, solids: Mapping[int, TriangleMesh]) -> None:
         """Take in all elements, of which those with solids become members."""
-        members = [element for element in self.elements if element.is_member and element.kind != "bearing"]
-        names = dict(zip((id(member) for member in members), _names([m.facts.name for m in members]), strict=True))
         for element in self.elements:
             number = element.entity.id()
             if not element.is_member:
@@ -97,9 +101,9 @@ class Assembly:
             elif number in self.bodies.missing:
                 self._leave_out(element, self.bodies.missing[number], is_lost=True)
             elif element.kind != "bearing":
-                self._add_member(element, names[id(element)], solids[number])
+                self._add_member(element, solids[number])
 
-    def _add_member(self, element: Element, name: str, solid: TriangleMesh) -> None:
+    def _add_member(self, element: Element, solid: TriangleMesh) -> None:
         number = element.entity.id()
         substance, known = self.made_of[number], self.quantities[number]
         kept = _above_ground(solid)
@@ -113,12 +117,15 @@ class Assembly:
             notes.append(f"its volume, {solid.volume:.4g} m³, is {theirs}")
         if kept is not solid:
             notes.append("cut off at the ground")
-        member = Member(name, element.member_kind, kept, substance.density_kg_m3)
+        member = Member(element.facts.member_name, element.member_kind, kept, substance.density_kg_m3)
         why = "; ".join(filter(None, notes))
         became = BAR if number in self.bars else MEMBER
         self.outcomes[number] = Outcome(
             element.facts, member, substance, became, why, None, known.volume_m3, known.mass_kg
         )
+        if unfit := _unfit(kept):
+            self.unfit[element.title] = unfit
+            self.leave_out(number, f"it {unfit}")
 
     def _leave_out(self, element: Element, why: str, *, is_lost: bool = False) -> None:
         """Leave an element out; where it `is_lost`, its mass is said."""
@@ -172,16 +179,20 @@ class Assembly:
 
     def ordered(self) -> list[Outcome]:
         """Return all outcomes; what an earlier one takes is cut off a later one."""
+        return [self.outcomes[number] for number in self.ordered_numbers()]
+
+    def ordered_numbers(self) -> list[int]:
+        """Return the numbers of all outcomes in that order."""
         first = [number for number in self._first if self.outcomes[number].member]
-        return [*(self.outcomes[number] for number in first)] + [
-            outcome for number, outcome in self.outcomes.items() if number not in first
-        ]
+        return first + [number for number in self.outcomes if number not in first]
 
     def drop_consumed(self) -> None:
         """Leave out members of which nothing is left once those before them are cut off."""
         taken: list[TriangleMesh] = []
-        numbers = {id(outcome): number for number, outcome in self.outcomes.items()}
-        for outcome in self.ordered():
+        waiting = deque(self.ordered_numbers())
+        while waiting:
+            number = waiting.popleft()
+            outcome = self.outcomes[number]
             if outcome.member is None or outcome.became in (BAR, CONNECTION):
                 continue
             solid = outcome.member.solid
@@ -189,30 +200,32 @@ class Assembly:
             for other in taken:
                 if _boxes_meet(other, solid):
                     rest -= to_manifold(other)
-            if rest.volume() <= max(_SMALLEST_M3, 1e-4 * solid.volume):
-                self.leave_out(numbers[id(outcome)], "members before it take all of its room")
-            else:
-                taken.append(solid)
-                self._part(numbers[id(outcome)], rest)
+            least_m3 = max(_SMALLEST_M3, _LEAST_LEFT * solid.volume)
+            if rest.volume() <= least_m3 or not shells_left(rest, solid.volume, outcome.member.name):
+                self.leave_out(number, "members before it take all of its room")
+                continue
+            waiting += self._part(number, rest)  # which others may take in their turn
+            taken.append(given(self.outcomes[number].member).solid)
         self._lose_loose()
 
-    def _part(self, number: int, rest: Manifold) -> None:
-        """Make members of the bodies that others cut a member into; a shard is one body."""
+    def _part(self, number: int, rest: Manifold) -> list[int]:
+        """Make members of the bodies that others cut a member into, and return their numbers; a shard is one body."""
         outcome = self.outcomes[number]
         member = given(outcome.member)
         bodies = sorted(rest.decompose(), key=lambda body: -body.volume())
         large = [body for body in bodies if body.volume() >= _SCRAP * rest.volume()]
         below = {name for _, name in self._bearings} | {bearing.members[1] for bearing in self._on_pads}
         if len(bodies) < 2 or member.name in below:
-            return
+            return []
+        parts = []
         self.outcomes[number] = replace(outcome, member=replace(member, solid=from_manifold(large[0])))
         for row, body in enumerate(large[1:], start=2):
             part = replace(member, name=f"{member.name} part {row}", solid=from_manifold(body))
-            self.outcomes[min(0, *self.outcomes) - 1] = replace(
-                outcome, member=part, file_volume_m3=None, file_mass_kg=None
-            )
+            parts.append(min(0, *self.outcomes) - 1)
+            self.outcomes[parts[-1]] = replace(outcome, member=part, file_volume_m3=None, file_mass_kg=None)
         if len(large) > 1:
-            self.notes.append(f"{member.name} is cut into {len(large)} members where others pass through it")
+            self.notes.append(f"{member.name} is cut into {len(large)} members, of as many bodies")
+        return parts
 
     def make_writable(self) -> None:
         """Give all meshes coordinates that a file holds; what is no solid with them is simplified, or left out."""
@@ -410,20 +423,14 @@ def _carrying(members: Sequence[Member]) -> list[Member]:
     return next(filter(None, of_kinds), [])
 
 
-def plain_text(text: str) -> str:
-    """Return a text on one line."""
-    return " ".join("".join(" " if category(sign) in LINE_BREAKING_CATEGORIES else sign for sign in text).split())
-
-
-def _names(texts: Sequence[str]) -> list[str]:
-    """Return different names, each on one line, and none of them that of a kind or of the ground."""
-    taken, names = {*KINDS, GROUND_NAME}, []
-    for text in texts:
-        plain = plain_text(text) or "element"
-        choices = chain([plain], (f"{plain} {number}" for number in count(2)))
-        names.append(next(name for name in choices if name not in taken))
-        taken.add(names[-1])
-    return names
+def _unfit(solid: TriangleMesh) -> str:
+    """Return why a solid can be no member; empty for one that can."""
+    thinnest_m, farthest_m = float(np.ptp(solid.bounds, axis=0).min()), float(np.abs(solid.bounds).max())
+    if thinnest_m < _THINNEST_M:
+        return f"is {1e3 * thinnest_m:.3g} mm thick, too thin for a member"
+    if farthest_m > FARTHEST_M:
+        return f"reaches {farthest_m:.4g} m from the beginning of the bridge"
+    return ""
 
 
 def _above_ground(solid: TriangleMesh) -> TriangleMesh | None:

@@ -49,8 +49,8 @@ def bodies_of(
 
     Where this is `strict`, those that fail are refused; otherwise a solid of about the same volume may stand for them.
     """
-    if strict:
-        _check_shapes(source, elements, kept)
+    if strict and not shapes:
+        _check_all(source, elements, kept.failed)
     if not shapes:
         why = f", as later schemas have no {', '.join(source.lost_classes)}" if source.lost_classes else ""
         how = "export it as IFC4X3" if source.lost_classes else "export it again"
@@ -75,29 +75,24 @@ def bodies_of(
         bodies.solids[number], bodies.repairs[number] = repaired.solid, repaired.repairs
     kept.begins(len(elements), len(elements), None)
     if strict:
-        _check_solids(source, elements, bodies)
+        _check_all(source, elements, bodies.missing)
     return bodies
 
 
-def _check_shapes(source: IfcSource, elements: Sequence[Element], kept: KeptShapes) -> None:
-    wrong = {
-        element.title: kept.failed[element.entity.id()] for element in elements if element.entity.id() in kept.failed
-    }
-    if not wrong:
-        return
-    for title, why in wrong.items():
-        if why != FAILED:
-            raise IfcError(f"{source.path}: {title}: {why}; leave it out by --without NAME")
-    titles = list(wrong)
-    more = f" and {len(titles) - _LISTED} more" if len(titles) > _LISTED else ""
-    raise IfcError(
-        f"{source.path}: the geometry of {', '.join(titles[:_LISTED])}{more} cannot be worked out; mend it in "
-        "the program that it was made with, or leave such elements out by --without NAME"
-    )
-
-
-def _check_solids(source: IfcSource, elements: Sequence[Element], bodies: Bodies) -> None:
-    wrong = [f"{element.title}: {why}" for element in elements if (why := bodies.missing.get(element.entity.id()))]
-    if wrong:
-        more = f" And so for {len(wrong) - _LISTED} more." if len(wrong) > _LISTED else ""
-        raise IfcError(f"{source.path}: {' '.join(wrong[:_LISTED])}{more} Or leave it out by --without NAME")
+def _check_all(source: IfcSource, elements: Sequence[Element], missing: Mapping[int, str]) -> None:
+    """Refuse a file with elements that have no body, and say why of all of them."""
+    wrong = {element.title: missing[number] for element in elements if (number := element.entity.id()) in missing}
+    failed = [title for title, why in wrong.items() if why == FAILED]
+    others = [f"{title}: {why.rstrip('.')}." for title, why in wrong.items() if why != FAILED]
+    texts = []
+    if failed:
+        more = f" and {len(failed) - _LISTED} more" if len(failed) > _LISTED else ""
+        texts.append(
+            f"the geometry of {', '.join(failed[:_LISTED])}{more} cannot be worked out; mend it in the program that it "
+            "was made with, or leave such elements out by --without NAME"
+        )
+    if others:
+        more = f" And so for {len(others) - _LISTED} more." if len(others) > _LISTED else ""
+        texts.append(f"{' '.join(others[:_LISTED])}{more} Or leave it out by --without NAME")
+    if texts:
+        raise IfcError(f"{source.path}: {'. '.join(texts)}")

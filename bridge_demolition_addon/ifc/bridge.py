@@ -25,12 +25,12 @@ from ..model.scenario import (
 from ..model.schema import given
 from .added_supports import CLEARANCE_M
 from .approach_slabs import leave_out_clamping_slabs
-from .assembly import Assembly, plain_text
+from .assembly import Assembly
 from .bars import bar_layers
 from .bodies import Bodies, bodies_of
 from .contacts import NearbyMembers
 from .element_materials import substances
-from .elements import Element, elements_of
+from .elements import Element, elements_of, plain_text
 from .fineness import fracture_of
 from .joint_plates import leave_out_plates
 from .kinds_by_shape import with_kinds_by_shape
@@ -121,6 +121,9 @@ def _bridge(path: Path, table: MaterialTable, settings: ImportSettings, kept: Ke
         steel = steel_elements(source, wanted, solids, made_of, placement)
     result = Assembly(elements, made_of, quantities, bodies, bars=frozenset(steel.bars))
     result.add_members(solids)
+    if settings.strict and result.unfit:
+        wrong = "; ".join(f"{title} {why}" for title, why in result.unfit.items())
+        raise IfcError(f"{path}: {wrong}; leave such elements out by --without NAME")
     bearings = [element for element in wanted if element.kind == "bearing" and element.entity.id() in solids]
     frame: SteelFrame | None = None
     on_bars: tuple[str, ...] = ()

@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import chain, count
 from typing import Any
+from unicodedata import category
 
 from ..errors import IfcError
+from ..model.scenario.connections_between import GROUND_NAME
+from ..model.schema import LINE_BREAKING_CATEGORIES
 from .kinds import OTHER, ElementFacts, LeftOut, is_french, kind_of
 from .library import library
 from .quantities import PropertySets, words_of
-from .settings import ImportSettings, matches
+from .settings import KINDS, ImportSettings, matches
 from .source import IfcSource
 
 NO_BODIES = (
@@ -21,6 +25,9 @@ NO_BODIES = (
 
 _CLASS = re.compile(r"Ifc([A-Z]\w+)")
 _LISTED = 5
+_PART = re.compile(r"( part)? \d+( \(\d+\))?$")
+"""What ends the name of a part of an element that is a member or bar of its own."""
+
 _DEEPEST = 100
 """Parts within parts of a bridge; what is deeper is in itself."""
 
@@ -62,21 +69,22 @@ class Element:
     @property
     def title(self) -> str:
         """Its name in messages."""
-        return f"{self.facts.name} ({self.facts.classes[0]} #{self.entity.id()})"
+        return self.facts.title
 
 
 def elements_of(source: IfcSource, settings: ImportSettings) -> tuple[Element, ...]:
     """Return all elements of a file in its order, without openings and virtual elements."""
-    elements = tuple(_elements(source.model, settings))
+    elements = _named(tuple(_elements(source.model, settings)))
     named = (pattern for pattern, _ in (*settings.kinds, *settings.materials_of))
-    for pattern in (*settings.without, *named):
+    without = [_of_whole(pattern, elements) for pattern in settings.without]
+    for pattern in (*without, *named):
         if not any(matches(pattern, element.names) for element in elements):
             known = ", ".join(element.facts.name for element in elements[:_LISTED])
             raise IfcError(
                 f'{source.path}: has no element "{pattern}": expected a name, a class such as IfcBeam, a kind or a '
                 f"GlobalId of one; it has {known}{' and more' if len(elements) > _LISTED else ''}"
             )
-    elements = tuple(_without(element, settings.without) for element in elements)
+    elements = tuple(_without(element, without) for element in elements)
     is_known = settings.strict or not any(element.kind == LeftOut(OTHER) for element in elements)
     if is_known and not any(element.is_member for element in elements):
         classes = sorted({element.facts.classes[0] for element in elements})
@@ -88,7 +96,33 @@ def elements_of(source: IfcSource, settings: ImportSettings) -> tuple[Element, .
     return elements
 
 
-def _without(element: Element, patterns: tuple[str, ...]) -> Element:
+def _named(elements: Sequence[Element]) -> tuple[Element, ...]:
+    """Return elements with different names for those that are or may become members, none of a kind or the ground."""
+    taken, named = {*KINDS, GROUND_NAME}, []
+    for element in elements:
+        if element.kind == "bearing" or not (element.is_member or element.kind == LeftOut(OTHER)):
+            named.append(element)
+            continue
+        plain = plain_text(element.facts.name) or "element"
+        choices = chain([plain], (f"{plain} {number}" for number in count(2)))
+        name = next(choice for choice in choices if choice not in taken)
+        taken.add(name)
+        named.append(replace(element, facts=replace(element.facts, member_name=name)))
+    return tuple(named)
+
+
+def _of_whole(pattern: str, elements: Sequence[Element]) -> str:
+    """Return a pattern, or the name of the element of which it names a part that is a member or bar of its own."""
+    is_known = any(matches(pattern, element.names) for element in elements)
+    return pattern if is_known else _PART.sub("", pattern)
+
+
+def plain_text(text: str) -> str:
+    """Return a text on one line."""
+    return " ".join("".join(" " if category(sign) in LINE_BREAKING_CATEGORIES else sign for sign in text).split())
+
+
+def _without(element: Element, patterns: Sequence[str]) -> Element:
     """Return an element as left out where the user says so."""
     if element.is_member and any(matches(pattern, element.names) for pattern in patterns):
         return replace(element, kind=LeftOut("it is to be left out"))
@@ -132,6 +166,7 @@ def _read(entity: Any) -> Element:
         predefined=predefined,
         words=" ".join(word for word in words if word),
         properties=words_of(psets),
+        number=entity.id(),
         parts=tuple(
             f"{getattr(whole, 'PredefinedType', None) or ''} {whole.Name or ''}"
             for whole in wholes

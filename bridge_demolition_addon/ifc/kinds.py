@@ -27,6 +27,10 @@ class ElementFacts:
         What its property sets call its type, label or classification.
     parts
         Parts of the bridge that it is in, the smallest first, each as its predefined type and its name.
+    number
+        Its number in the file; 0 for what is in no file.
+    member_name
+        Name that it has as a member, which no other has; empty for what is none.
     """
 
     name: str
@@ -36,11 +40,18 @@ class ElementFacts:
     words: str = ""
     properties: str = ""
     parts: tuple[str, ...] = ()
+    number: int = 0
+    member_name: str = ""
+
+    @property
+    def title(self) -> str:
+        """Its name in messages."""
+        return f"{self.name} ({self.classes[0]} #{self.number})"
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Names that a user may give it."""
-        return (self.name, self.classes[0], self.global_id)
+        """Names that a user may give it: all that messages call it."""
+        return (self.name, self.classes[0], self.global_id, self.member_name, f"#{self.number}", self.title)
 
 
 @dataclass(frozen=True, slots=True)

@@ -98,5 +98,6 @@ class ImportSettings:
 
 
 def matches(pattern: str, names: tuple[str, ...]) -> bool:
-    """Return whether a pattern matches one of the names, whatever the case; ``*`` stands for anything."""
-    return any(fnmatchcase(name.casefold(), pattern.casefold()) for name in names)
+    """Return whether a pattern is or matches one of the names, whatever the case; ``*`` stands for anything."""
+    plain = [name.casefold() for name in names]
+    return pattern.casefold() in plain or any(fnmatchcase(name, pattern.casefold()) for name in plain)

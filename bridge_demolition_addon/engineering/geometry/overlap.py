@@ -52,25 +52,41 @@ def hulls(shards: Sequence[TriangleMesh]) -> list[TriangleMesh]:
 def separated(solids: Sequence[TriangleMesh], names: Sequence[str]) -> tuple[list[TriangleMesh], FloatArray]:
     """Closed solids without what they have in common with those before them, and the volumes (n,) cut off them, m³.
 
-    An unchanged solid is the same object.
+    An unchanged solid is the same object. A `GeometryError` names all of which nothing is left.
     """
     whole = [to_manifold(solid, name) for solid, name in zip(solids, names, strict=True)]
     result, removed = list(solids), np.zeros(len(solids))
+    gone: list[str] = []
     for index, solid in enumerate(whole):
         before = [other for other in whole[:index] if (solid ^ other).volume() > OVERLAP_TOLERANCE * solid.volume()]
         if not before:
             continue
         rest = Manifold.batch_boolean([solid, *before], OpType.Subtract)
-        left = bodies(rest, _ROUNDING * solid.volume(), names[index])
-        shells = [shell for body in left if not is_film(body) for shell in body]
-        if rest.volume() <= _ROUNDING * solid.volume() or not shells:
-            raise GeometryError(
-                f"{names[index]}: lies wholly inside members before it; leave it out, or name it first."
-            )
+        shells = shells_left(rest, solid.volume(), names[index])
+        if not shells:
+            gone.append(names[index])
+            whole[index] = Manifold()
+            continue
         result[index] = from_manifold(*shells)
         removed[index] = solid.volume() - rest.volume()
         whole[index] = to_manifold(result[index], names[index])
+    if gone:
+        raise GeometryError(_wholly_inside(gone))
     return result, removed
+
+
+def shells_left(rest: Manifold, whole_m3: float, name: str) -> list[Manifold]:
+    """Shells of what is left of a solid, without films; none where it is all rounding."""
+    least_m3 = _ROUNDING * whole_m3
+    if rest.volume() <= least_m3:
+        return []
+    return [shell for body in bodies(rest, least_m3, name) if not is_film(body) for shell in body]
+
+
+def _wholly_inside(names: Sequence[str]) -> str:
+    if len(names) == 1:
+        return f"{names[0]}: lies wholly inside members before it; leave it out, or name it first."
+    return f"{', '.join(names)}: lie wholly inside members before them; leave them out, or name them first."
 
 
 def _manifold(mesh: TriangleMesh, index: int) -> Manifold:

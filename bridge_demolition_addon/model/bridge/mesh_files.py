@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from ...engineering.geometry.mesh import TriangleMesh
-from ...engineering.geometry.repair import repaired_solid
+from ...engineering.geometry.repair import Repaired, repaired_solid
 from ...engineering.geometry.rotations import turn_in_plane
 from ...engineering.geometry.solids import union
 from ...engineering.geometry.vectors import transformed
@@ -24,6 +24,7 @@ from .member import Member
 _BELOW_GROUND_M = 1e-3
 """How far a member may extend below the ground: what is deeper would be thrown out of it at the start."""
 
+_LISTED = 5
 _PLANES = ([1, 2], [2, 0], [0, 1])
 """Axes of the planes of rotations about x, y and z, each from the first to the second."""
 
@@ -31,23 +32,32 @@ _PLANES = ([1, 2], [2, 0], [0, 1])
 def geometry_members(tables: Sequence[Geometry], *, is_flat: bool = True) -> tuple[tuple[Member, ...], tuple[str, ...]]:
     """Return members from files, those of the same name united, and sentences on what was repaired.
 
-    On flat ground nothing may extend below it; elsewhere it is dug away.
+    On flat ground nothing may extend below it; elsewhere it is dug away. A `GeometryError` says all that is wrong.
     """
-    members, notes = [], []
+    members, notes, wrong = [], [], []
     ordered = sorted(tables, key=lambda table: [other.name for other in tables].index(table.name))
     for name, group in groupby(ordered, key=lambda table: table.name):
         same_name = list(group)
-        solids = []
-        for table in same_name:
-            mesh = placed_mesh(table)
-            _check_extent(mesh, name)
-            done = repaired_solid(mesh, name)
-            if is_flat:
-                _check_above_ground(done.solid, name)
-            solids.append(done.solid)
-            notes += [f"{name}: {repair}" for repair in done.repairs]
-        members.append(_member(same_name, solids))
+        try:
+            parts = [_part(table, is_flat=is_flat) for table in same_name]
+            members.append(_member(same_name, [part.solid for part in parts]))
+        except GeometryError as error:
+            wrong.append(str(error))
+            continue
+        notes += [f"{name}: {repair}" for part in parts for repair in part.repairs]
+    if wrong:
+        more = f" And so for {len(wrong) - _LISTED} more." if len(wrong) > _LISTED else ""
+        raise GeometryError(" ".join(wrong[:_LISTED]) + more)
     return tuple(members), tuple(notes)
+
+
+def _part(table: Geometry, *, is_flat: bool) -> Repaired:
+    mesh = placed_mesh(table)
+    _check_extent(mesh, table.name)
+    done = repaired_solid(mesh, table.name)
+    if is_flat:
+        _check_above_ground(done.solid, table.name)
+    return done
 
 
 def placed_mesh(table: Geometry) -> TriangleMesh:

@@ -71,6 +71,8 @@ def test_solids_that_only_touch_stay_as_they_are():
 def test_a_solid_inside_another_is_refused():
     with pytest.raises(GeometryError, match=r"^bearing: lies wholly inside members before it"):
         separated([box([2, 2, 2]), box([1, 1, 1])], ["pier", "bearing"])
+    with pytest.raises(GeometryError, match=r"^bearing, bolt: lie wholly inside members before them"):
+        separated([box([2, 2, 2]), box([1, 1, 1]), box([3, 1, 1]), box([0.1] * 3)], ["pier", "bearing", "bar", "bolt"])
 
 
 def test_films_between_a_solid_and_its_copy_in_single_precision_are_not_left():
