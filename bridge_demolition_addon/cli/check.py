@@ -32,6 +32,7 @@ from ..model.structure.model import Model, build_model
 from ..model.structure.steel_bars import steel_facts
 from ..model.structure.tendon_facts import tendon_facts
 from ..model.structure.usual_sizes import size_facts
+from ..model.structure.zone_loads import ZoneLoad
 from ..model.terrain.built import terrain_facts
 from ..studies.estimate import FACTOR, disk_megabytes, duration_text, megabytes_by_size, seconds_by_size
 from .arguments import naming
@@ -146,7 +147,7 @@ def scenario_facts(scenario: Scenario, *, stand: bool = False) -> Iterator[str]:
     yield from _section("Overlap at the start", overlap_facts(model))
     if model.soil:
         yield from _section("Foundations", foundation_facts(scenario, model))
-    for heading, facts in _action_facts(scenario, model).items():
+    for heading, facts in _action_facts(scenario, model, stability.zones).items():
         yield from _section(heading, facts)
     if scenario.equipment:
         yield from _section("Equipment", equipment_facts(scenario, model))
@@ -181,9 +182,9 @@ def _awake_facts(scenario: Scenario) -> Iterator[Fact]:
         yield "stands", f"nothing was done to it for {AWAKE_S:g} s, and it stood: this seed, this cut, these sub-steps"
 
 
-def _action_facts(scenario: Scenario, model: Model) -> dict[str, list[Fact]]:
+def _action_facts(scenario: Scenario, model: Model, zones: tuple[ZoneLoad, ...]) -> dict[str, list[Fact]]:
     """Return what all planned actions say of themselves, by section."""
-    site = ModelWorksite(scenario, model)
+    site = ModelWorksite(scenario, model, zones)
     sections: dict[str, list[tuple[float, list[Fact]]]] = {}
     for action in scenario.actions:
         described = action.begins_s(scenario), list(action.facts(site))

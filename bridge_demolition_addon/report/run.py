@@ -16,9 +16,11 @@ from ..model.run_folder.files import DXF_FILE, GEOJSON_FILE
 from ..model.scenario.file import scenario_text
 from ..model.sequence.checked_model import checked_model
 from ..model.stages.misfires import misfires
+from ..model.stages.stability import Stability
 from ..model.stages.stages import criticality, stages_of
 from ..model.stages.standing import StandingBridge, made_elastic
 from ..model.stages.tables import write_tables as write_stage_tables
+from ..model.structure.zone_loads import ZoneLoad
 from ..system.progress import Progress
 from ..version import VERSION
 from .charge_areas import areas_of_fragments, cordon_area
@@ -95,7 +97,7 @@ def run_document(
         sections.append(collapse_section(run))
         if run.scenario and (blast := blast_section(run.scenario, debris.outline, debris.ground)):
             sections.append(blast)
-        if run.scenario and (plan := charge_plan_section(run.scenario)):
+        if run.scenario and (plan := charge_plan_section(run.scenario, _zone_loads(run))):
             sections.append(plan)
         if run.scenario and (touchdown := touchdown_section(run.results, run.scenario.neighbours)):
             sections.append(touchdown)
@@ -117,6 +119,12 @@ def run_document(
     subtitle = f"Report of a simulated demolition. Bridge Demolition Add-on {version}"
     document = Document(run.title, subtitle, tuple(sections), run_summary(run, debris, zone))
     return with_plan_contents(document, run.scenario, RUN_TITLE)
+
+
+def _zone_loads(run: ReportedRun) -> Sequence[ZoneLoad]:
+    """Return what blast zones carried at rest, where the run knew."""
+    stored = run.summary.values.get("stability") if run.summary else None
+    return Stability.of_stored(stored).zones if stored else ()
 
 
 def _work_out_stages(run: ReportedRun, target: Path, progress: Progress) -> None:

@@ -8,6 +8,7 @@ from support.run_folders import TOLD
 
 from bridge_demolition_addon.model.scenario import Geometry, MemberCut
 from bridge_demolition_addon.model.scenario.file import read_scenario
+from bridge_demolition_addon.model.structure.zone_loads import ZoneLoad
 from bridge_demolition_addon.report.document.blocks import DataTable, Paragraph
 from bridge_demolition_addon.report.sections.charge_plan import charge_plan_section
 
@@ -46,6 +47,20 @@ def test_misfires_and_an_odd_amount_are_named():
     light = charge_plan_section(replace(DRILLED, blast_zones=[replace(first, charge_g=10.0)]))
     # 10 holes of 10 g on 196 t: 0.51 g/t
     assert "0.5 g/t are outside 1 to 90 g/t, which recorded jobs are within." in notices(light)
+
+
+def test_what_is_above_a_zone_falls_and_can_land_on_its_stub():
+    """Zones from 0.75 to 2.25 m of columns: 14 bars of 20 mm over 75 diameters may be counted on for 0.316 MN."""
+    loads = [ZoneLoad("P2.1", 0.38e6, 0.0, 0.0), ZoneLoad("P1.2", -0.11e6, 0.0, 0.0)]
+    table = tables(charge_plan_section(DRILLED, loads))["zone_falls"]
+    cells = {row[0]: row[1:] for row in table.shown_rows()}
+    assert cells["P2.1"] == ["0.38", "1.20", "1.50", "5.4", "2.65", "0.75", "yes"]
+    assert cells["P1.2"][:2] == ["-0.11", "0.05"]  # of 2.20 MN in tension
+    assert cells["P3.1"][:2] == ["-", "-"]  # not known
+    viaduct = tables(charge_plan_section(read_scenario(EXAMPLES / "drilled" / "viaduct_pier.toml")))["zone_falls"]
+    assert {row[-1] for row in viaduct.shown_rows()} == {"no"}
+    misfires = [replace(zone, fires=False) for zone in DRILLED.blast_zones]
+    assert "zone_falls" not in tables(charge_plan_section(replace(DRILLED, blast_zones=misfires)))
 
 
 def test_a_file_that_is_gone_is_named_in_place_of_the_plan(tmp_path):

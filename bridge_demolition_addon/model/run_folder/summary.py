@@ -226,9 +226,10 @@ def _check_table(
 
 
 def _check_stability(stability: Any) -> None:
-    _check_table("stability", stability, _STABILITY)
-    for name, keys in (("overloaded", _OVERLOADED), ("unsupported", _MEMBER_SHARE), ("loose", _MEMBER_SHARE)):
-        for number, row in enumerate(stability[name]):
+    _check_table("stability", stability, _STABILITY, optional=("zones",))
+    tables = {"overloaded": _OVERLOADED, "unsupported": _MEMBER_SHARE, "loose": _MEMBER_SHARE, "zones": _ZONE_LOAD}
+    for name, keys in tables.items():
+        for number, row in enumerate(stability.get(name, ())):
             _check_table(f"stability.{name}[{number}]", row, keys)
 
 
@@ -283,6 +284,7 @@ _MOVING = {
 }
 _MEMBER_SHARE = {"member": _is_text, "shards": _is_number, "mass_kg": _is_number}
 _OVERLOADED = {"member": _is_text, "connections": _is_number, "utilisation": _is_number}
+_ZONE_LOAD = {"zone": _is_text, "pressed_n": _is_number, "shear_n": _is_number, "bending_nm": _is_number}
 _STABILITY = {
     "verdict": _is_text,
     "reason": _is_text,
@@ -297,6 +299,7 @@ _STABILITY = {
     "unsupported": _is_list,
     "loose": _is_list,
     "loose_on": _are_texts,
+    "zones": _is_list,
     "is_rigid": lambda value: isinstance(value, bool),
     "is_asleep": lambda value: isinstance(value, bool),
 }

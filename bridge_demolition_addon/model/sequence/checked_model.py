@@ -23,8 +23,9 @@ from ..reinforcement.design import all_layers
 from ..scenario import Change, MemberCut, Scenario, TendonCut
 from ..scenario.structural_changes import severing
 from ..schema import given
-from ..structure.blast_zones import one_member, placed_zone
+from ..structure.blast_zones import one_member, placed_zone, placed_zones
 from ..structure.model import Model, build_model
+from ..structure.zone_loads import ZoneFall, ZoneLoad, facts_of_zones, zone_falls
 from .events import Structure, model_structure, schedule
 from .lifts import placed_lift
 from .loads import placed_on_model
@@ -40,6 +41,7 @@ class ModelWorksite:
 
     plan: Scenario
     model: Model
+    zone_loads: tuple[ZoneLoad, ...] = ()  # what blast zones carry at rest, where it is known
 
     @cached_property
     def _layers(self) -> tuple[BarLayer, ...]:
@@ -86,8 +88,14 @@ class ModelWorksite:
     def pick_of(self, lift: Lift) -> Pick:
         return placed_lift(lift, self.model, self._structure).pick
 
+    @cached_property
+    def _zone_falls(self) -> dict[str, ZoneFall]:
+        return zone_falls(placed_zones(self.plan, self.model.members))
+
     def facts_of_zone(self, zone: BlastZone) -> Iterator[Fact]:
-        return placed_zone(zone, self.model.members, self._layers).facts(self.plan)
+        placed = placed_zone(zone, self.model.members, self._layers)
+        yield from placed.facts(self.plan)
+        yield from facts_of_zones(placed, {load.zone: load for load in self.zone_loads}, self._zone_falls)
 
     def check_zone(self, zone: BlastZone) -> None:
         placed = placed_zone(zone, self.model.members, self._layers)

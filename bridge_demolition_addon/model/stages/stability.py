@@ -8,6 +8,7 @@ from typing import Any
 
 from ...engineering.units import mass_text
 from ..actions import Fact
+from ..structure.zone_loads import ZoneLoad
 from .standing import LARGEST_FACTOR
 
 STANDS, COMES_DOWN, UNKNOWN = VERDICTS = ("stands", "comes down", "unknown")
@@ -69,6 +70,8 @@ class Stability:
         What neither a connection nor a contact holds, and what lies on others or the ground by contact alone.
     loose_on : tuple of str
         Contacts of loose members that statics takes for bearings which hold no uplift, as ``deck on pier 1 cap``.
+    zones : tuple of ZoneLoad
+        What blast zones carry; empty where statics was not asked or cannot say.
     is_rigid, is_asleep : bool
         Whether the run has rigid connections, which share loads otherwise than elastic ones, and whether its shards
         sleep at first, so that it does not show whether the bridge stands.
@@ -87,6 +90,7 @@ class Stability:
     unsupported: tuple[MemberShare, ...] = ()
     loose: tuple[MemberShare, ...] = ()
     loose_on: tuple[str, ...] = field(default=())
+    zones: tuple[ZoneLoad, ...] = ()
     is_rigid: bool = False
     is_asleep: bool = False
 
@@ -98,7 +102,8 @@ class Stability:
     def of_stored(cls, values: Mapping[str, Any]) -> Stability:
         """Return what `stored` gave, maybe after JSON."""
         tables: dict[str, Any] = {"overloaded": OverloadedMember, "unsupported": MemberShare, "loose": MemberShare}
-        known: dict[str, Any] = {name: tuple(of(**row) for row in values[name]) for name, of in tables.items()}
+        tables["zones"] = ZoneLoad  # runs of before have none
+        known: dict[str, Any] = {name: tuple(of(**row) for row in values.get(name, ())) for name, of in tables.items()}
         return cls(**{**values, **known, "loose_on": tuple(values["loose_on"])})
 
     @property

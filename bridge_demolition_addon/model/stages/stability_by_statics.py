@@ -13,11 +13,12 @@ from ...engineering.geometry.level_contacts import level_contacts
 from ...engineering.units import mass_text
 from ...errors import DemolitionError
 from ..bridge.member import Member
-from ..scenario import Scenario
+from ..scenario import BlastZone, Scenario
 from ..scenario.bearings import SLIDING, Bearing
 from ..structure.cracking import FALLEN_SHARE
 from ..structure.model import Model, build_model
 from ..structure.support_paths import SupportPaths, support_paths
+from ..structure.zone_loads import zone_loads
 from .stability import COMES_DOWN, STANDS, UNKNOWN, MemberShare, OverloadedMember, Stability
 from .standing import LARGEST_FACTOR, StandingBridge, made_elastic
 
@@ -76,13 +77,17 @@ def stability_of(
         known["loose_on"] = ()
         reason = f"{_named(still)} lie loose, held by contact alone, which statics does not follow"
         return Stability(verdict=UNKNOWN, reason=reason, **known)
-    return _by_statics(
-        StandingBridge(model, on_bearings.joints, pause), paths_on_bearings, known, with_factor=with_factor
-    )
+    bridge = StandingBridge(model, on_bearings.joints, pause)
+    return _by_statics(bridge, paths_on_bearings, known, scenario.blast_zones, with_factor=with_factor)
 
 
 def _by_statics(
-    bridge: StandingBridge, paths: SupportPaths, known: dict[str, Any], *, with_factor: bool | None
+    bridge: StandingBridge,
+    paths: SupportPaths,
+    known: dict[str, Any],
+    zones: Sequence[BlastZone],
+    *,
+    with_factor: bool | None,
 ) -> Stability:
     model = bridge.model
     if with_factor is None:
@@ -94,6 +99,7 @@ def _by_statics(
         reason = f"nothing keeps {_named(turning)} from turning over or sliding off"
         is_on_contact = bool(known["loose_on"])  # a line of contact holds less than the area that lies there
         return Stability(verdict=UNKNOWN if is_on_contact else COMES_DOWN, reason=reason, **known)
+    known["zones"] = zone_loads(zones, model, standing.loads)
     used = np.where(np.isfinite(standing.used), standing.used, 0.0)
     if len(used):
         most = int(used.argmax())

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 from ...engineering.blast.vibration import FREE_FACE_AVERAGE
 from ...engineering.drilled_charges.neighbours import BARE_KPA, STEMMED_KPA
@@ -13,6 +14,7 @@ from ...model.schema import given
 from ...model.structure.blast_zones import POSSIBLE_G_T, RECORDED_G_T, PlacedZone
 from ...model.structure.charge_plan import AtNeighbour, ChargePlan, Totals, charge_plan, zone_name
 from ...model.structure.zone_fragments import NO_SAFETY_DISTANCE, FlyrockOfZone
+from ...model.structure.zone_loads import ZoneFall, ZoneLoad, bars_used, zone_falls
 from ..document.blocks import Block, Column, DataTable, Paragraph, Section, facts
 
 _TITLE = "Charge plan"
@@ -76,6 +78,26 @@ _LOADED = (
     Column("in compression (MN)", "bars_compression_MN", ".2f", lambda placed: placed.cage_n[1] / _MEGA),
     Column("straight ones (MN)", "bars_straight_compression_MN", ".2f", lambda placed: placed.straight_cage_n / _MEGA),
 )
+_FALLS_TEXT = (
+    "What is above a zone whose concrete is thrown out falls by the height of the zone. Where its member has one such "
+    "zone only, it can land upright on the stub below it and stand: a second zone lets it fold. What zones carry is "
+    "that at rest, by statics, below 0 where they are pulled."
+)
+_FALLS = (
+    Column("zone", "zone", "", lambda row: zone_name(row.placed)),
+    Column("carries (MN)", "carries_MN", ".2f", lambda row: row.load and row.load.pressed_n / _MEGA),
+    Column(
+        "over what its bars may be counted on for",
+        "carries_over_bars",
+        ".2f",
+        lambda row: row.load and row.placed.bars and bars_used(row.placed, row.load),
+    ),
+    Column("falls by (m)", "falls_m", ".2f", lambda row: row.fall.falls_m),
+    Column("lands with (m/s)", "lands_m_s", ".1f", lambda row: row.fall.lands_m_s),
+    Column("above it (m)", "above_m", ".2f", lambda row: row.fall.above_m),
+    Column("stub (m)", "stub_m", ".2f", lambda row: row.fall.below_m),
+    Column("can land and stand", "can_land_and_stand", "", lambda row: "yes" if row.fall.can_stand else "no"),
+)
 _CUTS = (
     Column("cut", "cut", "", lambda cut: cut.name),
     Column("member", "member", "", lambda cut: cut.member),
@@ -114,26 +136,36 @@ _FLOWN = (
 )
 
 
-def charge_plan_section(scenario: Scenario) -> Section | None:
-    """Return the charge plan of a scenario; None without blast zones and cuts.
+@dataclass(frozen=True, slots=True)
+class _Fall:
+    """A zone that is thrown out, what it carries, if known, and how what is above it falls."""
+
+    placed: PlacedZone
+    load: ZoneLoad | None
+    fall: ZoneFall
+
+
+def charge_plan_section(scenario: Scenario, loads: Sequence[ZoneLoad] = ()) -> Section | None:
+    """Return the charge plan of a scenario; None without blast zones and cuts. `loads` are what zones carry, if known.
 
     Where a file of its members is not there any more, the section says so.
     """
     if not (scenario.blast_zones or scenario.cuts):
         return None
     try:
-        return planned_section(scenario)
+        return planned_section(scenario, loads)
     except (GeometryError, ScenarioError) as error:
         return Section(_TITLE, (Paragraph(f"The charge plan is not known: {error}.", True),))
 
 
-def planned_section(scenario: Scenario) -> Section:
+def planned_section(scenario: Scenario, loads: Sequence[ZoneLoad] = ()) -> Section:
     """Return the charge plan of a scenario with blast zones or cuts, all of whose files are there."""
     plan = charge_plan(scenario, prepared_members(scenario).members)
-    return Section(_TITLE, tuple(plan_blocks(plan, scenario.exclusion.cordon_m if scenario.exclusion else None)))
+    cordon_m = scenario.exclusion.cordon_m if scenario.exclusion else None
+    return Section(_TITLE, tuple(plan_blocks(plan, loads, cordon_m)))
 
 
-def plan_blocks(plan: ChargePlan, cordon_m: float | None = None) -> Iterator[Block]:
+def plan_blocks(plan: ChargePlan, loads: Sequence[ZoneLoad] = (), cordon_m: float | None = None) -> Iterator[Block]:
     """Yield the tables of a charge plan, with what they mean, and what is kept clear around the bridge."""
     yield Paragraph(_BY_WHOM)
     yield from _warnings(plan)
@@ -142,6 +174,11 @@ def plan_blocks(plan: ChargePlan, cordon_m: float | None = None) -> Iterator[Blo
         yield DataTable.of("charge_table", "Charges and their effect", _LOADED, plan.zones)
     if any(placed.bars for placed in plan.zones):
         yield Paragraph(_BARS)
+    carried, placed_of = {load.zone: load for load in loads}, {zone_name(placed): placed for placed in plan.zones}
+    falls = [_Fall(placed_of[name], carried.get(name), fall) for name, fall in zone_falls(plan.zones).items()]
+    if falls:
+        yield Paragraph(_FALLS_TEXT)
+        yield DataTable.of("zone_falls", "What is above the zones", _FALLS, falls)
     if plan.cuts:
         yield Paragraph(_SEVERED)
         yield DataTable.of("severed_members", "Severed members", _CUTS, plan.cuts)

@@ -1,0 +1,192 @@
+"""What stands on blast zones: what they carry at rest, whether their bars hold that, how far it falls, and on what."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...engineering.drilled_charges.specific_charge import Effect
+from ...engineering.geometry.sides import AXES
+from ...engineering.geometry.vectors import cross, length
+from ...engineering.mechanics.section_cuts import ConnectionLoads
+from ...engineering.units import STANDARD_GRAVITY_M_S2
+from ..actions import Fact
+from ..blast.blast_zones import BlastZone
+from ..schema import given
+from .blast_zones import PlacedZone
+from .model import Model
+
+_AT_PLANE = 0.02
+"""Part of the height of a zone within which a connection is at one of its two planes."""
+
+_LEAST_M = 0.01
+"""What is shorter is no part of a member."""
+
+_AT_ONCE = 2.0
+"""Force by that at rest in elastic bars whose load comes upon them at once."""
+
+_UPRIGHT = "z"
+_MEGA = 1e6
+
+
+@dataclass(frozen=True, slots=True)
+class ZoneLoad:
+    """What the section at one end of a zone carries at rest: the upper end, or where a level member has more bending.
+
+    `pressed_n` is the force along the member, below 0 in tension. `bending_nm` is about the middle of the section.
+    """
+
+    zone: str
+    pressed_n: float
+    shear_n: float
+    bending_nm: float
+
+
+def zone_loads(zones: Sequence[BlastZone], model: Model, loads: ConnectionLoads) -> tuple[ZoneLoad, ...]:
+    """Return what zones carry, by the loads of all connections of a model at rest."""
+    return tuple(_load_of(zone, model, loads) for zone in zones)
+
+
+def _load_of(zone: BlastZone, model: Model, loads: ConnectionLoads) -> ZoneLoad:
+    along, (begin_m, end_m) = AXES.index(zone.along), zone.ends_along_m
+    names = np.array([member.name for member in model.members])[model.member_of_shard]
+    places_m = model.centres_m[:, along]
+    in_zone = np.append((names == zone.member) & (begin_m < places_m) & (places_m < end_m), False)
+    pairs = model.connections.pairs
+    leaves = np.flatnonzero(in_zone[pairs].sum(axis=1) == 1)
+    ends = []
+    for plane_m, outwards in ((end_m, 1.0), (begin_m, -1.0)):
+        rows = leaves[abs(loads.points_m[leaves, along] - plane_m) < _AT_PLANE * zone.height_m]
+        # Loads are on the first bodies: those on what lies beyond the plane.
+        signs = np.where(in_zone[pairs[rows, 0]], -1.0, 1.0)[:, None]
+        forces, middle_m = signs * loads.forces_n[rows], _middle_m(model, rows)
+        moments = signs * loads.moments_nm[rows] + cross(loads.points_m[rows] - middle_m, forces)
+        force, moment = forces.sum(axis=0), moments.sum(axis=0)
+        pressed_n = outwards * float(force[along])
+        force[along] = moment[along] = 0.0
+        ends.append(ZoneLoad(given(zone.name), pressed_n, float(length(force)), float(length(moment))))
+    return ends[0] if zone.along == _UPRIGHT else max(ends, key=lambda end: end.bending_nm)
+
+
+def _middle_m(model: Model, rows: np.ndarray) -> np.ndarray:
+    """Return the middle (3,) of the faces of connections."""
+    areas = model.connections.areas[rows]
+    return (areas[:, None] * model.connections.points[rows]).sum(axis=0) / (areas.sum() or 1.0)
+
+
+@dataclass(frozen=True, slots=True)
+class ZoneFall:
+    """How far what stands on an upright zone falls once its concrete is thrown out, and on what.
+
+    Attributes
+    ----------
+    falls_m : float
+        Height of the zone.
+    above_m, below_m : float
+        Lengths of its member above it and below it, each up to the next zone that is thrown out.
+    all_m : float
+        Heights of all zones of the member that are thrown out.
+    zones : int
+        How many these are.
+    """
+
+    falls_m: float
+    above_m: float
+    below_m: float
+    all_m: float
+    zones: int
+
+    @property
+    def lands_m_s(self) -> float:
+        """Speed after a free fall by the height of the zone."""
+        return math.sqrt(2.0 * STANDARD_GRAVITY_M_S2 * self.falls_m)
+
+    @property
+    def can_stand(self) -> bool:
+        """Whether what is above is guided by one piece of its member to the other, and can stand on it."""
+        return self.zones == 1
+
+    @property
+    def text(self) -> str:
+        """What is to be expected, without a full stop."""
+        falls = f"what is above falls by {self.falls_m:.2f} m (lands with {self.lands_m_s:.1f} m/s)"
+        if not self.can_stand:
+            return f"{falls}, {self.all_m:.2f} m by {self.zones} zones of the member, between which it can fold"
+        onto = f"its stub of {self.below_m:.2f} m" if self.below_m > _LEAST_M else "what the member stands on"
+        return f"{falls}, can land upright on {onto} and stand: a second zone of the member lets it fold"
+
+
+def zone_falls(zones: Sequence[PlacedZone]) -> dict[str, ZoneFall]:
+    """Return the falls of upright zones that fire and are thrown out, by their names."""
+    thrown = [placed for placed in zones if _is_thrown(placed) and placed.zone.along == _UPRIGHT]
+    return {given(placed.zone.name): _fall_of(placed, thrown) for placed in thrown}
+
+
+def _is_thrown(placed: PlacedZone) -> bool:
+    return placed.zone.goes_off and placed.effect == Effect.THROWN
+
+
+def _fall_of(placed: PlacedZone, thrown: Sequence[PlacedZone]) -> ZoneFall:
+    begin_m, end_m = placed.zone.ends_along_m
+    alike = [other.zone for other in thrown if other.member.name == placed.member.name]
+    lowest_m, highest_m = placed.member.solid.bounds[:, AXES.index(_UPRIGHT)].tolist()
+    next_m = min((zone.ends_along_m[0] for zone in alike if zone.middle_m > end_m), default=highest_m)
+    last_m = max((zone.ends_along_m[1] for zone in alike if zone.middle_m < begin_m), default=lowest_m)
+    all_m = math.fsum(zone.height_m for zone in alike)
+    return ZoneFall(placed.zone.height_m, next_m - end_m, begin_m - last_m, all_m, len(alike))
+
+
+def load_facts(placed: PlacedZone, load: ZoneLoad) -> Iterator[Fact]:
+    """Yield what a zone carries at rest, and whether its bars hold that where its concrete is gone."""
+    if placed.zone.along != _UPRIGHT:
+        yield "", f"carries {load.bending_nm / _MEGA:.2f} MN·m, and {load.shear_n / _MEGA:.2f} MN across it, at rest"
+        return
+    how = "pressed" if load.pressed_n >= 0.0 else "pulled"
+    carries = f"{how} with {abs(load.pressed_n) / _MEGA:.2f} MN at rest"
+    if not _is_thrown(placed):
+        yield "", carries
+    elif not placed.bars:
+        yield "", f"{carries}, and no bars are left to carry it"
+    else:
+        share = bars_used(placed, load)
+        yield "", f"{carries}, {share:.2f} times what bars may be counted on for: {_outcome(placed, load)}"
+        if _may_hold(placed, load):
+            yield "look at", "its bars may hold what stands on it, which then does not come down: bare a greater height"
+
+
+def bars_used(placed: PlacedZone, load: ZoneLoad) -> float:
+    """Return what a zone carries by what its bars may be counted on for, that way; infinite without bars."""
+    tension_n, pressed_n = placed.cage_n
+    resisted_n = pressed_n if load.pressed_n >= 0.0 else tension_n
+    return abs(load.pressed_n) / resisted_n if resisted_n else math.inf
+
+
+def _may_hold(placed: PlacedZone, load: ZoneLoad) -> bool:
+    most_n = placed.straight_cage_n if load.pressed_n >= 0.0 else placed.cage_n[0]
+    return _AT_ONCE * abs(load.pressed_n) <= most_n
+
+
+def _outcome(placed: PlacedZone, load: ZoneLoad) -> str:
+    """Return what bars do that stand bare at once, by their least and their largest resistance."""
+    used, gives_way = bars_used(placed, load), "fold" if load.pressed_n >= 0.0 else "tear or stretch"
+    if _AT_ONCE * used <= 1.0:
+        return "they hold it"
+    if _may_hold(placed, load):
+        return "they hold it if they are straight"
+    if used <= 1.0:
+        return f"they hold it at rest, but {gives_way} as it comes upon them at once, up to twice"
+    return f"they {gives_way}"
+
+
+def facts_of_zones(placed: PlacedZone, loads: Mapping[str, ZoneLoad], falls: Mapping[str, ZoneFall]) -> Iterator[Fact]:
+    """Yield what stands on a zone, as far as its load is known, and how it comes down."""
+    name = given(placed.zone.name)
+    if name in loads:
+        yield from load_facts(placed, loads[name])
+    else:
+        yield "", "what it carries at rest is not known by statics"
+    if name in falls:
+        yield "", falls[name].text
