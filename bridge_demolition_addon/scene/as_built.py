@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from uuid import uuid4
 
 import bpy
 import numpy as np
@@ -19,6 +20,8 @@ from .run_setup import RunSetup, run_setup_of
 _AS_BUILT = "bda_as_built"
 _BODIES = "bda_built_bodies"
 _CONNECTIONS = "bda_built_connections"
+_BUILD = "bda_build"
+_COUNT = "bda_built_count"
 
 _FOLLOW_FROM_BODIES = frozenset(
     (
@@ -74,12 +77,30 @@ def keep_built_bodies(scene: bpy.types.Scene) -> None:
         kept[kind.value][name] = position
     scene[_BODIES] = values_text(kept)
     scene[_CONNECTIONS] = len(connections_of(scene))
+    scene[_BUILD], scene[_COUNT] = uuid4().hex, len(scene.rigidbody_world.collection.all_objects)
+
+
+def build_of(scene: bpy.types.Scene) -> str:
+    """Return which building of a demolition a scene shows, also after undo; empty where nothing was built.
+
+    Results belong to the building that they are of: another one has bodies of the same names.
+    """
+    return str(scene.get(_BUILD, ""))
+
+
+def has_all_bodies(scene: bpy.types.Scene) -> bool:
+    """Return whether a scene has as many bodies as were built; quick enough for each redraw."""
+    world = scene.rigidbody_world
+    count = len(world.collection.all_objects) if world and world.collection else 0
+    return kept_number(scene, _COUNT, count) == count > 0
 
 
 def forget_built_bodies(scene: bpy.types.Scene) -> None:
     """Forget what was built, as it is removed."""
     keep(scene, _BODIES, None)
     keep(scene, _CONNECTIONS, None)
+    keep(scene, _BUILD, None)
+    keep(scene, _COUNT, None)
 
 
 def changed_bodies(scene: bpy.types.Scene) -> list[str]:

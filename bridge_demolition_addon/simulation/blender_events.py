@@ -127,6 +127,8 @@ def _before_undo(*_: object) -> None:
 @persistent
 def _after_undo(*_: object) -> None:
     safe_undo.after_undo()
+    for scene in bpy.data.scenes:
+        recorded_scene(scene).after_undo()
 
 
 @persistent

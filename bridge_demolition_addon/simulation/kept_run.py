@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from contextlib import suppress
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import bpy
 import numpy as np
@@ -17,12 +17,24 @@ from ..model.run_folder.files import FORCE_CHART, SCENARIO_FILE
 from ..model.run_folder.folder import keep_ground_motion, keep_scenario
 from ..model.run_folder.summary import RunSummary, read_summary, result_digest_in, write_summary
 from ..model.schema import given
+from ..scene.as_built import build_of
 from ..scene.blast.charges import blast_of, charges_of
 from ..scene.rendering.markers import mark_moments
 from .recording.recorder import Recording
 from .run_summary import RunContext
 
 _FOLDER, _DIGEST = "bda_run_folder", "bda_run_digest"
+
+
+class _KeptRun(NamedTuple):
+    folder: str
+    digest: str
+    moments: list[tuple[int, str]]
+
+
+_runs: dict[tuple[int, str], _KeptRun] = {}
+"""The latest run of each building since Blender started, by its scene's number: a run itself is nothing to undo, and
+so undo takes what is kept with the scene away."""
 
 
 def keep_recording(folder: Path, recording: Recording, summary: Mapping[str, Any], context: RunContext) -> None:
@@ -35,9 +47,7 @@ def keep_recording(folder: Path, recording: Recording, summary: Mapping[str, Any
         keep_ground_motion(folder, motion.record, motion.start_s)
     recording.remove_stream()
     with suppress(ReferenceError):  # the scene was deleted, or another file was loaded
-        scene = recording.scene
-        scene[_FOLDER], scene[_DIGEST] = str(folder.resolve()), RunSummary(summary).result_digest
-        _mark_run(scene, results, RunSummary(summary))
+        _keep_with_scene(recording.scene, recording.build, folder, results, RunSummary(summary))
 
 
 def keep_results(folder: Path, results: Results, summary: Mapping[str, Any]) -> None:
@@ -58,17 +68,36 @@ def adopt_run(scene: bpy.types.Scene, folder: Path) -> Results:
     except ValueError as error:
         raise OutputError(f"{folder}: its summary cannot be read: {error}") from error
     results = load_results(folder / RESULTS_FILE)
-    scene[_FOLDER], scene[_DIGEST] = str(folder.resolve()), summary.result_digest
-    _mark_run(scene, results, summary)
+    _keep_with_scene(scene, build_of(scene), folder, results, summary)
     return results
 
 
-def _mark_run(scene: bpy.types.Scene, results: Results, summary: RunSummary) -> None:
-    """Mark the events of its run on the scene's timeline."""
+def recall_run(scene: bpy.types.Scene) -> None:
+    """Keep again with a scene the latest run of what it shows, if undo or redo took it away."""
+    kept = _runs.get((scene.session_uid, build_of(scene))) if scene.rigidbody_world else None
+    if kept and scene.get(_DIGEST) != kept.digest:
+        _mark_run(scene, kept)
+
+
+def _keep_with_scene(scene: bpy.types.Scene, build: str, folder: Path, results: Results, summary: RunSummary) -> None:
+    """Keep the run of a building, with the scene if it still shows that one."""
+    kept = _KeptRun(str(folder.resolve()), summary.result_digest, _moments_of(scene, results, summary))
+    _runs[scene.session_uid, build] = kept
+    if build == build_of(scene):
+        _mark_run(scene, kept)
+
+
+def _mark_run(scene: bpy.types.Scene, kept: _KeptRun) -> None:
+    """Name a run in the properties of its scene, and its events on the timeline."""
+    scene[_FOLDER], scene[_DIGEST] = kept.folder, kept.digest
+    mark_moments(scene, kept.moments)
+
+
+def _moments_of(scene: bpy.types.Scene, results: Results, summary: RunSummary) -> list[tuple[int, str]]:
     settings = blast_of(scene)
     charges = [charge for charge in charges_of(scene) if charge.mass_kg > 0.0] if settings.explosion else []
     detonations_s = {given(charge.name): settings.start_s + charge.delay_s for charge in charges}
-    mark_moments(scene, moments(results, np.array(scene.gravity), detonations_s, summary.came_to_rest_s))
+    return list(moments(results, np.array(scene.gravity), detonations_s, summary.came_to_rest_s))
 
 
 def forget_run(scene: bpy.types.Scene) -> None:

@@ -14,7 +14,7 @@ from .crash_guards.safe_render import has_to_rest
 from .crash_guards.world_guard import WorldGuard
 from .display.contours import ContourDisplay
 from .display.shown_results import ShownResults
-from .kept_run import has_run, results_of_run
+from .kept_run import has_run, recall_run, results_of_run
 from .recording.recorder import Recording
 
 
@@ -64,6 +64,8 @@ class RecordedScene:
             self._guard.release()
             if not self._is_alone:
                 self.look()
+        elif recording:
+            self.results.hold()  # Blender may have lost what it played, as after undo
         return recording
 
     def show_results(self, results: Results) -> None:
@@ -129,11 +131,17 @@ class RecordedScene:
             return
         if not world.point_cache.is_baked:
             self.scene.frame_set(world.point_cache.frame_start)
-        if has_run(self.scene):
-            try:
-                self.show_results(results_of_run(self.scene))
-            except DemolitionError as error:
-                self.results.missing = str(error)
+        self._show_kept_run()
+
+    def after_undo(self) -> None:
+        """Show what was recorded of the building that undo or redo has brought: Blender has lost what it played."""
+        if self.recording or self.scene.library:
+            return
+        recall_run(self.scene)
+        if self.results.hold():
+            self.contours.refresh()
+        else:
+            self._show_kept_run()
 
     def before_render(self) -> None:
         """Let the world rest if Blender would simulate it in the render."""
@@ -153,6 +161,13 @@ class RecordedScene:
     @property
     def _is_recorded(self) -> bool:
         return self.recording is not None and self.recording.error is None
+
+    def _show_kept_run(self) -> None:
+        if has_run(self.scene):
+            try:
+                self.show_results(results_of_run(self.scene))
+            except DemolitionError as error:
+                self.results.missing = str(error)
 
     def _with_recording(self, action: Callable[[Recording], None]) -> None:
         if self.recording is None or not self._is_recorded:

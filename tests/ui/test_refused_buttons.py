@@ -17,7 +17,7 @@ IN_A_LINKED_SCENE = {
     "dismiss_messages": "There are no messages",
     "draw_charts": "Nothing was recorded yet",
     "export_run": "Nothing was recorded yet",
-    "go_to_body": "is not in this scene",
+    "go_to_body": "Nothing was recorded yet",
     "go_to_peak": "This run has no chart of forces",
     "look_at_section": "Nothing was recorded yet",
     "make_report": "Run the scene first",

@@ -115,7 +115,8 @@ class ContourDisplay:
         current = self.shown.current_row
         if current and (self.shown.are_placed or self.magnification != 1.0):
             series, row = current
-            self.shown.place(depsgraph, series.magnified(row, self.magnification))
+            if row or self.magnification != 1.0:  # the scene itself has the first frame, and what was edited since
+                self.shown.place(depsgraph, series.magnified(row, self.magnification))
         if self._shows_stages:
             self._paint_stage(depsgraph)
         elif self.settings is not None and current:

@@ -9,13 +9,14 @@ from ...errors import ContourError
 from ...model.results.arrays import Results
 from ...model.results.frames import Frame
 from ...model.schema import given
+from ...scene.as_built import build_of
 from ...scene.bodies import bodies_of
 from ...scene.rendering.body_colours import place, put_back, put_back_to_start
 from ..recording.recorder import Recording
 
 
 class ShownResults:
-    """Results of one scene.
+    """Results of one scene, for as long as it shows the building that they are of, which undo may bring back.
 
     Attributes
     ----------
@@ -37,15 +38,17 @@ class ShownResults:
         self.number = 0
         self.stays_placed = False
         self.missing = ""
+        self._build = ""
         self._results: Results | None = None
         self._loaded: ContourSeries | None = None
         self._recorded: ContourSeries | None = None
+        self._is_held = False
         self._has_placed = False
 
     def follow(self, recording: Recording) -> None:
         """Show a recording that begins, in place of earlier results."""
         self._drop()
-        self.recording, self.is_live = recording, True
+        self.recording, self.is_live, self._build = recording, True, build_of(self.scene)
 
     def load(self, results: Results) -> None:
         """Show kept results until the next recording; raises a `ContourError` if the scene has none of their bodies."""
@@ -58,7 +61,14 @@ class ShownResults:
                 "scene that they were recorded in, or build it from the same scenario"
             )
         self._drop()
-        self._results, self._loaded = results, ContourSeries.of_results(results)
+        self._results, self._loaded, self._build = results, ContourSeries.of_results(results), build_of(self.scene)
+
+    def hold(self) -> bool:
+        """Show from now on what was recorded, as Blender has lost the frames that it played; False where nothing is."""
+        if self.is_live or self.series is None:
+            return False
+        self._is_held = True
+        return True
 
     def forget(self) -> None:
         """Show no results any more; a recording that runs goes on."""
@@ -69,8 +79,8 @@ class ShownResults:
 
     @property
     def are_loaded(self) -> bool:
-        """Whether loaded results are shown, also while Blender simulates."""
-        return self._loaded is not None
+        """Whether loaded results, or those that are held, are shown, also while Blender simulates."""
+        return (self._loaded is not None or self._is_held) and self.series is not None
 
     @property
     def are_placed(self) -> bool:
@@ -83,7 +93,7 @@ class ShownResults:
     @property
     def results(self) -> Results | None:
         """The results, once their recording has ended; None where nothing was recorded."""
-        if self.is_live:
+        if self.is_live or not self._are_of_the_build:
             return None
         if self._results is None and self.recording and self.recording.recorded_frames:
             self._results = self.recording.results()
@@ -91,7 +101,9 @@ class ShownResults:
 
     @property
     def series(self) -> ContourSeries | None:
-        """The frames that can be shown, up to the latest one; None where nothing was recorded."""
+        """The frames that can be shown, up to the latest one; None where nothing was recorded of what is built."""
+        if not self._are_of_the_build:
+            return None
         if self._loaded is not None:
             return self._loaded
         if self.recording is None or not self.recording.recorded_frames:
@@ -131,6 +143,10 @@ class ShownResults:
             put_back(self.scene)
             self._has_placed = False
 
+    @property
+    def _are_of_the_build(self) -> bool:
+        return self._build == build_of(self.scene)
+
     def _moving_rows(self) -> dict[str, int]:
         series = self.series
         return {name: row for row, name in enumerate(series.body_names) if series.moves[row]} if series else {}
@@ -138,5 +154,6 @@ class ShownResults:
     def _drop(self) -> None:
         self.put_bodies_back()
         self._results = self._loaded = None
+        self._is_held = False
         self.missing = ""
         self.number += 1

@@ -18,7 +18,7 @@ from ...model.results.frames import BallHistory, ContactHistory, Frame
 from ...model.results.inventory import Inventory
 from ...model.scenario import ZoneFiring
 from ...model.schema import given
-from ...scene.as_built import changed_bodies, check_start
+from ...scene.as_built import build_of, changed_bodies, check_start
 from ...scene.bodies import bodies_of
 from ...scene.connections.bearings import named_bearings_of
 from ...scene.connections.breaking_settings import rewrite_thresholds
@@ -70,6 +70,8 @@ class Recording(RecordedFrames):
     ----------
     scene_uid : int
         Number of the scene as long as Blender runs, also when the scene is gone.
+    build : str
+        Which building of a demolition it is of; empty where none was built.
     changed_bodies : list of str
         Which bodies are missing, were added or moved since the scene was built, in sentences.
     error : Exception or None
@@ -105,6 +107,7 @@ class Recording(RecordedFrames):
         rewrite_thresholds(scene)  # the step may have changed since the scene was built
         self.scene = scene
         self.scene_uid = scene.session_uid
+        self.build = build_of(scene)
         self.folder = folder
         self.error: Exception | None = None
         self.layout_error: LayoutError | None = None

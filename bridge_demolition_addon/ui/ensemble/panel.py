@@ -73,9 +73,17 @@ class OneValuePanel(EnsemblePanel):
             column.prop(settings, f"{self.work.key}_span")
 
     def draw_result(self, context: bpy.types.Context) -> None:
+        draw_whose_result(self.layout, context, self.work)
         for sentence in self.work.result.sentences:
             draw_sentence(self.layout, context, sentence, icon="NONE")
         self.layout.operator(self.picture)
+
+
+def draw_whose_result(layout: bpy.types.UILayout, context: bpy.types.Context, work: Work) -> None:
+    """Say where a result is of another bridge, or of other charges, than the panels show."""
+    if work.is_of_other(context.scene.bda):
+        sentence = translated("This result is of other values than the panels show: {}")
+        draw_sentence(layout, context, sentence.format(work.scenario.title))
 
 
 def draw_own_keys(panel: EnsemblePanel, context: bpy.types.Context, without: tuple[str, ...] = ()) -> None:

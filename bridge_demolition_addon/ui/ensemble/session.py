@@ -14,6 +14,7 @@ from typing import Protocol
 import bpy
 
 from ...errors import DemolitionError, text_of
+from ...model.scenario import Scenario
 from ...model.study.file import Ensemble
 from ...model.study.settings import EnsembleSettings
 from ...studies.engine import LocalProcesses
@@ -22,6 +23,7 @@ from ...studies.run_program import run_program_command
 from ...studies.session import EnsembleSession
 from ...studies.versions import versions_with
 from ..languages.words import translated
+from ..scenario.built import panels_show
 from ..task_progress import time_left_text
 from ..viewport import redraw_views
 
@@ -66,6 +68,8 @@ class Work:
 
     Attributes
     ----------
+    scenario : Scenario or None
+        What the session, or else the result, is of.
     why_ended : str
         Error that ended the last session; empty where there was none.
     """
@@ -80,13 +84,14 @@ class Work:
         self.key, self.name, self.settings_class, self._shown = key, name, settings_class, shown
         self.session: EnsembleSession | None = None
         self.result: ShownResult | None = None
+        self.scenario: Scenario | None = None
         self.why_ended = ""
 
     def begin(self, ensemble: Ensemble, path: Path, jobs: int) -> None:
         """Begin, or go on where the folder stands; a folder that cannot be used raises DemolitionError."""
         self.why_ended = ""
         self.session = EnsembleSession(ensemble, path, engine_for(ensemble, jobs))
-        self.result = None
+        self.result, self.scenario = None, ensemble.scenario
         if not bpy.app.timers.is_registered(look_in):
             bpy.app.timers.register(look_in, persistent=True)
 
@@ -96,6 +101,10 @@ class Work:
         session, self.session = self.session, None
         if session:
             session.stop()
+
+    def is_of_other(self, settings: bpy.types.PropertyGroup) -> bool:
+        """Return whether the result that is shown is of other values than the panels show."""
+        return bool(self.result and self.scenario and not panels_show(settings, self.scenario))
 
     def look_in(self) -> None:
         """Take the runs that have ended since the last look."""

@@ -26,7 +26,7 @@ from ..sidebar import SidebarPanel, draw_sentence
 from ..view_drawing import ViewDrawing, draw_lines, draw_triangles
 from ..viewport import redraw_views
 from .operator import EnsembleAction, LoadEnsemble, StartEnsemble, StopEnsemble
-from .panel import EnsemblePanel
+from .panel import EnsemblePanel, draw_whose_result
 from .session import WORKS, Work
 
 _LIMIT_COLOUR = (1.0, 0.2, 0.2, 1.0)
@@ -73,6 +73,7 @@ WORKS.append(WORK)
 def show(path: Path) -> ShownStudy:
     """Show the study in a folder, in place of any other; OutputError where none of its runs finished."""
     WORK.result = ShownStudy.of(read_study_runs(path))
+    WORK.scenario = WORK.result.runs.ensemble.scenario
     redraw_views()
     return WORK.result
 
@@ -232,6 +233,7 @@ class BDA_PT_study_findings(SidebarPanel, bpy.types.Panel):
         layout.operator("bda.show_study", text="Show Study in Folder")
         if WORK.result is None:
             return
+        draw_whose_result(layout, context, WORK)
         for sentence in WORK.result.sentences:
             draw_sentence(layout, context, sentence, icon="NONE")
         layout.prop(context.scene.bda, "show_study")
@@ -241,7 +243,8 @@ class BDA_PT_study_findings(SidebarPanel, bpy.types.Panel):
 
 
 def _draw(context: bpy.types.Context) -> None:
-    if WORK.result is None or not context.scene.bda.show_study:
+    settings = context.scene.bda
+    if WORK.result is None or not settings.show_study or WORK.is_of_other(settings):
         return
     draw_triangles(*WORK.result.triangles)
     draw_lines(context, WORK.result.limit_lines, _LIMIT_COLOUR, _LIMIT_WIDTH_PX)

@@ -29,7 +29,7 @@ from ...system.folder_lock import FolderLock
 from .. import messages, task_progress, workspace
 from ..blast.operator import build_missing_fields, keep_shown_blast
 from ..operators import Action, GuardedOperator, absolute, baked, no_world, recording_runs, refused
-from ..scenario.built import scenario_to_run
+from ..scenario.built import is_emptied, scenario_to_run
 from ..scenario.values import table_of
 from . import session
 from .paths import new_folder
@@ -46,7 +46,11 @@ _locks: WeakKeyDictionary[Recording, FolderLock] = WeakKeyDictionary()
 
 def recording_disabled_reason(context: bpy.types.Context) -> str | None:
     """Return why a scene cannot be recorded now, in a sentence, or None where it can."""
-    return no_world(context) or recording_runs(context) or baked(context)
+    return no_world(context) or recording_runs(context) or baked(context) or _emptied(context)
+
+
+def _emptied(context: bpy.types.Context) -> str | None:
+    return "Nothing is left of what was built: build the scenario again" if is_emptied(context.scene) else None
 
 
 class BDA_OT_register_handler(Action, bpy.types.Operator):

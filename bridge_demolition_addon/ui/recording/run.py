@@ -113,9 +113,8 @@ class BDA_OT_run(SteppedTask, bpy.types.Operator):
 
 
 def _no_known_run(context: bpy.types.Context) -> str | None:
-    last = session.last_recording()
-    if last is None or last.recording.scene_uid != context.scene.session_uid:
-        return "Nothing was run in this scene since Blender started: run it first"
+    if session.last_recording_of(context.scene) is None:
+        return "What is built in this scene was not run since Blender started: run it first"
     return None if frames_are_known(context.scene) else "Something has changed since the run: run it again first"
 
 

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import bpy
 
 from ...model.run_folder.summary import RunSummary
+from ...scene.as_built import build_of
 from ...simulation.blender_events import running_recording, stop_recording
 from ...simulation.recording.recorder import Recording
 from ..sidebar import redraw_sidebars
@@ -40,6 +41,13 @@ def forget_recording(folder: Path) -> None:
 def last_recording() -> LastRecording | None:
     """Return the last recording, None before there was one."""
     return _recordings[0] if _recordings else None
+
+
+def last_recording_of(scene: bpy.types.Scene) -> LastRecording | None:
+    """Return the last recording where it is of what a scene shows: results of another bridge say nothing of this."""
+    last = last_recording()
+    is_of_it = last and (last.recording.scene_uid, last.recording.build) == (scene.session_uid, build_of(scene))
+    return last if is_of_it else None
 
 
 def redraw_while_recording() -> None:

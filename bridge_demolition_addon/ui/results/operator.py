@@ -19,6 +19,7 @@ from ...model.run_folder.files import FORCE_CHART, REPORT_PAGE, REPORT_PDF, REPO
 from ...model.run_folder.folder import keep_site
 from ...report.document.word_library import word_is_there
 from ...scene.surveys import show_survey
+from ...simulation.blender_events import shown_results
 from ...simulation.kept_run import folder_of_run, has_run, is_run_of
 from ...system.disk import whole_file, writing
 from ..modal_task import ModalTask, Work
@@ -28,7 +29,7 @@ from ..sidebar import path_property
 from ..stepped_thread import SteppedThread
 from ..viewport import look_at_bridge, look_at_selected, select_only, shards_in_view
 from .report_language import shown_language, shown_units
-from .shown_run import shown_run
+from .shown_run import shown_run, why_no_run
 
 CHARTS, PLAN_CHART = "charts", "debris_plan.png"
 _OPENER = "xdg-open"
@@ -46,13 +47,18 @@ _SHARES = {
 and two spans, with pictures. The first page of the PDF takes as long as four others."""
 
 
+def _no_results(context: bpy.types.Context) -> str | None:
+    """Say that nothing is shown of what is built; results that were loaded have no run."""
+    return None if shown_results(context.scene).series else _no_run(context)
+
+
 class BDA_OT_go_to_body(UndoableAction, bpy.types.Operator):
     """Go to that frame, select the body and look at it"""
 
     bl_label = "Go to Body and Frame"
     changes_scene = False
     changes_objects = True
-    blocked_by = (recording_runs,)
+    blocked_by = (recording_runs, _no_results)
 
     body: StringProperty(name="Body", description="Name of the body")
     frame: IntProperty(name="Frame", description="Frame to go to", min=0)
@@ -78,7 +84,7 @@ class BDA_OT_look_at_bridge(UndoableAction, bpy.types.Operator):
 
 def _no_run(context: bpy.types.Context) -> str | None:
     try:
-        return None if shown_run(context.scene) else "Nothing was recorded yet: run the scene first"
+        return why_no_run(context.scene)
     except OutputError as error:
         return str(error)
 

@@ -15,10 +15,10 @@ from ...model.results.bar_extremes import bars_text, largest_use_text
 from ...model.run_folder.files import SUMMARY_FILE
 from ...model.run_folder.summary import RunSummary, read_summary
 from ...model.sequence.doubts import doubts_of_run
-from ...model.stages.stability import stability_texts
+from ...model.stages.stability import STANDS, stability_texts
 from ...simulation.kept_run import digest_of_run, folder_of_run, has_run, results_of_run
 from ..languages.words import translated
-from ..recording.session import last_recording
+from ..recording.session import last_recording, last_recording_of
 from ..scene_units import length_text, mass_text, units_of_texts
 
 _N_PER_KN = 1000.0
@@ -43,8 +43,10 @@ class ShownRun:
 
     Attributes
     ----------
+    stands
+        That the bridge stands by itself; empty where it does not, or this is not known.
     doubts
-        Whether the bridge stands, that it fell before anything was done to it, and what still moved, as far as known.
+        That it does not stand, fell before anything was done to it, and what still moved, as far as known.
     lines
         Totals, in short lines.
     explained_peak
@@ -58,6 +60,7 @@ class ShownRun:
     folder: Path
     title: str
     summary: RunSummary
+    stands: str
     doubts: tuple[str, ...]
     lines: tuple[str, ...]
     peak_force: LargestValue | None
@@ -71,11 +74,14 @@ class ShownRun:
         """Put a summary into texts."""
         try:
             force, throw = summary.largest_force_n, summary.largest_throw_m
+            stability = stability_texts(summary.values)
+            stands = stability[:1] if summary.values.get("stability", {}).get("verdict") == STANDS else ()
             return cls(
                 folder=folder,
                 title=str(summary.values["title"]),
                 summary=summary,
-                doubts=tuple(filter(None, (*stability_texts(summary.values), *doubts_of_run(summary.values)))),
+                stands="".join(stands),
+                doubts=(*stability[len(stands) :], *doubts_of_run(summary.values)),
                 lines=tuple(lines_of(summary.values)),
                 peak_force=force and LargestValue(_force_text(force.value), force.body, force.frame),
                 largest_throw=throw and LargestValue(_throw_text(throw.value, summary.values), throw.body, last_frame),
@@ -90,14 +96,24 @@ class ShownRun:
 
 
 def shown_run(scene: bpy.types.Scene) -> ShownRun | None:
-    """Return the run whose results are shown; None before there was one.
+    """Return the run whose results are shown; None before there was one of what is built in the scene.
 
     A run that is kept with the scene, and cannot be found or read, raises OutputError.
     """
-    last = last_recording()
+    last = last_recording_of(scene)
     if has_run(scene) and not (last and last.summary.result_digest == digest_of_run(scene)):
         return _of_file(scene)
     return ShownRun.of(last.folder, last.summary, last.recording.last_frame, last.recording.results) if last else None
+
+
+def why_no_run(scene: bpy.types.Scene) -> str | None:
+    """Return in a sentence why no results are shown; None where there are some, or they cannot be read."""
+    if shown_run(scene):
+        return None
+    if last := last_recording():
+        sentence = translated("The last results are of another bridge than is built here: {}, in {}")
+        return sentence.format(last.summary.title, last.folder)
+    return translated("Nothing was recorded yet: run the scene first")
 
 
 def forget_shown() -> None:

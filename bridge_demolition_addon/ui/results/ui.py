@@ -12,7 +12,7 @@ from ..languages.words import translated
 from ..recording.session import last_recording
 from ..sidebar import SidebarPanel, draw_sentence
 from .operator import can_report, report_of
-from .shown_run import LargestValue, shown_run
+from .shown_run import LargestValue, shown_run, why_no_run
 
 
 class BDA_PT_results(SidebarPanel, bpy.types.Panel):
@@ -28,13 +28,16 @@ class BDA_PT_results(SidebarPanel, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout
         try:
-            run = shown_run(context.scene)
+            run, why_not = shown_run(context.scene), why_no_run(context.scene)
         except OutputError as error:
             draw_sentence(layout, context, str(error))
             return
         if run is None:
+            draw_sentence(layout, context, why_not)
             return
         draw_sentence(layout, context, run.title, icon="NONE")
+        if run.stands:
+            draw_sentence(layout, context, run.stands, icon="CHECKMARK")
         for doubt in run.doubts:
             draw_sentence(layout, context, doubt)
         column = layout.column(align=True)

@@ -6,7 +6,7 @@ A run takes the values that were built, and as the panels show them those that d
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator
-from dataclasses import Field, dataclass, replace
+from dataclasses import Field, dataclass, fields, replace
 from functools import cache, lru_cache
 from typing import Any
 
@@ -14,7 +14,7 @@ import bpy
 import numpy as np
 
 from ...engineering.single_precision import as_given, shortest
-from ...errors import ScenarioError
+from ...errors import DemolitionError, ScenarioError
 from ...model.scenario import Exclusion, Scenario, TimeSettings
 from ...model.scenario.file import scenario_from_text, scenario_text
 from ...model.scenario.kept import values_from_text, values_text
@@ -29,6 +29,9 @@ _SITE = ("zones", "exclusion", "site", "neighbours", "equipment")
 
 _AS_SHOWN = ("title", "charges", "blast", "recording", "pictures", "report", *_SITE)
 """Parts of a scenario that a run takes as the panels show them when it begins."""
+
+_BESIDE_RESULTS = ("title", "recording", "pictures", "report")
+"""Parts of a scenario on which no result depends."""
 
 _TIME_AS_SHOWN = ("stop_at_rest", "rest_speed_m_s", "rest_spin_rad_s", "rest_hold_s")
 """Keys of its time that a run takes so."""
@@ -84,6 +87,23 @@ def changes(settings: bpy.types.PropertyGroup) -> list[ChangedValue]:
     """Return all values that have changed since the scene was built; none where it was not."""
     kept = built_values(settings)
     return [] if kept is None else list(changes_in(settings.scenario, Scenario, kept))
+
+
+def panels_show(settings: bpy.types.PropertyGroup, scenario: Scenario) -> bool:
+    """Return whether the panels show a scenario, in all that its results depend on."""
+    try:
+        shown = scenario_of(settings)
+    except DemolitionError:  # of which there are no results
+        return False
+    return _without(shown, _BESIDE_RESULTS) == _without(scenario, _BESIDE_RESULTS)
+
+
+def is_built(settings: bpy.types.PropertyGroup, scenario: Scenario) -> bool:
+    """Return whether what is built is of a scenario, as far as its values count in building."""
+    if not settings.built_scenario:
+        return False
+    built = _parsed_scenario(settings.built_scenario)
+    return _without(built, _AS_SHOWN) == _without(scenario, _AS_SHOWN)
 
 
 def is_emptied(scene: bpy.types.Scene) -> bool:
@@ -262,6 +282,15 @@ def _readings(table_class: type[Table]) -> tuple[tuple[Field, str, bool], ...]:
 def _reading(item: Field) -> tuple[str, bool]:
     """Return the name of the check box of a key, empty where it has none, and whether it is a vector."""
     return USE + item.name if is_optional(item) else "", vector_length(item) is not None
+
+
+def _without(scenario: Scenario, names: Collection[str]) -> dict[str, Any]:
+    return {item.name: getattr(scenario, item.name) for item in fields(Scenario) if item.name not in names}
+
+
+@lru_cache(maxsize=8)
+def _parsed_scenario(text: str) -> Scenario:
+    return scenario_from_text(text)
 
 
 @lru_cache(maxsize=8)

@@ -61,6 +61,8 @@ def next_step(scene: bpy.types.Scene) -> str:
         if recording.error:
             return "The recording ended early: Stop Recording keeps what there is"
         return "It is being recorded: wait, or stop it"
+    if not settings.built_scenario and settings.scenario.geometry:
+        return "Next: Build Scenario, or change values below"
     if not settings.built_scenario:
         return "Next: choose one of the Presets, or change values below; then Build Scenario"
     if is_emptied(scene):

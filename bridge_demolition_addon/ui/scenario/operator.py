@@ -31,9 +31,10 @@ from ..operators import (
     write_file,
 )
 from ..preview.decorator import preview_lines
+from ..stages.shown import show_checked
 from ..viewport import bridge_box, look_at_box, look_at_bridge, look_at_other_bridge
 from .built import forget_built, is_emptied, keep_built, show_built
-from .preset_menu import described_preset, preset_file
+from .preset_menu import described_preset, name_own_model, preset_file
 from .prop import default_scenario
 from .values import scenario_of, show_scenario
 
@@ -229,6 +230,7 @@ def build(scene: bpy.types.Scene, *, again: bool = False) -> str:
     `again` says that it replaces what was built before.
     """
     settings = scene.bda
+    name_own_model(settings)
     is_new = settings.scenario_path not in ("", settings.loaded_path)
     scenario = read_scenario(absolute(settings.scenario_path)) if is_new else scenario_of(settings)
     built = build_and_show(scene, scenario, is_shown=not is_new, again=again)
@@ -244,9 +246,9 @@ def build_and_show(scene: bpy.types.Scene, scenario: Scenario, *, is_shown: bool
     settings, model = scene.bda, checked_model(scenario)
     if again:
         check_replaceable(scene, scenario, model)
-        shown_results(scene).forget()
-        forget_run(scene)
         remove_demolition(scene)
+    shown_results(scene).forget()
+    forget_run(scene)
     shards = build_demolition(scene, scenario, model)
     stage(scene, shards, model, points_to_see(scenario, model.members), scenario.pictures)
     if not is_shown:
@@ -256,6 +258,7 @@ def build_and_show(scene: bpy.types.Scene, scenario: Scenario, *, is_shown: bool
     for warning in pick_warnings(scenario.lifts, model):
         messages.note(scene, "bda.build_scenario", "WARNING", warning)
     keep_built(settings, scenario)
+    show_checked(scene)
     keep_as_built(scene)
     if len(model.shards) <= _MOST_SHARDS_JUDGED:
         keep_stability(scene, stability_of(scenario, model, with_factor=False).stored())

@@ -117,6 +117,20 @@ def _shown_number(settings: bpy.types.PropertyGroup) -> int:
     return _numbers_by_title().get(settings.scenario.title, 0)
 
 
+def name_own_model(settings: bpy.types.PropertyGroup) -> None:
+    """Replace the title of a preset by the name of the file where the panels show no longer what that is of.
+
+    Folders, results and reports have that title.
+    """
+    shown, number = settings.scenario, _shown_number(settings)
+    if not number:
+        return
+    preset = read_scenario(list(preset_files().values())[number - 1])
+    of_preset = (preset.bridge is not None, preset.steelwork is not None, [table.name for table in preset.geometry])
+    if (shown.use_bridge, shown.use_steelwork, [table.name for table in shown.geometry]) != of_preset:
+        shown.title = Path(bpy.data.filepath).stem or translated("Own model")
+
+
 def _load(number: int) -> None:
     """Load the preset of a number as its button does; Blender makes the step of undo."""
     if not number:

@@ -8,6 +8,7 @@ from ...errors import DemolitionError
 from ...model.sequence.checked_model import checked_model
 from ...model.stages.stability import COMES_DOWN, STANDS, Stability
 from ...model.stages.stability_by_statics import stability_of
+from ...scene.as_built import has_all_bodies
 from ...scene.stability import keep_stability, kept_stability
 from ..operators import Action, recording_runs, unset
 from ..sidebar import draw_sentence
@@ -38,10 +39,15 @@ class BDA_OT_does_it_stand(Action, bpy.types.Operator):
         return stability.sentence
 
 
+def draws_verdict(scene: bpy.types.Scene) -> bool:
+    """Return whether there is a bridge of which a verdict can be: all that was built is still there."""
+    return bool(scene.bda.built_scenario) and has_all_bodies(scene)
+
+
 def draw_stability(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
     """Draw the verdict that is kept with a scene that is built, and the button that works it out in full."""
     scene = context.scene
-    if not scene.bda.built_scenario:
+    if not draws_verdict(scene):
         return
     try:
         kept = kept_stability(scene)

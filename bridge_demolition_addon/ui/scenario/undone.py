@@ -9,7 +9,9 @@ from __future__ import annotations
 import bpy
 from bpy.app.handlers import persistent
 
+from ...simulation.blender_events import shown_results
 from ..languages.words import translated
+from ..stages.shown import show_checked
 
 _frames_before: dict[int, int] = {}
 """The frame of each scene as an undo or redo begins, by the scene's number of this session."""
@@ -20,7 +22,9 @@ _put_back: dict[int, int] = {}
 
 def undo_note(scene: bpy.types.Scene) -> str:
     """Return the sentence as long as the timeline stays where undo has put it; empty otherwise."""
-    if _put_back.get(scene.session_uid) == scene.frame_current:
+    if scene.rigidbody_world and _put_back.get(scene.session_uid) == scene.frame_current:
+        if shown_results(scene).are_loaded:
+            return translated("Undo put the timeline to its start: it plays what was recorded")
         return translated("Undo began the simulation again: the timeline is at its start, and plays as before")
     _put_back.pop(scene.session_uid, None)
     return ""
@@ -35,6 +39,7 @@ def _before(*_: object) -> None:
 @persistent
 def _after(*_: object) -> None:
     for scene in bpy.data.scenes:
+        show_checked(scene)
         world, before = scene.rigidbody_world, _frames_before.get(scene.session_uid)
         if world and before is not None and before > scene.frame_current == world.point_cache.frame_start:
             _put_back[scene.session_uid] = scene.frame_current

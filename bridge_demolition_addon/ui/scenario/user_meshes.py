@@ -15,6 +15,7 @@ from ...model.structure.point_files import paint_text
 from ...scene.user_meshes import painted_points, solid_of_object
 from ..operators import FileWriter, UndoableAction, absolute, write_file
 from ..sidebar import path_property
+from .preset_menu import name_own_model
 
 _CONCRETE_KG_M3 = 2400.0
 _MESH_SUFFIX, _PAINT_SUFFIX = ".ply", ".csv"
@@ -64,6 +65,7 @@ class BDA_OT_add_selected_members(UndoableAction, bpy.types.Operator):
         scenario.geometry_index = len(tables) - 1
         switched_off = scenario.use_bridge and not self.with_bridge
         scenario.use_bridge = scenario.use_bridge and self.with_bridge
+        name_own_model(context.scene.bda)
         for name, repaired in solids.items():
             for repair in repaired.repairs:
                 self.report({"INFO"}, f"{name}: {repair}")

@@ -25,7 +25,7 @@ from ..modal_task import ModalTask, Work
 from ..operators import UndoableAction, absolute, no_world
 from ..scenario.values import scenario_of
 from ..stepped_thread import SteppedThread
-from .shown import CheckedStages, checked_in, keep, show_checked
+from .shown import CheckedStages, keep, show_checked, why_not_shown
 
 _STAGES, _MEMBERS = "stages", "without each member"
 _SHARES = {_STAGES: (0.0, 0.83), _MEMBERS: (0.83, 1.0)}
@@ -75,6 +75,7 @@ class BDA_OT_check_stages(ModalTask, bpy.types.Operator):
             keep(
                 CheckedStages(
                     scene_uid=scene_uid,
+                    scenario=scenario,
                     rows=tuple(rows),
                     reactions=reactions,
                     bearings=bearings,
@@ -98,7 +99,7 @@ class BDA_OT_check_stages(ModalTask, bpy.types.Operator):
 
 
 def _not_checked(context: bpy.types.Context) -> str | None:
-    return None if checked_in(context.scene) else "Check the stages first"
+    return why_not_shown(context.scene)
 
 
 class BDA_OT_show_utilisation(UndoableAction, bpy.types.Operator):
@@ -109,6 +110,7 @@ class BDA_OT_show_utilisation(UndoableAction, bpy.types.Operator):
 
     def act(self, context: bpy.types.Context) -> None:
         scene, settings = context.scene, context.scene.bda
+        show_checked(scene)
         scene.frame_set(scene.rigidbody_world.point_cache.frame_start)  # a pile is not what was calculated
         settings.contour_quantity = ContourQuantity.UTILISATION.name
         settings.contours = True

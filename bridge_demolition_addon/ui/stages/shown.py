@@ -6,8 +6,10 @@ import bpy
 from bpy.props import IntProperty
 
 from ...display.stage_contours import StageContours
+from ...model.scenario import Scenario
 from ...simulation.blender_events import contours_of
 from ..contours import view as contour_view
+from ..scenario.built import is_built, panels_show
 from ..sidebar import path_property
 
 
@@ -19,6 +21,8 @@ class CheckedStages:
     ----------
     scene_uid
         Blender's number of the scene in this session.
+    scenario
+        What was checked.
     rows
         Rows of the table of stages.
     reactions
@@ -34,6 +38,7 @@ class CheckedStages:
     """
 
     scene_uid: int
+    scenario: Scenario
     rows: tuple[dict, ...]
     reactions: tuple[tuple[dict, ...], ...]
     bearings: tuple[tuple[dict, ...], ...]
@@ -55,11 +60,23 @@ def checked_in(scene: bpy.types.Scene) -> CheckedStages | None:
     return next((checked for checked in _checked if checked.scene_uid == scene.session_uid), None)
 
 
+def why_not_shown(scene: bpy.types.Scene) -> str | None:
+    """Return in a sentence why no stages are shown; None where they are those of what the panels show."""
+    checked = checked_in(scene)
+    if checked is None:
+        return "Check the stages first"
+    if not panels_show(scene.bda, checked.scenario):
+        return "The stages that were checked are of other values than the panels show: check them again"
+    return None
+
+
 def show_checked(scene: bpy.types.Scene) -> None:
-    """Show the last check of a scene in its contours."""
-    if checked := checked_in(scene):
-        contours_of(scene).stages = checked.contours
-        scene.bda.stage_shown = min(scene.bda.stage_shown, len(checked.contours))
+    """Show the last check of a scene in its contours, if it is of what is built there."""
+    checked = checked_in(scene)
+    is_shown = checked is not None and is_built(scene.bda, checked.scenario)
+    contours_of(scene).stages = checked.contours if is_shown else None
+    if is_shown and scene.bda.stage_shown > len(checked.contours):
+        scene.bda.stage_shown = len(checked.contours)
 
 
 def unregister() -> None:

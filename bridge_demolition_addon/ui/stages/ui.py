@@ -10,7 +10,7 @@ from ..languages.words import translated
 from ..sidebar import SidebarPanel, draw_sentence
 from ..task_progress import draw_task_progress, going_on
 from .operator import BDA_OT_check_stages
-from .shown import checked_in
+from .shown import checked_in, why_not_shown
 
 _MOST_TIMES = 64
 """Up to which load factor the collapse is looked for."""
@@ -35,6 +35,9 @@ class BDA_PT_stages(SidebarPanel, bpy.types.Panel):
             draw_task_progress(layout, context, progress)
         checked = checked_in(context.scene)
         if checked is None:
+            return
+        if reason := why_not_shown(context.scene):
+            draw_sentence(layout, context, reason)
             return
         grid = layout.column(align=True)
         for row in [{}, *checked.rows]:
