@@ -184,6 +184,11 @@ def test_the_panels_show_what_varies_the_course_and_the_findings_and_those_of_a_
     found = drawn(blender, sidebar)
     assert found[-len(WORK.result.sentences) - 2 : -2] == list(WORK.result.sentences)
     assert found[-2:] == ["show_study", "bda.open_worst_draw"]
+    whose = "This result is of other values than the panels show"
+    assert not any(text.startswith(whose) for text in found)
+    panel.scenario.ball.mass_kg += 1000.0
+    assert any(text.startswith(whose) for text in drawn(blender, sidebar))
+    panel.scenario.ball.mass_kg -= 1000.0
 
     session.unregister()
     assert WORK.result is None

@@ -11,6 +11,7 @@ from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.structure.model import build_model
 from bridge_demolition_addon.model.structure.point_files import paint_from_file
 from bridge_demolition_addon.ui.preview.decorator import preview_lines
+from bridge_demolition_addon.ui.scenario.preset_menu import name_own_model
 from bridge_demolition_addon.ui.scenario.values import scenario_of
 
 
@@ -150,3 +151,23 @@ def test_paint_that_is_not_there_is_refused(extension, settings, objects, tmp_pa
     with pytest.raises(RuntimeError, match="nothing is painted in vertex group 'finer'"):
         extension.ops.bda.use_paint(filepath=str(tmp_path / "paint.csv"))
     assert not Path(tmp_path / "paint.csv").exists() and not settings.scenario.fracture.use_painted_file
+
+
+def test_a_model_of_ones_own_has_no_title_of_a_preset(extension, settings, objects, tmp_path):
+    assert settings.scenario.title == "Reinforced span, wrecking ball"
+    extension.ops.bda.add_selected_members(directory=str(tmp_path / "members"))
+    assert settings.scenario.title == "Own model"
+    extension.ops.bda.load_preset(preset="drilled_spans")
+    extension.ops.wm.save_as_mainfile(filepath=str(tmp_path / "Mill Lane footbridge.blend"))
+    titles = {}
+    for use_bridge, title in ((True, ""), (False, ""), (False, "Mill Lane, second attempt")):
+        settings = extension.context.scene.bda
+        settings.scenario.use_bridge = use_bridge
+        settings.scenario.title = title or settings.scenario.title
+        name_own_model(settings)
+        titles[use_bridge, title] = settings.scenario.title
+    assert list(titles.values()) == [
+        "Two reinforced spans, drilled charges",  # as it was loaded
+        "Mill Lane footbridge",
+        "Mill Lane, second attempt",  # the user's own
+    ]

@@ -102,9 +102,20 @@ def test_stages_of_another_bridge_are_not_shown(blender, panel):
     ops, scene = blender.ops.bda, blender.context.scene
     ops.check_stages()
     panel.scenario.seed += 1
+    of_other = "The stages that were checked are of other values than the panels show: check them again"
+    assert drawn(blender)[1:] == [of_other]
     ops.build_scenario()
-    ops.show_utilisation()
+    with pytest.raises(RuntimeError, match=of_other):
+        ops.show_utilisation()
+    panel.contour_quantity, panel.contours = ContourQuantity.UTILISATION.name, True
+    assert contour_view.refusal(scene).startswith("Utilisation at rest is that of stages: check them")
+    panel.scenario.seed -= 1
+    ops.build_anew()
+    assert ops.show_utilisation() == {"FINISHED"} and contour_view.refusal(scene) == ""
+    next(body for body in scene.objects if body.name.startswith("Shard")).location.x += 1.0
+    contour_view.follow(scene)
     assert contour_view.refusal(scene).startswith("stages: they are of another bridge than the scene has")
+    panel.contours = False
 
 
 def test_utilisation_without_stages_says_what_to_do(blender, panel):
