@@ -237,7 +237,7 @@ class Assembly:
                 solid = writable(self._before[number])
                 self.notes.append(f"{outcome.member.name} is left as it was: made longer it would be no sound solid")
             if solid is None:
-                self.leave_out(number, "with the digits that a file holds its surface crosses itself")
+                self.leave_out(number, "with the digits that a file holds it is no closed solid")
             elif outcome.mesh is not None:
                 self.outcomes[number] = replace(outcome, mesh=solid)
             else:

@@ -110,6 +110,8 @@ def _as_read(whole: Path, bridge: ImportedBridge) -> tuple[tuple[str, ...], tupl
         return prepared.notes, tuple(notes_on_bars(scenario, prepared.members, added))
     except (GeometryError, ScenarioError) as error:
         text = str(error).removeprefix(f"{whole / SCENARIO_FILE}: ")
+        for table in bridge.scenario.geometry:  # in a folder that is not kept
+            text = text.replace(f"{whole / table.file}: ", "")
         raise IfcError(f"{text} Or leave it out by --without NAME") from error
 
 

@@ -186,8 +186,8 @@ def _fractured(solid: TriangleMesh, points: FloatArray, stretch: FloatArray | No
     volume = solid.volume
     if abs(volumes.sum() - volume) > VOLUME_TOLERANCE * volume:
         raise GeometryError(
-            f"The {len(shards)} shards hold {volumes.sum():.12g} m³ of the solid's {volume:.12g} m³; it crosses "
-            "itself or is too fine to be cut so often."
+            f"The {len(shards)} shards hold {volumes.sum():.12g} m³ of the solid's {volume:.12g} m³; faces of it lie "
+            "on each other somewhere, or are too fine to be cut so often: mend them, or ask for fewer shards."
         )
     smallest = SMALLEST_FACE * float(power(volume / len(points), 2 / 3))
     between_shards = shared_faces(shard_of_piece[faces.pairs], faces.areas, faces.centres, faces.normals, smallest)

@@ -11,7 +11,7 @@ from manifold3d import triangulate
 
 from ...errors import GeometryError
 from ..arrays import BoolArray, FloatArray, IntArray
-from .mesh import TriangleMesh
+from .mesh import TriangleMesh, triangle_areas_and_normals
 from .seams import loops_of_open_edges, welded, without_slivers
 from .self_intersection import first_crossing
 from .solids import (
@@ -32,6 +32,10 @@ WELDING_TOLERANCE = 1e-6
 
 FLATNESS_TOLERANCE = 1e-3
 """Distance of the rim of a hole from a plane, by its extent, up to which the hole is closed by it."""
+
+_FLAT_TOLERANCE = 1e-7
+"""Height of a triangle, by the longest extent of its mesh, below which it has no area: in single precision it has one
+of 6e-8 of its coordinates where CAD closes a joint of three faces by it. The boolean engine loses volume there."""
 
 _SLIT_TOLERANCE = 1e-12
 """Part of the square of a hole's extent below which its area is rounding, and its rim lies along a line."""
@@ -60,7 +64,7 @@ def repaired_solid(mesh: TriangleMesh, name: str) -> Repaired:
     whole = TriangleMesh(vertices, triangles)
     if not len(triangles) or abs(whole.volume) <= SMALLEST_VOLUME * whole.cube_volume:
         raise GeometryError(f"{name}: encloses no volume; give it a thickness.")
-    solid = _united(whole, repairs, name)
+    solid = _without_flat_triangles(_united(whole, repairs, name), repairs, name)
     crossing = first_crossing(solid.corners)
     if crossing is not None:
         position = ", ".join(f"{coordinate:.4g}" for coordinate in crossing)
@@ -196,6 +200,21 @@ def _normal(arms: FloatArray, extent: float) -> FloatArray:
     """Unit normal (3,) of a closed loop of corners (r, 3), by Newell; 0 where it encloses no area."""
     areas = np.cross(arms, np.roll(arms, -1, axis=0)).sum(axis=0)
     return unit(areas) if length(areas) > _SLIT_TOLERANCE * extent * extent else np.zeros(3)
+
+
+def _without_flat_triangles(mesh: TriangleMesh, repairs: list[str], name: str) -> TriangleMesh:
+    """A closed mesh whose triangles without area are taken into their neighbours; the same where it has none."""
+    corners = mesh.corners
+    sides = length(corners - np.roll(corners, 1, axis=1)).max(axis=1)
+    tolerance_m = _FLAT_TOLERANCE * mesh.longest_extent
+    flat = 2.0 * triangle_areas_and_normals(corners)[0] <= tolerance_m * sides
+    if not flat.any():
+        return mesh
+    simpler = to_manifold(mesh, name).simplify(tolerance_m)
+    if simpler.volume() <= SMALLEST_VOLUME * mesh.cube_volume:
+        return mesh  # it is flat itself, which is said of it next
+    repairs.append(f"took {int(flat.sum())} triangles without area into their neighbours")
+    return from_manifold(simpler)
 
 
 def _united(mesh: TriangleMesh, repairs: list[str], name: str) -> TriangleMesh:

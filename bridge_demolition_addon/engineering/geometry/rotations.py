@@ -2,11 +2,21 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from ..arithmetic import arctangent, cosine, sine
 from ..arrays import FloatArray, IntArray
 from .vectors import length, product, transformed
+
+_QUARTERS = (
+    ((1.0, 0.0), (0.0, 1.0)),
+    ((0.0, -1.0), (1.0, 0.0)),
+    ((-1.0, 0.0), (0.0, -1.0)),
+    ((0.0, 1.0), (-1.0, 0.0)),
+)
+"""Rotations by none, one, two and three right angles."""
 
 _SMALLEST_SINE = 1e-9
 """Below it an angle and its sine are one."""
@@ -15,6 +25,14 @@ _SMALLEST_SINE = 1e-9
 def turn_in_plane(angle_rad: float) -> FloatArray:
     """Matrix (2, 2) that turns plane vectors by an angle, anticlockwise."""
     return np.array([[cosine(angle_rad), -sine(angle_rad)], [sine(angle_rad), cosine(angle_rad)]])
+
+
+def turn_by_degrees(angle_deg: float) -> FloatArray:
+    """Matrix (2, 2) that turns plane vectors by an angle in degrees, anticlockwise, exact for right angles."""
+    quarters = angle_deg / 90.0
+    if quarters.is_integer():
+        return np.array(_QUARTERS[int(quarters % 4.0)])
+    return turn_in_plane(math.radians(angle_deg))
 
 
 def rotation_vectors(before: FloatArray, after: FloatArray) -> FloatArray:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from itertools import groupby
 from pathlib import Path
@@ -12,7 +11,7 @@ import numpy as np
 
 from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.repair import Repaired, repaired_solid
-from ...engineering.geometry.rotations import turn_in_plane
+from ...engineering.geometry.rotations import turn_by_degrees
 from ...engineering.geometry.solids import union
 from ...engineering.geometry.vectors import transformed
 from ...errors import GeometryError, ScenarioError, UnreadableError
@@ -42,7 +41,8 @@ def geometry_members(tables: Sequence[Geometry], *, is_flat: bool = True) -> tup
             parts = [_part(table, is_flat=is_flat) for table in same_name]
             members.append(_member(same_name, [part.solid for part in parts]))
         except GeometryError as error:
-            wrong.append(str(error))
+            files = ", ".join(dict.fromkeys(table.file for table in same_name))
+            wrong.append(f"{files}: {error}")
             continue
         notes += [f"{name}: {repair}" for part in parts for repair in part.repairs]
     if wrong:
@@ -71,7 +71,7 @@ def placed_mesh(table: Geometry) -> TriangleMesh:
     turns_deg = (*table.tilt_deg, table.rotation_deg)
     for plane, angle_deg in zip(_PLANES, turns_deg, strict=True):
         if angle_deg:
-            vertices[:, plane] = transformed(turn_in_plane(math.radians(angle_deg)), vertices[:, plane])
+            vertices[:, plane] = transformed(turn_by_degrees(angle_deg), vertices[:, plane])
     return TriangleMesh(vertices + np.array(table.place_m), mesh.triangles)
 
 

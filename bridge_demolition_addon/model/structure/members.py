@@ -112,7 +112,11 @@ def fractured_members(
         # Each part takes one shard at least, but of those that a bridge is made of by rule.
         as_planned = cut is member and not (member.keeps_parts or member.is_in_pieces)
         count = int(counts[index]) if as_planned else max(int(counts[index]), len(cut.parts))
-        parts.append(_fractured(cut, count, own_points[index], int(seeds[index]), options))
+        try:
+            parts.append(_fractured(cut, count, own_points[index], int(seeds[index]), options))
+        except GeometryError as error:
+            files = [f"{table.file}: " for table in scenario.geometry if table.name == member.name]
+            raise GeometryError(f"{files[0] if files else ''}{error}") from error
     shards = tuple(shard for part in parts for shard in part.shards)
     member_of_shard = np.repeat(np.arange(len(members)), [len(part) for part in parts])
     joints = bar_joints(members, member_of_shard)
@@ -186,7 +190,7 @@ def _in_convex_parts(member: Member, shards: int) -> Member:
 
 
 def _convex_parts(solid: TriangleMesh, most: int, least_m3: float) -> tuple[TriangleMesh, ...]:
-    """Return a solid in convex parts; whole where one of them could not be cut, as its surface crosses itself."""
+    """Return a solid in convex parts; whole where one of them could not be cut."""
     parts = convex_parts(solid, most, least_m3)
     return parts if all(_can_be_cut(part) for part in parts) else (solid,)
 

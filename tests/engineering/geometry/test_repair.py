@@ -7,6 +7,7 @@ import trimesh
 from manifold3d import Manifold
 from support.meshes import mesh, moved, of_trimesh, together, turned
 
+from bridge_demolition_addon.engineering.fracture.shards import fracture
 from bridge_demolition_addon.engineering.geometry.mesh import TriangleMesh
 from bridge_demolition_addon.engineering.geometry.repair import repaired_solid
 from bridge_demolition_addon.engineering.geometry.self_intersection import first_crossing
@@ -39,6 +40,32 @@ def test_a_sound_mesh_needs_no_repair(mesh):
     done = repaired_solid(mesh, "it")
     assert done.repairs == ()
     assert done.solid.volume == pytest.approx(mesh.volume, rel=ROUNDING)
+
+
+def with_joints(mesh, seed):
+    """A mesh with corners on edges of which one face alone is divided there: CAD closes these by faces without area."""
+    chance = np.random.default_rng(seed)
+    vertices, triangles = mesh.vertices.tolist(), mesh.triangles.tolist()
+    for row in chance.choice(len(triangles), 3, replace=False).tolist():
+        a, b, c = triangles[row]
+        share = chance.uniform(0.2, 0.8)
+        vertices.append([(1.0 - share) * x + share * y for x, y in zip(vertices[a], vertices[b], strict=True)])
+        new = len(vertices) - 1
+        triangles[row] = [a, new, c]
+        triangles += [[new, b, c], [a, b, new]]
+    return TriangleMesh(np.array(vertices), np.array(triangles))
+
+
+@pytest.mark.parametrize("digits", [np.float64, np.float32])
+@pytest.mark.parametrize("tilt_rad", [0.0, np.pi / 2, 0.4])
+def test_triangles_without_area_are_taken_into_their_neighbours(tilt_rad, digits):
+    """The L of 7 m³, closed at joints of three faces, keeps its volume, and its shards hold all of it."""
+    for seed in range(6):
+        joined = turned(turned(with_joints(L_SHAPE, seed), 0.3, [0, 0, 1]), tilt_rad, [1, 0, 0])
+        done = repaired_solid(TriangleMesh(joined.vertices.astype(digits).astype(float), joined.triangles), "it")
+        assert len(done.repairs) == 1 and done.repairs[0].endswith("triangles without area into their neighbours")
+        assert done.solid.volume == pytest.approx(7.0, rel=1e-6)
+        assert fracture(done.solid, 9, seed).volumes.sum() == pytest.approx(done.solid.volume, rel=ROUNDING)
 
 
 def test_a_mesh_inside_out_is_turned():

@@ -84,6 +84,23 @@ def test_scale_turn_and_place(file_of):
     assert mesh.volume == pytest.approx(7 / 8, rel=SINGLE_M)
 
 
+@pytest.mark.parametrize("angle_deg", [-90.0, 90.0, 180.0, 270.0, -450.0])
+def test_right_angles_are_exact(file_of, angle_deg):
+    """Coordinates of a mesh are those of before, with other signs and on other axes, to the last bit."""
+    for more in ({"rotation_deg": angle_deg}, {"tilt_deg": [angle_deg, 0, 0]}, {"tilt_deg": [0, angle_deg, 0]}):
+        turned_mesh = placed_mesh(member_of(file_of(), **more))
+        assert set(np.abs(turned_mesh.vertices).ravel()) <= set(np.abs(L_SHAPE.vertices).ravel())
+
+
+def test_all_that_is_wrong_is_said_at_once_by_files(file_of):
+    thin = member_of(file_of(name="thin.obj"), scale=1e-4)
+    deep = member_of(file_of(name="deep.obj"), name="foot", place_m=[0, 0, -1])
+    with pytest.raises(
+        GeometryError, match=r"thin\.obj: part: is 0\.0001 m thick.* \S+deep\.obj: foot: reaches 1 m below"
+    ):
+        geometry_members([thin, deep])
+
+
 def test_mass_gives_the_density(file_of):
     (member,), _ = geometry_members([member_of(file_of(), density_kg_m3=None, mass_kg=14_000)])
     assert member.density_kg_m3 == pytest.approx(2000, rel=SINGLE_M)
