@@ -87,7 +87,7 @@ def test_scale_turn_and_place(file_of):
 @pytest.mark.parametrize("angle_deg", [-90.0, 90.0, 180.0, 270.0, -450.0])
 def test_right_angles_are_exact(file_of, angle_deg):
     """Coordinates of a mesh are those of before, with other signs and on other axes, to the last bit."""
-    for more in ({"rotation_deg": angle_deg}, {"tilt_deg": [angle_deg, 0, 0]}, {"tilt_deg": [0, angle_deg, 0]}):
+    for more in ({"rotation_deg": angle_deg}, {"tilt_deg": [angle_deg, 0]}, {"tilt_deg": [0, angle_deg]}):
         turned_mesh = placed_mesh(member_of(file_of(), **more))
         assert set(np.abs(turned_mesh.vertices).ravel()) <= set(np.abs(L_SHAPE.vertices).ravel())
 
