@@ -19,6 +19,7 @@ from .alignments import points_of
 from .elements import Element
 from .library import library
 from .placement import Placement
+from .representations import items_of
 from .source import IfcSource
 
 _ALONG = math.cos(math.radians(20.0))
@@ -94,17 +95,14 @@ def bar_layers(
 def _bars(source: IfcSource, entity: Any, placement: Placement) -> Iterator[_Bar]:
     diameter = getattr(entity, "NominalDiameter", None)
     placing = np.array(library("util.placement").get_local_placement(entity.ObjectPlacement), dtype=float)
-    for shape in entity.Representation.Representations if entity.Representation else ():
-        for item in shape.Items:
-            if not item.is_a("IfcSweptDiskSolid"):
-                continue
-            points = points_of(item.Directrix)
-            if len(points) != 2:
-                continue
-            across = (diameter or 2.0 * item.Radius) * source.unit_m
-            ends = (transformed(placing[:3, :3], points) + placing[:3, 3]) * source.unit_m - placement.origin_m
-            ends[:, :2] = transformed(placement.turn, ends[:, :2])
-            yield _Bar(ends, math.pi / 4.0 * across**2)
+    for item in items_of(entity, "IfcSweptDiskSolid"):
+        points = points_of(item.Directrix)
+        if len(points) != 2:
+            continue
+        across = (diameter or 2.0 * item.Radius) * source.unit_m
+        ends = (transformed(placing[:3, :3], points) + placing[:3, 3]) * source.unit_m - placement.origin_m
+        ends[:, :2] = transformed(placement.turn, ends[:, :2])
+        yield _Bar(ends, math.pi / 4.0 * across**2)
 
 
 def _member_of(element: Element, bar: _Bar, members: Mapping[int, Member]) -> Member | None:

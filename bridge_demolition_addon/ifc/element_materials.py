@@ -13,6 +13,7 @@ from .elements import Element
 from .library import library
 from .materials import MaterialRow, MaterialTable
 from .quantities import QuantityUnits, material_name, quantities_of, units_of
+from .representations import items_of
 from .settings import ImportSettings, matches
 from .source import IfcSource
 
@@ -105,8 +106,7 @@ def _assumed(element: Element, name: str, table: MaterialTable) -> Substance | N
 
 def has_rolled_profile(entity: Any) -> bool:
     """Return whether the body of an element is swept from a profile that steel is rolled in."""
-    shapes = entity.Representation.Representations if entity.Representation else ()
-    profiles = (getattr(item, "SweptArea", None) for shape in shapes for item in shape.Items or ())
+    profiles = (getattr(item, "SweptArea", None) for item in items_of(entity))
     return any(profile is not None and any(profile.is_a(name) for name in _ROLLED) for profile in profiles)
 
 

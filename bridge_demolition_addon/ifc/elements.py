@@ -15,6 +15,7 @@ from ..model.schema import LINE_BREAKING_CATEGORIES
 from .kinds import OTHER, ElementFacts, LeftOut, is_french, kind_of
 from .library import library
 from .quantities import PropertySets, words_of
+from .representations import representations_of
 from .settings import KINDS, ImportSettings, matches
 from .source import IfcSource
 
@@ -147,8 +148,7 @@ def _elements(model: Any, settings: ImportSettings) -> Iterator[Element]:
 
 
 def _has_body(entity: Any) -> bool:
-    shapes = entity.Representation.Representations if entity.Representation else ()
-    return any(shape.RepresentationIdentifier not in NO_BODIES for shape in shapes)
+    return any(shape.RepresentationIdentifier not in NO_BODIES for shape in representations_of(entity))
 
 
 def _read(entity: Any) -> Element:

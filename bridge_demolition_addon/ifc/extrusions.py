@@ -17,6 +17,7 @@ from ..engineering.geometry.vectors import transformed
 from ..errors import GeometryError
 from .library import library
 from .profiles import line_of
+from .representations import items_of
 from .source import IfcSource
 
 
@@ -25,8 +26,7 @@ def extruded_mesh(source: IfcSource, entity: Any) -> TriangleMesh:
 
     A `GeometryError` says why there is none.
     """
-    shapes = entity.Representation.Representations if entity.Representation else ()
-    items = [item for shape in shapes for item in shape.Items or () if item.is_a("IfcSolidModel")]
+    items = items_of(entity, "IfcSolidModel")
     if not items or not all(_is_misled(item) for item in items) or getattr(entity, "HasOpenings", None):
         raise GeometryError("is not extruded from an outline whose parts are put together here")
     placing = np.array(library("util.placement").get_local_placement(entity.ObjectPlacement), dtype=float)

@@ -12,6 +12,7 @@ import numpy as np
 from ..engineering.geometry.vectors import unit
 from ..errors import GeometryError
 from .alignments import curve_of, place_along
+from .representations import items_of
 
 
 def place_along_curves(model: Any, unit_m: float) -> tuple[str, ...]:
@@ -21,7 +22,7 @@ def place_along_curves(model: Any, unit_m: float) -> tuple[str, ...]:
     counted = 0
     for placement in model.by_type("IfcLinearPlacement"):
         for product in placement.PlacesObject:
-            if _swept_along(product) and _swept_along(product) == {placement.RelativePlacement.Location.BasisCurve}:
+            if _swept_along(product) and _swept_along(product) == {getattr(_location(placement), "BasisCurve", None)}:
                 counted += 1
                 product.ObjectPlacement = None
         plain = _plain(model, placement, unit_m)
@@ -38,15 +39,18 @@ def place_along_curves(model: Any, unit_m: float) -> tuple[str, ...]:
 
 def _swept_along(product: Any) -> set[Any]:
     """Return the curves along which a product is swept; none where a part of it is of another kind."""
-    shapes = product.Representation.Representations if product.Representation else ()
-    items = [item for shape in shapes for item in shape.Items or () if item.is_a("IfcSolidModel")]
+    items = items_of(product, "IfcSolidModel")
     swept = {item.Directrix for item in items if item.is_a("IfcSectionedSolidHorizontal")}
     return swept if all(item.is_a("IfcSectionedSolidHorizontal") for item in items) else set()
 
 
+def _location(placement: Any) -> Any:
+    return getattr(placement.RelativePlacement, "Location", None)
+
+
 def _plain(model: Any, placement: Any, unit_m: float) -> Any:
     """Return a placement without its curve; None where the curve is not known and the file has no position."""
-    point = placement.RelativePlacement.Location
+    point = _location(placement)
     try:
         along, left, up = place_along(point, unit_m)
         frame = curve_of(point.BasisCurve, unit_m).at(float(along))

@@ -19,6 +19,7 @@ from ..errors import GeometryError
 from .alignments import Curve, curve_of, place_along
 from .library import library
 from .profiles import outline_of
+from .representations import items_of
 from .source import IfcSource
 
 _CHORD_M = 0.005
@@ -35,8 +36,7 @@ def swept_mesh(source: IfcSource, entity: Any) -> TriangleMesh:
 
     A `GeometryError` says why there is none.
     """
-    shapes = entity.Representation.Representations if entity.Representation else ()
-    items = [item for shape in shapes for item in shape.Items or () if item.is_a("IfcSolidModel")]
+    items = items_of(entity, "IfcSolidModel")
     if not items or not all(item.is_a("IfcSectionedSolidHorizontal") for item in items):
         raise GeometryError("is not swept through sections")
     if getattr(entity, "HasOpenings", None):

@@ -29,6 +29,7 @@ from .element_materials import Substance
 from .elements import NO_BODIES, Element
 from .library import library
 from .placement import Placement
+from .representations import representations_of
 from .source import IfcSource
 from .steel_profiles import section_of_profile
 
@@ -340,8 +341,7 @@ def _sweep_of(source: IfcSource, entity: Any) -> _Sweep | None:
 
 def _items(entity: Any) -> Iterator[tuple[Any, np.ndarray]]:
     """Yield the parts of an element's body, with the matrix (4, 4) from their axes to its own, in units of the file."""
-    shapes = entity.Representation.Representations if entity.Representation else ()
-    bodies = [shape for shape in shapes if shape.RepresentationIdentifier not in NO_BODIES]
+    bodies = [shape for shape in representations_of(entity) if shape.RepresentationIdentifier not in NO_BODIES]
     own = [shape for shape in bodies if shape.RepresentationIdentifier == "Body"] or bodies
     for shape in own:
         for item in shape.Items or ():

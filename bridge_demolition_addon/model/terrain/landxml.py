@@ -12,12 +12,11 @@ from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.terrain.surface import Surface
 from ...errors import GeometryError
 from ...system.reading import MEGABYTE, check_file
-from .file_heights import FileHeights
+from .file_heights import FileHeights, note_on_lost
 
 _MOST_BYTES = 300 * MEGABYTE
 
-_FEW_LOST, _LOST_SHARE = 3, 0.01
-"""Triangles without their points that a surface may have: so many, or such a part of all."""
+_POINTS = ("CgPoint", "P", "DataPoint")
 
 _FEET = {"foot": 0.3048, "USSurveyFoot": 0.304800609601}
 _METRES = {"millimeter": 0.001, "centimeter": 0.01, "kilometer": 1000.0}
@@ -45,9 +44,15 @@ def read_landxml(path: Path, name: str | None = None) -> FileHeights:
                 f"holds {len(found)} surfaces that ground.surface = {name!r} names, of {names or 'none'}"
             )
         surfaces = found
+    if not surfaces:
+        points = sum(_name(element) in _POINTS for element in root.iter())
+        what = f"holds {points} points, but no surface" if points else "holds no surface"
+        raise GeometryError(
+            f"{what}: expected one of triangles, a TIN; make one in the program that it was made with"
+            f"{', or save the points as .xyz, between which triangles are made here' if points else ''}"
+        )
     if len(surfaces) != 1:
-        problem = f"holds {len(surfaces)} surfaces, {names}" if surfaces else "holds no surface"
-        raise GeometryError(f"{problem}: expected one; say which by ground.surface")
+        raise GeometryError(f"holds {len(surfaces)} surfaces, {names}: expected one; say which by ground.surface")
     mesh, notes = _triangles(surfaces[0][1])
     unit, unit_m = _unit(root)
     return FileHeights(Surface(mesh), unit_m, unit, notes)
@@ -57,21 +62,17 @@ def _triangles(definition: ElementTree.Element) -> tuple[TriangleMesh, tuple[str
     """Return the triangles of a surface, and notes on those that name points that are not there."""
     points, faces = _child(definition, "Pnts"), _child(definition, "Faces")
     if points is None or faces is None:
-        raise GeometryError("its surface has no triangles: expected Pnts and Faces, as of a TIN")
+        known = sum(_name(element) in _POINTS for element in definition.iter())
+        has = f"{known} points, but no triangles" if known else "no triangles"
+        raise GeometryError(f"its surface has {has}: expected Pnts and Faces, as of a TIN")
     try:
         positions = {point.get("id"): [float(value) for value in (point.text or "").split()] for point in points}
         rows = {name: row for row, name in enumerate(positions)}
         visible = [face for face in faces if face.get("i") != "1"]
         named = [(face.text or "").split() for face in visible]
         lost = [number for number, names in enumerate(named, start=1) if not rows.keys() >= set(names)]
-        if len(lost) > max(_FEW_LOST, _LOST_SHARE * len(named)):
-            face = " ".join(named[lost[0] - 1])
-            raise GeometryError(
-                f"its surface is damaged: {len(lost)} of {len(named)} triangles name points that are not there, first "
-                f"number {lost[0]}, <F>{face}</F>; export it again"
-            )
-        if named and len(lost) == len(named):
-            raise GeometryError("its surface has no triangles: all of them name points that are not there")
+        first = f"number {lost[0]}, <F>{' '.join(named[lost[0] - 1])}</F>" if lost else ""
+        notes = note_on_lost(len(lost), len(named), first)
         corners = [[rows[name] for name in names] for names in named if rows.keys() >= set(names)]
         vertices, triangles = np.array(list(positions.values()), float), np.array(corners, np.int64)
     except (KeyError, ValueError) as error:
@@ -80,9 +81,6 @@ def _triangles(definition: ElementTree.Element) -> tuple[TriangleMesh, tuple[str
         raise GeometryError("its surface has no triangles: expected three numbers in each P and each F")
     if not np.isfinite(vertices).all():
         raise GeometryError("its surface is damaged: a point has no position; export it again")
-    notes: tuple[str, ...] = ()
-    if lost:
-        notes = (f"{len(lost)} of {len(named)} triangles name points that are not there: left out",)
     return TriangleMesh(vertices[:, [1, 0, 2]], triangles), notes
 
 

@@ -155,6 +155,38 @@ def test_a_damaged_cloud_is_said_to_be(tmp_path):
         read(tmp_path / "a.las")
 
 
+TIN = """ISO-10303-21;
+HEADER;
+FILE_DESCRIPTION((''),'2;1');
+FILE_NAME('','2026-11-28T09:00:00',(''),(''),'','','');
+FILE_SCHEMA(('IFC4X3'));
+ENDSEC;
+DATA;
+#1=IFCSIUNIT(*,.LENGTHUNIT.,$,.METRE.);
+#2=IFCUNITASSIGNMENT((#1));
+#6=IFCPROJECT('1vvWDd8fD7mQnRzmdCxpb1',$,'Ground',$,$,$,$,$,#2);
+#10=IFCCARTESIANPOINTLIST3D(((9.,9.,9.),(0.,0.,1.),(8.,0.,1.),(8.,8.,3.),(0.,8.,3.)),$);
+#11=IFCTRIANGULATEDFACESET(#10,$,.F.,({0}),(2,3,4,5,77));
+#12=IFCSHAPEREPRESENTATION($,'Body','Tessellation',(#11));
+#13=IFCPRODUCTDEFINITIONSHAPE($,$,(#12));
+#14=IFCGEOGRAPHICELEMENT('1vvWDd8fD7mQnRzmdCxpb4',$,'Terrain',$,$,$,#13,$,.TERRAIN.);
+ENDSEC;
+END-ISO-10303-21;
+"""
+
+
+def test_triangles_of_ifc_without_their_points_are_left_out_where_they_are_few(tmp_path):
+    """z = 1 + y / 4, by points that a list picks out; wrong rows name one too many, none, and one that is not in it."""
+    path = tmp_path / "ground.ifc"
+    path.write_text(TIN.format("(1,2,3),(1,3,4),(3,4,6),(0,1,2),(3,4,5)"))
+    found = read(path)
+    assert "3 of 5 triangles name points that are not there: left out" in found.notes
+    assert found.source.heights_at(np.array([[3.0, 2.0], [3.0, 6.0]])) == pytest.approx([1.5, 2.5])
+    path.write_text(TIN.format("(1,2,3),(3,4,6),(0,1,2),(3,4,5),(1,2)"))
+    with pytest.raises(ScenarioError, match="damaged: 4 of 5 triangles name points that are not there, first number 2"):
+        read(path)
+
+
 @pytest.mark.long
 def test_the_ground_of_an_ifc_file_is_where_its_map_has_it(tmp_path):
     """A network of the plane, placed from a corner; the map conversion turns it by a quarter: x becomes north."""

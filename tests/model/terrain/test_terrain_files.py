@@ -162,6 +162,16 @@ BROKEN = {
     "no XML": ("a.xml", written("<LandXML>"), "cannot be read as LandXML"),
     "another XML": ("a.xml", written("<svg/>"), "begins with 'svg'"),
     "no surface": ("a.xml", written("<LandXML/>"), "holds no surface"),
+    "points alone": (
+        "a.xml",
+        written("<LandXML><CgPoints><CgPoint>1 2 3</CgPoint><CgPoint>4 5 6</CgPoint></CgPoints></LandXML>"),
+        "holds 2 points, but no surface: .* or save the points as .xyz",
+    ),
+    "points of a surface alone": (
+        "a.xml",
+        written("<LandXML><Surface><Definition><Pnts><P>1 2 3</P></Pnts></Definition></Surface></LandXML>"),
+        "its surface has 1 points, but no triangles",
+    ),
     "two surfaces": ("a.xml", lambda path: write_landxml(path, surfaces=2), "'ground 1', 'ground 2': expected one"),
     "no TIFF": ("a.tif", written("no picture"), "cannot be read as TIFF"),
     "a picture": ("a.tif", three_channels, "no height model: expected one value a pixel"),

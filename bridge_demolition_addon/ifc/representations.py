@@ -1,0 +1,15 @@
+"""What products of a file are drawn by; nothing where the file has lost it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+
+def representations_of(product: Any) -> tuple[Any, ...]:
+    """Return the representations of a product."""
+    return tuple((product.Representation.Representations if product.Representation else ()) or ())
+
+
+def items_of(product: Any, kind: str = "IfcRepresentationItem") -> list[Any]:
+    """Return the items of a class in all representations of a product."""
+    return [item for one in representations_of(product) for item in one.Items or () if item.is_a(kind)]
