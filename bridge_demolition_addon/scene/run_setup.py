@@ -31,7 +31,7 @@ from ..model.structure.tendons import ModelTendons
 from .blast.charges import blast_of, charges_of
 from .bodies import Kind, start_motion_of
 from .body_settings import BodySettings, body_settings_of
-from .connections.bearings import BearingsOfScene, bearings_of
+from .connections.bearings import BearingsOfScene, bearings_of, named_bearings_of
 from .connections.breaking_settings import Breaking, breaking_of
 from .connections.constraint_settings import ConstraintSettings, constraint_settings_of
 from .connections.elasticity import ConnectionElasticity, elasticity_of
@@ -382,7 +382,9 @@ class RunSetup:
         bodies = self.bodies
         corners = transformed(bodies.rotations[:, None], bodies.boxes_m) + bodies.positions_m[:, None]
         boxes_m = np.stack((corners.min(axis=1), corners.max(axis=1)), axis=1)
-        return recorded_structure(self.inventory, bodies.positions_m, boxes_m, self.tendons)
+        named = named_bearings_of(self.connections.objects) if len(self.inventory.pairs) else None
+        of_bearings = named.rows if named else np.zeros(0, int)
+        return recorded_structure(self.inventory, of_bearings, bodies.positions_m, boxes_m, self.tendons)
 
 
 def run_setup_of(scene: bpy.types.Scene, *, with_connections: bool = True) -> RunSetup:

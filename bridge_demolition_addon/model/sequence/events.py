@@ -6,13 +6,14 @@ Members, boxes and planes refer to the bridge as it was built, wherever its shar
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from ...engineering.elasticity.tendons import CutTendon
-from ...engineering.geometry.vectors import dot
+from ...engineering.geometry.vectors import dot, unit
 from ...errors import ScenarioError
 from ..loads import Part
 from ..results.inventory import Inventory
@@ -22,6 +23,9 @@ from ..structure.tendons import ModelTendons
 from .bare_bars import StandingBars, standing_bars
 from .departures import Departure, departure_of
 from .tendon_cuts import cuts_of_tendons
+
+_ALONG = math.sqrt(0.5)
+"""Cosine of the angle between a plane and a face up to which the plane runs along the face: 45°."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -35,6 +39,8 @@ class Structure:
     held: np.ndarray  # (n,), shards that never move, as supports hold them
     pairs: np.ndarray  # (m, 2), bodies of the connections
     points_m: np.ndarray  # (m, 3), positions of the connections
+    normals: np.ndarray  # (m, 3), unit vectors across their faces
+    bearings: np.ndarray  # (b,), connections that are bearings
     boxes_m: np.ndarray  # (n, 2, 3), lowest and highest corners of the bodies
     tendons: ModelTendons | None = None
 
@@ -68,17 +74,24 @@ def model_structure(model: Model) -> Structure:
         held=held,
         pairs=np.where(model.connections.pairs < 0, count, model.connections.pairs),
         points_m=model.connections.points,
+        normals=model.connections.normals,
+        bearings=model.bearings.springs.rows if model.bearings else np.zeros(0, int),
         boxes_m=np.concatenate((np.array([shard.bounds for shard in model.shards]), np.zeros((1, 2, 3)))),
         tendons=model.tendons,
     )
 
 
 def recorded_structure(
-    inventory: Inventory, centres_m: np.ndarray, boxes_m: np.ndarray, tendons: ModelTendons | None = None
+    inventory: Inventory,
+    bearings: np.ndarray,
+    centres_m: np.ndarray,
+    boxes_m: np.ndarray,
+    tendons: ModelTendons | None = None,
 ) -> Structure:
     """Return the structure of bodies that are recorded, before anything moves.
 
-    `centres_m` (n, 3) are their centres of mass, `boxes_m` (n, 2, 3) the corners of the boxes around them.
+    `bearings` (b,) are rows of connections, `centres_m` (n, 3) centres of mass of the bodies, `boxes_m` (n, 2, 3) the
+    corners of the boxes around them.
     """
     shards = inventory.body_kinds == "shard"
     return Structure(
@@ -89,6 +102,8 @@ def recorded_structure(
         held=shards & ~inventory.moves,
         pairs=inventory.pairs,
         points_m=inventory.points_m,
+        normals=inventory.normals,
+        bearings=bearings,
         boxes_m=boxes_m,
         tendons=tendons,
     )
@@ -111,7 +126,7 @@ def _event(change: Change, structure: Structure) -> Event:
             bodies = np.flatnonzero(of_members(change, structure) & inside & structure.is_shard)
             connections = np.flatnonzero(np.isin(structure.pairs, bodies).any(axis=1))
         case SawCut():
-            connections = np.flatnonzero(_selected(change, structure) & _crosses(change, structure))
+            connections = np.flatnonzero(_selected(change, structure) & _sawn(change, structure))
         case Weakening():
             factor = change.factor
             connections = np.flatnonzero(_selected(change, structure))
@@ -206,6 +221,18 @@ def in_box(part: Part, positions_m: np.ndarray) -> np.ndarray:
     if part.lowest_corner_m is None:
         return np.ones(len(positions_m), bool)
     return ((positions_m >= part.lowest_corner_m) & (positions_m <= part.highest_corner_m)).all(axis=1)
+
+
+def _sawn(cut: SawCut, structure: Structure) -> np.ndarray:
+    """Return whether a saw cut parts each connection (m,), whose bodies lie on the two sides of its plane.
+
+    Within the members it parts all of them. A bearing, or what joins the members to others, is parted only by a plane
+    that runs along its face: a deck that is sawn lengthways stays on its bearings, wherever their middles are.
+    """
+    within = of_members(cut, structure)[structure.pairs].all(axis=1)
+    within[structure.bearings] = False
+    along = np.abs(dot(structure.normals, unit(np.array(cut.normal)))) > _ALONG
+    return (within | along) & _crosses(cut, structure)
 
 
 def _crosses(cut: SawCut, structure: Structure) -> np.ndarray:

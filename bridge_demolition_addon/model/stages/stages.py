@@ -19,6 +19,7 @@ from ..sequence.events import Event, model_structure, schedule
 from ..sequence.lifts import placed_lifts
 from ..sequence.loads import placed_on_model
 from ..structure.blast_zones import zone_firings
+from ..structure.cracking import FALLEN_SHARE
 from ..structure.model import Model
 from .changed_bridge import ChangedBridge, PressedBars
 from .changed_tendons import ReleasedTendon, released_tendons
@@ -52,7 +53,7 @@ class Stage:
     loose: np.ndarray  # (n,), shards without support: they fall, or lie on others by contact alone
     equipment: tuple[str, ...]  # names
     equipment_n: float  # its weight
-    collapse_factor: float  # load factor at which it collapses
+    collapse_factor: float  # load factor at which it collapses; nan where part of it is not held
     bars: tuple[PressedBars, ...] = ()  # that stand bare
     tendons: tuple[ReleasedTendon, ...] = ()  # that let go in this step
     lifts: tuple[PartOnHook, ...] = ()  # parts that a crane holds, or lifts away in this step
@@ -90,16 +91,20 @@ def stages_of(scenario: Scenario, bridge: StandingBridge, progress: Callable[[in
         )
         state = changed.intact, changed.left, loads
         standing = bridge.rest(*state, bare=changed.bare, cuts=changed.cuts)
+        there = ~changed.removed & ~model.fixed
+        loose = there & ~standing.held & ~_among(hanging, model)
         stages.append(
             Stage(
                 time_s=time_s,
                 step=_described_step(scenario, time_s, events, model, gone),
                 standing=standing,
                 removed=changed.removed,
-                loose=~standing.held & ~changed.removed & ~model.fixed & ~_among(hanging, model),
+                loose=loose,
                 equipment=(*(machine.name for machine in machines), *(pull.name for pull in pulls)),
                 equipment_n=STANDARD_GRAVITY_M_S2 * math.fsum(machine.mass_kg for machine in machines),
-                collapse_factor=bridge.collapse_factor(*state, changed.bare, changed.cuts),
+                collapse_factor=math.nan
+                if model.masses_kg[loose].sum() > FALLEN_SHARE * model.masses_kg[there].sum()
+                else bridge.collapse_factor(*state, changed.bare, changed.cuts),
                 bars=changed.pressed_bars(standing.bare_n),
                 tendons=released_tendons(bridge, before, changed),
                 lifts=(*gone, *hanging),

@@ -59,6 +59,7 @@ STAGE_COLUMNS = (
     "tendons_released_kJ",
     "on_hooks_kN",
     "hook_used",
+    "not_held_of",
 )
 REACTION_COLUMNS = (
     "stage",
@@ -144,6 +145,7 @@ def stage_row(number: int, stage: Stage, bridge: StandingBridge) -> dict[str, An
         "shards": int(there.sum()),
         "not_held": int(stage.loose.sum()),
         "not_held_kg": float(model.masses_kg[stage.loose].sum()),
+        "not_held_of": ", ".join(_members_of(model, stage.loose)),
         "equipment": ", ".join(stage.equipment),
         "weight_kN": weight_n / _KILO,
         "reaction_x_kN": reaction[0],
@@ -172,6 +174,11 @@ def stage_row(number: int, stage: Stage, bridge: StandingBridge) -> dict[str, An
             "at_z_m": z,
         }
     return row
+
+
+def _members_of(model: Model, shards: np.ndarray) -> list[str]:
+    """Return the names of the members of shards (n,), in their order."""
+    return [model.members[member].name for member in np.unique(model.member_of_shard[shards]).tolist()]
 
 
 def all_reaction_rows(stages: Sequence[Stage], model: Model) -> list[dict[str, Any]]:
@@ -213,9 +220,8 @@ def stage_sentences(stage: Stage, row: Mapping[str, Any]) -> list[str]:
     if stage.equipment:
         sentences.append(f"with {row['equipment']}")
     if row["not_held"]:
-        sentences.append(
-            f"{row['not_held']} shards, {mass_text(row['not_held_kg'], 1)}, held by no connection to a support"
-        )
+        part = f"{row['not_held']} shards, {mass_text(row['not_held_kg'], 1)} of {row['not_held_of']}"
+        sentences.append(f"{part}, held by no connection to a support")
     if row["largest_utilisation"] is not None:
         sentences.append(
             f"used most: {row['largest_utilisation']:.0%} by {row['governed_by']}, in {row['between']} at "
@@ -226,7 +232,7 @@ def stage_sentences(stage: Stage, row: Mapping[str, Any]) -> list[str]:
     sentences += [_of_bare_bars(bars) for bars in stage.bars]
     sentences += [_of_tendon(tendon) for tendon in stage.tendons]
     sentences += lift_sentences(stage.lifts, row["not_held_kg"])
-    sentences.append(factor_in_words(stage.collapse_factor))
+    sentences.append(factor_in_words(stage.collapse_factor, stage.standing.held.any()))
     if stage.collapse_factor < 1.0:
         sentences.append(SLOW_COLLAPSE)
     return sentences
@@ -293,10 +299,14 @@ def _kilonewtons(row: Mapping[str, Any]) -> str:
     return f"{with_digits(row['force_z_kN'], 0)} kN"
 
 
-def factor_in_words(factor: float) -> str:
-    """Return the collapse load factor of a stage as a sentence."""
+def factor_in_words(factor: float, is_held: bool) -> str:
+    """Return the collapse load factor of a stage as a sentence, maybe of one in which nothing of the bridge is held."""
     if math.isnan(factor):
-        return "no connection to a support holds anything"
+        return (
+            "no collapse load factor, as part of the bridge is not held"
+            if is_held
+            else "no connection to a support holds anything"
+        )
     return f"comes down at {f'{factor:.2f} times' if math.isfinite(factor) else 'more than 64 times'} its load"
 
 

@@ -79,7 +79,15 @@ _BEARINGS = (
     "Bearings: least and largest forces (kN) on what lies above them over the stages, z upwards. They go on into the "
     "supports, and are no part of their sum"
 )
-_SINCE_LATER = ("cracked", "bare_bars_used", "tendons_released_kJ", "falls_at_most_kg", "on_hooks_kN", "hook_used")
+_SINCE_LATER = (
+    "cracked",
+    "bare_bars_used",
+    "tendons_released_kJ",
+    "falls_at_most_kg",
+    "on_hooks_kN",
+    "hook_used",
+    "not_held_of",
+)
 """Columns that earlier versions did not write."""
 
 _CRITICALITY_AT_FIRST = 4
@@ -296,7 +304,7 @@ def _warnings(stages: Sequence[dict[str, str]]) -> list[Block]:
         where = f"Stage {row['stage']}, from {float(row['time_s']):g} s ({row['step']})"
         if factor is not None and factor < 1.0:
             notices.append(Paragraph(f"{where} does not stand: it comes down at {factor:.2f} times its load.", True))
-        elif factor is None:
+        elif factor is None and not _number(row["weight_kN"]):
             notices.append(Paragraph(f"{where}: no connection to a support holds anything.", True))
         if float(row["not_held_kg"]) > 0.0:
             mass = mass_text(float(row["not_held_kg"]), 1)

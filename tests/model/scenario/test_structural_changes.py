@@ -22,6 +22,8 @@ STRUCTURE = Structure(
     held=np.zeros(6, bool),
     pairs=np.array([(0, 1), (2, 3), (1, 4), (3, 4), (0, 5), (2, 5)]),
     points_m=np.array([(0, 0, 2), (10, 0, 2), (0, 0, 4), (10, 0, 4), (0, 0, 0), (10, 0, 0)], float),
+    normals=np.tile((0.0, 0.0, 1.0), (6, 1)),
+    bearings=np.zeros(0, int),
     boxes_m=np.zeros((6, 2, 3)),
 )
 
@@ -47,6 +49,33 @@ def test_changes_find_what_they_mean(change, bodies, connections):
     assert event.bodies.tolist() == bodies
     assert event.connections.tolist() == connections
     assert event.factor == (0.5 if isinstance(change, Weakening) else 0.0)
+
+
+@pytest.mark.parametrize(
+    ("members", "normals", "bearings", "cut"),
+    [
+        (None, (0, 0, 1), [], [3]),  # a contact of a deck and a girder that end on the two sides
+        (None, (0, 0, 1), [3], []),
+        (["deck", "pier"], (0, 0, 1), [3], []),
+        (["deck"], (0, 0, 1), [], []),
+        (["deck"], (1, 0, 0.1), [3], [3]),  # its face, such as that of an end wall, lies in the plane
+        (["pier"], (-1, 0, 0), [], [3]),
+    ],
+)
+def test_a_saw_cut_leaves_bearings_and_neighbours_alone_unless_it_runs_along_their_faces(
+    members, normals, bearings, cut
+):
+    """The plane at 5.5 m has the middles of deck and pier 2 on its two sides, and the bearing 4.5 m away."""
+    structure = replace(
+        STRUCTURE, normals=np.tile(normals, (6, 1)) / np.linalg.norm(normals), bearings=np.array(bearings, int)
+    )
+    saw = SawCut(time_s=1, point_m=(5.5, 0, 0), normal=(1, 0, 0), members=members)
+    if not cut:
+        with pytest.raises(ScenarioError, match="no connection of the bridge is there"):
+            schedule([saw], structure)
+        return
+    (event,) = schedule([saw], structure)
+    assert event.connections.tolist() == cut
 
 
 def test_events_are_in_order_of_time():
@@ -99,7 +128,8 @@ def test_a_member_that_supports_hold_is_there_but_cannot_be_changed(change, text
     held = np.array([True, True, False, False, False, False])
     rows = [1, 2, 3]  # no connection lies between two that are held, as between pier 1 and the ground
     pairs, points = STRUCTURE.pairs[rows], STRUCTURE.points_m[rows]
-    fixed = replace(STRUCTURE, is_shard=STRUCTURE.is_shard & ~held, held=held, pairs=pairs, points_m=points)
+    normals, is_shard = STRUCTURE.normals[rows], STRUCTURE.is_shard & ~held
+    fixed = replace(STRUCTURE, is_shard=is_shard, held=held, pairs=pairs, points_m=points, normals=normals)
     with pytest.raises(ScenarioError, match=text):
         schedule([change], fixed)
 

@@ -18,6 +18,8 @@ STRUCTURE = Structure(
     held=np.array([True] + [False] * 4),
     pairs=np.zeros((0, 2), int),
     points_m=np.zeros((0, 3)),
+    normals=np.zeros((0, 3)),
+    bearings=np.zeros(0, int),
     boxes_m=np.zeros((5, 2, 3)),
 )
 BOXES_M = STRUCTURE.centres_m[:, None] + np.array([(-0.5, -0.5, -0.5), (0.5, 0.5, 0.5)])
