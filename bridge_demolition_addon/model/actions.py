@@ -112,6 +112,18 @@ class CutPlane:
     table: str  # of the action that asks for it
 
 
+@dataclass(frozen=True, slots=True)
+class CutBox:
+    """A box whose sides members are cut along, so that an action can take what of them is in it."""
+
+    members: tuple[str, ...] | None  # names or kinds; None for all
+    box_m: tuple[Point, Point]  # lowest and highest corner
+
+    def cuts(self, names: tuple[str, str]) -> bool:
+        """Return whether it is for a member with this name and kind."""
+        return self.members is None or not set(names).isdisjoint(self.members)
+
+
 class PlannedAction(Table):
     """Base of the tables of what is done to a bridge."""
 
@@ -143,8 +155,8 @@ class PlannedAction(Table):
         """Yield the keys and values of positions that have to be on the deck."""
         yield from ()
 
-    def cut_planes(self) -> tuple[CutPlane, ...]:
-        """Return the planes that shards end at: all that the model of a bridge takes of what is done to it."""
+    def cut_planes(self) -> tuple[CutPlane | CutBox, ...]:
+        """Return the planes and boxes that shards end at: all that a model takes of what is done to its bridge."""
         return ()
 
     def starts_above(self) -> tuple[Place, ...]:

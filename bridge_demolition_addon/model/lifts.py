@@ -8,7 +8,7 @@ from typing import ClassVar
 from ..engineering.mechanics.cables import rope_stiffness_n
 from ..engineering.units import mass_text
 from ..errors import ScenarioError
-from .actions import Fact, HeightAt, Plan, Point, Worksite
+from .actions import CutBox, Fact, HeightAt, Plan, Point, Worksite
 from .loads import Part
 from .pulls import Pull
 from .schema import POSITION, key, shown
@@ -27,7 +27,7 @@ _MOST_OFF = 0.02
 class Pick:
     """What a crane takes: the mass of its shards, which run and stages move, and of its volume, which the crane lifts.
 
-    They differ where shards end beside the box of the lift.
+    They differ where shards end beside its box: those of steelwork, and of members with points of their own.
     """
 
     lift: str
@@ -52,7 +52,8 @@ class Pick:
         return (
             f"{self.lift} weighs {mass_text(self.volume_kg, 1)} by the volume in its box, but "
             f"{mass_text(self.shards_kg, 1)} by the shards with their centres in it, which runs and stages lift: order "
-            "no crane by the smaller one. Take more shards, or place fracture.points in pairs on both sides of its box"
+            "no crane by the smaller one. Members with fracture.points and steelwork are not cut along a box: take "
+            "these points out, or more pieces of steelwork"
         )
 
 
@@ -113,6 +114,11 @@ class Lift(Part):
         yield from self.sling_points_m or ()
         if self.hook_m is not None:
             yield self.hook_m
+
+    def cut_planes(self) -> tuple[CutBox, ...]:
+        if self.lowest_corner_m is None or self.highest_corner_m is None:
+            return ()
+        return (CutBox(self.members, (self.lowest_corner_m, self.highest_corner_m)),)
 
     def facts(self, site: Worksite) -> Iterator[Fact]:
         part, pick = site.affected_by(self), site.pick_of(self)

@@ -1,17 +1,22 @@
-"""Solids cut across an axis, so that shards end at given planes."""
+"""Solids cut across axes, so that shards end at given planes and boxes."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import product
 
 import numpy as np
 from manifold3d import Manifold
 
+from ..arrays import FloatArray
 from ..geometry.mesh import TriangleMesh
 from ..geometry.solids import bodies, from_manifold, to_manifold
 
 _SAME_PLANE = 1e-7
 """Part of the solid's extent along the axis within which a plane lies in its end, and does not cut it."""
+
+_THINNEST_M = 0.01
+"""Thinner slices are not cut off: so far apart sides of a box and faces of a member may be meant to be the same."""
 
 _RUBBISH = 1e-12
 """Part of the solid's volume below which a piece is rounding."""
@@ -29,6 +34,26 @@ def slabs(solid: TriangleMesh, axis: int, positions_m: Sequence[float]) -> tuple
         pieces += _connected(below, solid.volume)
         whole = above
     return (*pieces, *_connected(whole, solid.volume))
+
+
+def cut_out(solid: TriangleMesh, box_m: FloatArray) -> tuple[TriangleMesh, ...]:
+    """Return the connected pieces of a solid around a box (2, 3), then those in it; the solid itself beside the box.
+
+    The sides of the box are planes that cut off one piece after the other, so that the pieces of a convex solid are.
+    """
+    rest, pieces = to_manifold(solid), list[TriangleMesh]()
+    for axis, (side, level) in product(range(3), enumerate(box_m)):
+        lower, upper = rest.bounding_box()[axis], rest.bounding_box()[3 + axis]
+        outwards, level_m = 1.0 if side else -1.0, float(level[axis])
+        beyond, within = (upper - level_m, level_m - lower) if side else (level_m - lower, upper - level_m)
+        if within < _THINNEST_M:
+            return (solid,)
+        if beyond < _THINNEST_M:
+            continue
+        outside, rest = rest.split_by_plane((outwards * np.eye(3)[axis]).tolist(), outwards * level_m)
+        pieces += _connected(outside, solid.volume)
+    inside = _connected(rest, solid.volume)
+    return (*pieces, *inside) if pieces and inside else (solid,)
 
 
 def slab_between(solid: TriangleMesh, axis: int, lowest_m: float, highest_m: float) -> TriangleMesh:

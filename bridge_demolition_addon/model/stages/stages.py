@@ -115,11 +115,10 @@ def stages_of(scenario: Scenario, bridge: StandingBridge, progress: Callable[[in
 
 
 def _among(parts: Sequence[PartOnHook], model: Model) -> np.ndarray:
-    """Return which shards (n,) slings hold that nothing else does."""
+    """Return which shards (n,) slings hold, maybe beside connections: bearings that they relieve hold nothing."""
     held = np.zeros(len(model.shards), bool)
     for part in parts:
-        if not part.held_by:
-            held[part.shards] = True
+        held[part.shards] = True
     return held
 
 

@@ -232,7 +232,7 @@ def stage_sentences(stage: Stage, row: Mapping[str, Any]) -> list[str]:
     sentences += [_of_bare_bars(bars) for bars in stage.bars]
     sentences += [_of_tendon(tendon) for tendon in stage.tendons]
     sentences += lift_sentences(stage.lifts, row["not_held_kg"])
-    sentences.append(factor_in_words(stage.collapse_factor, stage.standing.held.any()))
+    sentences.append(factor_in_words(stage.collapse_factor, bool(stage.standing.held.any())))
     if stage.collapse_factor < 1.0:
         sentences.append(SLOW_COLLAPSE)
     return sentences

@@ -20,16 +20,17 @@ from ...engineering.fracture.options import (
     density_around,
     painted_density,
 )
+from ...engineering.fracture.plates import through_thickness
 from ...engineering.fracture.seeds import random_points
 from ...engineering.fracture.shards import Fracture, fracture, joined_fractures, voronoi_cells
 from ...engineering.fracture.shared_faces import SharedFaces, joined_faces, touching_faces
-from ...engineering.fracture.slabs import slabs
+from ...engineering.fracture.slabs import cut_out, slabs
 from ...engineering.geometry.convex_parts import convex_parts
 from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.sides import AXES
 from ...engineering.geometry.solids import contains
 from ...errors import GeometryError
-from ..actions import CutPlane
+from ..actions import CutBox, CutPlane
 from ..bridge.member import Member, members_named
 from ..reinforcement.concrete_members import names_with_bars
 from ..scenario import FractureSettings, Scenario
@@ -83,9 +84,9 @@ class FracturedMembers:
 
 
 def fractured_members(
-    scenario: Scenario, members: Sequence[Member], planes: Sequence[CutPlane] = ()
+    scenario: Scenario, members: Sequence[Member], planes: Sequence[CutPlane | CutBox] = ()
 ) -> FracturedMembers:
-    """Return members in shards as a scenario asks for, cut along planes; the same seed gives the same shards."""
+    """Return members in shards as a scenario asks for, cut along planes and boxes; a seed always gives the same."""
     settings = scenario.fracture
     density = _density(settings)
     own_points = _points_by_member(settings, members)
@@ -106,9 +107,12 @@ def fractured_members(
             through_plates=bool({member.name, member.kind} & with_bars),
             recursion=_recursion(settings),
         )
-        own_planes = [plane for plane in planes if plane.member == member.name]
+        own_planes = [plane for plane in planes if isinstance(plane, CutPlane) and plane.member == member.name]
+        boxes = [box for box in planes if isinstance(box, CutBox) and box.cuts((member.name, member.kind))]
         whole = member if len(own_points[index]) else _in_convex_parts(member, int(counts[index]))
         cut = _cut_along(whole, own_planes, own_points[index]) if own_planes else whole
+        if boxes and not len(own_points[index]) and (around := _cut_out(cut, boxes)) is not cut:
+            cut, options = around, replace(options, stretch=options.stretch or through_thickness(member.solid))
         # Each part takes one shard at least, but of those that a bridge is made of by rule.
         as_planned = cut is member and not (member.keeps_parts or member.is_in_pieces)
         count = int(counts[index]) if as_planned else max(int(counts[index]), len(cut.parts))
@@ -249,6 +253,19 @@ def _cut_along(member: Member, planes: Sequence[CutPlane], points: np.ndarray) -
     columns = zip(pieces, member.directions, strict=True) if member.directions else ()
     directions = tuple(direction for own, direction in columns for _ in own)
     return replace(member, parts=tuple(chain.from_iterable(pieces)), directions=directions)
+
+
+def _cut_out(member: Member, boxes: Sequence[CutBox]) -> Member:
+    """Return a member whose parts end at the sides of boxes; the member itself where none meets it."""
+    parts, directions = member.parts or (member.solid,), member.directions
+    for box in boxes:
+        pieces = [cut_out(part, np.array(box.box_m)) for part in parts]
+        columns = zip(pieces, directions, strict=True) if directions else ()
+        directions = tuple(direction for own, direction in columns for _ in own)
+        parts = tuple(chain.from_iterable(pieces))
+    if len(parts) == len(member.parts or (member.solid,)):
+        return member
+    return replace(member, parts=parts, directions=directions)
 
 
 def _fractured_in_parts(member: Member, count: int, seed: int, options: FractureOptions) -> Fracture:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What picks of a crane weigh, by hand: the volume in the box of a lift, by its density."""
 
+import numpy as np
 import pytest
 from support.stage_folders import with_stages
 
@@ -78,7 +79,36 @@ def test_a_pick_weighs_what_is_in_its_box(seed, members, low, high, volume_m3):
     found = volume_kg(scenario.lifts[0], model, model_structure(model))
     assert found == pytest.approx(DENSITY_KG_M3 * volume_m3, rel=1e-9)
     (placed,) = placed_lifts(scenario.lifts, model)
-    assert placed.pick.shards_kg == pytest.approx(float(model.masses_kg[placed.shards].sum()), rel=1e-12)
+    assert placed.pick.shards_kg == pytest.approx(found, rel=1e-9)  # shards end at the box
+    assert float(model.masses_kg.sum()) == pytest.approx(sum(member.mass_kg for member in model.members), rel=1e-9)
+
+
+STRIPS = [lift(f"strip {y}", ["deck"], [3.0, y, 3.0], [9.0, y + 1.0, 5.0]) for y in (-2.0, -1.0, 0.0, 1.0)]
+SAW = "[[saw_cuts]]\ntime_s = 1.0\nmembers = ['deck']\npoint_m = [3.0, 0.0, 4.0]\nnormal = [1.0, 0.0, 0.0]\n"
+
+
+@pytest.mark.parametrize(("seed", "shards", "skew"), [(1, 30, 0.0), (2, 90, 15.0)])
+def test_strips_weigh_the_same_in_any_order_at_any_seed_and_number_of_shards(seed, shards, skew):
+    for tables in (STRIPS, [SAW, *STRIPS[::-1]]):
+        scenario, model = model_with("".join(tables), seed, shards, skew)
+        for placed in placed_lifts(scenario.lifts, model):
+            assert placed.pick.shards_kg == pytest.approx(DENSITY_KG_M3 * 3.0, rel=1e-9) and not placed.pick.warning
+            assert placed.centre_m[:2] == pytest.approx((6.0, float(placed.lift.name.split()[1]) + 0.5), abs=1e-9)
+
+
+def test_what_no_box_meets_is_cut_as_without_lifts():
+    _, plain = model_with("")
+    for scenario_lift in (
+        lift("whole", ["deck"], [-9.0, -9.0, 0.0], [99.0, 9.0, 9.0]),
+        lift("by 5 mm", ["deck"], [-9.0, -9.0, 0.0], [11.995, 9.0, 9.0]),  # thinner slices are not cut off
+    ):
+        scenario, model = model_with(scenario_lift)
+        assert all(np.array_equal(*pair) for pair in zip(plain.centres_m, model.centres_m, strict=True))
+    own_points = "".join(f"[[fracture.points]]\nplace_m = [{x}, 0.0, 4.0]\n" for x in (1.0, 5.0, 11.0))
+    scenario, model = model_with(own_points + lift("pick", ["deck"], [0.0, -9.0, 3.0], [6.0, 9.0, 9.0]))
+    (placed,) = placed_lifts(scenario.lifts, model)
+    # Cells of points at 1, 5 and 11 m: their middles at 3 and 8 m; the shards of the first two weigh 8 m of 12 m.
+    assert placed.pick.shards_kg == pytest.approx(DENSITY_KG_M3 * 8.0 * 2.0) and "by the volume" in placed.pick.warning
 
 
 def test_a_skewed_deck_in_a_box_weighs_what_lies_in_it():
