@@ -12,6 +12,9 @@ from bridge_demolition_addon.model.sequence.doubts import doubts_of_run
 from bridge_demolition_addon.model.sequence.events import model_structure
 from bridge_demolition_addon.model.sequence.lifts import placed_lifts, volume_kg
 from bridge_demolition_addon.model.stages.lifted import LIFT_COLUMNS
+from bridge_demolition_addon.model.stages.stages import stages_of
+from bridge_demolition_addon.model.stages.standing import StandingBridge
+from bridge_demolition_addon.model.stages.tables import stage_row, stage_sentences
 from bridge_demolition_addon.report.sections.stages import stages_section
 
 DENSITY_KG_M3 = 2500.0
@@ -136,3 +139,19 @@ def test_picks_that_differ_are_said_in_report_and_summary(tmp_path):
         (folder / "lifts.csv").write_text(f"{','.join(columns)}\n{line}\n{line}\n", encoding="utf-8")
         texts = [getattr(block, "text", "") for block in stages_section(folder).blocks]
         assert texts.count(f"{said}.") == times
+
+
+@pytest.mark.slow
+def test_what_slings_relieve_of_its_bearings_hangs_on_them_and_what_is_not_held_has_no_load_factor():
+    both = ["deck", "girder"]
+    halves = "".join(lift(f"at {x}", both, [x, -9.0, 3.0], [x + 6.0, 9.0, 9.0]) for x in (0.0, 6.0))
+    saw = SAW.replace("3.0", "6.0", 1).replace("['deck']", "['deck', 'girder']") + "[bridge.bearings]\npinned_at = 1\n"
+    for tables, not_held in ((halves + saw, False), (saw, True)):
+        scenario, model = model_with(tables, shards=40)
+        bridge = StandingBridge(model, scenario.joints)
+        stages = stages_of(scenario, bridge, lambda done, total: None)
+        sawn = next(stage for stage in stages if stage.step.startswith("saw cut"))
+        assert sawn.loose.any() == not_held
+        if not_held:
+            said = " ".join(stage_sentences(sawn, stage_row(2, sawn, bridge)))
+            assert np.isnan(sawn.collapse_factor) and "of deck" in said and "times its load" not in said
