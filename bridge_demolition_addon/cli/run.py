@@ -211,6 +211,7 @@ def _result_facts(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
         yield "reinforcement", bars
     if use := largest_use_text(summary):
         yield "largest use of bars", use
+        yield "", "no margin: under an impact it depends on the length of sub-steps"
     if force:
         position = f"on {force['body']} at {force['time_s']:.3f} s"
         yield "largest sum of forces", f"{force['force_N'] / 1000.0:.1f} kN {position}"

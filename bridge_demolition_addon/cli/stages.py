@@ -26,6 +26,7 @@ from ..model.stages.tables import (
     stage_sentences,
     write_tables,
 )
+from ..model.structure.bearing_ranges import ONE_CUT
 from ..system.disk import writing
 from .arguments import naming
 from .progress import progress_on
@@ -93,6 +94,8 @@ def _print(
         print(first)
         for line in others:
             print(f"  {line}")
+    if bearings:
+        print(ONE_CUT)
     print()
     for line in (*criticality_sentences(members), *misfire_sentences(failures), *design_load_sentences(designed)):
         print(line)

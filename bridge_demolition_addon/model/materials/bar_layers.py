@@ -5,6 +5,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
+import numpy as np
+
 from ...engineering.elasticity.steel_bars import MODULUS_PA, YIELD_PA
 from ...engineering.geometry.sides import AXES, SIDES
 from ...engineering.mechanics.strength import NEWTON_PER_SQUARE_MILLIMETRE
@@ -30,6 +32,10 @@ _OF_LAYERS = (
 """Keys that say nothing of bars that are spread over a member, with the values by default."""
 
 _HALVINGS = 60
+
+_ON_CURVE = 400
+"""Points of the curve of axial forces and moments that a section resists, by the depth of its neutral axis."""
+_LITTLE = 1e-9
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -189,6 +195,39 @@ class ReinforcedSection:
         (2). With one layer that yields, this is M = A_s f_y (d - a / 2) with a = A_s f_y / (b f_c).
         """
         return self._moment(self.depths_m), self._moment([self.height_m - depth_m for depth_m in self.depths_m])
+
+    def utilisations(self, axial_n: np.ndarray, moments_nm: np.ndarray) -> np.ndarray:
+        """Return the parts (k,) of its resistance that axial forces and moments use, which grow together.
+
+        Forces (k,) are positive in tension; moments (k,), about half the height, where they press the first edge.
+        Resistances are as in `moments_nm`, under any axial force: a convex curve around no load at all.
+        """
+        depths = np.array(self.depths_m)
+        sides = [
+            self._on_curve(depths) * (1.0, 1.0),
+            self._on_curve(self.height_m - depths)[::-1] * (1.0, -1.0),
+        ]
+        curve = np.concatenate(sides)  # their ends meet: all bars pulled, and all of the section pressed
+        edges = np.roll(curve, -1, axis=0) - curve
+        outwards = np.column_stack((-edges[:, 1], edges[:, 0]))
+        offsets = (outwards * curve).sum(axis=1)
+        is_edge = abs(offsets) > _LITTLE * abs(offsets).max()
+        loads = np.column_stack((axial_n, moments_nm))
+        parts = (loads[:, None] * outwards[is_edge]).sum(axis=2) / offsets[is_edge]
+        used: np.ndarray = parts.max(axis=1)
+        return used
+
+    def _on_curve(self, depths_m: np.ndarray) -> np.ndarray:
+        """Return axial forces, tension positive, and moments about half the height (k, 2) that crush an edge."""
+        neutrals_m = self.height_m * np.geomspace(1e-4, 1e3, _ON_CURVE)
+        strains = _CRUSHING_STRAIN * (depths_m - neutrals_m[:, None]) / neutrals_m[:, None]
+        yields_pa = np.array(self.yields_pa)
+        pulls = np.array(self.areas_m2) * np.clip(MODULUS_PA * strains, -yields_pa, yields_pa)
+        block_m = np.minimum(_BLOCK * neutrals_m, self.height_m)
+        pressed = block_m * self.width_m * self.compressive_pa
+        middle_m = 0.5 * self.height_m
+        moments = (pulls * (depths_m - middle_m)).sum(axis=1) + pressed * (middle_m - 0.5 * block_m)
+        return np.column_stack((pulls.sum(axis=1) - pressed, moments))
 
     def across_cracks_n(self) -> list[float]:
         """Return the force at which each layer yields across a crack that closes at one of its edges.

@@ -62,8 +62,8 @@ class Stability:
     load_factor, utilisation, deflection_m : float or None
         Collapse load factor, of which `LARGEST_FACTOR` stands for any above, largest utilisation of a connection and
         largest deflection; None where statics was not asked or cannot say.
-    used_most : str
-        Member with the largest utilisation.
+    used_most, used_of : str
+        Member with the largest utilisation, and what it is a part of; empty where an earlier version wrote it.
     cracked, overloaded_connections, connections : int
         Connections that crack and hold by their bars, that are overloaded, and all.
     unsupported, loose : tuple of MemberShare
@@ -82,6 +82,7 @@ class Stability:
     load_factor: float | None = None
     utilisation: float | None = None
     used_most: str = ""
+    used_of: str = ""
     deflection_m: float | None = None
     cracked: int = 0
     overloaded_connections: int = 0
@@ -122,7 +123,8 @@ class Stability:
         if self.load_factor is not None:
             yield f"collapse load factor {_factor_text(self.load_factor)}"
         if self.utilisation is not None:
-            yield f"largest utilisation {self.utilisation:.0%} ({self.used_most})"
+            of = f" {self.used_of}" if self.used_of else ""
+            yield f"largest utilisation {self.utilisation:.0%}{of} ({self.used_most})"
         if self.deflection_m is not None:
             yield f"deflection {1000.0 * self.deflection_m:.2f} mm"
 

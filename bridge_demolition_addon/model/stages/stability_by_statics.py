@@ -13,12 +13,14 @@ from ...engineering.geometry.level_contacts import level_contacts
 from ...engineering.units import mass_text
 from ...errors import DemolitionError
 from ..bridge.member import Member
-from ..scenario import BlastZone, Scenario
+from ..scenario import Scenario
 from ..scenario.bearings import SLIDING, Bearing
 from ..structure.cracking import FALLEN_SHARE
 from ..structure.model import Model, build_model
+from ..structure.section_use import SectionsWithBars
 from ..structure.support_paths import SupportPaths, support_paths
 from ..structure.zone_loads import zone_loads
+from .most_used import most_used_of
 from .stability import COMES_DOWN, STANDS, UNKNOWN, MemberShare, OverloadedMember, Stability
 from .standing import LARGEST_FACTOR, StandingBridge, made_elastic
 
@@ -78,14 +80,14 @@ def stability_of(
         reason = f"{_named(still)} lie loose, held by contact alone, which statics does not follow"
         return Stability(verdict=UNKNOWN, reason=reason, **known)
     bridge = StandingBridge(model, on_bearings.joints, pause)
-    return _by_statics(bridge, paths_on_bearings, known, scenario.blast_zones, with_factor=with_factor)
+    return _by_statics(bridge, elastic, paths_on_bearings, known, with_factor=with_factor)
 
 
 def _by_statics(
     bridge: StandingBridge,
+    scenario: Scenario,
     paths: SupportPaths,
     known: dict[str, Any],
-    zones: Sequence[BlastZone],
     *,
     with_factor: bool | None,
 ) -> Stability:
@@ -99,11 +101,10 @@ def _by_statics(
         reason = f"nothing keeps {_named(turning)} from turning over or sliding off"
         is_on_contact = bool(known["loose_on"])  # a line of contact holds less than the area that lies there
         return Stability(verdict=UNKNOWN if is_on_contact else COMES_DOWN, reason=reason, **known)
-    known["zones"] = zone_loads(zones, model, standing.loads)
+    known["zones"] = zone_loads(scenario.blast_zones, model, standing.loads)
     used = np.where(np.isfinite(standing.used), standing.used, 0.0)
-    if len(used):
-        most = int(used.argmax())
-        known["utilisation"], known["used_most"] = float(used[most]), _member_of(model, most)
+    if most := most_used_of(bridge, SectionsWithBars(scenario, model), standing):
+        known["utilisation"], known["used_most"], known["used_of"] = most.used, most.between[0], most.words
     known["deflection_m"], known["cracked"] = standing.sag_m, int(standing.cracked.sum())
     known["overloaded"] = _overloaded(model, used)
     known["overloaded_connections"] = int((used > 1.0).sum())

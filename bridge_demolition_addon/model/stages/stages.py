@@ -21,9 +21,11 @@ from ..sequence.loads import placed_on_model
 from ..structure.blast_zones import zone_firings
 from ..structure.cracking import FALLEN_SHARE
 from ..structure.model import Model
+from ..structure.section_use import SectionsWithBars
 from .changed_bridge import ChangedBridge, PressedBars
 from .changed_tendons import ReleasedTendon, released_tendons
 from .lifted import CraneWork, PartOnHook
+from .most_used import MostUsed, most_used_of
 from .reactions import supports_of
 from .standing import Standing, StandingBridge
 
@@ -54,6 +56,7 @@ class Stage:
     equipment: tuple[str, ...]  # names
     equipment_n: float  # its weight
     collapse_factor: float  # load factor at which it collapses; nan where part of it is not held
+    most_used: MostUsed | None
     bars: tuple[PressedBars, ...] = ()  # that stand bare
     tendons: tuple[ReleasedTendon, ...] = ()  # that let go in this step
     lifts: tuple[PartOnHook, ...] = ()  # parts that a crane holds, or lifts away in this step
@@ -75,6 +78,7 @@ def stages_of(scenario: Scenario, bridge: StandingBridge, progress: Callable[[in
     model = bridge.model
     planned = (change for change in scenario.changes if not isinstance(change, LiftingAway))
     changes, structure = (*planned, *zone_firings(scenario, model.members)), model_structure(model)
+    sections = SectionsWithBars(scenario, model)
     crane = CraneWork(placed_lifts(scenario.lifts, model), model, structure)
     steps = _steps(scenario, schedule(changes, structure), crane.times())
     changed, stages = ChangedBridge.as_built(model), []
@@ -105,6 +109,7 @@ def stages_of(scenario: Scenario, bridge: StandingBridge, progress: Callable[[in
                 collapse_factor=math.nan
                 if model.masses_kg[loose].sum() > FALLEN_SHARE * model.masses_kg[there].sum()
                 else bridge.collapse_factor(*state, changed.bare, changed.cuts),
+                most_used=most_used_of(bridge, sections, standing),
                 bars=changed.pressed_bars(standing.bare_n),
                 tendons=released_tendons(bridge, before, changed),
                 lifts=(*gone, *hanging),

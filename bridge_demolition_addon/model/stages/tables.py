@@ -18,6 +18,7 @@ from .changed_bridge import PressedBars
 from .changed_tendons import ReleasedTendon
 from .lifted import LIFT_COLUMNS, LIFTS_FILE, hook_cells, lift_rows, lift_sentences
 from .misfires import MISFIRE_COLUMNS, MISFIRES_FILE, Misfire, misfire_row
+from .most_used import RESISTANCE
 from .reactions import SupportPoint, supports_of
 from .stages import Criticality, Stage, reactions_n
 from .standing import StandingBridge
@@ -102,7 +103,6 @@ _FULL = 1.0 + 1e-9
 """Utilisation beyond which it is above 1 by more than rounding: bars that yield are used in full."""
 
 _KILO = 1000.0
-_GROUND = "ground"
 
 UPLIFT_KN = 0.1
 """Less than this is the rounding of a solution."""
@@ -162,13 +162,12 @@ def stage_row(number: int, stage: Stage, bridge: StandingBridge) -> dict[str, An
         else None,
         **hook_cells(stage.lifts),
     }
-    if np.isfinite(standing.used).any():
-        worst = int(np.nanargmax(standing.used))
-        x, y, z = model.connections.points[worst]
+    if most := stage.most_used:
+        x, y, z = most.at_m
         row |= {
-            "largest_utilisation": float(standing.used[worst]),
-            "governed_by": bridge.governed_by(standing)[worst],
-            "between": between(model, worst),
+            "largest_utilisation": most.used,
+            "governed_by": most.governed_by,
+            "between": " and ".join(most.between),
             "at_x_m": x,
             "at_y_m": y,
             "at_z_m": z,
@@ -222,9 +221,10 @@ def stage_sentences(stage: Stage, row: Mapping[str, Any]) -> list[str]:
     if row["not_held"]:
         part = f"{row['not_held']} shards, {mass_text(row['not_held_kg'], 1)} of {row['not_held_of']}"
         sentences.append(f"{part}, held by no connection to a support")
-    if row["largest_utilisation"] is not None:
+    if stage.most_used:
+        by = "" if stage.most_used.governed_by == RESISTANCE else f" by {row['governed_by']}"
         sentences.append(
-            f"used most: {row['largest_utilisation']:.0%} by {row['governed_by']}, in {row['between']} at "
+            f"used most: {row['largest_utilisation']:.0%} {stage.most_used.words}{by}, in {row['between']} at "
             f"[{row['at_x_m']:.1f}, {row['at_y_m']:.1f}, {row['at_z_m']:.1f}] m"
         )
     if row["cracked"]:
@@ -312,11 +312,7 @@ def factor_in_words(factor: float, is_held: bool) -> str:
 
 def between(model: Model, row: int) -> str:
     """Return the members that a connection is between, or the one that it is within."""
-    names = [
-        _GROUND if shard < 0 else model.members[model.member_of_shard[shard]].name
-        for shard in model.connections.pairs[row].tolist()
-    ]
-    return " and ".join(dict.fromkeys(names))
+    return " and ".join(model.between(row))
 
 
 def write_table(path: Path, columns: Sequence[str], rows: Iterable[dict[str, Any]]) -> None:

@@ -20,8 +20,11 @@ from .cracking import cracked_by_weight
 from .equilibrium import loads_of, model_at_rest, overloaded
 from .model import Model, build_model
 
-ONE_CUT = "not known by one cut: each seed shares what an axis carries otherwise"
-"""What is said of bearings that carry an axis together, by one cut of the bridge."""
+ONE_CUT = (
+    "Single bearings are of this one cut: each seed shares what an axis carries otherwise, and bda check --cuts 5 says "
+    "by how much."
+)
+"""What is said beside forces of bearings that may carry an axis together."""
 
 LEAST_CUTS, MOST_CUTS = 2, 100
 
@@ -104,7 +107,7 @@ def axis_facts(model: Model, bearings: Sequence[BearingForce]) -> Iterator[Fact]
         sum_n = sum(float(bearings[number].force_n[2]) for number in axis.bearings)
         yield axis.name, f"{_KILO * sum_n:z.1f} kN up in all"
     if axes:
-        yield "single bearings", ONE_CUT
+        yield "single bearings", "not known by one cut: each seed shares what an axis carries otherwise"
         yield "", "(bda check --cuts 5 says by how much). The sums differ less"
 
 

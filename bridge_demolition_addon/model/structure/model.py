@@ -120,6 +120,12 @@ class Model:
         of_shards = np.append(of_members[self.member_of_shard], np.inf)  # the ground, at index -1
         return of_shards[self.connections.pairs].min(axis=1)
 
+    def between(self, connection: int) -> tuple[str, ...]:
+        """Return the names of the members, or the ground, on both sides of a connection, which may be one."""
+        shards = self.connections.pairs[connection].tolist()
+        names = ["ground" if shard < 0 else self.members[self.member_of_shard[shard]].name for shard in shards]
+        return tuple(dict.fromkeys(names))
+
     @property
     def breakable(self) -> np.ndarray:
         """Return which connections (m,) can break by stress: not footings on soil, nor pads that deform."""

@@ -15,7 +15,8 @@ from ..document.blocks import Block, Column, DataTable, Paragraph, Picture
 from ..run_folder import ReportedRun
 
 _NOTES = (
-    "Use is the opening of a crack at its worst corner by that at which bars rupture. Ruptured are cracks that all "
+    "Use is the opening of a crack at its worst corner by that at which bars rupture. Under an impact it depends on "
+    "the length of sub-steps: it is no margin against rupture. Ruptured are cracks that all "
     "their bars let go, in part those that some did: of a hinge that folds, bars at the closed edge stay. Cracks at "
     "work are in bar_log.csv, frame by frame."
 )

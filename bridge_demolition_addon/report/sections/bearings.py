@@ -12,6 +12,7 @@ from ...charts.histories import compared_histories
 from ...engineering.geometry.vectors import length
 from ...model.results.bearings import BearingHistory, bearing_histories
 from ...model.scenario.scenario import bearing_tables
+from ...model.structure.bearing_ranges import ONE_CUT
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture
 from ..run_folder import ReportedRun
 
@@ -19,7 +20,8 @@ _MOST_LINES = 8
 
 _NOTES = (
     "At rest: mean over the first frame after any warm-up. Least and largest are those of single sub-steps, as long as "
-    "the bearing was there; below 0 it held against uplift. Opened: largest part of its area that lifted off. "
+    "the bearing was there; below 0 it held against uplift or, without tension, Bullet's constraint answered to "
+    "contacts, which a bearing cannot. Opened: largest part of its area that lifted off. "
     "Displacement: largest horizontal one of what lies above against what lies below, from where they were built, and "
     "the part of it that slid. Moments are about the axis across the road. Every frame is in bearing_log.csv."
 )
@@ -32,9 +34,9 @@ def bearing_blocks(run: ReportedRun) -> list[Block]:
     extremes = run.summary.bearings if run.summary else []
     blocks: list[Block] = []
     if extremes:
-        blocks += [_extremes(extremes), Paragraph(_NOTES)]
+        blocks += [_extremes(extremes), Paragraph(_NOTES), Paragraph(ONE_CUT)]
     elif histories:
-        blocks.append(_means(histories))
+        blocks += [_means(histories), Paragraph(ONE_CUT)]
     if histories:
         largest = sorted(histories, key=lambda bearing: -float(np.nanmax(bearing.forces_n[1:, 2], initial=-np.inf)))
         shown = [bearing for bearing in histories if bearing in largest[:_MOST_LINES]]

@@ -25,6 +25,7 @@ from ...model.stages.tables import (
     STAGES_FILE,
     UPLIFT_KN,
 )
+from ...model.structure.bearing_ranges import ONE_CUT
 from ...system.progress import Progress
 from ...system.reading import MEGABYTE, file_text
 from ...version import VERSION
@@ -35,9 +36,10 @@ from .plan_contents import with_plan_contents
 
 _MOST_BYTES = 10 * MEGABYTE
 _WORDS = (
-    "Worked out at rest, by the stiffness of the connections and without a simulation. Utilisation is load over "
-    "strength: above 100 % a connection breaks. Collapse load factor: times the weight of everything, equipment "
-    "included, at which the bridge begins to come down; below 1 the stage does not stand."
+    "Worked out at rest, by the stiffness of the connections and without a simulation. Utilisation is of the "
+    "resistance in bending of sections with bars, and elsewhere of the strength of a face, which breaks above 100 %. "
+    "Collapse load factor: times the weight of everything, equipment included, at which the bridge begins to come "
+    "down; below 1 the stage does not stand."
 )
 _COLUMNS = (
     Column("Stage", "stage", "", lambda row: row["stage"]),
@@ -234,7 +236,7 @@ def _bearing_blocks(folder: Path) -> list[Block]:
             return []
         forces = DataTable.of("bearing_forces", _BEARINGS, (*_BEARING, *_extremes("force", "kN")), bearings)
         moments = DataTable.of("bearing_moments", _OF_BEARINGS, (*_BEARING, *_extremes("moment", "kNm")), bearings)
-        return [*_uplift(bearings, "bearing"), *_lifted(bearings), forces, moments]
+        return [*_uplift(bearings, "bearing"), *_lifted(bearings), forces, Paragraph(ONE_CUT), moments]
     except ValueError as error:
         raise _damaged(path, error) from error
 

@@ -176,7 +176,7 @@ def lines_of(summary: Mapping[str, Any]) -> list[str]:
         translated("Total mass: {}").format(mass_text(summary["mass_kg"]["shard"])),
         translated("Broken: {} of {} connections").format(connections["broken"], connections["count"]),
         *([translated("Bars: {}").format(bars)] if (bars := bars_text(summary)) else []),
-        *([translated("Most: {}").format(use)] if (use := largest_use_text(summary)) else []),
+        *([translated("Most, by these sub-steps: {}").format(use)] if (use := largest_use_text(summary)) else []),
         translated("{} frames, {} s").format(summary["frames"], f"{summary['simulated_s']:.2f}"),
         *([translated("Creeping at the end: {} shards").format(creeping["shards"])] if creeping else []),
     ]

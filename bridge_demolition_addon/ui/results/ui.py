@@ -5,6 +5,7 @@ from pathlib import Path
 import bpy
 
 from ...errors import OutputError
+from ...model.structure.bearing_ranges import ONE_CUT
 from ...simulation.kept_run import has_run
 from ..key_figures import decorator as figures_in_view
 from ..key_figures.shown import peak_of_selected
@@ -53,6 +54,7 @@ class BDA_PT_results(SidebarPanel, bpy.types.Panel):
                 line = grid.row(align=True)
                 for text in cells:
                     line.label(text=text, translate=False)
+            draw_sentence(layout, context, translated(ONE_CUT), icon="INFO")
         self._draw_in_view(context)
         layout.operator("bda.look_at_bridge", icon="LOOP_BACK")
         row = layout.row(align=True)

@@ -58,6 +58,8 @@ class BDA_PT_stages(SidebarPanel, bpy.types.Panel):
                     line = grid.row(align=True)
                     for text in reaction_cells_of(row, quantity, kind):
                         line.label(text=text, translate=False)
+        if checked.bearings[shown]:
+            draw_sentence(layout, context, translated(ONE_CUT), icon="INFO")
 
 
 def reaction_cells_of(row: dict, quantity: str, kind: str) -> tuple[str, ...]:
