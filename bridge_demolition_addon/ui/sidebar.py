@@ -61,6 +61,15 @@ def draw_sentence(layout: bpy.types.UILayout, context: bpy.types.Context, text: 
         column.label(text=line, icon=below if number else icon, translate=False)
 
 
+def draw_of_one_cut(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
+    """Draw how much is known of bearings that carry an axis together, below what they carry."""
+    text = translated(
+        "Single bearings are of this one cut: each seed shares what an axis carries otherwise, and bda check --cuts 5 "
+        "says by how much."
+    )
+    draw_sentence(layout, context, text, icon="INFO")
+
+
 def lines_of(text: str, letters: int) -> list[str]:
     """Return a text on lines of so many letters; those of Chinese are twice as wide as others."""
     return textwrap.wrap(text, max(letters * len(text) // max(width_of(text), 1), 1))

@@ -53,8 +53,8 @@ class SectionsWithBars:
     def most_used(self, loads: ConnectionLoads, used: np.ndarray) -> SectionUse | None:
         """Return the section of which most is used, by the loads of all connections; None without bars.
 
-        Faces use parts (m,) of the strength of their concrete, nan where they have cracked or are gone: a section that
-        has not cracked uses no more of its resistance than they do.
+        Faces use parts (m,) of the strength of their concrete, nan where they have cracked or are gone. A section that
+        has not cracked uses no more of its resistance than they do, and one that has, and stands, no more than all.
         """
         uses = [use for group in self._groups for use in self._of_group(group, loads, used)]
         return max(uses, key=lambda use: use.used, default=None)
@@ -82,7 +82,7 @@ class SectionsWithBars:
             points = group.own.to_world(middles)
             runs, up = group.own.directions(middles, axis), group.own.directions(middles, across)
         forces, moments = np.zeros((2, len(planes), 3))
-        concrete = np.zeros(len(planes))
+        limits = np.zeros(len(planes))
         for number, (plane, point) in enumerate(zip(planes.tolist(), points, strict=True)):
             beyond = along[pairs] > plane
             crosses = beyond[:, 0] != beyond[:, 1]
@@ -92,11 +92,11 @@ class SectionsWithBars:
             levers = loads.points_m[through] - point
             forces[number] = on_beyond.sum(axis=0)
             moments[number] = (signs * loads.moments_nm[through] + cross(levers, on_beyond)).sum(axis=0)
-            concrete[number] = used[through].max(initial=0.0)  # nan where one has cracked
+            limits[number] = used[through].max(initial=0.0)  # nan where one has cracked
         axial = -dot(forces, runs)
         # What lies beyond is pulled back over the section: pulled where it is high, the last edge is pressed.
         pressing = -dot(moments, unit(cross(runs, up)))
         of_bars = group.section(self._compression_pa, self._factor).utilisations(axial, pressing)
-        worst = np.fmin(of_bars, concrete)
-        most = int(np.argmax(worst))
+        worst = np.minimum(of_bars, np.where(np.isnan(limits), 1.0, limits))
+        most = int(np.lexsort((of_bars, worst))[-1])
         yield SectionUse(group.member, points[most], float(worst[most]))

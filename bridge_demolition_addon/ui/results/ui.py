@@ -5,13 +5,12 @@ from pathlib import Path
 import bpy
 
 from ...errors import OutputError
-from ...model.structure.bearing_ranges import ONE_CUT
 from ...simulation.kept_run import has_run
 from ..key_figures import decorator as figures_in_view
 from ..key_figures.shown import peak_of_selected
 from ..languages.words import translated
 from ..recording.session import last_recording
-from ..sidebar import SidebarPanel, draw_sentence
+from ..sidebar import SidebarPanel, draw_of_one_cut, draw_sentence
 from .operator import can_report, report_of
 from .shown_run import LargestValue, shown_run, why_no_run
 
@@ -54,7 +53,7 @@ class BDA_PT_results(SidebarPanel, bpy.types.Panel):
                 line = grid.row(align=True)
                 for text in cells:
                     line.label(text=text, translate=False)
-            draw_sentence(layout, context, translated(ONE_CUT), icon="INFO")
+            draw_of_one_cut(layout, context)
         self._draw_in_view(context)
         layout.operator("bda.look_at_bridge", icon="LOOP_BACK")
         row = layout.row(align=True)

@@ -7,7 +7,7 @@ import math
 import bpy
 
 from ..languages.words import translated
-from ..sidebar import SidebarPanel, draw_sentence
+from ..sidebar import SidebarPanel, draw_of_one_cut, draw_sentence
 from ..task_progress import draw_task_progress, going_on
 from .operator import BDA_OT_check_stages
 from .shown import checked_in, why_not_shown
@@ -59,7 +59,7 @@ class BDA_PT_stages(SidebarPanel, bpy.types.Panel):
                     for text in reaction_cells_of(row, quantity, kind):
                         line.label(text=text, translate=False)
         if checked.bearings[shown]:
-            draw_sentence(layout, context, translated(ONE_CUT), icon="INFO")
+            draw_of_one_cut(layout, context)
 
 
 def reaction_cells_of(row: dict, quantity: str, kind: str) -> tuple[str, ...]:

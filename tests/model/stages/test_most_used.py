@@ -86,11 +86,12 @@ def test_spans_of_one_design_use_what_they_do_by_hand():
         scenario = span(span_m)
         most, standing = most_used(scenario)
         assert (most.governed_by, most.between) == (RESISTANCE, ("deck",))
-        assert most.used == pytest.approx(by_hand(span_m, 12500, scenario), rel=0.05)
+        # What stands by hardening alone uses all that its bars resist as they yield.
+        assert most.used == pytest.approx(min(by_hand(span_m, 12500, scenario), 1.0), rel=0.05)
         assert abs(most.at_m[0] - span_m / 2.0) < 1.5
         uses.append(most.used)
         cracked.append(standing.cracked.any())
-    assert uses == sorted(uses) and uses[0] < 0.3 < 1.0 < uses[-1]
+    assert uses == sorted(uses) and uses[0] < 0.3 and uses[-1] == 1.0
     assert not cracked[0] and all(cracked[2:])  # it makes no difference whether the concrete still holds
 
 
