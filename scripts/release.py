@@ -15,12 +15,15 @@ from collections.abc import Sequence
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+sys.path.insert(1, str(Path(__file__).resolve().parent.parent / "core"))
+
+import build_core
 
 from bridge_demolition_addon.version import VERSION
 
 ROOT = Path(__file__).resolve().parent.parent
 
-SOURCES = ("bridge_demolition_addon", "LICENSE", "README.md", "pyproject.toml")
+SOURCES = ("bridge_demolition_addon", "core", "LICENSE", "MANIFEST.in", "README.md", "pyproject.toml")
 """What the package is built from."""
 
 CHECKSUMS = "SHA256SUMS"
@@ -42,7 +45,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         elif folder.exists():
             shutil.rmtree(folder)
         build(folder, options.platform)
-    except ReleaseError as error:
+    except (ReleaseError, build_core.BuildError) as error:
         print(f"release: {error}", file=sys.stderr)
         return 1
     print(f"In Blender: Preferences, Get Extensions, Repositories, +, Add Remote Repository: {index_url(folder)}")
@@ -108,7 +111,7 @@ def build(folder: Path, platforms: Sequence[str]) -> None:
         raise ReleaseError(f"{folder} is there already: remove it first")
     folder.mkdir(parents=True)
     try:
-        build_packages(folder)
+        build_packages(folder, platforms or list(build_core.PLATFORMS))
         build_repository(folder, platforms)
         write_checksums(folder)
     except BaseException:
@@ -116,23 +119,33 @@ def build(folder: Path, platforms: Sequence[str]) -> None:
         raise
 
 
-def build_packages(folder: Path) -> None:
-    """Build the source distribution, and the wheel from it."""
+def build_packages(folder: Path, platforms: Sequence[str]) -> None:
+    """Build the source distribution, and from it a wheel for each system, which holds the compiled core."""
     with tempfile.TemporaryDirectory(prefix="bda-release-") as name:
         # A copy: nothing that an earlier build left in the checkout comes along.
         copy, built = Path(name, "source"), Path(name, "built")
         copy.mkdir()
         for source in SOURCES:
             if (ROOT / source).is_dir():
-                shutil.copytree(ROOT / source, copy / source, ignore=shutil.ignore_patterns("__pycache__"))
+                ignored = shutil.ignore_patterns("__pycache__", "bda_core.*")
+                shutil.copytree(ROOT / source, copy / source, ignore=ignored)
             else:
                 shutil.copy(ROOT / source, copy)
-        command = [sys.executable, "-m", "uv", "build", "--quiet", f"--out-dir={built}", copy]
-        done = subprocess.run(command, capture_output=True, text=True)
-        if done.returncode:
-            raise ReleaseError(f"uv could not build the packages:\n{done.stderr.strip()}")
-        for package in sorted((*built.glob("*.tar.gz"), *built.glob("*.whl"))):
+        uv_build("--sdist", f"--out-dir={built}", copy)
+        (source,) = built.glob("*.tar.gz")
+        for platform in platforms:
+            library = build_core.kept(build_core.PLATFORMS[platform])
+            settings = (f"--config-setting=platform={platform}", f"--config-setting=library={library}")
+            uv_build("--wheel", f"--out-dir={built}", *settings, source)
+        for package in (source, *sorted(built.glob("*.whl"))):
             print(shutil.copy(package, folder), flush=True)
+
+
+def uv_build(*arguments: str | Path) -> None:
+    """Build a distribution."""
+    done = subprocess.run([sys.executable, "-m", "uv", "build", "--quiet", *arguments], capture_output=True, text=True)
+    if done.returncode:
+        raise ReleaseError(f"uv could not build the packages:\n{done.stderr.strip()}")
 
 
 def build_repository(folder: Path, platforms: Sequence[str]) -> None:

@@ -82,6 +82,7 @@ class Windows:
             self._install_libraries(asked)
             self._make_disk()
             stamp.write_text(versions)
+        subprocess.run([sys.executable, ROOT / "core" / "build_core.py", "--platform", "windows-x64"], check=True)
         # This Windows Python looks nowhere else, whatever PYTHONPATH says, and its child processes do as it does.
         positions = ["python311.zip", "Lib", ".", *map(windows_path, (self.folder / "libraries", ROOT, ROOT / "tests"))]
         (self.home / "python311._pth").write_text("".join(f"{position}\n" for position in positions))

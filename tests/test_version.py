@@ -22,8 +22,10 @@ def test_the_package_takes_it_from_there():
     assert attribute == "bridge_demolition_addon.version.VERSION"
 
 
-def test_the_extension_and_the_citation_give_the_same():
+def test_the_extension_the_core_and_the_citation_give_the_same():
     manifest = tomllib.loads((ROOT / "blender_manifest.toml").read_text(encoding="utf-8"))
     assert manifest["version"] == VERSION
+    core = tomllib.loads((ROOT / "core" / "pyproject.toml").read_text(encoding="utf-8"))
+    assert core["project"]["version"] == VERSION
     citation = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
     assert re.findall(r'^version: "(.+)"$', citation, flags=re.M) == [VERSION]

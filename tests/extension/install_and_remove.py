@@ -62,6 +62,8 @@ record["enabled"] = is_enabled()
 record["packages"] = {
     name: importlib.import_module(name).__file__ for name in ("trimesh", "manifold3d", "matplotlib", "pymap3d", "tqdm")
 }
+core = importlib.import_module(f"{extension}.engineering.core.library")
+record["packages"]["bridge_demolition_core"] = core.library()._name
 for _ in range(2):
     record["on"].append(traces())
     bpy.ops.preferences.addon_disable(module=extension)

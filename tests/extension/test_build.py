@@ -1,15 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The extension's zips for every Python that a Blender brings, built with whichever Python this is."""
 
+import io
 import subprocess
 import sys
 import tomllib
 import zipfile
 from pathlib import Path
 
+import build_core
 import pytest
 from support.checkout import ROOT
 
+PLATFORM = {"linux": "linux-x64", "darwin": "macos-arm64", "win32": "windows-x64"}[sys.platform]
 SCRIPT = ROOT / "scripts" / "build_extension"
 OF_EACH = {
     "3.11": "bridge_demolition_addon-{}-blender-4.2-to-5.0-*.zip",
@@ -35,6 +38,9 @@ def test_every_zip_has_wheels_of_its_own_python(built: Path, python: str) -> Non
     assert found.keys() >= NATIVE and "numpy" not in found and "bpy" not in found
     for package in NATIVE:
         assert f"-{tag}-" in found[package] or "-abi3-" in found[package], found[package]
+    core = zipfile.ZipFile(io.BytesIO(archive.read(f"wheels/{found['bridge_demolition_core']}")))
+    assert f"bridge_demolition_core/{build_core.PLATFORMS[PLATFORM].library}" in core.namelist()
+    assert not [name for name in archive.namelist() if "bda_core" in name]  # in its wheel alone
     manifest = tomllib.loads(archive.read("blender_manifest.toml").decode())
     assert sorted(manifest["wheels"]) == sorted(f"./wheels/{name}" for name in names)
 

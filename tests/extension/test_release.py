@@ -12,6 +12,7 @@ import zipfile
 from pathlib import Path
 from typing import Any
 
+import build_core
 import pytest
 import release
 from support.bare_blender import run_bare
@@ -24,7 +25,7 @@ NEXT = "99.0.0"
 
 PLATFORM = {"linux": "linux-x64", "darwin": "macos-arm64", "win32": "windows-x64"}[sys.platform]
 PYTHON = "{}.{}".format(*sys.version_info)
-COPIED = ("bridge_demolition_addon", "examples", "scripts", "docs/pictures/walkthrough")
+COPIED = ("bridge_demolition_addon", "core", "examples", "scripts", "docs/pictures/walkthrough")
 COPIED_FILES = ("blender_manifest.toml", "pyproject.toml", "README.md", "LICENSE", "docs/walkthrough.md")
 
 
@@ -108,13 +109,18 @@ def test_packages_hold_all_of_the_package_and_the_licence(built: Path) -> None:
         text=True,
         check=True,
     ).stdout.split()
-    (wheel,) = built.glob(f"bridge_demolition_addon-{VERSION}-py3-none-any.whl")
+    platform = build_core.PLATFORMS[PLATFORM]
+    wheel = built / f"bridge_demolition_addon-{VERSION}-py3-none-{platform.tag}.whl"
+    assert [*built.glob("*.whl")] == [wheel]
     names = set(zipfile.ZipFile(wheel).namelist())
+    assert f"bridge_demolition_addon/engineering/core/{platform.library}" in names
     assert names >= set(tracked)
     assert f"bridge_demolition_addon-{VERSION}.dist-info/licenses/LICENSE" in names
     with tarfile.open(built / f"bridge_demolition_addon-{VERSION}.tar.gz") as archive:
         names = {name.partition("/")[2] for name in archive.getnames()}
-    assert names >= {*tracked, "LICENSE", "pyproject.toml", "README.md"}
+    of_core = {f"core/{path.relative_to(ROOT / 'core').as_posix()}" for path in build_core.SOURCES.iterdir()}
+    assert names >= {*tracked, *of_core, "core/backend.py", "LICENSE", "pyproject.toml", "README.md"}
+    assert not [name for name in names if Path(name).name == platform.library]
     assert not [name for name in names if name.startswith("tests")]
 
 

@@ -6,7 +6,6 @@ import re
 import shutil
 import subprocess
 import sys
-from pathlib import Path
 
 import build_core
 import pytest
@@ -64,4 +63,4 @@ def test_the_package_of_its_own_is_found(tmp_path, monkeypatch):
     monkeypatch.syspath_prepend(tmp_path / "packages")
     found = core.load(tmp_path / "nowhere" / core.FILE)
     monkeypatch.delitem(sys.modules, core.PACKAGE)
-    assert isinstance(found, ctypes.CDLL) and Path(found._name).is_relative_to(tmp_path / "packages")
+    assert isinstance(found, ctypes.CDLL) and found["bda_core_version"]() == core.VERSION
