@@ -135,15 +135,18 @@ def works(command: Sequence[str]) -> bool:
         source.write_text(EXAMPLE, encoding="ascii")
         load = [sys.executable, "-c", "import ctypes, sys; ctypes.CDLL(sys.argv[1])", library]
         try:
-            compiled = [*command, *FLAGS, *position_independent(here()), source, "-o", library, *SHARED]
+            compiled = [*command, *FLAGS, *system_flags(here()), source, "-o", library, *SHARED]
             return all(subprocess.run(step, capture_output=True).returncode == 0 for step in (compiled, load))
         except OSError:
             return False
 
 
-def position_independent(platform: Platform) -> list[str]:
-    """Return what a library needs where it can lie anywhere in memory; on Windows it always can."""
-    return [] if platform.ending == ".dll" else ["-fPIC"]
+def system_flags(platform: Platform) -> list[str]:
+    """Return what a system needs to load a library from wherever it lies; on Windows it is nothing."""
+    return {
+        ".so": ["-fPIC"],
+        ".dylib": ["-fPIC", f"-Wl,-install_name,@rpath/{platform.library}"],  # else it holds the folder of the build
+    }.get(platform.ending, [])
 
 
 def compiler_for(platform: Platform) -> Sequence[str]:
@@ -164,7 +167,7 @@ def compile_to(
     # zig leaves more than the library. The folder is beside the target, so that a file is moved as a whole.
     with tempfile.TemporaryDirectory(prefix=".bda-core-", dir=target.parent) as name:
         library = Path(name, target.name)
-        words = [*command, *FLAGS, *position_independent(platform), f'-DBDA_CORE_SOURCES="{mark(platform)}"', *options]
+        words = [*command, *FLAGS, *system_flags(platform), f'-DBDA_CORE_SOURCES="{mark(platform)}"', *options]
         done = subprocess.run(
             [*words, *sorted(SOURCES.glob("*.c")), "-o", library, *SHARED], capture_output=True, text=True
         )

@@ -12,6 +12,8 @@ import types
 from pathlib import Path
 from typing import Any
 
+BROUGHT = ("bridge_demolition_core", "manifold3d", "matplotlib", "pymap3d", "tqdm", "trimesh")
+
 folder, archive, extension, result = sys.argv[1:]
 sys.path.append(folder)
 
@@ -59,11 +61,8 @@ record: dict[str, Any] = {"before": traces(), "on": [], "off": []}
 
 bpy.ops.extensions.package_install_files(filepath=archive, repo="user_default", enable_on_install=True)
 record["enabled"] = is_enabled()
-record["packages"] = {
-    name: importlib.import_module(name).__file__ for name in ("trimesh", "manifold3d", "matplotlib", "pymap3d", "tqdm")
-}
-core = importlib.import_module(f"{extension}.engineering.core.library")
-record["packages"]["bridge_demolition_core"] = core.library()._name
+record["packages"] = {name: importlib.import_module(name).__file__ for name in BROUGHT}
+importlib.import_module(f"{extension}.engineering.core.library").library()  # fails where the core does not load
 for _ in range(2):
     record["on"].append(traces())
     bpy.ops.preferences.addon_disable(module=extension)
