@@ -13,7 +13,7 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from bridge_demolition_addon.errors import CoreError
+from ...errors import CoreError
 
 VERSION = 1
 """`BDA_CORE_VERSION` in core/src/core.h."""
