@@ -102,7 +102,8 @@ def run_scenario(
                 progress.stage(notice)
             elif recording.rigid_because:
                 progress.stage(f"connections were rigid, as they cannot be elastic here: {recording.rigid_because}")
-            summary = run_summary(recording, recording.results(), context, completed=not (signals or recording.error))
+            is_whole = not (signals or progress.is_stopped or recording.error)
+            summary = run_summary(recording, recording.results(), context, completed=is_whole)
             summary["density_kg_m3"] = model.density_kg_m3
             summary["members_kg"] = {member.name: member.mass_kg for member in model.members}
             times["summary"] = lap_s()
@@ -121,6 +122,8 @@ def run_scenario(
             raise SimulationError(f"{moved}; the results are in {kept.folder}")
         if signals:
             raise Interrupted(signals[0])
+        if progress.is_stopped:
+            return summary
         if pictures:
             progress.stage(stage_of_pictures(scenario.pictures))
             key_frame = summary["key_frame"]["frame"]
@@ -197,13 +200,13 @@ def _prepare_view(scene: bpy.types.Scene, scenario: Scenario, model: Model, shar
 def _simulate(
     scene: bpy.types.Scene, folder: Path, scenario: Scenario, progress: Progress, signals: Sequence[int]
 ) -> Playing:
-    """Play the timeline once, until a signal or an error ends it; a scene that stops at rest ends with that frame."""
+    """Play the timeline once, until it is stopped or fails; a scene that stops at rest ends with that frame."""
     rest = rest_watch(scenario, ground_motion_of(scene)) if scenario.time.stop_at_rest else None
     asked = scenario.recording
     recording = Recording(scene, folder, every_substep=asked.every_substep, contacts=asked.contacts)
     playing = Playing(recording, stop_at=rest)
     try:
-        while not playing.finished and not (signals and recording.recorded_frames):
+        while not playing.finished and not ((signals or progress.is_stopped) and recording.recorded_frames):
             playing.step()
             if recording.recorded_frames > 1:
                 done = recording.recorded_frames - 1

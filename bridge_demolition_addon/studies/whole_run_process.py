@@ -82,6 +82,13 @@ class WholeRun:
             self._take(answer)
         return is_new
 
+    def stop(self) -> bool:
+        """Ask the run to end with the frames that it has; False where it has none, or all, and would not listen."""
+        is_asked = 0 < self.state.frames < self.state.of_frames
+        if is_asked:
+            self._program.ask({})
+        return is_asked
+
     def end(self) -> None:
         """End the process, with the run if that goes on."""
         self._program.end()

@@ -1,7 +1,8 @@
 """The program that makes a whole run beside Blender: ``python -m bridge_demolition_addon.studies.whole_run_program``.
 
 It answers one request after another, as `answering_program` asks them. A request has the file of a scenario, the folder
-for the results, and whether pictures are rendered. While the run goes on, the program says how far it is.
+for the results, and whether pictures are rendered. While the run goes on, the program says how far it is, and any other
+request stops it: what there is by then is kept.
 """
 
 from __future__ import annotations
@@ -58,4 +59,5 @@ class _SaidProgress(Progress):
         now_s = time.monotonic()
         if now_s - self._said_s >= _SAID_EVERY_S or done == total:
             self._said_s = now_s
+            self.is_stopped = self._service.is_asked
             self._service.say({"frames": done, "of_frames": total, "broken": broken, "left_s": left_s})

@@ -2,7 +2,15 @@
 
 
 class Progress:
-    """Takes in the progress of some work, and shows nothing of it."""
+    """Takes in the progress of some work, and shows nothing of it.
+
+    Attributes
+    ----------
+    is_stopped
+        Whether the work is to end with what there is; for what looks at it.
+    """
+
+    is_stopped = False
 
     def stage(self, text: str) -> None:
         """Take in the name of the stage that begins now."""

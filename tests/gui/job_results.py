@@ -36,6 +36,7 @@ def steps(person: Person) -> Steps:
         yield from redo(person)
         yield from shows_the_run(person, f"{name}, after Ctrl-Shift-Z", folder)
     yield from another_bridge(person, folder)
+    yield from stop_a_run_beside(person, panels)
     yield from nothing_built(person)
     person.take_reports()
 
@@ -111,6 +112,24 @@ def another_bridge(person: Person, folder: Path) -> Steps:
     yield from shows_the_run(person, "after Ctrl-Z of Build Again", folder)
     yield from person.picture("the_first_again")
     person.expect("all of it is in view", out_of_sight(person, [(0.0, 0.0, 3.0), (8.0, 0.0, 3.0)]), [])
+
+
+def stop_a_run_beside(person: Person, panels: Panels) -> Steps:
+    """Change a value, and stop the run beside that is of it: what it has is shown as that of Run."""
+    folder, runs = person.folder / "beside", module("ui.recording.beside").runs_beside
+    person.scene.bda.output_directory = str(folder)
+    person.scene.bda.scenario.bridge.deck.thickness_m += 0.1
+    person.scene.bda.scenario.time.duration_s = 60.0
+    yield from panels.show_only("Run")
+    yield from person.click("bda.run_beside")
+    yield from person.wait_for("it runs", lambda: bool(runs.run and runs.run.state.frames), 240.0)
+    yield from person.picture("run_beside")
+    yield from person.click("bda.stop_run_beside")
+    yield from person.wait_for("it is stopped", lambda: runs.run is None, 240.0)
+    yield 0.5
+    yield from person.picture("run_beside_stopped")
+    yield from shows_the_run(person, "stopped beside", folder)
+    yield from panels.show_only("Scenario")
 
 
 def nothing_built(person: Person) -> Steps:

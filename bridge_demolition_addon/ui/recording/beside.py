@@ -11,9 +11,10 @@ import bpy
 
 from ...errors import DemolitionError, OutputError, SimulationError, text_of
 from ...model.run_folder.folder import check_folder
+from ...model.run_folder.summary import result_digest_in
 from ...model.scenario import Scenario
 from ...model.scenario.file import scenario_text
-from ...scene.as_built import changed_bodies, manual_edits
+from ...scene.as_built import build_of, changed_bodies, manual_edits
 from ...scene.run_setup import run_setup_of
 from ...simulation.blender_events import recorded_scene, running_recording, shown_results
 from ...simulation.kept_run import adopt_run
@@ -29,6 +30,7 @@ from ..task_progress import time_left_text
 from ..viewport import redraw_views
 from . import session
 from .paths import new_folder
+from .run import BUILD_ANEW, build_for_run
 
 _LOOK_EVERY_S = 0.3
 _BUTTON = "bda.run_beside"
@@ -41,16 +43,19 @@ class RunsBeside:
     ----------
     run : WholeRun or None
         None while there is none.
+    is_stopping : bool
+        Whether it was asked to end with the frames that it has.
     """
 
     def __init__(self) -> None:
         self.run: WholeRun | None = None
+        self.is_stopping = False
         self._scene_uid = 0
-        self._built = ""
+        self._build = ""
 
     def begin(self, scene: bpy.types.Scene, scenario: Scenario, folder: Path) -> None:
         """Begin the run of what is built in a scene; a program that cannot start raises SimulationError."""
-        settings = scene.bda
+        settings, self.is_stopping = scene.bda, False
         self.run = WholeRun(
             whole_run_program_command(bpy.app.binary_path, pictures=settings.pictures_of_run),
             scenario_text(scenario),
@@ -58,7 +63,7 @@ class RunsBeside:
             overwrite=settings.overwrite,
             pictures=settings.pictures_of_run,
         )
-        self._scene_uid, self._built = scene.session_uid, settings.built_scenario
+        self._scene_uid, self._build = scene.session_uid, build_of(scene)
         if not bpy.app.timers.is_registered(look_in):
             bpy.app.timers.register(look_in, first_interval=_LOOK_EVERY_S, persistent=True)
 
@@ -77,7 +82,7 @@ class RunsBeside:
             is_new = run.look()
             if run.state.is_over:
                 self.stop()
-                self._show(run.folder)
+                self.show(run)
         except (DemolitionError, OSError) as error:
             self.stop()
             is_new = True
@@ -85,9 +90,10 @@ class RunsBeside:
         if is_new:
             redraw_views()
 
-    def _show(self, folder: Path) -> None:
-        scene = self._scene()
-        if scene is None or scene.bda.built_scenario != self._built:
+    def show(self, run: WholeRun) -> None:
+        """Show the results of a run that has ended, where what it is of is still in view."""
+        scene, folder = self._scene(), run.folder
+        if scene is None or build_of(scene) != self._build:
             text = translated("Results are in {}; they are not shown, as another bridge is built here now")
             messages.note(scene or bpy.context.scene, _BUTTON, "WARNING", text.format(folder))
             return
@@ -96,6 +102,9 @@ class RunsBeside:
             session.forget_recording(last.folder)
         recorded_scene(scene).show_results(adopt_run(scene, folder))
         contour_view.follow(scene)
+        if self.is_stopping:
+            text = translated("Stopped after {} of {} frames").format(run.state.frames, run.state.of_frames)
+            messages.note(scene, _BUTTON, "WARNING", text)
         messages.note(scene, _BUTTON, "INFO", translated("Results are in {}").format(folder))
 
     def _scene(self) -> bpy.types.Scene | None:
@@ -128,8 +137,12 @@ class BDA_OT_run_beside(Action, bpy.types.Operator):
     bl_label = "Run Beside"
     blocked_by = (no_world, _goes_on, baked)
 
+    build_anew: BUILD_ANEW
+
     def act(self, context: bpy.types.Context) -> None:
         scene = context.scene
+        if self.build_anew:
+            build_for_run(self, context)
         scenario = scenario_of_run_beside(scene)
         chosen = scene.bda.output_directory
         folder = absolute(chosen) if chosen else new_folder(scenario.title)
@@ -142,17 +155,23 @@ class BDA_OT_run_beside(Action, bpy.types.Operator):
 
 
 class BDA_OT_stop_run_beside(Action, bpy.types.Operator):
-    """End the run that goes on beside Blender; what it has written by now stays in its folder"""
+    """End the run that goes on beside Blender; what it has simulated by now is kept and shown"""
 
     bl_label = "Stop Run Beside"
     changes_scene = False
     blocked_by = (_none_goes_on,)
 
     def act(self, context: bpy.types.Context) -> None:
-        folder = runs_beside.run.folder
+        run = runs_beside.run
+        if not runs_beside.is_stopping and run.stop():
+            runs_beside.is_stopping = True
+            return
         runs_beside.stop()
-        text = translated("Stopped; what was written by then is in {}").format(folder)
         messages.clear_button(_BUTTON)
+        if result_digest_in(run.folder):  # only its pictures were not all taken
+            runs_beside.show(run)
+            return
+        text = translated("Stopped; what was written by then is in {}").format(run.folder)
         messages.note(context.scene, _BUTTON, "WARNING", text)
 
 
@@ -170,11 +189,20 @@ def scenario_of_run_beside(scene: bpy.types.Scene) -> Scenario:
     return scenario
 
 
-def draw_run_beside(layout: bpy.types.UILayout, context: bpy.types.Context) -> None:
-    """Draw the button, and while a run goes on how far it is and what stops it."""
+def draw_run_beside(layout: bpy.types.UILayout, context: bpy.types.Context, *, has_changed: bool) -> None:
+    """Draw the button, which builds again first as Run does, and while a run goes on how far it is and what stops it.
+
+    What comes and goes is below the button that stops it, which so stays under the mouse.
+    """
     if runs_beside.run is None:
-        layout.operator(BDA_OT_run_beside.bl_idname, icon="WINDOW")
+        text = "Build Again and Run Beside" if has_changed else "Run Beside"
+        layout.operator(BDA_OT_run_beside.bl_idname, text=text, icon="WINDOW").build_anew = has_changed
+        for message in messages.messages_of(context.scene):
+            if message.button == _BUTTON:  # the panel that has all messages may be closed
+                draw_sentence(layout, context, message.text, icon="INFO")
         return
+    text = "Stop Now, without Results" if runs_beside.is_stopping else "Stop Run Beside"
+    layout.operator(BDA_OT_stop_run_beside.bl_idname, text=text, icon="X")
     state = runs_beside.run.state
     done = translated("{} of {} frames, {} connections broken").format(state.frames, state.of_frames, state.broken)
     layout.progress(factor=state.frames / max(state.of_frames, 1), text=done if state.of_frames else "")
@@ -182,7 +210,6 @@ def draw_run_beside(layout: bpy.types.UILayout, context: bpy.types.Context) -> N
         draw_sentence(layout, context, state.stage, icon="NONE")
     if state.left_s:
         draw_sentence(layout, context, time_left_text(state.left_s), icon="NONE")
-    layout.operator(BDA_OT_stop_run_beside.bl_idname, icon="X")
 
 
 def unregister() -> None:

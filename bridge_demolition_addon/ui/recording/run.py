@@ -33,6 +33,23 @@ from .operator import (
 _SLOW_FRAME_S = 0.5
 
 
+BUILD_ANEW = BoolProperty(
+    name="Build Again",
+    description="Build what the panels show first, in place of what was built before",
+    options={"SKIP_SAVE"},
+)
+
+
+def build_for_run(operator: bpy.types.Operator, context: bpy.types.Context) -> None:
+    """Build what the panels show in place of what was built before, as a button that runs it."""
+    if reason := other_mode(context):
+        raise SimulationError(reason)
+    check_output(context.scene.bda)
+    stop_playing(context)
+    operator.report({"INFO"}, build_again(context))
+    bpy.ops.ed.undo_push(message=BDA_OT_build_anew.bl_label)  # a run itself is nothing to undo
+
+
 class BDA_OT_run(SteppedTask, bpy.types.Operator):
     """Simulate and record from the start frame to the last one, and write the results; Esc stops"""
 
@@ -41,11 +58,7 @@ class BDA_OT_run(SteppedTask, bpy.types.Operator):
     tick_s = 0.001
     blocked_by = (recording_disabled_reason,)
 
-    build_anew: BoolProperty(
-        name="Build Again",
-        description="Build what the panels show first, in place of what was built before",
-        options={"SKIP_SAVE"},
-    )
+    build_anew: BUILD_ANEW
 
     pictures: BoolProperty(
         name="Pictures", description="Render the run's pictures when it has ended", options={"SKIP_SAVE"}
@@ -59,7 +72,7 @@ class BDA_OT_run(SteppedTask, bpy.types.Operator):
 
     def begin(self, context: bpy.types.Context) -> int:
         if self.build_anew:
-            self._build(context)
+            build_for_run(self, context)
         frames_to_play(context.scene)  # a recording changes the scene before it is played
         recording = new_recording(context.scene)
         warn_of_changed_bodies(self, recording)
@@ -96,13 +109,6 @@ class BDA_OT_run(SteppedTask, bpy.types.Operator):
         if self.pictures and ended == {"FINISHED"} and playing.finished and not playing.recording.error:
             self._take_pictures()
         return ended
-
-    def _build(self, context: bpy.types.Context) -> None:
-        if reason := other_mode(context):
-            raise SimulationError(reason)
-        check_output(context.scene.bda)
-        self.report({"INFO"}, build_again(context))
-        bpy.ops.ed.undo_push(message=BDA_OT_build_anew.bl_label)  # a run itself is nothing to undo
 
     def _take_pictures(self) -> None:
         """Render pictures as their own button does, in the window picture by picture."""

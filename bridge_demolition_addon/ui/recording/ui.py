@@ -24,7 +24,7 @@ class BDA_PT_run(SidebarPanel, bpy.types.Panel):
         settings, recording = context.scene.bda, running_recording()
         changed = [] if recording else changes(settings)
         draw_run(self.layout.column(align=True), settings, has_changed=bool(changed))
-        draw_run_beside(self.layout.column(align=True), context)
+        draw_run_beside(self.layout.column(align=True), context, has_changed=bool(changed))
         column = _draw_folder(self.layout, settings)
         column.prop(settings, "pictures_of_run")
         if recording:

@@ -85,6 +85,27 @@ def test_stopping_it_ends_its_process_and_so_does_switching_the_extension_off(bu
     assert told(built.context.scene) == [f"Stopped; what was written by then is in {tmp_path / 'beside'}"]
 
 
+def test_one_that_is_stopped_is_kept_and_shown_also_of_what_was_built_for_it(built, runs, tmp_path):
+    scene = built.context.scene
+    scene.bda.scenario.fracture.shards, scene.bda.scenario.time.duration_s = SHARDS + 1, 60.0
+    assert built.ops.bda.run_beside(build_anew=True) == {"FINISHED"}
+    look_until(runs, lambda: runs.run.state.frames)
+    assert built.ops.bda.stop_run_beside() == {"FINISHED"} and runs.is_stopping
+    look_until(runs, lambda: runs.run is None)
+    summary = json.loads((tmp_path / "beside" / "summary.json").read_text(encoding="utf-8"))
+    shown = shown_results(scene).series
+    assert not summary["completed"] and 1 < len(shown) == summary["frames"] < 60 * 24
+    assert is_run_of(scene, tmp_path / "beside")
+    assert sum(kind_of(body) == Kind.SHARD for body in bodies_of(scene)) == SHARDS + 1
+    stopped, kept = told(scene)
+    assert stopped.startswith("Stopped after ") and kept == f"Results are in {tmp_path / 'beside'}"
+    scene.frame_set(summary["frames"])  # the first frame is not recorded
+    (ball,) = (body for body in bodies_of(scene) if kind_of(body) == Kind.BALL)
+    height_m = ball.evaluated_get(scene.view_layers[0].depsgraph).matrix_world.translation.z
+    row = shown.row_at(scene.frame_current)
+    assert height_m == pytest.approx(shown.frame(row).positions_m[shown.body_names.index(ball.name), 2], abs=1e-4)
+
+
 def test_a_process_that_is_killed_is_told_of(built, runs):
     built.ops.bda.run_beside()
     os.kill(runs.run.process_id, signal.SIGKILL)
