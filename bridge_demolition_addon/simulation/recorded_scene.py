@@ -65,7 +65,8 @@ class RecordedScene:
             if not self._is_alone:
                 self.look()
         elif recording:
-            self.results.hold()  # Blender may have lost what it played, as after undo
+            with suppress(ReferenceError):  # another file was opened
+                self.results.hold()  # Blender may have lost what it played, as after undo
         return recording
 
     def show_results(self, results: Results) -> None:
