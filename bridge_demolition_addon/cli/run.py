@@ -20,7 +20,7 @@ from ..model.run_folder.folder import check_folder, numbered_folder, remove_repo
 from ..model.scenario import Scenario
 from ..model.scenario.file import read_scenario
 from ..model.sequence.checked_model import checked_model
-from ..model.sequence.doubts import doubts_of_run
+from ..model.sequence.doubts import doubts_of_run, first_doubts
 from ..model.stages.stability import stability_texts
 from ..model.structure.model import Model
 from ..report.units.quantities import ReportUnits
@@ -188,7 +188,9 @@ def _print_results(
     summary: Mapping[str, Any], output: Path, report: Sequence[Path], plain: str, quantities: ReportUnits
 ) -> None:
     print()
-    for doubt in (plain, *stability_texts(summary), *doubts_of_run(summary)):
+    first = first_doubts(summary)
+    others = doubts_of_run(summary)[len(first) :]
+    for doubt in (*first, plain, *stability_texts(summary), *others):
         if doubt:
             print(f"{quantities.text(doubt)}.\n")
     for name, value in _result_facts(summary):

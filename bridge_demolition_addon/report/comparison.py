@@ -10,7 +10,7 @@ from itertools import takewhile
 from ..charts.histories import compared_histories
 from ..charts.plan_maps import debris_maps, debris_maps_height_mm
 from ..model.debris.throws import Debris, debris_of
-from ..model.results.collapse import collapse_progress, rest_of
+from ..model.results.collapse import collapse_progress
 from ..model.results.force_history import largest_on_a_shard
 from ..model.scenario import Ball
 from ..model.schema import given
@@ -29,13 +29,10 @@ def comparison(runs: Sequence[ReportedRun], version: str) -> Document:
     notices = [
         Paragraph(f"{name}: {text}", is_notice=True)
         for name, run in zip(names, runs, strict=True)
-        for text in run.shortcomings
+        for text in (*(f"{doubt}." for doubt in (run.first_doubts if run.results else ())), *run.shortcomings)
     ]
     if shared := shared_beginning(runs):
         notices.append(Paragraph(f"The names of all folders begin with {shared}, which is left out here."))
-    if moving := [name for name, run in whole if rest_of(run.recorded).moving_at_end]:
-        notice = "Shards still move at the end of {}: their throws, footprints and piles are not final."
-        notices.append(Paragraph(notice.format(", ".join(moving)), is_notice=True))
     listed = [(name, run.title, _differences(run)) for name, run in zip(names, runs, strict=True)]
     columns = (Column("run", "run"), Column("scenario", "scenario"), Column("ball and charges", "means"))
     sections = [Section("The runs", (*notices, DataTable("runs", "Runs", columns, listed)))]

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..engineering.units import mass_text, rounded_up
+from ..engineering.units import SIGNIFICANT_DIGITS, mass_text, rounded_up, with_digits
 from ..model.debris.throws import Debris, percentiles_by_mass
 from ..model.results.collapse import collapse_progress, rest_of
 from ..model.results.force_history import most_loaded
@@ -14,6 +14,8 @@ from ..model.results.moving import still_moving_note
 from .run_folder import ReportedRun
 
 IMPACT = "Impact of the ball"
+
+NO_OUTCOME = "not known: the run has no outcome"
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,15 +31,17 @@ class Finding:
 def findings(run: ReportedRun, debris: Debris) -> list[Finding]:
     """Return the main findings of a run that has results, always in the same order, the value None where unknown."""
     results = run.recorded
-    rest = rest_of(results)
+    rest, has_outcome = rest_of(results), run.ending.has_outcome
+    rest_s = rest.at_rest_s if has_outcome else None
     broken = int((~results.frames.intact[-1]).sum())
     count = results.frames.intact.shape[1]
     unrest = "nothing moved" if rest.first_motion_s is None else "not at rest at the end"
+    unrest = unrest if has_outcome else NO_OUTCOME
     first = [
-        _finding(IMPACT, "s", run.ball.first_hit_s, ".3f"),
+        _finding(IMPACT, "s", run.ball.first_hit_s, ".3f", "none" if has_outcome else "none so far"),
         Finding("Connections broken", "1", broken, f"{broken} of {count}"),
         _finding("Progress of the collapse", "%", 100.0 * float(collapse_progress(results)[-1]), ".0f"),
-        _finding("All shards at rest from", "s", rest.at_rest_s, ".2f", unrest),
+        _finding("All shards at rest from", "s", rest_s, ".2f", unrest),
         Finding("Debris", "t", float(debris.masses_kg.sum()) / 1e3, mass_text(float(debris.masses_kg.sum()), 1)),
         _finding("Footprint of the debris", "m²", debris.area.area(), ".0f"),
         _finding("Height of the pile", "m", debris.highest_m, ".2f"),
@@ -62,12 +66,13 @@ def _throws(run: ReportedRun, debris: Debris) -> list[Finding]:
 
 def _largest_load(run: ReportedRun) -> Finding:
     results = run.recorded
-    peaks = most_loaded(results.frames.loads.body_peak_sums_n, results.inventory.of_kind("shard"), 1)
+    peaks = most_loaded(results.frames.loads.body_peaks_n, results.inventory.of_kind("shard"), 1)
     if not peaks:
         return Finding("Largest load on a shard", "kN", None, "not known")
     (peak,) = peaks
     name, time_s = results.inventory.body_names[peak.row], results.frames.time_s[peak.step]
-    text = f"{peak.force_n / 1e3:.0f} kN on {name} at {time_s:.3f} s"
+    force = with_digits(float(f"{peak.force_n / 1e3:.{SIGNIFICANT_DIGITS}g}"), 0)
+    text = f"{force} kN, the resultant on {name} in its worst sub-step, at {time_s:.3f} s"
     return Finding("Largest load on a shard", "kN", peak.force_n / 1e3, text)
 
 

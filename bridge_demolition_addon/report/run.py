@@ -28,7 +28,7 @@ from .document.blocks import Document, Report, Section
 from .names import names_in_run
 from .run_folder import ReportedRun
 from .sections.blast import blast_section
-from .sections.charge_plan import charge_plan_section
+from .sections.charge_plan import charge_plan_section, flyrock_of, known_plan
 from .sections.collapse import collapse_section
 from .sections.cover import ONE_RUN, RUN_TITLE, findings_section, run_section, scenario_section, trust_section
 from .sections.debris import corner_table, debris_section, exclusion_section, terrain_section, zone_of
@@ -82,10 +82,12 @@ def run_document(
     any.
     """
     debris = None if run.results is None else debris_of(run.results)
+    plan = known_plan(run.scenario)
+    flyrock = flyrock_of(plan)
     sections: list[Section] = []
     if run.results is not None and debris is not None and len(run.results.inventory.of_kind("shard")):
         others = {name: path for name, path in run.pictures.items() if name != first_photo(run)}
-        sections.append(findings_section(run, debris, others))
+        sections.append(findings_section(run, debris, others, flyrock))
         if run.scenario:
             sections.append(sequence_section(run.scenario))
         sections.append(model_section(run.results))
@@ -97,8 +99,8 @@ def run_document(
         sections.append(collapse_section(run))
         if run.scenario and (blast := blast_section(run.scenario, debris.outline, debris.ground)):
             sections.append(blast)
-        if run.scenario and (plan := charge_plan_section(run.scenario, _zone_loads(run))):
-            sections.append(plan)
+        if run.scenario and (charges := charge_plan_section(run.scenario, plan, _zone_loads(run))):
+            sections.append(charges)
         if run.scenario and (touchdown := touchdown_section(run.results, run.scenario.neighbours)):
             sections.append(touchdown)
         if motion := motion_section(run):
@@ -117,7 +119,7 @@ def run_document(
     if run.scenario:
         sections.append(scenario_section(run, scenario_text(run.scenario)))
     subtitle = f"Report of a simulated demolition. Bridge Demolition Add-on {version}"
-    document = Document(run.title, subtitle, tuple(sections), run_summary(run, debris, zone))
+    document = Document(run.title, subtitle, tuple(sections), run_summary(run, debris, flyrock))
     return with_plan_contents(document, run.scenario, RUN_TITLE)
 
 

@@ -6,7 +6,7 @@ import os
 import struct
 import zlib
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +18,7 @@ from ..model.debris.footprint import check_covers_ground
 from ..model.results.arrays import FRAMES_FILE, RESULTS_FILE, Results, load_results, results_in
 from ..model.results.motion import without_removed
 from ..model.results.moving import moving_summary, moving_text
+from ..model.results.solver_energy import is_known, made_share, much_made_text
 from ..model.results.summary import hits_of_balls, impact_of
 from ..model.run_folder.files import FORCE_LOG, PICTURE_FOLDER, PICTURES, SCENARIO_FILE, SUMMARY_FILE
 from ..model.run_folder.folder import holds_run, writer_of_run
@@ -27,6 +28,7 @@ from ..model.scenario import ReportSettings, Scenario
 from ..model.scenario.file import read_scenario
 from ..model.schema import given
 from ..model.sequence.bare_bars import bare_bars_text
+from ..model.sequence.ending import Ending, undone_at_end
 from ..model.sequence.held_parts import held_parts_text, pick_texts
 from ..model.sequence.undisturbed import self_collapse_text
 from ..system.reading import MEGABYTE, check_file
@@ -49,6 +51,7 @@ class ReportedRun:
     logged_forces: LoggedForces | None  # only where there are no results
     logged_breaks: int | None  # connections in the breaking log, only where there are no results
     pictures: dict[str, Path]  # rendered, by name
+    is_cut: bool  # only the frames are there that were recorded before it was killed, or so far
     shortcomings: tuple[str, ...]  # whole sentences on what is missing
 
     @property
@@ -69,8 +72,32 @@ class ReportedRun:
     @property
     def still_moving(self) -> str:
         """What of it still moved at the end, as a sentence without a full stop; empty where all rested."""
-        summary = self.summary.values if self.summary else {}
-        return moving_text({**summary, "moving_at_end": moving_summary(self.recorded)})
+        return moving_text(self._as_recorded)
+
+    @property
+    def ending(self) -> Ending:
+        """How it ended, with results."""
+        ending = Ending.of(self._as_recorded)
+        return replace(ending, how="Recorded up to") if self.is_cut else ending
+
+    @property
+    def first_doubts(self) -> tuple[str, ...]:
+        """What has to be said before any of its results, as sentences without full stops."""
+        made = made_share(self.recorded) if is_known(self.recorded) else 0.0
+        return tuple(filter(None, (self.ending.text, self.still_moving, much_made_text(made))))
+
+    @property
+    def _as_recorded(self) -> dict[str, Any]:
+        """How a run that has results ended, by these, its scenario and its summary."""
+        results, summary = self.recorded, self.summary or RunSummary({"completed": not self.is_cut})
+        has_hit = self.ball.impact_s is not None
+        return {
+            "completed": summary.completed,
+            "came_to_rest_s": summary.came_to_rest_s,
+            "simulated_s": float(results.frames.time_s[-1]),
+            "ended_before": self.scenario and undone_at_end(results, self.scenario, has_hit=has_hit),
+            "moving_at_end": moving_summary(results),
+        }
 
     @property
     def name(self) -> str:
@@ -102,8 +129,6 @@ def read_run(folder: Path) -> ReportedRun:
     shortcomings: list[str] = []
     results = _results(folder, at_work, shortcomings)
     summary = _summary(folder, shortcomings)
-    if summary and not summary.completed:
-        shortcomings.append("The run was stopped before its time: everything here ends where it was stopped.")
     if summary:
         values = summary.values
         doubts = self_collapse_text(values), held_parts_text(values), *pick_texts(values), bare_bars_text(values)
@@ -126,6 +151,7 @@ def read_run(folder: Path) -> ReportedRun:
         logged_forces=logged,
         logged_breaks=_log(count_logged_breaks, folder, shortcomings) if results is None else None,
         pictures=pictures_in(folder, shortcomings),
+        is_cut=results is not None and not (folder / RESULTS_FILE).exists(),
         shortcomings=tuple(shortcomings),
     )
 

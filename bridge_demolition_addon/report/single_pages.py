@@ -11,14 +11,18 @@ from ..model.run_folder.files import SINGLE_PAGES
 from ..model.scenario import Ball, Scenario
 from .document.blocks import Block, Column, DataTable, Document, Paragraph, facts
 from .sections.cover import limits_of
+from .wording.clearance import CORDON
 
 CLIENT, AUTHORITY, CREW = AUDIENCES = tuple(SINGLE_PAGES)
 
 _AROUND = ("neighbours", "charge_neighbours", "touchdown", "neighbours_of_runs", "zones", "fragments")
 """Tables on what is around the bridge, as far as a report has them."""
 
-_MOST_ROWS, _MOST_AROUND = 16, 6
-"""Rows of a table that fit on a page beside all else: of the crew, and of each table on what is around the bridge."""
+_MOST_ROWS = 16
+"""Rows of a table that fit on the crew's page beside all else."""
+
+_NOT_FOR_CREW = ("Outcome", "Rests on")
+"""Rows of the plan that tell a crew nothing to do; the verdict says that there was one run, or how many."""
 
 _BLANK = "________"
 _LINE_FACTOR, _CRANE_FACTOR = 4.0, 2.0
@@ -75,8 +79,7 @@ def _for_authority(document: Document, scenario: Scenario | None) -> Iterator[Bl
     verdict, plan, doubts = _first_words(document)
     yield from verdict
     yield from plan
-    around = [table for name in _AROUND if (table := document.table(name))]
-    yield from (_shortened(table, _MOST_AROUND) for table in around)
+    yield from (table for name in _AROUND if (table := document.table(name)))
     if scenario is None or not scenario.neighbours:
         yield Paragraph("The scenario names no neighbours: vibration and pressure at buildings are not stated.")
     if scenario is None or not scenario.zones:
@@ -100,25 +103,28 @@ def _for_crew(document: Document, scenario: Scenario | None) -> Iterator[Block]:
     verdict, plan, _ = _first_words(document)
     yield from verdict
     yield Paragraph(_PLANNED, is_notice=True)
-    yield from plan
+    yield from (replace(table, rows=[row for row in table.rows if row[0] not in _NOT_FOR_CREW]) for table in plan)
     if (sequence := document.table("sequence")) is not None:
         yield _shortened(sequence)
-    yield facts("Who stands where, and when", list(_safety(scenario)))
+    yield facts("Who stands where, and when", list(_safety(scenario, plan)))
     if (misfires := document.table("misfires")) is not None:
         yield _shortened(misfires)
     yield _checklist(scenario)
 
 
 def _first_words(document: Document) -> tuple[list[Paragraph], list[DataTable], list[Paragraph]]:
-    """Return the verdict and the plan from the first page, and what is to be doubted."""
-    words = [block for block in document.summary if isinstance(block, Paragraph)]
-    return words[:1], [block for block in document.summary if isinstance(block, DataTable)], words[1:]
+    """Return the verdict with what is said before it and the plan from the first page, and what is to be doubted."""
+    plan = [block for block in document.summary if isinstance(block, DataTable)]
+    ends = document.summary.index(plan[0]) if plan else len(document.summary)
+    first, later = document.summary[:ends], document.summary[ends:]
+    verdict, doubts = ([block for block in part if isinstance(block, Paragraph)] for part in (first, later))
+    return verdict, plan, doubts
 
 
-def _safety(scenario: Scenario | None) -> Iterator[tuple[str, str]]:
+def _safety(scenario: Scenario | None, plan: Sequence[DataTable]) -> Iterator[tuple[str, str]]:
     exclusion = scenario.exclusion if scenario else None
     if exclusion is not None and exclusion.cordon_m is not None:
-        yield "Clear of people within", f"{exclusion.cordon_m:g} m of the bridge's plan, by the scenario"
+        yield "Clear of people within", next(row[1] for table in plan for row in table.rows if row[0] == CORDON)
     else:
         yield "Clear of people within", f"{_BLANK} m of the bridge's plan: to be filled in by the engineer"
     yield "Guards, and the one who gives the signal", f"{_BLANK}: to be filled in by the one in charge"
@@ -158,11 +164,10 @@ def _has_explosives(scenario: Scenario) -> bool:
     return bool(scenario.charges or scenario.blast_zones or scenario.cuts)
 
 
-def _shortened(table: DataTable, most: int = _MOST_ROWS) -> DataTable:
+def _shortened(table: DataTable) -> DataTable:
     """Return a table that fits on the page, and says how many of its rows are in the report alone."""
-    left = len(table.rows) - most
+    left = len(table.rows) - _MOST_ROWS
     if left <= 0:
         return table
-    return replace(
-        table, title=f"{table.title}: the first {most}; {left} more are in the report", rows=table.rows[:most]
-    )
+    title = f"{table.title}: the first {_MOST_ROWS}; {left} more are in the report"
+    return replace(table, title=title, rows=table.rows[:_MOST_ROWS])

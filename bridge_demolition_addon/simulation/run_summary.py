@@ -21,6 +21,7 @@ from ..model.results.motion import without_removed
 from ..model.results.summary import settling, summarise
 from ..model.scenario import Scenario
 from ..model.schema import given
+from ..model.sequence.ending import undone_at_end
 from ..model.sequence.rest import Rest, last_event_s
 from ..model.sequence.undisturbed import fell_by_itself
 from ..model.structure.settlement import settlements
@@ -108,7 +109,12 @@ def run_summary(recording: Recording, results: Results, context: RunContext, *, 
         summary["pulls"] = recording.pulls.summary()
         if lifts := recording.pulls.hooks.summary():
             summary["lifts"] = lifts
-    return summary if scenario is None else summary | _of_scenario(scenario, recording, results, context.ground_motion)
+    return (
+        summary
+        if scenario is None
+        else summary
+        | _of_scenario(scenario, recording, results, context.ground_motion, has_hit=summary["impact"] is not None)
+    )
 
 
 def _shortest_substep_s(results: Results) -> float | None:
@@ -161,7 +167,7 @@ def _ground_motion(motion: GroundMotionOfScene | None) -> dict[str, Any] | None:
 
 
 def _of_scenario(
-    scenario: Scenario, recording: Recording, results: Results, motion: GroundMotionOfScene | None
+    scenario: Scenario, recording: Recording, results: Results, motion: GroundMotionOfScene | None, *, has_hit: bool
 ) -> dict[str, Any]:
     rest = rest_watch(scenario, motion)
     for state in zip(
@@ -170,6 +176,7 @@ def _of_scenario(
         rest.observe(*state, results.inventory.masses_kg)
     return {
         "seed": scenario.seed,
+        "ended_before": undone_at_end(results, scenario, has_hit=has_hit),
         "charges": _charges(scenario, recording),
         "settled": settling(results, scenario.connections.warm_up_s),
         "came_to_rest_s": rest.came_to_rest_s,

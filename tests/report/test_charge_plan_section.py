@@ -10,9 +10,13 @@ from bridge_demolition_addon.model.scenario import Geometry, MemberCut
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.structure.zone_loads import ZoneLoad
 from bridge_demolition_addon.report.document.blocks import DataTable, Paragraph
-from bridge_demolition_addon.report.sections.charge_plan import charge_plan_section
+from bridge_demolition_addon.report.sections.charge_plan import charge_plan_section, known_plan
 
 DRILLED = read_scenario(EXAMPLES / "drilled" / "two_spans.toml")
+
+
+def section_of(scenario):
+    return charge_plan_section(scenario, known_plan(scenario))
 
 
 def notices(section):
@@ -24,12 +28,12 @@ def tables(section):
 
 
 def test_a_scenario_without_zones_has_no_such_chapter():
-    assert charge_plan_section(TOLD) is None
+    assert section_of(TOLD) is None
 
 
 def test_what_a_blaster_would_ask_stands_once_for_all_zones():
     weak = [replace(zone, stemming_m=0.16, cover_factor=1.0) for zone in DRILLED.blast_zones]
-    found = notices(charge_plan_section(replace(DRILLED, blast_zones=weak)))
+    found = notices(section_of(replace(DRILLED, blast_zones=weak)))
     (stemming,) = [text for text in found if "stemming" in text]
     assert (
         stemming == "Look at P2.1, P2.2, P1.1, P1.2, P3.1, P3.2: stemming of 0.16 m is less than the burden, 0.175 m."
@@ -40,11 +44,11 @@ def test_what_a_blaster_would_ask_stands_once_for_all_zones():
 def test_misfires_and_an_odd_amount_are_named():
     first, *others = DRILLED.blast_zones
     zones = [replace(first, fires=False), *(replace(zone, charge_g=0.0) for zone in others)]
-    section = charge_plan_section(replace(DRILLED, blast_zones=zones))
+    section = section_of(replace(DRILLED, blast_zones=zones))
     assert "Planned not to fire: P2.1." in notices(section)
     assert tables(section)["firing_sequence"].rows == []
     assert tables(section)["charge_table"].shown_rows()[0][8] == "misfires"
-    light = charge_plan_section(replace(DRILLED, blast_zones=[replace(first, charge_g=10.0)]))
+    light = section_of(replace(DRILLED, blast_zones=[replace(first, charge_g=10.0)]))
     # 10 holes of 10 g on 196 t: 0.51 g/t
     assert "0.5 g/t are outside 1 to 90 g/t, which recorded jobs are within." in notices(light)
 
@@ -65,14 +69,14 @@ def test_what_is_above_a_zone_falls_and_can_land_on_its_stub():
 
 def test_a_file_that_is_gone_is_named_in_place_of_the_plan(tmp_path):
     gone = Geometry(file=str(tmp_path / "gone.stl"), name="gone", kind="pier", density_kg_m3=2400)
-    section = charge_plan_section(replace(DRILLED, geometry=(gone,)))
+    section = section_of(replace(DRILLED, geometry=(gone,)))
     (notice,) = notices(section)
     assert notice.startswith("The charge plan is not known: ") and "gone.stl" in notice
 
 
 def test_the_plan_of_a_viaduct_with_504_holes_is_whole():
     """Three walls of 5.0 × 0.8 m with two zones of 2.0 m each: 6 × 12 × 7 holes of 66 g in 6 × 8.0 m³."""
-    section = charge_plan_section(read_scenario(EXAMPLES / "drilled" / "viaduct_pier.toml"))
+    section = section_of(read_scenario(EXAMPLES / "drilled" / "viaduct_pier.toml"))
     found = tables(section)
     holes, fired = found["drill_holes"].rows, found["firing_sequence"].rows
     assert len(holes) == len(found["charge_table"].rows) == len(found["fragments"].rows) == 6
@@ -86,7 +90,7 @@ def test_the_plan_of_a_viaduct_with_504_holes_is_whole():
 
 def test_severed_members_have_a_table():
     cut = MemberCut(member="pier 1 cap", along="y", position_m=0.5, mass_kg=3.0, delay_ms=50.0)
-    section = charge_plan_section(replace(DRILLED, blast_zones=(), cuts=(cut,)))
+    section = section_of(replace(DRILLED, blast_zones=(), cuts=(cut,)))
     found = tables(section)
     assert found["severed_members"].shown_rows()[0][:3] == ["Cut 1", "pier 1 cap", "y"]
     assert [row[2] for row in found["firing_sequence"].rows] == ["Cut 1"]

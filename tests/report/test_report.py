@@ -92,7 +92,7 @@ def whole(tmp_path_factory):
 
 
 def notices_on_the_first_page(run):
-    summary = run_summary(run, debris_of(run.results), None)
+    summary = run_summary(run, debris_of(run.results))
     return {block.text for block in summary if isinstance(block, Paragraph) and block.is_notice}
 
 
@@ -229,8 +229,8 @@ def test_a_run_of_one_frame_says_so(tmp_path):
 
 def test_a_run_that_was_stopped_says_so(tmp_path):
     run = read_run(keep_run(tmp_path / "run", flying_shards(), completed=False))
-    assert any("stopped before its time" in text for text in run.shortcomings)
-    assert notices_on_the_first_page(run) >= set(run.shortcomings)
+    assert run.first_doubts[0] == "Stopped at 1.00 s, before its end: what follows is no outcome"
+    assert " ".join(f"{doubt}." for doubt in run.first_doubts) in notices_on_the_first_page(run)
 
 
 @pytest.mark.parametrize("last_lines", long_but([[]], [[], TORN_LINES]), ids=["whole", "in mid-line"])
@@ -386,7 +386,7 @@ def test_what_is_no_run_is_refused(tmp_path, what):
 
 @pytest.mark.parametrize("share, words", [(0.0, "nothing moved"), (1.0, "not at rest at the end")])
 def test_a_bridge_that_stands_is_not_told_of_as_one_that_still_falls(tmp_path, share, words):
-    flying = flying_shards(6, 13)
+    flying = flying_shards(6, 14)
     positions, speeds = flying.frames.positions_m, flying.frames.velocities_m_s
     run = keep_run(
         tmp_path / "run",

@@ -46,10 +46,11 @@ def test_each_is_one_page(pages):
         assert len(pdf.laid_out(page, drawings(page))) == 1, audience
 
 
-def test_each_begins_with_the_verdict(pages):
+def test_each_begins_with_what_is_to_be_doubted_and_the_verdict(pages):
     for page in pages[0].values():
-        first = next(block for block in page.summary if isinstance(block, Paragraph))
-        assert first.is_notice and re.match("In this one run|Debris stays within|These .* runs", first.text)
+        doubt, verdict, *_ = (block for block in page.summary if isinstance(block, Paragraph))
+        assert doubt.is_notice and re.search("shards still move|not everything had rested", doubt.text)
+        assert verdict.is_notice and re.match("In this one run|Debris stays within", verdict.text)
 
 
 def test_the_client_sees_a_picture(pages):

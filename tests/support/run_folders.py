@@ -48,6 +48,7 @@ def flying_shards(count=30, frames=25, frame_s=1 / 24):
     positions[:, :, 2] = np.maximum(first[:, 2] - G / 2 * times[:, None] ** 2, sizes[:, 2] / 2)
     speeds = np.broadcast_to(velocities, positions.shape).copy()
     speeds[:, :, 2] = np.where(positions[:, :, 2] > sizes[:, 2] / 2, -G * times[:, None], 0.0)
+    speeds[12:, count] = 0.0  # of the ball, once it has hit
     pairs = np.column_stack([np.arange(count - 1), np.arange(1, count)])
     connections = len(pairs)
     intact = np.ones((frames, connections), bool)

@@ -56,13 +56,13 @@ def moving_text(summary: Mapping[str, Any]) -> str:
     if not moving:
         return ""
     move = "moves" if moving["shards"] == 1 else "move"
+    longer = ". Let the run last longer: time.duration_s" if summary.get("completed", True) else ""
     # All together rested by their energy: only another limit lets such a run go on.
-    longer = "Let the run last longer: time.duration_s"
     if summary.get("came_to_rest_s") is not None:
-        longer = "As a whole it rests; a lower time.rest_speed_m_s, or no time.stop_at_rest, lets the run go on"
+        longer = ". As a whole it rests; a lower time.rest_speed_m_s, or no time.stop_at_rest, lets the run go on"
     return (
         f"{moving['shards']} of {moving['of_shards']} shards still {move} at the end, at up to "
-        f"{moving['fastest_m_s']:.1f} m/s ({moving['body']}): throws and debris distances are not final. {longer}"
+        f"{moving['fastest_m_s']:.1f} m/s ({moving['body']}): throws and debris distances are not final{longer}"
     )
 
 

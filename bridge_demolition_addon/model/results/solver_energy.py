@@ -18,6 +18,9 @@ DOUBTFUL_SHARE = 0.5
 ACCEPTED_SHARE = 0.01
 """Energy made by the solver, over what was dissipated, from which on a report warns."""
 
+LARGE_SHARE = 0.05
+"""The same, from which on that is said before any result: beside it, distances of debris are doubtful as a whole."""
+
 FARTHEST = 10
 """Shards whose energies the summary names."""
 
@@ -137,6 +140,16 @@ def _known_sum(of_frames_j: np.ndarray) -> float | None:
 def is_known(results: Results) -> bool:
     """Return whether the work of every frame after the first is known."""
     return bool(np.isfinite(results.frames.work.gravity_j[1:]).all()) and len(results.frames) > 1
+
+
+def much_made_text(share: float) -> str:
+    """Return that the solver made much energy, as a sentence without a full stop; empty for little."""
+    if share <= LARGE_SHARE:
+        return ""
+    return (
+        f"The solver made {100.0 * share:.1f} % of what was dissipated, more than {100.0 * LARGE_SHARE:g} %: debris "
+        "may be thrown too far"
+    )
 
 
 def made_share(results: Results) -> float:

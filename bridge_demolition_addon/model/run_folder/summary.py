@@ -384,6 +384,8 @@ _SUMMARY = {
     "stability": _is_table_or_none,
     "title": _is_text,
     "completed": lambda value: isinstance(value, bool),
+    "simulated_s": _is_number,
+    "ended_before": lambda value: value is None or _is_text(value),
     "blender": _is_text,
     "density_kg_m3": _is_number,
     "impact": _is_table_or_none,

@@ -6,13 +6,23 @@ from collections.abc import Mapping
 from typing import Any
 
 from ..results.moving import moving_text
+from ..results.solver_energy import much_made_text
 from .bare_bars import bare_bars_text
+from .ending import Ending
 from .held_parts import held_parts_text, pick_texts
 from .undisturbed import self_collapse_text
 
 
 def doubts_of_run(summary: Mapping[str, Any]) -> tuple[str, ...]:
-    """Return all that is doubtful as sentences without full stops."""
+    """Return all that is doubtful as sentences without full stops, what has to be said before any result first."""
     of_parts = held_parts_text(summary), *pick_texts(summary)
-    texts = self_collapse_text(summary), *of_parts, bare_bars_text(summary), moving_text(summary)
+    texts = *first_doubts(summary), self_collapse_text(summary), *of_parts, bare_bars_text(summary)
+    return tuple(text for text in texts if text)
+
+
+def first_doubts(summary: Mapping[str, Any]) -> tuple[str, ...]:
+    """Return what has to be said before any result: that a run has no outcome, still moved, or gained energy."""
+    energy = summary.get("energy")
+    made = energy["made_by_solver"]["share_of_dissipated"] if energy else 0.0
+    texts = Ending.of(summary).text, moving_text(summary), much_made_text(made)
     return tuple(text for text in texts if text)

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
+from ...model.results.solver_energy import LARGE_SHARE
 from ...model.study.file import Study
 from ...model.study.runs_table import DONE
 from ..document.blocks import Block, Document, Listing, Paragraph, Section, facts
 from ..sections.cover import trust_section
+from ..wording.numbers import percent
 from ..wording.study import input_names
 from .criteria import criteria_section
 from .influence import influence_section, varied_section
@@ -18,7 +20,7 @@ _AS_SAMPLED = (
     "distributions, inputs that scatter and do not vary here, and errors of the model are in none of them."
 )
 _MOST_NAMED = 8
-_REST = "came_to_rest_s"
+_REST, _MADE = "came_to_rest_s", "made_by_solver_share"
 
 
 def ensemble_document(
@@ -72,7 +74,7 @@ def unfinished_sentence(runs: ReportedEnsemble, total: int) -> str:
 
 
 def doubts_of(runs: ReportedEnsemble) -> Iterator[str]:
-    """Yield what to doubt of runs: those that did not finish, and those that had not come to rest."""
+    """Yield what to doubt of runs: those not finished, not come to rest, or with much energy made by the solver."""
     table = runs.table
     lost = [row for row in table.rows if row.status != DONE]
     if lost:
@@ -85,6 +87,12 @@ def doubts_of(runs: ReportedEnsemble) -> Iterator[str]:
             f"In {moving} of {len(table)} runs not everything had rested for "
             f"{runs.ensemble.scenario.time.rest_hold_s:g} s when their time was over: debris may have gone on. Give "
             "the scenario a longer time.duration_s."
+        )
+    made = [row.outputs.get(_MADE) or 0.0 for row in table.rows if row.status == DONE]
+    if most := sum(share > LARGE_SHARE for share in made):
+        yield (
+            f"In {most} of {len(table)} runs the solver made more than {percent(LARGE_SHARE)} of what was dissipated, "
+            f"up to {100.0 * max(made):.1f} %: debris may be thrown too far."
         )
 
 

@@ -12,13 +12,14 @@ from ...charts.study_charts import limit_over_runs, reach_distribution
 from ...engineering.statistics.order_limits import limits_by_runs
 from ...engineering.units import rounded_up
 from ...model.scenario import Scenario
+from ...model.structure.charge_plan import ChargePlan
 from ...model.study.conclusions import SimultaneousLimits
 from ...model.study.files import PLAN_DXF, PLAN_GEOJSON
 from ...model.study.shown_names import shown
 from ...system.progress import Progress
 from ...version import VERSION
 from ..document.blocks import Block, Column, DataTable, Document, Paragraph, Picture, Report, Section
-from ..sections.charge_plan import charge_plan_section
+from ..sections.charge_plan import charge_plan_section, flyrock_of, known_plan
 from ..sections.cover import TRUST_TITLE
 from ..sections.plan_contents import with_plan_contents
 from ..sections.planned_sequence import sequence_section
@@ -67,13 +68,14 @@ def study_document(runs: StudyRuns, version: str, files: Sequence[str] = ()) -> 
     if runs.conclusions:
         sentences = list(study_sentences(runs.ensemble, runs.conclusions))
     scenario = runs.ensemble.scenario
+    plan = known_plan(scenario)
     pictures = (
         plan_section(runs, files),
         distance_section(runs),
         fragments_section(runs),
         neighbours_section(runs),
         sequence_section(scenario),
-        _charges_section(scenario),
+        _charges_section(scenario, plan),
     )
     document = ensemble_document(
         runs,
@@ -83,7 +85,7 @@ def study_document(runs: StudyRuns, version: str, files: Sequence[str] = ()) -> 
         (extremes_section(runs), runs_section(runs)),
         _STATISTICS,
         _asked(runs),
-        study_summary(runs),
+        study_summary(runs, flyrock_of(plan)),
     )
     return with_plan_contents(document, scenario, TRUST_TITLE)
 
@@ -115,9 +117,9 @@ def _asked(runs: StudyRuns) -> Iterator[tuple[str, str]]:
         yield "Runs that a limit needs", str(limit.runs_needed)
 
 
-def _charges_section(scenario: Scenario) -> Section | None:
+def _charges_section(scenario: Scenario, plan: ChargePlan | str | None) -> Section | None:
     """Return the charge plan of the scenario itself; None without charges in drill holes."""
-    section = charge_plan_section(scenario)
+    section = charge_plan_section(scenario, plan)
     words = Paragraph("As the scenario has it: runs differ from it in what varied.")
     return section and replace(section, blocks=(words, *section.blocks))
 

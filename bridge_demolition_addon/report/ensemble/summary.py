@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from ...engineering.units import rounded_up
-from ...model.structure.zone_fragments import NO_SAFETY_DISTANCE
 from ..document.blocks import Block, Paragraph, facts
+from ..wording.clearance import Flyrock, clearance_rows, flyrock_of_runs
 from ..wording.numbers import listed, percent, percent_down
 from ..wording.sequence import means_text
 from ..wording.study import input_names
@@ -16,29 +16,28 @@ from .plan import plan_picture
 from .study_runs import StudyRuns
 
 
-def study_summary(runs: StudyRuns) -> tuple[Block, ...]:
-    """Return what stands on the first page."""
+def study_summary(runs: StudyRuns, flyrock: Flyrock | str | None = None) -> tuple[Block, ...]:
+    """Return what stands on the first page, what makes runs doubtful first; `flyrock` is that of the scenario."""
     picture = () if runs.bridge.is_empty() else (plan_picture(runs),)
     verdict = unfinished_sentence(runs, runs.ensemble.settings.runs)
     if runs.conclusions:
         verdict = study_verdict(runs.conclusions.reach, runs.buffer_m, is_final=not runs.conclusions.still_moving)
     doubts = (Paragraph(text, is_notice=True) for text in doubts_of(runs))
-    return (*picture, Paragraph(verdict, is_notice=True), facts("The plan", list(_plan(runs)), "plan"), *doubts)
+    plan = facts("The plan", list(_plan(runs, flyrock)), "plan")
+    return (*doubts, *picture, Paragraph(verdict, is_notice=True), plan)
 
 
-def _plan(runs: StudyRuns) -> Iterator[tuple[str, str]]:
+def _plan(runs: StudyRuns, flyrock: Flyrock | str | None) -> Iterator[tuple[str, str]]:
     scenario, conclusions = runs.ensemble.scenario, runs.conclusions
     yield "Done to the bridge", means_text(scenario)
     for criterion in conclusions.criteria if conclusions else ():
         at_least = f"at least {percent_down(criterion.at_least)} of such runs do"
         yield "Outcome", f"{criterion.count} of {criterion.runs} runs {criterion.what}; {at_least}"
     yield "Limit", _limit_text(runs)
-    if conclusions and conclusions.fragments and conclusions.fragments.are_known:
-        far_m = rounded_up(conclusions.fragments.nearly_all_m, "1")
-        text = f"99.9 % of their mass within {far_m} m of their blast zone: {NO_SAFETY_DISTANCE}"
-        yield "Fragments smaller than shards", text
-    if scenario.exclusion and scenario.exclusion.cordon_m is not None:
-        yield "Cordon", f"{scenario.exclusion.cordon_m:g} m around the bridge's plan, by the scenario"
+    if conclusions and conclusions.fragments:
+        flyrock = flyrock_of_runs(conclusions.fragments)
+    limit = (next(iter(runs.limits.values()))[0], "that debris stays within by this study") if runs.limits else None
+    yield from clearance_rows(scenario, flyrock, limit)
     yield "Rests on", _basis_text(runs)
 
 

@@ -16,6 +16,7 @@ from ...model.structure.charge_plan import AtNeighbour, ChargePlan, Totals, char
 from ...model.structure.zone_fragments import NO_SAFETY_DISTANCE, FlyrockOfZone
 from ...model.structure.zone_loads import ZoneFall, ZoneLoad, bars_used, zone_falls
 from ..document.blocks import Block, Column, DataTable, Paragraph, Section, facts
+from ..wording.clearance import CORDON, Flyrock, cordon_text, flyrock_of_plan
 
 _TITLE = "Charge plan"
 _MEGA = 1e6
@@ -145,24 +146,38 @@ class _Fall:
     fall: ZoneFall
 
 
-def charge_plan_section(scenario: Scenario, loads: Sequence[ZoneLoad] = ()) -> Section | None:
-    """Return the charge plan of a scenario; None without blast zones and cuts. `loads` are what zones carry, if known.
+def known_plan(scenario: Scenario | None) -> ChargePlan | str | None:
+    """Return the charge plan of a scenario; None without blast zones and cuts.
 
-    Where a file of its members is not there any more, the section says so.
+    Where a file of its members is not there any more, a text says so.
     """
-    if not (scenario.blast_zones or scenario.cuts):
+    if scenario is None or not (scenario.blast_zones or scenario.cuts):
         return None
     try:
-        return planned_section(scenario, loads)
+        return charge_plan(scenario, prepared_members(scenario).members)
     except (GeometryError, ScenarioError) as error:
-        return Section(_TITLE, (Paragraph(f"The charge plan is not known: {error}.", True),))
+        return str(error)
+
+
+def flyrock_of(plan: ChargePlan | str | None) -> Flyrock | str | None:
+    """Return how far fragments of a plan fly, or why it is not known; None without blast zones."""
+    return flyrock_of_plan(plan) if isinstance(plan, ChargePlan) else plan
+
+
+def charge_plan_section(
+    scenario: Scenario, plan: ChargePlan | str | None, loads: Sequence[ZoneLoad] = ()
+) -> Section | None:
+    """Return the charge plan of a scenario, as `known_plan` has it; None without one. `loads` are what zones carry."""
+    if not isinstance(plan, ChargePlan):
+        return Section(_TITLE, (Paragraph(f"The charge plan is not known: {plan}.", True),)) if plan else None
+    cordon_m = scenario.exclusion.cordon_m if scenario.exclusion else None
+    return Section(_TITLE, tuple(plan_blocks(plan, loads, cordon_m)))
 
 
 def planned_section(scenario: Scenario, loads: Sequence[ZoneLoad] = ()) -> Section:
     """Return the charge plan of a scenario with blast zones or cuts, all of whose files are there."""
     plan = charge_plan(scenario, prepared_members(scenario).members)
-    cordon_m = scenario.exclusion.cordon_m if scenario.exclusion else None
-    return Section(_TITLE, tuple(plan_blocks(plan, loads, cordon_m)))
+    return given(charge_plan_section(scenario, plan, loads))
 
 
 def plan_blocks(plan: ChargePlan, loads: Sequence[ZoneLoad] = (), cordon_m: float | None = None) -> Iterator[Block]:
@@ -188,7 +203,8 @@ def plan_blocks(plan: ChargePlan, loads: Sequence[ZoneLoad] = (), cordon_m: floa
     yield from _neighbours(plan.neighbours)
     flown = [(placed, of) for placed, of in zip(plan.zones, plan.flyrock, strict=True) if of is not None]
     if flown:
-        clear = "" if cordon_m is None else f" {cordon_m:g} m around the bridge's plan are kept clear."
+        distances = flyrock.distances if (flyrock := flyrock_of_plan(plan)) else []
+        clear = "" if cordon_m is None else f" {CORDON}: {cordon_text(cordon_m, distances)}."
         yield Paragraph(_FLYING + clear)
         yield _fragments(flown)
 
@@ -249,5 +265,6 @@ def _neighbours(at: Sequence[AtNeighbour]) -> Iterator[Block]:
 
 
 def _fragments(flown: Sequence[tuple[PlacedZone, FlyrockOfZone]]) -> DataTable:
-    zones, distances = zip(*flown, strict=True)
+    worst_first = sorted(flown, key=lambda pair: pair[1].sampled.largest_m, reverse=True)
+    zones, distances = zip(*worst_first, strict=True)
     return DataTable.of("fragments", "How far fragments fly", _FLOWN, zones, distances)

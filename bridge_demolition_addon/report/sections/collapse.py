@@ -9,10 +9,11 @@ import numpy as np
 from ...charts.histories import energy_history, progress_history, span_heights
 from ...engineering.mechanics.work import FrameWork
 from ...model.results.arrays import Results
-from ...model.results.collapse import REST_SPEED_M_S, ShardRest, Span, collapse_progress, rest_of, spans_of
+from ...model.results.collapse import REST_SPEED_M_S, Span, collapse_progress, rest_of, spans_of
 from ...model.results.energy import Energy, energy_of
 from ...model.results.solver_energy import ACCEPTED_SHARE, is_known, made_share
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section, facts
+from ..findings import NO_OUTCOME
 from ..run_folder import ReportedRun
 
 
@@ -28,7 +29,7 @@ def collapse_section(run: ReportedRun) -> Section:
     )
     blocks: list[Block] = [
         Paragraph(definitions),
-        facts("Course of the collapse", [*_course(rest_of(results), progress), *_load_rows(run)], "collapse"),
+        facts("Course of the collapse", [*_course(run, progress), *_load_rows(run)], "collapse"),
     ]
     if spans:
         blocks += [
@@ -94,9 +95,13 @@ def _in_cracks(work: FrameWork) -> list[tuple[str, str]]:
     return [(name, f"{total_j / 1e6:.3f} MJ") for name, total_j in sums if total_j > 0.0]
 
 
-def _course(rest: ShardRest, progress: np.ndarray) -> list[tuple[str, str]]:
+def _course(run: ReportedRun, progress: np.ndarray) -> list[tuple[str, str]]:
+    rest, ending = rest_of(run.recorded), run.ending
     began = "never" if rest.first_motion_s is None else f"{rest.first_motion_s:.3f} s"
-    if rest.first_motion_s is None:
+    if not ending.has_outcome:
+        began = f"not up to {ending.time_s:.2f} s" if rest.first_motion_s is None else began
+        ended = NO_OUTCOME
+    elif rest.first_motion_s is None:
         ended = "nothing moved"
     elif rest.at_rest_s is None:
         ended = f"not within this run: {rest.moving_at_end} shards still move at the end"

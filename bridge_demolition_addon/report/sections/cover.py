@@ -16,6 +16,7 @@ from ..document.blocks import Block, Listing, Paragraph, Photo, Section, facts
 from ..findings import IMPACT, findings
 from ..run_folder import ReportedRun
 from ..wording.checks import CHECKS
+from ..wording.clearance import Flyrock, fragment_rows
 
 RUN_TITLE = "The run"
 TRUST_TITLE = "What is modelled, and how far to trust it"
@@ -72,10 +73,22 @@ def run_section(run: ReportedRun, version: str) -> Section:
     return Section(RUN_TITLE, (facts("Settings of the run", list(_run_facts(run, version)), "run"),))
 
 
-def findings_section(run: ReportedRun, debris: Debris, photos: Mapping[str, Path]) -> Section:
+def first_doubts_notice(run: ReportedRun) -> list[Paragraph]:
+    """Return what has to be said before any result of a run, as a notice; nothing where there is nothing to say."""
+    text = " ".join(f"{doubt}." for doubt in run.first_doubts)
+    return [Paragraph(text, is_notice=True)] if text else []
+
+
+def findings_section(
+    run: ReportedRun, debris: Debris, photos: Mapping[str, Path], flyrock: Flyrock | str | None = None
+) -> Section:
     """Return the main findings, and photos that the first page does not show, by name."""
-    table = facts("Main findings", list(_findings(run, debris)), "findings")
-    return Section("Findings", (table, *(Photo(path, photo_caption(run, name)) for name, path in photos.items())))
+    rows = [*_findings(run, debris), *fragment_rows(run.scenario, flyrock)]
+    table = facts("Main findings", rows, "findings")
+    return Section(
+        "Findings",
+        (*first_doubts_notice(run), table, *(Photo(path, photo_caption(run, name)) for name, path in photos.items())),
+    )
 
 
 def trust_section(scenario: Scenario | None, *more: str) -> Section:

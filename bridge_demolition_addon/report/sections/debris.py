@@ -27,6 +27,7 @@ from ...model.structure.zone_fragments import NO_SAFETY_DISTANCE
 from ...model.terrain.built import facts_from, terrain_summary
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section, facts
 from ..run_folder import ReportedRun
+from .cover import first_doubts_notice
 
 _ZONE = "Exclusion zone of one run"
 
@@ -43,8 +44,7 @@ def debris_section(run: ReportedRun, debris: Debris, *, trajectories: bool) -> S
         "ends outside the bridge's first outline in plan."
     )
     blocks: list[Block] = [Paragraph(words)]
-    if moving := run.still_moving:
-        blocks.append(Paragraph(f"{moving}.", is_notice=True))
+    blocks += first_doubts_notice(run)
     if len(debris.bodies):
         heights = height_map(results, debris.bodies)
         blocks.append(Paragraph(f"{PILES_NOTE}.", is_notice=True))

@@ -8,8 +8,6 @@ from functools import partial
 import numpy as np
 
 from ...charts.plan_maps import debris_map, map_height_mm
-from ...engineering.units import rounded_up
-from ...model.debris.exclusion import ExclusionZone
 from ...model.debris.footprint import bodies_that_moved, footprint, reaches_on_the_way
 from ...model.debris.throws import Debris
 from ...model.results.arrays import Results
@@ -22,9 +20,10 @@ from ...model.sequence.undisturbed import asleep_text
 from ...model.stages.stability import stability_texts
 from ..document.blocks import Block, Paragraph, Photo, Picture, facts
 from ..run_folder import ReportedRun
+from ..wording.clearance import Flyrock, clearance_rows
 from ..wording.sequence import means_text
-from ..wording.verdict import run_limit, run_verdict, verdict_without_frames
-from .cover import photo_caption
+from ..wording.verdict import run_limit, run_verdict, verdict_so_far, verdict_without_frames
+from .cover import first_doubts_notice, photo_caption
 
 FIRST_PHOTOS = ("after", "impact", "before")
 """Names of rendered pictures; the first one that is there stands on the first page."""
@@ -32,22 +31,36 @@ FIRST_PHOTOS = ("after", "impact", "before")
 _MOST_NAMED = 8
 
 
-def run_summary(run: ReportedRun, debris: Debris | None, zone: ExclusionZone | None) -> tuple[Block, ...]:
-    """Return what stands on the first page: of a run without results only what is missing of it."""
+def run_summary(run: ReportedRun, debris: Debris | None, flyrock: Flyrock | str | None = None) -> tuple[Block, ...]:
+    """Return what stands on the first page: of a run without results only what is missing of it.
+
+    What has to be said before any result stands before the picture, and is all there is of a run that ended before
+    its demolition began.
+    """
     missing = [Paragraph(text, is_notice=True) for text in run.shortcomings]
     if run.results is None or debris is None or not len(run.results.inventory.of_kind("shard")):
         verdict = Paragraph(verdict_without_frames(run.results is not None), is_notice=True)
-        return (verdict, *missing, *_plan(_means(run.scenario)))
-    distance_m = _distance_m(run.results)
-    blocks: list[Block] = [*_picture(run, debris), Paragraph(verdict_of(run, distance_m), is_notice=True)]
-    rows = [*_means(run.scenario), *_outcome(run, distance_m), *_around(run, zone), *_basis(run)]
+        rows = [*_means(run.scenario), *clearance_rows(run.scenario, flyrock)]
+        return (verdict, *missing, *_plan(rows))
+    blocks: list[Block] = [*first_doubts_notice(run), *_picture(run, debris)]
+    outcome: list[tuple[str, str]] = []
+    got = None
+    if not run.ending.is_before_demolition:
+        distance_m = _distance_m(run.results)
+        blocks.append(Paragraph(verdict_of(run, distance_m), is_notice=True))
+        outcome = list(_outcome(run, distance_m))
+        got = distance_m, "that debris got in this one run"
+    rows = [*_means(run.scenario), *outcome, *clearance_rows(run.scenario, flyrock, got), *_basis(run)]
     doubts = [Paragraph(text, is_notice=True) for text in _doubts(run)]
     return (*blocks, *_plan(rows), *missing, *doubts)
 
 
 def verdict_of(run: ReportedRun, distance_m: float) -> str:
     """Return the verdict on a run with shards, debris of which got so far from the bridge's plan, m."""
-    return run_verdict(lost_shares(_spans(run)), distance_m, _end(run.recorded))
+    lost = lost_shares(_spans(run))
+    if not run.ending.has_outcome:
+        return verdict_so_far(lost, distance_m)
+    return run_verdict(lost, distance_m, _end(run.recorded), is_final=not run.still_moving)
 
 
 def lost_shares(spans: Sequence[Span]) -> dict[str, float]:
@@ -107,8 +120,9 @@ def _means(scenario: Scenario | None) -> list[tuple[str, str]]:
 def _outcome(run: ReportedRun, distance_m: float) -> Iterator[tuple[str, str]]:
     """Yield what came down and what stays."""
     yield "Came down by", ", ".join(f"{span.name} {span.drop_m:.2f} m" for span in _spans(run))
-    yield "Stays", _staying_text(run.recorded)
-    yield "Limit", run_limit(distance_m, still_moving_note(run.recorded))
+    is_final = run.ending.has_outcome and not run.still_moving
+    yield "Stays" if is_final else "Has not moved", _staying_text(run.recorded)
+    yield "Debris distance", run_limit(distance_m, still_moving_note(run.recorded))
 
 
 def _staying_text(results: Results) -> str:
@@ -123,18 +137,6 @@ def _staying_text(results: Results) -> str:
     which = f"{len(staying)} of {len(names)} members"
     which += f" ({', '.join(staying)})" if len(staying) <= _MOST_NAMED else ""
     return f"{which}, of which no shard moved by more than {MOVED_M:g} m"
-
-
-def _around(run: ReportedRun, zone: ExclusionZone | None) -> Iterator[tuple[str, str]]:
-    """Yield what is kept clear around the bridge."""
-    exclusion = run.scenario.exclusion if run.scenario else None
-    if zone is not None and exclusion is not None:
-        far = f"up to {rounded_up(zone.largest_distance_m, '0.1')} m from the bridge's plan"
-        yield "Exclusion zone of one run", f"{far}, with the buffer of {exclusion.buffer_m:g} m"
-    if exclusion is None:
-        yield "Exclusion zone", "none: the scenario has no table [exclusion] with a buffer"
-    elif exclusion.cordon_m is not None:
-        yield "Cordon", f"{exclusion.cordon_m:g} m around the bridge's plan, by the scenario"
 
 
 def _basis(run: ReportedRun) -> Iterator[tuple[str, str]]:
@@ -153,8 +155,6 @@ def _doubts(run: ReportedRun) -> Iterator[str]:
     yield from (f"{text}." for text in stability)
     if not stability and run.scenario and (asleep := asleep_text(run.scenario)):  # of a run of an earlier version
         yield f"{asleep}."
-    if moving := run.still_moving:
-        yield f"{moving}. Footprint, pile and zones are not final either."
     if text := creep_text({"creeping": creep_summary(without_removed(results)[0])}):
         yield f"{text}."
     if np.isnan(results.frames.loads.body_sums_n[1:]).any():

@@ -12,6 +12,7 @@ from ...model.sequence.rest import FASTEST
 from ...model.study.conclusions import Conclusions, DebrisLimit, DoubtfulThrows, Proportion
 from ...model.study.file import Ensemble, Study
 from ...model.study.fragments import FragmentLimits
+from .clearance import CORDON, cordon_text, flyrock_of_runs
 from .numbers import listed, ordinal, percent, percent_down, percent_up
 
 _DOUBT = "All of these are known within a factor of 2: factor 2, no safety distance."
@@ -58,7 +59,9 @@ def fragments_sentence(limits: FragmentLimits, cordon_m: float | None) -> str:
         f"By Lundborg they fly up to {rounded_up(limits.lundborg_m, '1')} m, by McKenzie up to "
         f"{rounded_up(limits.mckenzie_m, '1')} m, as if nothing covered the holes"
     )
-    beside = rules if cordon_m is None else f"{rules}; {cordon_m:g} m around the bridge's plan are kept clear"
+    beside = rules
+    if cordon_m is not None:
+        beside += f". {CORDON}: {cordon_text(cordon_m, flyrock_of_runs(limits).distances)}"
     if not limits.are_known:
         return f"How far fragments that are smaller than shards fly has no limit yet. {beside}. {_DOUBT}"
     half, most, nearly_all = (

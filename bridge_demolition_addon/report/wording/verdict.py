@@ -19,8 +19,8 @@ _NO_FRAMES = "No frame of this one run is there, only its logs: it has no verdic
 _NO_SHARDS = "This one run has no shards: there is no bridge to judge."
 
 
-def run_verdict(lost: Mapping[str, float], distance_m: float, end: str) -> str:
-    """Return what one run came out as.
+def run_verdict(lost: Mapping[str, float], distance_m: float, end: str, *, is_final: bool = True) -> str:
+    """Return what one run came out as; where that is not final, no span stood, it had only not come down.
 
     Parameters
     ----------
@@ -31,7 +31,12 @@ def run_verdict(lost: Mapping[str, float], distance_m: float, end: str) -> str:
     end
         When all was at rest, or what still moved, as a clause.
     """
-    return f"In this one run {_spans(lost)}, {_debris(distance_m)}, and {end}."
+    return f"In this one run {_spans(lost, is_final=is_final)}, {_debris(distance_m)}, and {end}."
+
+
+def verdict_so_far(lost: Mapping[str, float], distance_m: float) -> str:
+    """Return how far a run without an outcome had got when it ended; arguments are those of `run_verdict`."""
+    return f"Up to then {_spans(lost, is_final=False)}, and {_debris(distance_m)}."
 
 
 def verdict_without_frames(has_results: bool) -> str:
@@ -61,16 +66,18 @@ def study_verdict(limit: DebrisLimit, buffer_m: float | None, *, is_final: bool 
     )
 
 
-def _spans(lost: Mapping[str, float]) -> str:
+def _spans(lost: Mapping[str, float], *, is_final: bool) -> str:
     fallen = [name for name, share in lost.items() if share >= FALLEN]
     stood = [name for name, share in lost.items() if share <= STANDS]
     partly = {name: share for name, share in lost.items() if STANDS < share < FALLEN}
+    if len(stood) == len(lost) and not is_final:
+        return "no span had come down"
     if len(stood) == len(lost):
         most = rounded_up(100.0 * max(0.0, *lost.values(), 0.0), "1")
         return f"the bridge stood, with no more than {most} % of a span's height lost"
     parts = [f"{listed(fallen)} came down"] if fallen else []
     parts += [f"{name} came down by {100.0 * share:.0f} % of its height" for name, share in partly.items()]
-    parts += [f"{listed(stood)} stood"] if stood else []
+    parts += [f"{listed(stood)} {'stood' if is_final else 'had not come down'}"] if stood else []
     return listed(parts)
 
 

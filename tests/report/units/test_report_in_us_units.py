@@ -119,8 +119,8 @@ def test_no_distance_to_keep_is_less_than_in_metres(made):
         "Designed drop",
         "Farthest from the bridge's plan",
         "Cordon",
-        "Limit",
-        "Exclusion zone of one run",
+        "Debris distance",
+        "Fragments (flyrock)",
     )
     for label in kept:
         before, after = value(metric, label), value(imperial, label)

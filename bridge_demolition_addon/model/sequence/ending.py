@@ -1,0 +1,79 @@
+"""How a run ended: whether it was stopped, and whether all that is planned was done by then. Else it has no outcome."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Any, Self
+
+import numpy as np
+
+from ..results.arrays import Results
+from ..scenario import Scenario
+from .undisturbed import first_event_s
+
+
+class Undone(StrEnum):
+    """What was still to come when a run ended, as summaries have it under ``ended_before``."""
+
+    HIT = "the ball hit"
+    FIRST = "anything was done to the bridge"
+    LAST = "all that is planned was done"
+
+
+@dataclass(frozen=True, slots=True)
+class Ending:
+    """When and how a run ended, and what was still to come; None where nothing was."""
+
+    time_s: float
+    how: str = "Ended"
+    undone: Undone | None = None
+
+    @classmethod
+    def of(cls, summary: Mapping[str, Any]) -> Self:
+        """Return how the run of a summary ended."""
+        undone = summary.get("ended_before")
+        how = "Ended" if summary.get("completed", True) else "Stopped"
+        return cls(float(summary.get("simulated_s", 0.0)), how, undone and Undone(undone))
+
+    @property
+    def has_outcome(self) -> bool:
+        """Whether the run went on to its end, and all that is planned was done by then."""
+        return self.how == "Ended" and self.undone is None
+
+    @property
+    def is_before_demolition(self) -> bool:
+        """Whether nothing was done to the bridge yet, so that the run says nothing of how it comes down."""
+        return self.undone in (Undone.HIT, Undone.FIRST)
+
+    @property
+    def text(self) -> str:
+        """What is to be said before anything else of the run, without a full stop; empty where it has an outcome."""
+        if self.has_outcome:
+            return ""
+        before = f"before {self.undone or 'its end'}"
+        if self.how == "Ended" and self.undone is Undone.HIT:
+            before = "without a hit of the ball"
+        meaning = "says nothing of the outcome" if self.is_before_demolition else "what follows is no outcome"
+        return f"{self.how} at {self.time_s:.2f} s, {before}: {meaning}"
+
+
+def undone_at_end(results: Results, scenario: Scenario, *, has_hit: bool) -> Undone | None:
+    """Return what was still to come when a run of a scenario ended; None where nothing was, or nothing is planned.
+
+    Where contacts were not recorded, a ball that was let go counts as one that hit.
+    """
+    end_s, ball = float(results.frames.time_s[-1]), scenario.ball
+    begin_s = [action.begins_s(scenario) for action in scenario.actions if action is not ball]
+    if ball and not has_hit and not any(begins_s < end_s for begins_s in begin_s):
+        contacts_are_known = np.isfinite(results.frames.loads.body_contact_impulses_ns[1:]).all()
+        if contacts_are_known or end_s <= ball.begins_s(scenario):
+            return Undone.HIT
+    if end_s <= first_event_s(scenario) < math.inf:
+        return Undone.FIRST
+    last_s = max((begins_s for begins_s in begin_s if math.isfinite(begins_s)), default=0.0)
+    if ball and (ball.hits or not has_hit):
+        last_s = max(last_s, ball.ends_s(scenario))
+    return Undone.LAST if end_s < last_s else None
