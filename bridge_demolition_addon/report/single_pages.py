@@ -21,8 +21,8 @@ _AROUND = ("neighbours", "charge_neighbours", "touchdown", "neighbours_of_runs",
 _MOST_ROWS = 16
 """Rows of a table that fit on the crew's page beside all else."""
 
-_NOT_FOR_CREW = ("Outcome", "Rests on")
-"""Rows of the plan that tell a crew nothing to do; the verdict says that there was one run, or how many."""
+_NOT_FOR_CREW = ("Came down by", "Outcome", "Rests on")
+"""Rows of the plan that the verdict says in short."""
 
 _BLANK = "________"
 _LINE_FACTOR, _CRANE_FACTOR = 4.0, 2.0

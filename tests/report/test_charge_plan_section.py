@@ -15,8 +15,8 @@ from bridge_demolition_addon.report.sections.charge_plan import charge_plan_sect
 DRILLED = read_scenario(EXAMPLES / "drilled" / "two_spans.toml")
 
 
-def section_of(scenario):
-    return charge_plan_section(scenario, known_plan(scenario))
+def section_of(scenario, loads=()):
+    return charge_plan_section(scenario, known_plan(scenario), loads)
 
 
 def notices(section):
@@ -56,15 +56,15 @@ def test_misfires_and_an_odd_amount_are_named():
 def test_what_is_above_a_zone_falls_and_can_land_on_its_stub():
     """Zones from 0.75 to 2.25 m of columns: 14 bars of 20 mm over 75 diameters may be counted on for 0.316 MN."""
     loads = [ZoneLoad("P2.1", 0.38e6, 0.0, 0.0), ZoneLoad("P1.2", -0.11e6, 0.0, 0.0)]
-    table = tables(charge_plan_section(DRILLED, loads))["zone_falls"]
+    table = tables(section_of(DRILLED, loads))["zone_falls"]
     cells = {row[0]: row[1:] for row in table.shown_rows()}
     assert cells["P2.1"] == ["0.38", "1.20", "1.50", "5.4", "2.65", "0.75", "yes"]
     assert cells["P1.2"][:2] == ["-0.11", "0.05"]  # of 2.20 MN in tension
     assert cells["P3.1"][:2] == ["-", "-"]  # not known
-    viaduct = tables(charge_plan_section(read_scenario(EXAMPLES / "drilled" / "viaduct_pier.toml")))["zone_falls"]
+    viaduct = tables(section_of(read_scenario(EXAMPLES / "drilled" / "viaduct_pier.toml")))["zone_falls"]
     assert {row[-1] for row in viaduct.shown_rows()} == {"no"}
     misfires = [replace(zone, fires=False) for zone in DRILLED.blast_zones]
-    assert "zone_falls" not in tables(charge_plan_section(replace(DRILLED, blast_zones=misfires)))
+    assert "zone_falls" not in tables(section_of(replace(DRILLED, blast_zones=misfires)))
 
 
 def test_a_file_that_is_gone_is_named_in_place_of_the_plan(tmp_path):

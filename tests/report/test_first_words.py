@@ -141,6 +141,8 @@ def test_every_page_of_a_run_begins_with_its_doubts_and_sets_the_cordon_against_
             distance = plan_of(page).get("Debris distance")
             assert distance is None or "one run gives no limit" in distance, name
             check_clearance(page, drilled, cordon_m)
+        if cordon_m is not None:
+            assert f"Clear of people within {plan_of(document)['Cordon']}" in texts(pages["crew"])
         first = findings.blocks[0]
         assert isinstance(first, Paragraph) == bool(ending or moves or made > 0.05)
         assert not isinstance(first, Paragraph) or first == document.summary[0]
