@@ -18,6 +18,7 @@ from .elements import Element
 from .gaps import STEEPEST, cut_by, largest_body, lengthened
 from .library import library
 from .placement import Placement
+from .shapes import CONTRADICTIONS
 
 SEAT_M = 0.001
 """How far a bearing is let into what it lies on, so that the two become one solid in spite of rounding."""
@@ -266,13 +267,16 @@ def free_motions(element: Element, placement: Placement) -> tuple[tuple[str, ...
 
 
 def _rotation_of(placement: Any) -> np.ndarray | None:
-    """Return the axes of a placement as columns (3, 3); None where it follows an alignment."""
+    """Return the axes of a placement as columns (3, 3); None where it follows an alignment, or contradicts itself."""
     above = placement
     while above is not None:
         if not above.is_a("IfcLocalPlacement"):
             return None
         above = above.PlacementRelTo
-    return np.array(library("util.placement").get_local_placement(placement))[:3, :3]
+    try:
+        return np.array(library("util.placement").get_local_placement(placement))[:3, :3]
+    except CONTRADICTIONS:
+        return None
 
 
 def _are_truths(value: Any) -> bool:

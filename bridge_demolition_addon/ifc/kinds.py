@@ -6,6 +6,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from .more_words import MORE_WALLS, MORE_WORDS
 from .settings import matches
 
 
@@ -123,9 +124,12 @@ _NAMED = {
 """Kinds that the name of an element decides before its part does; for all other classes any kind."""
 
 _OWN_WORDS = {
-    "IfcBeam": r"beam|girder|stringer|balk|bjelke|träger|balken|ligger|drager|poutre|\bviga|\btrav[ei]",
-    "IfcSlab": r"slab|\bdeck|plate\b|platte|dalle|losa|soletta|plaat|platta",
-    "IfcWall": r"wall|wand|vegg|\bmur|muro|vägg",
+    "IfcBeam": (
+        r"beam|girder|stringer|balk|bjelke|träger|balken|ligger|drager|poutre|\bviga|\btrav[ei]"
+        rf"|{MORE_WORDS['girder']}"
+    ),
+    "IfcSlab": rf"slab|\bdeck|plate\b|platte|dalle|losa|soletta|plaat|platta|{MORE_WORDS['deck']}",
+    "IfcWall": rf"wall|wand|vegg|\bmur|muro|vägg|{MORE_WALLS}",
 }
 """Words that say of a class what it is anyway; a name without them, such as LANDKAR of a beam, says something else."""
 
@@ -179,6 +183,8 @@ _WORDS = {
 }
 """Words in names, in English, Norwegian, German, French, Spanish, Italian, Dutch and Swedish; the first kind counts."""
 
+_WORDS = {kind: f"{words}|{MORE_WORDS[kind]}" for kind, words in _WORDS.items()}
+
 _SURFACING_WORDS = (
     r"asphalt|surfacing|wearing (course|surface)|road ?surface|waterproof|membrane|slitelag|slidlager|belegning"
     r"|(fahrbahn|brücken|asphalt|straßen)belag|\bbelag|deckschicht|abdichtung|enrobé|étanchéité|couche de roulement"
@@ -199,6 +205,11 @@ _PARTS = {
     "substructure": r"substructure",
 }
 """Words in the names and types of parts of a bridge."""
+
+_PARTS |= {
+    part: f"{_PARTS[part]}|{MORE_WORDS[kind]}"
+    for part, kind in (("pier", "pier"), ("abutment", "abutment"), ("foundation", "footing"), ("deck", "deck"))
+}
 
 OTHER = "neither its class nor its name says what it is: give its kind by --kind, as in --kind 'NAME=deck'"
 
@@ -260,8 +271,14 @@ def _named_kind(words: str) -> str:
 
 
 def _plain(words: str) -> str:
-    return re.sub(r"[_\-.:'\u2019]+", " ", words).lower()
+    return re.sub(r"[_\-.:'\u2019]+", " ", _apart(words))
+
+
+def _apart(words: str) -> str:
+    """Return words in small letters, apart from each other in names such as BoxBeam_01; small i from Turkish İ, too."""
+    apart = re.sub(r"(?<=[a-zß-ÿ])(?=[A-ZÀ-Þ])|(?<=[A-Z])(?=[A-Z][a-z])", " ", words)
+    return apart.lower().replace("\u0307", "")
 
 
 def _part_of(parts: tuple[str, ...]) -> str:
-    return next((kind for part in parts for kind, words in _PARTS.items() if re.search(words, part.lower())), "")
+    return next((kind for part in parts for kind, words in _PARTS.items() if re.search(words, _apart(part))), "")

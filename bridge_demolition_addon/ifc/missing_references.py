@@ -23,8 +23,11 @@ _CHECKED = (
 )
 """Classes of which none is part of a shape: without what they need they are absent. In IFC2X3 materials are of four."""
 
-_NAMED = ("IfcProperty", "IfcPhysicalQuantity")
-"""Classes that say nothing without a name."""
+_ALL_NEEDED = (
+    *("IfcProperty", "IfcPhysicalQuantity"),
+    *("IfcNamedUnit", "IfcDerivedUnit", "IfcDerivedUnitElement", "IfcMeasureWithUnit"),
+)
+"""Classes that say nothing without their names and numbers, either."""
 
 _OF_SHAPES = (
     *("IfcRepresentationItem", "IfcObjectPlacement", "IfcRepresentation", "IfcRepresentationMap"),
@@ -49,7 +52,7 @@ class MissingLine:
 
 @dataclass(frozen=True, slots=True)
 class _Reference:
-    """An attribute that refers to other statements, of some classes."""
+    """An attribute that refers to other statements, of some classes, or a value that is needed, of none."""
 
     index: int
     is_needed: bool
@@ -108,18 +111,23 @@ def _removed(model: Any, cut: Counter[str]) -> list[str]:
         name = entity.is_a()
         if name not in references:
             references[name] = tuple(_references(model, name))
-        if not all([_mended(entity, reference) for reference in references[name]]) or _is_nameless(entity):
+        if not all([_mended(entity, reference) for reference in references[name]]):
             incomplete[entity.id()] = name
-    for number in incomplete:
-        model.remove(model.by_id(number))
-    return list(incomplete.values())
+    removed = []
+    for number, name in incomplete.items():
+        try:
+            model.remove(model.by_id(number))
+        except RuntimeError:  # a number that two lines have leads to one of them
+            continue
+        removed.append(name)
+    return removed
 
 
 def _mended(entity: Any, reference: _Reference) -> bool:
     """Return whether what a statement needs is there, once what is no reference to its classes is taken away."""
     value = entity[reference.index]
-    if value is None:
-        return not reference.is_needed
+    if value is None or not reference.classes:
+        return not reference.is_needed or value is not None
     if reference.is_list:
         whole = isinstance(value, tuple)
         kept = tuple(one for one in value if _is_of(one, reference.classes)) if whole else ()
@@ -137,19 +145,24 @@ def _is_of(value: Any, classes: Sequence[str]) -> bool:
     return hasattr(value, "is_a") and any(value.is_a(name) for name in classes)
 
 
-def _is_nameless(entity: Any) -> bool:
-    return not entity[0] and any(entity.is_a(name) for name in _NAMED)
-
-
 def _references(model: Any, name: str) -> Iterator[_Reference]:
     declaration = library().ifcopenshell_wrapper.schema_by_name(model.schema_identifier).declaration_by_name(name)
     entity = declaration.as_entity()
+    are_all_needed = any(_is_kind_of(entity, one) for one in _ALL_NEEDED)
     for index, (attribute, is_derived) in enumerate(zip(entity.all_attributes(), entity.derived(), strict=True)):
         kind = attribute.type_of_attribute()
         of_list = kind.as_aggregation_type()
         classes, has_entities = _classes_in(of_list.type_of_element() if of_list else kind)
         if has_entities and not is_derived and attribute.name() != "OwnerHistory":
             yield _Reference(index, not attribute.optional(), of_list is not None, classes)
+        elif are_all_needed and not is_derived and not attribute.optional():
+            yield _Reference(index, True, False, ())
+
+
+def _is_kind_of(declaration: Any, name: str) -> bool:
+    while declaration is not None and declaration.name() != name:
+        declaration = declaration.supertype()
+    return declaration is not None
 
 
 def _classes_in(kind: Any) -> tuple[tuple[str, ...], bool]:

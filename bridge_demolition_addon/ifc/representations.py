@@ -7,7 +7,8 @@ from typing import Any
 
 def representations_of(product: Any) -> tuple[Any, ...]:
     """Return the representations of a product."""
-    return tuple((product.Representation.Representations if product.Representation else ()) or ())
+    found = getattr(product.Representation, "Representations", None) or ()
+    return tuple(one for one in found if one.is_a("IfcRepresentation"))
 
 
 def items_of(product: Any, kind: str = "IfcRepresentationItem") -> list[Any]:

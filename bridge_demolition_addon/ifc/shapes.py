@@ -22,7 +22,7 @@ from .source import IfcSource
 CHORD_M = 0.001
 """Largest distance of the middle of a chord from its curve."""
 
-_CONTRADICTIONS = (ArithmeticError, AttributeError, IndexError, KeyError, RecursionError, TypeError, ValueError)
+CONTRADICTIONS = (ArithmeticError, AttributeError, IndexError, KeyError, RecursionError, TypeError, ValueError)
 """What reading an element fails with where it lacks what its schema asks for."""
 
 FAILED = "its geometry cannot be worked out"
@@ -82,7 +82,7 @@ def shapes_of(source: IfcSource, elements: Iterable[Element], kept: KeptShapes) 
             kept.begins(done, len(wanted), element)
             try:
                 mesh = _own_or_none(source, element.entity) or _shape(element.entity, settings, source.scale)
-            except _CONTRADICTIONS:
+            except CONTRADICTIONS:
                 kept.failed[number] = "its geometry contradicts its schema"
                 continue
             if mesh is None:

@@ -12,7 +12,6 @@ from types import FrameType
 from typing import Any
 
 from ..errors import IfcError, UnreadableError
-from ..model.schema import given
 from ..system.reading import MEGABYTE, check_file
 from .library import library
 from .linear_placements import place_along_curves
@@ -40,6 +39,16 @@ _HEAD = 100_000
 """Bytes in which the header of a file ends."""
 
 _SCHEMA = re.compile(rb"FILE_SCHEMA\s*\(\s*\(?\s*'([^']*)'", flags=re.IGNORECASE)
+_DATA = re.compile(rb"^[ \t]*DATA\b[^;\n]*;", flags=re.IGNORECASE | re.MULTILINE)
+_HEADER = b"""ISO-10303-21;
+HEADER;
+FILE_DESCRIPTION((''),'2;1');
+FILE_NAME('','',(''),(''),'','','');
+FILE_SCHEMA(('%s'));
+ENDSEC;
+"""
+"""Where the data of a file begin, and what is put before them: without all of its own header none is read."""
+
 _AMERICAN = re.compile(rb"(IFCSIUNIT\s*\([^;]*?\.(?:SQUARE_|CUBIC_)?)METER(\.\s*\)\s*;)", flags=re.IGNORECASE)
 """A unit as some programs spell it; the standard's metre is METRE."""
 
@@ -76,7 +85,8 @@ def naming_contradictions(path: Path) -> Iterator[None]:
         yield
     except (AttributeError, IndexError, KeyError, RuntimeError, TypeError, ValueError) as error:
         frames = [frame for frame, _ in traceback.walk_tb(error.__traceback__)]
-        if Path(library().__file__ or "").parent not in Path(frames[-1].f_code.co_filename).parents:
+        folder = Path(library().__file__ or "").parent
+        if not any(folder in Path(frame.f_code.co_filename).parents for frame in frames):
             raise
         raise IfcError(
             f"{path}: contradicts its schema{_place_of(frames)}; check it with a validator of IFC, or export it again"
@@ -99,9 +109,10 @@ def open_source(path: Path, settings: ImportSettings) -> IfcSource:
     mended, read_as, assumed = _relabelled(mended, schema)
     try:
         model, missing = opened(_text(mended))
+        has_project = bool(model.by_type("IfcProject"))
     except (RuntimeError, ValueError, library().Error) as error:
         raise IfcError(f"{path}: cannot be read as IFC; export it again") from error
-    if not model.by_type("IfcProject"):
+    if not has_project:
         raise IfcError(f"{path}: has no IfcProject, so no units and no bridge; export the whole project")
     notes = ("METER is taken for METRE, as the standard spells it",) if count else ()
     lost = _lost_classes(mended, read_as)
@@ -173,13 +184,13 @@ def _read_as(name: str) -> str:
 
 
 def _relabelled(content: bytes, name: str) -> tuple[bytes, str, tuple[str, ...]]:
-    """Return a file with the schema that it is read as, that schema, and what was assumed."""
+    """Return a file with a header of the schema that it is read as, that schema, and what was assumed."""
     read_as = _read_as(name)
-    if name == read_as:
+    if data := _DATA.search(content):
+        content = _HEADER % read_as.encode() + content[data.start() :]
+    if name == read_as or read_as != _NEWEST:
         return content, read_as, ()
-    found = given(_SCHEMA.search(content[:_HEAD]))
-    content = content[: found.start(1)] + read_as.encode() + content[found.end(1) :]
-    mended, notes = translated(content) if read_as == _NEWEST else (content, ())
+    mended, notes = translated(content)
     return mended, read_as, notes
 
 

@@ -30,6 +30,7 @@ from .elements import NO_BODIES, Element
 from .library import library
 from .placement import Placement
 from .representations import representations_of
+from .shapes import CONTRADICTIONS
 from .source import IfcSource
 from .steel_profiles import section_of_profile
 
@@ -154,6 +155,8 @@ def steel_elements(
             bars[number] = replace(bar, grade=grade_of(made_of[number].name))
         except GeometryError as error:
             refused[number] = str(error)
+        except CONTRADICTIONS:
+            refused[number] = "its geometry contradicts its schema"
     return SteelElements(bars, refused)
 
 

@@ -125,7 +125,28 @@ def test_a_kind_that_there_is_not():
         # Swedish
         *(("Landfäste", "abutment"), ("Pelare", "pier"), ("Bottenplatta", "footing"), ("Vingmur", "wing wall")),
         *(("Brobaneplatta", "deck"), ("Länkplatta", "approach slab"), ("Kantbalk", "parapet")),
+        # Twelve more, by the words of their codes for bridges
+        *(("桥台", "abutment"), ("桥墩1", "pier"), ("盖梁", "pier cap"), ("支座", "bearing"), ("箱梁", "girder")),
+        *(("橋脚", "pier"), ("主桁", "girder"), ("床版", "deck"), ("踏掛版", "approach slab"), ("壁高欄", "parapet")),
+        *(("교대", "abutment"), ("교각", "pier"), ("거더", "girder"), ("받침", "bearing"), ("바닥판", "deck")),
+        *(("Przyczółek", "abutment"), ("Filar 2", "pier"), ("Dźwigar", "girder"), ("Łożysko", "bearing")),
+        *(
+            ("Opěra", "abutment"),
+            ("Pilíř", "pier"),
+            ("Nosník", "girder"),
+            ("Mostovka", "deck"),
+            ("Křídlo", "wing wall"),
+        ),
+        *(("Encontro", "abutment"), ("Sapata", "footing"), ("Tabuleiro", "deck"), ("Aparelho de apoio", "bearing")),
+        *(("Landfæste", "abutment"), ("Søjle", "pier"), ("Brodæk", "deck"), ("Overgangsplade", "approach slab")),
+        *(("Maatuki", "abutment"), ("Pääpalkki", "girder"), ("Kansilaatta", "deck"), ("Laakeri", "bearing")),
+        *(("УСТОЙ 1", "abutment"), ("Опора 2", "pier"), ("Главная балка", "girder"), ("Опорная часть", "bearing")),
+        *(("Upornjak", "abutment"), ("Stupište", "pier"), ("Glavni nosač", "girder"), ("Temelj", "footing")),
+        *(("Kenar Ayak", "abutment"), ("BAŞLIK KİRİŞİ", "pier cap"), ("Tabliye", "deck"), ("Mesnet", "bearing")),
+        *(("Hídfő", "abutment"), ("Főtartó", "girder"), ("Pályalemez", "deck"), ("Szárnyfal", "wing wall")),
         # English
+        *(("MyBeam", "girder"), ("BoxBeam_01", "girder"), ("EndPier", "pier"), ("MainDeck", "deck")),
+        *(("CrossBrace", "bracing"), ("PierCapNorth", "pier cap"), ("LHSAbutment", "abutment")),
         *(
             ("Arch segment", "arch"),
             ("Backfill", "fill"),

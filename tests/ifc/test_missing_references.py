@@ -8,6 +8,7 @@ from support.ifc_bridges import CONCRETE_KG_M3, MASS_KG, STEEL_KG_M3, VOLUMES_M3
 
 from bridge_demolition_addon.errors import IfcError
 from bridge_demolition_addon.ifc.bridge import read_bridge
+from bridge_demolition_addon.ifc.elements import elements_of
 from bridge_demolition_addon.ifc.settings import ImportSettings
 from bridge_demolition_addon.ifc.source import open_source
 
@@ -92,6 +93,23 @@ def test_relations_to_nothing_are_absent(tmp_path):
     assert left.file_volume_m3 == pytest.approx(21.0 * 0.4 * 0.8)
     with pytest.raises(IfcError, match=r"leads to nothing, .* counts as absent: .*; export it again"):
         read_bridge(path, ImportSettings(strict=True))
+
+
+def test_values_that_are_null_cost_what_they_say(tmp_path):
+    """A unit of mass without a name, a representation of another class, and a header without its name of a file."""
+    made = whole_bridge()
+    slab = made.file.by_type("IfcSlab")[0].Representation.id()
+    path = changed(
+        made,
+        tmp_path,
+        (r"FILE_NAME\([^;]*;\n", ""),
+        (r"(IFCSIUNIT\(\*,)\.PLANEANGLEUNIT\.", r"\1$"),
+        (rf"(#{slab}=IFCPRODUCTDEFINITIONSHAPE\(\$,\$,\()#\d+", rf"\1#{made.site.id()}"),
+    )
+    source = open_source(path, ImportSettings())
+    assert "1 IfcSIUnit" in source.notes[-1]
+    (left,) = (one for one in elements_of(source, ImportSettings()) if one.facts.name == "Carriageway")
+    assert left.why_left_out == "it has no body"
 
 
 def test_a_shape_whose_line_is_missing_is_left_out(tmp_path):
