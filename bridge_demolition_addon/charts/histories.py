@@ -88,8 +88,8 @@ def _largest_loads(results: Results) -> tuple[np.ndarray, np.ndarray]:
 def breaking_history(
     figure: FigureBase, times_s: np.ndarray, kinds: Sequence[BreakingByKind], impact_s: float | None
 ) -> None:
-    """Draw which share of the connections of each kind is broken, over time."""
-    axes = _time_axes(figure, "connections broken (%)", times_s)
+    """Draw which share of the connections of each kind has cracked or is torn, over time, and which of all is torn."""
+    axes = _time_axes(figure, "connections cracked or torn (%)", times_s)
     for number, kind in enumerate(kinds[:_MOST_KINDS]):
         label = plain(f"{kind.kind} ({kind.broken[-1]} of {kind.count})")
         axes.plot(times_s, 100.0 * kind.broken / kind.count, **line_style(number + 1), label=label)
@@ -97,6 +97,10 @@ def breaking_history(
     broken = np.sum([kind.broken for kind in kinds], axis=0)
     all_of_them: dict[str, Any] = {"color": "black", "linewidth": 2.5, "label": f"all ({broken[-1]} of {count})"}
     axes.plot(times_s, 100.0 * broken / count, **all_of_them)
+    torn = [kind.torn for kind in kinds if kind.torn is not None]
+    if len(torn) == len(kinds) and (all_torn := np.sum(torn, axis=0))[-1] < broken[-1]:
+        label = f"torn ({all_torn[-1]} of {count})"
+        axes.plot(times_s, 100.0 * all_torn / count, color="black", linestyle=":", linewidth=2.5, label=label)
     axes.set_ylim(0.0, 105.0)
     _finish(figure, axes, impact_s, columns=3)
 

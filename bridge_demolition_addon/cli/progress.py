@@ -5,15 +5,14 @@ from typing import TextIO
 from tqdm import tqdm
 
 from ..engineering.timing.time_left import clock
-from ..system.progress import Progress
+from ..system.progress import Counts, Progress
 
 
 class CommandProgress(Progress):
     """Stages and counts of a command, each shown as the kind of progress does."""
 
-    def frame(self, done: int, total: int, broken: int, left_s: float | None) -> None:
-        connections = "connection" if broken == 1 else "connections"
-        self._show(done, total, f"frame {_counted(done, total)}, {broken} {connections} broken", left_s)
+    def frame(self, done: int, total: int, connections: Counts, left_s: float | None) -> None:
+        self._show(done, total, f"frame {_counted(done, total)}, {connections.text}", left_s)
 
     def part(self, done: int, total: int, text: str) -> None:
         self._show(done, total, f"{_counted(done, total)} {text}")
@@ -73,9 +72,9 @@ class PlainLines(CommandProgress):
     def stage(self, text: str) -> None:
         print(text, file=self._stream, flush=True)
 
-    def frame(self, done: int, total: int, broken: int, left_s: float | None) -> None:
+    def frame(self, done: int, total: int, connections: Counts, left_s: float | None) -> None:
         if self._begins_a_tenth(done, total):
-            super().frame(done, total, broken, left_s)
+            super().frame(done, total, connections, left_s)
 
     def runs(self, done: int, total: int, lost: int) -> None:
         if self._begins_a_tenth(done, total):

@@ -12,6 +12,7 @@ from ..engineering.unit_systems import UnitSystem
 from ..errors import Faults, OutputError
 from ..model.reinforcement.concrete_members import plain_concrete_text
 from ..model.results.bar_extremes import bars_text, largest_use_text
+from ..model.results.connection_counts import ConnectionCounts
 from ..model.results.creep import creep_text
 from ..model.results.fingerprint import SHORT
 from ..model.results.summary import first_hit_s
@@ -207,8 +208,8 @@ def _print_paths(paths: Sequence[Path]) -> None:
 
 
 def _result_facts(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
-    connections, force = summary["connections"], summary["largest_force_sum"]
-    yield "broken connections", f"{connections['broken']} of {connections['count']}"
+    force = summary["largest_force_sum"]
+    yield "connections", ConnectionCounts.of_summary(summary).text
     if bars := bars_text(summary):
         yield "reinforcement", bars
     if use := largest_use_text(summary):

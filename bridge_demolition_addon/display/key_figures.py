@@ -14,6 +14,7 @@ from ..engineering.terrain.recorded import RecordedGround
 from ..model.debris.footprint import corners_at, footprint, straightened
 from ..model.results.arrays import Results
 from ..model.results.collapse import ShardRest, rest_of
+from ..model.results.connection_counts import ConnectionCounts
 from ..model.results.motion import MOVED_M, relative_to_ground, travel, without_removed
 from .history_curves import ForceHistory, largest_history
 
@@ -36,8 +37,8 @@ class FrameFigures:
     ----------
     number, time_s : int, float
         Blender's frame, and simulated time.
-    broken, connections : int
-        How many connections are broken, and how many there are.
+    connections : ConnectionCounts
+        How many have cracked, yielded or torn.
     debris_kg, bridge_kg : float
         Mass of the shards that have come down by then, and of all shards. Removed ones are left out of both.
     area
@@ -48,8 +49,7 @@ class FrameFigures:
 
     number: int
     time_s: float
-    broken: int
-    connections: int
+    connections: ConnectionCounts
     debris_kg: float
     bridge_kg: float
     area: CrossSection
@@ -98,12 +98,10 @@ class RunFigures:
     def at(self, row: int) -> FrameFigures:
         """Return the key figures of a recorded row."""
         frames, debris = self._left.frames, self.debris(row)
-        intact = np.asarray(frames.intact[row])
         return FrameFigures(
             number=int(frames.number[row]),
             time_s=float(frames.time_s[row]),
-            broken=int((~intact).sum()),
-            connections=len(intact),
+            connections=ConnectionCounts.of_results(self._whole, row),
             debris_kg=float(self._masses_kg[debris].sum()),
             bridge_kg=float(self._masses_kg[self._shards].sum()),
             area=footprint(self._left, debris, row),

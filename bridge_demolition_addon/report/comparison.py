@@ -107,7 +107,7 @@ def _charts(runs: Sequence[tuple[str, ReportedRun]], debris: Sequence[tuple[str,
         loads.append((name, frames.time_s, largest_on_a_shard(run.recorded, frames.loads.body_peak_sums_n) / 1e3))
     charts = (
         ("progress of the collapse (%)", progress),
-        ("connections broken (%)", broken),
+        ("connections cracked or torn (%)", broken),
         ("largest load on a shard (kN)", loads),
     )
     blocks: list[Block] = [

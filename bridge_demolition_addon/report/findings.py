@@ -9,6 +9,7 @@ import numpy as np
 from ..engineering.units import SIGNIFICANT_DIGITS, mass_text, rounded_up, with_digits
 from ..model.debris.throws import Debris, percentiles_by_mass
 from ..model.results.collapse import collapse_progress, rest_of
+from ..model.results.connection_counts import ConnectionCounts
 from ..model.results.force_history import most_loaded
 from ..model.results.moving import still_moving_note
 from .run_folder import ReportedRun
@@ -33,13 +34,11 @@ def findings(run: ReportedRun, debris: Debris) -> list[Finding]:
     results = run.recorded
     rest, has_outcome = rest_of(results), run.ending.has_outcome
     rest_s = rest.at_rest_s if has_outcome else None
-    broken = int((~results.frames.intact[-1]).sum())
-    count = results.frames.intact.shape[1]
     unrest = "nothing moved" if rest.first_motion_s is None else "not at rest at the end"
     unrest = unrest if has_outcome else NO_OUTCOME
     first = [
         _finding(IMPACT, "s", run.ball.first_hit_s, ".3f", "none" if has_outcome else "none so far"),
-        Finding("Connections broken", "1", broken, f"{broken} of {count}"),
+        *_connections(ConnectionCounts.of_results(results)),
         _finding("Progress of the collapse", "%", 100.0 * float(collapse_progress(results)[-1]), ".0f"),
         _finding("All shards at rest from", "s", rest_s, ".2f", unrest),
         Finding("Debris", "t", float(debris.masses_kg.sum()) / 1e3, mass_text(float(debris.masses_kg.sum()), 1)),
@@ -47,6 +46,19 @@ def findings(run: ReportedRun, debris: Debris) -> list[Finding]:
         _finding("Height of the pile", "m", debris.highest_m, ".2f"),
     ]
     return [*first, *_throws(run, debris), _largest_load(run)]
+
+
+def _connections(counts: ConnectionCounts) -> list[Finding]:
+    """Return what has cracked and what is torn, apart where the run recorded it."""
+    cracked, torn = f"not known: cracked or torn {counts.broken} of {counts.connections}", "not known"
+    if counts.cracked is not None:
+        yielded = f", of these yielded {counts.yielded}" if counts.cracked else ""
+        cracked = f"{counts.cracked} of {counts.connections}{yielded}"
+        torn = f"{counts.torn} of {counts.connections}"
+    return [
+        Finding("Connections cracked, held by bars", "1", counts.cracked, cracked),
+        Finding("Connections torn", "1", counts.torn, torn),
+    ]
 
 
 def _throws(run: ReportedRun, debris: Debris) -> list[Finding]:

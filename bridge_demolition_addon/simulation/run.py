@@ -210,7 +210,7 @@ def _simulate(
             playing.step()
             if recording.recorded_frames > 1:
                 done = recording.recorded_frames - 1
-                progress.frame(done, playing.total - 1, recording.broken, playing.left_s)
+                progress.frame(done, playing.total - 1, recording.counts, playing.left_s)
     except Exception:
         if not (recording.error and recording.recorded_frames):  # or there is something to keep
             raise

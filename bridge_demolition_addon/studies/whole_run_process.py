@@ -5,11 +5,12 @@ from __future__ import annotations
 import queue
 import tempfile
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from ..errors import SimulationError
+from ..model.results.connection_counts import ConnectionCounts
 from ..model.study.runs_table import DONE
 from .answering_program import AnsweringProgram
 
@@ -22,8 +23,10 @@ class RunState:
     ----------
     stage : str
         What the run does now, as text.
-    frames, of_frames, broken : int
-        Frames that are done, of how many, and connections that are broken by now.
+    frames, of_frames : int
+        Frames that are done, of how many.
+    connections : ConnectionCounts
+        What has become of connections by now.
     left_s : float or None
         Time that the simulation will still take, s; None where that is not known.
     is_over : bool
@@ -33,7 +36,7 @@ class RunState:
     stage: str = ""
     frames: int = 0
     of_frames: int = 0
-    broken: int = 0
+    connections: ConnectionCounts = field(default_factory=lambda: ConnectionCounts(0, 0))
     left_s: float | None = None
     is_over: bool = False
 
@@ -105,5 +108,5 @@ class WholeRun:
         if "frames" in answer:
             state = self.state
             state.frames, state.of_frames = answer["frames"], answer["of_frames"]
-            state.broken, state.left_s = answer["broken"], answer["left_s"]
+            state.connections, state.left_s = ConnectionCounts(**answer["connections"]), answer["left_s"]
         self.state.is_over = answer.get("status") == DONE

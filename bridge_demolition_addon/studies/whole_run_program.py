@@ -9,13 +9,15 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping
+from dataclasses import asdict
 from functools import partial
 from pathlib import Path
 from typing import Any, NoReturn
 
+from ..model.results.connection_counts import ConnectionCounts
 from ..model.scenario.file import scenario_from_text
 from ..system.programs import program_command
-from ..system.progress import Progress
+from ..system.progress import Counts, Progress
 from .own_blender import versions_here
 from .run_service import RunService
 
@@ -55,9 +57,12 @@ class _SaidProgress(Progress):
     def stage(self, text: str) -> None:
         self._service.say({"stage": text})
 
-    def frame(self, done: int, total: int, broken: int, left_s: float | None) -> None:
+    def frame(self, done: int, total: int, connections: Counts, left_s: float | None) -> None:
+        assert isinstance(connections, ConnectionCounts)
         now_s = time.monotonic()
         if now_s - self._said_s >= _SAID_EVERY_S or done == total:
             self._said_s = now_s
             self.is_stopped = self._service.is_asked
-            self._service.say({"frames": done, "of_frames": total, "broken": broken, "left_s": left_s})
+            self._service.say(
+                {"frames": done, "of_frames": total, "connections": asdict(connections), "left_s": left_s}
+            )

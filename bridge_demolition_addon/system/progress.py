@@ -1,5 +1,14 @@
 """Progress of some work, as it is reported and shown."""
 
+from typing import Protocol
+
+
+class Counts(Protocol):
+    """Numbers that have a text."""
+
+    @property
+    def text(self) -> str: ...
+
 
 class Progress:
     """Takes in the progress of some work, and shows nothing of it.
@@ -15,8 +24,8 @@ class Progress:
     def stage(self, text: str) -> None:
         """Take in the name of the stage that begins now."""
 
-    def frame(self, done: int, total: int, broken: int, left_s: float | None) -> None:
-        """Take in how many frames are done and connections broken, and how long the other frames take, if known."""
+    def frame(self, done: int, total: int, connections: Counts, left_s: float | None) -> None:
+        """Take in how many frames are done, what has become of connections, and how long the other frames take."""
 
     def part(self, done: int, total: int, text: str) -> None:
         """Take in how many parts of a stage are done."""

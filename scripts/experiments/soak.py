@@ -16,6 +16,7 @@ from bridge_demolition_addon.cli.progress import Silence
 from bridge_demolition_addon.model.results.arrays import RESULTS_FILE
 from bridge_demolition_addon.model.run_folder.files import SUMMARY_FILE
 from bridge_demolition_addon.model.scenario.file import scenario_from_text
+from bridge_demolition_addon.system.progress import Counts
 
 FRAMES, PARTS = 10_000, 10
 SCENARIO = """
@@ -60,7 +61,7 @@ class Watch(Silence):
         self.parts: list[tuple[int, float, float]] = []
         """Frames so far, memory in MB, and the median time of a frame in the part in ms."""
 
-    def frame(self, done: int, total: int, broken: int, left_s: float | None) -> None:
+    def frame(self, done: int, total: int, connections: Counts, left_s: float | None) -> None:
         """Note a frame."""
         now_s = time.perf_counter()
         self._seconds.append(now_s - self._last_s)

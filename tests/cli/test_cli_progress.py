@@ -11,6 +11,7 @@ from io import StringIO
 import pytest
 
 from bridge_demolition_addon.cli.progress import PlainLines, Silence, TerminalBar, progress_on
+from bridge_demolition_addon.model.results.connection_counts import ConnectionCounts
 
 if sys.platform != "win32":
     import fcntl
@@ -19,10 +20,13 @@ if sys.platform != "win32":
 needs_terminal = pytest.mark.skipif(sys.platform == "win32", reason="Windows has no pseudo-terminals to open")
 
 
+NOTHING = ConnectionCounts(60, 0, 0, 0, 0)
+
+
 def play(progress, frames):
     progress.stage("simulating")
     for done in range(1, frames + 1):
-        progress.frame(done, frames, broken=done // 2, left_s=65.0 * (frames - done))
+        progress.frame(done, frames, ConnectionCounts(60, done // 2, 0, 0, done // 2), left_s=65.0 * (frames - done))
     progress.stage("rendering")
     progress.finish()
 
@@ -32,8 +36,8 @@ def test_plain_lines_come_with_each_tenth():
     play(PlainLines(stream), 120)
     lines = stream.getvalue().splitlines()
     assert lines[0] == "simulating"
-    assert lines[1] == "frame  12 of 120, 6 connections broken"
-    assert lines[-2:] == ["frame 120 of 120, 60 connections broken", "rendering"]
+    assert lines[1] == "frame  12 of 120, torn: 6 of 60 connections"
+    assert lines[-2:] == ["frame 120 of 120, torn: 60 of 60 connections", "rendering"]
     assert len(lines) == 12
 
 
@@ -41,9 +45,9 @@ def test_few_frames_have_a_line_each():
     stream = StringIO()
     play(PlainLines(stream), 3)
     assert stream.getvalue().splitlines()[1:4] == [
-        "frame 1 of 3, 0 connections broken",
-        "frame 2 of 3, 1 connection broken",
-        "frame 3 of 3, 1 connection broken",
+        "frame 1 of 3, torn: 0 of 60 connections",
+        "frame 2 of 3, torn: 1 of 60 connections",
+        "frame 3 of 3, torn: 1 of 60 connections",
     ]
 
 
@@ -81,8 +85,8 @@ def test_the_bar_grows_in_place_and_leaves_its_line(terminal):
     first, bars, last = shown().split("\n")[:3]
     drawn = bars.split("\r")[1:]
     assert (first, last) == ("simulating", "rendering")
-    assert re.match(r"\[#+\.+\] frame 1 of 4, 0 connections broken, 3:15 left$", drawn[0])
-    assert re.match(r"\[#+\] frame 4 of 4, 2 connections broken *$", drawn[-1])
+    assert re.match(r"\[#+\.+\] frame 1 of 4, torn: 0 of 60 connections, 3:15 left$", drawn[0])
+    assert re.match(r"\[#+\] frame 4 of 4, torn: 2 of 60 connections *$", drawn[-1])
 
 
 @needs_terminal
@@ -90,8 +94,8 @@ def test_the_bar_grows_in_place_and_leaves_its_line(terminal):
 def test_the_bar_fits_a_narrow_terminal(columns, terminal):
     stream, shown = terminal(columns)
     progress = TerminalBar(stream)
-    progress.frame(1, 4, 0, None)
-    progress.frame(4, 4, 0, 0.0)
+    progress.frame(1, 4, NOTHING, None)
+    progress.frame(4, 4, NOTHING, 0.0)
     progress.finish()
     assert max(len(drawn) for drawn in shown().strip("\n").split("\r")) <= columns
 
@@ -103,7 +107,7 @@ def test_the_bar_tells_how_long_it_still_takes(terminal, monkeypatch):
     stream, shown = terminal(100)
     progress = TerminalBar(stream)
     for done in range(1, 4):
-        progress.frame(done, 10, 0, None)
+        progress.frame(done, 10, NOTHING, None)
     progress.finish()
     assert re.search(r"\d\d:\d\d left", shown())
 

@@ -43,7 +43,7 @@ def test_each_run_has_its_folder_and_a_report_compares_them(files, tmp_path, cap
             assert (output / name / result).stat().st_size > 0
         assert read_scenario(output / name / "scenario_as_run.toml").ball.target_m == target
     assert lines.index(f"scenario 1 of 2: {files[0]}") < lines.index(f"scenario 2 of 2: {files[1]}")
-    assert sum(line.startswith("broken connections") for line in lines) == 2
+    assert sum(line.startswith("connections ") for line in lines) == 2
     for name in ("report.html", "report.pdf", "tables/comparison.csv"):
         assert lines.count(str(output / "report" / name)) == 1
     header = (output / "report" / "tables" / "comparison.csv").read_text(encoding="utf-8").splitlines()[0]

@@ -11,6 +11,7 @@ from support.sample_results import G, changed, hanging_chain, without_connection
 
 from bridge_demolition_addon.display.key_figures import RunFigures
 from bridge_demolition_addon.model.debris.throws import debris_of
+from bridge_demolition_addon.model.results.connection_counts import ConnectionCounts
 
 LAST = 4
 """Row in which *lower* has moved by 3 m and 4 m."""
@@ -24,7 +25,7 @@ def chain():
 def test_nothing_is_down_before_the_chain_comes_apart(chain):
     figures = chain.at(LAST - 1)
     assert (figures.number, figures.time_s) == (5, pytest.approx(0.12))
-    assert (figures.broken, figures.connections) == (0, 2)
+    assert figures.connections == ConnectionCounts(2, 0)
     assert (figures.debris_kg, figures.bridge_kg, figures.farthest) == (0.0, 500.0, None)
     assert figures.area.is_empty()
 
@@ -32,7 +33,7 @@ def test_nothing_is_down_before_the_chain_comes_apart(chain):
 def test_what_came_down_counts_with_its_mass_its_area_and_its_distance(chain):
     figures = chain.at(LAST)
     assert (figures.number, figures.time_s) == (6, pytest.approx(0.16))
-    assert (figures.broken, figures.connections) == (1, 2)
+    assert figures.connections == ConnectionCounts(2, 1)
     assert (figures.debris_kg, figures.bridge_kg) == (200.0, 500.0)
     # Its section of 0.5 m², with its middle at (3, 4); the bridge covers 1 m² around the origin.
     half = math.sqrt(0.5) / 2.0
@@ -94,7 +95,7 @@ def test_a_ball_has_a_history_of_its_own(chain):
 
 def test_a_run_without_connections_has_none_to_break():
     figures = RunFigures(without_connections(hanging_chain())).at(LAST)
-    assert (figures.broken, figures.connections) == (0, 0)
+    assert figures.connections == ConnectionCounts(0, 0)
 
 
 def test_nothing_that_is_broken_off_hides_in_a_bound():

@@ -239,7 +239,7 @@ def test_a_run_that_was_killed_tells_what_its_logs_hold(tmp_path, last_lines):
     assert any("was killed before it could write results.npz" in text for text in page.notices)
     assert any("not whole" in text for text in page.notices) is bool(last_lines)
     assert "1.000 s as far as logged" in page.texts
-    assert "Connections broken as far as logged: 2." in page.texts
+    assert "Connections cracked or torn as far as logged: 2." in page.texts
     assert len(page.pictures) == 1
 
 

@@ -18,6 +18,7 @@ from case import RIGID_BODIES, simulated
 from bridge_demolition_addon.display.contour_quantities import ContourQuantity
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.model.results.bar_extremes import bars_text, largest_use_text
+from bridge_demolition_addon.model.results.connection_counts import ConnectionCounts
 from bridge_demolition_addon.report.run_folder import read_run
 from bridge_demolition_addon.report.sections.bars import bar_blocks, use_histories
 from bridge_demolition_addon.ui.results.shown_run import lines_of
@@ -80,6 +81,11 @@ def test_bars_that_stand_are_logged_with_the_force_of_statics(blender, tmp_path)
     np.testing.assert_allclose(uses, openings / ELONGATION_M, rtol=1e-6)
     bars = summary["reinforcement"]
     assert (bars["cracked"], bars["held_at_end"], bars["yielded"], bars["ruptured"]) == (1, 1, 1, 0)
+    connections = summary["connections"]
+    assert (connections["cracked"], connections["yielded"], connections["torn"]) == (1, 1, 0)
+    counts = [ConnectionCounts.of_results(results, row) for row in range(len(results.frames))]
+    assert (counts[0].cracked, counts[0].torn) == (0, 0) and {count.torn for count in counts} == {0}
+    assert sorted({count.yielded for count in counts}) == [0, 1]
     assert bars["largest_use"]["share"] == pytest.approx(uses.max())
     assert bars["largest_use"]["time_s"] == pytest.approx(float(logged[int(uses.argmax())]["time_s"]))
     ((kind, times_s, use),) = use_histories(results)

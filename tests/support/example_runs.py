@@ -192,7 +192,7 @@ class _Stopping(Silence):
         super().__init__()
         self._frames = frames
 
-    def frame(self, done, total, broken, left_s):
+    def frame(self, done, total, connections, left_s):
         if done >= self._frames:
             signal.raise_signal(signal.SIGTERM)
 

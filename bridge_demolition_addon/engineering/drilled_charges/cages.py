@@ -16,7 +16,8 @@ All arrays have their components first.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
+from typing import Any
 
 import numpy as np
 
@@ -76,12 +77,15 @@ class _Groups:
 
     def joined(self, others: _Groups) -> _Groups:
         """Return these and others."""
-        pairs = ((getattr(self, item.name), getattr(others, item.name)) for item in fields(self)[:-1])
-        return _Groups(*(np.concatenate(pair, axis=-1) for pair in pairs), self.straight)
+        pairs = {name: (getattr(self, name), getattr(others, name)) for name in _ARRAYS}
+        return self._with({name: np.concatenate(pair, axis=-1) for name, pair in pairs.items()})
 
     def only(self, which: IntArray) -> _Groups:
         """Return some of them."""
-        return _Groups(*(getattr(self, item.name)[..., which] for item in fields(self)[:-1]), self.straight)
+        return self._with({name: getattr(self, name)[..., which] for name in _ARRAYS})
+
+    def _with(self, arrays: dict[str, Any]) -> _Groups:
+        return replace(self, **arrays)
 
     @property
     def stiffness_n_m(self) -> FloatArray:
@@ -111,6 +115,9 @@ class _Groups:
         first = turned(rotations[..., self.first], self.first_anchors_m)
         second = turned(rotations[..., self.second], self.second_anchors_m)
         return positions_m[:, self.second] + second - positions_m[:, self.first] - first, first, second
+
+
+_ARRAYS = tuple(item.name for item in fields(_Groups) if item.name != "straight")
 
 
 class Cages:

@@ -13,6 +13,15 @@ from ..arrays import BoolArray, FloatArray, IntArray
 from .joint_rows import dot_products
 from .steel_bars import BarResponse, Bars
 
+AT_YIELD = 1.0 - 1e-6
+"""Part of the yield force from which on bars yield, but for rounding."""
+
+ALL_RUPTURED = 1.0 - 1e-6
+"""Part of the bars of a crack from which on all of them have ruptured, but for rounding."""
+
+BARS_HOLD, BARS_YIELDED = 1.0, 2.0
+"""States of the bars of a crack: they hold, and they hold and have yielded."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class CrackState:
@@ -103,15 +112,25 @@ _LARGEST = tuple(item.name for item in fields(FrameCracks))[1:]
 
 
 class CrackAccumulator:
-    """Keeps what is largest at each of m connections whose cracks bars cross, over the sub-steps of a frame."""
+    """Keeps what is largest over the sub-steps of a frame at each of m connections, of those that `have_bars` (m,).
 
-    def __init__(self, count: int):
+    Attributes
+    ----------
+    bars : (m,) float
+        As the last frame ended: `BARS_HOLD` where a crack is held by bars, `BARS_YIELDED` where these have yielded by
+        then, in part ruptured ones among them, and 0 of all other connections.
+    """
+
+    def __init__(self, have_bars: BoolArray):
+        count = len(have_bars)
+        self._have_bars = have_bars
         self._largest = np.zeros((len(_LARGEST), count))
-        self._seen = np.zeros(count, bool)
+        self._seen, self._have_yielded = np.zeros((2, count), bool)
+        self.bars = np.zeros(count)
 
     def add(self, state: CrackState) -> None:
         """Take over the state after a sub-step."""
-        self._seen[state.rows] = True
+        self._seen[state.rows] = self._have_bars[state.rows]
         for largest, name in zip(self._largest, _LARGEST, strict=True):
             largest[state.rows] = np.maximum(largest[state.rows], getattr(state, name))
 
@@ -119,6 +138,10 @@ class CrackAccumulator:
         """Return what was largest in the frame; the next one begins."""
         rows = np.flatnonzero(self._seen)
         frame = FrameCracks(rows, *self._largest[:, rows])
+        self._have_yielded[rows] |= frame.yield_shares >= AT_YIELD
+        states = np.where(self._have_yielded[rows], BARS_YIELDED, BARS_HOLD)
+        self.bars = np.zeros(len(self._seen))
+        self.bars[rows] = np.where(frame.ruptured_shares < ALL_RUPTURED, states, 0.0)
         self._largest[:], self._seen[:] = 0.0, False
         return frame
 

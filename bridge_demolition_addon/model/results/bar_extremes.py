@@ -7,14 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from ...engineering.elasticity.crack_state import FrameCracks
+from ...engineering.elasticity.crack_state import ALL_RUPTURED, AT_YIELD, FrameCracks
 from .inventory import Inventory
-
-AT_YIELD = 1.0 - 1e-6
-"""Part of the yield force from which on bars yield, but for rounding."""
-
-_ALL = 1.0 - 1e-6
-"""Part of the bars of a crack from which on all of them have ruptured, but for rounding."""
 
 
 class BarExtremes:
@@ -31,7 +25,7 @@ class BarExtremes:
         rows = cracks.rows
         self._cracked[rows] = True
         self._held[:] = False
-        self._held[rows] = cracks.ruptured_shares < _ALL
+        self._held[rows] = cracks.ruptured_shares < ALL_RUPTURED
         self._yield_shares[rows] = np.maximum(self._yield_shares[rows], cracks.yield_shares)
         self._ruptured[rows] = np.maximum(self._ruptured[rows], cracks.ruptured_shares)
         more = rows[cracks.rupture_shares > self._use[rows]]
@@ -59,8 +53,8 @@ class BarExtremes:
             "cracked": int(cracked.sum()),
             "held_at_end": int((cracked & self._held).sum()),
             "yielded": int((cracked & (self._yield_shares >= AT_YIELD)).sum()),
-            "ruptured_in_part": int((cracked & (self._ruptured > 0.0) & (self._ruptured < _ALL)).sum()),
-            "ruptured": int((cracked & (self._ruptured >= _ALL)).sum()),
+            "ruptured_in_part": int((cracked & (self._ruptured > 0.0) & (self._ruptured < ALL_RUPTURED)).sum()),
+            "ruptured": int((cracked & (self._ruptured >= ALL_RUPTURED)).sum()),
             "largest_use_share": 0.0 if most is None else float(self._use[most]),
             "largest_use_s": None if most is None else float(self._use_s[most]),
         }

@@ -42,7 +42,7 @@ _ARRAYS = {
     "body_bar_use",
     ("nan", "kn33"): "stresses_pa",
     ("nan", "km3"): "connection_forces_n connection_moments_nm connection_peak_forces_n connection_peak_moments_nm",
-    ("nan", "km"): "connection_peaks_n",
+    ("nan", "km"): "connection_peaks_n connection_bars",
     ("nan", "k"): "work_of_gravity_j work_of_loads_j work_of_tools_j lost_to_damping_j dissipated_between_bodies_j "
     "dissipated_by_bars_j dissipated_by_crack_friction_j made_by_connections_j made_by_contacts_j made_by_lifting_j",
     ("i", "b"): "balls",

@@ -19,7 +19,7 @@ from .arrays import Results
 SHORT = 8
 """Digits of a digest that are enough to tell runs apart by eye."""
 
-_OF_BARS = ("dissipated_by_bars_j", "dissipated_by_crack_friction_j")
+_OF_BARS = ("dissipated_by_bars_j", "dissipated_by_crack_friction_j", "connection_bars")
 """Arrays that say something of runs with bars alone; the others have the digests that they had before these."""
 
 _KEPT_AS = {"i": np.dtype("<i8"), "u": np.dtype("<i8"), "f": np.dtype("<f8")}

@@ -95,7 +95,9 @@ def peak_near(results: Results, time_s: float, within_s: float) -> Peak | None:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class BreakingByKind:
-    """How many connections of a kind there are, and how many are broken at each recorded step, (k,).
+    """How many connections of a kind there are, and how many have cracked or are torn at each recorded step, (k,).
+
+    `torn` are those that no bars hold any more; None where that was not recorded.
 
     The kind says which members they join, such as ``deck - pier cap``, or ``foundation``.
     """
@@ -103,15 +105,19 @@ class BreakingByKind:
     kind: str
     count: int
     broken: np.ndarray
+    torn: np.ndarray | None = None
 
 
 def breaking_by_kind(results: Results) -> list[BreakingByKind]:
     """Return connections by what they join, the most numerous kind first."""
-    kinds = _kinds(results)
+    kinds, intact, bars = _kinds(results), results.frames.intact, results.frames.loads.connection_bars
+    torn = None if bars is None or np.isnan(bars).any() else ~(intact | (bars > 0.0))
     by_kind = []
     for kind in np.unique(kinds):
         of_kind = kinds == kind
-        by_kind.append(BreakingByKind(str(kind), int(of_kind.sum()), (~results.frames.intact[:, of_kind]).sum(axis=1)))
+        of_torn = None if torn is None else torn[:, of_kind].sum(axis=1)
+        broken = (~intact[:, of_kind]).sum(axis=1)
+        by_kind.append(BreakingByKind(str(kind), int(of_kind.sum()), broken, of_torn))
     return sorted(by_kind, key=lambda breaking: -breaking.count)
 
 

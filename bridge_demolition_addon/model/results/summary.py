@@ -11,6 +11,7 @@ from ...engineering.arithmetic import cube_root
 from ...engineering.geometry.vectors import dot, length
 from ...engineering.mechanics.impact import CONCRETE, STEEL, Contact, Hit, estimate, hits
 from .arrays import Results
+from .connection_counts import ConnectionCounts
 from .creep import creep_summary
 from .key_frame import RESTING_WEIGHTS, impact_step, key_step
 from .motion import relative_to_ground, throw, without_removed
@@ -128,6 +129,7 @@ def _connections(results: Results) -> dict[str, Any]:
         "count": count,
         "intact": int(intact[-1]),
         "broken": int(count - intact[-1]),
+        **ConnectionCounts.of_results(results).stored,
         "over_time": {
             "time_s": results.frames.time_s[shown].tolist(),
             "intact": intact[shown].tolist(),

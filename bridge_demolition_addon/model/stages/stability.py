@@ -151,7 +151,7 @@ class Stability:
         for contact in self.loose_on:
             yield "", f"{contact}: taken for a bearing that holds no uplift"
         if self.cracked:
-            yield "cracked", f"{self.cracked} of {self.connections} connections, which hold by their bars"
+            yield "cracked", f"{self.cracked} of {self.connections} faces are cracked and held by bars"
         for part in self.overloaded:
             yield "above 100 %", f"{part.member}: {part.text}"
         if self.overloaded and self.verdict == STANDS:

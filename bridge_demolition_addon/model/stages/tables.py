@@ -228,7 +228,7 @@ def stage_sentences(stage: Stage, row: Mapping[str, Any]) -> list[str]:
             f"[{row['at_x_m']:.1f}, {row['at_y_m']:.1f}, {row['at_z_m']:.1f}] m"
         )
     if row["cracked"]:
-        sentences.append(f"{row['cracked']} connections have cracked, and hold by their bars")
+        sentences.append(f"{row['cracked']} faces are cracked and held by bars")
     sentences += [_of_bare_bars(bars) for bars in stage.bars]
     sentences += [_of_tendon(tendon) for tendon in stage.tendons]
     sentences += lift_sentences(stage.lifts, row["not_held_kg"])

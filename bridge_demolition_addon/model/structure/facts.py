@@ -268,14 +268,15 @@ def _loose_facts(model: Model, is_held: np.ndarray, held: int) -> Iterator[Fact]
 
 def _crack_facts(bridge: CrackedBridge) -> Iterator[Fact]:
     """Yield how a bridge with bars cracks by its own weight, and whether it stands."""
-    cracks = np.count_nonzero(~bridge.intact)
-    yield "cracked", f"{cracks} of {len(bridge.intact)} connections, by the bridge's own weight alone"
+    cracks, used = np.count_nonzero(~bridge.intact), bridge.bars_used
+    held = np.count_nonzero(np.isfinite(used))
+    by_bars = "" if bridge.fallen.any() else f", {'all' if held == cracks else held} held by bars"
+    yield "cracked", f"{cracks} of {len(bridge.intact)} faces are cracked by the bridge's own weight{by_bars}"
     if bridge.fallen.any():
         yield "", f"bars do not hold it: {np.count_nonzero(bridge.fallen)} shards come down by themselves"
         return
-    used = bridge.bars_used
-    if held := np.count_nonzero(np.isfinite(used)):
-        yield "", f"bars hold {held} of them, with {np.nanmax(used):.0%} of the force at which they rupture at most"
+    if held:
+        yield "", f"with {np.nanmax(used):.0%} of the force at which these rupture at most"
     yield "", "it stands at rest. A run cracks it at once, with a jerk: see docs/stages.md"
 
 

@@ -20,6 +20,7 @@ from ..debris.touchdown import landings, shaking_at
 from ..debris.zones import watch_zone
 from ..results.arrays import Results
 from ..results.collapse import Span, collapse_progress, spans_of
+from ..results.connection_counts import ConnectionCounts
 from ..results.motion import relative_to_ground, without_removed
 from ..results.solver_energy import is_known, throws_of
 from ..scenario import Scenario
@@ -136,10 +137,11 @@ def _without_doubtful(results: Results, hazards: np.ndarray, on_the_way_m: np.nd
 
 
 def _course(results: Results, summary: Mapping[str, Any], scenario: Scenario) -> dict[str, Any]:
-    force, energy = summary["largest_resultant"], summary["energy"]
+    force, energy, counts = summary["largest_resultant"], summary["energy"], ConnectionCounts.of_summary(summary)
     outputs = {
         COLLAPSED: float(collapse_progress(results)[-1]),
-        "broken": summary["connections"]["broken"],
+        "broken": counts.broken,
+        "torn": counts.torn,
         RESTED: summary.get("came_to_rest_s"),
         MOVING: moving["shards"] if (moving := summary.get("moving_at_end")) else 0,
         "largest_force_N": force and force["force_N"],

@@ -68,7 +68,7 @@ def logged_section(run: ReportedRun) -> Section:
         )
         blocks.append(Picture(draw, "Largest load on a shard or ball, as far as logged."))
     if run.logged_breaks is not None:
-        blocks.append(Paragraph(f"Connections broken as far as logged: {run.logged_breaks}."))
+        blocks.append(Paragraph(f"Connections cracked or torn as far as logged: {run.logged_breaks}."))
     return Section("Forces as far as logged", tuple(blocks))
 
 
@@ -178,8 +178,9 @@ def _breaking_blocks(run: ReportedRun) -> list[Block]:
     columns = (
         Column("connections", "kind", "", lambda kind: kind.kind),
         Column("there were", "count", "d", lambda kind: kind.count),
-        Column("broke", "broken", "d", lambda kind: int(kind.broken[-1])),
-        Column("broke (%)", "broken_percent", ".1f", lambda kind: 100.0 * float(kind.broken[-1]) / kind.count),
+        Column("cracked or torn", "broken", "d", lambda kind: int(kind.broken[-1])),
+        Column("cracked or torn (%)", "broken_percent", ".1f", lambda kind: 100.0 * kind.broken[-1] / kind.count),
+        Column("torn", "torn", "d", lambda kind: None if kind.torn is None else int(kind.torn[-1])),
         Column(
             "first at (s)",
             "first_break_s",
@@ -190,7 +191,7 @@ def _breaking_blocks(run: ReportedRun) -> list[Block]:
     return [
         Picture(
             partial(breaking_history, times_s=results.frames.time_s, kinds=kinds, impact_s=run.ball.first_hit_s),
-            "Connections broken, by the members that they joined.",
+            "Connections cracked or torn, by the members that they joined.",
             100.0,
         ),
         DataTable.of("breaking", "Connections by kind", columns, kinds),

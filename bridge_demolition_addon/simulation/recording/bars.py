@@ -19,12 +19,11 @@ class RecordedBars:
     """Bars of a run with elastic connections, of which some (m,) have bars."""
 
     def __init__(self, inventory: Inventory, have_bars: np.ndarray):
-        self._inventory, self._have_bars = inventory, have_bars
+        self._inventory = inventory
         self._extremes = BarExtremes(inventory, have_bars)
 
     def note(self, frame: Frame, cracks: FrameCracks) -> tuple[list[tuple[str, ...]], FrameCracks]:
         """Return the cracks with bars at work in a frame: the names of each and of its members, and what they did."""
-        cracks = cracks.only(self._have_bars[cracks.rows])
         self._extremes.note(frame.time_s, cracks)
         at_work = cracks.only((cracks.yield_shares >= _AT_WORK) | (cracks.ruptured_shares > 0.0))
         names = self._inventory.connection_names[at_work.rows]

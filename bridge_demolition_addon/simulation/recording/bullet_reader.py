@@ -137,8 +137,8 @@ class BulletReader:
         )
         if loads:
             bearings = BearingAccumulator(pads) if (pads := self._bearing_pads()) else None
-            follows_bars = elastic is not None and elastic.have_bars is not None
-            cracks = CrackAccumulator(len(inventory.pairs)) if follows_bars else None
+            have_bars = elastic.have_bars if elastic else None
+            cracks = None if have_bars is None else CrackAccumulator(have_bars)
             self._sums = FrameSums(meter, inventory, self._work(), bearings, cracks, every_substep=self._every_substep)
         elif not breaker.uses_strength:
             constraints.write_loads(wanted=False)  # nothing reads them

@@ -138,7 +138,8 @@ class FrameSums:
             self._of_cracks = self._cracks.finish()
             use = self._of_cracks.use_of_bodies(self._inventory.pairs, len(self._inventory.masses_kg))
             loads = replace(loads, body_bar_use=use)
-        return loads, work, breaks
+        bars = self._cracks.bars if self._cracks else np.zeros(len(self._inventory.pairs))
+        return replace(loads, connection_bars=bars), work, breaks
 
     @property
     def of_bearings(self) -> BearingLoads | None:

@@ -9,6 +9,7 @@ import numpy as np
 
 from ...errors import SimulationError
 from ...model.results.arrays import Results
+from ...model.results.connection_counts import ConnectionCounts
 from ...model.results.frames import BallHistory, ContactHistory, Frame
 from ...model.results.inventory import Inventory
 from ...model.results.stream import FrameStream
@@ -39,9 +40,10 @@ class RecordedFrames:
         return self.last.number if self.last else None
 
     @property
-    def broken(self) -> int:
-        """Connections broken by now."""
-        return int((~self.last.intact).sum()) if self.last else 0
+    def counts(self) -> ConnectionCounts:
+        """Connections that have cracked, yielded or torn by now."""
+        last = self.last
+        return ConnectionCounts.of_frame(last.intact, last.loads.connection_bars) if last else ConnectionCounts(0, 0)
 
     def motion(self) -> tuple[float, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
         """Return time in s, positions (n, 3), rotations (n, 3, 3), sleep (n,) and masses (n,) in the last frame."""

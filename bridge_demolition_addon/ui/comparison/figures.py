@@ -18,7 +18,8 @@ _KG_PER_T = 1000.0
 
 _HEADS = {
     IMPACT: "Impact of the ball",
-    "Connections broken": "Connections broken",
+    "Connections cracked, held by bars": "Cracked, held by bars",
+    "Connections torn": "Connections torn",
     "Progress of the collapse": "Progress of the collapse",
     "All shards at rest from": "At rest from",
     "Debris": "Debris",

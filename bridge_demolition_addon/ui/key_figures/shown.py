@@ -15,6 +15,7 @@ from ...display.key_figures import FrameFigures, RunFigures
 from ...model.results.collapse import ShardRest
 from ...model.scenario import Exclusion
 from ...simulation.blender_events import shown_results
+from ..connection_counts import counts_line
 from ..languages.words import translated
 from ..results.shown_run import LargestValue
 from ..scenario.built import shown_exclusion
@@ -140,7 +141,7 @@ def _worked_out(run: RunFigures, row: int, name: str, exclusion: Exclusion | Non
 def figure_lines(figures: FrameFigures, rest: ShardRest, exclusion: Exclusion | None) -> Iterator[str]:
     """Yield the key figures of a frame as texts."""
     yield translated("Frame {}, {} s").format(figures.number, f"{figures.time_s:.2f}")
-    yield translated("Broken: {} of {} connections").format(figures.broken, figures.connections)
+    yield counts_line(figures.connections)
     yield translated("Debris: {} of {}").format(mass_text(figures.debris_kg), mass_text(figures.bridge_kg))
     if figures.farthest is not None:
         yield _farthest_text(figures.farthest.distance_m, exclusion)

@@ -21,6 +21,7 @@ from ...simulation.kept_run import adopt_run
 from ...studies.whole_run_process import WholeRun
 from ...studies.whole_run_program import whole_run_program_command
 from .. import messages
+from ..connection_counts import counts_line
 from ..contours import view as contour_view
 from ..languages.words import translated
 from ..operators import Action, absolute, baked, no_world
@@ -204,8 +205,10 @@ def draw_run_beside(layout: bpy.types.UILayout, context: bpy.types.Context, *, h
     text = "Stop Now, without Results" if runs_beside.is_stopping else "Stop Run Beside"
     layout.operator(BDA_OT_stop_run_beside.bl_idname, text=text, icon="X")
     state = runs_beside.run.state
-    done = translated("{} of {} frames, {} connections broken").format(state.frames, state.of_frames, state.broken)
+    done = translated("{} of {} frames").format(state.frames, state.of_frames)
     layout.progress(factor=state.frames / max(state.of_frames, 1), text=done if state.of_frames else "")
+    if state.of_frames:
+        draw_sentence(layout, context, counts_line(state.connections), icon="NONE")
     if state.stage:
         draw_sentence(layout, context, state.stage, icon="NONE")
     if state.left_s:

@@ -183,7 +183,7 @@ class BDA_OT_delete_bake(Action, bpy.types.Operator):
 
 def note_of(playing: Playing, *, pictures: bool = False) -> str:
     """Return what else the progress of a run says; its pictures are not part of its time left."""
-    notes = [f"{playing.recording.broken} connections broken"]
+    notes = [playing.recording.counts.text]
     if playing.longest_frame_s > _SLOW_FRAME_S:
         notes.append(f"one frame takes Blender up to {playing.longest_frame_s:.1f} s: it answers in between")
     if pictures:

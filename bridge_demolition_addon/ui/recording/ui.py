@@ -6,6 +6,7 @@ import bpy
 
 from ...simulation.blender_events import running_recording
 from ...simulation.recording.recorder import Recording
+from ..connection_counts import counts_line
 from ..languages.words import translated
 from ..scenario.built import changed_in_blender, changes
 from ..scenario.ui import draw_changes, draw_run
@@ -78,8 +79,8 @@ def _draw_state(layout: bpy.types.UILayout, context: bpy.types.Context, recordin
     if recording.error:
         draw_sentence(layout, context, translated("Recording ended early: {}").format(recording.error))
         return
-    text = translated("{} frames, {} connections broken").format(recording.recorded_frames, recording.broken)
-    layout.label(text=text, translate=False)
+    layout.label(text=translated("{} frames").format(recording.recorded_frames), translate=False)
+    draw_sentence(layout, context, counts_line(recording.counts), icon="NONE")
     if recording.layout_error:
         text = translated("Forces are estimated from motion: {}").format(recording.layout_error)
         draw_sentence(layout, context, text)

@@ -12,11 +12,13 @@ import bpy
 from ...errors import DemolitionError, OutputError, UnreadableError
 from ...model.results.arrays import Results
 from ...model.results.bar_extremes import bars_text, largest_use_text
+from ...model.results.connection_counts import ConnectionCounts
 from ...model.run_folder.files import SUMMARY_FILE
 from ...model.run_folder.summary import RunSummary, read_summary
 from ...model.sequence.doubts import doubts_of_run
 from ...model.stages.stability import STANDS, stability_texts
 from ...simulation.kept_run import digest_of_run, folder_of_run, has_run, results_of_run
+from ..connection_counts import counts_line
 from ..languages.words import translated
 from ..recording.session import last_recording, last_recording_of
 from ..scene_units import length_text, mass_text, units_of_texts
@@ -170,11 +172,10 @@ def _happened(bearing: Mapping[str, Any]) -> str:
 
 def lines_of(summary: Mapping[str, Any]) -> list[str]:
     """Return the totals of a summary in short lines."""
-    connections = summary["connections"]
     creeping = summary.get("creeping")
     return [
         translated("Total mass: {}").format(mass_text(summary["mass_kg"]["shard"])),
-        translated("Broken: {} of {} connections").format(connections["broken"], connections["count"]),
+        counts_line(ConnectionCounts.of_summary(summary)),
         *([translated("Bars: {}").format(bars)] if (bars := bars_text(summary)) else []),
         *([translated("Most, by these sub-steps: {}").format(use)] if (use := largest_use_text(summary)) else []),
         translated("{} frames, {} s").format(summary["frames"], f"{summary['simulated_s']:.2f}"),

@@ -46,13 +46,13 @@ def select(bpy, name):
 def test_figures_are_those_of_the_shown_frame(chain):
     assert seen(chain).lines == (
         "Frame 6, 0.16 s",
-        "Broken: 1 of 2 connections",
+        "Cracked or torn: 1 of 2 connections",
         "Debris: 200 kg of 500 kg",
         "Debris up to 4.80 m from the bridge",  # from (0.5, 0.5) to (3.35, 4.35)
         "Nothing moves in the whole run",  # the chain has no speeds
     )
     chain.context.scene.frame_set(PULLED)
-    assert seen(chain).lines[:3] == ("Frame 5, 0.12 s", "Broken: 0 of 2 connections", "Debris: 0 kg of 500 kg")
+    assert seen(chain).lines[:3] == ("Frame 5, 0.12 s", "Cracked or torn: 0 of 2 connections", "Debris: 0 kg of 500 kg")
     assert not len(seen(chain).debris_lines) and seen(chain).farthest_m is None
 
 

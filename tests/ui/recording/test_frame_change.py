@@ -211,7 +211,7 @@ def test_results_tell_the_totals(built, tmp_path):
     # The deck is 9 m x 4 m x 0.4 m, and each of two piers 0.8 m x 2 m x 3 m, of 2400 kg/m³.
     assert lines_of(summary)[0] == "Total mass: 57 600 kg"
     broken, count = summary["connections"]["broken"], len(built.context.scene.rigidbody_world.constraints.objects)
-    assert lines_of(summary)[1] == f"Broken: {broken} of {count} connections"
+    assert lines_of(summary)[1] == f"Torn: {broken} of {count} connections"
 
 
 def test_the_peak_force_of_the_results_is_that_of_contours_with_peaks(built, tmp_path):
