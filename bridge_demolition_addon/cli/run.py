@@ -17,7 +17,8 @@ from ..model.results.creep import creep_text
 from ..model.results.fingerprint import SHORT
 from ..model.results.summary import first_hit_s
 from ..model.run_folder.files import RESULT_FILES
-from ..model.run_folder.folder import check_folder, numbered_folder, remove_report
+from ..model.run_folder.folder import check_folder, numbered_folder
+from ..model.run_folder.reported import remove_report
 from ..model.scenario import Scenario
 from ..model.scenario.file import read_scenario
 from ..model.sequence.checked_model import checked_model

@@ -26,9 +26,11 @@ from ..model.run_folder.files import (
     TABLE_FOLDER,
 )
 from ..model.run_folder.folder import holds_run
+from ..model.run_folder.reported import check_free, list_report
 from ..model.scenario import Scenario
 from ..model.study.files import OPTIMISE_FILE, REPORT_FOLDER, SEARCH_FILE, STUDY_FILE
 from ..model.terrain.placed import Placing
+from ..system.disk import check_no_link, own_folder
 from ..system.folder_lock import FolderLock
 from ..system.progress import Progress
 from ..version import VERSION
@@ -247,19 +249,14 @@ def write_charge_plan(
     document = Document(scenario.title, subtitle, (section,))
     with _written_to(target):
         drawn = write_areas(areas, scenario.site, target / CHARGES_DXF, target / CHARGES_GEOJSON)
-        written = [
-            *_written(
-                Report(document, names=names_of(scenario), settings=scenario.report),
-                target,
-                progress,
-                Extras(language=_checked_language(language), units=_checked_units(units)),
-            ),
-            *drawn,
-        ]
+        report = Report(document, files=tuple(drawn), names=names_of(scenario), settings=scenario.report)
+        extras = Extras(language=_checked_language(language), units=_checked_units(units))
+        written = _written(report, target, progress, extras)
         book = target / PLAN_WORKBOOK
         tables = [
             (table.name, [column.key for column in table.columns], table.rows) for table in document.named_tables()
         ]
+        list_report(target, [PLAN_WORKBOOK])
         return [*written, book] if write_workbook(tables, book) else written
 
 
@@ -276,9 +273,12 @@ def _checked_units(name: str | None) -> str | None:
 @contextmanager
 def _written_to(target: Path) -> Iterator[None]:
     """Have a folder to write a report to, and say so where that fails."""
+    if any(kind.recognised(target.parent) for kind in KINDS):
+        check_no_link(target)
     try:
         target.mkdir(parents=True, exist_ok=True)
         with FolderLock(target):
+            check_free(target)
             yield
     except OSError as error:
         read = isinstance(error, FileNotFoundError) and not Path(error.filename or target).is_relative_to(target)
@@ -312,6 +312,12 @@ def _written_in(
     of_units = [translation.text(note) for note in notes_on_units(quantities.system)]
     if notes := [*of_units, *notes_on_language(translation, can_draw)]:
         document, pages = with_notes(document, notes), [with_notes(page, notes) for page in pages]
+    tables = [*report.document.named_tables(), *report.tables]
+    names = [f"{TABLE_FOLDER}/{table.name}.csv" for table in tables]
+    check_no_link(target / TABLE_FOLDER)
+    check_free(target, names)
+    pages_here = [SINGLE_PAGES[audience] for audience in extras.pages]
+    list_report(target, [*names, REPORT_PAGE, REPORT_PDF, *pages_here, *(path.name for path in report.files)])
     progress.stage(f"writing {REPORT_PAGE}")
     write_html(document, drawn, target / REPORT_PAGE, translation)
     files = [target / REPORT_PAGE]
@@ -328,10 +334,7 @@ def _written_in(
             path.unlink(missing_ok=True)  # that of an earlier report would say something else
     if extras.word:
         files += _word_files((document, *pages), drawn, target, progress, extras, translation)
-    tables = target / TABLE_FOLDER
-    tables.mkdir(exist_ok=True)
-    written = write_tables([*report.document.named_tables(), *report.tables], tables)
-    return [*files, *written, *report.files]
+    return [*files, *write_tables(tables, own_folder(target / TABLE_FOLDER)), *report.files]
 
 
 def _word_files(

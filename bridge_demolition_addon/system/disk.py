@@ -16,6 +16,7 @@ def whole_file(path: Path) -> Iterator[Path]:
     The file at the path stays until then, and stays where writing fails; an error of the system names the path.
     """
     part = part_of(path)
+    part.unlink(missing_ok=True)  # what was killed, or who made this folder, may have left a file or a link there
     try:
         yield part
         with part.open("rb+") as written:
@@ -61,6 +62,22 @@ def write_whole_text(path: Path, text: str, *, encoding: str = "utf-8", newline:
     """Write a text file whole or not at all."""
     with whole_file(path) as part:
         part.write_text(text, encoding=encoding, newline=newline)
+
+
+def own_folder(path: Path) -> Path:
+    """Make a folder inside one that is written to, if it is not there, and return it; a link is refused."""
+    check_no_link(path)
+    path.mkdir(exist_ok=True)
+    return path
+
+
+def check_no_link(path: Path) -> None:
+    """Refuse a link: what is written or deleted there would be elsewhere. The folder may be from someone else."""
+    if path.is_symlink():
+        raise OutputError(
+            f"{path}: is a link, to {os.readlink(path)}: expected no link, as files of this folder are written there; "
+            "delete it, or choose another folder"
+        )
 
 
 def is_in_place(descriptor: int, path: Path) -> bool:

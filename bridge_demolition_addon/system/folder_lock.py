@@ -13,10 +13,13 @@ from types import TracebackType
 from typing import Self
 
 from ..errors import OutputError
-from .disk import is_in_place, writing
+from .disk import check_no_link, is_in_place, writing
 
 LOCK_FILE = "run.lock"
 """Keeps others out of the folder while one writes to it; gone, or of no effect, afterwards."""
+
+_LONGEST_HOLDER = 500
+"""Bytes that are read of a lock."""
 
 if sys.platform == "win32":
     import msvcrt
@@ -105,8 +108,11 @@ def writer_in(folder: Path) -> str | None:
 def _locked_file(path: Path) -> io.FileIO:
     """Open and lock the file; one that its holder has removed meanwhile is no lock, and another is made."""
     while True:
-        file = path.open("ab+", buffering=0)
+        check_no_link(path)
+        file = open(path, "ab+", buffering=0, opener=_opened)  # noqa: SIM115 - it stays open as long as the lock
         try:
+            if os.fstat(file.fileno()).st_nlink > 1:
+                raise OutputError(f"{path}: is a file of another name, too: expected the lock alone; delete it")
             _take(file.fileno(), path)
         except BaseException:
             file.close()
@@ -114,6 +120,10 @@ def _locked_file(path: Path) -> io.FileIO:
         if is_in_place(file.fileno(), path):
             return file
         file.close()
+
+
+def _opened(path: str, flags: int) -> int:
+    return os.open(path, flags | getattr(os, "O_NOFOLLOW", 0), 0o666)
 
 
 def _take(descriptor: int, path: Path) -> None:
@@ -126,4 +136,5 @@ def _take(descriptor: int, path: Path) -> None:
 
 
 def _holder(path: Path) -> str:
-    return path.read_text(encoding="utf-8", errors="replace") or "a process that has just begun"
+    with path.open("rb") as file:
+        return file.read(_LONGEST_HOLDER).decode(errors="replace") or "a process that has just begun"

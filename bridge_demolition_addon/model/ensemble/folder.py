@@ -20,7 +20,7 @@ from typing import Any, Self
 
 from ...errors import Faults, OutputError, ScenarioError, UnreadableError
 from ...system.array_files.archive import read_archive
-from ...system.disk import write_whole_text, writing
+from ...system.disk import own_folder, write_whole_text, writing
 from ...system.folder_lock import LOCK_FILE, FolderLock, check_unlocked
 from ...system.reading import MEGABYTE, check_file, file_text
 from ..optimise.conclusions import Best, best_of, tried_candidates, write_candidates
@@ -85,7 +85,8 @@ class EnsembleFolder:
         self.path, self.ensemble, self.versions = path, ensemble, dict(versions)
         check_folder(path, ensemble, versions)
         with writing(path):
-            self._runs.mkdir(parents=True, exist_ok=True)
+            path.mkdir(parents=True, exist_ok=True)
+            own_folder(self._runs)
         self._lock = FolderLock(path)
         try:
             with writing(path):
@@ -172,6 +173,8 @@ class EnsembleFolder:
 
     def _clear_parts(self) -> None:
         for part in self._runs.glob(f"*{_PART}"):
+            if part.is_symlink():
+                part.unlink()
             shutil.rmtree(part, ignore_errors=True)
 
 

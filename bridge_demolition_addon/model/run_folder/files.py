@@ -31,6 +31,9 @@ CHARGES_DXF, CHARGES_GEOJSON = "charge_plan.dxf", "charge_plan.geojson"
 REPORT_FILES = (REPORT_PAGE, REPORT_PDF, *SINGLE_PAGES.values(), DXF_FILE, GEOJSON_FILE)
 """What a report leaves, without its tables. Word files stay, as blanks of theirs are filled in by hand."""
 
+REPORT_LIST = "report_files.txt"
+"""Which files a report left in its folder, a line each."""
+
 RESULT_FILES = (
     SUMMARY_FILE,
     FORCE_LOG,

@@ -11,7 +11,7 @@ from typing import Any
 
 from ...engineering.ground_motion.record import GroundRecord
 from ...errors import OutputError
-from ...system.disk import part_of, write_whole_text, writing
+from ...system.disk import check_no_link, own_folder, part_of, write_whole_text, writing
 from ...system.folder_lock import LOCK_FILE, FolderLock, check_unlocked, writer_in
 from ..ground_motion.record_files import record_text
 from ..results.arrays import FRAMES_FILE, RESULTS_FILE
@@ -26,6 +26,7 @@ from .files import (
     SCENARIO_FILE,
     TABLE_FOLDER,
 )
+from .reported import check_free, remove_report
 from .summary import read_summary
 
 _LONGEST_NAME = 60
@@ -96,6 +97,9 @@ def check_folder(folder: Path, *, overwrite: bool) -> None:
             raise OutputError(
                 f"{folder}: exists already, and is not empty: choose another folder, or allow overwriting (--overwrite)"
             )
+        for inner in (PICTURE_FOLDER, TABLE_FOLDER):
+            check_no_link(folder / inner)
+        _check_ours(folder)
         longest = max(len(os.fsencode(folder.resolve() / name)) for name in RESULT_FILES)
     if (excess := longest - _BLENDERS_LONGEST_PATH) > 0:
         raise OutputError(
@@ -105,21 +109,22 @@ def check_folder(folder: Path, *, overwrite: bool) -> None:
     check_unlocked(folder)
 
 
-def remove_report(folder: Path) -> None:
-    """Remove the report that is kept in a folder, with its tables, if there is one: of a new run it would be wrong."""
-    for name in REPORT_FILES:
-        (folder / name).unlink(missing_ok=True)
-    for table in (folder / TABLE_FOLDER).glob("*.csv"):
-        table.unlink()
+def _check_ours(folder: Path) -> None:
+    """Refuse files that a run would replace, and that no run or report wrote."""
+    names = [name for name in RESULT_FILES if name not in REPORT_FILES]
+    is_of_run = holds_run(folder) or (folder / SCENARIO_FILE).exists()
+    if taken := [name for name in names if not is_of_run and os.path.lexists(folder / name)]:
+        raise OutputError(f"{folder / taken[0]}: is there already, and no run wrote it: choose another folder")
+    check_free(folder)
 
 
 def _clear(folder: Path) -> None:
     """Remove what earlier runs left, parts of files of one that was killed included, and make the inner folder."""
+    own_folder(folder / PICTURE_FOLDER)
+    remove_report(folder)
     for name in RESULT_FILES:
         (folder / name).unlink(missing_ok=True)
         part_of(folder / name).unlink(missing_ok=True)
-    remove_report(folder)
-    (folder / PICTURE_FOLDER).mkdir(exist_ok=True)
 
 
 def keep_scenario(folder: Path, scenario: Scenario, made_by_hand: Sequence[str] = ()) -> None:
