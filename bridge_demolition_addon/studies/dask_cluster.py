@@ -6,6 +6,7 @@ Files come back through Dask: no shared file system is needed.
 from __future__ import annotations
 
 import queue
+import shutil
 import tempfile
 import time
 import uuid
@@ -118,8 +119,12 @@ class DaskCluster:
         finally:
             future.release()
         with writing(task.folder):
+            if task.folder.exists():  # of a run that was simulated here before
+                shutil.rmtree(task.folder)
             for name, content in files.items():
                 path = task.folder / name
+                if not path.resolve().is_relative_to(task.folder.resolve()):
+                    raise SimulationError(f"{self._address}: a worker returned a file {name!r}: do not trust it")
                 path.parent.mkdir(parents=True, exist_ok=True)
                 path.write_bytes(content)
         return outcome

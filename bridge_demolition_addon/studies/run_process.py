@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Any, Self
 
 from ..errors import ScenarioError, SimulationError
+from ..model.study.files import SIMULATED_FILE
 from ..model.study.runs_table import CRASHED, DONE, KILLED, OUT_OF_MEMORY, REFUSED, TIMED_OUT, RunOutcome
 from ..model.study.settings import EnsembleSettings
 from .answering_program import KILLING_SIGNALS, AnsweringProgram
@@ -150,6 +151,8 @@ def _kills_for_memory() -> int:
 
 
 def _clear(folder: Path) -> None:
+    if (folder / SIMULATED_FILE).exists():  # it is only to be evaluated
+        return
     if folder.exists():
         shutil.rmtree(folder)
     folder.mkdir(parents=True)

@@ -6,27 +6,31 @@ what is recorded, both in TOML: motion alone, or everything as `bda run` does.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import json
+from collections.abc import Iterator, Mapping
+from contextlib import AbstractContextManager, contextmanager
 from functools import partial
 from pathlib import Path
 from typing import Any, NoReturn
 
 import numpy as np
 
-from ..model.results.arrays import RESULTS_FILE, Results, load_results
+from ..errors import OutputError, UnreadableError
+from ..model.results.arrays import LEFT_FILES, RESULTS_FILE, Results, load_results
 from ..model.run_folder.files import BLEND_FILE, FORCE_CHART
 from ..model.scenario import Scenario
 from ..model.scenario.file import scenario_from_text
 from ..model.sequence.checked_model import check_actions
 from ..model.structure.kept_models import KeptModels
 from ..model.structure.model import Model
-from ..model.study.files import OUTLINES_FILE, RUN_FOLDER
+from ..model.study.files import OUTLINES_FILE, RUN_FOLDER, SIMULATED_FILE
 from ..model.study.outcome import evaluate
 from ..model.study.settings import EnsembleSettings
 from ..model.toml_tables import table_of_document, toml_document
-from ..system.disk import whole_file
+from ..system.disk import whole_file, write_whole_text
 from ..system.programs import program_command
 from ..system.progress import Progress
+from ..system.reading import MEGABYTE, file_text
 from .own_blender import versions_here
 from .run_service import RunService
 
@@ -45,34 +49,54 @@ def main() -> NoReturn:
 def play(models: KeptModels, request: Mapping[str, Any], folder: Path) -> dict[str, Any]:
     """Make the run of a request, leave its files in a folder, and return its outputs and its fingerprint.
 
-    Runs of one bridge that is cut alike share its model, as those of all candidates of an optimisation do.
+    One that was stopped while it was evaluated is only evaluated. Runs of one bridge that is cut alike share its model,
+    as those of all candidates of an optimisation do.
     """
     scenario = scenario_from_text(request["scenario"])
-    model = models.model_of(scenario)
-    check_actions(scenario, model)
     settings = table_of_document(EnsembleSettings, toml_document(request["study"]))
-    if settings.keep == "outcome":
-        from ..simulation.motion_run import motion_run
-
-        with motion_run(scenario, model, folder) as (results, summary):
-            return _kept(results, summary, scenario, settings, folder)
-    return _play_whole(scenario, model, settings, folder)
-
-
-def _play_whole(scenario: Scenario, model: Model, settings: EnsembleSettings, folder: Path) -> dict[str, Any]:
-    from ..simulation.run import run_scenario
-
-    run = folder / RUN_FOLDER
-    pictures = settings.keep == "all"
-    summary = run_scenario(scenario, run, overwrite=True, pictures=pictures, progress=Progress(), model=model)
-    answer = _kept(load_results(run), summary, scenario, settings, folder)
-    if settings.keep == "logs":
-        for name in (RESULTS_FILE, BLEND_FILE, FORCE_CHART):
-            (run / name).unlink(missing_ok=True)
+    keeps_run = settings.keep != "outcome"
+    run = folder / RUN_FOLDER if keeps_run else folder
+    if left := _simulated_before(folder, run):
+        answer = _evaluated(*left, scenario, settings, folder)
+    else:
+        model = models.model_of(scenario)
+        check_actions(scenario, model)
+        with _whole_run(scenario, model, settings, run) if keeps_run else _motion(scenario, model, run) as made:
+            write_whole_text(folder / SIMULATED_FILE, json.dumps(made[1]))
+            answer = _evaluated(*made, scenario, settings, folder)
+    (folder / SIMULATED_FILE).unlink()
+    left_over = {"outcome": LEFT_FILES, "logs": (RESULTS_FILE, BLEND_FILE, FORCE_CHART), "all": ()}[settings.keep]
+    for name in left_over:
+        (run / name).unlink(missing_ok=True)
     return answer
 
 
-def _kept(
+def _simulated_before(folder: Path, run: Path) -> tuple[Results, dict[str, Any]] | None:
+    """Return what a run left that was stopped while it was evaluated; None where there is none, or it is damaged."""
+    try:
+        return load_results(run), json.loads(file_text(folder / SIMULATED_FILE, 100 * MEGABYTE))
+    except (OutputError, UnreadableError, ValueError):
+        return None
+
+
+def _motion(scenario: Scenario, model: Model, folder: Path) -> AbstractContextManager[tuple[Results, dict[str, Any]]]:
+    from ..simulation.motion_run import motion_run
+
+    return motion_run(scenario, model, folder)
+
+
+@contextmanager
+def _whole_run(
+    scenario: Scenario, model: Model, settings: EnsembleSettings, run: Path
+) -> Iterator[tuple[Results, dict[str, Any]]]:
+    from ..simulation.run import run_scenario
+
+    pictures = settings.keep == "all"
+    summary = run_scenario(scenario, run, overwrite=True, pictures=pictures, progress=Progress(), model=model)
+    yield load_results(run), summary
+
+
+def _evaluated(
     results: Results, summary: Mapping[str, Any], scenario: Scenario, settings: EnsembleSettings, folder: Path
 ) -> dict[str, Any]:
     evaluation = evaluate(results, summary, scenario, settings.criteria, settings.least_mass_kg)

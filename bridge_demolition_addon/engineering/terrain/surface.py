@@ -25,6 +25,7 @@ class Surface:
     """
 
     mesh: TriangleMesh
+    bounds: FloatArray = field(init=False)  # lowest and highest x and y, (2, 2)
     _corners: FloatArray = field(init=False)
     _low: BoolArray = field(init=False)
     _cell_m: float = field(init=False)
@@ -47,17 +48,12 @@ class Surface:
         rows, number = ranges(np.zeros(len(corners), np.int64), wide * high)
         cells = (first[rows, 1] + number // wide[rows]) * counts[0] + first[rows, 0] + number % wide[rows]
         order = np.argsort(cells, kind="stable")
-        values = (corners, low, cell, counts, rows[order])
-        names = ("_corners", "_low", "_cell_m", "_counts", "_triangles")
+        values = (self.mesh.bounds[:, :2], corners, low, cell, counts, rows[order])
+        names = ("bounds", "_corners", "_low", "_cell_m", "_counts", "_triangles")
         for name, value in zip(names, values, strict=True):
             object.__setattr__(self, name, value)
         firsts = np.searchsorted(cells[order], np.arange(int(counts[0] * counts[1]) + 1))
         object.__setattr__(self, "_firsts", firsts)
-
-    @property
-    def bounds(self) -> FloatArray:
-        """Lowest and highest x and y, (2, 2)."""
-        return self.mesh.bounds[:, :2]
 
     @property
     def points(self) -> FloatArray:

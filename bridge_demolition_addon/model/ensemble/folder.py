@@ -39,6 +39,7 @@ from ..study.files import (
     RUNS_FOLDER,
     SEARCH_FILE,
     SHEET_FILE,
+    SIMULATED_FILE,
     STUDY_FILE,
     VERSIONS_FILE,
 )
@@ -97,8 +98,15 @@ class EnsembleFolder:
             raise
 
     def work_folder(self, cache_key: str) -> Path:
-        """Return where a run's files are written while it is under way, unique to this process."""
-        return self._runs / f"{cache_key}-{os.getpid()}{_PART}"
+        """Return where a run's files are written while it is under way, unique to this process.
+
+        What another process left there that had simulated it, and not evaluated it, is in it.
+        """
+        part = self._runs / f"{cache_key}-{os.getpid()}{_PART}"
+        for left in self._runs.glob(f"{cache_key}-*{_PART}"):
+            if left != part and not part.exists():
+                os.replace(left, part)
+        return part
 
     def outcome_of(self, cache_key: str) -> RunOutcome | None:
         """Return the outcome of a run; None where it is still to be made."""
@@ -108,7 +116,7 @@ class EnsembleFolder:
         """Keep the outcome of a run, with all files in its work folder, whole or not at all."""
         part, target = self.work_folder(cache_key), self._runs / cache_key
         if outcome.status in RETRIED:
-            shutil.rmtree(part, ignore_errors=True)
+            _clear_part(part)
             return
         part.mkdir(exist_ok=True)
         kept = {
@@ -173,9 +181,15 @@ class EnsembleFolder:
 
     def _clear_parts(self) -> None:
         for part in self._runs.glob(f"*{_PART}"):
-            if part.is_symlink():
-                part.unlink()
-            shutil.rmtree(part, ignore_errors=True)
+            _clear_part(part)
+
+
+def _clear_part(part: Path) -> None:
+    """Remove what a run left that did not end, unless it was simulated to its end: that is evaluated later."""
+    if part.is_symlink():
+        part.unlink()
+    elif not (part / SIMULATED_FILE).exists():
+        shutil.rmtree(part, ignore_errors=True)
 
 
 def check_folder(path: Path, ensemble: Ensemble, versions: Mapping[str, str]) -> None:

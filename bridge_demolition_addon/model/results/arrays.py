@@ -28,6 +28,7 @@ from .inventory import Inventory
 RESULTS_FILE = "results.npz"
 FRAMES_FILE, BALLS_FILE, INVENTORY_FILE = "results_frames.npy", "results_balls.npy", "results_inventory.npz"
 CONTACTS_FILE = "results_contacts.npy"
+LEFT_FILES = (FRAMES_FILE, BALLS_FILE, CONTACTS_FILE, INVENTORY_FILE)
 """Files that grow during a run. They are deleted once the results are whole; a run that is killed leaves them."""
 
 

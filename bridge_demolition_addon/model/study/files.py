@@ -15,6 +15,9 @@ CANDIDATES_FILE, BEST_FILE, TRADEOFF_PICTURE = "candidates.csv", "optimise.json"
 RUNS_FOLDER = "draws"
 OUTCOME_FILE, OUTLINES_FILE = "outcome.json", "outlines.npz"
 
+SIMULATED_FILE = "simulated.json"
+"""Summary of a run that was simulated to its end, beside its frames: it is only to be evaluated."""
+
 RUN_FOLDER = "run"
 """In the folder of a run, where more than its outcome is kept."""
 

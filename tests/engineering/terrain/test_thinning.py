@@ -76,6 +76,9 @@ def test_a_surface_has_the_height_of_its_highest_triangle_and_none_beside_it():
     surface = Surface(box((2.0, 2.0, 1.0), (0.0, 0.0, 4.0)))
     found = surface.heights_at(np.array([[0.3, -0.7], [1.0, 1.0], [1.1, 0.0], [-50.0, 0.0]]))
     np.testing.assert_array_equal(found, [4.5, 4.5, np.nan, np.nan])
+    # In each step of a flight they are asked for, of tens of thousands of triangles.
+    assert surface.bounds is surface.bounds
+    np.testing.assert_array_equal(surface.bounds, [[-1.0, -1.0], [1.0, 1.0]])
     assert triangle_areas_and_normals(surface.mesh.corners)[0].sum() == pytest.approx(16.0)
 
 
