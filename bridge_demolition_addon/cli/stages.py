@@ -13,9 +13,9 @@ from ..model.run_folder.folder import numbered_folder
 from ..model.scenario.file import read_scenario
 from ..model.sequence.checked_model import checked_model
 from ..model.stages.bearing_rows import bearing_rows
-from ..model.stages.design_loads import DesignLoad, design_load_sentences, design_loads
-from ..model.stages.misfires import Misfire, misfire_sentences, misfires
-from ..model.stages.stages import Criticality, Stage, criticality, stages_of
+from ..model.stages.design_loads import design_load_sentences, design_loads
+from ..model.stages.misfires import misfire_sentences, misfires
+from ..model.stages.stages import Stage, criticality, stages_of
 from ..model.stages.standing import StandingBridge, made_elastic
 from ..model.stages.tables import (
     FILES,
@@ -24,6 +24,7 @@ from ..model.stages.tables import (
     criticality_sentences,
     reaction_sentences,
     stage_sentences,
+    write_stages,
     write_tables,
 )
 from ..model.structure.bearing_ranges import ONE_CUT
@@ -47,6 +48,11 @@ def add_to(commands: argparse._SubParsersAction) -> None:
         "--output", metavar="DIR", type=Path, help="folder for the tables, made if new (here, called like the scenario)"
     )
     parser.add_argument("--overwrite", action="store_true", help="replace tables that are there")
+    parser.add_argument(
+        "--no-factor",
+        action="store_true",
+        help="leave out at how many times its load the bridge comes down, which takes most of the time",
+    )
     parser.add_argument("--quiet", action="store_true", help="print nothing but errors")
     parser.set_defaults(execute=execute)
 
@@ -61,44 +67,57 @@ def execute(arguments: argparse.Namespace) -> None:
     progress = progress_on(sys.stdout, quiet=arguments.quiet)
     try:
         with naming(arguments.scenario):
+            progress.stage("cutting the bridge")
             model = checked_model(made_elastic(scenario))
             bridge = StandingBridge(model, scenario.joints)
-            stages = stages_of(scenario, bridge, partial(progress.part, text="stages"))
+
+            progress.stage(f"working out the stages; each is in {output} as soon as it is done")
+
+            def keep(done: Sequence[Stage]) -> None:
+                with writing(output):
+                    if len(done) == 1:  # those of another time would stand beside them, if this is stopped
+                        for path in paths:
+                            path.unlink(missing_ok=True)
+                    rows = write_stages(output, done, bridge)
+                progress.finish()
+                if not arguments.quiet:
+                    _print_stage(done, rows, bridge)
+
+            with_factor = not arguments.no_factor
+            stages = stages_of(
+                scenario, bridge, partial(progress.part, text="stages"), with_factor=with_factor, keep=keep
+            )
             members = criticality(bridge, partial(progress.part, text="members taken away"))
             failures = misfires(scenario, bridge, partial(progress.part, text="zones that fail"))
-            designed = design_loads(scenario, bridge, partial(progress.part, text="loads of the design"))
+            loads = partial(progress.part, text="loads of the design")
+            designed = design_loads(scenario, bridge, loads) if with_factor else []
     finally:
         progress.finish()
     with writing(output):
-        rows = write_tables(output, stages, members, bridge, failures)
+        write_tables(output, stages, members, bridge, failures)
     if not arguments.quiet:
-        reactions, bearings = all_reaction_rows(stages, model), list(bearing_rows(stages, model))
-        _print(stages, rows, reactions, bearings, members, failures, designed, paths)
+        if any(bearing_rows(stages, model)):
+            print(ONE_CUT)
+        print()
+        for line in (*criticality_sentences(members), *misfire_sentences(failures), *design_load_sentences(designed)):
+            print(line)
+        print()
+        for path in paths:
+            print(path)
 
 
-def _print(
-    stages: Sequence[Stage],
-    rows: Sequence[dict],
-    reactions: Sequence[dict],
-    bearings: Sequence[dict],
-    members: Sequence[Criticality],
-    failures: Sequence[Misfire],
-    designed: Sequence[DesignLoad],
-    paths: Sequence[Path],
-) -> None:
-    print()
-    for stage, row in zip(stages, rows, strict=True):
-        carried = reaction_sentences([reaction for reaction in reactions if reaction["stage"] == row["stage"]])
-        on_bearings = bearing_sentences([bearing for bearing in bearings if bearing["stage"] == row["stage"]])
-        first, *others = [*stage_sentences(stage, row), *carried, *on_bearings]
-        print(first)
-        for line in others:
-            print(f"  {line}")
-    if bearings:
-        print(ONE_CUT)
-    print()
-    for line in (*criticality_sentences(members), *misfire_sentences(failures), *design_load_sentences(designed)):
-        print(line)
-    print()
-    for path in paths:
-        print(path)
+def _print_stage(stages: Sequence[Stage], rows: Sequence[dict], bridge: StandingBridge) -> None:
+    """Print what the last of the stages that are done says."""
+    number = rows[-1]["stage"]
+    reactions, bearings = (
+        [row for row in of_all if row["stage"] == number]
+        for of_all in (all_reaction_rows(stages, bridge.model), bearing_rows(stages, bridge.model))
+    )
+    first, *others = [
+        *stage_sentences(stages[-1], rows[-1]),
+        *reaction_sentences(reactions),
+        *bearing_sentences(bearings),
+    ]
+    print(first)
+    for line in others:
+        print(f"  {line}", flush=True)

@@ -55,7 +55,7 @@ class Stage:
     loose: np.ndarray  # (n,), shards without support: they fall, or lie on others by contact alone
     equipment: tuple[str, ...]  # names
     equipment_n: float  # its weight
-    collapse_factor: float  # load factor at which it collapses; nan where part of it is not held
+    collapse_factor: float | None  # load factor at which it collapses; nan where part is not held, None if not sought
     most_used: MostUsed | None
     bars: tuple[PressedBars, ...] = ()  # that stand bare
     tendons: tuple[ReleasedTendon, ...] = ()  # that let go in this step
@@ -73,8 +73,19 @@ class Criticality:
     most_used: int | None  # that connection
 
 
-def stages_of(scenario: Scenario, bridge: StandingBridge, progress: Callable[[int, int], None]) -> list[Stage]:
-    """Return the stages of a scenario; after each, call `progress` with the numbers of those done and of all."""
+def stages_of(
+    scenario: Scenario,
+    bridge: StandingBridge,
+    progress: Callable[[int, int], None],
+    *,
+    with_factor: bool = True,
+    keep: Callable[[Sequence[Stage]], None] = lambda stages: None,
+) -> list[Stage]:
+    """Return the stages of a scenario; after each, call `progress` with the numbers of those done and of all.
+
+    `keep` is called before with all that are done. Without factor the collapse load factor is not sought, which takes
+    most of the time.
+    """
     model = bridge.model
     planned = (change for change in scenario.changes if not isinstance(change, LiftingAway))
     changes, structure = (*planned, *zone_firings(scenario, model.members)), model_structure(model)
@@ -106,7 +117,9 @@ def stages_of(scenario: Scenario, bridge: StandingBridge, progress: Callable[[in
                 loose=loose,
                 equipment=(*(machine.name for machine in machines), *(pull.name for pull in pulls)),
                 equipment_n=STANDARD_GRAVITY_M_S2 * math.fsum(machine.mass_kg for machine in machines),
-                collapse_factor=math.nan
+                collapse_factor=None
+                if not with_factor
+                else math.nan
                 if model.masses_kg[loose].sum() > FALLEN_SHARE * model.masses_kg[there].sum()
                 else bridge.collapse_factor(*state, changed.bare, changed.cuts),
                 most_used=most_used_of(bridge, sections, standing),
@@ -115,6 +128,7 @@ def stages_of(scenario: Scenario, bridge: StandingBridge, progress: Callable[[in
                 lifts=(*gone, *hanging),
             )
         )
+        keep(stages)
         progress(number + 1, len(steps))
     return stages
 

@@ -99,6 +99,9 @@ SLOW_COLLAPSE = (
 )
 """What is said where a stage does not stand."""
 
+NOT_SOUGHT = "not sought"
+"""In place of a collapse load factor that was left out."""
+
 _FULL = 1.0 + 1e-9
 """Utilisation beyond which it is above 1 by more than rounding: bars that yield are used in full."""
 
@@ -116,6 +119,16 @@ def write_tables(
     failures: Sequence[Misfire] = (),
 ) -> list[dict[str, Any]]:
     """Write all tables to a folder, made if new, and return the rows of stages."""
+    rows = write_stages(folder, stages, bridge)
+    write_table(
+        folder / CRITICALITY_FILE, CRITICALITY_COLUMNS, (criticality_row(effect, bridge.model) for effect in members)
+    )
+    write_table(folder / MISFIRES_FILE, MISFIRE_COLUMNS, map(misfire_row, failures))
+    return rows
+
+
+def write_stages(folder: Path, stages: Sequence[Stage], bridge: StandingBridge) -> list[dict[str, Any]]:
+    """Write the tables of the stages that are done to a folder, made if new, and return the rows of stages."""
     folder.mkdir(parents=True, exist_ok=True)
     rows = [stage_row(number, stage, bridge) for number, stage in enumerate(stages, start=1)]
     write_table(folder / STAGES_FILE, STAGE_COLUMNS, rows)
@@ -123,10 +136,6 @@ def write_tables(
     write_table(folder / BEARINGS_FILE, BEARING_COLUMNS, bearing_rows(stages, bridge.model))
     used = (row for number, stage in enumerate(stages, start=1) for row in utilisation_rows(number, stage, bridge))
     write_table(folder / UTILISATION_FILE, UTILISATION_COLUMNS, used)
-    write_table(
-        folder / CRITICALITY_FILE, CRITICALITY_COLUMNS, (criticality_row(effect, bridge.model) for effect in members)
-    )
-    write_table(folder / MISFIRES_FILE, MISFIRE_COLUMNS, map(misfire_row, failures))
     write_table(folder / LIFTS_FILE, LIFT_COLUMNS, lift_rows(stages))
     return rows
 
@@ -153,7 +162,7 @@ def stage_row(number: int, stage: Stage, bridge: StandingBridge) -> dict[str, An
         "reaction_z_kN": reaction[2],
         "overloaded": int((standing.used > _FULL).sum()),
         "cracked": int(standing.cracked.sum()),
-        "collapse_factor": stage.collapse_factor,
+        "collapse_factor": NOT_SOUGHT if stage.collapse_factor is None else stage.collapse_factor,
         "sag_mm": standing.sag_m * _KILO,
         "first_frequency_Hz": standing.frequency_hz,
         "bare_bars_used": max((bars.used for bars in stage.bars), default=None),
@@ -232,9 +241,10 @@ def stage_sentences(stage: Stage, row: Mapping[str, Any]) -> list[str]:
     sentences += [_of_bare_bars(bars) for bars in stage.bars]
     sentences += [_of_tendon(tendon) for tendon in stage.tendons]
     sentences += lift_sentences(stage.lifts, row["not_held_kg"])
-    sentences.append(factor_in_words(stage.collapse_factor, bool(stage.standing.held.any())))
-    if stage.collapse_factor < 1.0:
-        sentences.append(SLOW_COLLAPSE)
+    if stage.collapse_factor is not None:
+        sentences.append(factor_in_words(stage.collapse_factor, bool(stage.standing.held.any())))
+        if stage.collapse_factor < 1.0:
+            sentences.append(SLOW_COLLAPSE)
     return sentences
 
 

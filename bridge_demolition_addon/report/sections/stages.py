@@ -19,6 +19,7 @@ from ...model.stages.misfires import MISFIRE_COLUMNS, MISFIRES_FILE
 from ...model.stages.tables import (
     CRITICALITY_COLUMNS,
     CRITICALITY_FILE,
+    NOT_SOUGHT,
     REACTION_COLUMNS,
     REACTIONS_FILE,
     STAGE_COLUMNS,
@@ -324,7 +325,7 @@ def _on_members(falls: Sequence[tuple[str, float, float]]) -> str:
 
 
 def _number(cell: str) -> float | None:
-    return float(cell) if cell else None
+    return float(cell) if cell and cell != NOT_SOUGHT else None
 
 
 def _rows(path: Path, columns: Sequence[str], *, may_be_empty: bool = False) -> list[dict[str, str]]:

@@ -25,9 +25,10 @@ from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
-from bridge_demolition_addon.model.stages.stages import criticality, reactions_n
+from bridge_demolition_addon.model.stages.stages import criticality, reactions_n, stages_of
 from bridge_demolition_addon.model.stages.standing import StandingBridge, made_elastic
-from bridge_demolition_addon.model.stages.tables import SLOW_COLLAPSE, stage_row, stage_sentences
+from bridge_demolition_addon.model.stages.tables import SLOW_COLLAPSE, stage_row, stage_sentences, write_stages
+from bridge_demolition_addon.report.sections.stages import stages_section
 from bridge_demolition_addon.simulation.motion_run import motion_run
 
 pytestmark = pytest.mark.slow
@@ -189,6 +190,36 @@ def test_tables_and_what_is_printed(tmp_path, capfd):
     assert {row["member"]: row["stands"] for row in members} == {"beam": "true", "start": "false"}
     assert main(["stages", str(path), "--output", str(output)]) == 2
     assert "exists already; choose another folder, or add --overwrite" in capfd.readouterr().err
+
+
+def test_without_factor_stages_say_all_else(tmp_path, capfd):
+    path, outputs = beam_file(tmp_path, 4.0, more=EXCAVATOR), (tmp_path / "with", tmp_path / "without")
+    said = []
+    for output, more in zip(outputs, ((), ("--no-factor",)), strict=True):
+        assert main(["stages", str(path), "--output", str(output), *more]) == 0
+        said.append(capfd.readouterr().out.replace(str(output), "out").splitlines())
+    assert [line for line in said[0] if "comes down at" not in line] == said[1]
+    rows, others = (list(csv.DictReader((output / "stages.csv").open(encoding="utf-8"))) for output in outputs)
+    assert [row | {"collapse_factor": "not sought"} for row in rows] == others
+    texts = [str(block) for block in stages_section(outputs[1]).blocks]
+    assert not any("no connection to a support holds anything" in text for text in texts)
+
+
+def test_what_is_done_is_kept_where_the_rest_is_stopped(tmp_path):
+    scenario = read_scenario(beam_file(tmp_path, 4.0, more=EXCAVATOR))
+    bridge = StandingBridge(checked_model(made_elastic(scenario)), scenario.joints)
+
+    def stop(done, total):
+        assert (done, total) == (1, 2)
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        stages_of(
+            scenario, bridge, stop, with_factor=False, keep=lambda done: write_stages(tmp_path / "out", done, bridge)
+        )
+    (row,) = csv.DictReader((tmp_path / "out" / "stages.csv").open(encoding="utf-8"))
+    assert (row["stage"], row["step"]) == ("1", "as it was built")
+    assert not (tmp_path / "out" / "criticality.csv").exists()
 
 
 @pytest.mark.parametrize(
