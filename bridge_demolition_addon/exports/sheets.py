@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import math
 import tempfile
 from collections.abc import Iterable, Iterator, Sequence
@@ -15,11 +14,13 @@ from typing import Any
 import numpy as np
 
 from ..engineering.units import name_and_unit
-from ..errors import MissingLibraryError
+from ..errors import MissingLibraryError, OutputError, UnreadableError
 from ..model.results.arrays import Results
 from ..model.results.energy import energy_of
 from ..model.results.motion import throw
 from ..model.run_folder.files import BEARING_LOG, BREAKING_LOG, DEBRIS_LOG, EXPLOSION_LOG, FORCE_LOG, TABLE_FOLDER
+from ..model.run_folder.logs import LARGEST_LOG
+from ..system.csv_tables import csv_rows
 from ..system.disk import whole_file
 from ..system.progress import Progress
 
@@ -238,8 +239,10 @@ def _files_tables(folder: Path) -> Iterator[_Table]:
 
 
 def _rows(path: Path) -> Iterator[list[str]]:
-    with path.open(encoding="utf-8", newline="") as file:
-        yield from csv.reader(file)
+    try:
+        yield from csv_rows(path, LARGEST_LOG)
+    except UnreadableError as error:
+        raise OutputError(f"{path}: {error}") from error
 
 
 def _numbers(path: Path) -> Iterator[list[Any]]:

@@ -67,6 +67,9 @@ def _closed(match: re.Match[str]) -> str:
     return f"{match[1]}{match[2]}{match[3]}{']' * len(match[2])}"
 
 
+_MOST_DIGITS = 300
+"""Of a number; the largest of double precision has 309."""
+
 _SLIPS = (
     _slip(f".*[{_DOUBLE}{_SINGLE}]", "has typographic quotation marks", _straight),
     _slip(r'^.*"[^"]*\\[^"]*"', _BACKSLASHES, _with_slashes),
@@ -104,12 +107,22 @@ def parsed(text: str, faults: Faults) -> dict[str, Any]:
             document = tomllib.loads(text)
         except RecursionError as error:
             raise ScenarioError(f"not a TOML file: {error}") from error
-        except ValueError as error:  # tomllib lets too long numbers through as these
+        except ValueError as error:
+            _check_digits(text)
             text = _mended(text, error, slips)
         else:
             faults.found += _in_order(slips)
             return document
     raise ScenarioError(*_in_order(slips))
+
+
+def _check_digits(text: str) -> None:
+    """Refuse numbers of more digits than Python reads, which has no line of them."""
+    if long := re.search(rf"[\d_]{{{_MOST_DIGITS + 1},}}", text):
+        number = text.count("\n", 0, long.start()) + 1
+        raise ScenarioError(
+            f"line {number}: has a number of {len(long[0])} digits: expected one of up to {_MOST_DIGITS}"
+        )
 
 
 def _in_order(slips: list[tuple[int, str]]) -> list[str]:

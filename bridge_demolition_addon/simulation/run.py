@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager
@@ -39,6 +40,9 @@ from .kept_run import keep_recording
 from .playback import Playing
 from .recording.recorder import Recording
 from .run_summary import RunContext, rest_watch, run_summary
+
+_END_OF_PACKED = (0x8F92EAB1).to_bytes(4, "little")
+"""Last bytes of a packed file of Blender: the mark at the end of a seek table (Zstandard Seekable Format 0.1.0)."""
 
 SLOW_MOTION = 5.0
 """Seconds of the slower film for a second of the simulation."""
@@ -160,6 +164,17 @@ def _save_scene(scene: bpy.types.Scene, folder: Path) -> None:
             bpy.ops.wm.save_as_mainfile(filepath=str(path), check_existing=False, compress=True)
     except RuntimeError as error:
         raise SimulationError(f"{path}: Blender could not write it: {error}") from error
+    if not _is_whole(path):  # Blender does not say so where the disk is full
+        path.unlink(missing_ok=True)
+        raise SimulationError(f"{path}: Blender could not write all of it, as where the disk is full; it was removed")
+
+
+def _is_whole(path: Path) -> bool:
+    """Return whether a packed file of Blender is there to its end: the table by which it is read in parts."""
+    with path.open("rb") as file:
+        size = file.seek(0, os.SEEK_END)
+        file.seek(max(size - len(_END_OF_PACKED), 0))
+        return file.read() == _END_OF_PACKED
 
 
 @contextmanager

@@ -62,6 +62,10 @@ def section_named(name: str) -> SteelSection:
     return _section(" ".join(name.upper().replace("×", "X").split()), name)
 
 
+_LONGEST_NAME = 60
+"""Letters of an unknown name in a message."""
+
+
 @cache
 def rolled_names() -> tuple[str, ...]:
     """Return the names of all rolled sections of the table."""
@@ -78,8 +82,9 @@ def _section(upper: str, name: str) -> SteelSection:
         return _by_sizes(name, sized[1], [float(size) for size in sized[2].split("X")])
     nearest = _nearest(same)
     known = f"such as {', '.join(nearest)}" if nearest else "of the series IPE, HEA, HEB or HEM"
+    shapes = ", ".join(SHAPES)
     raise ScenarioError(
-        f'section "{name}" is unknown: expected one {known}, or a shape with sizes in mm: {", ".join(SHAPES)}'
+        f'section "{name[:_LONGEST_NAME]}" is unknown: expected one {known}, or a shape with sizes in mm: {shapes}'
     )
 
 

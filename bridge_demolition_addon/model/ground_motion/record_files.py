@@ -10,6 +10,7 @@ import numpy as np
 
 from ...engineering.ground_motion.record import GroundRecord, integrated
 from ...errors import ScenarioError, UnreadableError
+from ...system.csv_tables import csv_rows
 from ...system.reading import MEGABYTE, file_text
 from .settings import DIRECTIONS
 
@@ -108,9 +109,9 @@ def record_text(record: GroundRecord, start_s: float) -> str:
 def read_record(path: Path) -> tuple[GroundRecord, float]:
     """Return a record that `record_text` wrote, and the time at which it begins."""
     try:
-        rows = list(csv.reader(io.StringIO(file_text(path, _MOST_RECORD_BYTES))))
+        rows = list(csv_rows(path, _MOST_RECORD_BYTES))
         values = np.array(rows[1:], float)
-    except (UnreadableError, csv.Error, ValueError) as error:
+    except (UnreadableError, ValueError) as error:
         raise ScenarioError(f"{path}: expected the motion of the ground ({error})") from error
     if not rows or tuple(rows[0]) != _HEADING or len(values) < 2 or not np.isfinite(values).all():
         raise ScenarioError(f"{path}: expected the motion of the ground")

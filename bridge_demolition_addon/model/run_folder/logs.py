@@ -18,8 +18,9 @@ from ...engineering.mechanics.bearing_loads import BearingLoads
 from ...engineering.mechanics.section_forces import SectionForces
 from ...engineering.mechanics.stress import principal_stresses
 from ...errors import OutputError, UnreadableError
+from ...system.csv_tables import csv_cell, csv_rows
 from ...system.disk import is_in_place, writing
-from ...system.reading import check_file
+from ...system.reading import MEGABYTE, check_file
 from ..blast.explosion import StepLoads
 from ..results.frames import Frame
 from ..results.motion import throw, travel
@@ -264,8 +265,12 @@ def log_loops() -> ModuleType:
 def _csv_text(*texts: str) -> str:
     """Return texts as a line of CSV, quoted also where they hold a line break of another system."""
     buffer = io.StringIO()
-    csv.writer(buffer).writerow(texts)
+    csv.writer(buffer).writerow(map(csv_cell, texts))
     return buffer.getvalue().removesuffix("\r\n")
+
+
+LARGEST_LOG = 100_000 * MEGABYTE
+"""Bytes; 10 000 bodies in 40 000 frames have so much."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -286,20 +291,21 @@ def read_logged_forces(folder: Path) -> LoggedForces | None:
     largest: dict[float, tuple[float, float]] = {}
     bodies_of_frame: dict[float, int] = {}
     try:
-        check_file(path)
-        with path.open(encoding="utf-8", newline="") as file:
-            for row in csv.DictReader(file):
-                if None in row.values():  # a line that was cut in two
-                    break
-                time_s = float(row["time_s"])
-                bodies_of_frame[time_s] = bodies_of_frame.get(time_s, 0) + 1
-                before = largest.get(time_s, (0.0, 0.0))
-                if row["body"] != "Ground":
-                    forces_n = (float(row["peak_force_sum_N"]), float(row["peak_force_N"]))
-                    largest[time_s] = tuple(np.fmax(before, forces_n))
-                else:
-                    largest.setdefault(time_s, before)
-    except (UnreadableError, OSError, TypeError, ValueError, KeyError, csv.Error) as error:
+        rows = csv_rows(path, LARGEST_LOG)
+        columns = next(rows, [])
+        for cells in rows:
+            if len(cells) < len(columns):  # a line that was cut in two
+                break
+            row = dict(zip(columns, cells, strict=False))
+            time_s = float(row["time_s"])
+            bodies_of_frame[time_s] = bodies_of_frame.get(time_s, 0) + 1
+            before = largest.get(time_s, (0.0, 0.0))
+            if row["body"] != "Ground":
+                forces_n = (float(row["peak_force_sum_N"]), float(row["peak_force_N"]))
+                largest[time_s] = tuple(np.fmax(before, forces_n))
+            else:
+                largest.setdefault(time_s, before)
+    except (UnreadableError, ValueError, KeyError) as error:
         raise OutputError(f"{FORCE_LOG} cannot be read, and is left out: {error}") from error
     whole = [time_s for time_s, count in bodies_of_frame.items() if count == max(bodies_of_frame.values())]
     if not whole:
@@ -314,7 +320,7 @@ def count_logged_breaks(folder: Path) -> int | None:
     if not path.exists():
         return None
     try:
-        check_file(path)
+        check_file(path, LARGEST_LOG)
         with path.open("rb") as file:
             return max(0, sum(line.endswith(b"\n") for line in file) - 1)
     except (UnreadableError, OSError) as error:

@@ -133,7 +133,7 @@ def _event(change: Change, structure: Structure) -> Event:
         case ZoneFiring():
             bodies, connections = _of_zone(change, structure)
             factor = change.left
-            if change.takes_away:
+            if change.takes_away and len(bodies):
                 beside = ~of_members(change, structure) & (structure.is_shard | structure.held)
                 departure = departure_of(
                     change, structure.centres_m[bodies], structure.boxes_m[bodies], structure.boxes_m[beside]

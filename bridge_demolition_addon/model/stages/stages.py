@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -92,8 +93,8 @@ def stages_of(
     sections = SectionsWithBars(scenario, model)
     crane = CraneWork(placed_lifts(scenario.lifts, model), model, structure)
     steps = _steps(scenario, schedule(changes, structure), crane.times())
-    changed, stages = ChangedBridge.as_built(model), []
-    for number, (time_s, events) in enumerate(steps):
+    changed, states = ChangedBridge.as_built(model), []
+    for time_s, events in steps:  # all of them first: what cannot be is refused before anything is worked out
         before, changed = changed, changed.after(events)
         lifted = crane.lifted_at(time_s, changed)
         gone = [crane.part(placed, changed, is_gone=True) for placed, _ in lifted]
@@ -104,32 +105,39 @@ def stages_of(
         loads = (
             equipment_loads(model, machines, changed.removed) + pull_loads(model, pulls, changed.removed) + on_slings
         )
+        stage = partial(
+            Stage,
+            time_s=time_s,
+            step=_described_step(scenario, time_s, events, model, gone),
+            removed=changed.removed,
+            equipment=(*(machine.name for machine in machines), *(pull.name for pull in pulls)),
+            equipment_n=STANDARD_GRAVITY_M_S2 * math.fsum(machine.mass_kg for machine in machines),
+            lifts=(*gone, *hanging),
+        )
+        states.append((before, changed, loads, _among(hanging, model), stage))
+    stages: list[Stage] = []
+    for before, changed, loads, on_hooks, stage in states:
         state = changed.intact, changed.left, loads
         standing = bridge.rest(*state, bare=changed.bare, cuts=changed.cuts)
         there = ~changed.removed & ~model.fixed
-        loose = there & ~standing.held & ~_among(hanging, model)
+        loose = there & ~standing.held & ~on_hooks
+        factor: float | None = None
+        if with_factor and model.masses_kg[loose].sum() > FALLEN_SHARE * model.masses_kg[there].sum():
+            factor = math.nan
+        elif with_factor:
+            factor = bridge.collapse_factor(*state, changed.bare, changed.cuts)
         stages.append(
-            Stage(
-                time_s=time_s,
-                step=_described_step(scenario, time_s, events, model, gone),
+            stage(
                 standing=standing,
-                removed=changed.removed,
                 loose=loose,
-                equipment=(*(machine.name for machine in machines), *(pull.name for pull in pulls)),
-                equipment_n=STANDARD_GRAVITY_M_S2 * math.fsum(machine.mass_kg for machine in machines),
-                collapse_factor=None
-                if not with_factor
-                else math.nan
-                if model.masses_kg[loose].sum() > FALLEN_SHARE * model.masses_kg[there].sum()
-                else bridge.collapse_factor(*state, changed.bare, changed.cuts),
+                collapse_factor=factor,
                 most_used=most_used_of(bridge, sections, standing),
                 bars=changed.pressed_bars(standing.bare_n),
                 tendons=released_tendons(bridge, before, changed),
-                lifts=(*gone, *hanging),
             )
         )
         keep(stages)
-        progress(number + 1, len(steps))
+        progress(len(stages), len(steps))
     return stages
 
 

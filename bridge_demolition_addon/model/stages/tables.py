@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from ...engineering.units import STANDARD_GRAVITY_M_S2, mass_text, with_digits
+from ...system.csv_tables import csv_cell
 from ...system.disk import whole_file
 from ..structure.model import Model
 from .bearing_rows import BEARING_COLUMNS, BEARINGS_FILE, bearing_rows
@@ -331,7 +332,7 @@ def write_table(path: Path, columns: Sequence[str], rows: Iterable[dict[str, Any
         table = csv.writer(file)
         table.writerow(columns)
         for row in rows:
-            table.writerow([_cell(row[name]) for name in columns])
+            table.writerow([csv_cell(_cell(row[name])) for name in columns])
 
 
 def _cell(value: Any) -> str:

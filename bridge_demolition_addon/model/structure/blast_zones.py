@@ -213,6 +213,8 @@ class PlacedZone:
 def placed_zone(zone: BlastZone, members: Sequence[Member], layers: Sequence[BarLayer] = ()) -> PlacedZone:
     """Return a zone in its member, which may have layers of bars; refuse one that does not lie in it with its holes."""
     member = one_member(zone, members)
+    if member.steel is not None:
+        raise zone.unexpected("member", "a member that holes are drilled in; one of steel is severed by [[cuts]]")
     along = zone.axes[0]
     (lowest, highest), (begin_m, end_m) = member.solid.bounds[:, along].tolist(), zone.ends_along_m
     slack = _ROUNDING * (highest - lowest)

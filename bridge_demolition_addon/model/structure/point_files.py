@@ -10,7 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from ...errors import ScenarioError, UnreadableError
-from ...system.reading import MEGABYTE, file_text
+from ...system.csv_tables import csv_rows
+from ...system.reading import MEGABYTE
 
 MOST_BYTES = 1000 * MEGABYTE
 """Size up to which points are read: tens of millions of them."""
@@ -44,9 +45,9 @@ def paint_text(points_m: np.ndarray, weights: np.ndarray) -> str:
 
 def _numbers(path: Path, key: str, columns: int) -> np.ndarray:
     try:
-        lines = csv.reader(io.StringIO(file_text(path, MOST_BYTES), newline=""))
+        lines = csv_rows(path, MOST_BYTES)
         rows = [(number, row) for number, row in enumerate(lines, start=1) if any(map(str.strip, row))]
-    except (UnreadableError, csv.Error) as error:
+    except UnreadableError as error:
         raise ScenarioError(f'fracture.{key} is "{path}": {error}') from error
     numbered = [_row(path, number, row, columns) for number, row in rows]
     return np.array([row for row in numbered if row is not None], dtype=float).reshape(-1, columns)

@@ -7,7 +7,6 @@ end in their unit. A cell of a run that did not finish, or of an unknown value, 
 from __future__ import annotations
 
 import csv
-import io
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -20,8 +19,9 @@ from typing import Any
 import numpy as np
 
 from ...errors import OutputError, UnreadableError
+from ...system.csv_tables import csv_rows
 from ...system.disk import whole_file
-from ...system.reading import MEGABYTE, file_text
+from ...system.reading import MEGABYTE
 
 RUN, STATUS = "run", "status"
 INPUT, OUTPUT = "in.", "out."
@@ -188,12 +188,12 @@ def _lines(table: RunsTable) -> Iterator[list[Any]]:
 def read_runs(path: Path) -> RunsTable:
     """Read a table of runs."""
     try:
-        lines = csv.reader(io.StringIO(file_text(path, _MOST_BYTES), newline=""))
+        lines = csv_rows(path, _MOST_BYTES)
         columns = next(lines, [])
         if columns[:2] != [RUN, STATUS]:
             raise OutputError(f"{path}: expected a table of runs, whose columns begin with {RUN} and {STATUS}")
         return RunsTable(tuple(_row(path, columns, cells) for cells in lines))
-    except (UnreadableError, csv.Error) as error:
+    except UnreadableError as error:
         raise OutputError(f"{path}: {error}") from error
 
 

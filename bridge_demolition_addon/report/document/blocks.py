@@ -16,6 +16,7 @@ from matplotlib.figure import FigureBase
 from ...engineering.units import with_digits
 from ...model.scenario.reporting import ReportSettings
 from ...model.schema import given
+from ...system.csv_tables import csv_cell
 from ...system.disk import whole_file
 
 MISSING = "-"
@@ -173,6 +174,6 @@ def write_tables(tables: Iterable[DataTable], folder: Path) -> list[Path]:
         with whole_file(path) as part, part.open("w", encoding="utf-8", newline="") as file:
             writer = csv.writer(file, lineterminator="\n")
             writer.writerow(column.key for column in table.columns)
-            writer.writerows(["" if value is None else value for value in row] for row in table.rows)
+            writer.writerows(["" if value is None else csv_cell(value) for value in row] for row in table.rows)
         written.append(path)
     return written

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 from collections.abc import Callable, Sequence
 from functools import partial
@@ -27,8 +25,9 @@ from ...model.stages.tables import (
     UPLIFT_KN,
 )
 from ...model.structure.bearing_ranges import ONE_CUT
+from ...system.csv_tables import csv_rows
 from ...system.progress import Progress
-from ...system.reading import MEGABYTE, file_text
+from ...system.reading import MEGABYTE
 from ...version import VERSION
 from ..document.blocks import Block, Column, DataTable, Document, Paragraph, Report, Section
 from ..names import MEMBER_KINDS
@@ -330,10 +329,11 @@ def _number(cell: str) -> float | None:
 
 def _rows(path: Path, columns: Sequence[str], *, may_be_empty: bool = False) -> list[dict[str, str]]:
     try:
-        rows = list(csv.DictReader(io.StringIO(file_text(path, _MOST_BYTES), newline="")))
-    except (UnreadableError, csv.Error) as error:
+        headings, *lines = list(csv_rows(path, _MOST_BYTES)) or [[]]
+    except UnreadableError as error:
         raise OutputError(f"{path}: {error}") from error
-    damaged = any(None in row or None in row.values() or not set(columns) <= set(row) for row in rows)
+    damaged = not set(columns) <= set(headings) or any(len(cells) != len(headings) for cells in lines)
+    rows = [] if damaged else [dict(zip(headings, cells, strict=True)) for cells in lines]
     if damaged or not (rows or may_be_empty):
         raise OutputError(f"{path}: expected the columns {', '.join(columns[:3])} … of bda stages; run it again")
     return rows

@@ -6,13 +6,16 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from support.checkout import EXAMPLES
 from support.drilled_columns import ZONE, column_scenario
 from support.scenarios import I235
 
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.blast.blast_zones import charges_fired, length_of_charge_m
+from bridge_demolition_addon.model.bridge.preparation import prepared_members
 from bridge_demolition_addon.model.scenario import BlastZone
-from bridge_demolition_addon.model.scenario.file import scenario_text
+from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_text
+from bridge_demolition_addon.model.structure.blast_zones import placed_zone
 
 
 @pytest.mark.parametrize(
@@ -100,3 +103,11 @@ def test_times_scatter_as_the_detonators_do():
     electronic = [replace(zone, detonator="electronic").fired_after_s(seed) for seed in range(1000)]
     assert np.std(electronic) == pytest.approx(0.00034, rel=4 / np.sqrt(2000))
     assert zone.fired_after_s(7) == zone.fired_after_s(7)
+
+
+def test_zones_in_steel_are_refused():
+    scenario = read_scenario(EXAMPLES / "steel" / "composite_span_dropped.toml")
+    members = prepared_members(scenario).members
+    for member in [member.name for member in members if member.steel is not None]:
+        with pytest.raises(ScenarioError, match="holes are drilled in; one of steel is severed"):
+            placed_zone(replace(ZONE, member=member), members)
