@@ -102,7 +102,7 @@ class Table:
     __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
     table: ClassVar[str]
     named_beside: ClassVar[str] = ""
-    """Another list of tables that names are shared with: those of both are told apart by name."""
+    """Another list of tables that names are shared with: no two of both may have one."""
     may_share_names: ClassVar[bool] = False
     """Whether several tables of a list may have one name, as nothing refers to one of them by it."""
     numbered: ClassVar[str] = ""
@@ -127,7 +127,7 @@ class Table:
 
 
 def settle_names(holder: Table) -> None:
-    """Call tables without a name after their number, and check that no two that are told apart by it have one."""
+    """Call tables without a name after their number, and check that no two have one that it identifies."""
     places: dict[tuple[str, str], list[str]] = {}
     for item in fields(holder):
         inner = subtable_class(item)

@@ -15,15 +15,18 @@ from ...system.reading import MEGABYTE, file_text
 from .files import CHARGES_DXF, CHARGES_GEOJSON, PLAN_WORKBOOK, REPORT_FILES, REPORT_LIST, REPORT_PAGE, TABLE_FOLDER
 
 _EARLIER_TABLES = """
-bearing_forces bearing_moments bearings breaking candidates charge_neighbours charge_per_delay charge_table
-charge_totals charges chosen_candidate collapse comparison cracked_connections criteria criticality damage_rings
-debris debris_on_surfaces drill_holes energy exclusion_corners exclusion_corners_of_one_run exclusion_zone
-exclusion_zone_corners exclusion_zone_of_one_run farthest_draws findings firing_sequence fragment_limits fragments
-ground_motion_peaks hits_of_the_ball largest_throws lifts limits_at_once median_and_worst misfires
-most_loaded_connections most_loaded_shards neighbours neighbours_of_runs optimisation plan plan_contents pulls
-rank_correlations reaction_forces reaction_moments reinforcement run runs search sequence settlements
-severed_members solver_energy spans stages study study_areas surfaces survey survey_cells tendons terrain
-throw_percentiles touchdown trials varied vibration_limits zones
+bearing_forces.csv bearing_moments.csv bearings.csv breaking.csv candidates.csv charge_neighbours.csv
+charge_per_delay.csv charge_table.csv charge_totals.csv charges.csv chosen_candidate.csv collapse.csv comparison.csv
+cracked_connections.csv criteria.csv criticality.csv damage_rings.csv debris.csv debris_on_surfaces.csv
+drill_holes.csv energy.csv exclusion_corners.csv exclusion_corners_of_one_run.csv exclusion_zone.csv
+exclusion_zone_corners.csv exclusion_zone_of_one_run.csv farthest_draws.csv findings.csv firing_sequence.csv
+fragment_limits.csv fragments.csv ground_motion_peaks.csv hits_of_the_ball.csv largest_throws.csv lifts.csv
+limits_at_once.csv median_and_worst.csv misfires.csv most_loaded_connections.csv most_loaded_shards.csv
+neighbours.csv neighbours_of_runs.csv optimisation.csv plan.csv plan_contents.csv pulls.csv rank_correlations.csv
+reaction_forces.csv reaction_moments.csv reinforcement.csv run.csv runs.csv search.csv sequence.csv settlements.csv
+severed_members.csv solver_energy.csv spans.csv stages.csv study.csv study_areas.csv surfaces.csv survey.csv
+survey_cells.csv tendons.csv terrain.csv throw_percentiles.csv touchdown.csv trials.csv varied.csv
+vibration_limits.csv zones.csv
 """
 """Tables of reports that left no list."""
 
@@ -37,7 +40,7 @@ def reported_in(folder: Path) -> list[str]:
     except UnreadableError:
         if not (folder / REPORT_PAGE).is_file():
             return []
-        listed = [*_FILES, *(f"{TABLE_FOLDER}/{name}.csv" for name in _EARLIER_TABLES.split())]
+        listed = [*_FILES, *(f"{TABLE_FOLDER}/{name}" for name in _EARLIER_TABLES.split())]
     return [name for name in listed if _can_be(name) and (folder / name).is_file()]
 
 
