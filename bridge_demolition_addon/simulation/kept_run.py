@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from contextlib import suppress
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -46,8 +45,9 @@ def keep_recording(folder: Path, recording: Recording, summary: Mapping[str, Any
     if motion := context.ground_motion:
         keep_ground_motion(folder, motion.record, motion.start_s)
     recording.remove_stream()
-    with suppress(ReferenceError):  # the scene was deleted, or another file was loaded
-        _keep_with_scene(recording.scene, recording.build, folder, results, RunSummary(summary))
+    for scene in bpy.data.scenes:  # undo replaces scenes; none where it was deleted, or another file was loaded
+        if scene.session_uid == recording.scene_uid:
+            _keep_with_scene(scene, recording.build, folder, results, RunSummary(summary))
 
 
 def keep_results(folder: Path, results: Results, summary: Mapping[str, Any]) -> None:

@@ -99,7 +99,9 @@ class RunsBeside:
             messages.note(scene or bpy.context.scene, _BUTTON, "WARNING", text.format(folder))
             return
         if last := session.last_recording():
-            shown_results(last.recording.scene).forget()
+            for other in bpy.data.scenes:
+                if shown_results(other).recording is last.recording:
+                    shown_results(other).forget()
             session.forget_recording(last.folder)
         recorded_scene(scene).show_results(adopt_run(scene, folder))
         contour_view.follow(scene)

@@ -86,7 +86,13 @@ def test_stopping_it_ends_its_process_and_so_does_switching_the_extension_off(bu
 
 
 def test_one_that_is_stopped_is_kept_and_shown_also_of_what_was_built_for_it(built, runs, tmp_path):
+    built.context.scene.bda.output_directory = str(tmp_path / "here")
+    built.ops.ed.undo_push(message="built")
+    built.ops.bda.run()
+    built.ops.ed.undo_push(message="after a run here")
+    built.ops.ed.undo()
     scene = built.context.scene
+    scene.bda.output_directory = str(tmp_path / "beside")
     scene.bda.scenario.fracture.shards, scene.bda.scenario.time.duration_s = SHARDS + 1, 60.0
     assert built.ops.bda.run_beside(build_anew=True) == {"FINISHED"}
     look_until(runs, lambda: runs.run.state.frames)
