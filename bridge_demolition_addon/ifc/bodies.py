@@ -54,7 +54,8 @@ def bodies_of(
     if not shapes:
         why = f", as later schemas have no {', '.join(source.lost_classes)}" if source.lost_classes else ""
         how = "export it as IFC4X3" if source.lost_classes else "export it again"
-        raise IfcError(f"{source.path}: no element has a shape that can be worked out{why}; {how}")
+        reasons = "; ".join(list(dict.fromkeys(kept.failed.values()))[:_LISTED])
+        raise IfcError(f"{source.path}: no element has a shape that can be worked out ({reasons}){why}; {how}")
     origin = np.floor(np.mean([mesh.bounds.mean(axis=0) for mesh in shapes.values()], axis=0))
     bodies = Bodies({}, {}, dict(kept.failed), origin)
     for done, element in enumerate(elements):

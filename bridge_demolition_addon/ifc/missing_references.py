@@ -34,7 +34,9 @@ _OF_SHAPES = (
     *("IfcProfileDef", "IfcProductRepresentation"),
 )
 
-_OF_PLACES = ("ObjectPlacement", "PlacementRelTo")
+_OF_PLACES = ("ObjectPlacement", "PlacementRelTo", "RelativePlacement", "Axis", "RefDirection")
+"""Attributes that say where something is, or how it is turned there."""
+
 _NOT_OF_SHAPES = ("ContextOfItems", "CfsFaces", "OwnerHistory")
 """Attributes that a shape is known without: holes where faces are missing are closed, or the body is refused."""
 
@@ -81,26 +83,42 @@ def remove_incomplete(model: Any) -> tuple[str, ...]:
     return (f"what leads to nothing, or lacks what its class needs, counts as absent: {texts}",)
 
 
-def unknown_shapes(model: Any, missing: Sequence[MissingLine]) -> dict[int, str]:
-    """Return why products have no shape or place that is known, by their numbers in the file.
+def unknown_shapes(model: Any, missing: Sequence[MissingLine]) -> tuple[dict[int, str], tuple[str, ...]]:
+    """Return why products have no shape or position that is known, by their numbers in the file, and a note.
 
-    Where all that has a shape is placed in lines that are missing, these moved all of it alike.
+    Where all that has a shape is placed in lines that are missing, these moved all of it alike: they count as absent.
     """
     of_shapes: dict[int, int] = {}
     of_places: dict[int, int] = {}
     for line in missing:
-        attribute = model.by_id(line.named_by).attribute_name(line.attribute)
-        if attribute in _OF_PLACES:
+        entity = model.by_id(line.named_by)
+        attribute = entity.attribute_name(line.attribute)
+        if attribute in _OF_PLACES and _is_of_places(model, entity):
             of_places[line.named_by] = line.number
         elif attribute not in _NOT_OF_SHAPES:
             of_shapes[line.named_by] = line.number
-    unplaced = _products_of(model, of_places)
-    if {product.id() for product in model.by_type("IfcProduct") if product.Representation} <= unplaced.keys():
-        unplaced = {}
+    unfinished = [place for place in model.by_type("IfcLocalPlacement") if place.RelativePlacement is None]
+    of_places = {place.id(): place.id() for place in unfinished} | of_places
+    unplaced, notes = _products_of(model, of_places), ()
+    if unplaced and {product.id() for product in model.by_type("IfcProduct") if product.Representation} <= set(
+        unplaced
+    ):
+        for place in unfinished:
+            point = model.create_entity("IfcCartesianPoint", (0.0, 0.0, 0.0))
+            place.RelativePlacement = model.create_entity("IfcAxis2Placement3D", point)
+        lines = ", ".join(f"#{number}" for number in dict.fromkeys(unplaced.values()))
+        unplaced, notes = {}, (f"all that has a shape is placed in {lines}, which is missing, and counts as absent",)
     return {
         product: f"it needs line #{number}, which is missing or of an unknown class"
         for product, number in (unplaced | _products_of(model, of_shapes)).items()
-    }
+    }, notes
+
+
+def _is_of_places(model: Any, entity: Any) -> bool:
+    """Return whether a statement is a product, or says where products are, and nothing of their shapes."""
+    if entity.is_a("IfcPlacement"):
+        return all(one.is_a("IfcObjectPlacement") for one in model.get_inverse(entity))
+    return bool(entity.is_a("IfcObjectPlacement") or entity.is_a("IfcProduct"))
 
 
 def _removed(model: Any, cut: Counter[str]) -> list[str]:

@@ -32,6 +32,7 @@ _READ_AS = (
 )
 """Names of schemas with those of their editions, as programs write them, and the one of the library's that has it."""
 
+_NOT_FOUND = re.compile(r"Instance #(\d+) not found")
 _CLASS = re.compile(rb"=\s*(IFC[A-Z0-9_]+)\s*\(")
 
 _BEGINNING, _END = b"ISO-10303-21;", b"END-ISO-10303-21;"
@@ -54,6 +55,8 @@ _AMERICAN = re.compile(rb"(IFCSIUNIT\s*\([^;]*?\.(?:SQUARE_|CUBIC_)?)METER(\.\s*
 
 _MOST, _LARGEST_IN_METRES = 0.75, 200.0
 """Part of all coordinates, and what it does not exceed in metres: parts of bridges are smaller, and placements few."""
+
+_RADIAN = {"UnitType": "PLANEANGLEUNIT", "Name": "RADIAN"}
 
 _BEYOND_ASCII = re.compile(r"[^\x00-\x7f]+")
 
@@ -89,12 +92,15 @@ def naming_contradictions(path: Path) -> Iterator[None]:
         if not any(folder in Path(frame.f_code.co_filename).parents for frame in frames):
             raise
         raise IfcError(
-            f"{path}: contradicts its schema{_place_of(frames)}; check it with a validator of IFC, or export it again"
+            f"{path}: contradicts its schema{_place_of(frames, error)}; check it with a validator of IFC, or export it "
+            "again"
         ) from error
 
 
-def _place_of(frames: Sequence[FrameType]) -> str:
+def _place_of(frames: Sequence[FrameType], error: Exception) -> str:
     """Return the statement that was read last; empty where none was."""
+    if found := _NOT_FOUND.search(str(error)):
+        return f", as #{found.group(1)} is the number of several lines, or of none"
     for frame in reversed(frames):
         for value in reversed(frame.f_locals.values()):
             if hasattr(value, "is_a") and hasattr(value, "id") and value.id():
@@ -121,11 +127,14 @@ def open_source(path: Path, settings: ImportSettings) -> IfcSource:
     if lost:
         said = "they are left out, and what is placed along these has no shape"
         notes = (*notes, f"{read_as} has no {', '.join(lost)}: {said}")
-    unknown = unknown_shapes(model, missing)
-    incomplete = remove_incomplete(model)
+    unknown, unplaced = unknown_shapes(model, missing)
+    incomplete = (*unplaced, *remove_incomplete(model))
     if incomplete and settings.strict:
         raise IfcError(f"{path}: {incomplete[0]}; export it again")
     notes = (*notes, *incomplete)
+    project = model.by_type("IfcProject")[0]
+    if project.UnitsInContext is None:  # without any no geometry is worked out; what it is in is guessed, or said
+        project.UnitsInContext = model.create_entity("IfcUnitAssignment", [model.create_entity("IfcSIUnit", **_RADIAN)])
     own_m = _unit_of_file(model)
     unit_m = own_m if settings.unit is None else UNITS[settings.unit]
     if unit_m is None and not settings.strict and (guessed := _guessed_unit(model)):

@@ -402,6 +402,26 @@ def test_reinforcing_bars_are_layers_of_their_members(turn_deg, tmp_path):
     assert any("bent, inclined or in no member" in note for note in bridge.notes)
 
 
+@pytest.mark.slow
+def test_girders_one_above_the_other_are_one_line_under_a_slab(tmp_path):
+    """A slab over two lines of girders has the same bars across whether these are of one piece or lie in two layers."""
+    required_m2 = []
+    for number, layers in enumerate((((3.6, 0.8),), ((3.6, 0.4), (4.0, 0.4)))):
+        made = IfcBridge().substructure().bearings()
+        concrete = made.material("C30/37")
+        for across in (-1.0, 1.0):
+            for low_m, high_m in layers:  # give or take some micrometres
+                size, position = (21.0, 0.4, high_m), (10.0, across + 1e-6 * low_m, low_m)
+                made.box("IfcBeam", f"{across} {low_m}", size, position, "SUPERSTRUCTURE", material=concrete)
+        made.box("IfcSlab", "Carriageway", (21.0, 4.0, 0.2), (10.0, 0.0, 4.4), "DECK", material=concrete)
+        write_bridge(read(made, tmp_path), tmp_path / f"made_{number}")
+        scenario = read_scenario(tmp_path / f"made_{number}" / "scenario.toml")
+        rows = bar_schedule(scenario, prepared_members(scenario).members).rows
+        layer = [row for row in rows if row.kind == "deck" and (row.layer.side, row.layer.along) == ("top", "y")]
+        required_m2.append([row.required_m2 for row in layer])
+    assert required_m2[0] and required_m2[1] == pytest.approx(required_m2[0])
+
+
 def test_members_of_concrete_have_bars_by_rule(tmp_path):
     """Of a bridge of concrete on steel girders: a rule for load model 1, and steel that keeps its strength."""
     path, folder = whole_bridge().written(tmp_path / "bridge.ifc"), tmp_path / "folder"

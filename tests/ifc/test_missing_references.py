@@ -126,8 +126,8 @@ def test_a_shape_whose_line_is_missing_is_left_out(tmp_path):
         read_bridge(path, ImportSettings(strict=True))
 
 
-@pytest.mark.parametrize("is_shared", [True, False])
-def test_a_place_in_a_missing_line(is_shared, tmp_path):
+@pytest.mark.parametrize("is_shared, is_line", [(True, True), (False, True), (True, False)])
+def test_a_place_in_a_missing_line(is_shared, is_line, tmp_path):
     """What all is placed in moved all alike; what one alone is placed in could be anywhere."""
     made = whole_bridge()
     girder = next(one for one in made.file.by_type("IfcBeam") if one.Name == "Girder left")
@@ -135,7 +135,13 @@ def test_a_place_in_a_missing_line(is_shared, tmp_path):
     if not is_shared:
         at = made.file.create_entity("IfcAxis2Placement3D", made.point(0.0, 0.0, 0.0))
         girder.ObjectPlacement = place = made.file.create_entity("IfcLocalPlacement", None, at)
-    path = changed(made, tmp_path, (rf"#{place.id()}=IFCLOCALPLACEMENT\(\$", f"#{place.id()}=IFCLOCALPLACEMENT(#99999"))
+    start = rf"#{place.id()}=IFCLOCALPLACEMENT\("
+    change = (rf"({start})\$", r"\1#99999") if is_line else (rf"({start}\$,)#\d+", r"\1$")
+    path = changed(made, tmp_path, change)
     bridge = read_bridge(path, ImportSettings())
+    said = (
+        f"all that has a shape is placed in #{99999 if is_line else place.id()}, which is missing, and counts as absent"
+    )
+    assert (said in bridge.notes) == is_shared
     missing_kg = 0.0 if is_shared else GIRDER_KG
     assert mass_kg(bridge) == pytest.approx(MASS_KG - missing_kg)

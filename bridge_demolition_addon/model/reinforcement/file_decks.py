@@ -256,7 +256,10 @@ def _whole(across_m: np.ndarray) -> np.ndarray:
 
 
 def _abreast(basis: FileDesign, line: FileDeckLine, index: int, girders: Sequence[int]) -> list[tuple[float, int]]:
-    """Return the girders beside one in its middle, with their positions across the road, from right to left."""
+    """Return the girders beside one in its middle, with their positions across the road, from right to left.
+
+    Of girders one above the other one counts, itself among its own.
+    """
     axes = line.part.axes
     middle = axes.from_world(basis.members[index].solid.bounds.mean(axis=0)[None])[0]
     found = []
@@ -265,7 +268,13 @@ def _abreast(basis: FileDesign, line: FileDeckLine, index: int, girders: Sequenc
         if begin <= middle[0] <= end:
             points = axes.from_world(basis.members[other].solid.vertices)
             found.append((float(0.5 * (points[:, 1].min() + points[:, 1].max())), other))
-    return sorted(found)
+    apart: list[tuple[float, int]] = []
+    for at, other in sorted(found):
+        if not apart or at - apart[-1][0] >= 0.5 * own_axes(basis.members[other]).web_m:
+            apart.append((at, other))
+        elif other == index:
+            apart[-1] = at, other
+    return apart
 
 
 def _stations_of_girder(basis: FileDesign, index: int) -> list[float]:
