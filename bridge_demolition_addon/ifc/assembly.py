@@ -177,19 +177,16 @@ class Assembly:
         volumes = {number: member.volume_m3 for number, member in members}
         self._first = sorted(dict.fromkeys(inner), key=lambda number: volumes[number])
 
-    def ordered(self) -> list[Outcome]:
-        """Return all outcomes; what an earlier one takes is cut off a later one."""
-        return [self.outcomes[number] for number in self.ordered_numbers()]
-
-    def ordered_numbers(self) -> list[int]:
-        """Return the numbers of all outcomes in that order."""
+    def ordered(self) -> dict[int, Outcome]:
+        """Return all outcomes by their numbers; what an earlier one takes is cut off a later one."""
         first = [number for number in self._first if self.outcomes[number].member]
-        return first + [number for number in self.outcomes if number not in first]
+        rest = [number for number in self.outcomes if number not in first]
+        return {number: self.outcomes[number] for number in (*first, *rest)}
 
     def drop_consumed(self) -> None:
         """Leave out members of which nothing is left once those before them are cut off."""
         taken: list[TriangleMesh] = []
-        waiting = deque(self.ordered_numbers())
+        waiting = deque(self.ordered())
         while waiting:
             number = waiting.popleft()
             outcome = self.outcomes[number]

@@ -281,9 +281,9 @@ def _scenario(
     title: str,
     frame: SteelFrame | None,
 ) -> tuple[Scenario, dict[str, TriangleMesh], list[str]]:
-    kept = [outcome for outcome in result.ordered() if outcome.member and outcome.became != BAR]
+    kept = [outcome for outcome in result.ordered().values() if outcome.member and outcome.became != BAR]
     of_members = [outcome for outcome in kept if outcome.became != CONNECTION]
-    bars = [outcome.part[0] for outcome in result.ordered() if outcome.became == BAR]
+    bars = [outcome.part[0] for outcome in result.ordered().values() if outcome.became == BAR]
     if not of_members and not bars:
         raise IfcError(f"{source.path}: nothing of it lies above the ground; put the ground lower by --ground")
     members = [outcome.part[0] for outcome in of_members]

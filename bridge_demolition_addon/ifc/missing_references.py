@@ -99,7 +99,8 @@ def unknown_shapes(model: Any, missing: Sequence[MissingLine]) -> tuple[dict[int
             of_shapes[line.named_by] = line.number
     unfinished = [place for place in model.by_type("IfcLocalPlacement") if place.RelativePlacement is None]
     of_places = {place.id(): place.id() for place in unfinished} | of_places
-    unplaced, notes = _products_of(model, of_places), ()
+    unplaced = _products_of(model, of_places)
+    notes: tuple[str, ...] = ()
     if unplaced and {product.id() for product in model.by_type("IfcProduct") if product.Representation} <= set(
         unplaced
     ):
