@@ -22,17 +22,12 @@ from typing import Any
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
-from ..elasticity.equations import summed_on_bodies
-from ..elasticity.gaps import Gaps, SolvedTangents, stiffness_of_points
-from ..elasticity.guesses import GuessedForces
-from ..elasticity.joint_rows import cross_products, dot_products, turned, turned_back
+from ..elasticity.joint_rows import dot_products, turned, turned_back
 from ..elasticity.steel_bars import MODULUS_PA, USUAL_STEEL
+from ..elasticity.substep import BARE_BARS, Term
 from .bare_bars import bar_area_m2, folding_force_n, yield_force_n
 
 RUPTURE_STRAIN = USUAL_STEEL.rupture_strain
-
-_AGREES = 1e-4
-"""Largest error of the force of a group, by that at which it yields."""
 
 _FOLDED_UP = 0.02
 """Length of a group by its bared height from which on it is folded up, and counts no more."""
@@ -222,89 +217,33 @@ class Cages:
 
     def in_substep(
         self, chosen: IntArray, positions_m: FloatArray, rotations: FloatArray, substep_s: float
-    ) -> CageStep:
+    ) -> Term:
         """Return what some groups (k,) do in a sub-step of a length in s."""
         groups = self._groups.only(chosen)
         line, first_arms, second_arms = groups.lines(positions_m, rotations)
-        gaps = Gaps(groups.first, groups.second, first_arms, second_arms, line)
-        solved = SolvedTangents(self._solved_for, chosen)
-        return CageStep(self.rows[chosen], gaps, groups, solved, substep_s, held_sideways=self._held_sideways)
-
-
-class CageStep(GuessedForces):
-    """Forces of k groups of bars in a sub-step, along their lines as it begins; `rows` (k,) are their numbers."""
-
-    def __init__(
-        self,
-        rows: IntArray,
-        gaps: Gaps,
-        groups: _Groups,
-        solved: SolvedTangents,
-        substep_s: float,
-        *,
-        held_sideways: bool = False,
-    ):
-        super().__init__(rows, np.arange(len(rows)))
-        self._held_sideways = held_sideways
-        self._gaps, self._groups, self._solved, self._substep_s = gaps, groups, solved, substep_s
-        self._length = np.sqrt(dot_products(gaps.widths_m, gaps.widths_m))
-        self._directions = gaps.widths_m / np.where(self._length > 0.0, self._length, 1.0)
-        self._yields_n = groups.counts * yield_force_n(groups.diameters_m, groups.yields_pa)
-        self._pulled_n, self._pressed_n = groups.limits_n
-        self._begin_at(np.zeros((1, len(rows))))
-
-    def changed(self) -> BoolArray:
-        """Return whether each group (k,) has another tangent than its equations."""
-        return self._solved.differ(self._tangents)
-
-    def blocks(self, chosen: IntArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return what groups (c,) add to the equations of their first and second bodies, and between, (6, 6, c)."""
-        tangents = self._tangents[..., chosen]
-        self._solved.take_over(chosen, tangents)
-        implicit = self._substep_s * self._substep_s * tangents
-        arms = self._gaps.first_arms_m[:, chosen], self._gaps.second_arms_m[:, chosen]
-        return stiffness_of_points(implicit, *arms)
-
-    def loads(self, velocities: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the impulses (6, k) on the first and second bodies, which have velocities (6, n) then."""
-        pull = self._substep_s * self._linear(self._moved(velocities)) * self._directions
-        if self._held_sideways:
-            pull += self._substep_s * self._sideways_n(velocities)
-        first = np.concatenate((pull, cross_products(self._gaps.first_arms_m, pull)))
-        second = np.concatenate((-pull, -cross_products(self._gaps.second_arms_m, pull)))
-        return first, second
-
-    def of_bodies(self, loads: tuple[FloatArray, FloatArray], count: int) -> FloatArray:
-        """Return the sums (6, n) of loads (6, k) on the first and on the second bodies, for n bodies."""
-        return summed_on_bodies(self._gaps.first, self._gaps.second, loads, count)
-
-    def _moved(self, velocities: FloatArray) -> FloatArray:
-        return self._substep_s * dot_products(self._directions, self._gaps.rates(velocities))[None]
-
-    def _sideways_n(self, velocities: FloatArray) -> FloatArray:
-        """Forces (3, k) across the lines, by how far their ends have moved sideways since they were bared."""
-        moved = self._gaps.widths_m - self._groups.lines_m + self._substep_s * self._gaps.rates(velocities)
-        across = moved - dot_products(moved, self._directions) * self._directions
-        forces: FloatArray = self._groups.holds * self._groups.stiffness_n_m * across
-        return forces
-
-    def _resisted(self, moved: FloatArray) -> FloatArray:
-        elongations = self._length - self._groups.bared_m + moved
-        return self._groups.forces_within(elongations, self._pulled_n, self._pressed_n)
-
-    def _linear(self, moved: FloatArray) -> FloatArray:
-        return self._at_rest_n + self._stiffness_n_m * moved
-
-    def _begin_at(self, moved: FloatArray) -> None:
-        forces = self._resisted(moved)
-        is_elastic = self._groups.holds & (forces < self._pulled_n) & (forces > -self._pressed_n)
-        self._stiffness_n_m = np.where(is_elastic, self._groups.stiffness_n_m, 0.0)
-        self._at_rest_n = forces - self._stiffness_n_m * moved
-        self._tangents = self._stiffness_n_m * (self._directions[:, None] * self._directions)
-        if self._held_sideways:
-            sideways = self._groups.holds * self._groups.stiffness_n_m
-            across = np.eye(3)[:, :, None] - self._directions[:, None] * self._directions
-            self._tangents = self._tangents + sideways * across
-
-    def _slack(self) -> FloatArray:
-        return _AGREES * self._yields_n
+        length = np.sqrt(dot_products(line, line))
+        pulled_n, pressed_n = groups.limits_n
+        law = {
+            "yields": groups.counts * yield_force_n(groups.diameters_m, groups.yields_pa),
+            "stiffness": groups.stiffness_n_m,
+            "directions": line / np.where(length > 0.0, length, 1.0),
+            "lengths": length,
+            "bared": groups.bared_m,
+            "stays": groups.stays_m,
+            "pulled_limits": pulled_n,
+            "pressed_limits": pressed_n,
+            "bared_lines": groups.lines_m,
+            "holds": groups.holds,
+        }
+        return Term.of(
+            BARE_BARS,
+            self.rows[chosen],
+            np.arange(len(chosen)),
+            chosen,
+            self._solved_for,
+            (groups.first, groups.second),
+            (first_arms, second_arms),
+            line,
+            law,
+            held_sideways=int(self._held_sideways),
+        )

@@ -20,10 +20,10 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
-from .gaps import SolvedTangents
 from .joint_rows import turned, turned_back
 from .spring_law import PressedSprings
-from .springs import SpringPositions, SpringStep, loads_of_springs, stiffness_of_springs
+from .springs import SpringPositions, loads_of_springs, spring_term, stiffness_of_springs
+from .substep import Term
 
 _LIFTED_M = 0.02
 """Opening from which on pins and guides of a bearing that holds no uplift are out of their holes."""
@@ -232,23 +232,18 @@ class Bearings:
 
     def in_substep(
         self, chosen: IntArray, positions_m: FloatArray, rotations: FloatArray, substep_s: float
-    ) -> SpringStep:
+    ) -> Term:
         """Return what some connections (c,) do in a sub-step of a length in s."""
         gaps, arms, arms_below = self._positions.gaps(positions_m, rotations)
         positions, which = self._positions.only(chosen)
+        gaps = gaps - self._free
+        of_chosen = gaps.take(which, axis=1), arms.take(which, axis=1), arms_below.take(which, axis=1)
 
         def keep(forces_n: FloatArray) -> None:
             self._pressed_n[which] = np.maximum(forces_n, 0.0)
 
-        return SpringStep(
-            self.rows[chosen],
-            positions,
-            positions.between(arms[:, which], arms_below[:, which], (gaps - self._free)[:, which]),
-            self._law.only(which),
-            SolvedTangents(self._solved_for, which),
-            substep_s,
-            keep,
-        )
+        law = self._law.only(which)
+        return spring_term(self.rows[chosen], positions, which, of_chosen, law, self._solved_for, keep)
 
     def _turns(self, rotations: FloatArray) -> FloatArray:
         """Return how the first body of each connection is turned in the axes of the second, (3, 3, c)."""

@@ -25,7 +25,7 @@ stress by von Mises' criterion.
 FRICTION = 0.7
 """Friction of the rough sides of a crack: EN 1992-1-1:2004, 6.2.5 (2), and fib Model Code 2010, table 7.3-2."""
 
-_SHEARED = 0.4
+SHEARED = 0.4
 """Stiffness against sliding of sides that do not slip, by that against pressing: shear over normal stiffness of
 concrete, G / E."""
 
@@ -92,4 +92,4 @@ def sliding(gaps_m: FloatArray, normals: FloatArray) -> FloatArray:
 
 def rubbing_bars(grips_n: FloatArray, pressed_n_m: FloatArray) -> Bars:
     """Friction of b pressed places, as of bars that yield at it and do not harden."""
-    return Bars(grips_n, _SHEARED * pressed_n_m, np.zeros_like(grips_n))
+    return Bars(grips_n, SHEARED * pressed_n_m, np.zeros_like(grips_n))

@@ -5,7 +5,7 @@ each is a quarter of the bars, or what resists the same moments as bars in their
 press on each other where it is closed, as stiff as the connection was. So bars have the plastic moment of such that are
 spread evenly over the face, or are in their layers: all of them yield, about the pressed edge.
 
-A sub-step is implicit, as of connections, but these forces are not linear: they are guessed (`guesses`).
+A sub-step is implicit, as of connections, but these forces are not linear: they are guessed (`core/src/guesses.h`).
 
 All arrays have their components first. Places are numbered corner by corner, in each of these all cracks.
 """
@@ -18,13 +18,8 @@ from typing import TypeVar
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
-from .compiled_cracks import quickest, stiffness_of_corners, summed
-from .compiled_springs import rates
-from .crack_law import DOWEL_SHARE, FRICTION, CrackLaw, rubbing_bars, sliding, stretches_of_bars
+from .crack_law import DOWEL_SHARE, FRICTION, SHEARED, rubbing_bars, sliding, stretches_of_bars
 from .crack_state import CornerState, CrackState
-from .equations import summed_on_bodies
-from .gaps import Gaps, SolvedTangents
-from .guesses import GuessedForces
 from .joint_rows import (
     JointPositions,
     JointRows,
@@ -34,6 +29,7 @@ from .joint_rows import (
     turned_back,
 )
 from .steel_bars import Bars, Steel, SteelOfBars, bar_response
+from .substep import CRACKS, Term
 
 Numbers = TypeVar("Numbers", FloatArray, IntArray, BoolArray)
 
@@ -41,11 +37,6 @@ CORNERS = np.array([(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)])
 """Places as shares of half of the sides of the rectangle."""
 
 _COUNT = len(CORNERS)
-
-_AGREES = 1e-4
-"""Largest error of the force at a corner, by what its bars yield at, or presses its sides together so far."""
-
-_LITTLE_M = 1e-5
 
 _LITTLE_SHARE = 1e-9
 """Part of the bars of a crack up to which a corner has no bars: what is left is rounding."""
@@ -218,25 +209,40 @@ class Cracks:
 
     def in_substep(
         self, chosen: IntArray, positions_m: FloatArray, rotations: FloatArray, substep_s: float
-    ) -> CrackStep:
+    ) -> Term:
         """Return what some cracks (c,) do in a sub-step of a length in s."""
         which = (chosen + len(self.rows) * np.arange(_COUNT)[:, None]).ravel()
         first, second = self._first[which], self._second[which]
-        first_levers = turned(rotations[..., first], self._first_anchors[:, which])
-        second_levers = turned(rotations[..., second], self._second_anchors[:, which])
-        gaps = positions_m[:, second] + second_levers - positions_m[:, first] - first_levers
-        law = CrackLaw(
-            self._bars().times(self._holds)[which],
-            turned(rotations[..., first], self._slips[:, which]),
-            self._flows[which],
-            turned(rotations[..., first], self._normals[:, which]),
-            turned(rotations[..., first], self._directions[:, which]),
-            self._stiffness_pressed()[which],
-            turned(rotations[..., first], self._rests[:, which]),
-            self._grips_n[which],
+        first_turns = rotations.take(first, axis=2)
+        first_levers = turned(first_turns, self._first_anchors.take(which, axis=1))
+        second_levers = turned(rotations.take(second, axis=2), self._second_anchors.take(which, axis=1))
+        gaps = positions_m.take(second, axis=1) + second_levers - positions_m.take(first, axis=1) - first_levers
+        bars = self._bars().times(self._holds)[which]
+        law = {
+            "yields": bars.yield_n,
+            "stiffness": bars.stiffness_n_m,
+            "modulus": bars.modulus_n_m,
+            "slips": turned(first_turns, self._slips.take(which, axis=1)),
+            "flows": self._flows[which],
+            "normals": turned(first_turns, self._normals.take(which, axis=1)),
+            "directions": turned(first_turns, self._directions.take(which, axis=1)),
+            "pressed": self._stiffness_pressed()[which],
+            "rests": turned(first_turns, self._rests.take(which, axis=1)),
+            "grips": self._grips_n[which],
+        }
+        return Term.of(
+            CRACKS,
+            self.rows[chosen],
+            np.tile(np.arange(len(chosen)), _COUNT),
+            which,
+            self._solved_for,
+            (first, second),
+            (first_levers + 0.5 * gaps, second_levers - 0.5 * gaps),
+            gaps,
+            law,
+            dowel=DOWEL_SHARE,
+            sheared=SHEARED,
         )
-        between = Gaps(first, second, first_levers + 0.5 * gaps, second_levers - 0.5 * gaps, gaps)
-        return CrackStep(self.rows[chosen], between, law, SolvedTangents(self._solved_for, which), substep_s)
 
     def _bars(self) -> Bars:
         """Return all bars, with their remaining area."""
@@ -309,82 +315,33 @@ class CrackJoints:
         return JointPositions(self.axes, self.axes, self.first_arms_m, self.second_arms_m, none).rows()
 
 
-class CrackStep(GuessedForces):
-    """Forces of c cracks, in place of connections `rows` (c,), with 4 c bars in a sub-step."""
-
-    def __init__(self, rows: IntArray, gaps: Gaps, law: CrackLaw, solved: SolvedTangents, substep_s: float):
-        super().__init__(rows, np.tile(np.arange(len(rows)), _COUNT))
-        self._gaps, self._law, self._solved, self._substep_s = gaps, law, solved, substep_s
-        self._resistance = quickest(law)
-        mean_n = np.maximum(np.tile(_summed(law.bars.yield_n) / _COUNT, _COUNT), _LITTLE_M * law.pressed_n_m)
-        self._slack_n = _AGREES * mean_n
-        self._begin_at(np.zeros_like(gaps.widths_m))
-
-    def changed(self) -> BoolArray:
-        """Return whether each crack (c,) has other tangents than its equations."""
-        return self._solved.differ(self._tangents).reshape(_COUNT, -1).any(axis=0)
-
-    def blocks(self, chosen: IntArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return what cracks (k,) add to the equations of their first and second bodies, and between, (6, 6, k)."""
-        bars = (chosen + len(self.rows) * np.arange(_COUNT)[:, None]).ravel()
-        tangents = self._tangents[..., bars]
-        self._solved.take_over(bars, tangents)
-        implicit = self._substep_s * self._substep_s * tangents
-        arms = self._gaps.first_arms_m[:, bars], self._gaps.second_arms_m[:, bars]
-        return stiffness_of_corners(implicit, *arms, _COUNT)
-
-    def loads(self, velocities: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the impulses (6, c) of cracks on their first and second bodies, which have velocities (6, n) then."""
-        pull = self._substep_s * self._linear(self._moved(velocities))
-        first = np.concatenate((pull, cross_products(self._gaps.first_arms_m, pull)))
-        second = np.concatenate((-pull, -cross_products(self._gaps.second_arms_m, pull)))
-        return _summed(first), _summed(second)
-
-    def _moved(self, velocities: FloatArray) -> FloatArray:
-        return self._substep_s * rates(self._gaps, velocities)
-
-    def _resisted(self, moved: FloatArray) -> FloatArray:
-        return self._resistance.forces(self._gaps.widths_m + moved)
-
-    def _linear(self, moved: FloatArray) -> FloatArray:
-        return self._forces + turned(self._tangents, moved)
-
-    def _begin_at(self, moved: FloatArray) -> None:
-        forces, self._tangents = self._resistance.linear(self._gaps.widths_m + moved)
-        self._forces = forces - turned(self._tangents, moved)
-
-    def _slack(self) -> FloatArray:
-        return self._slack_n
-
-    def joints(self) -> CrackJoints:
-        """Return how the cracks resist changes of the motion that was guessed last."""
-        count, law, gaps = len(self.rows), self._law, self._gaps
-        normal = law.normals[:, :count]
-        corners = gaps.first_arms_m.reshape(3, _COUNT, count)
-        side = corners[:, 2] - corners[:, 0]
-        side = side - dot_products(side, normal) * normal
-        side = side / np.sqrt(dot_products(side, side))
-        axes = np.stack((normal, side, cross_products(normal, side)), axis=1)
-        pressed = dot_products(law.normals, turned(self._tangents, law.normals))
-        total = _summed(pressed)
-        shares = np.where(np.tile(total, _COUNT) > 0.0, pressed, 1.0)
-        shares = shares / np.tile(_summed(shares), _COUNT)
-        first_arms, second_arms = (_summed(shares * arms) for arms in (gaps.first_arms_m, gaps.second_arms_m))
-        levers = gaps.first_arms_m - np.tile(first_arms, _COUNT)
-        stiffness = []
-        for axis in np.moveaxis(axes, 1, 0):
-            along = np.tile(axis, _COUNT)
-            stiffness.append(_summed(dot_products(along, turned(self._tangents, along))))
-        for axis in np.moveaxis(axes, 1, 0):
-            moved = cross_products(np.tile(axis, _COUNT), levers)
-            stiffness.append(_summed(dot_products(moved, turned(self._tangents, moved))))
-        first, second = gaps.first[:count], gaps.second[:count]
-        return CrackJoints(first, second, first_arms, second_arms, axes, np.stack(stiffness))
-
-    def of_bodies(self, loads: tuple[FloatArray, FloatArray], count: int) -> FloatArray:
-        """Return the sums (6, n) of loads (6, c) on the first and on the second bodies, for n bodies."""
-        cracks = len(self.rows)
-        return summed_on_bodies(self._gaps.first[:cracks], self._gaps.second[:cracks], loads, count)
+def joints_of_cracks(cracks: Term) -> CrackJoints:
+    """Return how cracks resist changes of the motion that was guessed last."""
+    count, law = len(cracks.rows), cracks.arrays
+    normals, tangents, first_arms, second_arms = (
+        law[name] for name in ("normals", "tangents", "first_arms", "second_arms")
+    )
+    normal = normals[:, :count]
+    corners = first_arms.reshape(3, _COUNT, count)
+    side = corners[:, 2] - corners[:, 0]
+    side = side - dot_products(side, normal) * normal
+    side = side / np.sqrt(dot_products(side, side))
+    axes = np.stack((normal, side, cross_products(normal, side)), axis=1)
+    pressed = dot_products(normals, turned(tangents, normals))
+    total = _summed(pressed)
+    shares = np.where(np.tile(total, _COUNT) > 0.0, pressed, 1.0)
+    shares = shares / np.tile(_summed(shares), _COUNT)
+    first_middles, second_middles = (_summed(shares * arms) for arms in (first_arms, second_arms))
+    levers = first_arms - np.tile(first_middles, _COUNT)
+    stiffness = []
+    for axis in np.moveaxis(axes, 1, 0):
+        along = np.tile(axis, _COUNT)
+        stiffness.append(_summed(dot_products(along, turned(tangents, along))))
+    for axis in np.moveaxis(axes, 1, 0):
+        moved = cross_products(np.tile(axis, _COUNT), levers)
+        stiffness.append(_summed(dot_products(moved, turned(tangents, moved))))
+    first, second = law["first"][:count], law["second"][:count]
+    return CrackJoints(first, second, first_middles, second_middles, axes, np.stack(stiffness))
 
 
 def corner_positions(points_m: FloatArray, axes: FloatArray, sides_m: FloatArray) -> FloatArray:
@@ -412,4 +369,8 @@ def _joined(before: Numbers, added: Numbers) -> Numbers:
 
 def _summed(values: FloatArray) -> FloatArray:
     """Sums (…, c) over the bars (…, 4 c) of each crack."""
-    return summed(values, _COUNT)
+    of_corners = values.reshape(*values.shape[:-1], _COUNT, -1)
+    total: FloatArray = of_corners[..., 0, :]
+    for corner in range(1, _COUNT):
+        total = total + of_corners[..., corner, :]
+    return total

@@ -9,7 +9,6 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
 from ..arrays import BoolArray, FloatArray, IntArray
-from .compiled_joints import equation_loops
 from .joint_rows import JointRows, matrix_products, transposed
 
 
@@ -32,10 +31,6 @@ class RigidBodies:
 
     def mass_matrices(self, rotations: FloatArray, bodies: IntArray) -> FloatArray:
         """Return mass and inertia (6, 6, b) in the axes of the world, of some bodies (b,) in rotations (3, 3, n)."""
-        loops = equation_loops()
-        if loops is not None:
-            found: FloatArray = loops.mass_matrices(self.masses_kg, self.inertias_kg_m2, rotations, bodies)
-            return found
         turned = rotations[..., bodies]
         matrices = np.zeros((6, 6, len(bodies)))
         matrices[[0, 1, 2], [0, 1, 2]] = self.masses_kg[bodies]

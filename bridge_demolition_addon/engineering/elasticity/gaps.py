@@ -3,46 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
 
-from ..arrays import BoolArray, FloatArray, IntArray
+from ..arrays import FloatArray
 from .joint_rows import cross_products
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Gaps:
-    """Gaps between q pairs of points."""
-
-    first: IntArray  # (q,), bodies of the first points
-    second: IntArray
-    first_arms_m: FloatArray  # (3, q), from the centre of the body to where the force acts
-    second_arms_m: FloatArray
-    widths_m: FloatArray  # (3, q), from the first points to the second
-
-    def rates(self, velocities: FloatArray) -> FloatArray:
-        """Return how fast the gaps (3, q) open, with velocities and angular velocities (6, n) of the bodies."""
-        first, second = velocities[:, self.first], velocities[:, self.second]
-        moving = second[:3] + cross_products(second[3:], self.second_arms_m)
-        return moving - first[:3] - cross_products(first[3:], self.first_arms_m)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class SolvedTangents:
-    """The tangents of q gaps for which the equations were made last, among those of all p gaps."""
-
-    tangents_n_m: FloatArray  # (3, 3, p), of all gaps; written to
-    rows: IntArray  # (q,)
-
-    def differ(self, tangents_n_m: FloatArray) -> BoolArray:
-        """Return whether each gap (q,) now has other tangents."""
-        differ: BoolArray = (tangents_n_m != self.tangents_n_m[..., self.rows]).any(axis=(0, 1))
-        return differ
-
-    def take_over(self, gaps: IntArray, tangents_n_m: FloatArray) -> None:
-        """Note the tangents (3, 3, k) of some of the gaps (k,)."""
-        self.tangents_n_m[..., self.rows[gaps]] = tangents_n_m
 
 
 def stiffness_of_points(

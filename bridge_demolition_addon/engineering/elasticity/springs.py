@@ -1,6 +1,6 @@
 """Springs between two bodies: footings on soil, and pads of bearings; where they are, and what they do in a sub-step.
 
-A sub-step is implicit, and its forces are guessed (`guesses`).
+A sub-step is implicit, and its forces are guessed (`core/src/guesses.h`).
 
 All arrays have their components first, except places.
 """
@@ -14,18 +14,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
-from .compiled_springs import rates, resisted, spring_loops
-from .equations import summed_on_bodies
-from .gaps import Gaps, SolvedTangents, stiffness_of_points
-from .guesses import GuessedForces
+from .gaps import stiffness_of_points
 from .joint_rows import cross_products, turned, turned_back
 from .spring_law import PressedSprings
-
-_AGREES = 1e-4
-"""Largest error of the force of a spring, by the mean force of the springs of its connection."""
-
-_EVEN_M = 1e-10
-"""Deformation up to this counts as none."""
+from .substep import SPRINGS, Term
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -96,80 +88,42 @@ class SpringPositions:
             which,
         )
 
-    def between(self, arms: FloatArray, arms_below: FloatArray, widths_m: FloatArray) -> Gaps:
-        """Return gaps (3, p) with these widths, from the bodies below to those above."""
-        return Gaps(self.below, self.above, arms_below, arms, widths_m)
 
+def spring_term(
+    rows: IntArray,
+    positions: SpringPositions,
+    which: IntArray,
+    gaps: tuple[FloatArray, FloatArray, FloatArray],
+    law: PressedSprings,
+    solved_for: FloatArray,
+    solved: Callable[[FloatArray], None] | None = None,
+) -> Term:
+    """Return what c connections, `rows` (c,), do in a sub-step by q springs, which are `which` (q,) of all.
 
-class SpringStep(GuessedForces):
-    """Forces of c connections, `rows` (c,), with q springs in a sub-step.
-
-    `gaps` are from the bodies below to those above, and from where springs resist nothing. `keep` gets the upward
-    forces (q,) that are solved.
+    `gaps` are from where springs resist nothing, (3, q), with their arms on the bodies above and below. `solved` gets
+    the upward forces (q,).
     """
-
-    def __init__(
-        self,
-        rows: IntArray,
-        positions: SpringPositions,
-        gaps: Gaps,
-        law: PressedSprings,
-        solved: SolvedTangents,
-        substep_s: float,
-        keep: Callable[[FloatArray], None] | None = None,
-    ):
-        super().__init__(rows, positions.of)
-        self._positions, self._gaps, self._law = positions, gaps, law
-        self._solved, self._substep_s, self._keep = solved, substep_s, keep
-        self._begin_at(np.zeros_like(gaps.widths_m))
-        of = positions.of
-        mean_n = positions.summed(abs(self._forces).max(axis=0)) / np.bincount(of, minlength=len(rows))
-        self._slack_n = _AGREES * mean_n[of] + _EVEN_M * law.vertical_n_m
-
-    def changed(self) -> BoolArray:
-        """Return whether each connection (c,) has other tangents than its equations."""
-        return self._positions.summed(self._solved.differ(self._tangents).astype(float)) > 0.0
-
-    def blocks(self, chosen: IntArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Return what some (k,) add to the equations of their first and second bodies, and between, (6, 6, k)."""
-        positions, mine = self._positions.only(chosen)
-        tangents = self._tangents[..., mine]
-        self._solved.take_over(mine, tangents)
-        implicit = self._substep_s * self._substep_s * tangents
-        return stiffness_of_springs(
-            positions, implicit, self._gaps.second_arms_m[:, mine], self._gaps.first_arms_m[:, mine]
-        )
-
-    def loads(self, velocities: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the impulses (6, c) on the first and second bodies, which have velocities (6, n) then."""
-        forces = -self._linear(self._moved(velocities))
-        if self._keep is not None:
-            self._keep(forces[2])
-        push = self._substep_s * forces
-        return loads_of_springs(self._positions, push, self._gaps.second_arms_m, self._gaps.first_arms_m)
-
-    def of_bodies(self, loads: tuple[FloatArray, FloatArray], count: int) -> FloatArray:
-        """Return the sums (6, n) of loads (6, c) on the first and on the second bodies, for n bodies."""
-        above, below = np.zeros((2, len(self.rows)), int)
-        above[self._positions.of], below[self._positions.of] = self._gaps.second, self._gaps.first
-        first, second = (np.where(self._positions.above_first, *ends) for ends in ((above, below), (below, above)))
-        return summed_on_bodies(first, second, loads, count)
-
-    def _moved(self, velocities: FloatArray) -> FloatArray:
-        return self._substep_s * rates(self._gaps, velocities)
-
-    def _resisted(self, moved: FloatArray) -> FloatArray:
-        return -resisted(self._law, self._gaps.widths_m + moved)[0]
-
-    def _linear(self, moved: FloatArray) -> FloatArray:
-        return self._forces + turned(self._tangents, moved)
-
-    def _begin_at(self, moved: FloatArray) -> None:
-        upwards, self._tangents = resisted(self._law, self._gaps.widths_m + moved)
-        self._forces = -upwards - turned(self._tangents, moved)
-
-    def _slack(self) -> FloatArray:
-        return self._slack_n
+    widths, arms, arms_below = gaps
+    return Term.of(
+        SPRINGS,
+        rows,
+        positions.of,
+        which,
+        solved_for,
+        (positions.below, positions.above),
+        (arms_below, arms),
+        widths,
+        {
+            "vertical": law.vertical_n_m,
+            "sideways": law.sideways_n_m,
+            "capacity": law.capacity_n,
+            "friction": law.friction,
+            "pressed_by": law.pressed_n,
+            "pulls": law.pulls,
+            "above_first": positions.above_first,
+        },
+        solved,
+    )
 
 
 def stiffness_of_springs(
@@ -179,12 +133,6 @@ def stiffness_of_springs(
 
     Springs have tangents (3, 3, p), and arms (3, p) from the centres of the bodies above and below.
     """
-    loops = spring_loops()
-    if loops is not None:
-        found: tuple[FloatArray, FloatArray, FloatArray] = loops.summed_stiffness(
-            tangents, arms, arms_below, positions.of, positions.above_first
-        )
-        return found
     of_above, of_below, between = stiffness_of_points(tangents, arms, arms_below, positions.summed)
     first, second = positions.ordered(of_above, of_below)
     return first, second, np.where(positions.above_first, between, np.swapaxes(between, 0, 1))
@@ -194,12 +142,6 @@ def loads_of_springs(
     positions: SpringPositions, forces: FloatArray, arms: FloatArray, arms_below: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """Return what forces (3, p) of springs on the bodies above do to the first and second bodies, (6, c) each."""
-    loops = spring_loops()
-    if loops is not None:
-        found: tuple[FloatArray, FloatArray] = loops.summed_loads(
-            forces, arms, arms_below, positions.of, positions.above_first
-        )
-        return found
     above, below = (
         positions.summed(np.concatenate((force, cross_products(arm, force))))
         for force, arm in ((forces, arms), (-forces, arms_below))

@@ -12,8 +12,9 @@ cloth simulation, SIGGRAPH 98, equation 6, for springs in general; here C = β K
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Protocol
 
 import numpy as np
@@ -21,20 +22,14 @@ import numpy as np
 from ..arrays import BoolArray, FloatArray, IntArray
 from .bearings import Bearings
 from .crack_state import CrackState
-from .cracks import CrackJoints, Cracks, CrackStep
+from .cracks import CrackJoints, Cracks, joints_of_cracks
 from .equations import RigidBodies, connected_parts, stiffness_blocks, without
 from .frequencies import SLACK, first_frequency
-from .guesses import GuessedForces, next_shares
-from .joint_forces import added_blocks, begun, rows_at, slowed, stored
+from .joint_forces import stored
 from .joint_rows import JointFrames, joint_positions
 from .kept_joints import KeptJoints
 from .sparse_system import BlockSystem
-
-_MOST_GUESSES = 40
-"""Largest number of solutions for bars that yield; forces out of balance then go into the next sub-step."""
-
-TURNED_RAD = 1e-4
-"""Rotation of bodies after which rows and equations are made again: loads are then off by as much, relative."""
+from .substep import Places, Substep, Term
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -79,7 +74,7 @@ class SpringLaw(Protocol):
 
     def in_substep(
         self, chosen: IntArray, positions_m: FloatArray, rotations: FloatArray, substep_s: float
-    ) -> GuessedForces:
+    ) -> Term:
         """Return what some of them (c,) do in a sub-step of a length in s."""
 
     def stored_j(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
@@ -143,7 +138,7 @@ class ElasticStructure:
     ):
         self._bare_bars: BareBarLaw | None = None
         self._frames, self._bodies = frames, bodies
-        self._damping_s = np.broadcast_to(np.asarray(damping_s, float), len(frames))
+        self._damping_s = np.broadcast_to(np.asarray(damping_s, float), len(frames)).copy()
         self._springs = [springs for springs in (soil, bearings) if springs is not None]
         self._bearings = bearings
         self._with_soil = stiffness if bearings is None else without(stiffness, bearings.rows)
@@ -151,7 +146,16 @@ class ElasticStructure:
             stiffness = without(stiffness, springs.rows)
         self._count, self._moves = len(bodies), bodies.moves
         positions = joint_positions(frames, bodies.positions_m, bodies.rotations)
-        self._joints = KeptJoints(frames, stiffness, positions.deformations())
+        self._joints = KeptJoints(frames, self._count, stiffness, positions.deformations())
+        self._stiffness = np.ascontiguousarray(stiffness)
+        self._solved = Substep()
+        for name, array in (
+            ("masses", np.ascontiguousarray(bodies.masses_kg, float)),
+            ("inertias", np.ascontiguousarray(bodies.inertias_kg_m2)),
+            ("stiffness", self._stiffness),
+            ("rows", np.zeros((len(frames), 36))),
+        ):
+            self._solved.point(name, array, array.size)
         self._intact = np.ones(len(frames), bool)
         self._substep_s = 0.0
         self._cracks, self._has_broken = cracks, False
@@ -206,48 +210,50 @@ class ElasticStructure:
         are_awake = awake[self.part_of_connection]
         acts = self._intact & are_awake[: len(self._frames)]
         chosen = self._joints.choose(np.flatnonzero(acts))
-        acting = chosen.numbers
         deformed = self._joints.deformations(chosen, start.positions_m, start.rotations)
         cracks = self._acting_terms(self._cracks, are_awake, start)
-        assert cracks is None or isinstance(cracks, CrackStep)
-        springs = [terms for law in self._springs if (terms := self._acting_terms(law, acts, start)) is not None]
-        cages = self._acting_terms(self._bare_bars, are_awake, start)
-        nonlinear = [terms for terms in (cracks, *springs, cages) if terms is not None]
-        self._refresh(start, awake, acting, nonlinear)
-        joints = self._joints.acting(chosen, substep_s, self._damping_s)
-        rates, amounts, loads = begun(joints, deformed - chosen.offsets, substep_s, start.velocities)
-        changes = self._solved(awake, self._with_nonlinear(loads, nonlinear, start.velocities))
-        for _ in range(_MOST_GUESSES if nonlinear else 0):
-            if not self._guess_again(nonlinear, start.velocities + changes):
-                break
-            self._refresh(start, awake, acting, nonlinear)
-            changes = self._solved(awake, self._with_nonlinear(loads, nonlinear, start.velocities))
-        rates, of_first, of_second, of_bodies = slowed(joints, rates, amounts, changes)
-        of_cracks = np.zeros((6, 0)), np.zeros((6, 0))
-        if cracks is not None:
-            of_cracks = cracks.loads(start.velocities + changes)
-            of_bodies = of_bodies + cracks.of_bodies(of_cracks, self._count)
-        for terms in springs:
-            of_springs = terms.loads(start.velocities + changes)
-            of_bodies = of_bodies + terms.of_bodies(of_springs, self._count)
-            of_acting = np.searchsorted(acting, terms.rows)
-            of_first[:, of_acting] += of_springs[0]
-            of_second[:, of_acting] += of_springs[1]
-        if cages is not None:
-            of_bodies = of_bodies + cages.of_bodies(cages.loads(start.velocities + changes), self._count)
+        springs = [self._acting_terms(law, acts, start) for law in self._springs]
+        bare_bars = self._acting_terms(self._bare_bars, are_awake, start)
+        terms = [term for term in (cracks, *springs, bare_bars) if term is not None]
+        acting, bodies = len(chosen.numbers), self._count
+        results = {
+            "rates": np.empty((6, acting)),
+            "of_first": np.empty((6, acting)),
+            "of_second": np.empty((6, acting)),
+            "of_bodies": np.empty((6, bodies)),
+            "ends": np.empty((6, bodies)),
+        }
+        solved = self._solved
+        solved.substep_s, solved.acting_count = substep_s, acting
+        solved.point("equations", self._equations_of(awake), len(self._parts))
+        solved.point("awake", awake, len(awake))
+        solved.point("velocities", np.ascontiguousarray(start.velocities), 6 * bodies)
+        solved.point("damping_s", self._damping_s, len(self._frames))
+        solved.point("acting", chosen.numbers, acting)
+        solved.point("strains", deformed - chosen.offsets, 6 * acting)
+        for name, array in results.items():
+            solved.point(name, array, array.size)
+        solved.solve(self._joints.core_frames, Places.of(start.positions_m, start.rotations), terms)
+        of_cracks = cracks.impulses if cracks is not None else (np.zeros((6, 0)), np.zeros((6, 0)))
         return ElasticStep(
-            acting=acting,
+            acting=chosen.numbers,
             deformations=deformed,
-            rates=rates,
-            of_first=of_first,
-            of_second=of_second,
+            rates=results["rates"],
+            of_first=results["of_first"],
+            of_second=results["of_second"],
             cracks=np.zeros(0, int) if cracks is None else cracks.rows,
             of_cracks_on_first=of_cracks[0],
             of_cracks_on_second=of_cracks[1],
-            of_bodies=of_bodies,
-            velocities=start.velocities + changes,
-            crack_joints=None if cracks is None else cracks.joints,
+            of_bodies=results["of_bodies"],
+            velocities=results["ends"],
+            crack_joints=None if cracks is None else partial(joints_of_cracks, cracks),
         )
+
+    def _equations_of(self, awake: BoolArray) -> IntArray:
+        """Return where the core has the equations of each part (p,) that is awake, and 0 for the others."""
+        for number in np.flatnonzero(awake[:-1] & (self._addresses == 0)).tolist():
+            self._addresses[number] = self._parts[number].system.address
+        return self._addresses
 
     def crack_state(self, positions_m: FloatArray, rotations: FloatArray) -> CrackState | None:
         """Return the state of cracks that reinforcement holds, after a sub-step; None without any."""
@@ -329,8 +335,22 @@ class ElasticStructure:
             within[bodies] = -1
         # One more, the last, for what belongs to no part: -1.
         self._stale = np.append(np.ones(len(self._parts), bool), False)
-        self._rotations = np.full((3, 3, self._count), np.inf)
+        self._addresses = np.zeros(len(self._parts), int)
         self._has_broken = False
+        within_part = np.full(count, -1)
+        for part in self._parts:
+            within_part[part.connections] = np.arange(len(part.connections))
+        solved = self._solved
+        solved.parts, solved.bars = len(self._parts), count - len(self._frames)
+        starts = np.cumsum([0, *(len(part.bodies) for part in self._parts)])
+        bodies = np.concatenate([np.zeros(0, int), *(part.bodies for part in self._parts)])
+        solved.point("part_starts", starts, len(self._parts) + 1)
+        solved.point("part_bodies", bodies, len(bodies))
+        solved.point("part_of_body", self._part_of_body, self._count)
+        solved.point("part_of_connection", self.part_of_connection, count)
+        solved.point("within_part", within_part, count)
+        solved.point("stale", self._stale, len(self._stale))
+        solved.point("assembled_rotations", np.full((3, 3, self._count), np.inf), 9 * self._count)
 
     def _follow_breaks(self, intact: BoolArray) -> None:
         broken = self._intact & ~intact
@@ -347,97 +367,12 @@ class ElasticStructure:
         awake[self._part_of_body[mine & ~start.asleep]] = True
         return awake
 
-    def _acting_terms(
-        self, springs: Cracks | SpringLaw | None, acts: BoolArray, start: StepInput
-    ) -> GuessedForces | None:
+    def _acting_terms(self, law: Cracks | SpringLaw | None, acts: BoolArray, start: StepInput) -> Term | None:
         """Cracks that reinforcement holds, or springs, of connections that act (m,); None where there is none."""
-        if springs is None or not acts[springs.rows].any():
+        if law is None or not acts[law.rows].any():
             return None
-        chosen = np.flatnonzero(acts[springs.rows])
-        return springs.in_substep(chosen, start.positions_m, start.rotations, self._substep_s)
-
-    def _with_nonlinear(
-        self, loads: FloatArray, nonlinear: Sequence[GuessedForces], velocities: FloatArray
-    ) -> FloatArray:
-        """Impulses (6, n) with those of nonlinear terms, on bodies that have velocities (6, n) at the end."""
-        for terms in nonlinear:
-            loads = loads + terms.of_bodies(terms.loads(velocities), self._count)
-        return loads
-
-    def _refresh(
-        self,
-        start: StepInput,
-        awake: BoolArray,
-        acting: IntArray,
-        nonlinear: Sequence[GuessedForces],
-    ) -> None:
-        """Make rows of parts again that have turned or lost a connection; factor these, and those with new guesses."""
-        turned = abs(start.rotations - self._rotations).max(axis=(0, 1)) > TURNED_RAD
-        turned &= self._part_of_body >= 0
-        self._stale[self._part_of_body[turned]] = True
-        unsolved = self._stale & awake
-        if unsolved.any():
-            self._assemble(start, unsolved, acting)
-        for terms in nonlinear:
-            unsolved[self.part_of_connection[terms.rows[terms.changed()]]] = True
-        unsolved[-1] = False
-        if unsolved.any():
-            self._factor(unsolved, nonlinear)
-
-    def _assemble(self, start: StepInput, stale: BoolArray, acting: IntArray) -> None:
-        """Make rows and equations of some parts (p + 1,), but for what is guessed."""
-        bodies = stale[self._part_of_body]
-        self._rotations[..., bodies] = start.rotations[..., bodies]
-        connections = acting[stale[self.part_of_connection[acting]]]
-        rows = rows_at(self._frames.only(connections), start.positions_m, start.rotations)
-        self._joints.set_rows(connections, rows)
-        implicit = self._substep_s * (self._substep_s + self._damping_s[connections])
-        of_connections = added_blocks(rows, self._joints.stiffness_of(connections), implicit)
-        own = self._bodies.mass_matrices(start.rotations, np.flatnonzero(bodies))
-        row_of_body, of_part = np.cumsum(bodies) - 1, self.part_of_connection[connections]
-        for number in np.flatnonzero(stale).tolist():
-            part, mine = self._parts[number], np.flatnonzero(of_part == number)
-            within = np.searchsorted(part.connections, connections[mine])
-            part.system.assemble(own[..., row_of_body[part.bodies]], within, *of_connections, chosen=mine)
-        self._stale[stale] = False
-
-    def _factor(self, unsolved: BoolArray, nonlinear: Sequence[GuessedForces]) -> None:
-        """Factor the equations of some parts (p + 1,), with what is guessed."""
-        connections, blocks = [np.zeros(0, int)], [[np.zeros((6, 6, 0))] * 3]
-        for terms in nonlinear:
-            chosen = np.flatnonzero(unsolved[self.part_of_connection[terms.rows]])
-            connections.append(terms.rows[chosen])
-            blocks.append(list(terms.blocks(chosen)))
-        rows = np.concatenate(connections)
-        all_blocks = [np.concatenate(of_kind, axis=2) for of_kind in zip(*blocks, strict=True)]
-        of_part = self.part_of_connection[rows]
-        for number in np.flatnonzero(unsolved).tolist():
-            part, mine = self._parts[number], np.flatnonzero(of_part == number)
-            within = np.searchsorted(part.connections, rows[mine])
-            part.system.factor(within, *all_blocks, chosen=mine)
-
-    def _guess_again(self, nonlinear: Sequence[GuessedForces], velocities: FloatArray) -> bool:
-        """Return whether forces do not agree with velocities (6, n) that solve the equations; then guess others."""
-        number_of_none = len(self._parts)
-        parts = [self.part_of_connection[terms.rows] for terms in nonlinear]
-        parts = [np.where(part < 0, number_of_none, part) for part in parts]
-        are_off = np.zeros(len(self._parts) + 1, bool)
-        for terms, part in zip(nonlinear, parts, strict=True):
-            are_off[part[terms.take(velocities)]] = True
-        if not are_off.any():
-            return False
-        shares = next_shares(nonlinear, parts, are_off)
-        for terms, part in zip(nonlinear, parts, strict=True):
-            terms.go(shares[part])
-        return True
-
-    def _solved(self, awake: BoolArray, right: FloatArray) -> FloatArray:
-        """Changes of velocities (6, n) by impulses (6, n), with the connections of awake parts (p + 1,)."""
-        changes = np.zeros((6, self._count))
-        for number in np.flatnonzero(awake).tolist():
-            part = self._parts[number]
-            changes[:, part.bodies] = part.system.solve(right[:, part.bodies])
-        return changes
+        chosen = np.flatnonzero(acts[law.rows])
+        return law.in_substep(chosen, start.positions_m, start.rotations, self._substep_s)
 
 
 def _grouped(labels: IntArray, numbers: IntArray) -> list[IntArray]:

@@ -15,9 +15,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
-from ..elasticity.gaps import SolvedTangents
 from ..elasticity.spring_law import PressedSprings
-from ..elasticity.springs import SpringPositions, SpringStep
+from ..elasticity.springs import SpringPositions, spring_term
+from ..elasticity.substep import Term
 
 _ANY = 1e300
 """Pressure by which friction holds any slip."""
@@ -99,15 +99,12 @@ class Footings:
 
     def in_substep(
         self, chosen: IntArray, positions_m: FloatArray, rotations: FloatArray, substep_s: float
-    ) -> SpringStep:
+    ) -> Term:
         """Return what some footings (c,) do in a sub-step of a length in s."""
         gaps, arms, arms_below = self._positions.gaps(positions_m, rotations)
         positions, which = self._positions.only(chosen)
-        return SpringStep(
-            self.rows[chosen],
-            positions,
-            positions.between(arms[:, which], arms_below[:, which], (gaps - self._unloaded)[:, which]),
-            self._soil.only(which),
-            SolvedTangents(self._solved_for, which),
-            substep_s,
+        gaps = gaps - self._unloaded
+        of_chosen = gaps.take(which, axis=1), arms.take(which, axis=1), arms_below.take(which, axis=1)
+        return spring_term(
+            self.rows[chosen], positions, which, of_chosen, self._soil.only(which), self._solved_for
         )

@@ -49,7 +49,7 @@ def solution(given, kept, right):
     """Solve by chosen connections of all blocks, half of them as numbers that are forgotten."""
     first, second, own, blocks = given
     system, half = BlockSystem(BODIES, first, second), len(kept) // 2
-    system.assemble(own, kept[:half], *blocks, chosen=kept[:half])
+    system.assemble(own, kept[:half], *(block[..., kept[:half]] for block in blocks))
     system.factor(kept[half:], *(block[..., kept[half:]] for block in blocks))
     return system.solve(right)
 
@@ -59,11 +59,3 @@ def test_a_solution_is_that_of_the_full_matrix(rng):
     kept = np.flatnonzero(rng.random(CONNECTIONS) < 0.8)
     expected = np.linalg.solve(full_matrix(*given, kept), right.T.ravel()).reshape(-1, 6).T
     np.testing.assert_allclose(solution(given, kept, right), expected, rtol=1e-8, atol=1e-10)
-
-
-def test_compiled_sums_have_the_same_bits(rng, request):
-    given, right = problem(rng), rng.normal(size=(6, BODIES))
-    kept = np.flatnonzero(rng.random(CONNECTIONS) < 0.8)
-    compiled = solution(given, kept, right)
-    request.getfixturevalue("without_numba")
-    np.testing.assert_array_equal(compiled, solution(given, kept, right))

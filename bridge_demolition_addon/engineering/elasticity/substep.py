@@ -1,0 +1,271 @@
+"""What the compiled core takes and gives in a sub-step; `core/src/substep.h` and `terms.h` say what each field is.
+
+All arrays have their components first.
+"""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from ..arrays import BoolArray, FloatArray, IntArray
+from ..core.library import function
+from ..core.structs import Count, Doubles, Flags, Indices, Struct, WrittenDoubles, WrittenFlags
+from .joint_rows import JointFrames
+
+CRACKS, SPRINGS, BARE_BARS = range(3)
+"""Kinds of terms."""
+
+_ANSWERS = {
+    1: "there is not enough memory for a sub-step",
+    2: "a sub-step names bodies, connections or parts that there are not",
+}
+
+_TURNED_RAD = 1e-4
+"""Rotation of bodies after which rows and equations are made again: loads are then off by as much, relative."""
+
+_MOST_GUESSES = 40
+"""Largest number of solutions for bars that yield; forces out of balance then go into the next sub-step."""
+
+
+class Frames(Struct):
+    """Frames of connections: `bda_frames`."""
+
+    _fields_ = (
+        ("count", Count),
+        ("first", Indices),
+        ("second", Indices),
+        ("first_axes", Doubles),
+        ("second_axes", Doubles),
+        ("first_points", Doubles),
+        ("second_points", Doubles),
+    )
+
+    @classmethod
+    def of(cls, frames: JointFrames, bodies: int) -> Frames:
+        """Return the frames of connections between so many bodies."""
+        count = len(frames)
+        for ends in (frames.first, frames.second):
+            if count and not (0 <= ends.min() and ends.max() < bodies):
+                raise ValueError(f"connections end in bodies {ends.min()} to {ends.max()} of {bodies}")
+        made = cls(count=count)
+        for name, array, components in (
+            ("first", frames.first, 1),
+            ("second", frames.second, 1),
+            ("first_axes", frames.first_axes, 9),
+            ("second_axes", frames.second_axes, 9),
+            ("first_points", frames.first_points_m, 3),
+            ("second_points", frames.second_points_m, 3),
+        ):
+            made.point(name, np.ascontiguousarray(array), components * count)
+        return made
+
+
+class Places(Struct):
+    """Where bodies are: `bda_places`."""
+
+    _fields_ = (("count", Count), ("positions", Doubles), ("rotations", Doubles))
+
+    @classmethod
+    def of(cls, positions_m: FloatArray, rotations: FloatArray) -> Places:
+        """Return positions (3, n) and rotations (3, 3, n)."""
+        count = positions_m.shape[1]
+        made = cls(count=count)
+        made.point("positions", np.ascontiguousarray(positions_m), 3 * count)
+        made.point("rotations", np.ascontiguousarray(rotations), 9 * count)
+        return made
+
+
+class Term(Struct):
+    """Forces of c connections, or of what is in their place, across q gaps: `bda_term`.
+
+    Attributes
+    ----------
+    rows : (c,) int
+        Their numbers among all that connects bodies.
+    arrays : dict
+        The arrays, by the names of their fields.
+    """
+
+    _fields_ = (
+        ("kind", Count),
+        ("connections", Count),
+        ("gaps", Count),
+        ("all_gaps", Count),
+        ("numbers", Indices),
+        ("of_gap", Indices),
+        ("which", Indices),
+        ("first", Indices),
+        ("second", Indices),
+        ("first_arms", Doubles),
+        ("second_arms", Doubles),
+        ("widths", Doubles),
+        ("solved_for", WrittenDoubles),
+        ("tangents", WrittenDoubles),
+        ("of_first", WrittenDoubles),
+        ("of_second", WrittenDoubles),
+        ("yields", Doubles),
+        ("stiffness", Doubles),
+        ("modulus", Doubles),
+        ("slips", Doubles),
+        ("flows", Doubles),
+        ("directions", Doubles),
+        ("normals", Doubles),
+        ("pressed", Doubles),
+        ("rests", Doubles),
+        ("grips", Doubles),
+        ("dowel", ctypes.c_double),
+        ("sheared", ctypes.c_double),
+        ("vertical", Doubles),
+        ("sideways", Doubles),
+        ("capacity", Doubles),
+        ("friction", Doubles),
+        ("pressed_by", Doubles),
+        ("pulls", Flags),
+        ("above_first", Flags),
+        ("solved_up", WrittenDoubles),
+        ("lengths", Doubles),
+        ("bared", Doubles),
+        ("stays", Doubles),
+        ("pulled_limits", Doubles),
+        ("pressed_limits", Doubles),
+        ("bared_lines", Doubles),
+        ("holds", Flags),
+        ("held_sideways", Count),
+    )
+
+    _OF_CONNECTIONS = ("numbers", "above_first")
+
+    @classmethod
+    def of(
+        cls,
+        kind: int,
+        rows: IntArray,
+        of_gap: IntArray,
+        which: IntArray,
+        solved_for: FloatArray,
+        ends: tuple[IntArray, IntArray],
+        arms_m: tuple[FloatArray, FloatArray],
+        widths_m: FloatArray,
+        law: dict[str, FloatArray | BoolArray],
+        solved: Callable[[FloatArray], None] | None = None,
+        **settings: float,
+    ) -> Term:
+        """Return a term with q gaps, which are `which` (q,) of all (3, 3, p) that equations were `solved_for`.
+
+        Gaps are between bodies `ends`, two (q,), at arms, two (3, q), of connections `of_gap` (q,). The arrays of the
+        law are of gaps, with components first. `solved` gets the upward forces (q,) on second bodies.
+        """
+        connections, gaps = len(rows), len(of_gap)
+        made = cls(kind=kind, connections=connections, gaps=gaps, all_gaps=solved_for.shape[-1], **settings)
+        made.rows, made.solved = rows, solved
+        made.arrays = {
+            "numbers": rows,
+            "of_gap": of_gap,
+            "which": which,
+            "first": ends[0],
+            "second": ends[1],
+            "first_arms": arms_m[0],
+            "second_arms": arms_m[1],
+            "widths": widths_m,
+            "tangents": np.zeros((3, 3, gaps)),
+            **law,
+        }
+        if solved is not None:
+            made.arrays["solved_up"] = np.zeros(gaps)
+        for name, array in made.arrays.items():
+            size = connections if name in cls._OF_CONNECTIONS else gaps * (array.size // max(array.shape[-1], 1))
+            made.point(name, np.ascontiguousarray(array), size)
+        made.point("solved_for", solved_for, solved_for.size)
+        made.impulses = np.zeros((6, connections)), np.zeros((6, connections))
+        for name, array in zip(("of_first", "of_second"), made.impulses, strict=True):
+            made.point(name, array, 6 * connections)
+        return made
+
+    def __init__(self, **values: float):
+        super().__init__(**values)
+        self.rows: IntArray = np.zeros(0, int)
+        self.arrays: dict[str, np.ndarray] = {}
+        self.impulses = np.zeros((6, 0)), np.zeros((6, 0))  # (6, c), on first and on second bodies
+        self.solved: Callable[[FloatArray], None] | None = None
+
+    def tell(self) -> None:
+        """Hand over the forces that are solved."""
+        if self.solved is not None:
+            self.solved(self.arrays["solved_up"])
+
+
+class Substep(Struct):
+    """A sub-step: `bda_substep`."""
+
+    _fields_ = (
+        ("frames", ctypes.c_void_p),
+        ("places", ctypes.c_void_p),
+        ("substep_s", ctypes.c_double),
+        ("turned_rad", ctypes.c_double),
+        ("velocities", Doubles),
+        ("masses", Doubles),
+        ("inertias", Doubles),
+        ("assembled_rotations", WrittenDoubles),
+        ("stiffness", Doubles),
+        ("damping_s", Doubles),
+        ("rows", WrittenDoubles),
+        ("parts", Count),
+        ("bars", Count),
+        ("equations", Indices),
+        ("part_starts", Indices),
+        ("part_bodies", Indices),
+        ("part_of_body", Indices),
+        ("part_of_connection", Indices),
+        ("within_part", Indices),
+        ("stale", WrittenFlags),
+        ("awake", Flags),
+        ("acting_count", Count),
+        ("acting", Indices),
+        ("strains", Doubles),
+        ("term_count", Count),
+        ("terms", ctypes.c_void_p),
+        ("most_guesses", Count),
+        ("rates", WrittenDoubles),
+        ("of_first", WrittenDoubles),
+        ("of_second", WrittenDoubles),
+        ("of_bodies", WrittenDoubles),
+        ("ends", WrittenDoubles),
+        ("guesses", Count),
+        ("factorings", Count),
+    )
+
+    def __init__(self) -> None:
+        super().__init__(turned_rad=_TURNED_RAD, most_guesses=_MOST_GUESSES)
+
+    def solve(self, frames: Frames, places: Places, terms: Sequence[Term]) -> None:
+        """Find what connections, and terms in place of some, do in it.
+
+        Raises
+        ------
+        ValueError
+            Numbers are out of range.
+        MemoryError
+            There is no room.
+        """
+        addresses = (ctypes.c_void_p * max(len(terms), 1))(*(ctypes.addressof(term) for term in terms))
+        self.frames, self.places = ctypes.addressof(frames), ctypes.addressof(places)
+        self.term_count, self.terms = len(terms), ctypes.addressof(addresses)
+        answer = function("bda_solve_substep", ctypes.c_void_p)(ctypes.addressof(self))
+        if answer:
+            raise (MemoryError if answer == 1 else ValueError)(_ANSWERS[answer])
+        for term in terms:
+            term.tell()
+
+
+def deformations(frames: Frames, places: Places, chosen: IntArray) -> FloatArray:
+    """Return deformations (6, k) of chosen connections (k,), m and rad."""
+    found = np.empty((6, len(chosen)))
+    answer = function(
+        "bda_deformations", *[ctypes.c_void_p] * 2, ctypes.c_int64, *[ctypes.c_void_p] * 2
+    )(ctypes.addressof(frames), ctypes.addressof(places), len(chosen), chosen.ctypes.data, found.ctypes.data)
+    if answer:
+        raise ValueError(_ANSWERS[answer])
+    return found

@@ -1,0 +1,439 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "substep.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "guesses.h"
+
+enum { MOST_ROOMS = 96 };
+
+/* Room that is given back at the end of the sub-step. */
+typedef struct {
+    void *rooms[MOST_ROOMS];
+    int count, is_short;
+} pool;
+
+static void *room_in(pool *p, int64_t count, size_t size)
+{
+    void *room = p->count < MOST_ROOMS ? calloc((size_t)(count > 0 ? count : 1), size) : NULL;
+    if (room)
+        p->rooms[p->count++] = room;
+    else
+        p->is_short = 1;
+    return room;
+}
+
+static void give_back(pool *p)
+{
+    while (p->count)
+        free(p->rooms[--p->count]);
+}
+
+/* Work of a sub-step: guesses, blocks of what is in each part, and impulses. */
+typedef struct {
+    bda_substep *s;
+    guesses all;
+    int64_t **first_gaps;           /* of each term (c,) */
+    uint8_t *unsolved;              /* (p + 1,), parts that are to be factored */
+    int64_t *starts, *next;         /* (p + 1,), where blocks of each part start, and where its next one belongs */
+    int64_t *of_part;               /* (most,), numbers of connections within their parts, one part after another */
+    blocks_of_connection *blocks;   /* (most,) */
+    double *own;                    /* (n, 36) */
+    double *right, *unknowns;       /* (6, n) */
+    double *loads, *total, *sums;   /* (6, n), impulses of connections, with those of terms, of one term */
+    double *changes;                /* (6, n), of velocities */
+    double *amounts;                /* (6, k) */
+} work;
+
+static int64_t part_of(const bda_substep *s, int64_t number)
+{
+    int64_t part = s->part_of_connection[number];
+    return part < 0 ? s->parts : part;
+}
+
+/* Check all numbers of bodies, connections and parts that come with a sub-step. */
+static int is_in_range(const bda_substep *s)
+{
+    int64_t n = s->places->count, all = s->frames->count + s->bars;
+    for (int64_t at = 0; at < s->acting_count; at++)
+        if (s->acting[at] < 0 || s->acting[at] >= s->frames->count || (at && s->acting[at] <= s->acting[at - 1]))
+            return 0;
+    for (int64_t number = 0; number < s->term_count; number++) {
+        const bda_term *t = s->terms[number];
+        if (t->kind < CRACKS || t->kind > BARE_BARS || (t->kind == CRACKS && t->gaps != CORNERS * t->connections) ||
+            (t->kind == BARE_BARS && t->gaps != t->connections))
+            return 0;
+        for (int64_t at = 0; at < t->connections; at++)
+            if (t->numbers[at] < 0 || t->numbers[at] >= all || s->part_of_connection[t->numbers[at]] >= s->parts)
+                return 0;
+        for (int64_t row = 0; row < t->gaps; row++)
+            if (t->of_gap[row] < 0 || t->of_gap[row] >= t->connections || t->which[row] < 0 ||
+                t->which[row] >= t->all_gaps || t->first[row] < 0 || t->first[row] >= n || t->second[row] < 0 ||
+                t->second[row] >= n || (t->kind == CRACKS && t->of_gap[row] != row % t->connections) ||
+                (t->kind == SPRINGS && row && t->of_gap[row] < t->of_gap[row - 1]))
+                return 0;
+    }
+    return 1;
+}
+
+static void prepare_term(work *w, pool *p, int64_t number)
+{
+    bda_substep *s = w->s;
+    guessed_term *g = w->all.terms + number;
+    bda_term *t = s->terms[number];
+    int64_t c = t->connections, *part, *within;
+    g->term = t;
+    g->components = t->kind == BARE_BARS ? 1 : 3;
+    g->part = part = room_in(p, c, sizeof *part);
+    g->within = within = room_in(p, c, sizeof *within);
+    g->first_body = room_in(p, c, sizeof *g->first_body);
+    g->second_body = room_in(p, c, sizeof *g->second_body);
+    w->first_gaps[number] = room_in(p, c, sizeof **w->first_gaps);
+    g->changed = room_in(p, c, sizeof *g->changed);
+    double *room = room_in(p, 22 * t->gaps, sizeof *room);
+    if (p->is_short)
+        return;
+    g->slack = room, g->stiff = room + t->gaps;
+    g->at_rest = room + 4 * t->gaps;
+    g->moved = room + 7 * t->gaps, g->guessed = room + 10 * t->gaps;
+    g->next_moved = room + 13 * t->gaps, g->next_guessed = room + 16 * t->gaps;
+    for (int64_t row = t->gaps - 1; row >= 0; row--) {
+        int64_t at = t->of_gap[row];
+        int is_turned = t->kind == SPRINGS && t->above_first[at];
+        g->first_body[at] = is_turned ? t->second[row] : t->first[row];
+        g->second_body[at] = is_turned ? t->first[row] : t->second[row];
+        w->first_gaps[number][at] = row;
+    }
+    for (int64_t at = 0; at < c; at++) {
+        part[at] = part_of(s, t->numbers[at]);
+        within[at] = s->within_part[t->numbers[at]];
+    }
+    begin_at(g, g->moved);
+    find_slack(g);
+}
+
+static void prepare(work *w, pool *p)
+{
+    bda_substep *s = w->s;
+    int64_t n = s->places->count, parts = s->parts + 1, most = s->acting_count, largest = 0, rows = 0;
+    w->all.count = s->term_count, w->all.parts = s->parts, w->all.are_first = 1;
+    w->all.terms = room_in(p, s->term_count, sizeof *w->all.terms);
+    w->first_gaps = room_in(p, s->term_count, sizeof *w->first_gaps);
+    for (int64_t number = 0; number < s->term_count && !p->is_short; number++) {
+        prepare_term(w, p, number);
+        rows += s->terms[number]->connections;
+        if (s->terms[number]->connections > largest)
+            largest = s->terms[number]->connections;
+    }
+    most = rows > most ? rows : most;
+    uint8_t *flags = room_in(p, 3 * parts, sizeof *flags);
+    double *of_parts = room_in(p, 8 * parts, sizeof *of_parts);
+    w->all.of_connection = room_in(p, largest, sizeof *w->all.of_connection);
+    w->starts = room_in(p, parts + 1, sizeof *w->starts);
+    w->next = room_in(p, parts, sizeof *w->next);
+    w->of_part = room_in(p, most, sizeof *w->of_part);
+    w->blocks = room_in(p, most, sizeof *w->blocks);
+    w->own = room_in(p, BLOCK * n, sizeof *w->own);
+    double *of_bodies = room_in(p, 36 * n, sizeof *of_bodies);
+    w->amounts = room_in(p, 6 * s->acting_count, sizeof *w->amounts);
+    if (p->is_short)
+        return;
+    w->all.off = flags, w->all.seek = flags + parts, w->unsolved = flags + 2 * parts;
+    w->all.shares = of_parts, w->all.low = of_parts + parts, w->all.share = of_parts + 2 * parts;
+    w->all.at_low = of_parts + 3 * parts, w->all.at_high = of_parts + 4 * parts, w->all.at_share = of_parts + 5 * parts;
+    w->all.flat = of_parts + 6 * parts, w->all.of_term = of_parts + 7 * parts;
+    w->right = of_bodies, w->unknowns = of_bodies + 6 * n, w->loads = of_bodies + 12 * n;
+    w->sums = of_bodies + 18 * n, w->changes = of_bodies + 24 * n, w->total = of_bodies + 30 * n;
+}
+
+/* Note the parts of bodies that have turned since their rows were made. */
+static void find_stale(bda_substep *s)
+{
+    int64_t n = s->places->count;
+    for (int64_t body = 0; body < n; body++) {
+        double largest = 0.0;
+        if (s->part_of_body[body] < 0 || s->stale[s->part_of_body[body]])
+            continue;
+        for (int number = 0; number < 9; number++) {
+            double turned = fabs(s->places->rotations[number * n + body] - s->assembled_rotations[number * n + body]);
+            if (turned > largest)
+                largest = turned;
+        }
+        if (largest > s->turned_rad)
+            s->stale[s->part_of_body[body]] = 1;
+    }
+}
+
+/* Begin to put blocks beside each other that are of one part, which are counted at starts[part + 1] so far. */
+static void begin_parts(work *w)
+{
+    for (int64_t part = 0; part < w->s->parts; part++) {
+        w->starts[part + 1] += w->starts[part];
+        w->next[part] = w->starts[part];
+    }
+}
+
+/* Place of the next block of a part, of a connection that is `within` it. */
+static blocks_of_connection *next_block(work *w, int64_t part, int64_t within)
+{
+    int64_t to = w->next[part]++;
+    w->of_part[to] = within;
+    return w->blocks + to;
+}
+
+/* Make rows and equations of some parts again, but for what is guessed. */
+static int assemble(work *w, const uint8_t *chosen)
+{
+    bda_substep *s = w->s;
+    int64_t n = s->places->count;
+    int answer = BDA_DONE;
+    memset(w->starts, 0, (size_t)(s->parts + 1) * sizeof *w->starts);
+    for (int64_t at = 0; at < s->acting_count; at++)
+        if (chosen[part_of(s, s->acting[at])])
+            w->starts[part_of(s, s->acting[at]) + 1]++;
+    begin_parts(w);
+    for (int64_t at = 0; at < s->acting_count; at++) {
+        int64_t row = s->acting[at], part = part_of(s, row);
+        if (!chosen[part])
+            continue;
+        rows_of_joint(s->frames, s->places, row, s->rows + row);
+        blocks_of_joint(s->rows + row, s->stiffness + row, s->frames->count,
+                        s->substep_s * (s->substep_s + s->damping_s[row]), next_block(w, part, s->within_part[row]));
+    }
+    for (int64_t part = 0; part < s->parts && answer == BDA_DONE; part++) {
+        int64_t first = s->part_starts[part], start = w->starts[part];
+        if (!chosen[part])
+            continue;
+        for (int64_t at = first; at < s->part_starts[part + 1]; at++) {
+            int64_t body = s->part_bodies[at];
+            mass_matrix(s->masses, s->inertias, s->places->rotations, n, body, w->own + BLOCK * (at - first));
+            for (int number = 0; number < 9; number++)
+                s->assembled_rotations[number * n + body] = s->places->rotations[number * n + body];
+        }
+        answer = bda_equations_assemble(s->equations[part], w->own, w->starts[part + 1] - start, w->of_part + start,
+                                        w->blocks + start);
+        s->stale[part] = 0;
+    }
+    return answer;
+}
+
+/* Factor the equations of some parts, with what is guessed. */
+static int factor(work *w, const uint8_t *chosen)
+{
+    bda_substep *s = w->s;
+    int answer = BDA_DONE;
+    memset(w->starts, 0, (size_t)(s->parts + 1) * sizeof *w->starts);
+    for (int64_t number = 0; number < s->term_count; number++)
+        for (int64_t at = 0; at < s->terms[number]->connections; at++)
+            if (chosen[w->all.terms[number].part[at]])
+                w->starts[w->all.terms[number].part[at] + 1]++;
+    begin_parts(w);
+    for (int64_t number = 0; number < s->term_count; number++) {
+        guessed_term *g = w->all.terms + number;
+        for (int64_t at = 0; at < g->term->connections; at++)
+            if (chosen[g->part[at]])
+                blocks_of_gaps(g, at, w->first_gaps[number][at], s->substep_s,
+                               next_block(w, g->part[at], g->within[at]));
+    }
+    for (int64_t part = 0; part < s->parts && answer == BDA_DONE; part++)
+        if (chosen[part]) {
+            int64_t start = w->starts[part];
+            answer = bda_equations_factor(s->equations[part], w->starts[part + 1] - start, w->of_part + start,
+                                          w->blocks + start);
+            s->factorings++;
+        }
+    return answer;
+}
+
+/* Make equations again of parts that have turned or lost a connection; factor these, and those with new guesses. */
+static int refresh(work *w)
+{
+    bda_substep *s = w->s;
+    int any = 0, answer = BDA_DONE;
+    for (int64_t part = 0; part < s->parts; part++) {
+        w->unsolved[part] = s->stale[part] && s->awake[part];
+        any |= w->unsolved[part];
+    }
+    w->unsolved[s->parts] = 0;
+    if (any)
+        answer = assemble(w, w->unsolved);
+    for (int64_t number = 0; number < s->term_count; number++) {
+        guessed_term *g = w->all.terms + number;
+        find_changed(g);
+        for (int64_t at = 0; at < g->term->connections; at++)
+            if (g->changed[at] && g->part[at] < s->parts)
+                w->unsolved[g->part[at]] = 1, any = 1;
+    }
+    return any && answer == BDA_DONE ? factor(w, w->unsolved) : answer;
+}
+
+/* Motion of a body, of (6, n). */
+static void motion_of(const double *values, int64_t n, int64_t body, double motion[6])
+{
+    for (int axis = 0; axis < 6; axis++)
+        motion[axis] = values[axis * n + body];
+}
+
+/* Add up the impulses (6, k) of connections on their bodies (6, n): all on first ones, then all on second ones. */
+static void add_on_bodies(const bda_substep *s, double *sums)
+{
+    int64_t n = s->places->count, k = s->acting_count;
+    memset(sums, 0, (size_t)(6 * n) * sizeof *sums);
+    for (int axis = 0; axis < 6; axis++) {
+        for (int64_t at = 0; at < k; at++)
+            sums[axis * n + s->frames->first[s->acting[at]]] += s->of_first[axis * k + at];
+        for (int64_t at = 0; at < k; at++)
+            sums[axis * n + s->frames->second[s->acting[at]]] += s->of_second[axis * k + at];
+    }
+}
+
+/* Find rates and impulses of connections as if no body was slowed down, and the sums of these. */
+static void begin_impulses(work *w)
+{
+    bda_substep *s = w->s;
+    int64_t n = s->places->count, k = s->acting_count;
+    for (int64_t at = 0; at < k; at++) {
+        int64_t row = s->acting[at];
+        double first[6], second[6], rates[6], strains[6], amounts[6], of_first[6], of_second[6];
+        double implicit = s->substep_s * (s->substep_s + s->damping_s[row]);
+        motion_of(s->velocities, n, s->frames->first[row], first);
+        motion_of(s->velocities, n, s->frames->second[row], second);
+        rates_of_joint(s->rows + row, first, second, rates);
+        for (int axis = 0; axis < 6; axis++)
+            strains[axis] = s->substep_s * s->strains[axis * k + at] - implicit * rates[axis];
+        stressed(s->stiffness + row, s->frames->count, strains, amounts);
+        loads_of_joint(s->rows + row, amounts, of_first, of_second);
+        for (int axis = 0; axis < 6; axis++) {
+            s->rates[axis * k + at] = rates[axis];
+            w->amounts[axis * k + at] = amounts[axis];
+            s->of_first[axis * k + at] = of_first[axis];
+            s->of_second[axis * k + at] = of_second[axis];
+        }
+    }
+    add_on_bodies(s, w->loads);
+}
+
+/* Take off what the changes (6, n) of velocities do to rates and impulses. */
+static void slow_down(work *w)
+{
+    bda_substep *s = w->s;
+    int64_t n = s->places->count, k = s->acting_count;
+    for (int64_t at = 0; at < k; at++) {
+        int64_t row = s->acting[at];
+        double first[6], second[6], rates[6], strains[6], amounts[6], of_first[6], of_second[6];
+        double implicit = s->substep_s * (s->substep_s + s->damping_s[row]);
+        motion_of(w->changes, n, s->frames->first[row], first);
+        motion_of(w->changes, n, s->frames->second[row], second);
+        rates_of_joint(s->rows + row, first, second, rates);
+        for (int axis = 0; axis < 6; axis++)
+            strains[axis] = implicit * rates[axis];
+        stressed(s->stiffness + row, s->frames->count, strains, amounts);
+        for (int axis = 0; axis < 6; axis++)
+            amounts[axis] = w->amounts[axis * k + at] - amounts[axis];
+        loads_of_joint(s->rows + row, amounts, of_first, of_second);
+        for (int axis = 0; axis < 6; axis++) {
+            s->rates[axis * k + at] = s->rates[axis * k + at] + rates[axis];
+            s->of_first[axis * k + at] = of_first[axis];
+            s->of_second[axis * k + at] = of_second[axis];
+        }
+    }
+    add_on_bodies(s, s->of_bodies);
+}
+
+/* Solve the equations of all parts that are awake: changes of velocities by the impulses, with those of all terms. */
+static void solve(work *w)
+{
+    bda_substep *s = w->s;
+    int64_t n = s->places->count;
+    const double *loads = w->loads;
+    for (int64_t number = 0; number < s->term_count; number++) {
+        find_impulses(w->all.terms + number, s->velocities, n, s->substep_s, w->sums);
+        for (int64_t at = 0; at < 6 * n; at++)
+            w->total[at] = loads[at] + w->sums[at];
+        loads = w->total;
+    }
+    memset(w->changes, 0, (size_t)(6 * n) * sizeof *w->changes);
+    for (int64_t part = 0; part < s->parts; part++) {
+        int64_t first = s->part_starts[part], count = s->part_starts[part + 1] - first;
+        if (!s->awake[part])
+            continue;
+        for (int axis = 0; axis < 6; axis++)
+            for (int64_t at = 0; at < count; at++)
+                w->right[axis * count + at] = loads[axis * n + s->part_bodies[first + at]];
+        bda_equations_solve(s->equations[part], w->right, w->unknowns);
+        for (int axis = 0; axis < 6; axis++)
+            for (int64_t at = 0; at < count; at++)
+                w->changes[axis * n + s->part_bodies[first + at]] = w->unknowns[axis * count + at];
+    }
+    for (int64_t at = 0; at < 6 * n; at++)
+        s->ends[at] = s->velocities[at] + w->changes[at];
+}
+
+/* Number of a connection among those that act. */
+static int64_t acting_number(const bda_substep *s, int64_t connection)
+{
+    int64_t low = 0, high = s->acting_count;
+    while (low < high) {
+        int64_t middle = low + (high - low) / 2;
+        if (s->acting[middle] < connection)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < s->acting_count && s->acting[low] == connection ? low : -1;
+}
+
+/* Add the impulses of terms to those on bodies, and those of springs to the connections that they are in place of. */
+static void add_terms(work *w)
+{
+    bda_substep *s = w->s;
+    int64_t n = s->places->count, k = s->acting_count;
+    for (int64_t number = 0; number < s->term_count; number++) {
+        bda_term *t = s->terms[number];
+        find_impulses(w->all.terms + number, s->ends, n, s->substep_s, w->sums);
+        for (int64_t at = 0; at < 6 * n; at++)
+            s->of_bodies[at] = s->of_bodies[at] + w->sums[at];
+        for (int64_t at = 0; t->kind == SPRINGS && at < t->connections; at++) {
+            int64_t acting = acting_number(s, t->numbers[at]);
+            for (int axis = 0; acting >= 0 && axis < 6; axis++) {
+                s->of_first[axis * k + acting] += t->of_first[axis * t->connections + at];
+                s->of_second[axis * k + acting] += t->of_second[axis * t->connections + at];
+            }
+        }
+    }
+}
+
+/* Find what connections do in a sub-step. */
+int bda_solve_substep(bda_substep *s)
+{
+    pool rooms = {{0}, 0, 0};
+    work w = {.s = s};
+    s->guesses = s->factorings = 0;
+    if (!is_in_range(s))
+        return BDA_OUT_OF_RANGE;
+    prepare(&w, &rooms);
+    int answer = rooms.is_short ? BDA_NO_MEMORY : BDA_DONE;
+    if (answer == BDA_DONE) {
+        find_stale(s);
+        answer = refresh(&w);
+    }
+    if (answer == BDA_DONE) {
+        begin_impulses(&w);
+        solve(&w);
+    }
+    for (; answer == BDA_DONE && s->term_count && s->guesses < s->most_guesses; s->guesses++) {
+        if (!guess_again(&w.all, s->ends, s->places->count, s->substep_s))
+            break;
+        answer = refresh(&w);
+        if (answer == BDA_DONE)
+            solve(&w);
+    }
+    if (answer == BDA_DONE) {
+        slow_down(&w);
+        add_terms(&w);
+    }
+    give_back(&rooms);
+    return answer;
+}

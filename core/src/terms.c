@@ -1,0 +1,495 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "terms.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double AGREES = 1e-4;   /* largest error of a force, by what its bars yield at, or the mean of springs */
+static const double LITTLE_M = 1e-5; /* or presses the sides of a crack together so far */
+static const double EVEN_M = 1e-10;  /* deformation of a spring up to which it counts as none */
+
+/* What a bar, or a side that rubs, does: elastic up to its limit, then with hardening (J. C. Simo and T. J. R. Hughes,
+ * 1998, Computational inelasticity, chapter 1). */
+typedef struct {
+    double trial[3], size; /* force as if it did not yield */
+    double flow, share;    /* how far it yields; part of the force that is left */
+} bar_force;
+
+static bar_force force_of_bar(double stiffness, const double stretch[3], const double slip[3], double yields,
+                              double hardened, double resists)
+{
+    bar_force bar;
+    for (int axis = 0; axis < 3; axis++)
+        bar.trial[axis] = stiffness * (stretch[axis] - slip[axis]);
+    bar.size = sqrt(dot3(bar.trial, bar.trial));
+    double beyond = bar.size - yields - hardened;
+    bar.flow = (beyond > 0.0 ? beyond : 0.0) / resists;
+    bar.share = 1.0 - (bar.size > 0.0 ? stiffness * bar.flow / bar.size : 0.0);
+    return bar;
+}
+
+/* By how much bars that yield fall short of elastic ones, by the part of their stretch that stays. */
+static double resistance(double stiffness, double modulus)
+{
+    return stiffness > 0.0 ? stiffness + modulus : 1.0;
+}
+
+/* Stretch of a bar by a gap: less across itself, as a dowel. */
+static void stretch_of_bar(const double gap[3], const double direction[3], double dowel, double stretch[3])
+{
+    double along = dot3(gap, direction);
+    for (int axis = 0; axis < 3; axis++)
+        stretch[axis] = dowel * gap[axis] + (1.0 - dowel) * along * direction[axis];
+}
+
+/* Bar, sides that rub, and how far the sides are open, of a crack whose gap is `gap`. */
+static void crack_at(const bda_term *t, int64_t row, const double gap[3], bar_force *bar, bar_force *rub,
+                     double *opened, double normal[3], double direction[3])
+{
+    double stretch[3], slid[3], slip[3], rest[3];
+    vector_at(t->normals, t->gaps, row, normal);
+    vector_at(t->directions, t->gaps, row, direction);
+    vector_at(t->slips, t->gaps, row, slip);
+    vector_at(t->rests, t->gaps, row, rest);
+    *opened = dot3(normal, gap);
+    stretch_of_bar(gap, direction, t->dowel, stretch);
+    *bar = force_of_bar(t->stiffness[row], stretch, slip, t->yields[row], t->modulus[row] * t->flows[row],
+                        resistance(t->stiffness[row], t->modulus[row]));
+    for (int axis = 0; axis < 3; axis++)
+        slid[axis] = gap[axis] - *opened * normal[axis];
+    double sliding = t->sheared * t->pressed[row];
+    *rub = force_of_bar(sliding, slid, rest, t->grips[row], 0.0, resistance(sliding, 0.0));
+}
+
+static void force_of_crack(const bda_term *t, int64_t row, const bar_force *bar, const bar_force *rub, double opened,
+                           const double normal[3], const double direction[3], double force[3])
+{
+    double left[3], pull[3], pressing = t->pressed[row] * (opened < 0.0 ? opened : 0.0);
+    for (int axis = 0; axis < 3; axis++)
+        left[axis] = bar->share * bar->trial[axis];
+    stretch_of_bar(left, direction, t->dowel, pull);
+    for (int axis = 0; axis < 3; axis++)
+        force[axis] = pull[axis] + rub->share * rub->trial[axis] + pressing * normal[axis];
+}
+
+static void unit_of(const double vector[3], double size, double unit[3])
+{
+    for (int axis = 0; axis < 3; axis++)
+        unit[axis] = size > 0.0 ? vector[axis] / size : 0.0;
+}
+
+/* Force across the gap of a crack, and how it grows with the gap. */
+static void linear_crack(const bda_term *t, int64_t row, const double gap[3], double force[3], double tangent[3][3])
+{
+    bar_force bar, rub;
+    double opened, normal[3], direction[3], unit[3], along[3], turn[3];
+    crack_at(t, row, gap, &bar, &rub, &opened, normal, direction);
+    force_of_crack(t, row, &bar, &rub, opened, normal, direction, force);
+    double sliding = t->sheared * t->pressed[row], even = t->dowel * t->dowel;
+    double bars_across = t->stiffness[row] * bar.share, rubs_across = sliding * rub.share;
+    double hardening = t->modulus[row] / resistance(t->stiffness[row], t->modulus[row]);
+    double bars_along = t->stiffness[row] * (bar.flow > 0.0 ? hardening : 1.0);
+    double rubs_along = sliding * (rub.flow > 0.0 ? 0.0 : 1.0);
+    double presses = opened < 0.0 ? t->pressed[row] : 0.0;
+    unit_of(bar.trial, bar.size, unit);
+    stretch_of_bar(unit, direction, t->dowel, along);
+    unit_of(rub.trial, rub.size, turn);
+    for (int axis = 0; axis < 3; axis++)
+        for (int other = 0; other < 3; other++) {
+            double total = (presses - rubs_across) * (normal[axis] * normal[other]);
+            total += (1.0 - even) * bars_across * (direction[axis] * direction[other]);
+            total += (bars_along - bars_across) * (along[axis] * along[other]);
+            total += (rubs_along - rubs_across) * (turn[axis] * turn[other]);
+            if (axis == other)
+                total += even * bars_across + rubs_across;
+            tangent[axis][other] = total;
+        }
+}
+
+/* Force of a spring on what lies above, and by how much it falls with the gap: pressed upwards by its stiffness up to
+ * its capacity, held sideways up to friction. */
+static void force_of_spring(const bda_term *t, int64_t row, const double gap[3], double force[3], double tangent[3][3])
+{
+    double wanted = -t->vertical[row] * gap[2], held[2], limit;
+    int acts = t->pulls[row] || wanted > 0.0;
+    force[2] = acts ? (wanted < t->capacity[row] ? wanted : t->capacity[row]) : 0.0;
+    for (int axis = 0; axis < 2; axis++)
+        held[axis] = -t->sideways[axis * t->gaps + row] * gap[axis];
+    double size = sqrt(held[0] * held[0] + held[1] * held[1]);
+    if (t->friction[row] < INFINITY)
+        limit = t->friction[row] * t->pressed_by[row];
+    else
+        limit = t->pulls[row] || t->pressed_by[row] > 0.0 ? INFINITY : 0.0;
+    int slides = size > limit;
+    double share = slides ? limit / size : 1.0, across = slides ? share / (size * size) : 0.0;
+    for (int axis = 0; axis < 3; axis++)
+        for (int other = 0; other < 3; other++)
+            tangent[axis][other] = 0.0;
+    tangent[2][2] = t->vertical[row] * (acts && wanted < t->capacity[row] ? 1.0 : 0.0);
+    for (int axis = 0; axis < 2; axis++) {
+        force[axis] = share * held[axis];
+        for (int other = 0; other < 2; other++) {
+            double whole = axis == other ? t->sideways[axis * t->gaps + row] : 0.0;
+            tangent[axis][other] =
+                whole * share - across * held[axis] * held[other] * t->sideways[other * t->gaps + row];
+        }
+    }
+}
+
+/* Force along bare bars that are longer by `moved` than as the sub-step began, above 0 in tension. */
+static double force_of_bare_bars(const bda_term *t, int64_t row, double moved)
+{
+    double force = t->stiffness[row] * (t->lengths[row] - t->bared[row] + moved - t->stays[row]);
+    if (force < -t->pressed_limits[row])
+        force = -t->pressed_limits[row];
+    if (force > t->pulled_limits[row])
+        force = t->pulled_limits[row];
+    return (t->holds[row] ? 1.0 : 0.0) * force;
+}
+
+static void gap_at(const bda_term *t, int64_t row, const double moved[3], double gap[3])
+{
+    for (int axis = 0; axis < 3; axis++)
+        gap[axis] = t->widths[axis * t->gaps + row] + moved[axis];
+}
+
+/* Forces that pull the sides of a gap together which has opened further. */
+void resisted_at(const guessed_term *g, int64_t row, const double moved[3], double force[3])
+{
+    const bda_term *t = g->term;
+    double gap[3], tangent[3][3];
+    if (t->kind == BARE_BARS) {
+        force[0] = force_of_bare_bars(t, row, moved[0]);
+        return;
+    }
+    gap_at(t, row, moved, gap);
+    if (t->kind == CRACKS) {
+        bar_force bar, rub;
+        double opened, normal[3], direction[3];
+        crack_at(t, row, gap, &bar, &rub, &opened, normal, direction);
+        force_of_crack(t, row, &bar, &rub, opened, normal, direction, force);
+    } else {
+        force_of_spring(t, row, gap, force, tangent);
+        for (int axis = 0; axis < 3; axis++)
+            force[axis] = -force[axis];
+    }
+}
+
+static double turned_by_tangents(const bda_term *t, int64_t row, int axis, const double moved[3])
+{
+    const double *line = t->tangents + 3 * axis * t->gaps + row;
+    return line[0] * moved[0] + line[t->gaps] * moved[1] + line[2 * t->gaps] * moved[2];
+}
+
+/* The same, linear about the guess. */
+void linear_at(const guessed_term *g, int64_t row, const double moved[3], double force[3])
+{
+    const bda_term *t = g->term;
+    if (t->kind == BARE_BARS)
+        force[0] = g->at_rest[row] + g->stiff[row] * moved[0];
+    else
+        for (int axis = 0; axis < 3; axis++)
+            force[axis] = g->at_rest[axis * t->gaps + row] + turned_by_tangents(t, row, axis, moved);
+}
+
+static void begin_bare_bars(guessed_term *g, int64_t row, double moved)
+{
+    const bda_term *t = g->term;
+    double force = force_of_bare_bars(t, row, moved), direction[3];
+    int is_elastic = t->holds[row] && force < t->pulled_limits[row] && force > -t->pressed_limits[row];
+    g->stiff[row] = is_elastic ? t->stiffness[row] : 0.0;
+    g->at_rest[row] = force - g->stiff[row] * moved;
+    vector_at(t->directions, t->gaps, row, direction);
+    double beside = t->held_sideways && t->holds[row] ? t->stiffness[row] : 0.0;
+    for (int axis = 0; axis < 3; axis++)
+        for (int other = 0; other < 3; other++) {
+            double *tangent = t->tangents + (3 * axis + other) * t->gaps + row;
+            double product = direction[axis] * direction[other];
+            *tangent = g->stiff[row] * product;
+            if (t->held_sideways)
+                *tangent = *tangent + beside * ((axis == other ? 1.0 : 0.0) - product);
+        }
+}
+
+/* Take forces for linear about gaps that have opened further, by `moved` (d, q). */
+void begin_at(guessed_term *g, const double *moved)
+{
+    const bda_term *t = g->term;
+    for (int64_t row = 0; row < t->gaps; row++) {
+        double own[3], gap[3], force[3], tangent[3][3];
+        if (t->kind == BARE_BARS) {
+            begin_bare_bars(g, row, moved[row]);
+            continue;
+        }
+        vector_at(moved, t->gaps, row, own);
+        gap_at(t, row, own, gap);
+        if (t->kind == CRACKS)
+            linear_crack(t, row, gap, force, tangent);
+        else
+            force_of_spring(t, row, gap, force, tangent);
+        for (int axis = 0; axis < 3; axis++) {
+            double pulling = t->kind == CRACKS ? force[axis] : -force[axis];
+            for (int other = 0; other < 3; other++)
+                t->tangents[(3 * axis + other) * t->gaps + row] = tangent[axis][other];
+            g->at_rest[axis * t->gaps + row] = pulling - turned_by_tangents(t, row, axis, own);
+        }
+    }
+}
+
+static void find_slack_of_cracks(guessed_term *g)
+{
+    const bda_term *t = g->term;
+    for (int64_t crack = 0; crack < t->connections; crack++) {
+        double yields = t->yields[crack];
+        for (int corner = 1; corner < CORNERS; corner++)
+            yields = yields + t->yields[corner * t->connections + crack];
+        for (int64_t row = crack; row < t->gaps; row += t->connections) {
+            double mean = yields / CORNERS, little = LITTLE_M * t->pressed[row];
+            g->slack[row] = AGREES * (mean > little ? mean : little);
+        }
+    }
+}
+
+static void find_slack_of_springs(guessed_term *g)
+{
+    const bda_term *t = g->term;
+    for (int64_t start = 0, end; start < t->gaps; start = end) {
+        double sum = 0.0;
+        for (end = start; end < t->gaps && t->of_gap[end] == t->of_gap[start]; end++) {
+            double largest = 0.0;
+            for (int axis = 0; axis < 3; axis++)
+                if (fabs(g->at_rest[axis * t->gaps + end]) > largest)
+                    largest = fabs(g->at_rest[axis * t->gaps + end]);
+            sum += largest;
+        }
+        for (int64_t row = start; row < end; row++)
+            g->slack[row] = AGREES * (sum / (double)(end - start)) + EVEN_M * t->vertical[row];
+    }
+}
+
+/* Find the errors of forces that count as none, of forces without motion. */
+void find_slack(guessed_term *g)
+{
+    if (g->term->kind == CRACKS)
+        find_slack_of_cracks(g);
+    else if (g->term->kind == SPRINGS)
+        find_slack_of_springs(g);
+    else
+        for (int64_t row = 0; row < g->term->gaps; row++)
+            g->slack[row] = AGREES * g->term->yields[row];
+}
+
+/* How fast a gap opens by velocities (6, n) of bodies. */
+static void rate_of_gap(const bda_term *t, int64_t row, const double *velocities, int64_t bodies, double rate[3])
+{
+    int64_t one = t->first[row], other = t->second[row];
+    double arm[3], turning[3], of_first[3], of_second[3];
+    vector_at(t->second_arms, t->gaps, row, arm);
+    vector_at(velocities + 3 * bodies, bodies, other, turning);
+    cross3(turning, arm, of_second);
+    vector_at(t->first_arms, t->gaps, row, arm);
+    vector_at(velocities + 3 * bodies, bodies, one, turning);
+    cross3(turning, arm, of_first);
+    for (int axis = 0; axis < 3; axis++) {
+        double moving = velocities[axis * bodies + other] + of_second[axis];
+        rate[axis] = moving - velocities[axis * bodies + one] - of_first[axis];
+    }
+}
+
+/* Write how far gaps (d, q) open in a sub-step by velocities (6, n). */
+void move_by(const guessed_term *g, const double *velocities, int64_t bodies, double substep_s, double *moved)
+{
+    const bda_term *t = g->term;
+    for (int64_t row = 0; row < t->gaps; row++) {
+        double rate[3], direction[3];
+        rate_of_gap(t, row, velocities, bodies, rate);
+        if (t->kind == BARE_BARS) {
+            vector_at(t->directions, t->gaps, row, direction);
+            moved[row] = substep_s * dot3(direction, rate);
+        } else {
+            for (int axis = 0; axis < 3; axis++)
+                moved[axis * t->gaps + row] = substep_s * rate[axis];
+        }
+    }
+}
+
+/* Impulse of a gap that pulls its first body towards its second, by velocities (6, n) at the end of the sub-step. */
+static void pull_of_gap(const guessed_term *g, int64_t row, const double *velocities, int64_t bodies, double substep_s,
+                        double pull[3])
+{
+    const bda_term *t = g->term;
+    double rate[3], moved[3], force[3], direction[3];
+    rate_of_gap(t, row, velocities, bodies, rate);
+    if (t->kind != BARE_BARS) {
+        for (int axis = 0; axis < 3; axis++)
+            moved[axis] = substep_s * rate[axis];
+        linear_at(g, row, moved, force);
+        if (t->solved_up)
+            t->solved_up[row] = -force[2];
+        for (int axis = 0; axis < 3; axis++)
+            pull[axis] = substep_s * force[axis];
+        return;
+    }
+    vector_at(t->directions, t->gaps, row, direction);
+    moved[0] = substep_s * dot3(direction, rate);
+    linear_at(g, row, moved, force);
+    for (int axis = 0; axis < 3; axis++)
+        pull[axis] = substep_s * force[0] * direction[axis];
+    if (t->held_sideways) {
+        for (int axis = 0; axis < 3; axis++)
+            moved[axis] = t->widths[axis * t->gaps + row] - t->bared_lines[axis * t->gaps + row] +
+                          substep_s * rate[axis];
+        double along = dot3(moved, direction), beside = (t->holds[row] ? 1.0 : 0.0) * t->stiffness[row];
+        for (int axis = 0; axis < 3; axis++)
+            pull[axis] += substep_s * (beside * (moved[axis] - along * direction[axis]));
+    }
+}
+
+/* Write the impulses of a term on its bodies, and their sums (6, n), by velocities (6, n) at the end of the sub-step. */
+void find_impulses(guessed_term *g, const double *velocities, int64_t bodies, double substep_s, double *sums)
+{
+    bda_term *t = g->term;
+    int64_t c = t->connections;
+    memset(t->of_first, 0, (size_t)(6 * c) * sizeof *t->of_first);
+    memset(t->of_second, 0, (size_t)(6 * c) * sizeof *t->of_second);
+    for (int64_t row = 0; row < t->gaps; row++) {
+        double pull[3], push[3], arm[3], moment[3];
+        int64_t at = t->of_gap[row];
+        int is_turned = t->kind == SPRINGS && t->above_first[at]; /* its second body is the first of the connection */
+        double *on_first = is_turned ? t->of_second : t->of_first, *on_second = is_turned ? t->of_first : t->of_second;
+        pull_of_gap(g, row, velocities, bodies, substep_s, pull);
+        for (int axis = 0; axis < 3; axis++)
+            push[axis] = -pull[axis];
+        vector_at(t->first_arms, t->gaps, row, arm);
+        cross3(arm, pull, moment);
+        for (int axis = 0; axis < 3; axis++) {
+            on_first[axis * c + at] += pull[axis];
+            on_first[(3 + axis) * c + at] += moment[axis];
+        }
+        vector_at(t->second_arms, t->gaps, row, arm);
+        cross3(arm, push, moment);
+        for (int axis = 0; axis < 3; axis++) {
+            on_second[axis * c + at] += push[axis];
+            on_second[(3 + axis) * c + at] += moment[axis];
+        }
+    }
+    memset(sums, 0, (size_t)(6 * bodies) * sizeof *sums);
+    for (int axis = 0; axis < 6; axis++) {
+        for (int64_t at = 0; at < c; at++)
+            sums[axis * bodies + g->first_body[at]] += t->of_first[axis * c + at];
+        for (int64_t at = 0; at < c; at++)
+            sums[axis * bodies + g->second_body[at]] += t->of_second[axis * c + at];
+    }
+}
+
+/* Find which connections have other tangents than their equations. */
+void find_changed(guessed_term *g)
+{
+    const bda_term *t = g->term;
+    memset(g->changed, 0, (size_t)t->connections);
+    for (int64_t row = 0; row < t->gaps; row++)
+        for (int number = 0; number < 9; number++)
+            if (t->tangents[number * t->gaps + row] != t->solved_for[number * t->all_gaps + t->which[row]])
+                g->changed[t->of_gap[row]] = 1;
+}
+
+/* Sums over the gaps of a connection, of which its blocks consist: stiffness against shifts, against turns of either
+ * body, moments of shifts and of turns. */
+typedef struct {
+    double pushed[3][3], turning_first[3][3], turning_second[3][3], moments_first[3][3], moments_second[3][3];
+    double about_first[3][3], about_second[3][3], about_both[3][3];
+} sums_of_gaps;
+
+static void column_of(const double matrix[3][3], int column, double vector[3])
+{
+    for (int axis = 0; axis < 3; axis++)
+        vector[axis] = matrix[axis][column];
+}
+
+static void add_gap(sums_of_gaps *s, const double tangent[3][3], const double first_arm[3], const double second_arm[3])
+{
+    double turning_first[3][3], turning_second[3][3], column[3], product[3];
+    for (int axis = 0; axis < 3; axis++) {
+        cross3(first_arm, tangent[axis], turning_first[axis]);
+        cross3(second_arm, tangent[axis], turning_second[axis]);
+    }
+    for (int axis = 0; axis < 3; axis++)
+        for (int other = 0; other < 3; other++) {
+            s->pushed[axis][other] += tangent[axis][other];
+            s->turning_first[axis][other] += turning_first[axis][other];
+            s->turning_second[axis][other] += turning_second[axis][other];
+        }
+    for (int other = 0; other < 3; other++) {
+        column_of(tangent, other, column);
+        cross3(first_arm, column, product);
+        for (int axis = 0; axis < 3; axis++)
+            s->moments_first[axis][other] += product[axis];
+        cross3(second_arm, column, product);
+        for (int axis = 0; axis < 3; axis++)
+            s->moments_second[axis][other] += product[axis];
+        column_of(turning_first, other, column);
+        cross3(first_arm, column, product);
+        for (int axis = 0; axis < 3; axis++)
+            s->about_first[axis][other] += product[axis];
+        column_of(turning_second, other, column);
+        cross3(second_arm, column, product);
+        for (int axis = 0; axis < 3; axis++)
+            s->about_second[axis][other] += product[axis];
+        cross3(first_arm, column, product);
+        for (int axis = 0; axis < 3; axis++)
+            s->about_both[axis][other] += product[axis];
+    }
+}
+
+static void put_blocks(const sums_of_gaps *s, double *first, double *second, double *between)
+{
+    for (int axis = 0; axis < 3; axis++)
+        for (int other = 0; other < 3; other++) {
+            int at = UNKNOWNS * axis + other;
+            first[at] = second[at] = s->pushed[axis][other];
+            between[at] = -s->pushed[axis][other];
+            first[at + 3] = s->turning_first[axis][other];
+            second[at + 3] = s->turning_second[axis][other];
+            between[at + 3] = -s->turning_second[axis][other];
+            first[at + 18] = s->moments_first[axis][other];
+            second[at + 18] = s->moments_second[axis][other];
+            between[at + 18] = -s->moments_first[axis][other];
+            first[at + 21] = s->about_first[axis][other];
+            second[at + 21] = s->about_second[axis][other];
+            between[at + 21] = -s->about_both[axis][other];
+        }
+}
+
+/* Write what a connection adds to the equations, whose gaps begin with `first_gap`, and note its tangents as solved. */
+void blocks_of_gaps(guessed_term *g, int64_t connection, int64_t first_gap, double substep_s,
+                    blocks_of_connection *blocks)
+{
+    const bda_term *t = g->term;
+    sums_of_gaps sums;
+    int is_turned = t->kind == SPRINGS && !t->above_first[connection];
+    int64_t stride = t->kind == CRACKS ? t->connections : 1;
+    memset(&sums, 0, sizeof sums);
+    for (int64_t row = first_gap; row < t->gaps && t->of_gap[row] == connection; row += stride) {
+        double tangent[3][3], first_arm[3], second_arm[3];
+        for (int number = 0; number < 9; number++) {
+            double value = t->tangents[number * t->gaps + row];
+            t->solved_for[number * t->all_gaps + t->which[row]] = value;
+            tangent[number / 3][number % 3] = substep_s * substep_s * value;
+        }
+        vector_at(t->first_arms, t->gaps, row, first_arm);
+        vector_at(t->second_arms, t->gaps, row, second_arm);
+        if (t->kind == SPRINGS) /* the body above comes first */
+            add_gap(&sums, tangent, second_arm, first_arm);
+        else
+            add_gap(&sums, tangent, first_arm, second_arm);
+    }
+    if (is_turned) {
+        double between[BLOCK];
+        put_blocks(&sums, blocks->of_second, blocks->of_first, between);
+        for (int line = 0; line < UNKNOWNS; line++)
+            for (int column = 0; column < UNKNOWNS; column++)
+                blocks->between[UNKNOWNS * line + column] = between[UNKNOWNS * column + line];
+    } else {
+        put_blocks(&sums, blocks->of_first, blocks->of_second, blocks->between);
+    }
+}

@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Answers, and vectors of three, in arrays of numpy.
+ *
+ * Arrays are in C order with their components first: a vector of n things is (3, n), and component `axis` of thing `row`
+ * stands at [axis * n + row]. Whole numbers have 64 bits. Sums are added in the order in which they are written.
+ */
+#ifndef BDA_VECTORS_H
+#define BDA_VECTORS_H
+
+#include <stdint.h>
+
+enum { BDA_DONE = 0, BDA_NO_MEMORY = 1, BDA_OUT_OF_RANGE = 2, BDA_NOT_FINITE = 3 };
+
+static inline double dot3(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static inline void cross3(const double a[3], const double b[3], double product[3])
+{
+    product[0] = a[1] * b[2] - a[2] * b[1];
+    product[1] = a[2] * b[0] - a[0] * b[2];
+    product[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+/* One of n vectors (3, n). */
+static inline void vector_at(const double *values, int64_t n, int64_t row, double vector[3])
+{
+    vector[0] = values[row];
+    vector[1] = values[n + row];
+    vector[2] = values[2 * n + row];
+}
+
+/* Vector turned by one of n rotations (3, 3, n). */
+static inline void turned_at(const double *rotations, int64_t n, int64_t row, const double v[3], double turned[3])
+{
+    for (int axis = 0; axis < 3; axis++) {
+        const double *line = rotations + 3 * axis * n + row;
+        turned[axis] = line[0] * v[0] + line[n] * v[1] + line[2 * n] * v[2];
+    }
+}
+
+#endif
