@@ -287,8 +287,8 @@ class Cracks:
             "_rests",
             "_grips_n",
         ):
-            setattr(self, name, getattr(self, name)[..., bars])
-        self._solved_for = self._solved_for[..., bars]
+            setattr(self, name, getattr(self, name).compress(bars, axis=-1))
+        self._solved_for = self._solved_for.compress(bars, axis=-1)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
