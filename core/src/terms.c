@@ -4,42 +4,21 @@
 #include <math.h>
 #include <string.h>
 
+#include "bars.h"
+
 static const double AGREES = 1e-4;   /* largest error of a force, by what its bars yield at, or the mean of springs */
 static const double LITTLE_M = 1e-5; /* or presses the sides of a crack together so far */
 static const double EVEN_M = 1e-10;  /* deformation of a spring up to which it counts as none */
 
-/* What a bar, or a side that rubs, does: elastic up to its limit, then with hardening (J. C. Simo and T. J. R. Hughes,
- * 1998, Computational inelasticity, chapter 1). */
-typedef struct {
-    double trial[3], size; /* force as if it did not yield */
-    double flow, share;    /* how far it yields; part of the force that is left */
-} bar_force;
-
-static bar_force force_of_bar(double stiffness, const double stretch[3], const double slip[3], double yields,
-                              double hardened, double resists)
+static bar_law bars_of(const bda_term *t, int64_t row)
 {
-    bar_force bar;
-    for (int axis = 0; axis < 3; axis++)
-        bar.trial[axis] = stiffness * (stretch[axis] - slip[axis]);
-    bar.size = sqrt(dot3(bar.trial, bar.trial));
-    double beyond = bar.size - yields - hardened;
-    bar.flow = (beyond > 0.0 ? beyond : 0.0) / resists;
-    bar.share = 1.0 - (bar.size > 0.0 ? stiffness * bar.flow / bar.size : 0.0);
-    return bar;
+    return (bar_law){t->yields[row], t->stiffness[row], t->modulus[row]};
 }
 
-/* By how much bars that yield fall short of elastic ones, by the part of their stretch that stays. */
-static double resistance(double stiffness, double modulus)
+/* Sides that rub, as bars that yield at their friction. */
+static bar_law sides_of(const bda_term *t, int64_t row)
 {
-    return stiffness > 0.0 ? stiffness + modulus : 1.0;
-}
-
-/* Stretch of a bar by a gap: less across itself, as a dowel. */
-static void stretch_of_bar(const double gap[3], const double direction[3], double dowel, double stretch[3])
-{
-    double along = dot3(gap, direction);
-    for (int axis = 0; axis < 3; axis++)
-        stretch[axis] = dowel * gap[axis] + (1.0 - dowel) * along * direction[axis];
+    return (bar_law){t->grips[row], t->sheared * t->pressed[row], 0.0};
 }
 
 /* Bar, sides that rub, and how far the sides are open, of a crack whose gap is `gap`. */
@@ -52,13 +31,11 @@ static void crack_at(const bda_term *t, int64_t row, const double gap[3], bar_fo
     vector_at(t->slips, t->gaps, row, slip);
     vector_at(t->rests, t->gaps, row, rest);
     *opened = dot3(normal, gap);
+    bar_law bars = bars_of(t, row), sides = sides_of(t, row);
     stretch_of_bar(gap, direction, t->dowel, stretch);
-    *bar = force_of_bar(t->stiffness[row], stretch, slip, t->yields[row], t->modulus[row] * t->flows[row],
-                        resistance(t->stiffness[row], t->modulus[row]));
-    for (int axis = 0; axis < 3; axis++)
-        slid[axis] = gap[axis] - *opened * normal[axis];
-    double sliding = t->sheared * t->pressed[row];
-    *rub = force_of_bar(sliding, slid, rest, t->grips[row], 0.0, resistance(sliding, 0.0));
+    *bar = force_of_bar(&bars, stretch, slip, t->flows[row]);
+    slide_of_gap(gap, normal, *opened, slid);
+    *rub = force_of_bar(&sides, slid, rest, 0.0);
 }
 
 static void force_of_crack(const bda_term *t, int64_t row, const bar_force *bar, const bar_force *rub, double opened,
@@ -85,11 +62,11 @@ static void linear_crack(const bda_term *t, int64_t row, const double gap[3], do
     double opened, normal[3], direction[3], unit[3], along[3], turn[3];
     crack_at(t, row, gap, &bar, &rub, &opened, normal, direction);
     force_of_crack(t, row, &bar, &rub, opened, normal, direction, force);
-    double sliding = t->sheared * t->pressed[row], even = t->dowel * t->dowel;
-    double bars_across = t->stiffness[row] * bar.share, rubs_across = sliding * rub.share;
-    double hardening = t->modulus[row] / resistance(t->stiffness[row], t->modulus[row]);
-    double bars_along = t->stiffness[row] * (bar.flow > 0.0 ? hardening : 1.0);
-    double rubs_along = sliding * (rub.flow > 0.0 ? 0.0 : 1.0);
+    bar_law bars = bars_of(t, row), sides = sides_of(t, row);
+    double even = t->dowel * t->dowel, hardening = bars.modulus / resistance(&bars);
+    double bars_across = bars.stiffness * bar.share, rubs_across = sides.stiffness * rub.share;
+    double bars_along = bars.stiffness * (bar.flow > 0.0 ? hardening : 1.0);
+    double rubs_along = sides.stiffness * (rub.flow > 0.0 ? 0.0 : 1.0);
     double presses = opened < 0.0 ? t->pressed[row] : 0.0;
     unit_of(bar.trial, bar.size, unit);
     stretch_of_bar(unit, direction, t->dowel, along);

@@ -17,18 +17,18 @@ enum { CORNERS = 4 };
 typedef struct {
     int64_t kind, connections, gaps, all_gaps;
     const int64_t *numbers;                 /* (c,), among all that connects bodies */
-    const int64_t *of_gap;                  /* (q,), connection of each gap */
-    const int64_t *which;                   /* (q,), number of each gap among all gaps (p,) of its kind */
-    const int64_t *first, *second;          /* (q,), bodies */
-    const double *first_arms, *second_arms; /* (3, q), m, from the centres of the bodies to where forces act */
-    const double *widths;                   /* (3, q), m, from the first points to the second, or from no force */
+    int64_t *of_gap;                  /* (q,), connection of each gap */
+    int64_t *which;                   /* (q,), number of each gap among all gaps (p,) of its kind */
+    int64_t *first, *second;                /* (q,), bodies */
+    double *first_arms, *second_arms;       /* (3, q), m, from the centres of the bodies to where forces act */
+    double *widths;                         /* (3, q), m, from the first points to the second, or from no force */
     double *solved_for;                     /* (3, 3, p), N/m, tangents for which the equations were made last */
     double *tangents;                       /* (3, 3, q), N/m, of the last guess */
     double *of_first, *of_second;           /* (6, c), impulses on both bodies of each connection */
     /* Bars: of a crack (q,), (3, q), in the axes of the world; `stiffness` and `yields` of bare ones, too. */
-    const double *yields, *stiffness, *modulus, *slips, *flows, *directions;
+    double *yields, *stiffness, *modulus, *slips, *flows, *directions;
     /* Sides of a crack, which press and rub. */
-    const double *normals, *pressed, *rests, *grips;
+    double *normals, *pressed, *rests, *grips;
     double dowel, sheared;
     /* Springs. */
     const double *vertical, *sideways, *capacity, *friction, *pressed_by;

@@ -41,4 +41,21 @@ static inline void turned_at(const double *rotations, int64_t n, int64_t row, co
     }
 }
 
+/* Vector turned back by one of n rotations (3, 3, n). */
+static inline void turned_back_at(const double *rotations, int64_t n, int64_t row, const double v[3], double turned[3])
+{
+    for (int axis = 0; axis < 3; axis++) {
+        const double *column = rotations + axis * n + row;
+        turned[axis] = column[0] * v[0] + column[3 * n] * v[1] + column[6 * n] * v[2];
+    }
+}
+
+/* Write one of n vectors (3, n). */
+static inline void put_vector(double *values, int64_t n, int64_t row, const double vector[3])
+{
+    values[row] = vector[0];
+    values[n + row] = vector[1];
+    values[2 * n + row] = vector[2];
+}
+
 #endif

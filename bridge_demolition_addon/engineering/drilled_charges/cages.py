@@ -215,9 +215,7 @@ class Cages:
         """Return by how much the ends of some groups (k,) have come closer for good."""
         return np.maximum(-self._groups.stays_m[chosen], 0.0)
 
-    def in_substep(
-        self, chosen: IntArray, positions_m: FloatArray, rotations: FloatArray, substep_s: float
-    ) -> Term:
+    def in_substep(self, chosen: IntArray, positions_m: FloatArray, rotations: FloatArray, substep_s: float) -> Term:
         """Return what some groups (k,) do in a sub-step of a length in s."""
         groups = self._groups.only(chosen)
         line, first_arms, second_arms = groups.lines(positions_m, rotations)

@@ -230,9 +230,7 @@ class Bearings:
         middles = turned(rotations[..., self._above], self._middles)[:, self._positions.of]
         return loads_of_springs(self._positions, forces, arms - middles, arms - middles)[0]
 
-    def in_substep(
-        self, chosen: IntArray, positions_m: FloatArray, rotations: FloatArray, substep_s: float
-    ) -> Term:
+    def in_substep(self, chosen: IntArray, positions_m: FloatArray, rotations: FloatArray, substep_s: float) -> Term:
         """Return what some connections (c,) do in a sub-step of a length in s."""
         gaps, arms, arms_below = self._positions.gaps(positions_m, rotations)
         positions, which = self._positions.only(chosen)

@@ -1,6 +1,6 @@
 """How bars across cracks fare: opening, force, part of their rupture strain, and work that they and the sides take.
 
-All arrays have their components first. What is at corners comes as (4, t), of t cracks.
+All arrays have their components first.
 """
 
 from __future__ import annotations
@@ -10,8 +10,6 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
-from .joint_rows import dot_products
-from .steel_bars import BarResponse, Bars
 
 AT_YIELD = 1.0 - 1e-6
 """Part of the yield force from which on bars yield, but for rounding."""
@@ -36,48 +34,6 @@ class CrackState:
     yield_shares: FloatArray  # (t,), largest force at a corner by that at which its bars yield
     rupture_shares: FloatArray  # (t,), largest opening by that at which bars rupture; 1 where they do
     ruptured_shares: FloatArray  # (t,), part of the bars, by force, that has ruptured
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class CornerState:
-    """Bars and sides at the 4 t corners of cracks, in the axes of their first bodies."""
-
-    gaps_m: FloatArray  # (3, 4 t), between the sides
-    normals: FloatArray  # (3, 4 t)
-    bars: Bars  # all of them, also those that have ruptured
-    holds: FloatArray  # (4 t,), 1 where bars hold on, 0 where they have ruptured
-    pulls: BarResponse  # of the bars
-    forces_n: FloatArray  # (3, 4 t), of bars that hold, across the crack: less along it than along the bars
-    slips_m: FloatArray  # (3, 4 t), of the bars, as the sub-step began
-    rubbing: Bars
-    rubs: BarResponse  # of sides that rub
-    rests_m: FloatArray  # (3, 4 t), their slips as the sub-step began
-    pressed_n_m: FloatArray  # (4 t,), stiffness of the sides
-    elongations_m: FloatArray  # (4 t,), openings at which bars rupture
-
-    def of_cracks(self, rows: IntArray) -> CrackState:
-        """Return the state of the cracks (t,) at these corners."""
-        bars, pulls = self.bars, self.holds * self.pulls.forces_n
-        has_bars = bars.yield_n > 0.0
-        closing = np.minimum(dot_products(self.normals, self.gaps_m), 0.0)
-        stored = 0.5 * (
-            _stored(pulls, bars) + _stored(self.rubs.forces_n, self.rubbing) + self.pressed_n_m * closing * closing
-        )
-        openings = np.where(has_bars * self.holds > 0.0, np.sqrt(dot_products(self.gaps_m, self.gaps_m)), 0.0)
-        used = openings / self.elongations_m
-        ruptured = bars.yield_n * ((self.holds == 0.0) | (used > 1.0))
-        whole, resultants = _of_corners(bars.yield_n).sum(axis=0), _of_corners(self.forces_n).sum(axis=1)
-        return CrackState(
-            rows=rows,
-            stored_j=_of_corners(stored).sum(axis=0),
-            yielding_j=_of_corners(dot_products(pulls, self.pulls.slips_m - self.slips_m)).sum(axis=0),
-            rubbing_j=_of_corners(dot_products(self.rubs.forces_n, self.rubs.slips_m - self.rests_m)).sum(axis=0),
-            openings_m=_of_corners(openings).max(axis=0),
-            forces_n=np.sqrt(dot_products(resultants, resultants)),
-            yield_shares=_of_corners(_shares(np.sqrt(dot_products(pulls, pulls)), bars.yield_n)).max(axis=0),
-            rupture_shares=np.minimum(_of_corners(used).max(axis=0), 1.0),
-            ruptured_shares=_shares(_of_corners(ruptured).sum(axis=0), whole),
-        )
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -144,22 +100,3 @@ class CrackAccumulator:
         self.bars[rows] = np.where(frame.ruptured_shares < ALL_RUPTURED, states, 0.0)
         self._largest[:], self._seen[:] = 0.0, False
         return frame
-
-
-def _stored(forces_n: FloatArray, bars: Bars) -> FloatArray:
-    """Twice the energy (b,) that bars give back under forces (3, b)."""
-    resists = bars.stiffness_n_m > 0.0
-    doubled: FloatArray = np.divide(
-        dot_products(forces_n, forces_n), bars.stiffness_n_m, out=np.zeros(len(bars.yield_n)), where=resists
-    )
-    return doubled
-
-
-def _shares(values: FloatArray, whole: FloatArray) -> FloatArray:
-    shares: FloatArray = np.divide(values, whole, out=np.zeros_like(values), where=whole > 0.0)
-    return shares
-
-
-def _of_corners(values: FloatArray) -> FloatArray:
-    """Values (…, 4 t) as (…, 4, t)."""
-    return values.reshape(*values.shape[:-1], 4, -1)

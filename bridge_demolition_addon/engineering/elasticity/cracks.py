@@ -12,24 +12,25 @@ All arrays have their components first. Places are numbered corner by corner, in
 
 from __future__ import annotations
 
+import ctypes
 from dataclasses import dataclass, fields
 from typing import TypeVar
 
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
-from .crack_law import DOWEL_SHARE, FRICTION, SHEARED, rubbing_bars, sliding, stretches_of_bars
-from .crack_state import CornerState, CrackState
+from ..core.structs import Count, Doubles, Indices, Struct, WrittenDoubles, WrittenFlags
+from .crack_law import DOWEL_SHARE, FRICTION, SHEARED, stretches_of_bars
+from .crack_state import CrackState
 from .joint_rows import (
     JointPositions,
     JointRows,
-    cross_products,
     dot_products,
     turned,
     turned_back,
 )
 from .steel_bars import Bars, Steel, SteelOfBars, bar_response
-from .substep import CRACKS, Term
+from .substep import Places, Term, call
 
 Numbers = TypeVar("Numbers", FloatArray, IntArray, BoolArray)
 
@@ -37,6 +38,9 @@ CORNERS = np.array([(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)])
 """Places as shares of half of the sides of the rectangle."""
 
 _COUNT = len(CORNERS)
+
+_STATES = 8
+"""Numbers of the state of a crack, `bda_cracks_state`."""
 
 _LITTLE_SHARE = 1e-9
 """Part of the bars of a crack up to which a corner has no bars: what is left is rounding."""
@@ -68,7 +72,7 @@ class Cracks:
         shares: FloatArray,
         pressed_n_m: FloatArray,
     ):
-        self._yield_n, self._shares = yield_n, shares
+        self._yield_n, self._shares = np.ascontiguousarray(yield_n, float), shares
         self._steel = SteelOfBars.alike(steel, len(openings_m)) if isinstance(steel, Steel) else steel
         self.have_bars = (yield_n > 0.0).any(axis=0)  # (m,)
         self._openings_m = np.where(self.have_bars, openings_m, _PARTED_M)
@@ -81,6 +85,11 @@ class Cracks:
         self._slips, self._flows, self._holds = np.zeros((3, 0)), np.zeros(0), np.zeros(0, bool)
         self._rests, self._grips_n = np.zeros((3, 0)), np.zeros(0)  # where sides that rub do not pull, and at most by
         self._solved_for = np.zeros((3, 3, 0))
+        self._core: CoreCracks | None = None
+
+    def __getstate__(self) -> dict[str, object]:
+        """Return what a copy has: where its arrays are in memory is its own."""
+        return self.__dict__ | {"_core": None}
 
     def __len__(self) -> int:
         return len(self.rows)
@@ -128,6 +137,7 @@ class Cracks:
         self._rests = _joined(self._rests, np.zeros((3, count)))
         self._grips_n = _joined(self._grips_n, np.zeros(count))
         self._solved_for = _joined(self._solved_for, np.full((3, 3, count), np.nan))
+        self._core = None
 
     def pressed_n_m(self, rows: IntArray) -> FloatArray:
         """Return the stiffness (r,) with which the sides of connections press on each other at each corner."""
@@ -135,15 +145,8 @@ class Cracks:
 
     def settle(self, positions_m: FloatArray, rotations: FloatArray) -> IntArray:
         """Take over how far bars have yielded by now; return the connections (d,) that no bar replaces any more."""
-        gaps = self._gaps(positions_m, rotations)
-        openings_m = np.tile(self._openings_m[self.rows], _COUNT)
-        self._holds = self._holds & (dot_products(gaps, gaps) <= openings_m * openings_m)
-        local = stretches_of_bars(turned_back(rotations[..., self._first], gaps), self._directions)
-        response = bar_response(self._bars(), local, self._slips, self._flows)
-        self._slips = np.where(self._holds, response.slips_m, self._slips)
-        self._flows = np.where(self._holds, response.flows_m, self._flows)
-        self._rub(turned_back(rotations[..., self._first], gaps))
-        holds = self._holds.reshape(_COUNT, -1).any(axis=0) & (self._shares[self.rows] > 0.0)
+        holds = np.empty(len(self.rows), bool)
+        call("bda_cracks_settle", self._in_core(), Places.of(positions_m, rotations), holds)
         gone = self.rows[~holds]
         if len(gone):
             self._keep(holds)
@@ -154,41 +157,15 @@ class Cracks:
 
         All else stays as it is. Return whether they then resist another force.
         """
-        before = self._grips_n
-        self._grip(turned_back(rotations[..., self._first], self._gaps(positions_m, rotations)))
+        before = self._grips_n.copy()
+        call("bda_cracks_grip", self._in_core(), Places.of(positions_m, rotations))
         return bool((abs(self._grips_n - before) > _SAME_GRIP * self._grips_n.max(initial=0.0)).any())
-
-    def _rub(self, gaps: FloatArray) -> None:
-        """Take over how far sides have slid by now, and how much those that are pressed may resist next."""
-        pressed = self._stiffness_pressed()
-        rubbing = rubbing_bars(self._grips_n, pressed)
-        self._rests = bar_response(rubbing, sliding(gaps, self._normals), self._rests, np.zeros_like(pressed)).slips_m
-        self._grip(gaps)
-
-    def _grip(self, gaps: FloatArray) -> None:
-        self._grips_n = -FRICTION * self._stiffness_pressed() * np.minimum(dot_products(self._normals, gaps), 0.0)
 
     def state(self, positions_m: FloatArray, rotations: FloatArray) -> CrackState:
         """Return the state of all cracks after a sub-step, before it is settled."""
-        gaps = turned_back(rotations[..., self._first], self._gaps(positions_m, rotations))
-        bars, pressed = self._bars(), self._stiffness_pressed()
-        rubbing = rubbing_bars(self._grips_n, pressed)
-        pulls = bar_response(bars, stretches_of_bars(gaps, self._directions), self._slips, self._flows)
-        corners = CornerState(
-            gaps_m=gaps,
-            normals=self._normals,
-            bars=bars,
-            holds=self._holds.astype(float),
-            pulls=pulls,
-            forces_n=stretches_of_bars(self._holds * pulls.forces_n, self._directions),
-            slips_m=self._slips,
-            rubbing=rubbing,
-            rubs=bar_response(rubbing, sliding(gaps, self._normals), self._rests, np.zeros_like(pressed)),
-            rests_m=self._rests,
-            pressed_n_m=pressed,
-            elongations_m=np.tile(self._openings_m[self.rows], _COUNT),
-        )
-        return corners.of_cracks(self.rows)
+        states = np.empty((_STATES, len(self.rows)))
+        call("bda_cracks_state", self._in_core(), Places.of(positions_m, rotations), states)
+        return CrackState(self.rows, *states)
 
     def used(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:
         """Return the force (t,) of bars in the most used corner, by that at which they rupture; nan without bars.
@@ -207,42 +184,50 @@ class Cracks:
         used: FloatArray = np.fmax.reduce(shares.reshape(_COUNT, -1), axis=0)
         return used
 
-    def in_substep(
-        self, chosen: IntArray, positions_m: FloatArray, rotations: FloatArray, substep_s: float
-    ) -> Term:
+    def in_substep(self, chosen: IntArray, positions_m: FloatArray, rotations: FloatArray, substep_s: float) -> Term:
         """Return what some cracks (c,) do in a sub-step of a length in s."""
-        which = (chosen + len(self.rows) * np.arange(_COUNT)[:, None]).ravel()
-        first, second = self._first[which], self._second[which]
-        first_turns = rotations.take(first, axis=2)
-        first_levers = turned(first_turns, self._first_anchors.take(which, axis=1))
-        second_levers = turned(rotations.take(second, axis=2), self._second_anchors.take(which, axis=1))
-        gaps = positions_m.take(second, axis=1) + second_levers - positions_m.take(first, axis=1) - first_levers
-        bars = self._bars().times(self._holds)[which]
-        law = {
-            "yields": bars.yield_n,
-            "stiffness": bars.stiffness_n_m,
-            "modulus": bars.modulus_n_m,
-            "slips": turned(first_turns, self._slips.take(which, axis=1)),
-            "flows": self._flows[which],
-            "normals": turned(first_turns, self._normals.take(which, axis=1)),
-            "directions": turned(first_turns, self._directions.take(which, axis=1)),
-            "pressed": self._stiffness_pressed()[which],
-            "rests": turned(first_turns, self._rests.take(which, axis=1)),
-            "grips": self._grips_n[which],
-        }
-        return Term.of(
-            CRACKS,
-            self.rows[chosen],
-            np.tile(np.arange(len(chosen)), _COUNT),
-            which,
-            self._solved_for,
-            (first, second),
-            (first_levers + 0.5 * gaps, second_levers - 0.5 * gaps),
-            gaps,
-            law,
-            dowel=DOWEL_SHARE,
-            sheared=SHEARED,
-        )
+        term = Term.of_cracks(self.rows[chosen], self._solved_for, DOWEL_SHARE, SHEARED)
+        places = Places.of(positions_m, rotations)
+        call("bda_cracks_begin", self._in_core(), places, len(chosen), chosen, term)
+        return term
+
+    def _in_core(self) -> CoreCracks:
+        """Return what the core works on, which changes what is here."""
+        if self._core is None:
+            corners, connections = _COUNT * len(self.rows), len(self._shares)
+            self._core = core = CoreCracks(
+                count=len(self.rows), connections=connections, dowel=DOWEL_SHARE, sheared=SHEARED, friction=FRICTION
+            )
+            core.point("rows", self.rows, len(self.rows))
+            for name, array in (
+                ("first", self._first),
+                ("second", self._second),
+                ("flows", self._flows),
+                ("grips", self._grips_n),
+                ("holds", self._holds),
+            ):
+                core.point(name, array, corners)
+            for name, array in (
+                ("first_anchors", self._first_anchors),
+                ("second_anchors", self._second_anchors),
+                ("normals", self._normals),
+                ("directions", self._directions),
+                ("slips", self._slips),
+                ("rests", self._rests),
+            ):
+                core.point(name, array, 3 * corners)
+            core.point("solved_for", self._solved_for, 9 * corners)
+            core.point("yields", self._yield_n, _COUNT * connections)
+            for name, array in (
+                ("shares", self._shares),
+                ("openings", self._openings_m),
+                ("pressed", self._pressed_n_m),
+                ("yield_strain", self._steel.yield_strain),
+                ("hardening", self._steel.hardening),
+                ("rupture_strain", self._steel.rupture_strain),
+            ):
+                core.point(name, array, connections)
+        return self._core
 
     def _bars(self) -> Bars:
         """Return all bars, with their remaining area."""
@@ -267,9 +252,6 @@ class Cracks:
         )
         return second - first
 
-    def _stiffness_pressed(self) -> FloatArray:
-        return np.tile(self._pressed_n_m[self.rows], _COUNT)
-
     def _keep(self, chosen: BoolArray) -> None:
         """Forget all cracks but those chosen (t,)."""
         bars = np.tile(chosen, _COUNT)
@@ -289,6 +271,7 @@ class Cracks:
         ):
             setattr(self, name, getattr(self, name).compress(bars, axis=-1))
         self._solved_for = self._solved_for.compress(bars, axis=-1)
+        self._core = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -317,31 +300,31 @@ class CrackJoints:
 
 def joints_of_cracks(cracks: Term) -> CrackJoints:
     """Return how cracks resist changes of the motion that was guessed last."""
-    count, law = len(cracks.rows), cracks.arrays
-    normals, tangents, first_arms, second_arms = (
-        law[name] for name in ("normals", "tangents", "first_arms", "second_arms")
+    count = len(cracks.rows)
+    first_arms, second_arms, axes = np.empty((3, count)), np.empty((3, count)), np.empty((3, 3, count))
+    stiffness = np.empty((6, count))
+    call("bda_crack_joints", cracks, first_arms, second_arms, axes, stiffness)
+    first, second = cracks.arrays["first"][:count], cracks.arrays["second"][:count]
+    return CrackJoints(first, second, first_arms, second_arms, axes, stiffness)
+
+
+class CoreCracks(Struct):
+    """Cracks as the core takes them: `bda_cracks` in `core/src/cracks.h`."""
+
+    _fields_ = (
+        ("count", Count),
+        ("connections", Count),
+        ("rows", Indices),
+        ("first", Indices),
+        ("second", Indices),
+        *((name, Doubles) for name in ("first_anchors", "second_anchors", "normals", "directions")),
+        *((name, WrittenDoubles) for name in ("slips", "flows", "rests", "grips")),
+        ("holds", WrittenFlags),
+        ("solved_for", WrittenDoubles),
+        *((name, Doubles) for name in ("yields", "shares", "openings", "pressed")),
+        *((name, Doubles) for name in ("yield_strain", "hardening", "rupture_strain")),
+        *((name, ctypes.c_double) for name in ("dowel", "sheared", "friction")),
     )
-    normal = normals[:, :count]
-    corners = first_arms.reshape(3, _COUNT, count)
-    side = corners[:, 2] - corners[:, 0]
-    side = side - dot_products(side, normal) * normal
-    side = side / np.sqrt(dot_products(side, side))
-    axes = np.stack((normal, side, cross_products(normal, side)), axis=1)
-    pressed = dot_products(normals, turned(tangents, normals))
-    total = _summed(pressed)
-    shares = np.where(np.tile(total, _COUNT) > 0.0, pressed, 1.0)
-    shares = shares / np.tile(_summed(shares), _COUNT)
-    first_middles, second_middles = (_summed(shares * arms) for arms in (first_arms, second_arms))
-    levers = first_arms - np.tile(first_middles, _COUNT)
-    stiffness = []
-    for axis in np.moveaxis(axes, 1, 0):
-        along = np.tile(axis, _COUNT)
-        stiffness.append(_summed(dot_products(along, turned(tangents, along))))
-    for axis in np.moveaxis(axes, 1, 0):
-        moved = cross_products(np.tile(axis, _COUNT), levers)
-        stiffness.append(_summed(dot_products(moved, turned(tangents, moved))))
-    first, second = law["first"][:count], law["second"][:count]
-    return CrackJoints(first, second, first_middles, second_middles, axes, np.stack(stiffness))
 
 
 def corner_positions(points_m: FloatArray, axes: FloatArray, sides_m: FloatArray) -> FloatArray:

@@ -37,9 +37,7 @@ def velocities_alone(
     for array, size in zip(arrays, (6, 6, 1, 9, 6), strict=True):
         if array.size != size * count:
             raise ValueError(f"there are {array.size} numbers of {count} bodies: expected {size * count}")
-    call = function(
-        "bda_velocities_alone", ctypes.c_int64, *[_POINTER] * 5, ctypes.c_double, _POINTER, returns=None
-    )
+    call = function("bda_velocities_alone", ctypes.c_int64, *[_POINTER] * 5, ctypes.c_double, _POINTER, returns=None)
     call(count, *(array.ctypes.data for array in arrays), substep_s, alone.ctypes.data)
     return alone
 

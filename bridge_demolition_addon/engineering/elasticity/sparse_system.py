@@ -37,9 +37,7 @@ class BlockSystem:
         bodies = np.arange(body_count)
         starts, rows, places = self._positions(((bodies, bodies), (first, first), (second, second), (first, second)))
         order = _order(starts, rows)
-        new = function(
-            "bda_equations_new", *[ctypes.c_int64] * 3, *[_POINTER] * 7, returns=_POINTER
-        )
+        new = function("bda_equations_new", *[ctypes.c_int64] * 3, *[_POINTER] * 7, returns=_POINTER)
         arrays = (starts, rows, *places, order)
         address = new(body_count, len(first), len(rows), *(array.ctypes.data for array in arrays))
         if not address:

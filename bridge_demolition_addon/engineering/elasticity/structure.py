@@ -72,9 +72,7 @@ class SpringLaw(Protocol):
     def settle(self, positions_m: FloatArray, rotations: FloatArray) -> None:
         """Take over, before a sub-step, what has yielded for good, at positions (3, n) and rotations (3, 3, n)."""
 
-    def in_substep(
-        self, chosen: IntArray, positions_m: FloatArray, rotations: FloatArray, substep_s: float
-    ) -> Term:
+    def in_substep(self, chosen: IntArray, positions_m: FloatArray, rotations: FloatArray, substep_s: float) -> Term:
         """Return what some of them (c,) do in a sub-step of a length in s."""
 
     def stored_j(self, positions_m: FloatArray, rotations: FloatArray) -> FloatArray:

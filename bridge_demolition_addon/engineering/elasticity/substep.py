@@ -48,7 +48,7 @@ class Frames(Struct):
         """Return the frames of connections between so many bodies."""
         count = len(frames)
         for ends in (frames.first, frames.second):
-            if count and not (0 <= ends.min() and ends.max() < bodies):
+            if count and not (ends.min() >= 0 and ends.max() < bodies):
                 raise ValueError(f"connections end in bodies {ends.min()} to {ends.max()} of {bodies}")
         made = cls(count=count)
         for name, array, components in (
@@ -184,6 +184,27 @@ class Term(Struct):
             made.point(name, array, 6 * connections)
         return made
 
+    @classmethod
+    def of_cracks(cls, rows: IntArray, solved_for: FloatArray, dowel: float, sheared: float) -> Term:
+        """Return a term of cracks (c,) whose arrays are not filled yet."""
+        gaps = 4 * len(rows)
+        whole = {name: np.empty(gaps, int) for name in ("which", "first", "second")}
+        vectors = {name: np.empty((3, gaps)) for name in ("slips", "normals", "directions", "rests")}
+        numbers = ("yields", "stiffness", "modulus", "flows", "pressed", "grips")
+        return cls.of(
+            CRACKS,
+            rows,
+            np.empty(gaps, int),
+            whole["which"],
+            solved_for,
+            (whole["first"], whole["second"]),
+            (np.empty((3, gaps)), np.empty((3, gaps))),
+            np.empty((3, gaps)),
+            vectors | {name: np.empty(gaps) for name in numbers},
+            dowel=dowel,
+            sheared=sheared,
+        )
+
     def __init__(self, **values: float):
         super().__init__(**values)
         self.rows: IntArray = np.zeros(0, int)
@@ -253,19 +274,36 @@ class Substep(Struct):
         addresses = (ctypes.c_void_p * max(len(terms), 1))(*(ctypes.addressof(term) for term in terms))
         self.frames, self.places = ctypes.addressof(frames), ctypes.addressof(places)
         self.term_count, self.terms = len(terms), ctypes.addressof(addresses)
-        answer = function("bda_solve_substep", ctypes.c_void_p)(ctypes.addressof(self))
-        if answer:
-            raise (MemoryError if answer == 1 else ValueError)(_ANSWERS[answer])
+        call("bda_solve_substep", self)
         for term in terms:
             term.tell()
+
+
+def call(name: str, *arguments: Struct | np.ndarray | int) -> None:
+    """Call a function of the core with structs, arrays and counts.
+
+    Raises
+    ------
+    ValueError
+        Numbers are out of range.
+    MemoryError
+        There is no room.
+    """
+    given, kinds = [], []
+    for argument in arguments:
+        is_count = isinstance(argument, int)
+        kinds.append(ctypes.c_int64 if is_count else ctypes.c_void_p)
+        if isinstance(argument, np.ndarray):
+            given.append(argument.ctypes.data)
+        else:
+            given.append(argument if isinstance(argument, int) else ctypes.addressof(argument))
+    answer = function(name, *kinds)(*given)
+    if answer:
+        raise (MemoryError if answer == 1 else ValueError)(_ANSWERS[answer])
 
 
 def deformations(frames: Frames, places: Places, chosen: IntArray) -> FloatArray:
     """Return deformations (6, k) of chosen connections (k,), m and rad."""
     found = np.empty((6, len(chosen)))
-    answer = function(
-        "bda_deformations", *[ctypes.c_void_p] * 2, ctypes.c_int64, *[ctypes.c_void_p] * 2
-    )(ctypes.addressof(frames), ctypes.addressof(places), len(chosen), chosen.ctypes.data, found.ctypes.data)
-    if answer:
-        raise ValueError(_ANSWERS[answer])
+    call("bda_deformations", frames, places, len(chosen), chosen, found)
     return found

@@ -97,14 +97,10 @@ class Footings:
         gaps = self._positions.gaps(positions_m, rotations)[0]
         return self._positions.summed(self._soil.stored_j(gaps - self._unloaded))
 
-    def in_substep(
-        self, chosen: IntArray, positions_m: FloatArray, rotations: FloatArray, substep_s: float
-    ) -> Term:
+    def in_substep(self, chosen: IntArray, positions_m: FloatArray, rotations: FloatArray, substep_s: float) -> Term:
         """Return what some footings (c,) do in a sub-step of a length in s."""
         gaps, arms, arms_below = self._positions.gaps(positions_m, rotations)
         positions, which = self._positions.only(chosen)
         gaps = gaps - self._unloaded
         of_chosen = gaps.take(which, axis=1), arms.take(which, axis=1), arms_below.take(which, axis=1)
-        return spring_term(
-            self.rows[chosen], positions, which, of_chosen, self._soil.only(which), self._solved_for
-        )
+        return spring_term(self.rows[chosen], positions, which, of_chosen, self._soil.only(which), self._solved_for)

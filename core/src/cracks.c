@@ -1,0 +1,316 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cracks.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "bars.h"
+
+static int are_in_range(const bda_cracks *c, int64_t bodies)
+{
+    for (int64_t at = 0; at < c->count; at++)
+        if (c->rows[at] < 0 || c->rows[at] >= c->connections)
+            return 0;
+    for (int64_t at = 0; at < CORNERS * c->count; at++)
+        if (c->first[at] < 0 || c->first[at] >= bodies || c->second[at] < 0 || c->second[at] >= bodies)
+            return 0;
+    return 1;
+}
+
+/* Bars at a corner, all of them, also those that have ruptured. */
+static bar_law bars_at(const bda_cracks *c, int64_t at)
+{
+    int64_t row = c->rows[at % c->count], corner = at / c->count;
+    return law_of_bars(c->yields[corner * c->connections + row] * c->shares[row], c->openings[row],
+                       c->yield_strain[row], c->hardening[row], c->rupture_strain[row]);
+}
+
+/* Sides that rub at a corner, as bars that yield at their friction. */
+static bar_law sides_at(const bda_cracks *c, int64_t at)
+{
+    return (bar_law){c->grips[at], c->sheared * c->pressed[c->rows[at % c->count]], 0.0};
+}
+
+/* Place of an anchor of a body. */
+static void anchor_at(const bda_places *p, int64_t body, const double *anchors, int64_t count, int64_t at,
+                      double place[3])
+{
+    double anchor[3], lever[3];
+    vector_at(anchors, count, at, anchor);
+    turned_at(p->rotations, p->count, body, anchor, lever);
+    for (int axis = 0; axis < 3; axis++)
+        place[axis] = p->positions[axis * p->count + body] + lever[axis];
+}
+
+/* Gap at a corner, in the axes of the world and of its first body. */
+static void gap_at(const bda_cracks *c, const bda_places *p, int64_t at, double world[3], double gap[3])
+{
+    double one[3], other[3];
+    anchor_at(p, c->first[at], c->first_anchors, CORNERS * c->count, at, one);
+    anchor_at(p, c->second[at], c->second_anchors, CORNERS * c->count, at, other);
+    for (int axis = 0; axis < 3; axis++)
+        world[axis] = other[axis] - one[axis];
+    turned_back_at(p->rotations, p->count, c->first[at], world, gap);
+}
+
+/* Friction of sides that are pressed where the gap is closed. */
+static double grip_of(const bda_cracks *c, int64_t at, double opened)
+{
+    return -c->friction * c->pressed[c->rows[at % c->count]] * (opened < 0.0 ? opened : 0.0);
+}
+
+/* Take over how far bars have yielded and sides have slid by now; say which cracks (t,) bars still hold. */
+int bda_cracks_settle(const bda_cracks *c, const bda_places *p, uint8_t *holds)
+{
+    int64_t count = CORNERS * c->count;
+    if (!are_in_range(c, p->count))
+        return BDA_OUT_OF_RANGE;
+    memset(holds, 0, (size_t)c->count);
+    for (int64_t at = 0; at < count; at++) {
+        int64_t row = c->rows[at % c->count];
+        double world[3], gap[3], normal[3], direction[3], before[3], stretch[3], slid[3], after[3];
+        gap_at(c, p, at, world, gap);
+        vector_at(c->normals, count, at, normal);
+        vector_at(c->directions, count, at, direction);
+        c->holds[at] = c->holds[at] && dot3(world, world) <= c->openings[row] * c->openings[row];
+        if (c->holds[at]) {
+            bar_law bars = bars_at(c, at);
+            vector_at(c->slips, count, at, before);
+            stretch_of_bar(gap, direction, c->dowel, stretch);
+            bar_force bar = force_of_bar(&bars, stretch, before, c->flows[at]);
+            slip_of_bar(&bar, before, after);
+            put_vector(c->slips, count, at, after);
+            c->flows[at] = c->flows[at] + bar.flow;
+        }
+        double opened = dot3(normal, gap);
+        bar_law sides = sides_at(c, at);
+        vector_at(c->rests, count, at, before);
+        slide_of_gap(gap, normal, dot3(gap, normal), slid);
+        bar_force rub = force_of_bar(&sides, slid, before, 0.0);
+        slip_of_bar(&rub, before, after);
+        put_vector(c->rests, count, at, after);
+        c->grips[at] = grip_of(c, at, opened);
+        holds[at % c->count] |= c->holds[at] && c->shares[row] > 0.0;
+    }
+    return BDA_DONE;
+}
+
+/* Let sides resist sliding by how they are pressed now. */
+int bda_cracks_grip(const bda_cracks *c, const bda_places *p)
+{
+    if (!are_in_range(c, p->count))
+        return BDA_OUT_OF_RANGE;
+    for (int64_t at = 0; at < CORNERS * c->count; at++) {
+        double world[3], gap[3], normal[3];
+        gap_at(c, p, at, world, gap);
+        vector_at(c->normals, CORNERS * c->count, at, normal);
+        c->grips[at] = grip_of(c, at, dot3(normal, gap));
+    }
+    return BDA_DONE;
+}
+
+/* Twice the energy that bars give back under a force. */
+static double doubled_energy(const double force[3], double stiffness)
+{
+    return stiffness > 0.0 ? dot3(force, force) / stiffness : 0.0;
+}
+
+/* Sums and maxima over the corners of a crack. */
+typedef struct {
+    double stored, yielding, rubbing, opening, force[3], yield_share, rupture_share, ruptured, whole;
+} crack_state;
+
+static void add_corner(const bda_cracks *c, const bda_places *p, int64_t at, crack_state *state)
+{
+    int64_t count = CORNERS * c->count;
+    double world[3], gap[3], normal[3], direction[3], slip[3], rest[3], stretch[3], slid[3], moved[3];
+    double pull[3], across[3], rubbing[3], after[3], holds = c->holds[at] ? 1.0 : 0.0;
+    double pressed = c->pressed[c->rows[at % c->count]], opening = c->openings[c->rows[at % c->count]];
+    bar_law bars = bars_at(c, at), sides = sides_at(c, at);
+    gap_at(c, p, at, world, gap);
+    vector_at(c->normals, count, at, normal);
+    vector_at(c->directions, count, at, direction);
+    vector_at(c->slips, count, at, slip);
+    vector_at(c->rests, count, at, rest);
+    stretch_of_bar(gap, direction, c->dowel, stretch);
+    slide_of_gap(gap, normal, dot3(gap, normal), slid);
+    bar_force bar = force_of_bar(&bars, stretch, slip, c->flows[at]), rub = force_of_bar(&sides, slid, rest, 0.0);
+    for (int axis = 0; axis < 3; axis++) {
+        pull[axis] = holds * (bar.share * bar.trial[axis]);
+        rubbing[axis] = rub.share * rub.trial[axis];
+    }
+    stretch_of_bar(pull, direction, c->dowel, across);
+    double opened = dot3(normal, gap), closing = opened < 0.0 ? opened : 0.0;
+    state->stored +=
+        0.5 * (doubled_energy(pull, bars.stiffness) + doubled_energy(rubbing, sides.stiffness) + pressed * closing * closing);
+    slip_of_bar(&bar, slip, after);
+    for (int axis = 0; axis < 3; axis++)
+        moved[axis] = after[axis] - slip[axis], state->force[axis] += across[axis];
+    state->yielding += dot3(pull, moved);
+    slip_of_bar(&rub, rest, after);
+    for (int axis = 0; axis < 3; axis++)
+        moved[axis] = after[axis] - rest[axis];
+    state->rubbing += dot3(rubbing, moved);
+    double wide = bars.yields > 0.0 && c->holds[at] ? sqrt(dot3(gap, gap)) : 0.0, used = wide / opening;
+    double share = bars.yields > 0.0 ? sqrt(dot3(pull, pull)) / bars.yields : 0.0;
+    state->opening = wide > state->opening ? wide : state->opening;
+    state->yield_share = share > state->yield_share ? share : state->yield_share;
+    state->rupture_share = used > state->rupture_share ? used : state->rupture_share;
+    state->ruptured += bars.yields * (!c->holds[at] || used > 1.0 ? 1.0 : 0.0);
+    state->whole += bars.yields;
+}
+
+/* Write, of each crack, energy that it would give back, work of bars that yield and of sides that slide in the sub-step,
+ * largest opening where bars hold, resultant of the bars, largest force by that at which they yield, largest opening by
+ * that at which they rupture, and part of the bars that has ruptured: (8, t). */
+int bda_cracks_state(const bda_cracks *c, const bda_places *p, double *states)
+{
+    if (!are_in_range(c, p->count))
+        return BDA_OUT_OF_RANGE;
+    for (int64_t crack = 0; crack < c->count; crack++) {
+        crack_state s = {0};
+        for (int64_t at = crack; at < CORNERS * c->count; at += c->count)
+            add_corner(c, p, at, &s);
+        double found[CRACK_STATES] = {s.stored,
+                                      s.yielding,
+                                      s.rubbing,
+                                      s.opening,
+                                      sqrt(dot3(s.force, s.force)),
+                                      s.yield_share,
+                                      s.rupture_share < 1.0 ? s.rupture_share : 1.0,
+                                      s.whole > 0.0 ? s.ruptured / s.whole : 0.0};
+        for (int number = 0; number < CRACK_STATES; number++)
+            states[number * c->count + crack] = found[number];
+    }
+    return BDA_DONE;
+}
+
+/* Vector (3, q) of a body's axes in those of the world. */
+static void put_turned(const bda_places *p, int64_t body, const double *from, int64_t all, int64_t at, double *to,
+                       int64_t count, int64_t row)
+{
+    double own[3], turned[3];
+    vector_at(from, all, at, own);
+    turned_at(p->rotations, p->count, body, own, turned);
+    put_vector(to, count, row, turned);
+}
+
+/* Write what chosen cracks (k,) are as a sub-step begins into the arrays of a term. */
+int bda_cracks_begin(const bda_cracks *c, const bda_places *p, int64_t chosen_count, const int64_t *chosen,
+                     const bda_term *t)
+{
+    int64_t all = CORNERS * c->count, count = CORNERS * chosen_count;
+    if (!are_in_range(c, p->count) || t->gaps != count || t->connections != chosen_count)
+        return BDA_OUT_OF_RANGE;
+    for (int64_t row = 0; row < count; row++) {
+        int64_t crack = chosen[row % chosen_count];
+        if (crack < 0 || crack >= c->count)
+            return BDA_OUT_OF_RANGE;
+        int64_t at = row / chosen_count * c->count + crack, one = c->first[at], other = c->second[at];
+        double anchor[3], first_lever[3], second_lever[3], gap[3], arm[3];
+        vector_at(c->first_anchors, all, at, anchor);
+        turned_at(p->rotations, p->count, one, anchor, first_lever);
+        vector_at(c->second_anchors, all, at, anchor);
+        turned_at(p->rotations, p->count, other, anchor, second_lever);
+        for (int axis = 0; axis < 3; axis++)
+            gap[axis] = p->positions[axis * p->count + other] + second_lever[axis] -
+                        p->positions[axis * p->count + one] - first_lever[axis];
+        put_vector(t->widths, count, row, gap);
+        for (int axis = 0; axis < 3; axis++)
+            arm[axis] = first_lever[axis] + 0.5 * gap[axis];
+        put_vector(t->first_arms, count, row, arm);
+        for (int axis = 0; axis < 3; axis++)
+            arm[axis] = second_lever[axis] - 0.5 * gap[axis];
+        put_vector(t->second_arms, count, row, arm);
+        put_turned(p, one, c->slips, all, at, t->slips, count, row);
+        put_turned(p, one, c->normals, all, at, t->normals, count, row);
+        put_turned(p, one, c->directions, all, at, t->directions, count, row);
+        put_turned(p, one, c->rests, all, at, t->rests, count, row);
+        bar_law bars = bars_at(c, at);
+        double holds = c->holds[at] ? 1.0 : 0.0;
+        t->yields[row] = holds * bars.yields;
+        t->stiffness[row] = holds * bars.stiffness;
+        t->modulus[row] = holds * bars.modulus;
+        t->flows[row] = c->flows[at];
+        t->pressed[row] = c->pressed[c->rows[crack]];
+        t->grips[row] = c->grips[at];
+        t->of_gap[row] = row % chosen_count;
+        t->which[row] = at;
+        t->first[row] = one;
+        t->second[row] = other;
+    }
+    return BDA_DONE;
+}
+
+/* Stiffness of a corner against a shift in a direction. */
+static double stiffness_along(const bda_term *t, int64_t row, const double along[3])
+{
+    double pushed[3];
+    turned_at(t->tangents, t->gaps, row, along, pushed);
+    return dot3(along, pushed);
+}
+
+/* Find the axes (3, 3) of a crack, one after another: normal to its sides, and along them. */
+static void axes_of_crack(const bda_term *t, int64_t crack, double axes[3][3])
+{
+    double one[3], other[3];
+    vector_at(t->normals, t->gaps, crack, axes[0]);
+    vector_at(t->first_arms, t->gaps, crack, one);
+    vector_at(t->first_arms, t->gaps, crack + 2 * t->connections, other);
+    for (int axis = 0; axis < 3; axis++)
+        axes[1][axis] = other[axis] - one[axis];
+    double across = dot3(axes[1], axes[0]);
+    for (int axis = 0; axis < 3; axis++)
+        axes[1][axis] = axes[1][axis] - across * axes[0][axis];
+    double size = sqrt(dot3(axes[1], axes[1]));
+    for (int axis = 0; axis < 3; axis++)
+        axes[1][axis] = axes[1][axis] / size;
+    cross3(axes[0], axes[1], axes[2]);
+}
+
+/* Write how cracks resist small changes of the motion that was guessed last: arms (3, c) from both bodies to the middle
+ * of their stiffness, axes (3, 3, c) as columns, and stiffness (6, c) along and about these. So the sides of a crack that
+ * is closed at one edge turn about that edge, against its bars alone. */
+int bda_crack_joints(const bda_term *t, double *first_arms, double *second_arms, double *axes, double *stiffness)
+{
+    int64_t count = t->connections;
+    for (int64_t crack = 0; crack < count; crack++) {
+        double own[3][3], shares[CORNERS], total = 0.0, sum = 0.0, first[3] = {0.0}, second[3] = {0.0};
+        double found[6] = {0.0}, normal[3], arm[3], moved[3];
+        axes_of_crack(t, crack, own);
+        for (int corner = 0; corner < CORNERS; corner++) {
+            vector_at(t->normals, t->gaps, crack + corner * count, normal);
+            shares[corner] = stiffness_along(t, crack + corner * count, normal);
+            total += shares[corner];
+        }
+        for (int corner = 0; corner < CORNERS; corner++) {
+            shares[corner] = total > 0.0 ? shares[corner] : 1.0;
+            sum += shares[corner];
+        }
+        for (int corner = 0; corner < CORNERS; corner++) {
+            double share = shares[corner] / sum;
+            vector_at(t->first_arms, t->gaps, crack + corner * count, arm);
+            for (int axis = 0; axis < 3; axis++)
+                first[axis] += share * arm[axis];
+            vector_at(t->second_arms, t->gaps, crack + corner * count, arm);
+            for (int axis = 0; axis < 3; axis++)
+                second[axis] += share * arm[axis];
+        }
+        for (int corner = 0; corner < CORNERS; corner++) {
+            vector_at(t->first_arms, t->gaps, crack + corner * count, arm);
+            for (int axis = 0; axis < 3; axis++)
+                arm[axis] = arm[axis] - first[axis];
+            for (int axis = 0; axis < 3; axis++) {
+                cross3(own[axis], arm, moved);
+                found[axis] += stiffness_along(t, crack + corner * count, own[axis]);
+                found[3 + axis] += stiffness_along(t, crack + corner * count, moved);
+            }
+        }
+        put_vector(first_arms, count, crack, first);
+        put_vector(second_arms, count, crack, second);
+        for (int axis = 0; axis < 3; axis++)
+            put_vector(axes + axis * count, 3 * count, crack, own[axis]);
+        for (int number = 0; number < 6; number++)
+            stiffness[number * count + crack] = found[number];
+    }    return BDA_DONE;
+}

@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Cracks that reinforcement holds together, in place of connections that broke: their state from sub-step to sub-step.
+ *
+ * At each of four corners is a quarter of the bars, or what resists the same moments. There the sides press on each
+ * other where the crack is closed, and rub on each other as far as they were pressed as the sub-step began.
+ */
+#ifndef BDA_CRACKS_H
+#define BDA_CRACKS_H
+
+#include "joints.h"
+#include "terms.h"
+
+/* t cracks of m connections, q = 4 t corners, one corner after another; vectors are in the axes of the first bodies. */
+typedef struct {
+    int64_t count, connections;
+    const int64_t *rows;                        /* (t,), connections that they are in place of */
+    const int64_t *first, *second;              /* (q,), bodies */
+    const double *first_anchors, *second_anchors, *normals, *directions; /* (3, q) */
+    double *slips, *flows, *rests, *grips;      /* (3, q), (q,), (3, q), (q,) */
+    uint8_t *holds;                             /* (q,), whether bars have not ruptured */
+    double *solved_for;                         /* (3, 3, q), as in terms */
+    /* Of connections: forces at which bars at corners yield (4, m), part of them that is left, openings at which they
+     * rupture, stiffness of pressed sides, steel (m,). */
+    const double *yields, *shares, *openings, *pressed, *yield_strain, *hardening, *rupture_strain;
+    double dowel, sheared, friction;
+} bda_cracks;
+
+enum { CRACK_STATES = 8 };
+
+BDA_API int bda_cracks_settle(const bda_cracks *cracks, const bda_places *places, uint8_t *holds);
+BDA_API int bda_cracks_grip(const bda_cracks *cracks, const bda_places *places);
+BDA_API int bda_cracks_state(const bda_cracks *cracks, const bda_places *places, double *states);
+BDA_API int bda_cracks_begin(const bda_cracks *cracks, const bda_places *places, int64_t count, const int64_t *chosen,
+                             const bda_term *term);
+BDA_API int bda_crack_joints(const bda_term *term, double *first_arms, double *second_arms, double *axes,
+                              double *stiffness);
+
+#endif
