@@ -2,6 +2,7 @@
 #include "terms.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "bars.h"
@@ -469,4 +470,27 @@ void blocks_of_gaps(guessed_term *g, int64_t connection, int64_t first_gap, doub
     } else {
         put_blocks(&sums, blocks->of_first, blocks->of_second, blocks->between);
     }
+}
+
+/* Write the forces (d, q) that pull the sides of gaps together which have opened further, by `moved` (d, q), and how they
+ * change with that. */
+int bda_try_term(bda_term *t, const double *moved, double *forces)
+{
+    int components = t->kind == BARE_BARS ? 1 : 3;
+    double *room = calloc((size_t)(4 * (t->gaps > 0 ? t->gaps : 1)), sizeof *room);
+    guessed_term g = {.term = t, .components = components, .at_rest = room};
+    if (!room)
+        return BDA_NO_MEMORY;
+    g.stiff = room + 3 * t->gaps;
+    begin_at(&g, moved);
+    for (int64_t row = 0; row < t->gaps; row++) {
+        double own[3], force[3];
+        for (int axis = 0; axis < components; axis++)
+            own[axis] = moved[axis * t->gaps + row];
+        resisted_at(&g, row, own, force);
+        for (int axis = 0; axis < components; axis++)
+            forces[axis * t->gaps + row] = force[axis];
+    }
+    free(room);
+    return BDA_DONE;
 }

@@ -54,6 +54,8 @@ typedef struct {
     uint8_t *changed;                /* (c,), whether tangents differ from those in the equations */
 } guessed_term;
 
+BDA_API int bda_try_term(bda_term *term, const double *moved, double *forces);
+
 void begin_at(guessed_term *term, const double *moved);
 void find_slack(guessed_term *term);
 void move_by(const guessed_term *term, const double *velocities, int64_t bodies, double substep_s, double *moved);
