@@ -378,13 +378,13 @@ typedef struct {
     double about_first[3][3], about_second[3][3], about_both[3][3];
 } sums_of_gaps;
 
-static void column_of(const double matrix[3][3], int column, double vector[3])
+static void column_of(double matrix[3][3], int column, double vector[3])
 {
     for (int axis = 0; axis < 3; axis++)
         vector[axis] = matrix[axis][column];
 }
 
-static void add_gap(sums_of_gaps *s, const double tangent[3][3], const double first_arm[3], const double second_arm[3])
+static void add_gap(sums_of_gaps *s, double tangent[3][3], const double first_arm[3], const double second_arm[3])
 {
     double turning_first[3][3], turning_second[3][3], column[3], product[3];
     for (int axis = 0; axis < 3; axis++) {

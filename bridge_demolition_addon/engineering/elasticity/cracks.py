@@ -194,39 +194,34 @@ class Cracks:
     def _in_core(self) -> CoreCracks:
         """Return what the core works on, which changes what is here."""
         if self._core is None:
-            corners, connections = _COUNT * len(self.rows), len(self._shares)
-            self._core = core = CoreCracks(
-                count=len(self.rows), connections=connections, dowel=DOWEL_SHARE, sheared=SHEARED, friction=FRICTION
+            count, connections = len(self.rows), len(self._shares)
+            self._core = CoreCracks(
+                count=count, connections=connections, dowel=DOWEL_SHARE, sheared=SHEARED, friction=FRICTION
             )
-            core.point("rows", self.rows, len(self.rows))
-            for name, array in (
-                ("first", self._first),
-                ("second", self._second),
-                ("flows", self._flows),
-                ("grips", self._grips_n),
-                ("holds", self._holds),
-            ):
-                core.point(name, array, corners)
-            for name, array in (
-                ("first_anchors", self._first_anchors),
-                ("second_anchors", self._second_anchors),
-                ("normals", self._normals),
-                ("directions", self._directions),
-                ("slips", self._slips),
-                ("rests", self._rests),
-            ):
-                core.point(name, array, 3 * corners)
-            core.point("solved_for", self._solved_for, 9 * corners)
-            core.point("yields", self._yield_n, _COUNT * connections)
-            for name, array in (
-                ("shares", self._shares),
-                ("openings", self._openings_m),
-                ("pressed", self._pressed_n_m),
-                ("yield_strain", self._steel.yield_strain),
-                ("hardening", self._steel.hardening),
-                ("rupture_strain", self._steel.rupture_strain),
-            ):
-                core.point(name, array, connections)
+            arrays: dict[str, tuple[FloatArray | IntArray | BoolArray, int]] = {
+                "rows": (self.rows, count),
+                "first": (self._first, _COUNT * count),
+                "second": (self._second, _COUNT * count),
+                "first_anchors": (self._first_anchors, 3 * _COUNT * count),
+                "second_anchors": (self._second_anchors, 3 * _COUNT * count),
+                "normals": (self._normals, 3 * _COUNT * count),
+                "directions": (self._directions, 3 * _COUNT * count),
+                "slips": (self._slips, 3 * _COUNT * count),
+                "flows": (self._flows, _COUNT * count),
+                "rests": (self._rests, 3 * _COUNT * count),
+                "grips": (self._grips_n, _COUNT * count),
+                "holds": (self._holds, _COUNT * count),
+                "solved_for": (self._solved_for, 9 * _COUNT * count),
+                "yields": (self._yield_n, _COUNT * connections),
+                "shares": (self._shares, connections),
+                "openings": (self._openings_m, connections),
+                "pressed": (self._pressed_n_m, connections),
+                "yield_strain": (self._steel.yield_strain, connections),
+                "hardening": (self._steel.hardening, connections),
+                "rupture_strain": (self._steel.rupture_strain, connections),
+            }
+            for name, (array, size) in arrays.items():
+                self._core.point(name, array, size)
         return self._core
 
     def _bars(self) -> Bars:

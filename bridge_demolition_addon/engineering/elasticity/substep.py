@@ -189,8 +189,11 @@ class Term(Struct):
         """Return a term of cracks (c,) whose arrays are not filled yet."""
         gaps = 4 * len(rows)
         whole = {name: np.empty(gaps, int) for name in ("which", "first", "second")}
-        vectors = {name: np.empty((3, gaps)) for name in ("slips", "normals", "directions", "rests")}
-        numbers = ("yields", "stiffness", "modulus", "flows", "pressed", "grips")
+        law: dict[str, FloatArray | BoolArray] = {
+            name: np.empty((3, gaps)) for name in ("slips", "normals", "directions", "rests")
+        }
+        for name in ("yields", "stiffness", "modulus", "flows", "pressed", "grips"):
+            law[name] = np.empty(gaps)
         return cls.of(
             CRACKS,
             rows,
@@ -200,7 +203,7 @@ class Term(Struct):
             (whole["first"], whole["second"]),
             (np.empty((3, gaps)), np.empty((3, gaps))),
             np.empty((3, gaps)),
-            vectors | {name: np.empty(gaps) for name in numbers},
+            law,
             dowel=dowel,
             sheared=sheared,
         )
