@@ -106,9 +106,6 @@ def test_no_two_test_modules_have_one_name():
     assert {name for name, count in names.items() if count > 1} == set()
 
 
-MOST_METHODS, MOST_PARAMETERS = 20, 7
-
-
 @cache
 def classes():
     """All classes of the package with their modules."""
@@ -118,26 +115,6 @@ def classes():
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
         if isinstance(node, ast.ClassDef)
     ]
-
-
-def size_of(class_):
-    """Number of methods of a class, and of parameters of its constructor besides `self`."""
-    methods = [node for node in class_.body if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)]
-    constructors = [method.args for method in methods if method.name == "__init__"]
-    parameters = [
-        len(constructor.posonlyargs) + len(constructor.args) + len(constructor.kwonlyargs) - 1
-        for constructor in constructors
-    ]
-    return len(methods), max(parameters, default=0)
-
-
-def test_classes_have_few_methods_and_constructors_few_parameters():
-    large = set()
-    for _, class_ in classes():
-        methods, parameters = size_of(class_)
-        if methods > MOST_METHODS or parameters > MOST_PARAMETERS:
-            large.add(class_.name)
-    assert large == set()
 
 
 def test_no_two_public_classes_have_one_name():

@@ -227,11 +227,18 @@ def test_springs_resist_as_by_numpy(seed):
     np.testing.assert_array_equal(found[1], tangents)
 
 
-def test_numbers_out_of_range_are_refused():
+def test_numbers_out_of_range_are_refused(monkeypatch):
     """A body that there is not would be read past the end of arrays."""
     structure = Structure(1, bared=False)
     start = StepInput(structure.positions, structure.rotations, structure.velocities, np.zeros(BODIES, bool))
-    structure.cracks._second[2] = BODIES
+    in_substep = structure.cracks.in_substep
+
+    def beyond(*given):
+        term = in_substep(*given)
+        term.arrays["second"][2] = BODIES
+        return term
+
+    monkeypatch.setattr(structure.cracks, "in_substep", beyond)
     with pytest.raises(ValueError, match="that there are not"):
         structure.structure.step(start, structure.intact, SUBSTEP_S)
     frames = replace(structure.frames, first=structure.frames.first + BODIES)
