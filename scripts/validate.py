@@ -24,6 +24,8 @@ from case import GROUPS, Against, Case, Comparison, Found
 from deciding_version import deciding_version
 from matplotlib.figure import Figure
 
+from bridge_demolition_addon.report.wording.measurements import TABLE
+
 ROOT = Path(__file__).resolve().parent.parent
 CASES = (
     # held against theory of the same model
@@ -89,7 +91,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
         folder = options.output or Path(temporary)
         outcomes = [_run(case_named(name), folder, is_kept=is_kept) for name in names]
     if is_kept or options.page:
-        DOCUMENT.write_text(page([kept(name) for name in CASES]), encoding="utf-8")
+        outcomes_kept = [kept(name) for name in CASES]
+        DOCUMENT.write_text(page(outcomes_kept), encoding="utf-8")
+        TABLE.write_text(measurements(outcomes_kept), encoding="utf-8")
     return 0 if all(outcome.is_met for outcome in outcomes) else 1
 
 
@@ -175,6 +179,18 @@ def _overview(outcomes: Sequence[Outcome]) -> list[str]:
         lines.append(f"| {' | '.join(cells)} |")
     totals = [_counted([row for outcome in outcomes for row in outcome.held_against(against)]) for against in Against]
     return [*lines, f"| all | {' | '.join(totals)} | |"]
+
+
+def measurements(outcomes: Sequence[Outcome]) -> str:
+    """Return the table of cases that are held against measurements, as reports count them."""
+    lines = ["case,within,of,least_ratio,largest_ratio"]
+    for outcome in outcomes:
+        if rows := outcome.held_against(Against.MEASURED):
+            ratios = [given for row in rows if (given := row.ratio) is not None]
+            ends = [f"{end(ratios):.4g}" if ratios else "" for end in (min, max)]
+            within = sum(row.is_met for row in rows)
+            lines.append(",".join([f'"{outcome.case.title}"', str(within), str(len(rows)), *ends]))
+    return "\n".join(lines) + "\n"
 
 
 def _counted(comparisons: Sequence[Comparison]) -> str:

@@ -10,6 +10,8 @@ from case import GROUPS, VALIDATION, Against, Comparison
 from scipy.spatial.transform import Rotation
 from support.checkout import ROOT
 
+from bridge_demolition_addon.report.wording.measurements import TABLE, measured_cases
+
 
 @pytest.mark.parametrize("name", validate.CASES)
 def test_the_page_has_the_case_as_it_is_now(name):
@@ -24,6 +26,16 @@ def test_the_page_is_what_was_kept():
     assert validate.DOCUMENT.read_text(encoding="utf-8") == validate.page(
         [validate.kept(case) for case in validate.CASES]
     )
+
+
+def test_reports_count_hits_and_misses_of_what_was_kept():
+    """`scripts/validate --page` writes their table, too; the page's own count is by rows."""
+    kept = [validate.kept(case) for case in validate.CASES]
+    assert TABLE.read_text(encoding="utf-8") == validate.measurements(kept)
+    cases = measured_cases()
+    total = f"{sum(case.within for case in cases)} of {sum(case.of for case in cases)} | |"
+    (line,) = (line for line in validate.page(kept).splitlines() if line.startswith("| all |"))
+    assert line.endswith(total)
 
 
 def test_all_cases_together_take_half_an_hour_at_most():

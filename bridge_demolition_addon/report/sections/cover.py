@@ -12,20 +12,48 @@ from ...model.results.arrays import Results
 from ...model.run_folder.summary import RunSummary
 from ...model.scenario import Scenario
 from ...model.scenario.contact_facts import contact_facts
-from ..document.blocks import Block, Listing, Paragraph, Photo, Section, facts
+from ...model.scenario.scenario import rules_of_bars
+from ..document.blocks import Block, Column, DataTable, Listing, Paragraph, Photo, Section, facts
 from ..findings import IMPACT, findings
 from ..run_folder import ReportedRun
 from ..wording.checks import CHECKS
 from ..wording.clearance import Flyrock, fragment_rows
+from ..wording.measurements import measured_cases
 
 RUN_TITLE = "The run"
 TRUST_TITLE = "What is modelled, and how far to trust it"
 
-SOURCES = (
+_SOURCES = (
     ("Motion, contacts and connections", "Bullet, the rigid-body engine in Blender, stepped as this report says"),
     ("Loads on bodies and connections", "read from Bullet after its steps; in the tests they agree with statics"),
     ("Stresses", "mean over each shard, from the forces on it; equivalent stress after von Mises"),
-    ("Estimated forces of the ball's hits", "impulse and contact time after Hertz: Johnson, Contact Mechanics (1985)"),
+)
+_OF_BALL = (
+    "Estimated forces of the ball's hits",
+    "impulse and contact time after Hertz: Johnson, Contact Mechanics (1985)",
+)
+_OF_BARS = (
+    "Cracks and bars",
+    "EN 1992-1-1 and fib Model Code 2010; rupture by the tension chord model, Marti et al. (1998)",
+)
+_OF_RULES = (
+    "Bars by rule",
+    "EN 1992-1-1 and EN 1991-2: a guess at what was built, where drawings do not say",
+)
+_OF_BEARINGS = ("Bearings", "springs that open and slide, as the scenario gives them")
+_OF_ZONES = (
+    (
+        "Drilled charges",
+        "thresholds of the specific charge, of blasting manuals and recorded jobs: within a factor of 2",
+    ),
+    ("Bars bared by a charge", "curve c of EN 1993-1-1, and plastic hinges after Jones, Structural Impact (2011)"),
+    (
+        "Fragments (flyrock)",
+        "sizes by Kuz-Ram, Cunningham (1987); rules of Lundborg et al. (1975) and McKenzie (2009): not calibrated on "
+        "concrete",
+    ),
+)
+_OF_CHARGES = (
     ("Blast waves", "Kingery and Bulmash, or Kinney and Graham; explosives in TNT after Swisdak and Baker et al."),
     ("Thresholds of damage", "Clancey (1972), Richmond et al. (1989)"),
     ("Ground vibration", "Nicholls, Johnson and Duvall, USBM Bulletin 656 (1971), with handbook constants"),
@@ -36,6 +64,10 @@ _ELASTIC = "Shards are rigid; connections deform by their material, and members 
 _SPLINTERS = (
     "No piece is smaller than a shard. Splinters and what flies off at an impact are not modelled; they fly farther "
     "than any throw given here, and only the buffer of the exclusion zone accounts for them."
+)
+_FLYROCK = (
+    "No piece is smaller than a shard. Fragments of blast zones are sampled beside the run, within a factor of 2. What "
+    "flies off at an impact is not modelled, and only the buffer of the exclusion zone accounts for it."
 )
 _PEAKS = "Peak forces of impacts depend on the time step, their impulses do not."
 _ONE_FORCE = "One breaking force for all connections makes the result depend on how finely the bridge is cut."
@@ -53,7 +85,8 @@ def limits_of(scenario: Scenario | None) -> list[str]:
     is_elastic = connections is not None and connections.is_elastic
     has_bars = scenario is not None and scenario.is_reinforced
     blasts = scenario is None or bool((scenario.charges or scenario.blast_zones) and scenario.blast.explosion)
-    limits = [_ELASTIC if is_elastic else _RIGID, _SPLINTERS, _PEAKS]
+    splinters = _FLYROCK if scenario and scenario.blast_zones else _SPLINTERS
+    limits = [_ELASTIC if is_elastic else _RIGID, splinters, _PEAKS]
     limits.append(_BY_CUT if connections is not None and connections.material else _ONE_FORCE)
     limits += [] if has_bars else [_NO_BARS]
     limits += [] if scenario and scenario.foundations else [_NO_SOIL]
@@ -93,21 +126,69 @@ def findings_section(
 
 def trust_section(scenario: Scenario | None, *more: str) -> Section:
     """Return where the numbers come from, and how far to trust them, with more words on their limits."""
-    modelled = (
-        "a bridge of rigid shards that connections hold together until they break, contact with friction, gravity"
-    )
-    if scenario and scenario.ball:
-        modelled += ", a wrecking ball"
-    if scenario and scenario.charges and scenario.blast.explosion:
-        modelled += ", the air blast of charges on the outsides of the shards"
     checks = [(f"{check.what[0].upper()}{check.what[1:]}", f"{check.against}: {check.within}") for check in CHECKS]
     blocks: list[Block] = [
-        Paragraph(f"What is modelled: {modelled}."),
-        facts("Where the numbers come from", SOURCES),
+        Paragraph(f"What is modelled: {'; '.join(modelled(scenario))}."),
+        facts("Where the numbers come from", list(sources(scenario))),
         facts("What has been checked, against what and how closely it agrees", checks),
+        _held_against_measurements(),
         *(Paragraph(text) for text in (*limits_of(scenario), *more)),
     ]
     return Section(TRUST_TITLE, tuple(blocks))
+
+
+def modelled(scenario: Scenario | None) -> Iterator[str]:
+    """Yield what the model of a scenario has; where it is not known, what every model has."""
+    yield "a bridge of rigid shards that connections hold together until they break"
+    yield "contact with friction"
+    yield "gravity"
+    if scenario is None:
+        return
+    zones = bool(scenario.blast_zones and scenario.blast.explosion)
+    parts = (
+        (scenario.connections.is_elastic, "elastic connections that crack by their strength"),
+        (scenario.is_reinforced, "reinforcing bars across cracks, until they rupture"),
+        (scenario.bearings, "bearings"),
+        (scenario.tendons, "tendons"),
+        (scenario.foundations, "soil below foundations, as springs"),
+        (scenario.steelwork, "members of steel"),
+        (scenario.ball, "a wrecking ball"),
+        (zones, "charges in drill holes, whose specific charge decides what stays of their zones"),
+        (zones, "fragments of blast zones, sampled beside the run"),
+        (scenario.charges and scenario.blast.explosion, "the air blast of charges on the outsides of the shards"),
+    )
+    yield from (text for applies, text in parts if applies)
+
+
+def sources(scenario: Scenario | None) -> Iterator[tuple[str, str]]:
+    """Yield where the numbers of a scenario come from; where it is not known, those of every model and of charges."""
+    yield from _SOURCES[:3]
+    if scenario is None or scenario.ball:
+        yield _OF_BALL
+    if scenario is not None and scenario.is_reinforced:
+        yield _OF_BARS
+    if scenario is not None and rules_of_bars(scenario):
+        yield _OF_RULES
+    if scenario is not None and scenario.bearings:
+        yield _OF_BEARINGS
+    if scenario is not None and scenario.blast_zones:
+        yield from _OF_ZONES
+    if scenario is None or scenario.charges or scenario.cuts or scenario.blast_zones:
+        yield from _OF_CHARGES
+
+
+def _held_against_measurements() -> DataTable:
+    """Return how the model agrees with what was measured, misses first."""
+    cases = measured_cases()
+    within, of = sum(case.within for case in cases), sum(case.of for case in cases)
+    columns = (
+        Column("case", "case", "", lambda case: case.case),
+        Column("within their tolerance", "within", "d", lambda case: case.within),
+        Column("numbers", "of", "d", lambda case: case.of),
+        Column("found over measured", "ratios", "", lambda case: case.ratios_text),
+    )
+    title = f"Held against what was measured: {within} of {of} numbers are within their tolerance"
+    return DataTable.of("", title, columns, cases)
 
 
 def scenario_section(run: ReportedRun, text: str) -> Section:
