@@ -187,7 +187,7 @@ def measurements(outcomes: Sequence[Outcome]) -> str:
     for outcome in outcomes:
         if rows := outcome.held_against(Against.MEASURED):
             ratios = [given for row in rows if (given := row.ratio) is not None]
-            ends = [f"{end(ratios):.4g}" if ratios else "" for end in (min, max)]
+            ends = [f"{end(ratios):.6g}" if ratios else "" for end in (min, max)]
             within = sum(row.is_met for row in rows)
             lines.append(",".join([f'"{outcome.case.title}"', str(within), str(len(rows)), *ends]))
     return "\n".join(lines) + "\n"

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ..engineering.unit_systems import UnitSystem
+from ..engineering.units import kilonewtons
 from ..errors import Faults, OutputError
 from ..model.reinforcement.concrete_members import plain_concrete_text
 from ..model.results.bar_extremes import bars_text, largest_use_text
@@ -209,7 +210,7 @@ def _print_paths(paths: Sequence[Path]) -> None:
 
 
 def _result_facts(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
-    force = summary["largest_force_sum"]
+    force = summary["largest_resultant"]
     yield "connections", ConnectionCounts.of_summary(summary).text
     if bars := bars_text(summary):
         yield "reinforcement", bars
@@ -217,8 +218,8 @@ def _result_facts(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
         yield "largest use of bars", use
         yield "", "no margin: under an impact it depends on the length of sub-steps"
     if force:
-        position = f"on {force['body']} at {force['time_s']:.3f} s"
-        yield "largest sum of forces", f"{force['force_N'] / 1000.0:.1f} kN {position}"
+        position = f"the resultant on {force['body']} at {force['time_s']:.3f} s"
+        yield "largest load on a shard", f"{kilonewtons(force['force_N'])} kN, {position}"
     if impact := summary["impact"]:
         yield "impact of the ball", f"{first_hit_s(summary):.3f} s, frame {impact['frame']}"
     creeping = creep_text(summary)

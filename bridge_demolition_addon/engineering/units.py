@@ -66,6 +66,11 @@ def with_digits(value: float, decimals: int, significant: int = SIGNIFICANT_DIGI
     return f"{value:.{max(decimals, significant - 1 - math.floor(math.log10(abs(value))))}f}"
 
 
+def kilonewtons(force_n: float) -> str:
+    """Return a force in kN with three digits: those of impacts hang on the sub-step, and more would say nothing."""
+    return with_digits(float(f"{force_n / 1e3:.{SIGNIFICANT_DIGITS}g}"), 0)
+
+
 def rounded_up(value: float, step: str) -> str:
     """Return a number, rounded up to a decimal step such as 0.1; rounding errors of binary fractions do not count."""
     return str(Decimal(f"{value:.9f}").quantize(Decimal(step), ROUND_CEILING))

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..engineering.units import SIGNIFICANT_DIGITS, mass_text, rounded_up, with_digits
+from ..engineering.units import kilonewtons, mass_text, rounded_up
 from ..model.debris.throws import Debris, percentiles_by_mass
 from ..model.results.collapse import collapse_progress, rest_of
 from ..model.results.connection_counts import ConnectionCounts
@@ -83,8 +83,7 @@ def _largest_load(run: ReportedRun) -> Finding:
         return Finding("Largest load on a shard", "kN", None, "not known")
     (peak,) = peaks
     name, time_s = results.inventory.body_names[peak.row], results.frames.time_s[peak.step]
-    force = with_digits(float(f"{peak.force_n / 1e3:.{SIGNIFICANT_DIGITS}g}"), 0)
-    text = f"{force} kN, the resultant on {name} in its worst sub-step, at {time_s:.3f} s"
+    text = f"{kilonewtons(peak.force_n)} kN, the resultant on {name} in its worst sub-step, at {time_s:.3f} s"
     return Finding("Largest load on a shard", "kN", peak.force_n / 1e3, text)
 
 

@@ -21,8 +21,8 @@ _AROUND = ("neighbours", "charge_neighbours", "touchdown", "neighbours_of_runs",
 _MOST_ROWS = 16
 """Rows of a table that fit on the crew's page beside all else."""
 
-_NOT_FOR_CREW = ("Came down by", "Outcome", "Rests on")
-"""Rows of the plan that the verdict says in short."""
+_NOT_FOR_CREW = ("Done to the bridge", "Came down by", "Outcome", "Rests on")
+"""Rows of the plan that the verdict says in short, or the planned sequence in full."""
 
 _BLANK = "________"
 _LINE_FACTOR, _CRANE_FACTOR = 4.0, 2.0
@@ -103,7 +103,8 @@ def _for_crew(document: Document, scenario: Scenario | None) -> Iterator[Block]:
     verdict, plan, _ = _first_words(document)
     yield from verdict
     yield Paragraph(_PLANNED, is_notice=True)
-    yield from (replace(table, rows=[row for row in table.rows if row[0] not in _NOT_FOR_CREW]) for table in plan)
+    left_out = (*_NOT_FOR_CREW, CORDON) if _has_cordon(scenario) else _NOT_FOR_CREW  # which people are clear of
+    yield from (replace(table, rows=[row for row in table.rows if row[0] not in left_out]) for table in plan)
     if (sequence := document.table("sequence")) is not None:
         yield _shortened(sequence)
     yield facts("Who stands where, and when", list(_safety(scenario, plan)))
@@ -122,8 +123,7 @@ def _first_words(document: Document) -> tuple[list[Paragraph], list[DataTable], 
 
 
 def _safety(scenario: Scenario | None, plan: Sequence[DataTable]) -> Iterator[tuple[str, str]]:
-    exclusion = scenario.exclusion if scenario else None
-    if exclusion is not None and exclusion.cordon_m is not None:
+    if _has_cordon(scenario):
         yield "Clear of people within", next(row[1] for table in plan for row in table.rows if row[0] == CORDON)
     else:
         yield "Clear of people within", f"{_BLANK} m of the bridge's plan: to be filled in by the engineer"
@@ -142,6 +142,10 @@ def _safety(scenario: Scenario | None, plan: Sequence[DataTable]) -> Iterator[tu
             ),
         )
     yield "No one goes near before", "debris is at rest, and what still stands was looked at"
+
+
+def _has_cordon(scenario: Scenario | None) -> bool:
+    return scenario is not None and scenario.exclusion is not None and scenario.exclusion.cordon_m is not None
 
 
 def _crane_text(ball: Ball) -> str:

@@ -140,7 +140,8 @@ def test_every_page_of_a_run_begins_with_its_doubts_and_sets_the_cordon_against_
             assert (plan_of(page).get("Debris distance") is None) == (start_s > END_S), name
             distance = plan_of(page).get("Debris distance")
             assert distance is None or "one run gives no limit" in distance, name
-            check_clearance(page, drilled, cordon_m)
+            if audience != "crew" or cordon_m is None:
+                check_clearance(page, drilled, cordon_m)
         if cordon_m is not None:
             assert f"Clear of people within {plan_of(document)['Cordon']}" in texts(pages["crew"])
         first = findings.blocks[0]
@@ -156,7 +157,7 @@ def check_clearance(page, drilled, cordon_m):
     flown, cordon = plan_of(page).get("Fragments (flyrock)"), plan_of(page).get("Cordon")
     assert (flown is not None) == drilled
     if drilled:
-        assert f"{np.ceil(LUNDBORG_M[76.0]):.0f} m by Lundborg" in flown and "no safety distance" in flown
+        assert f"{LUNDBORG_M[76.0]:.0f} m by Lundborg" in flown and "no safety distance" in flown
     if cordon_m is None:
         assert (cordon is not None) == drilled
         assert not drilled or ("none in the scenario" in cordon and "540 m by Lundborg" in cordon)
@@ -181,7 +182,7 @@ def test_the_authority_sees_the_worst_zone_first_and_all_of_them(kept):
     (fragments,) = (block for block in page.summary if isinstance(block, DataTable) and block.name == "fragments")
     farthest = [row[5] for row in fragments.rows]
     assert len(farthest) == 12 and farthest == sorted(farthest, reverse=True)
-    assert f"{np.ceil(farthest[0]):.0f} m ({fragments.rows[0][0]})" in plan_of(page).get("Fragments (flyrock)")
+    assert f"{farthest[0]:.0f} m ({fragments.rows[0][0]})" in plan_of(page).get("Fragments (flyrock)")
 
 
 def test_every_page_of_a_study_sets_the_cordon_against_fragments(flyrock):
@@ -191,7 +192,9 @@ def test_every_page_of_a_study_sets_the_cordon_against_fragments(flyrock):
     for page in (document, *single_pages(document, scenario).values()):
         assert "In 3 of 93 runs not everything had rested" in texts(page)[0]
         assert "Debris stays within" in texts(page)[1]
-        check_clearance(page, True, 250.0)
+        if "Cordon" in plan_of(page):
+            check_clearance(page, True, 250.0)
+    assert f"Clear of people within {plan_of(document)['Cordon']}" in texts(single_pages(document, scenario)["crew"])
 
 
 def test_a_study_says_in_how_many_runs_the_solver_made_much_energy():

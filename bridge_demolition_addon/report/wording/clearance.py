@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from ...engineering.units import rounded_up
 from ...model.scenario import Scenario
 from ...model.structure.charge_plan import ChargePlan, zone_name
 from ...model.structure.zone_fragments import NO_SAFETY_DISTANCE
@@ -29,7 +28,8 @@ class Flyrock:
     @property
     def text(self) -> str:
         """Return all distances, with what they are worth."""
-        rules = f"up to {_up(self.lundborg_m)} m by Lundborg and {_up(self.mckenzie_m)} m by McKenzie without a cover"
+        lundborg, mckenzie = _metres(self.lundborg_m), _metres(self.mckenzie_m)
+        rules = f"up to {lundborg} m by Lundborg and {mckenzie} m by McKenzie without a cover"
         return f"{self.sampled}; {rules}: {NO_SAFETY_DISTANCE}"
 
     @property
@@ -47,8 +47,8 @@ def flyrock_of_plan(plan: ChargePlan) -> Flyrock | None:
     farthest, worst = max(flown, key=lambda pair: pair[0].sampled.largest_m)
     nearly_all_m = max(of.sampled.nearly_all_m for of, _ in flown)
     return Flyrock(
-        f"sampled under their cover up to {_up(farthest.sampled.largest_m)} m ({zone_name(worst)}), 99.9 % of their "
-        f"mass within {_up(nearly_all_m)} m",
+        f"sampled under their cover up to {_metres(farthest.sampled.largest_m)} m ({zone_name(worst)}), 99.9 % of "
+        f"their mass within {_metres(nearly_all_m)} m",
         farthest.sampled.largest_m,
         max(of.lundborg_m for of, _ in flown),
         max(of.mckenzie_m for of, _ in flown),
@@ -60,8 +60,8 @@ def flyrock_of_runs(limits: FragmentLimits) -> Flyrock:
     if not limits.are_known:
         return Flyrock("sampled ones have no limit yet", 0.0, limits.lundborg_m, limits.mckenzie_m)
     return Flyrock(
-        f"sampled under their cover up to {_up(limits.largest_m)} m, 99.9 % of their mass within "
-        f"{_up(limits.nearly_all_m)} m",
+        f"sampled under their cover up to {_metres(limits.largest_m)} m, 99.9 % of their mass within "
+        f"{_metres(limits.nearly_all_m)} m",
         limits.largest_m,
         limits.lundborg_m,
         limits.mckenzie_m,
@@ -88,7 +88,7 @@ def clearance_rows(
         yield CORDON, cordon_text(scenario.exclusion.cordon_m, [*flown, *([debris] if debris else ())])
     elif flown:
         far_m, what = max(flown)
-        yield CORDON, f"none in the scenario; the largest distance of fragments is {_up(far_m)} m {what}"
+        yield CORDON, f"none in the scenario; the largest distance of fragments is {_metres(far_m)} m {what}"
 
 
 def cordon_text(cordon_m: float, distances: Sequence[Distance]) -> str:
@@ -96,9 +96,10 @@ def cordon_text(cordon_m: float, distances: Sequence[Distance]) -> str:
     beyond = sorted((distance for distance in distances if distance[0] > cordon_m), reverse=True)
     text = f"{cordon_m:g} m around the bridge's plan, by the scenario"
     if beyond:
-        return f"{text}: shorter than {' and '.join(f'{_up(far_m)} m {what}' for far_m, what in beyond)}"
+        return f"{text}: shorter than {' and '.join(f'{_metres(far_m)} m {what}' for far_m, what in beyond)}"
     return f"{text}: not shorter than any of these distances" if distances else text
 
 
-def _up(distance_m: float) -> str:
-    return rounded_up(distance_m, "1")
+def _metres(distance_m: float) -> str:
+    """Return a distance as the table of fragments has it."""
+    return f"{distance_m:.0f}"

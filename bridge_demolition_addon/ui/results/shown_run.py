@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 import bpy
 
+from ...engineering.units import kilonewtons
 from ...errors import DemolitionError, OutputError, UnreadableError
 from ...model.results.arrays import Results
 from ...model.results.bar_extremes import bars_text, largest_use_text
@@ -152,7 +153,7 @@ def _throw_text(throw_m: float, summary: Mapping[str, Any]) -> str:
 
 
 def _force_text(force_n: float) -> str:
-    return f"{force_n / _N_PER_KN:,.0f} kN".replace(",", " ")
+    return f"{kilonewtons(force_n)} kN"
 
 
 def _kilonewtons(force_n: float | None) -> str:
