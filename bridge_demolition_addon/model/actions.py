@@ -113,15 +113,30 @@ class CutPlane:
 
 
 @dataclass(frozen=True, slots=True)
-class CutBox:
-    """A box whose sides members are cut along, so that an action can take what of them is in it."""
+class CutMembers:
+    """What members are cut along before they are made into shards."""
 
     members: tuple[str, ...] | None  # names or kinds; None for all
-    box_m: tuple[Point, Point]  # lowest and highest corner
 
     def cuts(self, names: tuple[str, str]) -> bool:
         """Return whether it is for a member with this name and kind."""
         return self.members is None or not set(names).isdisjoint(self.members)
+
+
+@dataclass(frozen=True, slots=True)
+class CutBox(CutMembers):
+    """A box whose sides members are cut along, so that an action can take what of them is in it."""
+
+    box_m: tuple[Point, Point]  # lowest and highest corner
+
+
+@dataclass(frozen=True, slots=True)
+class CutThrough(CutMembers):
+    """A plane in any direction that members are cut along, or those that it meets in a box."""
+
+    point_m: Point
+    normal: Point
+    box_m: tuple[Point, Point] | None
 
 
 class PlannedAction(Table):
@@ -155,7 +170,7 @@ class PlannedAction(Table):
         """Yield the keys and values of positions that have to be on the deck."""
         yield from ()
 
-    def cut_planes(self) -> tuple[CutPlane | CutBox, ...]:
+    def cut_planes(self) -> tuple[CutPlane | CutMembers, ...]:
         """Return the planes and boxes that shards end at: all that a model takes of what is done to its bridge."""
         return ()
 

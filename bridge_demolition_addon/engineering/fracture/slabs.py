@@ -1,4 +1,4 @@
-"""Solids cut across axes, so that shards end at given planes and boxes."""
+"""Solids cut so that shards end at given planes and boxes."""
 
 from __future__ import annotations
 
@@ -11,12 +11,13 @@ from manifold3d import Manifold
 from ..arrays import FloatArray
 from ..geometry.mesh import TriangleMesh
 from ..geometry.solids import bodies, from_manifold, to_manifold
+from ..geometry.vectors import dot, unit
 
 _SAME_PLANE = 1e-7
 """Part of the solid's extent along the axis within which a plane lies in its end, and does not cut it."""
 
 _THINNEST_M = 0.01
-"""Thinner slices are not cut off: so far apart sides of a box and faces of a member may be meant to be the same."""
+"""Thinner slices are not cut off: so far apart a plane and a face of a member may be meant to be the same."""
 
 _RUBBISH = 1e-12
 """Part of the solid's volume below which a piece is rounding."""
@@ -54,6 +55,33 @@ def cut_out(solid: TriangleMesh, box_m: FloatArray) -> tuple[TriangleMesh, ...]:
         pieces += _connected(outside, solid.volume)
     inside = _connected(rest, solid.volume)
     return (*pieces, *inside) if pieces and inside else (solid,)
+
+
+def cut_through(
+    solid: TriangleMesh, point_m: FloatArray, normal: FloatArray, box_m: FloatArray | None = None
+) -> tuple[TriangleMesh, ...]:
+    """Return the connected pieces behind a plane, then those before it; the solid itself where it is not cut.
+
+    With a box (2, 3) only what its part of the plane meets is cut, and that right through.
+    """
+    across = unit(normal)
+    level_m = float(dot(across, point_m))
+    if not _on_both_sides(solid.vertices, across, level_m, _THINNEST_M):
+        return (solid,)
+    if box_m is not None:
+        lower, upper = np.maximum(solid.bounds[0], box_m[0]), np.minimum(solid.bounds[1], box_m[1])
+        beside = (upper - lower < np.minimum(_THINNEST_M, np.ptp(box_m, axis=0))).any()
+        corners = np.array(list(product(*zip(lower, upper, strict=True))))
+        if beside or not _on_both_sides(corners, across, level_m, 0.0):
+            return (solid,)
+    before, behind = to_manifold(solid).split_by_plane(across.tolist(), level_m)
+    return (*_connected(behind, solid.volume), *_connected(before, solid.volume))
+
+
+def _on_both_sides(points_m: FloatArray, across: FloatArray, level_m: float, least_m: float) -> bool:
+    """Return whether points (k, 3) lie on both sides of a plane, some at least so far from it."""
+    heights_m = dot(points_m, across) - level_m
+    return bool(heights_m.min() <= -least_m and heights_m.max() >= least_m)
 
 
 def slab_between(solid: TriangleMesh, axis: int, lowest_m: float, highest_m: float) -> TriangleMesh:

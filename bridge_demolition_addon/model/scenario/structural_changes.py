@@ -7,11 +7,11 @@ from typing import ClassVar
 from ...engineering.drilled_charges.specific_charge import Effect
 from ...engineering.geometry.sides import AXES
 from ...errors import ScenarioError
-from ..actions import Fact, Plan, Worksite
+from ..actions import CutThrough, Fact, Plan, Worksite
 from ..blast.cuts import MemberCut
 from ..lifts import Lift
 from ..loads import Part
-from ..schema import key, shown
+from ..schema import given, key, shown
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -82,7 +82,8 @@ def lifting_away(lift: Lift) -> LiftingAway:
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SawCut(Change):
     """A saw cut through a plane: in one moment it cuts the connections between shards on its two sides, of the members
-    and in the box, or everywhere. It runs along the faces of shards; the finer they are, the straighter it is.
+    and in the box, or everywhere. The members are cut along the plane before they are made into shards, so that each
+    side weighs what the plane leaves it, and lies on its own bearings. A box chooses faces by their middles.
     """
 
     table: ClassVar[str] = "saw_cuts"
@@ -90,11 +91,23 @@ class SawCut(Change):
 
     point_m: tuple[float, float, float] = key("A point of the plane.", unit="m")
     normal: tuple[float, float, float] = key("Direction across the plane, of any length but 0.")
+    along: str = key(
+        "What the cut follows: `plane` cuts shards apart along it; `faces` goes around shards, in steps, and so do all "
+        "cuts through steelwork and members with `fracture.points`.",
+        default="plane",
+        choices=("plane", "faces"),
+    )
 
     def _check_together(self) -> None:
         Change._check_together(self)
         if not any(self.normal):
             raise ScenarioError(f"{self.table}.normal is {shown(self.normal)}, all 0: expected a direction")
+
+    def cut_planes(self) -> tuple[CutThrough, ...]:
+        if self.along == "faces":
+            return ()
+        box_m = None if self.lowest_corner_m is None else (self.lowest_corner_m, given(self.highest_corner_m))
+        return (CutThrough(self.members, self.point_m, self.normal, box_m),)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

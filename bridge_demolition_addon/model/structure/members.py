@@ -24,13 +24,13 @@ from ...engineering.fracture.plates import through_thickness
 from ...engineering.fracture.seeds import random_points
 from ...engineering.fracture.shards import Fracture, fracture, joined_fractures, voronoi_cells
 from ...engineering.fracture.shared_faces import SharedFaces, joined_faces, touching_faces
-from ...engineering.fracture.slabs import cut_out, slabs
+from ...engineering.fracture.slabs import cut_out, cut_through, slabs
 from ...engineering.geometry.convex_parts import convex_parts
 from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.sides import AXES
 from ...engineering.geometry.solids import contains
 from ...errors import GeometryError
-from ..actions import CutBox, CutPlane
+from ..actions import CutBox, CutMembers, CutPlane, CutThrough
 from ..bridge.member import Member, members_named
 from ..reinforcement.concrete_members import names_with_bars
 from ..scenario import FractureSettings, Scenario
@@ -84,7 +84,7 @@ class FracturedMembers:
 
 
 def fractured_members(
-    scenario: Scenario, members: Sequence[Member], planes: Sequence[CutPlane | CutBox] = ()
+    scenario: Scenario, members: Sequence[Member], planes: Sequence[CutPlane | CutMembers] = ()
 ) -> FracturedMembers:
     """Return members in shards as a scenario asks for, cut along planes and boxes; a seed always gives the same."""
     settings = scenario.fracture
@@ -108,11 +108,11 @@ def fractured_members(
             recursion=_recursion(settings),
         )
         own_planes = [plane for plane in planes if isinstance(plane, CutPlane) and plane.member == member.name]
-        boxes = [box for box in planes if isinstance(box, CutBox) and box.cuts((member.name, member.kind))]
+        cuts = [cut for cut in planes if isinstance(cut, CutMembers) and cut.cuts((member.name, member.kind))]
         whole = member if len(own_points[index]) else _in_convex_parts(member, int(counts[index]))
         cut = _cut_along(whole, own_planes, own_points[index]) if own_planes else whole
-        if boxes and not len(own_points[index]) and (around := _cut_out(cut, boxes)) is not cut:
-            cut, options = around, replace(options, stretch=options.stretch or through_thickness(member.solid))
+        if cuts and not len(own_points[index]) and (pieces := _in_pieces(cut, cuts)) is not cut:
+            cut, options = pieces, replace(options, stretch=options.stretch or through_thickness(member.solid))
         # Each part takes one shard at least, but of those that a bridge is made of by rule.
         as_planned = cut is member and not (member.keeps_parts or member.is_in_pieces)
         count = int(counts[index]) if as_planned else max(int(counts[index]), len(cut.parts))
@@ -255,17 +255,27 @@ def _cut_along(member: Member, planes: Sequence[CutPlane], points: np.ndarray) -
     return replace(member, parts=tuple(chain.from_iterable(pieces)), directions=directions)
 
 
-def _cut_out(member: Member, boxes: Sequence[CutBox]) -> Member:
-    """Return a member whose parts end at the sides of boxes; the member itself where none meets it."""
+def _in_pieces(member: Member, cuts: Sequence[CutMembers]) -> Member:
+    """Return a member whose parts end at planes and the sides of boxes; the member itself where none meets it."""
     parts, directions = member.parts or (member.solid,), member.directions
-    for box in boxes:
-        pieces = [cut_out(part, np.array(box.box_m)) for part in parts]
+    for cut in cuts:
+        pieces = [_pieces(part, cut) for part in parts]
         columns = zip(pieces, directions, strict=True) if directions else ()
         directions = tuple(direction for own, direction in columns for _ in own)
         parts = tuple(chain.from_iterable(pieces))
     if len(parts) == len(member.parts or (member.solid,)):
         return member
     return replace(member, parts=parts, directions=directions)
+
+
+def _pieces(part: TriangleMesh, cut: CutMembers) -> tuple[TriangleMesh, ...]:
+    match cut:
+        case CutBox():
+            return cut_out(part, np.array(cut.box_m))
+        case CutThrough():
+            box_m = None if cut.box_m is None else np.array(cut.box_m)
+            return cut_through(part, np.array(cut.point_m), np.array(cut.normal), box_m)
+    raise TypeError(cut)
 
 
 def _fractured_in_parts(member: Member, count: int, seed: int, options: FractureOptions) -> Fracture:

@@ -20,7 +20,8 @@ DRILLED = read_scenario(EXAMPLES / "drilled" / "two_spans_in_100_shards.toml")
 BALL = read_scenario(EXAMPLES / "report_2019" / "i235_one_span.toml")
 STEEL = read_scenario(EXAMPLES / "steel" / "composite_span_dropped.toml")
 
-SMALL = replace(EVERYTHING, fracture=replace(EVERYTHING.fracture, shards=6))
+AROUND_SHARDS = tuple(replace(cut, along="faces") for cut in EVERYTHING.saw_cuts)
+SMALL = replace(EVERYTHING, fracture=replace(EVERYTHING.fracture, shards=6), saw_cuts=AROUND_SHARDS)
 
 OTHER_RUNS = {
     "charge": replace(SMALL, charges=(replace(SMALL.charges[0], mass_kg=30.0),)),
@@ -62,12 +63,13 @@ def test_zones_that_are_charged_otherwise_have_the_same_basis(changes):
     assert ModelBasis.of(replace(DRILLED, blast_zones=zones)).digest == ModelBasis.of(DRILLED).digest
 
 
-def test_zones_elsewhere_are_cut_elsewhere():
+def test_zones_and_saw_cuts_elsewhere_cut_elsewhere():
     zone = DRILLED.blast_zones[0]
     zones = (replace(zone, middle_m=zone.middle_m + 0.125), *DRILLED.blast_zones[1:])
     moved = ModelBasis.of(replace(DRILLED, blast_zones=zones))
     assert moved.digest != ModelBasis.of(DRILLED).digest
     assert len(moved.planes) == 2 * len(zones)
+    assert ModelBasis.of(SMALL).digest != ModelBasis.of(replace(SMALL, saw_cuts=EVERYTHING.saw_cuts)).digest
 
 
 def test_a_basis_leaves_out_actions_blast_and_time_alone():
