@@ -258,7 +258,8 @@ def _cut_along(member: Member, planes: Sequence[CutPlane], points: np.ndarray) -
 def _in_pieces(member: Member, cuts: Sequence[CutMembers]) -> Member:
     """Return a member whose parts end at planes and the sides of boxes; the member itself where none meets it."""
     parts, directions = member.parts or (member.solid,), member.directions
-    for cut in cuts:
+    # Boxes first, so that a plane along the side of one cuts nothing more.
+    for cut in sorted(cuts, key=lambda cut: isinstance(cut, CutThrough)):
         pieces = [_pieces(part, cut) for part in parts]
         columns = zip(pieces, directions, strict=True) if directions else ()
         directions = tuple(direction for own, direction in columns for _ in own)
