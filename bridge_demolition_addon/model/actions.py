@@ -113,7 +113,7 @@ class CutPlane:
 
 
 @dataclass(frozen=True, slots=True)
-class CutMembers:
+class CutOfMembers:
     """What members are cut along before they are made into shards."""
 
     members: tuple[str, ...] | None  # names or kinds; None for all
@@ -124,14 +124,14 @@ class CutMembers:
 
 
 @dataclass(frozen=True, slots=True)
-class CutBox(CutMembers):
+class CutBox(CutOfMembers):
     """A box whose sides members are cut along, so that an action can take what of them is in it."""
 
     box_m: tuple[Point, Point]  # lowest and highest corner
 
 
 @dataclass(frozen=True, slots=True)
-class CutThrough(CutMembers):
+class CutThrough(CutOfMembers):
     """A plane in any direction that members are cut along, or those that it meets in a box."""
 
     point_m: Point
@@ -170,7 +170,7 @@ class PlannedAction(Table):
         """Yield the keys and values of positions that have to be on the deck."""
         yield from ()
 
-    def cut_planes(self) -> tuple[CutPlane | CutMembers, ...]:
+    def cut_planes(self) -> tuple[CutPlane | CutOfMembers, ...]:
         """Return the planes and boxes that shards end at: all that a model takes of what is done to its bridge."""
         return ()
 

@@ -30,7 +30,7 @@ from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.sides import AXES
 from ...engineering.geometry.solids import contains
 from ...errors import GeometryError
-from ..actions import CutBox, CutMembers, CutPlane, CutThrough
+from ..actions import CutBox, CutOfMembers, CutPlane, CutThrough
 from ..bridge.member import Member, members_named
 from ..reinforcement.concrete_members import names_with_bars
 from ..scenario import FractureSettings, Scenario
@@ -84,7 +84,7 @@ class FracturedMembers:
 
 
 def fractured_members(
-    scenario: Scenario, members: Sequence[Member], planes: Sequence[CutPlane | CutMembers] = ()
+    scenario: Scenario, members: Sequence[Member], planes: Sequence[CutPlane | CutOfMembers] = ()
 ) -> FracturedMembers:
     """Return members in shards as a scenario asks for, cut along planes and boxes; a seed always gives the same."""
     settings = scenario.fracture
@@ -108,7 +108,7 @@ def fractured_members(
             recursion=_recursion(settings),
         )
         own_planes = [plane for plane in planes if isinstance(plane, CutPlane) and plane.member == member.name]
-        cuts = [cut for cut in planes if isinstance(cut, CutMembers) and cut.cuts((member.name, member.kind))]
+        cuts = [cut for cut in planes if isinstance(cut, CutOfMembers) and cut.cuts((member.name, member.kind))]
         whole = member if len(own_points[index]) else _in_convex_parts(member, int(counts[index]))
         cut = _cut_along(whole, own_planes, own_points[index]) if own_planes else whole
         if cuts and not len(own_points[index]) and (pieces := _in_pieces(cut, cuts)) is not cut:
@@ -255,7 +255,7 @@ def _cut_along(member: Member, planes: Sequence[CutPlane], points: np.ndarray) -
     return replace(member, parts=tuple(chain.from_iterable(pieces)), directions=directions)
 
 
-def _in_pieces(member: Member, cuts: Sequence[CutMembers]) -> Member:
+def _in_pieces(member: Member, cuts: Sequence[CutOfMembers]) -> Member:
     """Return a member whose parts end at planes and the sides of boxes; the member itself where none meets it."""
     parts, directions = member.parts or (member.solid,), member.directions
     # Boxes first, so that a plane along the side of one cuts nothing more.
@@ -269,7 +269,7 @@ def _in_pieces(member: Member, cuts: Sequence[CutMembers]) -> Member:
     return replace(member, parts=parts, directions=directions)
 
 
-def _pieces(part: TriangleMesh, cut: CutMembers) -> tuple[TriangleMesh, ...]:
+def _pieces(part: TriangleMesh, cut: CutOfMembers) -> tuple[TriangleMesh, ...]:
     match cut:
         case CutBox():
             return cut_out(part, np.array(cut.box_m))

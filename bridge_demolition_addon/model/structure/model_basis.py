@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from itertools import chain
 from typing import Self
 
-from ..actions import CutMembers, CutPlane
+from ..actions import CutOfMembers, CutPlane
 from ..blast.settings import BlastSettings
 from ..scenario import Scenario
 from ..scenario.file import file_digests
@@ -27,14 +27,14 @@ class ModelBasis:
     ----------
     scenario : Scenario
         As it stands: without actions, and with the blast and the time that a scenario has by default.
-    planes : tuple of CutPlane or CutMembers
+    planes : tuple of CutPlane or CutOfMembers
         What actions have the bridge cut along.
     clear_height_m : float
         How high a ball hangs above the bridge, for which terrain gets more room; 0 without terrain or ball.
     """
 
     scenario: Scenario
-    planes: tuple[CutPlane | CutMembers, ...]
+    planes: tuple[CutPlane | CutOfMembers, ...]
     clear_height_m: float
 
     @classmethod
