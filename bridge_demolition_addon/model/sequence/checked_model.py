@@ -17,9 +17,7 @@ from ..bridge.extent import surface_height
 from ..bridge.member import Member
 from ..lifts import Lift, Pick
 from ..loads import Load
-from ..materials.bar_layers import BarLayer
 from ..pulls import Pull
-from ..reinforcement.design import all_layers
 from ..scenario import Change, MemberCut, Scenario, TendonCut
 from ..scenario.structural_changes import severing
 from ..schema import given
@@ -42,10 +40,6 @@ class ModelWorksite:
     plan: Scenario
     model: Model
     zone_loads: tuple[ZoneLoad, ...] = ()  # what blast zones carry at rest, where it is known
-
-    @cached_property
-    def _layers(self) -> tuple[BarLayer, ...]:
-        return all_layers(self.plan, self.model.members)
 
     @cached_property
     def _structure(self) -> Structure:
@@ -93,12 +87,12 @@ class ModelWorksite:
         return zone_falls(placed_zones(self.plan, self.model.members))
 
     def facts_of_zone(self, zone: BlastZone) -> Iterator[Fact]:
-        placed = placed_zone(zone, self.model.members, self._layers)
+        placed = placed_zone(zone, self.model.members, self.model.layers)
         yield from placed.facts(self.plan)
         yield from facts_of_zones(placed, {load.zone: load for load in self.zone_loads}, self._zone_falls)
 
     def check_zone(self, zone: BlastZone) -> None:
-        placed = placed_zone(zone, self.model.members, self._layers)
+        placed = placed_zone(zone, self.model.members, self.model.layers)
         if zone.goes_off:
             schedule((placed.firing(self.plan),), self._structure)
 

@@ -19,7 +19,6 @@ from ...engineering.units import mass_text
 from ..actions import Fact
 from ..bridge.member import Member
 from ..reinforcement.concrete_members import plain_concrete_text
-from ..reinforcement.design import all_layers
 from ..scenario import ConnectionBetween, ConnectionSettings, Scenario
 from ..scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
 from ..scenario.scenario import bearing_tables
@@ -136,7 +135,7 @@ def _listed(names: Sequence[str]) -> str:
 
 def _bar_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
     alike: dict[tuple[str, str], list[str]] = {}
-    for group in layers_of_members(all_layers(scenario, model.members), model.members):
+    for group in layers_of_members(model.layers, model.members):
         alike.setdefault(_bar_texts(scenario, group), []).append(model.members[group.member].name)
     for (resisted, ruptured), names in alike.items():
         yield "reinforcement", f"{_together(names)}, {resisted}"
@@ -181,7 +180,7 @@ def _between_text(between_m: tuple[float, float]) -> str:
 
 def _spread_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
     alike: dict[str, list[str]] = {}
-    for spread in spread_bars(all_layers(scenario, model.members), model.members):
+    for spread in spread_bars(model.layers, model.members):
         layer = spread.layer
         stress_n_mm2 = 1e-6 * scenario.connections.strength_factor * layer.ratio * layer.yield_pa
         text = f"spread along {layer.along}: {stress_n_mm2:.3g} N/mm² of the area across them"
@@ -194,7 +193,7 @@ def _punching_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
     ball, strength = scenario.ball, scenario.joints[0].strength
     if ball is None or ball.cable or strength is None:
         return
-    layers, strength_pa = all_layers(scenario, model.members), float(strength.compression_pa)
+    layers, strength_pa = model.layers, float(strength.compression_pa)
     alike: dict[tuple[str, str], list[str]] = {}
     for deck in punching_of_decks(layers, model.members, strength_pa, ball.diameter_m):
         forces = f"{deck.on_point_n / 1000.0:.4g} kN on a point, {deck.on_ball_n / 1000.0:.4g} kN on all of the ball"

@@ -20,6 +20,7 @@ from ...engineering.structure.face_sections import second_moments
 from ..bridge.extent import ground_half_size
 from ..bridge.member import Member, mean_density
 from ..bridge.preparation import prepared_members
+from ..materials.bar_layers import BarLayer
 from ..reinforcement.design import all_layers
 from ..scenario import ConnectionSettings, Geometry, Scenario
 from ..scenario.scenario import bearing_tables, joints_of_faces
@@ -92,6 +93,8 @@ class Model:
         Which connections are contacts of decks with girders; None without any.
     tendons : ModelTendons or None
         None without `[[tendons]]`.
+    layers : tuple of BarLayer
+        All layers of bars that the members have, by hand and by rule.
     """
 
     members: tuple[Member, ...]
@@ -113,6 +116,7 @@ class Model:
     steel: SteelConnections | None = None
     decks: DeckContacts | None = None
     tendons: ModelTendons | None = None
+    layers: tuple[BarLayer, ...] = ()
 
     def thicknesses_m(self) -> np.ndarray:
         """Return the thickness (m,) of the thinner of the members that each connection is between."""
@@ -229,7 +233,8 @@ def model_on(basis: ModelBasis, members: Sequence[Member] | None = None) -> Mode
         moments[across] = of_rectangles
     soil = soil_springs(scenario.foundations, members, fractured.member_of_shard, shards, connections)
     bars = within = None
-    if layers := all_layers(scenario, members):
+    layers = all_layers(scenario, members)
+    if layers:
         within = within_reinforced(layers, members, fractured.member_of_shard, connections)
         of_bearings = bearings.springs.rows if bearings else np.zeros(0, int)
         starters = starter_bars(
@@ -294,6 +299,7 @@ def model_on(basis: ModelBasis, members: Sequence[Member] | None = None) -> Mode
         steel=steel,
         decks=decks,
         tendons=tendons,
+        layers=layers,
     )
 
 

@@ -14,7 +14,6 @@ import numpy as np
 
 from ...engineering.geometry.vectors import cross, dot, unit
 from ...engineering.mechanics.section_cuts import ConnectionLoads
-from ..reinforcement.design import all_layers
 from ..scenario import Scenario
 from .face_bars import LayersOfMember, layers_of_members
 from .model import Model
@@ -41,7 +40,7 @@ class SectionsWithBars:
         self._groups: Sequence[LayersOfMember] = ()
         if strength is not None and model.crack_bars is not None:
             self._compression_pa = float(strength.compression_pa)
-            self._groups = tuple(layers_of_members(all_layers(scenario, model.members), model.members))
+            self._groups = tuple(layers_of_members(model.layers, model.members))
         first, second = np.append(model.member_of_shard, -1)[model.connections.pairs].T
         self._within = np.where(first == second, first, -1)
 

@@ -13,6 +13,7 @@ from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.bridge.preparation import prepared_members
 from bridge_demolition_addon.model.materials.bar_layers import ReinforcedSection
+from bridge_demolition_addon.model.reinforcement import design
 from bridge_demolition_addon.model.reinforcement.design import all_layers, bar_schedule
 from bridge_demolition_addon.model.reinforcement.facts import schedule_facts
 from bridge_demolition_addon.model.scenario import (
@@ -27,7 +28,9 @@ from bridge_demolition_addon.model.scenario import (
     RatiosOfMember,
 )
 from bridge_demolition_addon.model.scenario.file import read_scenario
+from bridge_demolition_addon.model.sequence.checked_model import checked_model
 from bridge_demolition_addon.model.structure.face_bars import layers_of_members
+from bridge_demolition_addon.model.structure.facts import connection_facts
 from bridge_demolition_addon.model.structure.model import build_model
 
 pytestmark = pytest.mark.slow
@@ -445,3 +448,20 @@ def test_the_page_shows_what_is_printed():
     assert len(shown) == 5 and set(shown) <= set(lines)
     assert [round(value) for value in kg_m3.values()] == [137, 92, 53]
     assert "have 92 kg/m³, for their own weight alone\n53." in page
+
+
+def test_bars_are_designed_once_for_a_model_and_what_is_said_of_it(monkeypatch):
+    """It takes most of a second for a bridge: sections, facts and tools take them from the model."""
+    calls = []
+
+    def counted(*given):
+        calls.append(given)
+        return bar_schedule(*given)
+
+    monkeypatch.setattr(design, "bar_schedule", counted)
+    written = read_scenario(ROOT / "examples" / "two_spans_13m_ball.toml")
+    small = replace(written, fracture=replace(written.fracture, shards=12))
+    model = checked_model(small)
+    assert list(connection_facts(small, model))
+    assert len(calls) == 1
+    assert model.layers == all_layers(small, model.members)
