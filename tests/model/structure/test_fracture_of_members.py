@@ -190,7 +190,7 @@ def test_a_missing_file_of_points_is_refused(tmp_path):
 def test_a_file_of_points_that_is_no_text_is_refused(tmp_path):
     path = tmp_path / "points.csv"
     path.write_bytes(b"\xfa\xfe\x00x")
-    with pytest.raises(ScenarioError, match=r"fracture.points_file is .*: not a text in UTF-8"):
+    with pytest.raises(ScenarioError, match=r"fracture.points_file is .*: is no text in UTF-8"):
         points_from_file(path)
 
 
