@@ -19,7 +19,7 @@ from bridge_demolition_addon.model.study.outcome import Outlines, evaluate
 ROUNDING = 2e-5
 
 BARE = replace(I235, zones=(), exclusion=None)
-SUMMARY = {"largest_resultant": None, "energy": None, "connections": {"broken": 7}, "came_to_rest_s": 2.5}
+SUMMARY = {"largest_resultant": None, "energy": None, "connections": {"count": 20, "broken": 7}, "came_to_rest_s": 2.5}
 DECK = (10.0, 4.0, 1.0)
 DECK_PLACE = (0.0, 0.0, 5.0)
 

@@ -101,8 +101,9 @@ def test_the_sentence_has_all_that_stands_beside():
     assert sentence == (
         "Fragments that are smaller than shards: with 95 % confidence for each, in at least 95 % of such runs 50 % of "
         "their mass stay within 50 m of their blast zone, 99 % within 100 m and 99.9 % within 120 m. By Lundborg they "
-        "fly up to 340 m, by McKenzie up to 200 m, as if nothing covered the holes; 300 m around the bridge's plan are "
-        "kept clear. All of these are known within a factor of 2: factor 2, no safety distance."
+        "fly up to 340 m, by McKenzie up to 200 m, as if nothing covered the holes. Cordon: 300 m around the bridge's "
+        "plan, by the scenario: shorter than 340 m by Lundborg. All of these are known within a factor of 2: factor 2, "
+        "no safety distance."
     )
 
 
