@@ -37,7 +37,7 @@ def test_every_method_passes_the_check_and_stands(tmp_path, capsys, by):
     assert main(["new", str(path), "--by", by]) == 0
     assert capsys.readouterr().out == f"{path}\n\nNow: bda check {path}\nThen: bda run {path} --report\n"
     assert main(["check", str(path)]) == 0
-    assert re.search(r"cracked +\d+ of \d+ connections.*it stands at rest", capsys.readouterr().out, re.DOTALL)
+    assert re.search(r"cracked +\d+ of \d+ faces.*it stands at rest", capsys.readouterr().out, re.DOTALL)
 
 
 def test_the_middle_pier_carries_what_three_moments_give(tmp_path):
