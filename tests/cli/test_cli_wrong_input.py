@@ -48,7 +48,10 @@ WRONG_FILES = {
         ["line 4: seed = 235 gives a key of its table a second time: leave one of them out"],
     ),
     "table given twice": (RIGHT + "\n[ball]\n", ["[ball] is there a second time: put all of its keys under the first"]),
-    "number of too many digits": (with_value("scenario.seed", "9" * 5000), ["not a TOML file", "4300 digits"]),
+    "number of too many digits": (
+        with_value("scenario.seed", "9" * 5000),
+        ["has a number of 5000 digits: expected one of up to 300"],
+    ),
     "too deep": (f"a = {'[' * 5000}{']' * 5000}", ["not a TOML file"]),
     "not UTF-8": (RIGHT.replace("I-235", "Br\xfccke").encode("latin-1"), ["not a text in UTF-8, at byte"]),
     "UTF-16": (RIGHT.encode("utf-16"), ["a text in UTF-16: save it again as UTF-8 (in Notepad, Save As, Encoding)"]),
