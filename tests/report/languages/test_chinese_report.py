@@ -48,7 +48,8 @@ def test_with_a_font_page_and_pdf_are_chinese(font, tmp_path):
 def test_without_a_font_the_page_is_chinese_and_the_error_says_what_to_install(tmp_path, monkeypatch):
     monkeypatch.setattr(letters, "CHINESE_FONTS", ())
     folder = with_stages(tmp_path / "stages")
-    (folder / "report.pdf").write_bytes(b"of an earlier report")
+    for name in ("report.html", "report.pdf"):
+        (folder / name).write_bytes(b"of an earlier report")
     with pytest.raises(OutputError, match=r"apt install fonts-noto-cjk"):
         write_report([folder], None, language="zh_hans", progress=Silence())
     assert "极限荷载系数" in (folder / "report.html").read_text(encoding="utf-8")
