@@ -121,7 +121,8 @@ def test_bars_that_resist_less_than_the_weight_are_no_support(tmp_path):
     _, fired = stages_of(scenario, bridge, lambda done, of: None)
     assert not fired.standing.held[model.member_of_shard == 1].any()
     assert fired.bars == ()
-    assert fired.collapse_factor == pytest.approx(8 * CURVE_C[1.5] * 500e6 * BAR_M2 / pressed_n(1.5), rel=0.015)
+    assert 8 * CURVE_C[1.5] * 500e6 * BAR_M2 == pytest.approx(0.80 * pressed_n(1.5), rel=0.01)
+    assert np.isnan(fired.collapse_factor)  # there is none of what is left where part of the bridge is not held
     all_fire, _ = misfires(scenario, bridge, lambda done, of: None)
     assert all_fire.falls_kg == pytest.approx(pressed_n(1.5) / G, rel=1e-6)
 
