@@ -93,6 +93,7 @@ def test_results_are_overwritten_when_asked(scenario_path, tmp_path):
     output = tmp_path / "results"
     output.mkdir()
     (output / "summary.json").write_text("old")
+    (output / "scenario_as_run.toml").write_text("old")
     (output / "notes.txt").write_text("mine")
     arguments = ("run", scenario_path, "--output", output, "--no-pictures", "--overwrite", "--quiet")
     status, printed, complained = run_bda(*arguments)

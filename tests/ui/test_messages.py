@@ -32,8 +32,9 @@ def test_what_a_run_warned_of_stays_in_its_scene_alone(extension, settings, tmp_
     settings.output_directory = str(tmp_path / "run")
     extension.ops.bda.run()
     found = texts(extension)
-    assert [level for level, _ in found] == ["WARNING", "INFO"]
-    assert "gravity" in found[0][1] and str(tmp_path / "run") in found[1][1]
+    assert [level for level, _ in found] == ["WARNING", "WARNING", "INFO"]
+    assert "without a hit of the ball" in found[0][1]
+    assert "gravity" in found[1][1] and str(tmp_path / "run") in found[2][1]
     extension.ops.scene.new(type="EMPTY")
     assert texts(extension) == []
 
@@ -45,7 +46,7 @@ def test_what_was_said_of_the_bridge_before_goes_as_another_is_built(extension, 
     extension.context.scene.frame_end = 5
     settings.output_directory = str(tmp_path / "run")
     extension.ops.bda.run()
-    assert len(texts(extension)) == 2
+    assert len(texts(extension)) == 3
     extension.ops.bda.build_anew()
     assert texts(extension) == []
 
