@@ -73,7 +73,8 @@ def together(history):
 
 def by_name(loads):
     known = {item.name: getattr(loads, item.name) for item in fields(FrameLoads)}
-    return {name: values for name, values in known.items() if name != "body_bar_use"}  # which is not of the sub-steps
+    of_bars = "body_bar_use", "connection_bars"  # which are not of the sub-steps' loads
+    return {name: values for name, values in known.items() if name not in of_bars}
 
 
 def gathered(frame, history, substeps=UNEQUAL_S):
