@@ -7,6 +7,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from ...engineering.arithmetic import power
 from ...engineering.elasticity.steel_bars import MODULUS_PA, YIELD_PA
 from ...engineering.geometry.sides import AXES, SIDES
 from ...engineering.mechanics.strength import NEWTON_PER_SQUARE_MILLIMETRE
@@ -35,6 +36,10 @@ _HALVINGS = 60
 
 _ON_CURVE = 400
 """Points of the curve of axial forces and moments that a section resists, by the depth of its neutral axis."""
+
+_DEPTHS = -4.0, 3.0
+"""Least and largest of these depths by the height, as decimal logarithms."""
+
 _LITTLE = 1e-9
 
 
@@ -219,7 +224,7 @@ class ReinforcedSection:
 
     def _on_curve(self, depths_m: np.ndarray) -> np.ndarray:
         """Return axial forces, tension positive, and moments about half the height (k, 2) that crush an edge."""
-        neutrals_m = self.height_m * np.geomspace(1e-4, 1e3, _ON_CURVE)
+        neutrals_m = self.height_m * power(10.0, np.linspace(*_DEPTHS, _ON_CURVE))
         strains = _CRUSHING_STRAIN * (depths_m - neutrals_m[:, None]) / neutrals_m[:, None]
         yields_pa = np.array(self.yields_pa)
         pulls = np.array(self.areas_m2) * np.clip(MODULUS_PA * strains, -yields_pa, yields_pa)

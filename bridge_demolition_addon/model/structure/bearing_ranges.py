@@ -6,6 +6,7 @@ own. Sums of an axis differ less.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
@@ -104,7 +105,7 @@ def axis_facts(model: Model, bearings: Sequence[BearingForce]) -> Iterator[Fact]
     """Yield what each axis with several bearings carries, and how little is known of each of these."""
     axes = bearing_axes(model, bearings)
     for axis in axes:
-        sum_n = sum(float(bearings[number].force_n[2]) for number in axis.bearings)
+        sum_n = math.fsum(float(bearings[number].force_n[2]) for number in axis.bearings)
         yield axis.name, f"{_KILO * sum_n:z.1f} kN up in all"
     if axes:
         yield "single bearings", "not known by one cut: each seed shares what an axis carries otherwise"
