@@ -57,7 +57,7 @@ def answer(work: Callable[[dict[str, Any]], Mapping[str, Any]]) -> None:
         said = work(json.loads(sys.stdin.readline()))
     except (DemolitionError, OSError) as error:
         said = {"refused": text_of(error)}
-    except Exception:  # readers of other formats have many of their own for what is damaged, in words of Python's
+    except Exception:  # readers of other formats have many of their own for what is damaged, for programmers
         said = {"refused": "cannot be read: it is damaged, or of another kind than its name says; export it again"}
     answers.write(f"\n{_MARK}{json.dumps(said)}\n")
     answers.flush()

@@ -141,7 +141,7 @@ def test_picks_that_differ_are_said_in_report_and_summary(tmp_path):
         assert texts.count(f"{said}.") == times
 
 
-@pytest.mark.slow
+@pytest.mark.long
 def test_what_slings_relieve_of_its_bearings_hangs_on_them_and_what_is_not_held_has_no_load_factor():
     both = ["deck", "girder"]
     halves = "".join(lift(f"at {x}", both, [x, -9.0, 3.0], [x + 6.0, 9.0, 9.0]) for x in (0.0, 6.0))
