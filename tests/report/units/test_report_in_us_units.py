@@ -11,9 +11,12 @@ import pytest
 from support.run_folders import TOLD, flying_shards, keep_run
 
 from bridge_demolition_addon.cli.progress import Silence
+from bridge_demolition_addon.engineering.unit_systems import IMPERIAL
 from bridge_demolition_addon.errors import OutputError
 from bridge_demolition_addon.model.scenario import Exclusion, ReportSettings
 from bridge_demolition_addon.report.document import page_style, pdf
+from bridge_demolition_addon.report.units.quantities import ReportUnits
+from bridge_demolition_addon.report.wording.clearance import Flyrock, clearance_rows
 from bridge_demolition_addon.report.write import write_report
 
 pytestmark = pytest.mark.slow  # two whole reports with their drawings
@@ -120,15 +123,25 @@ def test_no_distance_to_keep_is_less_than_in_metres(made):
         "Farthest from the bridge's plan",
         "Cordon",
         "Debris distance",
-        "Fragments (flyrock)",
     )
     for label in kept:
-        before, after = value(metric, label), value(imperial, label)
-        metres = re.findall(r"(\d[\d.]*) m\b", before)
-        feet = re.findall(r"(\d[\d.]*) ft\b", after)
-        assert len(metres) == len(feet) > 0, label
-        for number, own in zip(metres, feet, strict=True):
-            assert Decimal(number) <= Decimal(own) * Decimal("0.3048") <= Decimal(number) * Decimal("1.002"), label
+        assert_no_less_in_feet(value(metric, label), value(imperial, label))
+
+
+def assert_no_less_in_feet(before, after):
+    metres, feet = re.findall(r"(\d[\d.]*) m\b", before), re.findall(r"(\d[\d.]*) ft\b", after)
+    assert len(metres) == len(feet) > 0, before
+    for number, own in zip(metres, feet, strict=True):
+        assert Decimal(number) <= Decimal(own) * Decimal("0.3048") <= Decimal(number) * Decimal("1.002"), before
+
+
+@pytest.mark.parametrize("largest_m", [77.0, 61.4, 118.0])
+def test_no_fragment_flies_less_far_than_in_metres(largest_m):
+    flyrock = Flyrock(f"sampled under their cover up to {largest_m:.0f} m (P3.1)", largest_m, 340.1, 200.1)
+    rows = dict(clearance_rows(None, flyrock))
+    assert set(rows) == {"Fragments (flyrock)", "Cordon"}
+    for text in rows.values():
+        assert_no_less_in_feet(text, ReportUnits(IMPERIAL).text(text))
 
 
 @pytest.mark.long
