@@ -22,7 +22,7 @@ from benches.deck import (
     recorded,
 )
 
-from bridge_demolition_addon.engineering.elasticity import structure
+from bridge_demolition_addon.engineering.elasticity import substep
 from bridge_demolition_addon.model.scenario import ConnectionSettings
 from bridge_demolition_addon.model.structure.model import build_model
 from bridge_demolition_addon.scene.connections.elasticity import elasticity_of, forget_elasticity, keep_elasticity
@@ -58,10 +58,10 @@ def main(smallest: bool) -> dict[str, float]:
                     forget_elasticity(scene)
                     if way.startswith("elastic"):
                         keep_elasticity(scene, made, model.stiffness, damping_ratio, model.thicknesses_m())
-                    turned_rad = 0.0 if "again" in way else structure.TURNED_RAD
+                    turned_rad = 0.0 if "again" in way else substep.TURNED_RAD
                     with (
                         nullcontext() if way == "bare step" else recorded(scene, Path(folder)),
-                        patch.object(structure, "TURNED_RAD", turned_rad),
+                        patch.object(substep, "TURNED_RAD", turned_rad),
                     ):
                         make_world(scene)
                         seconds.setdefault(way, []).append(frame_s(scene, frames, time.process_time))

@@ -15,7 +15,7 @@ from unittest.mock import patch
 import bpy
 from benches.deck import frame_s, make_world, ratios_to_bare_step, recorded
 
-from bridge_demolition_addon.engineering.elasticity import structure
+from bridge_demolition_addon.engineering.elasticity import substep
 from bridge_demolition_addon.model.scenario import Scenario, ShardSettings
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.structure.model import build_model
@@ -40,7 +40,7 @@ def main(smallest: bool) -> dict[str, float]:
             for way in WAYS:
                 with (
                     nullcontext() if way == "bare step" else recorded(scene, Path(folder)),
-                    patch.object(structure, "TURNED_RAD", 0.0 if "again" in way else structure.TURNED_RAD),
+                    patch.object(substep, "TURNED_RAD", 0.0 if "again" in way else substep.TURNED_RAD),
                 ):
                     make_world(scene)
                     seconds.setdefault(way, []).append(frame_s(scene, FRAMES, time.process_time))

@@ -23,7 +23,7 @@ _ANSWERS = {
     2: "a sub-step names bodies, connections or parts that there are not",
 }
 
-_TURNED_RAD = 1e-4
+TURNED_RAD = 1e-4
 """Rotation of bodies after which rows and equations are made again: loads are then off by as much, relative."""
 
 _MOST_GUESSES = 40
@@ -262,7 +262,7 @@ class Substep(Struct):
     )
 
     def __init__(self) -> None:
-        super().__init__(turned_rad=_TURNED_RAD, most_guesses=_MOST_GUESSES)
+        super().__init__(turned_rad=TURNED_RAD, most_guesses=_MOST_GUESSES)
 
     def solve(self, frames: Frames, places: Places, terms: Sequence[Term]) -> None:
         """Find what connections, and terms in place of some, do in it.
