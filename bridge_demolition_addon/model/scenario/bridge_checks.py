@@ -31,6 +31,8 @@ def check_bridge(bridge: Bridge) -> None:
     if bridge.spans_m > FARTHEST_M:
         raise ScenarioError(f"bridge.span_lengths_m add up to {bridge.spans_m:g}: expected at most {FARTHEST_M:g} (m)")
     _check_parts(bridge)
+    if bridge.frame:
+        _check_frame(bridge, bridge.frame)
     _check_superstructure(bridge)
     _check_room_along(bridge)
     _check_joints(bridge)
@@ -40,8 +42,6 @@ def check_bridge(bridge: Bridge) -> None:
         _check_one_density(bridge)
     if bridge.arch:
         _check_arch(bridge, bridge.arch)
-    if bridge.frame:
-        _check_frame(bridge, bridge.frame)
     if bridge.bearings:
         _check_bearings(bridge, bridge.bearings)
     if bridge.reinforcement:
