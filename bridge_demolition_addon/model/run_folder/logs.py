@@ -7,12 +7,10 @@ import io
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from types import ModuleType
 from typing import Generic, TypeVar
 
 import numpy as np
 
-from ...engineering.compilation import where_compiled
 from ...engineering.elasticity.crack_state import FrameCracks
 from ...engineering.mechanics.bearing_loads import BearingLoads
 from ...engineering.mechanics.section_forces import SectionForces
@@ -234,32 +232,12 @@ class BodyLog(CsvLog[Source]):
         names, values = [f",{_csv_text(name)}" for name in bodies], ",".join(["%.9g"] * len(table.value_headers))
         # One template for all lines of a frame: formatting line by line takes several times as long.
         self._lines = "".join(f"{_STEP_MARK}{name.replace('%', '%%')},{values}\n" for name in names)
-        encoded = [name.encode() for name in names]
-        self._names = np.frombuffer(b"".join(encoded), np.uint8), np.cumsum([len(name) for name in encoded])
         super().__init__(path, table)
 
     def write(self, frame: int, time_s: float, source: Source) -> None:
         """Add a line for each body with its values of a source."""
-        start, values = f"{frame},{time_s:.9g}", self._table.values(source)
-        self.add(self._compiled_lines(start, values) or self._plain_lines(start, values))
-
-    def _plain_lines(self, start: str, values: np.ndarray) -> str:
-        return (self._lines % tuple(values.ravel().tolist())).replace(_STEP_MARK, start)
-
-    def _compiled_lines(self, start: str, values: np.ndarray) -> str:
-        """Lines with values (n, k) as a loop writes them; none without one, or where it does not know a text."""
-        loops = log_loops()
-        if loops is None or values.shape != (len(self._names[1]), len(self._table.value_headers)):
-            return ""
-        return str(loops.lines(values, np.frombuffer(start.encode(), np.uint8), *self._names).data, "utf-8")
-
-
-@where_compiled
-def log_loops() -> ModuleType:
-    """Loops over the numbers of a log."""
-    from . import log_loops
-
-    return log_loops
+        values = tuple(self._table.values(source).ravel().tolist())
+        self.add((self._lines % values).replace(_STEP_MARK, f"{frame},{time_s:.9g}"))
 
 
 def _csv_text(*texts: str) -> str:
