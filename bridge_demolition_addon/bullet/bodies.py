@@ -6,36 +6,34 @@ import numpy as np
 
 from ..errors import LayoutError
 from ..model.results.motion import OUT_OF_REACH_M
-from .body_motion import BodyMotionReader
+from .body_motion import BodyMotionReader, BulletBodies
 from .contacts import ContactReader
 from .layout import ASLEEP, AWAKE, DISABLED, FIXED_FLAGS, NO_CONTACT_RESPONSE, SLEEPING, WANTS_SLEEP, Layout
-from .memory import DOUBLES, INTEGERS, Fields, add_vectors, gather_doubles, write_vectors
-
-_TRANSFORM = 8 * np.array([0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14])
-"""Rotation matrix and origin in bytes from the start of a btTransform: four vectors of four doubles each."""
+from .memory import DOUBLES, INTEGERS, add_vectors, gather_doubles, write_vectors
 
 _ORIGIN = 96
+"""Bytes from the start of a btTransform, behind three rows of four doubles each."""
 
 
 class BodyTable:
     """The bodies of a world at addresses (n,), as long as it is bound.
 
-    `removed` (n,) marks those that `remove` took out of the simulation.
+    `removed` (n,) marks those that `remove` took out of the simulation. `core` is what the core gets of them.
     """
 
     def __init__(self, layout: Layout, addresses: np.ndarray, contacts: ContactReader):
         self.addresses, self.contacts = addresses, contacts
         self.removed = np.zeros(len(addresses), bool)
         self._layout, self._body = layout, layout.body
-        self._transforms = Fields(addresses, layout.body.transform + _TRANSFORM)
+        self.core = BulletBodies.of(layout.body, addresses)
 
     def __len__(self) -> int:
         return len(self.addresses)
 
     def positions(self) -> tuple[np.ndarray, np.ndarray]:
         """Return positions (n, 3) in m and rotation matrices (n, 3, 3)."""
-        transforms = np.ascontiguousarray(self._transforms.copy().T)
-        return transforms[:, 9:], transforms[:, :9].reshape(-1, 3, 3)
+        transforms = gather_doubles(self._fields(self._body.transform), 16).reshape(-1, 4, 4)[..., :3]
+        return np.ascontiguousarray(transforms[:, 3]), np.ascontiguousarray(transforms[:, :3])
 
     def velocities(self) -> np.ndarray:
         """Return velocities (n, 3), m/s."""

@@ -12,9 +12,11 @@ from collections.abc import Sequence
 import bpy
 import numpy as np
 
+from ..engineering.core.calls import call
+from ..engineering.core.structs import Addresses, Count, Doubles, Flags, Indices, Struct
 from ..errors import LayoutError
-from .layout import ALL_ROWS_SET, SPRING_CORRECTION, SPRING_TYPE, Layout
-from .memory import DOUBLES, INTEGERS, field_loops, gather_doubles, read, read_value
+from .layout import ALL_ROWS_SET, SPRING_CORRECTION, SPRING_TYPE, Layout, SpringLayout
+from .memory import gather_doubles, read, read_value
 
 _ROTATION = 1e-4
 """How far elements of two rotation matrices in single precision may differ."""
@@ -36,6 +38,31 @@ _SIGNS = np.array([1.0, 1.0, 1.0, -1.0, -1.0, -1.0])
 _AS_THEY_ARE = np.ones(6)
 
 
+class BulletRows(Struct):
+    """Rows of k springs: `bda_bullet_rows`."""
+
+    _OFFSETS = ("lower", "upper", "correction", "softness")
+    _fields_ = (
+        ("count", Count),
+        ("addresses", Addresses),
+        *((name, Indices) for name in _OFFSETS),
+        ("flags", Count),
+        ("held", Flags),
+        ("resists", Flags),
+    )
+
+    @classmethod
+    def of(cls, layout: SpringLayout, addresses: np.ndarray, held: np.ndarray, resists: np.ndarray) -> BulletRows:
+        """Return the rows of springs at addresses (k,), of which some (6, k) are held, and some (6, k) resist."""
+        made = cls(count=len(addresses), flags=layout.flags)
+        made.point("addresses", addresses, len(addresses))
+        for name in cls._OFFSETS:
+            made.point(name, np.array(getattr(layout, name), np.int64), 6)
+        made.point("held", held, held.size)
+        made.point("resists", resists, resists.size)
+        return made
+
+
 class ConstraintRows:
     """Rows of the constraints at addresses (k,) of a world that was bound just now, before any time passes.
 
@@ -50,14 +77,13 @@ class ConstraintRows:
         self.held = self._limits == self._doubles(layout.spring.upper)
         self._resists = self.held.copy()
         self._starts = layout.spring.frame_a, layout.spring.frame_b
-        self._built = [gather_doubles(addresses + np.uint64(start), 15) for start in self._starts]  # by Blender
+        self._built = self.frame_components()  # by Blender
         self._moved = np.zeros(len(addresses), bool)
-        offsets = (np.array(fields, np.int64) // DOUBLES.size for fields in (layout.spring.lower, layout.spring.upper))
-        self._places = (DOUBLES.indices(addresses), *offsets)  # where limits are among all doubles
+        self._core = BulletRows.of(layout.spring, addresses, self.held, self._resists)
 
     def frame_components(self) -> tuple[tuple[np.ndarray, np.ndarray], ...]:
         """Return axes (3, 3, k) and positions (3, k) of the frames in Bullet's body A, and of those in its body B."""
-        frames = [values.T for values in self._built]
+        frames = [gather_doubles(self._addresses + np.uint64(start), 15).T for start in self._starts]
         return tuple((values[:12].reshape(3, 4, -1)[:, :3].copy(), values[12:].copy()) for values in frames)
 
     def move_frames(self, rows: np.ndarray, axes: Sequence[np.ndarray], points_m: Sequence[np.ndarray]) -> None:
@@ -66,11 +92,9 @@ class ConstraintRows:
         Axes (3, 3, r), as columns, and positions (3, r) are those in each of the two bodies.
         """
         self._moved[rows] = True
-        for start, built, of_body, points in zip(self._starts, self._built, axes, points_m, strict=True):
-            frames = built[rows]
-            frames[:, :12].reshape(-1, 3, 4)[..., :3] = np.moveaxis(of_body, -1, 0)
-            frames[:, 12:] = points.T
-            _write_frames(self._addresses[rows] + np.uint64(start), frames)
+        for start, of_body, points in zip(self._starts, axes, points_m, strict=True):
+            frames = _doubles("axes", of_body, 9 * len(rows)), _doubles("points", points, 3 * len(rows))
+            call("bda_put_frames", self._core, start, len(rows), _numbers(rows), *frames)
 
     def soften(self, rows: np.ndarray, softness: np.ndarray) -> None:
         """Have all of an error of existing constraints (r,) corrected in a sub-step, with a softness (6, r).
@@ -84,11 +108,11 @@ class ConstraintRows:
     def restore(self, rows: np.ndarray) -> None:
         """Leave constraints (r,) as Blender made them."""
         moved = rows[self._moved[rows]]
-        for start, built in zip(self._starts, self._built, strict=True):
-            _write_frames(self._addresses[moved] + np.uint64(start), built[moved])
+        axes, points_m = zip(*self._built, strict=True)
+        self.move_frames(moved, [of_body[..., moved] for of_body in axes], [points[:, moved] for points in points_m])
         self._resists[:, rows] = self.held[:, rows]
         self._hold_at(rows, self._limits[:, rows], _AS_THEY_ARE)
-        self._write(rows, SPRING_CORRECTION, 0.0, 0)
+        self._write(rows, SPRING_CORRECTION, np.zeros((6, len(rows))), 0)
 
     def expect(self, rows: np.ndarray, deformations: np.ndarray) -> None:
         """Set how constraints (r,) will be deformed (6, r) at the end of the coming sub-step, if nothing else acts."""
@@ -96,27 +120,16 @@ class ConstraintRows:
 
     def _hold_at(self, rows: np.ndarray, limits: np.ndarray, signs: np.ndarray) -> None:
         """Write limits (6, r) times signs (6,)."""
-        spring, loops = self._layout.spring, field_loops()
-        if loops is not None:
-            held = self.held, self._resists, np.ascontiguousarray(limits), signs
-            loops.write_limits(DOUBLES.everywhere, *self._places, rows, *held)
-            return
-        limits = limits * signs[:, None]
-        held, resists = self.held.take(rows, axis=-1), self._resists.take(rows, axis=-1)
-        for offsets, when_free in ((spring.lower, 1.0), (spring.upper, -1.0)):
-            DOUBLES.write(self._fields(offsets, rows)[held], np.where(resists, limits, when_free)[held])
+        limits = _doubles("limits", limits, 6 * len(rows))
+        call("bda_expect", self._core, len(rows), _numbers(rows), limits, signs)
 
-    def _write(self, rows: np.ndarray, correction: float, softness: np.ndarray | float, flags: int) -> None:
-        spring = self._layout.spring
-        DOUBLES.write(self._fields(spring.correction, rows), correction)
-        DOUBLES.write(self._fields(spring.softness, rows), softness)
-        INTEGERS.write(self._addresses[rows] + np.uint64(spring.flags), flags)
-
-    def _fields(self, offsets: Sequence[int], rows: np.ndarray | slice = slice(None)) -> np.ndarray:
-        return np.array(offsets, np.uint64)[:, None] + self._addresses[rows]
+    def _write(self, rows: np.ndarray, correction: float, softness: np.ndarray, flags: int) -> None:
+        softness = _doubles("softness", softness, 6 * len(rows))
+        call("bda_soften", self._core, len(rows), _numbers(rows), correction, softness, flags)
 
     def _doubles(self, offsets: Sequence[int]) -> np.ndarray:
-        return gather_doubles(self._fields(offsets).ravel())[:, 0].reshape(6, -1)
+        fields = np.array(offsets, np.uint64)[:, None] + self._addresses
+        return gather_doubles(fields.ravel())[:, 0].reshape(6, -1)
 
     def _check(self, address: int, name: str) -> None:
         """Rows are as Blender makes them."""
@@ -137,8 +150,12 @@ class ConstraintRows:
                     raise LayoutError(f"{field} of connection {name!r} is {value:g}, not {expected:g}")
 
 
-def _write_frames(addresses: np.ndarray, frames: np.ndarray) -> None:
-    DOUBLES.everywhere[DOUBLES.indices(addresses)[:, None] + np.arange(15)] = frames
+def _numbers(rows: np.ndarray) -> np.ndarray:
+    return Indices.checked("rows", rows, len(rows))
+
+
+def _doubles(name: str, values: np.ndarray, size: int) -> np.ndarray:
+    return Doubles.checked(name, np.ascontiguousarray(values), size)
 
 
 def check_frames(axes: np.ndarray, positions_m: np.ndarray, connections: Sequence[bpy.types.Object]) -> None:

@@ -4,14 +4,30 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..engineering.core.calls import call
+from ..engineering.core.structs import Addresses, Count, Doubles, Flags, Struct
 from .collision_pairs import CollisionPairs
 from .constraint_rows import ConstraintRows
 from .layout import Layout
-from .memory import BYTES, DOUBLES, POINTERS, Fields, field_loops, gather_doubles
+from .memory import BYTES, DOUBLES, POINTERS, gather_doubles
 from .teardown import Fingerprints
 
 FEEDBACK_DOUBLES = 16
 """btJointFeedback: force and torque on body A, force and torque on body B, four doubles each."""
+
+
+class BulletConnections(Struct):
+    """m connections: `bda_bullet_connections`."""
+
+    _fields_ = (
+        ("count", Count),
+        ("addresses", Addresses),
+        ("exists", Flags),
+        ("cracked", Flags),
+        ("enabled", Count),
+        ("applied_impulse", Count),
+        ("feedback", Doubles),
+    )
 
 
 class ConstraintTable:
@@ -34,6 +50,8 @@ class ConstraintTable:
         (m,) whether each exists; kept up to date.
     cracked
         (m,) whether each has broken, and holds on by its reinforcement; kept up to date.
+    core
+        What the core gets of them.
     """
 
     def __init__(
@@ -56,7 +74,11 @@ class ConstraintTable:
         self._forbids_collision, self._collision_pairs = forbids_collision, collision_pairs
         self._pair_rows = np.cumsum(forbids_collision) - 1
         self._fingerprints = Fingerprints(layout, addresses[self.exists])
-        self._enabled = Fields(addresses, [layout.constraint.enabled], BYTES)
+        offsets = layout.constraint.enabled, layout.constraint.applied_impulse
+        self.core = BulletConnections(count=len(self), enabled=offsets[0], applied_impulse=offsets[1])
+        for name, array in (("addresses", addresses), ("exists", self.exists), ("cracked", self.cracked)):
+            self.core.point(name, array, len(self))
+        self.core.point("feedback", feedback, FEEDBACK_DOUBLES * len(self))
         self._rows: ConstraintRows | None = None
 
     def __len__(self) -> int:
@@ -79,13 +101,8 @@ class ConstraintTable:
 
     def intact(self) -> np.ndarray:
         """Return whether each connection (m,) exists and has not broken."""
-        loops = field_loops()
-        if loops is not None:
-            found: np.ndarray = loops.intact(BYTES.everywhere, self._enabled.places, self.exists, self.cracked)
-            return found
-        rows, intact = np.flatnonzero(self.exists), np.zeros(len(self), bool)
-        intact[rows] = self._enabled.copy_at(rows)[0] != 0
-        intact[self.cracked] = False
+        intact = np.empty(len(self), bool)
+        call("bda_intact", self.core, intact)
         return intact
 
     def first_bodies(self) -> np.ndarray:

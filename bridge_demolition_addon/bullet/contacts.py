@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+import ctypes
 import struct
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 
 import numpy as np
 
-from ..engineering.arrays import same
+from ..engineering.core.calls import DONE, answer_of
+from ..engineering.core.structs import Count, Indices, Struct, WrittenAddresses, WrittenDoubles
 from ..engineering.geometry.vectors import dot, length
 from ..engineering.mechanics.contact_pairs import contact_friction
 from ..errors import LayoutError
 from .layout import Layout
-from .memory import DOUBLES, INTEGERS, POINTERS, Fields, copy_pointers, field_loops, read, read_pointers, read_value
+from .memory import INTEGERS, POINTERS, copy_pointers, read, read_pointers, read_value
 
 _MOST_POINTS = 4
 """Bullet keeps no more of two bodies (MANIFOLD_CACHE_SIZE)."""
@@ -24,13 +26,63 @@ _MOST_MANIFOLDS = 50_000_000
 _CHECKED_POINTS = 200
 """Contact points looked at in a check; a wrong offset is wrong in the first of them."""
 
-_TOO_MANY_POINTS = "a contact has more than four points"
-
 _MANIFOLD_END = struct.Struct("<QQi")
 """Both bodies of a contact, then the number of its points."""
 
 _UNIT = 1e-6
 """How far a unit vector's length, computed by Bullet in double precision, may be from 1."""
+
+
+class BulletContacts(Struct):
+    """All contacts, and room for copies of their points: `bda_bullet_contacts`."""
+
+    _fields_ = (
+        ("dispatcher", ctypes.c_uint64),
+        *((name, Count) for name in ("manifold_count", "manifold_data")),
+        *((name, Count) for name in ("body_a", "body_b", "point_count", "points", "point_size")),
+        ("components", Indices),
+        ("most_manifolds", Count),
+        ("most_points", Count),
+        ("room", Count),
+        ("values", WrittenDoubles),
+        ("bodies", WrittenAddresses),
+        ("found", Count),
+    )
+
+    @classmethod
+    def of(cls, layout: Layout, dispatcher: int) -> BulletContacts:
+        """Return the contacts of a btCollisionDispatcher at an address, with room for none."""
+        manifold, point, listed = layout.manifold, layout.manifold.point, layout.dispatcher
+        made = cls(
+            dispatcher=dispatcher,
+            manifold_count=listed.manifold_count,
+            manifold_data=listed.manifold_data,
+            body_a=manifold.body_a,
+            body_b=manifold.body_b,
+            point_count=manifold.count,
+            points=manifold.points,
+            point_size=point.size,
+            most_manifolds=_MOST_MANIFOLDS,
+            most_points=_MOST_POINTS,
+        )
+        impulses = [point.normal_impulse, point.lateral_impulses, point.lateral_impulses + 8]
+        vectors = [
+            start + 8 * axis
+            for start in (
+                *(point.position_on_b, point.normal),
+                *(point.lateral_directions, point.lateral_directions + 32),
+            )
+            for axis in range(3)
+        ]
+        made.point("components", np.array([*vectors[:6], *impulses, *vectors[6:]], np.int64), 15)
+        made.make_room(0)
+        return made
+
+    def make_room(self, count: int) -> None:
+        """Make room for so many points."""
+        self.room, self.copied = count, ContactCopies(np.empty((15, count)), np.empty((2, count), np.uint64))
+        self.point("values", self.copied.components, 15 * count)
+        self.point("bodies", self.copied.bodies, 2 * count)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -105,41 +157,21 @@ class ContactReader:
         self._layout, self._dispatcher = layout, dispatcher
         self._order = np.argsort(bodies, kind="stable")
         self._sorted = bodies[self._order]
-        self._is_checked, self._point_doubles = False, layout.manifold.point.size // DOUBLES.size
-        point = layout.manifold.point
-        vectors = np.array([point.position_on_b, point.normal, point.lateral_directions, point.lateral_directions + 32])
-        impulses = np.array([point.normal_impulse, point.lateral_impulses, point.lateral_impulses + 8])
-        self._impulse_offsets = layout.manifold.points + impulses
-        self._vector_offsets = layout.manifold.points + (vectors[:, None] + 8 * np.arange(3)).ravel()
-        self._find(np.zeros(0, np.uint64))
+        self._is_checked, self._core = False, BulletContacts.of(layout, dispatcher)
 
     def copy(self) -> ContactCopies:
         """Copy the contact points that carry a load now."""
-        manifolds = self._checked_manifolds()
-        if not same(manifolds, self._known_manifolds):
-            self._find(manifolds)
-        loops = field_loops()
-        if loops is not None:
-            everywhere, points = (DOUBLES.everywhere, POINTERS.everywhere, INTEGERS.everywhere), self._places
-            components, bodies, are_few = loops.loaded_points(*everywhere, *points, self._point_doubles, _MOST_POINTS)
-            if not are_few:
-                raise LayoutError(_TOO_MANY_POINTS)
-            return ContactCopies(components, bodies)
-        counts = self._counts.copy()[0]
-        if len(counts) and (counts.min() < 0 or counts.max() > _MOST_POINTS):
-            raise LayoutError(_TOO_MANY_POINTS)
-        used = np.flatnonzero(counts)
-        counts = counts.take(used)
-        rows = np.repeat(used, counts)
-        number = np.arange(len(rows)) - np.repeat(np.cumsum(counts) - counts, counts)
-        further = number * self._layout.manifold.point.size
-        impulses = self._impulses.copy_at(rows, further)
-        # The solver's iterations can end with friction where no normal impulse is left.
-        loaded = np.flatnonzero((impulses[0] != 0.0) | (impulses[1] != 0.0) | (impulses[2] != 0.0))
-        rows, further = rows.take(loaded), further.take(loaded)
-        vectors = self._vectors.copy_at(rows, further)
-        components = np.concatenate((vectors[:6], impulses.take(loaded, axis=1), vectors[6:]))
-        return ContactCopies(components, self._bodies.copy_at(rows))
+        if not self._is_checked:
+            self._checked_manifolds()
+        core = self._core
+        answer = answer_of("bda_copy_contacts", core)
+        if answer == DONE and core.found > core.room:
+            core.make_room(2 * core.found)
+            answer = answer_of("bda_copy_contacts", core)
+        if answer:
+            raise LayoutError("contacts, or points of one, are more than there can be")
+        points = core.copied
+        return ContactCopies(points.components[:, : core.found].copy(), points.bodies[:, : core.found].copy())
 
     def contacts(self, copies: Sequence[ContactCopies]) -> Contacts:
         """Return the contact points in copies of s sub-steps, also those of sleeping bodies, which keep their last."""
@@ -161,16 +193,6 @@ class ContactReader:
         pairs = [self._indices(POINTERS.gather(manifolds + np.uint64(side))) for side in (layout.body_a, layout.body_b)]
         moved = np.isin(pairs, rows).any(axis=0)
         INTEGERS.write(manifolds[moved] + np.uint64(layout.count), 0)
-
-    def _find(self, manifolds: np.ndarray) -> None:
-        """Note where everything is in manifolds at these addresses."""
-        layout = self._layout.manifold
-        self._known_manifolds = manifolds
-        self._counts = Fields(manifolds, [layout.count], INTEGERS)
-        self._bodies = Fields(manifolds, [layout.body_a, layout.body_b], POINTERS)
-        self._impulses = Fields(manifolds, self._impulse_offsets)
-        self._vectors = Fields(manifolds, self._vector_offsets)
-        self._places = tuple(each.places for each in (self._counts, self._impulses, self._vectors, self._bodies))
 
     def _checked_manifolds(self) -> np.ndarray:
         """Addresses of all manifolds, from Bullet's pool and from beyond it; checked when the first are there."""

@@ -1,7 +1,8 @@
 """Reading and writing this process's memory by address.
 
 `read` asks the operating system and cannot fault, whatever the address: it serves until an address is checked. All
-others read and write many checked addresses at once with numpy.
+others read and write many checked addresses at once with numpy. What is copied around every sub-step is copied by the
+compiled core.
 """
 
 from __future__ import annotations
@@ -10,13 +11,11 @@ import ctypes
 import os
 import struct
 import sys
-from collections.abc import Callable, Sequence
-from types import ModuleType
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
-from ..engineering.compilation import where_compiled
 from ..errors import LayoutError
 
 _LOWEST = 4096
@@ -103,14 +102,6 @@ class Values:
         """Write values to addresses."""
         self.everywhere[self.indices(addresses)] = values
 
-    def write_fields(self, addresses: np.ndarray, offsets: np.ndarray, values: np.ndarray) -> None:
-        """Write values (c, n) to fields at offsets (c,) in bytes of structures at addresses (n,)."""
-        starts, fields, loops = self.indices(addresses), np.asarray(offsets, np.int64) // self.size, field_loops()
-        if loops is None:
-            self.everywhere[fields[:, None] + starts] = values
-        else:
-            loops.write(self.everywhere, starts, fields, np.ascontiguousarray(values))
-
 
 DOUBLES, FLOATS, BYTES, SHORTS, INTEGERS, POINTERS = map(Values, ("<f8", "<f4", "|u1", "<i2", "<i4", "<u8"))
 
@@ -134,47 +125,6 @@ def copy_pointers(address: int, count: int) -> np.ndarray:
     """So many pointers (count,) uint64 in a row, at a checked address."""
     first = (address - _LOWEST) // 8
     return POINTERS.everywhere[first : first + count].copy()
-
-
-class Fields:
-    """The same c fields of n structures, to be copied again and again.
-
-    The structures begin at checked addresses (n,); the fields lie at offsets (c,) in bytes.
-
-    Attributes
-    ----------
-    places : tuple of arrays
-        Where the structures (n,) begin among all values, and the fields (c,) from there.
-    """
-
-    def __init__(self, addresses: np.ndarray, offsets: Sequence[int] | np.ndarray, values: Values = DOUBLES):
-        self._values, self._size = values.everywhere, values.size
-        self._starts = values.indices(addresses)
-        self._offsets = np.asarray(offsets, np.int64)[:, None] // self._size
-        self._indices: np.ndarray | None = None
-        self.places = self._starts, self._offsets[:, 0]
-
-    def copy(self) -> np.ndarray:
-        """Return the values (c, n) as they are now."""
-        loops = field_loops()
-        if loops is not None:
-            found: np.ndarray = loops.copied(self._values, *self.places)
-            return found
-        if self._indices is None:
-            self._indices = self._starts + self._offsets
-        return self._values.take(self._indices)
-
-    def copy_at(self, rows: np.ndarray, further: np.ndarray | int = 0) -> np.ndarray:
-        """Return the values (c, k) in structures (k,), each so many bytes (k,) behind the offsets."""
-        return self._values.take(self._starts.take(rows) + further // self._size + self._offsets)
-
-
-@where_compiled
-def field_loops() -> ModuleType:
-    """Loops over structures in memory."""
-    from . import field_loops
-
-    return field_loops
 
 
 def _linux_reader() -> Callable[[int, int], bytes | None]:

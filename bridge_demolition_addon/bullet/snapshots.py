@@ -12,16 +12,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..engineering.core.calls import call
+from ..engineering.core.structs import Indices
 from ..engineering.geometry.vectors import as_vectors
 from .bodies import BodyTable
 from .constraints import ConstraintTable
 from .contacts import ContactCopies, Contacts
-from .layout import Layout
-from .memory import BYTES, DOUBLES, Fields, field_loops
-
-_VECTOR = 8 * np.arange(3)
-_FEEDBACK_COLUMNS = np.array([0, 1, 2, 4, 5, 6])
-"""Force and torque on one body, among the eight doubles that Bullet gives them."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -90,54 +86,33 @@ class SnapshotTaker:
     `sides` (k,) says which loads are in them: 2 c for those of connection c on Bullet's body A, 2 c + 1 on its body B.
     """
 
-    def __init__(self, layout: Layout, bodies: BodyTable, constraints: ConstraintTable, sides: np.ndarray):
-        self._exists, self._removed, self._contacts = constraints.exists, bodies.removed, bodies.contacts
-        self._cracked = constraints.cracked
-        self._feedback = constraints.feedback.reshape(-1)
-        self._sides = np.asarray(sides)
-        self._loads = 8 * self._sides + _FEEDBACK_COLUMNS[:, None]
-        body = layout.body
-        rows = [body.transform + 32 * row for row in range(4)]
-        vectors = [start + _VECTOR for start in (*rows, body.linear_velocity, body.angular_velocity)]
-        self._bodies = Fields(bodies.addresses, np.concatenate([*vectors, [body.inverse_mass]]))
-        self._impulses = Fields(constraints.addresses, [layout.constraint.applied_impulse])
-        self._enabled = Fields(constraints.addresses, [layout.constraint.enabled], BYTES)
+    def __init__(self, bodies: BodyTable, constraints: ConstraintTable, sides: np.ndarray):
+        self._bodies, self._constraints = bodies, constraints
+        self._sides = Indices.checked("sides", sides.astype(np.int64), sides.size)
 
     def take(self, *, contacts: bool = True) -> Snapshot:
         """Return a snapshot of the last sub-step, with contacts or as if there were none."""
-        loads, impulses, intact = self._of_connections()
+        bodies, constraints, sides, removed = self._bodies, self._constraints, self._sides, self._bodies.removed
+        components, loads = np.empty((19, len(bodies))), np.empty((6, len(sides)))
+        impulses, intact = np.empty(len(constraints)), np.empty(len(constraints), bool)
+        taken = components, loads, impulses, intact
+        call("bda_take_snapshot", bodies.core, constraints.core, len(sides), sides, *taken)
         return Snapshot(
-            body_components=self._bodies.copy(),
+            body_components=components,
             load_components=loads,
             applied_impulses=impulses,
             intact=intact,
-            contacts=self._contacts.copy() if contacts else ContactCopies.none(),
-            removed=self._removed.copy() if self._removed.any() else None,
+            contacts=bodies.contacts.copy() if contacts else ContactCopies.none(),
+            removed=removed.copy() if removed.any() else None,
         )
 
     def contacts(self, snapshots: Sequence[Snapshot]) -> Contacts:
         """Return the contacts in s snapshots."""
-        contacts = self._contacts.contacts([snapshot.contacts for snapshot in snapshots])
+        contacts = self._bodies.contacts.contacts([snapshot.contacts for snapshot in snapshots])
         if all(snapshot.removed is None for snapshot in snapshots):
             return contacts
         # Two bodies that rest on each other keep their last contact when both are removed.
         return contacts.without(_removed(snapshots))
-
-    def _of_connections(self) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Loads (6, k), impulses (m,), and whether each is intact (m,); none of connections that do not exist."""
-        loops = field_loops()
-        if loops is not None:
-            fields, known = (self._impulses.places, self._enabled.places), (self._exists, self._cracked)
-            everywhere = DOUBLES.everywhere, BYTES.everywhere
-            found: tuple[np.ndarray, np.ndarray, np.ndarray] = loops.of_connections(
-                *everywhere, *fields, *known, self._feedback, self._sides
-            )
-            return found
-        rows, impulses = np.flatnonzero(self._exists), np.zeros(len(self._exists))
-        intact = np.zeros(len(self._exists), bool)
-        impulses[rows] = self._impulses.copy_at(rows)[0]
-        intact[rows] = self._enabled.copy_at(rows)[0] != 0
-        return self._feedback.take(self._loads), impulses, intact & ~self._cracked
 
 
 def _removed(snapshots: Sequence[Snapshot]) -> np.ndarray:

@@ -161,7 +161,7 @@ class BulletWorld:
 
     def snapshots(self, sides: np.ndarray) -> SnapshotTaker:
         """Return the taker of snapshots of this world, as long as it is bound; with loads on `sides` of connections."""
-        return SnapshotTaker(self._layout, self.bodies, self.constraints, sides)
+        return SnapshotTaker(self.bodies, self.constraints, sides)
 
     def elastic_rows(self) -> ConstraintRows:
         """Return the rows of the connections of this world, as long as it is bound; all have to exist.

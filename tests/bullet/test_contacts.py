@@ -5,9 +5,9 @@ import math
 
 import numpy as np
 import pytest
+from reference import bullet_fields as reference
 from support.blocks import Blocks
 
-from bridge_demolition_addon.bullet import contacts
 from bridge_demolition_addon.bullet.contacts import ContactReader
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 
@@ -61,24 +61,26 @@ def test_block_on_a_slope_is_held_by_friction(blender, tmp_path):
     )
 
 
-def test_points_are_copied_by_the_compiled_loop_as_by_numpy(blender, tmp_path, monkeypatch):
-    blocks, copied = Blocks(), []
+def test_points_are_copied_by_the_core_as_by_numpy(blender, tmp_path, monkeypatch):
+    blocks, copied, dispatchers = Blocks(), [], {}
     blocks.block((0, 0, -0.5), size_m=(10, 10, 1))
     for level in range(3):
         blocks.block((0.1 * level, 0, 0.52 + 1.02 * level), 100.0)
-    quick = ContactReader.copy
+    made, of_core = ContactReader.__init__, ContactReader.copy
+
+    def note(reader, layout, dispatcher, bodies):
+        dispatchers[reader] = layout, dispatcher
+        made(reader, layout, dispatcher, bodies)
 
     def both_ways(reader):
-        found = quick(reader)
-        with monkeypatch.context() as without_numba:
-            without_numba.setattr(contacts, "field_loops", lambda: None)
-            plain = quick(reader)
-        np.testing.assert_array_equal(found.components, plain.components)
-        np.testing.assert_array_equal(found.bodies, plain.bodies)
-        assert found.bodies.dtype == plain.bodies.dtype
+        found, (components, bodies) = of_core(reader), reference.contact_points(*dispatchers[reader])
+        np.testing.assert_array_equal(found.components, components)
+        np.testing.assert_array_equal(found.bodies, bodies)
+        assert found.bodies.dtype == bodies.dtype
         copied.append(found.components.shape[1])
         return found
 
+    monkeypatch.setattr(ContactReader, "__init__", note)
     monkeypatch.setattr(ContactReader, "copy", both_ways)
     blocks.play(tmp_path, 12)
     assert 0 in copied and max(copied) >= 12

@@ -1,48 +1,57 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Snapshots read connections by a compiled loop as by numpy."""
-
-from dataclasses import fields
+"""Snapshots of the core are those of numpy."""
 
 import numpy as np
+from reference import bullet_fields as reference
 from support.blocks import Blocks
 
-from bridge_demolition_addon.bullet import constraints, snapshots
 from bridge_demolition_addon.bullet.constraints import ConstraintTable
+from bridge_demolition_addon.bullet.layout import platform_layout
 from bridge_demolition_addon.bullet.snapshots import SnapshotTaker
 
 WEAK_N = 1.0
 
 
-def test_connections_are_copied_by_the_compiled_loop_as_by_numpy(blender, tmp_path, monkeypatch):
-    blocks, taken, seen = Blocks(), [], []
+def test_bodies_and_connections_are_copied_as_by_numpy(blender, tmp_path, monkeypatch):
+    blocks, taken, seen, tables = Blocks(), [], [], []
     ground = blocks.block((0, 0, -0.5))
     upper = [blocks.block((0, 0, 1.5), 100.0), blocks.block((2, 0, 1.5), 50.0)]
     blocks.connect("FIXED", (0, 0, 0.5), ground, upper[0], WEAK_N)
     blocks.connect("FIXED", (1, 0, 1.5), *upper)
     blocks.connect("POINT", (0, 0, 0.5), ground, upper[1]).rigid_body_constraint.enabled = False
-    quick, quickly_intact = SnapshotTaker.take, ConstraintTable.intact
+    made, of_core, intact_of_core = SnapshotTaker.__init__, SnapshotTaker.take, ConstraintTable.intact
+
+    def note(taker, *parts):
+        tables[:] = parts
+        made(taker, *parts)
 
     def both_ways(taker, **options):
-        found = quick(taker, **options)
-        with monkeypatch.context() as without_numba:
-            without_numba.setattr(snapshots, "field_loops", lambda: None)
-            plain = quick(taker, **options)
-        for item in fields(found):
-            one, other = getattr(found, item.name), getattr(plain, item.name)
-            if isinstance(one, np.ndarray):
-                np.testing.assert_array_equal(one, other, err_msg=item.name)
-                assert one.dtype == other.dtype
+        (bodies, table, sides), layout = tables, platform_layout()
+        found = of_core(taker, **options)
+        state = np.vstack(
+            (reference.components(layout, bodies.addresses), bodies.can_move() * found.body_components[18])
+        )
+        loads, impulses, intact = reference.connections(layout, table.addresses, table.cracked, table.feedback, sides)
+        for one, other in (
+            (found.body_components, state),
+            (found.load_components, loads),
+            (found.applied_impulses, impulses),
+            (found.intact, intact),
+        ):
+            np.testing.assert_array_equal(one, other)
         taken.append(found.intact.tolist())
         return found
 
     def intact_both_ways(table):
-        found = quickly_intact(table)
-        with monkeypatch.context() as without_numba:
-            without_numba.setattr(constraints, "field_loops", lambda: None)
-            assert found.tolist() == quickly_intact(table).tolist()
+        found = intact_of_core(table)
+        *_, expected = reference.connections(
+            platform_layout(), table.addresses, table.cracked, table.feedback, np.zeros(0, int)
+        )
+        assert found.tolist() == expected.tolist()
         seen.append(found.tolist())
         return found
 
+    monkeypatch.setattr(SnapshotTaker, "__init__", note)
     monkeypatch.setattr(SnapshotTaker, "take", both_ways)
     monkeypatch.setattr(ConstraintTable, "intact", intact_both_ways)
     blocks.play(tmp_path, 6)

@@ -3,7 +3,8 @@
 
 import numpy as np
 
-from bridge_demolition_addon.engineering.elasticity.substep import BARE_BARS, CRACKS, SPRINGS, Term, call
+from bridge_demolition_addon.engineering.core.calls import call
+from bridge_demolition_addon.engineering.elasticity.substep import BARE_BARS, CRACKS, SPRINGS, Term
 
 
 def forces_and_tangents(term, moved):

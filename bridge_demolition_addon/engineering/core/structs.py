@@ -17,6 +17,26 @@ class Pointer(ctypes.c_void_p):
     dtype: ClassVar[np.dtype[Any]]
     written: ClassVar[bool] = False
 
+    @classmethod
+    def checked(cls, name: str, array: npt.NDArray[Any], size: int) -> npt.NDArray[Any]:
+        """Return an array that can be handed over, which has this number of elements.
+
+        Raises
+        ------
+        ValueError
+            The array is of another type or size, is not in the order of C, or cannot be written and has to be.
+        """
+        if array.dtype != cls.dtype:
+            raise ValueError(f"{name} has numbers of type {array.dtype}: expected {cls.dtype}")
+        if array.size != size:
+            raise ValueError(f"{name} has {array.size} numbers: expected {size}")
+        flags = array.flags
+        if not (flags.c_contiguous and flags.aligned):
+            raise ValueError(f"{name} is not one block in the order of C: use numpy.ascontiguousarray")
+        if cls.written and not flags.writeable:
+            raise ValueError(f"{name} cannot be written, and the core writes to it")
+        return array
+
 
 class Doubles(Pointer):
     """`const double *`."""
@@ -38,6 +58,18 @@ class Indices(Pointer):
 
 class WrittenIndices(Indices):
     """`int64_t *`."""
+
+    written = True
+
+
+class Addresses(Pointer):
+    """`const uint64_t *`."""
+
+    dtype = np.dtype(np.uint64)
+
+
+class WrittenAddresses(Addresses):
+    """`uint64_t *`."""
 
     written = True
 
@@ -68,24 +100,12 @@ class Struct(ctypes.Structure):
         self._kept: dict[str, npt.NDArray[Any]] = {}
 
     def point(self, name: str, array: npt.NDArray[Any], size: int) -> None:
-        """Let a field point to an array, which has this number of elements.
+        """Let a field point to an array, which has this number of elements; an array that cannot be handed over raises.
 
-        Raises
-        ------
-        ValueError
-            The array is of another type or size, is not in the order of C, or cannot be written and has to be.
+        The error of an array of another type, size or order is a ValueError.
         """
         if self._kept.get(name) is array and array.size == size:
             return
-        kind = self._pointers[name]
-        if array.dtype != kind.dtype:
-            raise ValueError(f"{name} has numbers of type {array.dtype}: expected {kind.dtype}")
-        if array.size != size:
-            raise ValueError(f"{name} has {array.size} numbers: expected {size}")
-        flags = array.flags
-        if not (flags.c_contiguous and flags.aligned):
-            raise ValueError(f"{name} is not one block in the order of C: use numpy.ascontiguousarray")
-        if kind.written and not flags.writeable:
-            raise ValueError(f"{name} cannot be written, and the core writes to it")
+        self._pointers[name].checked(name, array, size)
         setattr(self, name, array.ctypes.data)
         self._kept[name] = array

@@ -19,6 +19,7 @@ from typing import TypeVar
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
+from ..core.calls import call
 from ..core.structs import Count, Doubles, Indices, Struct, WrittenDoubles, WrittenFlags
 from .crack_law import DOWEL_SHARE, FRICTION, SHEARED, stretches_of_bars
 from .crack_state import CrackState
@@ -30,7 +31,7 @@ from .joint_rows import (
     turned_back,
 )
 from .steel_bars import Bars, Steel, SteelOfBars, bar_response
-from .substep import Places, Term, call
+from .substep import Places, Term
 
 Numbers = TypeVar("Numbers", FloatArray, IntArray, BoolArray)
 

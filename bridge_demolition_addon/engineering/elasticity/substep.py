@@ -11,17 +11,12 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
-from ..core.library import function
+from ..core.calls import call
 from ..core.structs import Count, Doubles, Flags, Indices, Struct, WrittenDoubles, WrittenFlags
 from .joint_rows import JointFrames
 
 CRACKS, SPRINGS, BARE_BARS = range(3)
 """Kinds of terms."""
-
-_ANSWERS = {
-    1: "there is not enough memory for a sub-step",
-    2: "a sub-step names bodies, connections or parts that there are not",
-}
 
 TURNED_RAD = 1e-4
 """Rotation of bodies after which rows and equations are made again: loads are then off by as much, relative."""
@@ -280,29 +275,6 @@ class Substep(Struct):
         call("bda_solve_substep", self)
         for term in terms:
             term.tell()
-
-
-def call(name: str, *arguments: Struct | np.ndarray | int) -> None:
-    """Call a function of the core with structs, arrays and counts.
-
-    Raises
-    ------
-    ValueError
-        Numbers are out of range.
-    MemoryError
-        There is no room.
-    """
-    given, kinds = [], []
-    for argument in arguments:
-        is_count = isinstance(argument, int)
-        kinds.append(ctypes.c_int64 if is_count else ctypes.c_void_p)
-        if isinstance(argument, np.ndarray):
-            given.append(argument.ctypes.data)
-        else:
-            given.append(argument if isinstance(argument, int) else ctypes.addressof(argument))
-    answer = function(name, *kinds)(*given)
-    if answer:
-        raise (MemoryError if answer == 1 else ValueError)(_ANSWERS[answer])
 
 
 def deformations(frames: Frames, places: Places, chosen: IntArray) -> FloatArray:

@@ -146,9 +146,7 @@ class ElasticConnections:
         )
         self._axial_n_m = stiffness.axial_n_m
         self._masses = inventory.masses_kg
-        self._inertias = inertia_tensors(
-            self._reader.inverse_inertia_components(), motion.rotation_components, self._masses
-        )
+        self._inertias = inertia_tensors(motion.inverse_inertia_components, motion.rotation_components, self._masses)
         step = scene_time_step(scene)
         self._shortest_s, self._frame_s = step.substep_s, step.frame_s
         self._since_fit_s = np.inf
@@ -247,10 +245,8 @@ class ElasticConnections:
         if self.bare_bars.take_added():
             given(self._structure).stand_bare(self.bare_bars.law)
         self._follow_frequencies(motion)
-        inertias = self._reader.inverse_inertia_components()
-        velocities = velocities_alone(
-            motion.velocity_components, self._left, motion.inverse_masses, inertias, motion.load_components, substep_s
-        )
+        alone = motion.inverse_masses, motion.inverse_inertia_components, motion.load_components
+        velocities = velocities_alone(motion.velocity_components, self._left, *alone, substep_s)
         gone = given(self._structure).settle(motion.position_components_m, motion.rotation_components)
         if len(gone):
             self._world.constraints.break_rows(gone)
@@ -289,9 +285,7 @@ class ElasticConnections:
         arms = zip(turns, (joints.first_arms_m, joints.second_arms_m), strict=True)
         self._rows.move_frames(rows, axes, [turned_back(turn, arm) for turn, arm in arms])
         lines = joints.rows()
-        inverse = effective_inverse_masses(
-            lines, ends, motion.inverse_masses, self._reader.inverse_inertia_components()
-        )
+        inverse = effective_inverse_masses(lines, ends, motion.inverse_masses, motion.inverse_inertia_components)
         hardness = substep_s * substep_s * joints.stiffness * inverse
         self._rows.soften(rows, np.divide(1.0, hardness, out=np.full_like(hardness, np.inf), where=hardness > 0.0))
         rates = lines.rates(*(step.velocities[:, bodies] for bodies in ends))
@@ -392,7 +386,7 @@ class ElasticConnections:
         positions = joint_positions(self._frames, motion.position_components_m, motion.rotation_components)
         intact = np.flatnonzero(self._world.constraints.intact())
         rows, ends = positions.rows(), (self._frames.first, self._frames.second)
-        inverse = effective_inverse_masses(rows, ends, motion.inverse_masses, self._reader.inverse_inertia_components())
+        inverse = effective_inverse_masses(rows, ends, motion.inverse_masses, motion.inverse_inertia_components)
         diagonal = self._stiffness[np.arange(6), np.arange(6)].copy()
         if self._bearings:
             diagonal[:, self._bearings.rows] = self._bearings.diagonal()

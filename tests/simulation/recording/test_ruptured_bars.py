@@ -24,7 +24,8 @@ class Places:
         rotations = np.repeat(np.eye(3)[:, :, None], 3, axis=2)
         sine, cosine = math.sin(self.turn), math.cos(self.turn)
         rotations[:, :, 1] = ((cosine, -sine, 0.0), (sine, cosine, 0.0), (0.0, 0.0, 1.0))
-        return BodyMotion(positions_m, rotations, np.zeros((6, 3)), np.ones(3), np.zeros((6, 3)), np.zeros(3, bool))
+        none = np.zeros((6, 3))
+        return BodyMotion(positions_m, rotations, none, np.ones(3), rotations, none, np.zeros(3, bool))
 
 
 @pytest.fixture

@@ -1,0 +1,50 @@
+"""Calls of functions of the core that answer whether they could do what they were asked for."""
+
+from __future__ import annotations
+
+import ctypes
+from typing import Any
+
+import numpy as np
+
+from .library import function
+from .structs import Struct
+
+DONE, NO_MEMORY, OUT_OF_RANGE = range(3)
+"""Answers of functions: the first of `core/src/vectors.h`."""
+
+_ANSWERS = {
+    NO_MEMORY: "there is not enough memory for what the core was asked for",
+    OUT_OF_RANGE: "the core was given numbers of bodies, connections or other rows that there are not",
+}
+
+
+def answer_of(name: str, *arguments: Struct | np.ndarray | float) -> int:
+    """Call a function with structs, arrays, counts and numbers, and return its answer."""
+    kinds, given = zip(*map(_given, arguments), strict=True)
+    answer: int = function(name, *kinds)(*given)
+    return answer
+
+
+def call(name: str, *arguments: Struct | np.ndarray | float) -> None:
+    """Call a function with structs, arrays, counts and numbers.
+
+    Raises
+    ------
+    ValueError
+        Numbers are out of range.
+    MemoryError
+        There is no room.
+    """
+    answer = answer_of(name, *arguments)
+    if answer:
+        raise (MemoryError if answer == NO_MEMORY else ValueError)(_ANSWERS[answer])
+
+
+def _given(argument: Struct | np.ndarray | float) -> tuple[Any, int | float]:
+    """Return the type of C of an argument, and what C gets: the address of what is more than a number."""
+    if isinstance(argument, np.ndarray):
+        return ctypes.c_void_p, argument.__array_interface__["data"][0]
+    if isinstance(argument, Struct):
+        return ctypes.c_void_p, ctypes.addressof(argument)
+    return ctypes.c_double if isinstance(argument, float) else ctypes.c_int64, argument
