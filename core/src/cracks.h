@@ -19,7 +19,7 @@ typedef struct {
     const double *first_anchors, *second_anchors, *normals, *directions; /* (3, q) */
     double *slips, *flows, *rests, *grips;      /* (3, q), (q,), (3, q), (q,) */
     uint8_t *holds;                             /* (q,), whether bars have not ruptured */
-    double *solved_for;                         /* (3, 3, q), as in terms */
+    double *remembered;                         /* (12, q), as in terms */
     /* Of connections: forces at which bars at corners yield (4, m), part of them that is left, openings at which they
      * rupture, stiffness of pressed sides, steel (m,). */
     const double *yields, *shares, *openings, *pressed, *yield_strain, *hardening, *rupture_strain;

@@ -2,10 +2,8 @@
  *
  * Symmetric systems of equations with six unknowns a body, coupled in pairs by connections, and their factors L D L^T.
  *
- * The numbers are an upper triangle, column by column. They are factored row after row of L, as QDLDL does (B. Stellato
- * and others, 2020, OSQP, Mathematical Programming Computation 12, with the elimination tree of T. A. Davis, 2006,
- * Direct methods for sparse linear systems, chapter 4), six rows of a body at once where they hang on the same columns.
- * Six such columns are a panel, with the same rows below.
+ * All is done in blocks of six by six: `elimination` finds the order of the bodies and where L has blocks, and L is found
+ * column by column, each from those to its left (T. A. Davis, 2006, Direct methods for sparse linear systems, chapter 4).
  */
 #ifndef BDA_EQUATIONS_H
 #define BDA_EQUATIONS_H
@@ -15,16 +13,16 @@
 
 enum { UNKNOWNS = 6, BLOCK = 36 };
 
-/* What a connection adds to the equations: to its first body, to its second, and between them. */
+/* What a connection adds to the equations: to its first body, to its second, and between them, with rows for the first.
+ * Of what it adds to a body the upper triangle counts. */
 typedef struct {
     double of_first[BLOCK], of_second[BLOCK], between[BLOCK];
 } blocks_of_connection;
 
 typedef struct bda_equations bda_equations;
 
-BDA_API bda_equations *bda_equations_new(int64_t bodies, int64_t connections, int64_t size, const int32_t *starts,
-                                         const int32_t *rows, const uint32_t *of_bodies, const uint32_t *of_first,
-                                         const uint32_t *of_second, const uint32_t *between, const int64_t *order);
+BDA_API bda_equations *bda_equations_new(int64_t bodies, int64_t connections, const int64_t *first,
+                                         const int64_t *second);
 BDA_API void bda_equations_free(bda_equations *equations);
 BDA_API int bda_equations_assemble(bda_equations *equations, const double *of_bodies, int64_t count,
                                    const int64_t *connections, const blocks_of_connection *blocks);

@@ -10,69 +10,74 @@ enum { MOST_SECANTS = 12 };
 static const double FLAT = 0.01;
 
 /* Take over the motion that solves the equations; note the parts whose gaps do not resist what was guessed. */
-static void take(guessed_term *g, const double *velocities, int64_t bodies, double substep_s, uint8_t *off)
+static void take(guessed_term *g, const double *velocities, int64_t bodies, double substep_s, const uint8_t *open,
+                 uint8_t *off)
 {
     const bda_term *t = g->term;
-    move_by(g, velocities, bodies, substep_s, g->next_moved);
     for (int64_t row = 0; row < t->gaps; row++) {
+        int64_t part = g->part[t->of_gap[row]];
         double moved[3], guessed[3], resisted[3];
-        for (int axis = 0; axis < g->components; axis++)
-            moved[axis] = g->next_moved[axis * t->gaps + row];
+        if (!open[part])
+            continue;
+        moved_by(g, row, velocities, bodies, substep_s, moved);
         linear_at(g, row, moved, guessed);
         resisted_at(g, row, moved, resisted);
         for (int axis = 0; axis < g->components; axis++) {
-            g->next_guessed[axis * t->gaps + row] = guessed[axis];
+            int64_t at = axis * t->gaps + row;
+            g->next_moved[at] = moved[axis];
+            g->next_guessed[at] = guessed[axis];
+            g->next_resisted[at] = resisted[axis];
             if (fabs(resisted[axis] - guessed[axis]) > g->slack[row])
-                off[g->part[t->of_gap[row]]] = 1;
+                off[part] = 1;
         }
     }
 }
 
-/* Motion and balanced forces of a gap at a share of the way from one guess to the next. */
-static void on_the_way(const guessed_term *g, int64_t row, double share, double moved[3], double guessed[3])
+/* Motion of a gap at a share of the way from one guess to the next. */
+static void on_the_way(const guessed_term *g, int64_t row, double share, double moved[3])
 {
     for (int axis = 0; axis < g->components; axis++) {
         int64_t at = axis * g->term->gaps + row;
         moved[axis] = g->moved[at] + share * (g->next_moved[at] - g->moved[at]);
-        guessed[axis] = g->guessed[at] + share * (g->next_guessed[at] - g->guessed[at]);
     }
 }
 
+/* What a gap resists at a share of the way; at both ends it is known. */
+static void resisted_on_the_way(const guessed_term *g, int64_t row, double share, double resisted[3])
+{
+    double moved[3];
+    if (share == 0.0 || share == 1.0) {
+        for (int axis = 0; axis < g->components; axis++)
+            resisted[axis] = (share == 0.0 ? g->resisted : g->next_resisted)[axis * g->term->gaps + row];
+        return;
+    }
+    on_the_way(g, row, share, moved);
+    resisted_at(g, row, moved, resisted);
+}
+
 /* Add the slopes of the energy of a term's parts that are sought, at shares (p + 1,) of their ways. */
-static void add_slopes(const guessed_term *g, const double *shares, const uint8_t *sought, double *of_connection,
-                       double *slopes)
+static void add_slopes(const guessed_term *g, const double *shares, const uint8_t *sought, double *slopes)
 {
     const bda_term *t = g->term;
-    memset(of_connection, 0, (size_t)t->connections * sizeof *of_connection);
     for (int64_t row = 0; row < t->gaps; row++) {
         int64_t part = g->part[t->of_gap[row]];
-        double moved[3], guessed[3], resisted[3], work = 0.0;
+        double resisted[3];
         if (!sought[part])
             continue;
-        on_the_way(g, row, shares[part], moved, guessed);
-        resisted_at(g, row, moved, resisted);
+        resisted_on_the_way(g, row, shares[part], resisted);
         for (int axis = 0; axis < g->components; axis++) {
             int64_t at = axis * t->gaps + row;
-            double of_axis = (resisted[axis] - guessed[axis]) * (g->next_moved[at] - g->moved[at]);
-            work = axis ? work + of_axis : of_axis;
+            double guessed = g->guessed[at] + shares[part] * (g->next_guessed[at] - g->guessed[at]);
+            slopes[part] += (resisted[axis] - guessed) * (g->next_moved[at] - g->moved[at]);
         }
-        of_connection[t->of_gap[row]] += work;
     }
-    for (int64_t connection = 0; connection < t->connections; connection++)
-        if (sought[g->part[connection]])
-            slopes[g->part[connection]] += of_connection[connection];
 }
 
 static void slopes_at(guesses *all, const double *shares, double *slopes)
 {
-    size_t size = (size_t)(all->parts + 1) * sizeof *slopes;
-    memset(slopes, 0, size);
-    for (int64_t number = 0; number < all->count; number++) {
-        memset(all->of_term, 0, size);
-        add_slopes(all->terms + number, shares, all->seek, all->of_connection, all->of_term);
-        for (int64_t part = 0; part <= all->parts; part++)
-            slopes[part] += all->of_term[part];
-    }
+    memset(slopes, 0, (size_t)(all->parts + 1) * sizeof *slopes);
+    for (int64_t number = 0; number < all->count; number++)
+        add_slopes(all->terms + number, shares, all->seek, slopes);
 }
 
 /* Begin the search of how far each part goes; return whether there is one whose slope becomes 0 on its way. */
@@ -126,43 +131,45 @@ static void find_shares(guesses *all)
             any |= all->seek[part];
         }
     }
-    for (int64_t part = 0; part <= all->parts; part++)
-        if (!all->off[part])
-            all->shares[part] = 0.0;
 }
 
-/* Take forces for linear about the guess at shares (p + 1,) of the ways; 0 keeps those that agreed. */
-static void go(guessed_term *g, const double *shares, int is_first)
+/* Take forces for linear about the guess at shares (p + 1,) of the ways, of parts that are off. */
+static void go(guessed_term *g, const double *shares, const uint8_t *off)
 {
     const bda_term *t = g->term;
     for (int64_t row = 0; row < t->gaps; row++) {
-        double moved[3], guessed[3];
-        if (!is_first)
-            on_the_way(g, row, shares[g->part[t->of_gap[row]]], moved, guessed);
+        int64_t part = g->part[t->of_gap[row]];
+        double moved[3];
+        if (!off[part])
+            continue;
+        on_the_way(g, row, shares[part], moved);
         for (int axis = 0; axis < g->components; axis++) {
             int64_t at = axis * t->gaps + row;
-            g->moved[at] = is_first ? g->next_moved[at] : moved[axis];
-            g->guessed[at] = is_first ? g->next_guessed[at] : guessed[axis];
+            g->guessed[at] += shares[part] * (g->next_guessed[at] - g->guessed[at]);
         }
+        begin_at(g, row, moved);
     }
-    begin_at(g, g->moved);
 }
 
-/* Return whether forces do not agree with the velocities (6, n) that solve the equations; then guess others. */
+/* Return whether forces do not agree with the velocities (6, n) that solve the equations; then guess others. Parts that
+ * agree are not open any more. */
 int guess_again(guesses *all, const double *velocities, int64_t bodies, double substep_s)
 {
     int any = 0;
     memset(all->off, 0, (size_t)(all->parts + 1));
     for (int64_t number = 0; number < all->count; number++)
-        take(all->terms + number, velocities, bodies, substep_s, all->off);
-    for (int64_t part = 0; part <= all->parts; part++)
+        take(all->terms + number, velocities, bodies, substep_s, all->open, all->off);
+    for (int64_t part = 0; part <= all->parts; part++) {
         any |= all->off[part];
+        all->open[part] = all->off[part];
+        all->shares[part] = 1.0;
+    }
     if (!any)
         return 0;
-    if (!all->are_first)
+    if (!all->are_first) /* there is no way from a guess that was in balance with nothing */
         find_shares(all);
     for (int64_t number = 0; number < all->count; number++)
-        go(all->terms + number, all->shares, all->are_first);
+        go(all->terms + number, all->shares, all->off);
     all->are_first = 0;
     return 1;
 }

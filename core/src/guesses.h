@@ -18,10 +18,9 @@ typedef struct {
     int64_t count, parts;
     guessed_term *terms;
     int are_first;             /* whether there was no guess before the next one: then there is no way to it */
-    uint8_t *off, *seek;       /* (p + 1,), whose forces do not agree with the motion; whose way is still sought */
+    uint8_t *open, *off, *seek; /* (p + 1,), whose guess is not the last; does not agree with the motion; is sought */
     double *shares;            /* (p + 1,), of the way to the next guess */
-    double *low, *share, *at_low, *at_high, *at_share, *flat, *of_term; /* (p + 1,), of that search */
-    double *of_connection;     /* (largest c,) */
+    double *low, *share, *at_low, *at_high, *at_share, *flat; /* (p + 1,), of that search */
 } guesses;
 
 int guess_again(guesses *guesses, const double *velocities, int64_t bodies, double substep_s);

@@ -84,6 +84,7 @@ static void prepare_term(work *w, pool *p, int64_t number)
     guessed_term *g = w->all.terms + number;
     bda_term *t = s->terms[number];
     int64_t c = t->connections, *part, *within;
+    const double at_rest[3] = {0.0, 0.0, 0.0};
     g->term = t;
     g->components = t->kind == BARE_BARS ? 1 : 3;
     g->part = part = room_in(p, c, sizeof *part);
@@ -92,13 +93,14 @@ static void prepare_term(work *w, pool *p, int64_t number)
     g->second_body = room_in(p, c, sizeof *g->second_body);
     w->first_gaps[number] = room_in(p, c, sizeof **w->first_gaps);
     g->changed = room_in(p, c, sizeof *g->changed);
-    double *room = room_in(p, 22 * t->gaps, sizeof *room);
+    double *room = room_in(p, 25 * t->gaps, sizeof *room);
     if (p->is_short)
         return;
     g->slack = room, g->stiff = room + t->gaps;
     g->at_rest = room + 4 * t->gaps;
     g->moved = room + 7 * t->gaps, g->guessed = room + 10 * t->gaps;
     g->next_moved = room + 13 * t->gaps, g->next_guessed = room + 16 * t->gaps;
+    g->next_resisted = room + 19 * t->gaps, g->resisted = room + 22 * t->gaps;
     for (int64_t row = t->gaps - 1; row >= 0; row--) {
         int64_t at = t->of_gap[row];
         int is_turned = t->kind == SPRINGS && t->above_first[at];
@@ -110,27 +112,26 @@ static void prepare_term(work *w, pool *p, int64_t number)
         part[at] = part_of(s, t->numbers[at]);
         within[at] = s->within_part[t->numbers[at]];
     }
-    begin_at(g, g->moved);
+    for (int64_t row = 0; row < t->gaps; row++)
+        begin_at(g, row, at_rest);
     find_slack(g);
+    begin_as_remembered(g);
 }
 
 static void prepare(work *w, pool *p)
 {
     bda_substep *s = w->s;
-    int64_t n = s->places->count, parts = s->parts + 1, most = s->acting_count, largest = 0, rows = 0;
+    int64_t n = s->places->count, parts = s->parts + 1, most = s->acting_count, rows = 0;
     w->all.count = s->term_count, w->all.parts = s->parts, w->all.are_first = 1;
     w->all.terms = room_in(p, s->term_count, sizeof *w->all.terms);
     w->first_gaps = room_in(p, s->term_count, sizeof *w->first_gaps);
     for (int64_t number = 0; number < s->term_count && !p->is_short; number++) {
         prepare_term(w, p, number);
         rows += s->terms[number]->connections;
-        if (s->terms[number]->connections > largest)
-            largest = s->terms[number]->connections;
     }
     most = rows > most ? rows : most;
-    uint8_t *flags = room_in(p, 3 * parts, sizeof *flags);
-    double *of_parts = room_in(p, 8 * parts, sizeof *of_parts);
-    w->all.of_connection = room_in(p, largest, sizeof *w->all.of_connection);
+    uint8_t *flags = room_in(p, 4 * parts, sizeof *flags);
+    double *of_parts = room_in(p, 7 * parts, sizeof *of_parts);
     w->starts = room_in(p, parts + 1, sizeof *w->starts);
     w->next = room_in(p, parts, sizeof *w->next);
     w->of_part = room_in(p, most, sizeof *w->of_part);
@@ -140,10 +141,12 @@ static void prepare(work *w, pool *p)
     w->amounts = room_in(p, 6 * s->acting_count, sizeof *w->amounts);
     if (p->is_short)
         return;
-    w->all.off = flags, w->all.seek = flags + parts, w->unsolved = flags + 2 * parts;
+    w->all.off = flags, w->all.seek = flags + parts, w->unsolved = flags + 2 * parts, w->all.open = flags + 3 * parts;
+    for (int64_t part = 0; part < parts; part++)
+        w->all.open[part] = part == s->parts || s->awake[part];
     w->all.shares = of_parts, w->all.low = of_parts + parts, w->all.share = of_parts + 2 * parts;
     w->all.at_low = of_parts + 3 * parts, w->all.at_high = of_parts + 4 * parts, w->all.at_share = of_parts + 5 * parts;
-    w->all.flat = of_parts + 6 * parts, w->all.of_term = of_parts + 7 * parts;
+    w->all.flat = of_parts + 6 * parts;
     w->right = of_bodies, w->unknowns = of_bodies + 6 * n, w->loads = of_bodies + 12 * n;
     w->sums = of_bodies + 18 * n, w->changes = of_bodies + 24 * n, w->total = of_bodies + 30 * n;
 }
@@ -263,7 +266,7 @@ static int refresh(work *w)
         guessed_term *g = w->all.terms + number;
         find_changed(g);
         for (int64_t at = 0; at < g->term->connections; at++)
-            if (g->changed[at] && g->part[at] < s->parts)
+            if (g->changed[at] && g->part[at] < s->parts && w->all.open[g->part[at]])
                 w->unsolved[g->part[at]] = 1, any = 1;
     }
     return any && answer == BDA_DONE ? factor(w, w->unsolved) : answer;
@@ -342,22 +345,21 @@ static void slow_down(work *w)
     add_on_bodies(s, s->of_bodies);
 }
 
-/* Solve the equations of all parts that are awake: changes of velocities by the impulses, with those of all terms. */
+/* Solve the equations of the parts that are open and awake: changes of velocities by the impulses, with those of all terms. */
 static void solve(work *w)
 {
     bda_substep *s = w->s;
     int64_t n = s->places->count;
     const double *loads = w->loads;
     for (int64_t number = 0; number < s->term_count; number++) {
-        find_impulses(w->all.terms + number, s->velocities, n, s->substep_s, w->sums);
+        find_impulses(w->all.terms + number, s->velocities, n, s->substep_s, w->all.open, w->sums);
         for (int64_t at = 0; at < 6 * n; at++)
             w->total[at] = loads[at] + w->sums[at];
         loads = w->total;
     }
-    memset(w->changes, 0, (size_t)(6 * n) * sizeof *w->changes);
     for (int64_t part = 0; part < s->parts; part++) {
         int64_t first = s->part_starts[part], count = s->part_starts[part + 1] - first;
-        if (!s->awake[part])
+        if (!s->awake[part] || !w->all.open[part])
             continue;
         for (int axis = 0; axis < 6; axis++)
             for (int64_t at = 0; at < count; at++)
@@ -392,7 +394,7 @@ static void add_terms(work *w)
     int64_t n = s->places->count, k = s->acting_count;
     for (int64_t number = 0; number < s->term_count; number++) {
         bda_term *t = s->terms[number];
-        find_impulses(w->all.terms + number, s->ends, n, s->substep_s, w->sums);
+        find_impulses(w->all.terms + number, s->ends, n, s->substep_s, NULL, w->sums);
         for (int64_t at = 0; at < 6 * n; at++)
             s->of_bodies[at] = s->of_bodies[at] + w->sums[at];
         for (int64_t at = 0; t->kind == SPRINGS && at < t->connections; at++) {
@@ -431,6 +433,8 @@ int bda_solve_substep(bda_substep *s)
             solve(&w);
     }
     if (answer == BDA_DONE) {
+        for (int64_t number = 0; number < s->term_count && s->most_guesses; number++)
+            remember(w.all.terms + number);
         slow_down(&w);
         add_terms(&w);
     }

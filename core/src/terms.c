@@ -177,6 +177,7 @@ static void begin_bare_bars(guessed_term *g, int64_t row, double moved)
     int is_elastic = t->holds[row] && force < t->pulled_limits[row] && force > -t->pressed_limits[row];
     g->stiff[row] = is_elastic ? t->stiffness[row] : 0.0;
     g->at_rest[row] = force - g->stiff[row] * moved;
+    g->resisted[row] = force;
     vector_at(t->directions, t->gaps, row, direction);
     double beside = t->held_sideways && t->holds[row] ? t->stiffness[row] : 0.0;
     for (int axis = 0; axis < 3; axis++)
@@ -189,29 +190,51 @@ static void begin_bare_bars(guessed_term *g, int64_t row, double moved)
         }
 }
 
-/* Take forces for linear about gaps that have opened further, by `moved` (d, q). */
-void begin_at(guessed_term *g, const double *moved)
+/* Take the forces of a gap for linear about one that has opened further, by `moved` (d,). */
+void begin_at(guessed_term *g, int64_t row, const double moved[3])
+{
+    const bda_term *t = g->term;
+    double gap[3], force[3], tangent[3][3];
+    for (int axis = 0; axis < g->components; axis++)
+        g->moved[axis * t->gaps + row] = moved[axis];
+    if (t->kind == BARE_BARS) {
+        begin_bare_bars(g, row, moved[0]);
+        return;
+    }
+    gap_at(t, row, moved, gap);
+    if (t->kind == CRACKS)
+        linear_crack(t, row, gap, force, tangent);
+    else
+        force_of_spring(t, row, gap, force, tangent);
+    for (int axis = 0; axis < 3; axis++) {
+        double pulling = t->kind == CRACKS ? force[axis] : -force[axis];
+        for (int other = 0; other < 3; other++)
+            t->tangents[(3 * axis + other) * t->gaps + row] = tangent[axis][other];
+        g->resisted[axis * t->gaps + row] = pulling;
+        g->at_rest[axis * t->gaps + row] = pulling - turned_by_tangents(t, row, axis, moved);
+    }
+}
+
+/* Begin with the motion of the last sub-step, as most gaps open or close on. */
+void begin_as_remembered(guessed_term *g)
 {
     const bda_term *t = g->term;
     for (int64_t row = 0; row < t->gaps; row++) {
-        double own[3], gap[3], force[3], tangent[3][3];
-        if (t->kind == BARE_BARS) {
-            begin_bare_bars(g, row, moved[row]);
-            continue;
-        }
-        vector_at(moved, t->gaps, row, own);
-        gap_at(t, row, own, gap);
-        if (t->kind == CRACKS)
-            linear_crack(t, row, gap, force, tangent);
-        else
-            force_of_spring(t, row, gap, force, tangent);
-        for (int axis = 0; axis < 3; axis++) {
-            double pulling = t->kind == CRACKS ? force[axis] : -force[axis];
-            for (int other = 0; other < 3; other++)
-                t->tangents[(3 * axis + other) * t->gaps + row] = tangent[axis][other];
-            g->at_rest[axis * t->gaps + row] = pulling - turned_by_tangents(t, row, axis, own);
-        }
+        const double *before = t->remembered + 9 * t->all_gaps + t->which[row];
+        double moved[3] = {before[0], before[t->all_gaps], before[2 * t->all_gaps]};
+        if (isfinite(moved[0]))
+            begin_at(g, row, moved);
     }
+}
+
+/* Keep the motion for the next sub-step. */
+void remember(const guessed_term *g)
+{
+    const bda_term *t = g->term;
+    for (int64_t row = 0; row < t->gaps; row++)
+        for (int axis = 0; axis < 3; axis++)
+            t->remembered[(9 + axis) * t->all_gaps + t->which[row]] =
+                axis < g->components ? g->next_moved[axis * t->gaps + row] : 0.0;
 }
 
 static void find_slack_of_cracks(guessed_term *g)
@@ -274,21 +297,19 @@ static void rate_of_gap(const bda_term *t, int64_t row, const double *velocities
     }
 }
 
-/* Write how far gaps (d, q) open in a sub-step by velocities (6, n). */
-void move_by(const guessed_term *g, const double *velocities, int64_t bodies, double substep_s, double *moved)
+/* How far a gap (d,) opens in a sub-step by velocities (6, n). */
+void moved_by(const guessed_term *g, int64_t row, const double *velocities, int64_t bodies, double substep_s,
+              double moved[3])
 {
-    const bda_term *t = g->term;
-    for (int64_t row = 0; row < t->gaps; row++) {
-        double rate[3], direction[3];
-        rate_of_gap(t, row, velocities, bodies, rate);
-        if (t->kind == BARE_BARS) {
-            vector_at(t->directions, t->gaps, row, direction);
-            moved[row] = substep_s * dot3(direction, rate);
-        } else {
-            for (int axis = 0; axis < 3; axis++)
-                moved[axis * t->gaps + row] = substep_s * rate[axis];
-        }
+    double rate[3], direction[3];
+    rate_of_gap(g->term, row, velocities, bodies, rate);
+    if (g->term->kind == BARE_BARS) {
+        vector_at(g->term->directions, g->term->gaps, row, direction);
+        moved[0] = substep_s * dot3(direction, rate);
+        return;
     }
+    for (int axis = 0; axis < 3; axis++)
+        moved[axis] = substep_s * rate[axis];
 }
 
 /* Impulse of a gap that pulls its first body towards its second, by velocities (6, n) at the end of the sub-step. */
@@ -323,8 +344,10 @@ static void pull_of_gap(const guessed_term *g, int64_t row, const double *veloci
     }
 }
 
-/* Write the impulses of a term on its bodies, and their sums (6, n), by velocities (6, n) at the end of the sub-step. */
-void find_impulses(guessed_term *g, const double *velocities, int64_t bodies, double substep_s, double *sums)
+/* Write the impulses of a term on its bodies, and their sums (6, n), by velocities (6, n) at the end of the sub-step, for
+ * some parts of the structure (p + 1,), none where NULL is all. */
+void find_impulses(guessed_term *g, const double *velocities, int64_t bodies, double substep_s,
+                   const uint8_t *of_parts, double *sums)
 {
     bda_term *t = g->term;
     int64_t c = t->connections;
@@ -333,6 +356,8 @@ void find_impulses(guessed_term *g, const double *velocities, int64_t bodies, do
     for (int64_t row = 0; row < t->gaps; row++) {
         double pull[3], push[3], arm[3], moment[3];
         int64_t at = t->of_gap[row];
+        if (of_parts && !of_parts[g->part[at]])
+            continue;
         int is_turned = t->kind == SPRINGS && t->above_first[at]; /* its second body is the first of the connection */
         double *on_first = is_turned ? t->of_second : t->of_first, *on_second = is_turned ? t->of_first : t->of_second;
         pull_of_gap(g, row, velocities, bodies, substep_s, pull);
@@ -367,7 +392,7 @@ void find_changed(guessed_term *g)
     memset(g->changed, 0, (size_t)t->connections);
     for (int64_t row = 0; row < t->gaps; row++)
         for (int number = 0; number < 9; number++)
-            if (t->tangents[number * t->gaps + row] != t->solved_for[number * t->all_gaps + t->which[row]])
+            if (t->tangents[number * t->gaps + row] != t->remembered[number * t->all_gaps + t->which[row]])
                 g->changed[t->of_gap[row]] = 1;
 }
 
@@ -451,7 +476,7 @@ void blocks_of_gaps(guessed_term *g, int64_t connection, int64_t first_gap, doub
         double tangent[3][3], first_arm[3], second_arm[3];
         for (int number = 0; number < 9; number++) {
             double value = t->tangents[number * t->gaps + row];
-            t->solved_for[number * t->all_gaps + t->which[row]] = value;
+            t->remembered[number * t->all_gaps + t->which[row]] = value;
             tangent[number / 3][number % 3] = substep_s * substep_s * value;
         }
         vector_at(t->first_arms, t->gaps, row, first_arm);
@@ -477,19 +502,18 @@ void blocks_of_gaps(guessed_term *g, int64_t connection, int64_t first_gap, doub
 int bda_try_term(bda_term *t, const double *moved, double *forces)
 {
     int components = t->kind == BARE_BARS ? 1 : 3;
-    double *room = calloc((size_t)(4 * (t->gaps > 0 ? t->gaps : 1)), sizeof *room);
+    double *room = calloc((size_t)(10 * (t->gaps > 0 ? t->gaps : 1)), sizeof *room);
     guessed_term g = {.term = t, .components = components, .at_rest = room};
     if (!room)
         return BDA_NO_MEMORY;
-    g.stiff = room + 3 * t->gaps;
-    begin_at(&g, moved);
+    g.stiff = room + 3 * t->gaps, g.moved = room + 4 * t->gaps, g.resisted = room + 7 * t->gaps;
     for (int64_t row = 0; row < t->gaps; row++) {
-        double own[3], force[3];
+        double own[3];
         for (int axis = 0; axis < components; axis++)
             own[axis] = moved[axis * t->gaps + row];
-        resisted_at(&g, row, own, force);
+        begin_at(&g, row, own);
         for (int axis = 0; axis < components; axis++)
-            forces[axis * t->gaps + row] = force[axis];
+            forces[axis * t->gaps + row] = g.resisted[axis * t->gaps + row];
     }
     free(room);
     return BDA_DONE;

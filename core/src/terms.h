@@ -22,7 +22,8 @@ typedef struct {
     int64_t *first, *second;                /* (q,), bodies */
     double *first_arms, *second_arms;       /* (3, q), m, from the centres of the bodies to where forces act */
     double *widths;                         /* (3, q), m, from the first points to the second, or from no force */
-    double *solved_for;                     /* (3, 3, p), N/m, tangents for which the equations were made last */
+    double *remembered;                     /* (12, p), of the last sub-step: N/m, tangents (3, 3) of the equations, m, */
+                                            /* and how far gaps opened (3,); not a number where there was none */
     double *tangents;                       /* (3, 3, q), N/m, of the last guess */
     double *of_first, *of_second;           /* (6, c), impulses on both bodies of each connection */
     /* Bars: of a crack (q,), (3, q), in the axes of the world; `stiffness` and `yields` of bare ones, too. */
@@ -48,20 +49,24 @@ typedef struct {
     int64_t *first_body, *second_body; /* (c,) */
     double *slack;                   /* (q,), errors of forces that count as none */
     double *at_rest;                 /* (d, q), forces without motion, linear about the guess */
-    double *moved, *guessed;         /* (d, q), motion and balanced forces of the guess */
-    double *next_moved, *next_guessed; /* (d, q), and of the solution of the equations with it */
+    double *moved, *guessed, *resisted; /* (d, q), motion, forces in balance with all else and by the law, at the guess */
+    double *next_moved, *next_guessed, *next_resisted; /* (d, q), and where the equations with it are solved */
     double *stiff;                   /* (q,), of bare bars, along themselves */
     uint8_t *changed;                /* (c,), whether tangents differ from those in the equations */
 } guessed_term;
 
 BDA_API int bda_try_term(bda_term *term, const double *moved, double *forces);
 
-void begin_at(guessed_term *term, const double *moved);
+void begin_at(guessed_term *term, int64_t gap, const double moved[3]);
+void begin_as_remembered(guessed_term *term);
+void remember(const guessed_term *term);
 void find_slack(guessed_term *term);
-void move_by(const guessed_term *term, const double *velocities, int64_t bodies, double substep_s, double *moved);
+void moved_by(const guessed_term *term, int64_t gap, const double *velocities, int64_t bodies, double substep_s,
+              double moved[3]);
 void resisted_at(const guessed_term *term, int64_t gap, const double moved[3], double force[3]);
 void linear_at(const guessed_term *term, int64_t gap, const double moved[3], double force[3]);
-void find_impulses(guessed_term *term, const double *velocities, int64_t bodies, double substep_s, double *sums);
+void find_impulses(guessed_term *term, const double *velocities, int64_t bodies, double substep_s,
+                   const uint8_t *of_parts, double *sums);
 void find_changed(guessed_term *term);
 void blocks_of_gaps(guessed_term *term, int64_t connection, int64_t first_gap, double substep_s,
                     blocks_of_connection *blocks);

@@ -26,5 +26,5 @@ def term_of_law(kind, law, gaps_m, of_gap=None, above_first=None):
     if kind == BARE_BARS:
         settings = {"held_sideways": 0}
     ends = np.zeros(count, int), np.ones(count, int)
-    solved_for = np.full((3, 3, count), np.nan)
-    return Term.of(kind, rows, of_gap, np.arange(count), solved_for, ends, (none, none), gaps_m, law, **settings)
+    remembered = np.full((12, count), np.nan)
+    return Term.of(kind, rows, of_gap, np.arange(count), remembered, ends, (none, none), gaps_m, law, **settings)

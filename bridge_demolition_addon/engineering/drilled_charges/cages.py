@@ -130,7 +130,7 @@ class Cages:
         self._groups = _Groups(
             numbers, numbers, points, points, none, none, none, none, none, none, none > 0.0, points, none, straight
         )
-        self._solved_for = np.zeros((3, 3, 0))
+        self._remembered = np.zeros((12, 0))
 
     def __len__(self) -> int:
         return len(self._groups.first)
@@ -168,7 +168,7 @@ class Cages:
             self._groups.straight,
         )
         self._groups = self._groups.joined(added)
-        self._solved_for = np.concatenate((self._solved_for, np.full((3, 3, count), np.nan)), axis=2)
+        self._remembered = np.concatenate((self._remembered, np.full((12, count), np.nan)), axis=1)
         return len(self) - count + np.arange(count)
 
     @property
@@ -238,7 +238,7 @@ class Cages:
             self.rows[chosen],
             np.arange(len(chosen)),
             chosen,
-            self._solved_for,
+            self._remembered,
             (groups.first, groups.second),
             (first_arms, second_arms),
             line,

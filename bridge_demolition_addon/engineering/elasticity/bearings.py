@@ -142,7 +142,7 @@ class Bearings:
         self._forces_n = np.zeros((3, len(of)))
         self._pressed_n = np.full(len(of), np.nan)  # pressing forces as they were solved last
         self._gone = np.zeros(len(self.rows), bool)
-        self._solved_for = np.full((3, 3, len(of)), np.nan)
+        self._remembered = np.full((12, len(of)), np.nan)
 
     def settle(self, positions_m: FloatArray, rotations: FloatArray) -> None:
         """Take over, before a sub-step, how far springs have slid, and which bodies have left each other."""
@@ -241,7 +241,7 @@ class Bearings:
             self._pressed_n[which] = np.maximum(forces_n, 0.0)
 
         law = self._law.only(which)
-        return spring_term(self.rows[chosen], positions, which, of_chosen, law, self._solved_for, keep)
+        return spring_term(self.rows[chosen], positions, which, of_chosen, law, self._remembered, keep)
 
     def _turns(self, rotations: FloatArray) -> FloatArray:
         """Return how the first body of each connection is turned in the axes of the second, (3, 3, c)."""

@@ -85,7 +85,7 @@ class Cracks:
         self._normals, self._directions = np.zeros((3, 0)), np.zeros((3, 0))
         self._slips, self._flows, self._holds = np.zeros((3, 0)), np.zeros(0), np.zeros(0, bool)
         self._rests, self._grips_n = np.zeros((3, 0)), np.zeros(0)  # where sides that rub do not pull, and at most by
-        self._solved_for = np.zeros((3, 3, 0))
+        self._remembered = np.zeros((12, 0))
         self._core: CoreCracks | None = None
 
     def __getstate__(self) -> dict[str, object]:
@@ -137,7 +137,7 @@ class Cracks:
         self._holds = _joined(self._holds, np.ones(count, bool))
         self._rests = _joined(self._rests, np.zeros((3, count)))
         self._grips_n = _joined(self._grips_n, np.zeros(count))
-        self._solved_for = _joined(self._solved_for, np.full((3, 3, count), np.nan))
+        self._remembered = _joined(self._remembered, np.full((12, count), np.nan))
         self._core = None
 
     def pressed_n_m(self, rows: IntArray) -> FloatArray:
@@ -187,7 +187,7 @@ class Cracks:
 
     def in_substep(self, chosen: IntArray, positions_m: FloatArray, rotations: FloatArray, substep_s: float) -> Term:
         """Return what some cracks (c,) do in a sub-step of a length in s."""
-        term = Term.of_cracks(self.rows[chosen], self._solved_for, DOWEL_SHARE, SHEARED)
+        term = Term.of_cracks(self.rows[chosen], self._remembered, DOWEL_SHARE, SHEARED)
         places = Places.of(positions_m, rotations)
         call("bda_cracks_begin", self._in_core(), places, len(chosen), chosen, term)
         return term
@@ -212,7 +212,7 @@ class Cracks:
                 "rests": (self._rests, 3 * _COUNT * count),
                 "grips": (self._grips_n, _COUNT * count),
                 "holds": (self._holds, _COUNT * count),
-                "solved_for": (self._solved_for, 9 * _COUNT * count),
+                "remembered": (self._remembered, 12 * _COUNT * count),
                 "yields": (self._yield_n, _COUNT * connections),
                 "shares": (self._shares, connections),
                 "openings": (self._openings_m, connections),
@@ -266,7 +266,7 @@ class Cracks:
             "_grips_n",
         ):
             setattr(self, name, getattr(self, name).compress(bars, axis=-1))
-        self._solved_for = self._solved_for.compress(bars, axis=-1)
+        self._remembered = self._remembered.compress(bars, axis=-1)
         self._core = None
 
 
@@ -316,7 +316,7 @@ class CoreCracks(Struct):
         *((name, Doubles) for name in ("first_anchors", "second_anchors", "normals", "directions")),
         *((name, WrittenDoubles) for name in ("slips", "flows", "rests", "grips")),
         ("holds", WrittenFlags),
-        ("solved_for", WrittenDoubles),
+        ("remembered", WrittenDoubles),
         *((name, Doubles) for name in ("yields", "shares", "openings", "pressed")),
         *((name, Doubles) for name in ("yield_strain", "hardening", "rupture_strain")),
         *((name, ctypes.c_double) for name in ("dowel", "sheared", "friction")),

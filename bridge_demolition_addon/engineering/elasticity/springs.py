@@ -95,7 +95,7 @@ def spring_term(
     which: IntArray,
     gaps: tuple[FloatArray, FloatArray, FloatArray],
     law: PressedSprings,
-    solved_for: FloatArray,
+    remembered: FloatArray,
     solved: Callable[[FloatArray], None] | None = None,
 ) -> Term:
     """Return what c connections, `rows` (c,), do in a sub-step by q springs, which are `which` (q,) of all.
@@ -109,7 +109,7 @@ def spring_term(
         rows,
         positions.of,
         which,
-        solved_for,
+        remembered,
         (positions.below, positions.above),
         (arms_below, arms),
         widths,

@@ -97,7 +97,7 @@ class Term(Struct):
         ("first_arms", Doubles),
         ("second_arms", Doubles),
         ("widths", Doubles),
-        ("solved_for", WrittenDoubles),
+        ("remembered", WrittenDoubles),
         ("tangents", WrittenDoubles),
         ("of_first", WrittenDoubles),
         ("of_second", WrittenDoubles),
@@ -140,7 +140,7 @@ class Term(Struct):
         rows: IntArray,
         of_gap: IntArray,
         which: IntArray,
-        solved_for: FloatArray,
+        remembered: FloatArray,
         ends: tuple[IntArray, IntArray],
         arms_m: tuple[FloatArray, FloatArray],
         widths_m: FloatArray,
@@ -148,13 +148,13 @@ class Term(Struct):
         solved: Callable[[FloatArray], None] | None = None,
         **settings: float,
     ) -> Term:
-        """Return a term with q gaps, which are `which` (q,) of all (3, 3, p) that equations were `solved_for`.
+        """Return a term with q gaps, which are `which` (q,) of all that are `remembered` (12, p).
 
         Gaps are between bodies `ends`, two (q,), at arms, two (3, q), of connections `of_gap` (q,). The arrays of the
         law are of gaps, with components first. `solved` gets the upward forces (q,) on second bodies.
         """
         connections, gaps = len(rows), len(of_gap)
-        made = cls(kind=kind, connections=connections, gaps=gaps, all_gaps=solved_for.shape[-1], **settings)
+        made = cls(kind=kind, connections=connections, gaps=gaps, all_gaps=remembered.shape[-1], **settings)
         made.rows, made.solved = rows, solved
         made.arrays = {
             "numbers": rows,
@@ -173,14 +173,14 @@ class Term(Struct):
         for name, array in made.arrays.items():
             size = connections if name in cls._OF_CONNECTIONS else gaps * (array.size // max(array.shape[-1], 1))
             made.point(name, np.ascontiguousarray(array), size)
-        made.point("solved_for", solved_for, solved_for.size)
+        made.point("remembered", remembered, remembered.size)
         made.impulses = np.zeros((6, connections)), np.zeros((6, connections))
         for name, array in zip(("of_first", "of_second"), made.impulses, strict=True):
             made.point(name, array, 6 * connections)
         return made
 
     @classmethod
-    def of_cracks(cls, rows: IntArray, solved_for: FloatArray, dowel: float, sheared: float) -> Term:
+    def of_cracks(cls, rows: IntArray, remembered: FloatArray, dowel: float, sheared: float) -> Term:
         """Return a term of cracks (c,) whose arrays are not filled yet."""
         gaps = 4 * len(rows)
         whole = {name: np.empty(gaps, int) for name in ("which", "first", "second")}
@@ -194,7 +194,7 @@ class Term(Struct):
             rows,
             np.empty(gaps, int),
             whole["which"],
-            solved_for,
+            remembered,
             (whole["first"], whole["second"]),
             (np.empty((3, gaps)), np.empty((3, gaps))),
             np.empty((3, gaps)),

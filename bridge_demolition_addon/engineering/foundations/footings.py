@@ -68,7 +68,7 @@ class Footings:
             np.zeros(len(of)),
         )
         self._unloaded = np.zeros((3, len(of)))
-        self._solved_for = np.full((3, 3, len(of)), np.nan)
+        self._remembered = np.full((12, len(of)), np.nan)
 
     def settle(self, positions_m: FloatArray, rotations: FloatArray) -> None:
         """Take over, before a sub-step, how far springs have settled or slid for good."""
@@ -103,4 +103,4 @@ class Footings:
         positions, which = self._positions.only(chosen)
         gaps = gaps - self._unloaded
         of_chosen = gaps.take(which, axis=1), arms.take(which, axis=1), arms_below.take(which, axis=1)
-        return spring_term(self.rows[chosen], positions, which, of_chosen, self._soil.only(which), self._solved_for)
+        return spring_term(self.rows[chosen], positions, which, of_chosen, self._soil.only(which), self._remembered)
