@@ -2,6 +2,7 @@
 #include "cracks.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "bars.h"
 
@@ -270,49 +271,117 @@ static void axes_of_crack(const bda_term *t, int64_t crack, double axes[3][3])
     cross3(axes[0], axes[1], axes[2]);
 }
 
-/* Write how cracks resist small changes of the motion that was guessed last: arms (3, c) from both bodies to the middle
- * of their stiffness, axes (3, 3, c) as columns, and stiffness (6, c) along and about these. So the sides of a crack that
- * is closed at one edge turn about that edge, against its bars alone. */
-int bda_crack_joints(const bda_term *t, double *first_arms, double *second_arms, double *axes, double *stiffness)
+/* How a crack resists small changes of the motion that was guessed last: arms from both bodies to the middle of its
+ * stiffness, axes, one after another, and stiffness along and about these. So the sides of a crack that is closed at one
+ * edge turn about that edge, against its bars alone. */
+typedef struct {
+    double first_arm[3], second_arm[3], axes[3][3], stiffness[6];
+} crack_joint;
+
+static void find_joint(const bda_term *t, int64_t crack, crack_joint *joint)
 {
     int64_t count = t->connections;
-    for (int64_t crack = 0; crack < count; crack++) {
-        double own[3][3], shares[CORNERS], total = 0.0, sum = 0.0, first[3] = {0.0}, second[3] = {0.0};
-        double found[6] = {0.0}, normal[3], arm[3], moved[3];
-        axes_of_crack(t, crack, own);
-        for (int corner = 0; corner < CORNERS; corner++) {
-            vector_at(t->normals, t->gaps, crack + corner * count, normal);
-            shares[corner] = stiffness_along(t, crack + corner * count, normal);
-            total += shares[corner];
-        }
-        for (int corner = 0; corner < CORNERS; corner++) {
-            shares[corner] = total > 0.0 ? shares[corner] : 1.0;
-            sum += shares[corner];
-        }
-        for (int corner = 0; corner < CORNERS; corner++) {
-            double share = shares[corner] / sum;
-            vector_at(t->first_arms, t->gaps, crack + corner * count, arm);
-            for (int axis = 0; axis < 3; axis++)
-                first[axis] += share * arm[axis];
-            vector_at(t->second_arms, t->gaps, crack + corner * count, arm);
-            for (int axis = 0; axis < 3; axis++)
-                second[axis] += share * arm[axis];
-        }
-        for (int corner = 0; corner < CORNERS; corner++) {
-            vector_at(t->first_arms, t->gaps, crack + corner * count, arm);
-            for (int axis = 0; axis < 3; axis++)
-                arm[axis] = arm[axis] - first[axis];
-            for (int axis = 0; axis < 3; axis++) {
-                cross3(own[axis], arm, moved);
-                found[axis] += stiffness_along(t, crack + corner * count, own[axis]);
-                found[3 + axis] += stiffness_along(t, crack + corner * count, moved);
-            }
-        }
-        put_vector(first_arms, count, crack, first);
-        put_vector(second_arms, count, crack, second);
+    double shares[CORNERS], total = 0.0, sum = 0.0, normal[3], arm[3], moved[3];
+    memset(joint, 0, sizeof *joint);
+    axes_of_crack(t, crack, joint->axes);
+    for (int corner = 0; corner < CORNERS; corner++) {
+        vector_at(t->normals, t->gaps, crack + corner * count, normal);
+        shares[corner] = stiffness_along(t, crack + corner * count, normal);
+        total += shares[corner];
+    }
+    for (int corner = 0; corner < CORNERS; corner++) {
+        shares[corner] = total > 0.0 ? shares[corner] : 1.0;
+        sum += shares[corner];
+    }
+    for (int corner = 0; corner < CORNERS; corner++) {
+        double share = shares[corner] / sum;
+        vector_at(t->first_arms, t->gaps, crack + corner * count, arm);
         for (int axis = 0; axis < 3; axis++)
-            put_vector(axes + axis * count, 3 * count, crack, own[axis]);
-        for (int number = 0; number < 6; number++)
-            stiffness[number * count + crack] = found[number];
-    }    return BDA_DONE;
+            joint->first_arm[axis] += share * arm[axis];
+        vector_at(t->second_arms, t->gaps, crack + corner * count, arm);
+        for (int axis = 0; axis < 3; axis++)
+            joint->second_arm[axis] += share * arm[axis];
+    }
+    for (int corner = 0; corner < CORNERS; corner++) {
+        vector_at(t->first_arms, t->gaps, crack + corner * count, arm);
+        for (int axis = 0; axis < 3; axis++)
+            arm[axis] = arm[axis] - joint->first_arm[axis];
+        for (int axis = 0; axis < 3; axis++) {
+            cross3(joint->axes[axis], arm, moved);
+            joint->stiffness[axis] += stiffness_along(t, crack + corner * count, joint->axes[axis]);
+            joint->stiffness[3 + axis] += stiffness_along(t, crack + corner * count, moved);
+        }
+    }
+}
+
+/* Vector times one of n matrices (3, 3, n) times the vector. */
+static double square_by(const double *matrices, int64_t n, int64_t row, const double vector[3])
+{
+    double turned[3];
+    turned_at(matrices, n, row, vector, turned);
+    return dot3(vector, turned);
+}
+
+/* By how much a unit impulse in each row (6,) of a joint changes the velocity in it; and how fast the rows close. */
+static void motion_of_joint(const bda_expected_cracks *e, const crack_joint *joint, int64_t one, int64_t other,
+                            double mobilities[6], double rates[6])
+{
+    int64_t n = e->bodies;
+    double velocity[3], angular[3], of_second[3], turning[3];
+    for (int axis = 0; axis < 3; axis++) {
+        velocity[axis] = e->velocities[axis * n + one] - e->velocities[axis * n + other];
+        angular[axis] = e->velocities[(3 + axis) * n + one] - e->velocities[(3 + axis) * n + other];
+    }
+    for (int axis = 0; axis < 3; axis++) {
+        const double *along = joint->axes[axis];
+        cross3(joint->first_arm, along, turning);
+        vector_at(e->velocities + 3 * n, n, one, of_second);
+        rates[axis] = dot3(along, velocity) + dot3(turning, of_second);
+        mobilities[axis] = e->inverse_masses[one] + square_by(e->inverse_inertias, n, one, turning);
+        cross3(along, joint->second_arm, turning);
+        vector_at(e->velocities + 3 * n, n, other, of_second);
+        rates[axis] += dot3(turning, of_second);
+        mobilities[axis] += e->inverse_masses[other] + square_by(e->inverse_inertias, n, other, turning);
+        rates[3 + axis] = dot3(along, angular);
+        mobilities[3 + axis] =
+            square_by(e->inverse_inertias, n, one, along) + square_by(e->inverse_inertias, n, other, along);
+    }
+}
+
+/* Write a joint as frames of Bullet: axes (3, 3, c), as columns, and points (3, c) in the axes of a body. */
+static void put_frame(const bda_places *p, int64_t body, const double axes[3][3], const double arm[3], int64_t count,
+                      int64_t crack, double *to_axes, double *to_points)
+{
+    double own[3];
+    for (int axis = 0; axis < 3; axis++) {
+        turned_back_at(p->rotations, p->count, body, axes[axis], own);
+        put_vector(to_axes + axis * count, 3 * count, crack, own);
+    }
+    turned_back_at(p->rotations, p->count, body, arm, own);
+    put_vector(to_points, count, crack, own);
+}
+
+/* Find how Bullet's rows of cracks are to resist what contacts change of the motion that was guessed last. */
+int bda_expect_cracks(const bda_term *t, const bda_places *p, const bda_expected_cracks *e)
+{
+    int64_t count = t->connections;
+    if (p->count != e->bodies || t->kind != CRACKS || t->gaps != CORNERS * count)
+        return BDA_OUT_OF_RANGE;
+    for (int64_t crack = 0; crack < count; crack++) {
+        int64_t one = t->first[crack], other = t->second[crack];
+        crack_joint joint;
+        double mobilities[6], rates[6];
+        if (one < 0 || one >= e->bodies || other < 0 || other >= e->bodies)
+            return BDA_OUT_OF_RANGE;
+        find_joint(t, crack, &joint);
+        motion_of_joint(e, &joint, one, other, mobilities, rates);
+        put_frame(p, one, joint.axes, joint.first_arm, count, crack, e->first_axes, e->first_points);
+        put_frame(p, other, joint.axes, joint.second_arm, count, crack, e->second_axes, e->second_points);
+        for (int row = 0; row < 6; row++) {
+            double hardness = e->substep_s * e->substep_s * joint.stiffness[row] * mobilities[row];
+            e->softness[row * count + crack] = hardness > 0.0 ? 1.0 / hardness : INFINITY;
+            e->deformations[row * count + crack] = -e->substep_s * rates[row];
+        }
+    }
+    return BDA_DONE;
 }

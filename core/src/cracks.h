@@ -28,12 +28,21 @@ typedef struct {
 
 enum { CRACK_STATES = 8 };
 
+/* Frames on both bodies, in their axes, of Bullet's rows in place of c cracks; softness and deformations of the rows at
+ * the end of a sub-step, if nothing else acts. n bodies have velocities (6, n) there. */
+typedef struct {
+    int64_t bodies;
+    double substep_s;
+    const double *inverse_masses, *inverse_inertias, *velocities;      /* (n,); (3, 3, n); (6, n) */
+    double *first_axes, *first_points, *second_axes, *second_points; /* (3, 3, c), as columns; (3, c) */
+    double *softness, *deformations;                                  /* (6, c) */
+} bda_expected_cracks;
+
 BDA_API int bda_cracks_settle(const bda_cracks *cracks, const bda_places *places, uint8_t *holds);
 BDA_API int bda_cracks_grip(const bda_cracks *cracks, const bda_places *places);
 BDA_API int bda_cracks_state(const bda_cracks *cracks, const bda_places *places, double *states);
 BDA_API int bda_cracks_begin(const bda_cracks *cracks, const bda_places *places, int64_t count, const int64_t *chosen,
                              const bda_term *term);
-BDA_API int bda_crack_joints(const bda_term *term, double *first_arms, double *second_arms, double *axes,
-                              double *stiffness);
+BDA_API int bda_expect_cracks(const bda_term *term, const bda_places *places, const bda_expected_cracks *expected);
 
 #endif

@@ -13,7 +13,6 @@ All arrays have their components first. Places are numbered corner by corner, in
 from __future__ import annotations
 
 import ctypes
-from dataclasses import dataclass, fields
 from typing import TypeVar
 
 import numpy as np
@@ -24,8 +23,6 @@ from ..core.structs import Count, Doubles, Indices, Struct, WrittenDoubles, Writ
 from .crack_law import DOWEL_SHARE, FRICTION, SHEARED, stretches_of_bars
 from .crack_state import CrackState
 from .joint_rows import (
-    JointPositions,
-    JointRows,
     dot_products,
     turned,
     turned_back,
@@ -270,38 +267,55 @@ class Cracks:
         self._core = None
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class CrackJoints:
-    """How c cracks resist small changes of their opening: along and about axes in the middle of their stiffness.
+class ExpectedCracks(Struct):
+    """Frames and rows of Bullet in place of c cracks: `bda_expected_cracks` in `core/src/cracks.h`.
 
-    So the sides of a crack that is closed at one edge turn about that edge, against its bars alone.
+    Attributes
+    ----------
+    first, second : ((3, 3, c) float, (3, c) float)
+        Axes, as columns, and points, in the axes of both bodies, in the middle of the stiffness of each crack: so the
+        sides of one that is closed at one edge turn about that edge, against its bars alone.
+    rows : ((6, c) float, (6, c) float)
+        Softness of the rows, and how they will be deformed if nothing else acts.
     """
 
-    first: IntArray  # (c,), bodies
-    second: IntArray
-    first_arms_m: FloatArray  # (3, c), from the centres of the bodies to the middle
-    second_arms_m: FloatArray
-    axes: FloatArray  # (3, 3, c), as columns; the first are the normals
-    stiffness: FloatArray  # (6, c), against shifts along the axes, N/m, and against turns about them, N·m/rad
+    _fields_ = (
+        ("bodies", Count),
+        ("substep_s", ctypes.c_double),
+        *((name, Doubles) for name in ("inverse_masses", "inverse_inertias", "velocities")),
+        *((name, WrittenDoubles) for name in ("first_axes", "first_points", "second_axes", "second_points")),
+        *((name, WrittenDoubles) for name in ("softness", "deformations")),
+    )
 
-    def only(self, which: BoolArray) -> CrackJoints:
-        """Return those of some cracks."""
-        return CrackJoints(*(getattr(self, item.name)[..., which] for item in fields(self)))
-
-    def rows(self) -> JointRows:
-        """Return the rows of joints with these axes, which are not deformed yet."""
-        none = np.zeros_like(self.first_arms_m)
-        return JointPositions(self.axes, self.axes, self.first_arms_m, self.second_arms_m, none).rows()
-
-
-def joints_of_cracks(cracks: Term) -> CrackJoints:
-    """Return how cracks resist changes of the motion that was guessed last."""
-    count = len(cracks.rows)
-    first_arms, second_arms, axes = np.empty((3, count)), np.empty((3, count)), np.empty((3, 3, count))
-    stiffness = np.empty((6, count))
-    call("bda_crack_joints", cracks, first_arms, second_arms, axes, stiffness)
-    first, second = cracks.arrays["first"][:count], cracks.arrays["second"][:count]
-    return CrackJoints(first, second, first_arms, second_arms, axes, stiffness)
+    @classmethod
+    def of(
+        cls,
+        cracks: Term,
+        places: Places,
+        inverse_masses: FloatArray,
+        inverse_inertias: FloatArray,
+        velocities: FloatArray,
+        substep_s: float,
+    ) -> ExpectedCracks:
+        """Return what bodies with inverse masses (n,), inverse inertias (3, 3, n) and velocities (6, n) make of them."""
+        count, bodies = len(cracks.rows), len(inverse_masses)
+        found = cls(bodies=bodies, substep_s=substep_s)
+        found.first, found.second = ((np.empty((3, 3, count)), np.empty((3, count))) for _ in range(2))
+        found.rows = np.empty((6, count)), np.empty((6, count))
+        for name, array in (
+            ("inverse_masses", inverse_masses),
+            ("inverse_inertias", inverse_inertias),
+            ("velocities", velocities),
+            ("first_axes", found.first[0]),
+            ("first_points", found.first[1]),
+            ("second_axes", found.second[0]),
+            ("second_points", found.second[1]),
+            ("softness", found.rows[0]),
+            ("deformations", found.rows[1]),
+        ):
+            found.point(name, np.ascontiguousarray(array), array.size)
+        call("bda_expect_cracks", cracks, places, found)
+        return found
 
 
 class CoreCracks(Struct):

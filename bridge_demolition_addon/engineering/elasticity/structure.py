@@ -12,9 +12,7 @@ cloth simulation, SIGGRAPH 98, equation 6, for springs in general; here C = β K
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 from typing import Protocol
 
 import numpy as np
@@ -22,7 +20,7 @@ import numpy as np
 from ..arrays import BoolArray, FloatArray, IntArray
 from .bearings import Bearings
 from .crack_state import CrackState
-from .cracks import CrackJoints, Cracks, joints_of_cracks
+from .cracks import Cracks
 from .equations import RigidBodies, connected_parts, stiffness_blocks, without
 from .frequencies import SLACK, first_frequency
 from .joint_forces import stored
@@ -59,7 +57,7 @@ class ElasticStep:
     of_cracks_on_second: FloatArray
     of_bodies: FloatArray  # (6, n), the sum on every body
     velocities: FloatArray  # (6, n), at its end
-    crack_joints: Callable[[], CrackJoints] | None  # how the cracks resist changes; None where there is none
+    crack_term: Term | None  # the cracks as they were solved; None where there is none
 
 
 class SpringLaw(Protocol):
@@ -244,7 +242,7 @@ class ElasticStructure:
             of_cracks_on_second=of_cracks[1],
             of_bodies=results["of_bodies"],
             velocities=results["ends"],
-            crack_joints=None if cracks is None else partial(joints_of_cracks, cracks),
+            crack_term=cracks,
         )
 
     def _equations_of(self, awake: BoolArray) -> IntArray:

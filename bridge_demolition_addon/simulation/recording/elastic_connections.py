@@ -17,7 +17,7 @@ from ...bullet.world import BulletWorld
 from ...engineering.arithmetic import power
 from ...engineering.elasticity.bearings import Bearings, PadSprings
 from ...engineering.elasticity.crack_state import CrackState
-from ...engineering.elasticity.cracks import Cracks
+from ...engineering.elasticity.cracks import Cracks, ExpectedCracks
 from ...engineering.elasticity.equations import RigidBodies, without
 from ...engineering.elasticity.equilibrium import Equilibrium, equilibrium
 from ...engineering.elasticity.inertia import effective_inverse_masses, inertia_tensors
@@ -29,10 +29,10 @@ from ...engineering.elasticity.joint_rows import (
     joint_positions,
     matrix_products,
     transposed,
-    turned_back,
 )
 from ...engineering.elasticity.section_stiffness import SectionStiffness, in_frames
 from ...engineering.elasticity.structure import ElasticStep, ElasticStructure, StepInput
+from ...engineering.elasticity.substep import Places
 from ...engineering.elasticity.tendons import TendonForces
 from ...engineering.foundations.footings import Footings, SoilSprings
 from ...engineering.mechanics.crack_faces import CrackFaces, TornFaces
@@ -274,22 +274,18 @@ class ElasticConnections:
 
     def _expect_cracks(self, motion: BodyMotion, step: ElasticStep) -> None:
         """Have Bullet's rows of cracks resist what contacts change of their motion, as bars and sides do."""
-        if step.crack_joints is None:
+        if step.crack_term is None:
             return
-        joints, substep_s = step.crack_joints(), self._substep_s
+        places = Places.of(motion.position_components_m, motion.rotation_components)
+        inertia = motion.inverse_masses, motion.inverse_inertia_components
+        expected = ExpectedCracks.of(step.crack_term, places, *inertia, step.velocities, self._substep_s)
         exists = self._world.constraints.exists[step.cracks]
-        joints, rows = joints.only(exists), step.cracks[exists]
-        ends = joints.first, joints.second
-        turns = [motion.rotation_components[..., bodies] for bodies in ends]
-        axes = [matrix_products(transposed(turn), joints.axes) for turn in turns]
-        arms = zip(turns, (joints.first_arms_m, joints.second_arms_m), strict=True)
-        self._rows.move_frames(rows, axes, [turned_back(turn, arm) for turn, arm in arms])
-        lines = joints.rows()
-        inverse = effective_inverse_masses(lines, ends, motion.inverse_masses, motion.inverse_inertia_components)
-        hardness = substep_s * substep_s * joints.stiffness * inverse
-        self._rows.soften(rows, np.divide(1.0, hardness, out=np.full_like(hardness, np.inf), where=hardness > 0.0))
-        rates = lines.rates(*(step.velocities[:, bodies] for bodies in ends))
-        self._rows.expect(rows, -substep_s * rates)
+        rows, frames = step.cracks[exists], zip(expected.first, expected.second, strict=True)
+        axes, points_m = ([values.compress(exists, axis=-1) for values in of_bodies] for of_bodies in frames)
+        softness, deformations = (values.compress(exists, axis=-1) for values in expected.rows)
+        self._rows.move_frames(rows, axes, points_m)
+        self._rows.soften(rows, softness)
+        self._rows.expect(rows, deformations)
 
     def energy(self, intact: np.ndarray, positions_m: np.ndarray, rotations: np.ndarray) -> ElasticEnergy:
         """Return what is stored in connections (m,) that are intact, or in their reinforcement, and its state.
