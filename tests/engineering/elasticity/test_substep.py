@@ -13,13 +13,14 @@ from support.core_terms import forces_and_tangents, term_of_law
 from bridge_demolition_addon.engineering.drilled_charges.cages import BareBars, Cages
 from bridge_demolition_addon.engineering.elasticity.bearings import Bearings, PadSprings
 from bridge_demolition_addon.engineering.elasticity.crack_law import DOWEL_SHARE, SHEARED
-from bridge_demolition_addon.engineering.elasticity.cracks import Cracks, corner_positions
+from bridge_demolition_addon.engineering.elasticity.cracks import Cracks, ExpectedCracks, corner_positions
 from bridge_demolition_addon.engineering.elasticity.equations import RigidBodies
-from bridge_demolition_addon.engineering.elasticity.joint_rows import JointFrames, joint_positions
+from bridge_demolition_addon.engineering.elasticity.inertia import effective_inverse_masses
+from bridge_demolition_addon.engineering.elasticity.joint_rows import JointFrames, JointPositions, joint_positions
 from bridge_demolition_addon.engineering.elasticity.spring_law import PressedSprings
 from bridge_demolition_addon.engineering.elasticity.steel_bars import Bars, Steel
 from bridge_demolition_addon.engineering.elasticity.structure import ElasticStructure, StepInput
-from bridge_demolition_addon.engineering.elasticity.substep import CRACKS, SPRINGS, Frames
+from bridge_demolition_addon.engineering.elasticity.substep import CRACKS, SPRINGS, Frames, Places
 from bridge_demolition_addon.engineering.geometry.rotations import rotated
 
 BODIES, GAPS = 9, 2000
@@ -162,6 +163,59 @@ def test_impulses_change_momentum_as_they_say(seed):
     np.testing.assert_allclose(gained[:, 1:], step.of_bodies[:, 1:], rtol=1e-6, atol=1e-5 * abs(gained).max())
     np.testing.assert_allclose(step.of_first[:3], -step.of_second[:3], atol=1e-9 * abs(step.of_first).max())
     np.testing.assert_allclose(step.of_cracks_on_first[:3], -step.of_cracks_on_second[:3], atol=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_what_the_last_substep_remembers_changes_no_solution(seed):
+    """The second one begins its guesses with the motion of the first, which is another one."""
+    structure = Structure(seed)
+    structure.step()
+    structure.velocities = np.random.default_rng(seed).normal(size=(6, BODIES)) * structure.bodies.moves
+    found, expected = structure.step().velocities, structure.expected()
+    np.testing.assert_allclose(found, expected, rtol=1e-4, atol=1e-4 * abs(structure.velocities).max())
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_rows_of_bullet_resist_as_cracks_do(seed):
+    """Frames in the middle of what resists, and rows as soft as it is, of tangents that numpy sums."""
+    structure = Structure(seed, borne=False, bared=False)
+    step, rng = structure.step(), np.random.default_rng(seed)
+    shapes = rng.normal(size=(3, 3, BODIES))
+    masses, inertias = rng.uniform(1e-4, 1e-3, BODIES), 1e-4 * np.einsum("ikn,jkn->ijn", shapes, shapes)
+    places = Places.of(structure.positions, structure.rotations)
+    found = ExpectedCracks.of(step.crack_term, places, masses, inertias, step.velocities, SUBSTEP_S)
+    arrays, count = step.crack_term.arrays, len(step.cracks)
+    by_corner = {
+        name: values.reshape(*values.shape[:-1], 4, count)
+        for name, values in arrays.items()
+        if name in ("normals", "tangents", "first_arms", "second_arms")
+    }
+    normals, tangents, arms = (by_corner[name] for name in ("normals", "tangents", "first_arms"))
+    shares = np.einsum("ack,abck,bck->ck", normals, tangents, normals)
+    middles = [(shares * by_corner[name]).sum(axis=1) / shares.sum(axis=0) for name in ("first_arms", "second_arms")]
+    edge = arms[:, 2] - arms[:, 0]
+    edge = edge - (edge * normals[:, 0]).sum(axis=0) * normals[:, 0]
+    edge = edge / np.sqrt((edge * edge).sum(axis=0))
+    axes = np.stack((normals[:, 0], edge, np.cross(normals[:, 0], edge, axis=0)), axis=1)
+    moved = np.cross(axes[:, :, None], (arms - middles[0][:, None])[:, None], axis=0)
+    stiffness = np.concatenate(
+        (
+            np.einsum("axk,abck,bxk->xk", axes, tangents, axes),
+            np.einsum("axck,abck,bxck->xk", moved, tangents, moved),
+        )
+    )
+    ends = arrays["first"][:count], arrays["second"][:count]
+    rows = JointPositions(axes, axes, *middles, np.zeros_like(middles[0])).rows()
+    mobilities = effective_inverse_masses(rows, ends, masses, inertias)
+    rates = rows.rates(*(step.velocities[:, bodies] for bodies in ends))
+    with np.errstate(divide="ignore"):
+        softness = 1.0 / (SUBSTEP_S * SUBSTEP_S * stiffness * mobilities)
+    np.testing.assert_allclose(found.rows[0], softness, rtol=1e-9)
+    np.testing.assert_allclose(found.rows[1], -SUBSTEP_S * rates, rtol=1e-9, atol=1e-12)
+    for (own_axes, points), bodies, middle in zip((found.first, found.second), ends, middles, strict=True):
+        turns = structure.rotations[..., bodies]
+        np.testing.assert_allclose(np.einsum("ijk,jxk->ixk", turns, own_axes), axes, atol=1e-12)
+        np.testing.assert_allclose(np.einsum("ijk,jk->ik", turns, points), middle, atol=1e-12)
 
 
 def crack_law(rng):
