@@ -349,7 +349,7 @@ static void motion_of_joint(const bda_expected_cracks *e, const crack_joint *joi
 }
 
 /* Write a joint as frames of Bullet: axes (3, 3, c), as columns, and points (3, c) in the axes of a body. */
-static void put_frame(const bda_places *p, int64_t body, const double axes[3][3], const double arm[3], int64_t count,
+static void put_frame(const bda_places *p, int64_t body, double axes[3][3], const double arm[3], int64_t count,
                       int64_t crack, double *to_axes, double *to_points)
 {
     double own[3];

@@ -165,13 +165,7 @@ static int eliminate_all(graph *g, elimination *found, list *rows)
     return BDA_DONE;
 }
 
-static int ascending(const void *one, const void *other)
-{
-    int64_t a = *(const int64_t *)one, b = *(const int64_t *)other;
-    return (a > b) - (a < b);
-}
-
-/* Find in which columns further left each row has a block. */
+/* Find in which columns further left each row has a block, and with that the rows of each column in ascending order. */
 static int find_left(elimination *found)
 {
     int64_t n = found->bodies, blocks = found->starts[n], *next = calloc((size_t)n + 1, sizeof *next);
@@ -188,10 +182,16 @@ static int find_left(elimination *found)
         next[row] = found->left_starts[row];
     }
     for (int64_t column = 0; column < n; column++)
-        for (int64_t block = found->starts[column] + 1; block < found->starts[column + 1]; block++) {
-            int64_t to = next[found->rows[block]]++;
-            found->left[to] = column, found->left_blocks[to] = block;
+        for (int64_t block = found->starts[column] + 1; block < found->starts[column + 1]; block++)
+            found->left[next[found->rows[block]]++] = column;
+    for (int64_t row = 0; row < n; row++) {
+        found->rows[found->starts[row]] = row;
+        next[row] = found->starts[row] + 1;
+        for (int64_t at = found->left_starts[row]; at < found->left_starts[row + 1]; at++) {
+            int64_t block = next[found->left[at]]++;
+            found->rows[block] = row, found->left_blocks[at] = block;
         }
+    }
     free(next);
     return BDA_DONE;
 }
@@ -221,8 +221,5 @@ int find_elimination(elimination *found, int64_t bodies, int64_t pairs, const in
     found->rows = rows.numbers;
     for (int64_t at = 0; at < rows.count && answer == BDA_DONE; at++)
         rows.numbers[at] = found->place[rows.numbers[at]];
-    for (int64_t column = 0; column < bodies && answer == BDA_DONE; column++)
-        qsort(rows.numbers + found->starts[column], (size_t)(found->starts[column + 1] - found->starts[column]),
-              sizeof *rows.numbers, ascending);
     return answer == BDA_DONE ? find_left(found) : answer;
 }
