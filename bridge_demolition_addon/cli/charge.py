@@ -34,7 +34,6 @@ def add_to(commands: argparse._SubParsersAction) -> None:
     """Add the command to the command line."""
     parser = commands.add_parser(
         "charge",
-        help="find the smallest charge for a wanted load, or the effects of a charge around it or in drill holes",
         description="With --distance-m and a wanted load: the smallest charge that gives it there. "
         "With --mass-kg: how far the thresholds of damage reach, and how much the ground shakes. "
         "With --zone-m: what charges in drill holes do to a part of a member, see docs/drilled_charges.md.",

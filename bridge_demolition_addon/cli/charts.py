@@ -12,7 +12,7 @@ from .arguments import add_blast_options, quantity
 
 def add_to(commands: argparse._SubParsersAction) -> None:
     """Add the command to the command line."""
-    parser = commands.add_parser("charts", help="draw the charts to choose charges by", allow_abbrev=False)
+    parser = commands.add_parser("charts", allow_abbrev=False)
     parser.add_argument("--output", metavar="DIR", type=Path, default="charts", help="folder, made if new (charts)")
     parser.add_argument("--unit", choices=["kpa", "ratio"], default="kpa", help="overpressure in kPa, or over ambient")
     parser.add_argument("--scaled", action="store_true", help="distances and times divided by the charge's cube root")

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 
 from ..model.actions import Fact, PlannedAction
 from ..model.bridge.layout import bridge_facts
-from ..model.bridge.member import member_facts
+from ..model.bridge.member import mass_facts, member_facts
 from ..model.bridge.preparation import prepared_members
 from ..model.reinforcement.design import bar_schedule
 from ..model.reinforcement.facts import schedule_facts
@@ -25,13 +25,19 @@ from ..model.stages.standing import made_elastic
 from ..model.structure.bearing_ranges import LEAST_CUTS, MOST_CUTS, bearing_ranges
 from ..model.structure.blast_zones import placed_zones, zone_totals
 from ..model.structure.convergence import convergence_facts
+from ..model.structure.cracking import RestingModel
 from ..model.structure.deck_facts import deck_facts
-from ..model.structure.equilibrium import model_at_rest
-from ..model.structure.facts import accuracy_facts, connection_facts, foundation_facts, overlap_facts, rest_facts
+from ..model.structure.facts import (
+    accuracy_facts,
+    connection_facts,
+    foundation_facts,
+    overlap_facts,
+    reaction_facts,
+    rest_facts,
+)
 from ..model.structure.model import Model, build_model
 from ..model.structure.steel_bars import steel_facts
 from ..model.structure.tendon_facts import tendon_facts
-from ..model.structure.usual_sizes import size_facts
 from ..model.structure.zone_loads import ZoneLoad
 from ..model.terrain.built import terrain_facts
 from ..studies.estimate import FACTOR, disk_megabytes, duration_text, megabytes_by_size, seconds_by_size
@@ -46,7 +52,7 @@ _LONG = "bda: works out how the bridge stands, which takes minutes where much of
 
 def add_to(commands: argparse._SubParsersAction) -> None:
     """Add the command to the command line."""
-    parser = commands.add_parser("check", help="read a scenario and say what follows from it", allow_abbrev=False)
+    parser = commands.add_parser("check", allow_abbrev=False)
     parser.add_argument("scenario", metavar="SCENARIO.toml", help="scenario file, see docs/scenario.md")
     parser.add_argument(
         "--stand",
@@ -116,8 +122,15 @@ def scenario_facts(scenario: Scenario, *, stand: bool = False) -> Iterator[str]:
     yield scenario.title
     prepared = prepared_members(scenario)
     model = checked_model(scenario, prepared.members)
-    stability = stability_of(scenario, model, with_factor=stand or None)
-    yield from _section("Does it stand?", (*stability.facts(), *size_facts(scenario, prepared.members)))
+    resting = RestingModel(model, scenario.joints)
+    stability = stability_of(scenario, model, with_factor=stand or None, resting=resting)
+    yield from _section("Does it stand?", stability.facts())
+    yield from _section("Masses", mass_facts(prepared.members))
+    if stand and model.stiffness is None:
+        resting = RestingModel(checked_model(as_elastic, prepared.members), scenario.joints)
+    is_elastic = resting.model.stiffness is not None
+    if is_elastic and (reactions := list(reaction_facts(resting))):
+        yield from _section("Reactions at rest", reactions)
     if scenario.bridge:
         yield from _section("Bridge", bridge_facts(scenario.bridge, is_flat=scenario.has_flat_ground))
     yield from _section("Members", member_facts(prepared.members))
@@ -131,22 +144,18 @@ def scenario_facts(scenario: Scenario, *, stand: bool = False) -> Iterator[str]:
         yield from _section("Ground", terrain_facts(model.ground))
     yield from _section("Shards and connections", connection_facts(scenario, model))
     yield from _section("Contacts", contact_facts(scenario))
-    if stand and model.stiffness is None:
-        elastic = checked_model(as_elastic, prepared.members)
-        yield from _section("At rest", rest_facts(scenario, elastic))
-        yield from _section("Fineness", accuracy_facts(scenario, elastic))
-    elif model.stiffness is not None:
-        yield from _section("At rest", rest_facts(scenario, model))
-        convergence = convergence_facts(scenario, len(model.member_of_shard))
-        yield from _section("Fineness", (*accuracy_facts(scenario, model), *convergence))
+    if is_elastic:
+        yield from _section("At rest", rest_facts(scenario, resting))
+        runs = convergence_facts(scenario, len(model.member_of_shard)) if resting.model is model else ()
+        yield from _section("Fineness", (*accuracy_facts(scenario, resting.model), *runs))
     if model.steel:
-        rest = model_at_rest(model, scenario.joints)
-        yield from _section("Steelwork", (*steel_facts(scenario, model, rest), *deck_facts(scenario, model, rest)))
+        of_steel = *steel_facts(scenario, model, resting.rest), *deck_facts(scenario, model, resting.rest)
+        yield from _section("Steelwork", of_steel)
     if model.tendons:
         yield from _section("Tendons", tendon_facts(scenario, model.tendons))
     yield from _section("Overlap at the start", overlap_facts(model))
     if model.soil:
-        yield from _section("Foundations", foundation_facts(scenario, model))
+        yield from _section("Foundations", foundation_facts(scenario, resting))
     for heading, facts in _action_facts(scenario, model, stability.zones).items():
         yield from _section(heading, facts)
     if scenario.equipment:
@@ -192,7 +201,7 @@ def _action_facts(scenario: Scenario, model: Model, zones: tuple[ZoneLoad, ...])
     sections.get(PlannedAction.heading, []).sort()
     lines = {heading: [fact for _, facts in parts for fact in facts] for heading, parts in sections.items()}
     if scenario.blast_zones:
-        lines[BlastZone.heading] += zone_totals(placed_zones(scenario, model.members), model.members)
+        lines[BlastZone.heading] += zone_totals(placed_zones(scenario, model.members, model.layers), model.members)
     if scenario.charges:
         lines[Charge.heading] += scenario.blast.facts(scenario.charges, scenario.fracture.shards)
     return lines

@@ -14,7 +14,6 @@ def add_to(commands: argparse._SubParsersAction) -> None:
     """Add the command to the command line."""
     parser = commands.add_parser(
         "compare",
-        help="compare a scan of the debris with the forecast of a run",
         description="Says how heights and footprints of debris agree, and makes a report. See docs/survey.md.",
         allow_abbrev=False,
     )

@@ -9,7 +9,6 @@ def add_to(commands: argparse._SubParsersAction) -> None:
     """Add the command to the command line."""
     parser = commands.add_parser(
         "explain",
-        help="print what a key of a file means, and which values it takes",
         description="Print the reference of a key or of a table, as docs/scenario.md and the other references have it.",
         allow_abbrev=False,
     )

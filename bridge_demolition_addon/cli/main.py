@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from difflib import get_close_matches
 from importlib import import_module
-from typing import Any, NoReturn
+from typing import Any, NamedTuple, NoReturn
 
 from ..errors import (
     BlastError,
@@ -30,25 +30,41 @@ WRONG_INPUT = 2
 SIGNALLED = 128
 """Added to the number of the signal that ended a command, as shells do: 130 for Ctrl-C."""
 
+
+class Command(NamedTuple):
+    """A command: its module in this folder, and what it does, as the list of all says."""
+
+    module: str
+    does: str
+
+
 COMMANDS = {
-    "new": "new",
-    "explain": "explain",
-    "check": "check",
-    "import": "exchange.import_ifc",
-    "run": "run",
-    "stages": "stages",
-    "plan": "plan",
-    "study": "study",
-    "search": "search",
-    "optimise": "search",
-    "report": "report",
-    "export": "exchange.export",
-    "section": "section",
-    "compare": "compare",
-    "charge": "charge",
-    "charts": "charts",
+    "new": Command("new", "write a scenario to start from, by six questions"),
+    "explain": Command("explain", "print what a key of a file means, and which values it takes"),
+    "check": Command("check", "read a scenario and say what follows from it"),
+    "import": Command("exchange.import_ifc", "make a scenario of a bridge in an IFC file"),
+    "run": Command("run", "run a scenario and keep its results in a folder"),
+    "stages": Command(
+        "stages", "say how the bridge stands between the steps of its demolition, and which members hold it"
+    ),
+    "plan": Command("plan", "write the charge plan of a scenario with blast zones, without running it"),
+    "study": Command("study", "run a scenario many times with inputs that vary by chance"),
+    "search": Command(
+        "search", "find the charge, drop height or strength at which a demolition succeeds as often as it has to"
+    ),
+    "optimise": Command(
+        "search",
+        "find the charges, delays, positions or order of steps that do best, where a demolition has to succeed",
+    ),
+    "report": Command("report", "make a report, as a page, a PDF and a Word file, from the folder of a run"),
+    "export": Command("exchange.export", "write a run for ParaView, spreadsheets, browsers or programs for films"),
+    "section": Command("section", "cut the debris of a run by an upright plane, and draw what is cut"),
+    "compare": Command("compare", "compare a scan of the debris with the forecast of a run"),
+    "charge": Command(
+        "charge", "find the smallest charge for a wanted load, or the effects of a charge around it or in drill holes"
+    ),
+    "charts": Command("charts", "draw the charts to choose charges by"),
 }
-"""Module of each command."""
 
 
 class UsageError(DemolitionError):
@@ -142,15 +158,19 @@ def _unknown_arguments(unknown: Sequence[str], known: Sequence[str]) -> str:
 
 
 def _parser(argv: Sequence[str]) -> tuple[Parser, list[Parser]]:
-    """Return the parser of the command that is called, or of all: it takes a second to load them."""
+    """Return the parser of the command that is called, or of all, of which a list of commands needs none."""
     parser = Parser(prog="bda", description="Plan the demolition of a bridge.", allow_abbrev=False)
     parser.add_argument("--version", action="version", version=f"bda {VERSION}", help="print the version")
     if argv[:1] == ["--version"]:
         return parser, []
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    called = argv[:1] if argv and argv[0] in COMMANDS else COMMANDS
+    if not argv or argv[0] in ("-h", "--help"):
+        for name, command in COMMANDS.items():
+            commands.add_parser(name, help=command.does)
+        return parser, []
+    called = argv[:1] if argv[0] in COMMANDS else COMMANDS
     with interrupted_afterwards():  # while they load, some libraries take an interrupt for a missing part
-        for module in dict.fromkeys(COMMANDS[name] for name in called):
+        for module in dict.fromkeys(COMMANDS[name].module for name in called):
             import_module(f".{module}", __package__).add_to(commands)
     return parser, [command for command in commands.choices.values() if isinstance(command, Parser)]
 

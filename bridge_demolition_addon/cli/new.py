@@ -18,7 +18,6 @@ def add_to(commands: argparse._SubParsersAction) -> None:
     """Add the command to the command line."""
     parser = commands.add_parser(
         "new",
-        help="write a scenario to start from, by six questions",
         description="Write a commented scenario. On a terminal, what no option says is asked for; elsewhere it is what "
         "is in brackets. An empty answer takes that too.",
         allow_abbrev=False,

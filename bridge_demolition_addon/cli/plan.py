@@ -14,7 +14,6 @@ def add_to(commands: argparse._SubParsersAction) -> None:
     """Add the command to the command line."""
     parser = commands.add_parser(
         "plan",
-        help="write the charge plan of a scenario with blast zones, without running it",
         description="Write drill holes, charges, firing sequence, totals, neighbours and fragments as a page, a PDF, "
         "tables (CSV) and a workbook (XLSX), see docs/drilled_charges.md.",
         allow_abbrev=False,

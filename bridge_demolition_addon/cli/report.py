@@ -15,7 +15,6 @@ def add_to(commands: argparse._SubParsersAction) -> None:
     """Add the command to the command line."""
     parser = commands.add_parser(
         "report",
-        help="make a report, as a page, a PDF and a Word file, from the folder of a run",
         description="From one folder: a report beside its results. From several: a comparison, in --output.",
         allow_abbrev=False,
     )

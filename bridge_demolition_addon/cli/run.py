@@ -16,6 +16,7 @@ from ..model.results.bar_extremes import bars_text, largest_use_text
 from ..model.results.connection_counts import ConnectionCounts
 from ..model.results.creep import creep_text
 from ..model.results.fingerprint import SHORT
+from ..model.results.moving import gone_text
 from ..model.results.summary import first_hit_s
 from ..model.run_folder.files import RESULT_FILES
 from ..model.run_folder.folder import check_folder, numbered_folder
@@ -43,7 +44,6 @@ def add_to(commands: argparse._SubParsersAction) -> None:
     """Add the command to the command line."""
     parser = commands.add_parser(
         "run",
-        help="run a scenario and keep its results in a folder",
         description="Of one scenario, the results are kept in DIR. Several are a comparison: they are run in order, "
         "and the results of each are kept in a folder in DIR that is called like its file. Without --output, DIR is a "
         "new folder here, called like the scenario and counted up.",
@@ -152,7 +152,10 @@ def _run_and_report(
             progress=progress,
         )
     report = _report([output], None, arguments, progress) if arguments.report else []
-    if not arguments.quiet:
+    if arguments.quiet:
+        if gone := gone_text(summary):
+            print(f"bda: {path}: {gone}", file=sys.stderr)
+    else:
         progress.finish()
         quantities = ReportUnits(UnitSystem(arguments.units or scenario.report.units or UnitSystem.METRIC))
         _print_results(summary, output, report, plain, quantities)

@@ -19,7 +19,6 @@ def add_to(commands: argparse._SubParsersAction) -> None:
     """Add both commands to the command line."""
     search = commands.add_parser(
         "search",
-        help="find the charge, drop height or strength at which a demolition succeeds as often as it has to",
         description="Make the runs of a search, each with inputs of its own, and write trials.csv, search.json and the "
         "curve to DIR. The same command goes on with a search that was stopped, and repeats no run.",
         allow_abbrev=False,
@@ -27,7 +26,6 @@ def add_to(commands: argparse._SubParsersAction) -> None:
     _complete(search, "search", read_search, search_sentences)
     optimise = commands.add_parser(
         "optimise",
-        help="find the charges, delays, positions or order of steps that do best, where a demolition has to succeed",
         description="Try candidates, each in some runs, choose among the best on fresh runs, confirm the one that is "
         "chosen on others, and write trials.csv, candidates.csv and optimise.json to DIR. The same command goes on "
         "with an optimisation that was stopped, and repeats no run.",

@@ -11,7 +11,6 @@ def add_to(commands: argparse._SubParsersAction) -> None:
     """Add the command to the command line."""
     parser = commands.add_parser(
         "section",
-        help="cut the debris of a run by an upright plane, and draw what is cut",
         description="Draws debris and what stands where an upright plane cuts them at the end of a run, and says area, "
         "width and height of the debris. See docs/sections.md.",
         allow_abbrev=False,

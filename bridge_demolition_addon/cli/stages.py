@@ -37,7 +37,6 @@ def add_to(commands: argparse._SubParsersAction) -> None:
     """Add the command to the command line."""
     parser = commands.add_parser(
         "stages",
-        help="say how the bridge stands between the steps of its demolition, and which members hold it",
         description="Work out the bridge at rest before each step of a scenario and after the last, by the stiffness "
         "of its connections and without a simulation, and write stages.csv, reactions.csv, bearings.csv, "
         "utilisation.csv, criticality.csv, misfires.csv and lifts.csv.",

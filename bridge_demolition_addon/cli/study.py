@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import argparse
+import math
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
 
-from ..errors import OutputError, SimulationError
+from ..errors import OutputError, ScenarioError, SimulationError
 from ..model.ensemble.folder import check_folder, outcome_in, study_in, versions_of
 from ..model.sequence.checked_model import checked_model
 from ..model.study.file import Study, read_study
@@ -17,15 +19,16 @@ from ..model.study.files import AGAIN_FOLDER, RUNS_FOLDER, STUDY_FILE
 from ..model.study.runs_table import DONE
 from ..model.study.sampled_runs import sampled_run
 from ..model.study.verification import holds, proportion_leaving
-from ..report.wording.study import study_sentences, verified_sentence
+from ..report.wording.study import planned_limit_text, study_sentences, verified_sentence
 from ..studies.engine import cores
-from ..studies.estimate import FACTOR, duration_text, seconds_by_runs, seconds_by_size
+from ..studies.estimate import FACTOR, duration_text, seconds_by_size
 from ..studies.session import EnsembleSession
 from ..system.programs import program_command
 from .ensemble import add_ensemble_options, execute_ensemble, folder_beside, whole_number
 from .progress import CommandProgress, progress_on
 from .run import run_with_everything
 
+_MOST_LOOKED_AT = 20
 _SHOWN_RUNS = 5
 
 
@@ -33,7 +36,6 @@ def add_to(commands: argparse._SubParsersAction) -> None:
     """Add the command to the command line."""
     parser = commands.add_parser(
         "study",
-        help="run a scenario many times with inputs that vary by chance",
         description="Make all runs of a study, each in a process of its own, and write runs.csv and study.json to DIR. "
         "The same command goes on with a study that was stopped, and reruns nothing that is done.",
         allow_abbrev=False,
@@ -82,6 +84,10 @@ def study_facts(study: Study, output: Path | None, jobs: int) -> Iterator[str]:
         values = ", ".join(f"{name} {_shown(value)}" for name, value in sampled_run(study, number).inputs.items())
         yield f"{number:>5}  {values}"
     yield ""
+    yield planned_limit_text(settings)
+    if not settings.vary:
+        yield "Nothing varies but what the seed decides, such as how the bridge is cut: add [[vary]] for the rest."
+    yield ""
     yield _estimate(study, output, jobs)
 
 
@@ -91,13 +97,24 @@ def _estimate(study: Study, output: Path | None, jobs: int) -> str:
     if output is not None and output.exists():
         versions = versions_of(output) if (output / STUDY_FILE).exists() else {}
         check_folder(output, study, versions)
-        seconds, why = seconds_by_runs(study, output, versions), "as those that are done"
+        seconds, why = _seconds_by_runs(study, output, versions), "as those that are done"
     if seconds is None:
         seconds = seconds_by_size(study.scenario, checked_model(study.scenario))
         why = f"to a factor of {FACTOR:g}, by the size of the model"
     whole = duration_text(seconds * study.settings.runs / min(jobs, study.settings.runs))
     at_a_time = "one run at a time" if jobs == 1 else f"{jobs} runs at a time on as many cores"
     return f"{duration_text(seconds)} for a run and {whole} for all, with {at_a_time}: {why}"
+
+
+def _seconds_by_runs(study: Study, folder: Path, versions: Mapping[str, str]) -> float | None:
+    """Return how long the first runs that are done in a study's folder took, in the mean; None without any."""
+    seconds = []
+    for number in range(1, min(study.settings.runs, _MOST_LOOKED_AT) + 1):
+        with suppress(ScenarioError):  # inputs that the scenario cannot have together take no time
+            outcome = outcome_in(folder / RUNS_FOLDER / sampled_run(study, number).cache_key(versions))
+            if outcome and outcome.status == DONE:
+                seconds.append(outcome.wall_time_s)
+    return math.fsum(seconds) / len(seconds) if seconds else None
 
 
 def _shown(value: object) -> str:

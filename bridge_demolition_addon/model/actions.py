@@ -67,6 +67,8 @@ class Worksite(Protocol):
 
     @property
     def plan(self) -> Plan: ...
+    @property
+    def mass_kg(self) -> float: ...
 
     def surface_height(self, place_m: Place) -> float:
         """Return the height of what a falling body meets first at a position; refuse one beside all members."""
@@ -184,6 +186,10 @@ class PlannedAction(Table):
 
     def facts(self, site: Worksite) -> Iterator[Fact]:
         """Yield what a planner wants to know of it before a run."""
+        yield from ()
+
+    def unusual(self, site: Worksite) -> Iterator[str]:
+        """Yield what of it is far from all that is usual, as sentences without full stops."""
         yield from ()
 
     def check_plan(self, plan: Plan) -> None:

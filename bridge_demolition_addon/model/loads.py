@@ -8,10 +8,14 @@ from itertools import pairwise
 from math import sqrt
 from typing import ClassVar
 
-from ..engineering.units import mass_text
+from ..engineering.units import STANDARD_GRAVITY_M_S2, mass_text
 from ..errors import ScenarioError
 from .actions import Fact, Plan, PlannedAction, Worksite
 from .schema import key, shown
+
+_UNUSUAL_WEIGHTS = 3.0
+_MOST_WEIGHTS = 1e4
+"""Forces over the weight of the bridge. A bar of steel of 1 m breaks at 5e3 times its weight: 360 N/mm², 7850 kg/m³."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -117,6 +121,9 @@ class Load(Part):
         shards = f"{loaded.shards} shards" if loaded.shards > 1 else "a shard"
         yield "", f"on {shards} of {', '.join(loaded.members)}{point}, together {mass_text(loaded.mass_kg)}"
 
+    def unusual(self, site: Worksite) -> Iterator[str]:
+        return unusual_force(f"Load {site.number_of(self)}", max(self.forces_n), site)
+
     def check_plan(self, plan: Plan) -> None:
         if self.times_s[0] >= plan.time.duration_s:
             wanted = f"less than time.duration_s, {plan.time.duration_s} (s)"
@@ -124,6 +131,13 @@ class Load(Part):
 
     def check_model(self, site: Worksite) -> None:
         site.affected_by(self)
+        most_n = _MOST_WEIGHTS * site.mass_kg * STANDARD_GRAVITY_M_S2
+        for number, force_n in enumerate(self.forces_n, start=1):
+            if force_n > most_n:
+                weights = f"{_MOST_WEIGHTS:.0f} times the weight of the bridge"
+                raise ScenarioError(
+                    f"loads.forces_n.{number} is {force_n:g}: expected at most {most_n:.3g} (N), {weights}"
+                )
 
     def _check_together(self) -> None:
         Part._check_together(self)
@@ -138,3 +152,10 @@ class Load(Part):
                 raise ScenarioError(
                     f"{self.table}.times_s.{number} is {time_s}: expected more than the one before, {before_s} (s)"
                 )
+
+
+def unusual_force(name: str, force_n: float, site: Worksite) -> Iterator[str]:
+    """Yield that a force is far above the weight of the bridge, if it is."""
+    weights = force_n / (site.mass_kg * STANDARD_GRAVITY_M_S2)
+    if weights > _UNUSUAL_WEIGHTS:
+        yield f"{name} is {weights:.3g} times the weight of the bridge; is it in N?"

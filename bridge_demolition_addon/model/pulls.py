@@ -8,7 +8,7 @@ from typing import ClassVar
 from ..engineering.mechanics.cables import rope_stiffness_n, stored_j
 from ..errors import ScenarioError
 from .actions import Fact, HeightAt, Plan, Point, Worksite
-from .loads import Part
+from .loads import Part, unusual_force
 from .schema import POSITION, check_exactly_one, given, key
 
 _SHORTEST_M = 0.5
@@ -117,6 +117,9 @@ class Pull(Part):
                 f"its anchor is {self.built_length_m:.1f} m from a point that is {higher_m:.1f} m higher: what is "
                 f"pulled over may reach it within {_FALLS_TOWARDS:g} times that height",
             )
+
+    def unusual(self, site: Worksite) -> Iterator[str]:
+        return unusual_force(self.name, self.most_n, site)
 
     def check_plan(self, plan: Plan) -> None:
         if self.start_s >= plan.time.duration_s:

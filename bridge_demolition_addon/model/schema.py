@@ -43,11 +43,48 @@ SIZE = {"unit": "m", "at_least": SHORTEST_LENGTH_M, "at_most": FARTHEST_M}
 POSITION = {"unit": "m", "at_least": -FARTHEST_M, "at_most": FARTHEST_M}
 """Unit and limits of a coordinate of anything solid."""
 
+LARGEST_BY_NAME = {"thickness_m": 100.0, "width_m": 1000.0, "diameter_m": 1000.0, "scale": 1e6, "friction": 100.0}
+LARGEST_BY_UNIT = {
+    "m": 1e8,
+    "m³": 1e9,
+    "mm²": 1e8,
+    "kg": 1e9,
+    "kg/m": 1e6,
+    "kg/m³": 1e5,
+    "s": 1e6,
+    "ms": 1e9,
+    "m/s": 1e5,
+    "mm/s": 1e6,
+    "rad/s": 1e5,
+    "1/s": 1e4,
+    "°": 1e5,
+    "N": 1e13,
+    "kgf": 1e12,
+    "N/s": 1e15,
+    "N/m": 1e16,
+    "N·s/m": 1e16,
+    "N·m/rad": 1e16,
+    "N·m·s/rad": 1e16,
+    "N/mm²": 1e7,
+    "kPa": 1e7,
+}
+"""Largest sizes of numbers, by the end of their keys' names, or else by their units: no bridge and nothing that is done
+to one comes near them. The heaviest bridges have 4e8 kg, and a section of 1000 m² of steel holds 1e12 N."""
+
+OTHER_UNITS = {
+    "m": ("millimetres", 1e3),
+    "kg": ("grams", 1e3),
+    "s": ("milliseconds", 1e3),
+    "N/mm²": ("N/m²", 1e6),
+    "kg/m³": ("t/m³", 1e-3),
+}
+"""Units that numbers are given in by mistake, and how many of them are one of the right unit."""
+
 SHARE = {"at_least": 0, "at_most": 1}
 """Limits of a part of something."""
 
-DENSITY = {"default": None, "unit": "kg/m³", "above": 0}
-"""Unit and limits of a density that may be left out."""
+DENSITY = {"default": None, "unit": "kg/m³", "at_least": 10}
+"""Unit and limits of a density that may be left out: no solid of a bridge is lighter than foam."""
 
 ROUNDING = 1e-9
 """Relative slack where lengths are compared that a user would add up in decimals."""
@@ -265,11 +302,32 @@ def _checked_number(item: Field[Any], name: str, kind: type, value: Any) -> int 
         number = kind(value)
     except OverflowError as error:
         raise _unexpected(item, name, value) from error
-    if not key_of(item).holds(number):
-        raise _unexpected(item, name, value)
+    rule = key_of(item)
+    if not rule.holds(number):
+        raise _unexpected(item, name, value, _asked_unit(item, number))
+    if abs(number) > (largest := _largest(item)):
+        unit = f" ({rule.unit})" if rule.unit else ""
+        wanted = f"expected at most {largest:.15g}{unit}{_asked_unit(item, number)}"
+        raise ScenarioError(f"{name} is {shown(value)}: {wanted}")
     if number and not SMALLEST_NUMBER <= abs(number) <= LARGEST_NUMBER:
         raise ScenarioError(f"{name} is {shown(value)}: expected a number that single precision can hold")
     return number
+
+
+@cache
+def _largest(item: Field[Any]) -> float:
+    """Return the largest size that a number has in anything that makes sense."""
+    by_name = (limit for ending, limit in LARGEST_BY_NAME.items() if item.name.endswith(ending))
+    return next(by_name, LARGEST_BY_UNIT.get(key_of(item).unit, LARGEST_NUMBER))
+
+
+def _asked_unit(item: Field[Any], number: float) -> str:
+    """Return the question whether a number that is refused is in another unit; empty where that fits no better."""
+    if key_of(item).unit not in OTHER_UNITS:
+        return ""
+    word, factor = OTHER_UNITS[key_of(item).unit]
+    fits = key_of(item).holds(number / factor) and abs(number / factor) <= _largest(item)
+    return f"; is this in {word}?" if fits else ""
 
 
 def _is_text(text: str, rule: Key) -> bool:
@@ -289,8 +347,8 @@ def check_exactly_one(table: Table, *names: str) -> None:
         raise ScenarioError(f"{listed} are given together: give only one of them")
 
 
-def _unexpected(item: Field[Any], name: str, value: Any) -> ScenarioError:
-    return ScenarioError(f"{name} is {shown(value)}: expected {expected(item)}")
+def _unexpected(item: Field[Any], name: str, value: Any, more: str = "") -> ScenarioError:
+    return ScenarioError(f"{name} is {shown(value)}: expected {expected(item)}{more}")
 
 
 def expected(item: Field[Any]) -> str:

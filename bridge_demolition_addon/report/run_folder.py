@@ -17,9 +17,9 @@ from ..errors import OutputError, ScenarioError, UnreadableError
 from ..model.debris.footprint import check_covers_ground
 from ..model.results.arrays import FRAMES_FILE, RESULTS_FILE, Results, load_results, results_in
 from ..model.results.motion import without_removed
-from ..model.results.moving import moving_summary, moving_text
+from ..model.results.moving import gone_text, moving_summary, moving_text
 from ..model.results.solver_energy import is_known, made_share, much_made_text
-from ..model.results.summary import hits_of_balls, impact_of
+from ..model.results.summary import hits_of_balls, impact_of, largest_throw
 from ..model.run_folder.files import FORCE_LOG, PICTURE_FOLDER, PICTURES, SCENARIO_FILE, SUMMARY_FILE
 from ..model.run_folder.folder import holds_run, writer_of_run
 from ..model.run_folder.logs import LoggedForces, count_logged_breaks, read_logged_forces
@@ -84,7 +84,9 @@ class ReportedRun:
     def first_doubts(self) -> tuple[str, ...]:
         """What has to be said before any of its results, as sentences without full stops."""
         made = made_share(self.recorded) if is_known(self.recorded) else 0.0
-        return tuple(filter(None, (self.ending.text, self.still_moving, much_made_text(made))))
+        unusual = (self.summary.values.get("stability") or {}).get("unusual", ()) if self.summary else ()
+        texts = gone_text(self._as_recorded), much_made_text(made), self.ending.text, self.still_moving, *unusual
+        return tuple(filter(None, texts))
 
     @property
     def _as_recorded(self) -> dict[str, Any]:
@@ -97,6 +99,7 @@ class ReportedRun:
             "simulated_s": float(results.frames.time_s[-1]),
             "ended_before": self.scenario and undone_at_end(results, self.scenario, has_hit=has_hit),
             "moving_at_end": moving_summary(results),
+            "largest_throw": largest_throw(without_removed(results)[0]),
         }
 
     @property

@@ -91,6 +91,9 @@ def test_facts_of_the_i235_span(capsys):
         "pier 2 cap": "2.720 m³ 6.497 t",
         "pier 2 column 1": "2.401 m³ 5.735 t",
         "pier 2 column 2": "2.401 m³ 5.735 t",
+        "1 × deck": "29.750 m³ 71.064 t",
+        "2 × pier cap": "5.440 m³ 12.995 t",
+        "4 × pier": "9.604 m³ 22.941 t",
         "all": "44.794 m³ 107.000 t",
         "density": "2389 kg/m³",
         "duration": "5 s",
@@ -456,15 +459,14 @@ def test_charges_that_lie_in_a_member_or_far_away_are_said():
         return replace(I235, ball=None, charges=(Charge(place_m=place_m, mass_kg=8.0),))
 
     # The deck is 0.25 m thick, and its top 5.55 m above the ground.
-    assert said_after(charged((6.5, 0.0, 5.4)), "Charge 1") == [
-        "8 kg of TNT at (6.5, 0, 5.4) m, 0.5 s",
-        "lies in deck: it counts as a bare charge in air; [[blast_zones]] have drill holes",
+    assert said_after(charged((6.5, 0.0, 5.4)), "unusual") == [
+        "Charge 1 lies in deck: it counts as a bare charge in air; [[blast_zones]] have drill holes"
     ]
     # Bridge from -0.5 to 13.5 m along the road; 40 m/kg^(1/3) of 8 kg are 80 m.
-    assert said_after(charged((513.5, 0.0, 1.0)), "Charge 1")[1:] == [
-        "is 500 m from the bridge: beyond 80 m its blast hardly loads anything"
+    assert said_after(charged((513.5, 0.0, 1.0)), "unusual") == [
+        "Charge 1 is 500 m from the bridge: beyond 80 m its blast hardly loads anything"
     ]
-    assert len(said_after(charged((13.5 + 79.0, 0.0, 1.0)), "Charge 1")) == 1
+    assert "unusual" not in facts(charged((13.5 + 79.0, 0.0, 1.0)))
 
 
 def test_a_bridge_to_which_nothing_is_done_is_said():

@@ -12,7 +12,6 @@ def add_to(commands: argparse._SubParsersAction) -> None:
     """Add the command to the command line."""
     parser = commands.add_parser(
         "export",
-        help="write a run for ParaView, spreadsheets, browsers or programs for films",
         description="Write a run in the files of another program: all bodies in every frame.",
         allow_abbrev=False,
     )

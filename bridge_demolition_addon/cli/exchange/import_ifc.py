@@ -19,7 +19,6 @@ def add_to(commands: argparse._SubParsersAction) -> None:
     """Add the command to the command line."""
     parser = commands.add_parser(
         "import",
-        help="make a scenario of a bridge in an IFC file",
         description="Writes a scenario, and a mesh for each element. See docs/ifc.md.",
         allow_abbrev=False,
     )

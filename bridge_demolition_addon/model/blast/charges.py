@@ -9,7 +9,7 @@ from ...engineering.arithmetic import cube_root
 from ...engineering.blast.wave import Burst
 from ...errors import BlastError, ScenarioError
 from ..actions import Fact, Plan, PlannedAction, Worksite
-from ..schema import given, key
+from ..schema import POSITION, given, key
 
 SWISDAK = "air blast; Swisdak, NSWC/WOL/TR 75-116 (1975), as in TM 5-855-1 and UFC 3-340-02"
 SWISDAK_PRESSURE = "air blast, pressure only; Swisdak, NSWC/WOL/TR 75-116 (1975), as in TM 5-855-1 and UFC 3-340-02"
@@ -23,6 +23,9 @@ _POINT_M = 1e-3
 _FARTHEST_SCALED_M = 40.0
 """Scaled distance (m/kg^⅓) up to which the curves of Kingery and Bulmash go: 1.8 kPa, below any threshold of damage to
 what is not glass."""
+
+_DEEPEST_M = 1.0
+"""Depth in the ground up to which a charge may lie on ground that is not where its file has it."""
 
 LARGEST_CHARGE_KG = 1_000_000
 
@@ -76,7 +79,7 @@ class Charge(PlannedAction):
     numbered: ClassVar[str] = "Charge"
 
     name: str | None = key("What it is called in the logs; by default Charge and its number.", default=None)
-    place_m: tuple[float, float, float] = key("Position: along the road, across it, and above the ground.", unit="m")
+    place_m: tuple[float, float, float] = key("Position: along the road, across it, and above the ground.", **POSITION)
     mass_kg: float = key("Mass of the explosive itself.", unit="kg", at_least=0, at_most=LARGEST_CHARGE_KG)
     explosive: str = key("What it is made of.", default="TNT", choices=tuple(EXPLOSIVES))
     delay_ms: float = key(
@@ -115,11 +118,28 @@ class Charge(PlannedAction):
         detonation_s = site.plan.detonation_s(self.delay_s)
         when = f", {detonation_s:.4g} s" if math.isfinite(detonation_s) else ""
         yield given(self.name), f"{self.mass_kg:g} kg of {self.explosive}{worth} at ({position}) m{when}"
+
+    def unusual(self, site: Worksite) -> Iterator[str]:
+        if self.mass_kg == 0.0:
+            return
         if inside := site.member_within(self.place_m, _POINT_M):
-            yield "", f"lies in {inside}: it counts as a bare charge in air; [[blast_zones]] have drill holes"
+            yield f"{self.name} lies in {inside}: it counts as a bare charge in air; [[blast_zones]] have drill holes"
         away_m, curves_m = site.distance_to_bridge_m(self.place_m), _FARTHEST_SCALED_M * float(cube_root(self.tnt_kg))
-        if self.mass_kg > 0.0 and away_m > curves_m:
-            yield "", f"is {away_m:.0f} m from the bridge: beyond {curves_m:.0f} m its blast hardly loads anything"
+        if away_m > curves_m:
+            beyond = f"beyond {curves_m:.0f} m its blast hardly loads anything"
+            yield f"{self.name} is {away_m:.0f} m from the bridge: {beyond}"
+        if (deep_m := self._depth_m(site)) > _POINT_M:
+            yield f"{self.name} lies {deep_m:.3g} m below the ground: it counts as a bare charge in air"
+
+    def _depth_m(self, site: Worksite) -> float:
+        """Return how far it lies below the ground, which may be none."""
+        return site.ground_height(self.place_m[:2]) - self.place_m[2]
+
+    def check_model(self, site: Worksite) -> None:
+        """Check that it does not lie deep in the ground, whose soil would hold its wave."""
+        if (deep_m := self._depth_m(site)) > _DEEPEST_M:
+            wanted = f"a charge in air, this one lies {deep_m:.4g} m below the ground"
+            raise ScenarioError(f"charges.place_m.3 of {self.name} is {self.place_m[2]:g}: expected {wanted}")
 
     def check_plan(self, plan: Plan) -> None:
         """Check that it detonates within the run, if at all."""

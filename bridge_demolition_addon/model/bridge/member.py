@@ -112,9 +112,21 @@ def member_facts(members: Sequence[Member]) -> Iterator[Fact]:
         is_node = member.steel is not None and member.steel.bar is None  # it may carry part of a deck
         own = "" if alike or is_node else f", {member.density_kg_m3:.0f} kg/m³"
         yield member.name, _volume_and_mass(member.volume_m3, member.mass_kg) + own
-    volume, mass = (math.fsum(getattr(member, name) for member in members) for name in ("volume_m3", "mass_kg"))
-    yield "all", _volume_and_mass(volume, mass)
+    yield "all", _together(members)
     yield "density" if alike else "mean density", f"{mean_density(members):.0f} kg/m³"
+
+
+def mass_facts(members: Sequence[Member]) -> Iterator[Fact]:
+    """Yield volume and mass of each kind of members, and of all."""
+    for kind in dict.fromkeys(member.kind for member in members):
+        of_kind = [member for member in members if member.kind == kind]
+        yield f"{len(of_kind)} × {kind}", _together(of_kind)
+    yield "all", _together(members)
+
+
+def _together(members: Sequence[Member]) -> str:
+    volume_m3, mass_kg = (math.fsum(getattr(member, name) for member in members) for name in ("volume_m3", "mass_kg"))
+    return _volume_and_mass(volume_m3, mass_kg)
 
 
 def _volume_and_mass(volume_m3: float, mass_kg: float) -> str:

@@ -13,6 +13,11 @@ from .arrays import Results
 from .collapse import REST_SPEED_M_S
 from .motion import relative_to_ground
 
+FARTHEST_THROW_M = 1000.0
+LARGEST_SPEED_M_S = 340.0
+"""Throw and speed of a shard above which a run has gone wrong: fragments are found up to some hundred metres away, and
+what is faster than sound is no shard."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Moving:
@@ -64,6 +69,18 @@ def moving_text(summary: Mapping[str, Any]) -> str:
         f"{moving['shards']} of {moving['of_shards']} shards still {move} at the end, at up to "
         f"{moving['fastest_m_s']:.1f} m/s ({moving['body']}): throws and debris distances are not final{longer}"
     )
+
+
+def gone_text(summary: Mapping[str, Any]) -> str:
+    """Return that shards flew as no debris does, as a sentence without a full stop; empty where none did."""
+    throw, moving = summary.get("largest_throw"), summary.get("moving_at_end")
+    if throw and throw["throw_m"] > FARTHEST_THROW_M:
+        how = f"{throw['body']} flew {throw['throw_m'] / 1000.0:.1f} km"
+    elif moving and moving["fastest_m_s"] > LARGEST_SPEED_M_S:
+        how = f"{moving['body']} still moves at {moving['fastest_m_s']:.0f} m/s"
+    else:
+        return ""
+    return f"This run is not to be used: {how}, as no part of a bridge does; look for what gave it that energy"
 
 
 def still_moving_note(results: Results) -> str:

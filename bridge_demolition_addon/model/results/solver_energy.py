@@ -147,8 +147,8 @@ def much_made_text(share: float) -> str:
     if share <= LARGE_SHARE:
         return ""
     return (
-        f"The solver made {100.0 * share:.1f} % of what was dissipated, more than {100.0 * LARGE_SHARE:g} %: debris "
-        "may be thrown too far"
+        f"This run is not to be used for distances: the solver made {100.0 * share:.1f} % of what was dissipated, more "
+        f"than {100.0 * LARGE_SHARE:g} %, and debris may be thrown too far"
     )
 
 

@@ -41,7 +41,7 @@ def summarise(results: Results, gravity_m_s2: np.ndarray, contact_time_s: float 
         "hits_of_the_ball": hits_of_balls(results, gravity_m_s2, contact_time_s),
         "largest_resultant": _largest_force(left, left.frames.loads.body_peaks_n),
         "largest_force_sum": _largest_force(left, left.frames.loads.body_peak_sums_n),
-        "largest_throw": _largest_throw(relative_to_ground(left)),
+        "largest_throw": largest_throw(left),
         "energy": energy_summary(left),
         "creeping": creep_summary(left),
         "moving_at_end": moving_summary(left),
@@ -179,7 +179,9 @@ def _largest_force(results: Results, magnitudes: np.ndarray) -> dict[str, Any] |
     }
 
 
-def _largest_throw(results: Results) -> dict[str, Any] | None:
+def largest_throw(results: Results) -> dict[str, Any] | None:
+    """Return the largest throw of a shard of those that were not removed, on ground that may move; None without any."""
+    results = relative_to_ground(results)
     shards = results.inventory.of_kind("shard")
     if not len(shards):
         return None

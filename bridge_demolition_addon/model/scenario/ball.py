@@ -17,6 +17,9 @@ from ..actions import Fact, HeightAt, Place, Plan, PlannedAction, Point, Worksit
 from ..schema import FARTHEST_M, POSITION, SHARE, SIZE, Table, expected, given, key
 from .contacts import BALL, FRICTION, OWN_VALUE, RESTITUTION, BodyInContact
 
+_USUAL_DENSITY_KG_M3 = (1000.0, 20000.0)
+"""From a hollow ball to one of tungsten."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class BallCable(Table):
@@ -285,6 +288,15 @@ class Ball(_Drop, BodyInContact, PlannedAction):
         for number, hit in enumerate(self.hits, start=2):
             yield f"hit {number}", f"at {hit.release_time_s + hit.fall_time_s:.3f} s, {hit.impact_speed_m_s:.2f} m/s"
         yield "impact energy", f"{self.mass_kg * self.impact_speed_m_s * self.impact_speed_m_s / 2000.0:.1f} kJ"
+
+    def unusual(self, site: Worksite) -> Iterator[str]:
+        if not _USUAL_DENSITY_KG_M3[0] <= self.density_kg_m3 <= _USUAL_DENSITY_KG_M3[1]:
+            yield (
+                f"The ball of {self.mass_kg:.4g} kg and {self.diameter_m:.4g} m has {self.density_kg_m3:.3g} kg/m³; "
+                "steel has 7850"
+            )
+        if self.mass_kg > site.mass_kg:
+            yield f"The ball is {self.mass_kg / site.mass_kg:.3g} times as heavy as the bridge"
 
     def check_plan(self, plan: Plan) -> None:
         """Check that it is let go within the run, is up before it is let go again, and swings above flat ground."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from ..results.moving import moving_text
+from ..results.moving import gone_text, moving_text
 from ..results.solver_energy import much_made_text
 from .bare_bars import bare_bars_text
 from .ending import Ending
@@ -22,7 +22,13 @@ def doubts_of_run(summary: Mapping[str, Any]) -> tuple[str, ...]:
 
 def first_doubts(summary: Mapping[str, Any]) -> tuple[str, ...]:
     """Return what has to be said before any result: that a run has no outcome, still moved, or gained energy."""
-    energy = summary.get("energy")
+    energy, stability = summary.get("energy"), summary.get("stability") or {}
     made = energy["made_by_solver"]["share_of_dissipated"] if energy else 0.0
-    texts = Ending.of(summary).text, moving_text(summary), much_made_text(made)
+    texts = (
+        gone_text(summary),
+        much_made_text(made),
+        Ending.of(summary).text,
+        moving_text(summary),
+        *stability.get("unusual", ()),
+    )
     return tuple(text for text in texts if text)

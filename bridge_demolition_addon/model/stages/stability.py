@@ -72,6 +72,8 @@ class Stability:
         Contacts of loose members that statics takes for bearings which hold no uplift, as ``deck on pier 1 cap``.
     zones : tuple of ZoneLoad
         What blast zones carry; empty where statics was not asked or cannot say.
+    unusual : tuple of str
+        What of the bridge and what is done to it is far from usual, as sentences without full stops.
     is_rigid, is_asleep : bool
         Whether the run has rigid connections, which share loads otherwise than elastic ones, and whether its shards
         sleep at first, so that it does not show whether the bridge stands.
@@ -92,6 +94,7 @@ class Stability:
     loose: tuple[MemberShare, ...] = ()
     loose_on: tuple[str, ...] = field(default=())
     zones: tuple[ZoneLoad, ...] = ()
+    unusual: tuple[str, ...] = ()
     is_rigid: bool = False
     is_asleep: bool = False
 
@@ -105,7 +108,9 @@ class Stability:
         tables: dict[str, Any] = {"overloaded": OverloadedMember, "unsupported": MemberShare, "loose": MemberShare}
         tables["zones"] = ZoneLoad  # runs of before have none
         known: dict[str, Any] = {name: tuple(of(**row) for row in values.get(name, ())) for name, of in tables.items()}
-        return cls(**{**values, **known, "loose_on": tuple(values["loose_on"])})
+        return cls(
+            **{**values, **known, "loose_on": tuple(values["loose_on"]), "unusual": tuple(values.get("unusual", ()))}
+        )
 
     @property
     def sentence(self) -> str:
@@ -139,6 +144,7 @@ class Stability:
 
     def facts(self) -> Iterator[Fact]:
         """Yield the verdict and what it follows from, as `bda check` prints it."""
+        yield from (("unusual", text) for text in self.unusual)
         yield self.verdict, self.sentence
         if self.is_rigid and self.verdict != UNKNOWN:
             yield "", "connections of the run are rigid, and share loads otherwise: only a run awake shows how"

@@ -15,7 +15,8 @@ from ...errors import DemolitionError
 from ..bridge.member import Member
 from ..scenario import Scenario
 from ..scenario.bearings import SLIDING, Bearing
-from ..structure.cracking import FALLEN_SHARE
+from ..sequence.unusual import unusual_texts
+from ..structure.cracking import FALLEN_SHARE, RestingModel
 from ..structure.model import Model, build_model
 from ..structure.section_use import SectionsWithBars
 from ..structure.support_paths import SupportPaths, support_paths
@@ -42,19 +43,21 @@ def stability_of(
     *,
     with_factor: bool | None = True,
     pause: Callable[[], None] = lambda: None,
+    resting: RestingModel | None = None,
 ) -> Stability:
     """Return whether the bridge of a scenario stands under its own weight.
 
     Statics follows elastic connections, also where those of the run are rigid or break by one force. What merely lies
     on others is held by bearings that hold no uplift, where faces are level. Without `with_factor` no load factor is
     looked for, which takes most of the time, and breaks of large models are not followed; None has one where it takes
-    seconds. Calls `pause` before each solution.
+    seconds. Calls `pause` before each solution. What `resting` has worked out is taken from there.
     """
     model = model or build_model(scenario)
     known: dict[str, Any] = {
         "is_asleep": scenario.shards.start_deactivated,
         "is_rigid": not scenario.connections.is_elastic,
         "connections": len(model.connections),
+        "unusual": unusual_texts(scenario, model),
     }
     paths = support_paths(model)
     known["unsupported"] = _counted(model, _without_splinters(model, paths.falling))
@@ -70,7 +73,7 @@ def stability_of(
         on_bearings = _with_bearings(scenario, model.members, contacts)
         elastic = made_elastic(_without_hinges(on_bearings))
         if elastic != scenario:
-            model = build_model(elastic, model.members)
+            model, resting = build_model(elastic, model.members), None
     except DemolitionError as error:
         return Stability(verdict=UNKNOWN, reason=str(error), **known)
     known["loose_on"] = tuple(f"{model.members[one].name} on {model.members[other].name}" for one, other in contacts)
@@ -79,7 +82,7 @@ def stability_of(
         known["loose_on"] = ()
         reason = f"{_named(still)} lie loose, held by contact alone, which statics does not follow"
         return Stability(verdict=UNKNOWN, reason=reason, **known)
-    bridge = StandingBridge(model, on_bearings.joints, pause)
+    bridge = StandingBridge(model, on_bearings.joints, pause, resting)
     return _by_statics(bridge, elastic, paths_on_bearings, known, with_factor=with_factor)
 
 

@@ -20,7 +20,7 @@ from ...errors import ScenarioError
 from ..scenario import Scenario
 from ..scenario.connections import MATERIAL_OF_LARGE_MODELS
 from ..schema import given
-from ..structure.cracking import FALLEN_SHARE, CrackedBridge, StandingBare, SteelBeside
+from ..structure.cracking import FALLEN_SHARE, CrackedBridge, RestingModel, StandingBare, SteelBeside
 from ..structure.equilibrium import at_rest, held_motions, inertias_of
 from ..structure.model import Model
 from ..structure.utilisation import Utilisations
@@ -70,7 +70,14 @@ class StandingBridge:
     Tendons are cut where they pass through connections that are gone, and wherever `cuts` says.
     """
 
-    def __init__(self, model: Model, joints: Sequence[Joint], pause: Callable[[], None] = lambda: None):
+    def __init__(
+        self,
+        model: Model,
+        joints: Sequence[Joint],
+        pause: Callable[[], None] = lambda: None,
+        resting: RestingModel | None = None,
+    ):
+        self._resting = resting or RestingModel(model, joints)
         self.model, self._joints, self._pause = model, joints, pause
         self._masses = np.where(model.fixed, 0.0, model.masses_kg)
         self._inertias, self._held_motions = inertias_of(model), held_motions(model, joints)
@@ -136,18 +143,21 @@ class StandingBridge:
         """Return the bridge as if nothing cracked."""
         self._pause()
         model, rows = self.model, np.flatnonzero(intact)
-        kept = model.connections.only(intact)
-        solution = at_rest(
-            kept,
-            given(model.stiffness).only(rows),
-            self._masses,
-            self._inertias,
-            model.centres_m,
-            self._held_motions[:, rows],
-            (0.0, 0.0, -factor * STANDARD_GRAVITY_M_S2),
-            factor * loads,
-            model.bearings.springs.among(intact) if model.bearings else None,
-            self.tendons(intact, cuts),
+        solution = (
+            self._resting.rest
+            if self._is_resting(intact, loads, factor, cuts)
+            else at_rest(
+                model.connections.only(intact),
+                given(model.stiffness).only(rows),
+                self._masses,
+                self._inertias,
+                model.centres_m,
+                self._held_motions[:, rows],
+                (0.0, 0.0, -factor * STANDARD_GRAVITY_M_S2),
+                factor * loads,
+                model.bearings.springs.among(intact) if model.bearings else None,
+                self.tendons(intact, cuts),
+            )
         )
         carried = np.zeros((6, len(intact)))
         carried[:, rows] = solution.loads
@@ -169,6 +179,10 @@ class StandingBridge:
             bare_n=np.zeros(0),
         )
 
+    def _is_resting(self, intact: np.ndarray, loads: np.ndarray, factor: float, cuts: Sequence[CutTendon]) -> bool:
+        """Return whether it is as it was built, under nothing but its weight."""
+        return bool(intact.all()) and factor == 1.0 and not loads.any() and not cuts
+
     def _cracked(
         self,
         intact: np.ndarray,
@@ -179,6 +193,8 @@ class StandingBridge:
         cuts: Sequence[CutTendon],
     ) -> CrackedBridge:
         """Return a bridge whose concrete has cracked under loads; the last one is kept, as much cracking takes long."""
+        if self._is_resting(intact, loads, factor, cuts) and (left == 1.0).all() and self.model.crack_bars is not None:
+            return given(self._resting.cracked(self._pause))
         case = (intact.tobytes(), left.tobytes(), loads.tobytes(), factor, tuple(cuts))
         if self._last_cracked is None or self._last_cracked[0] != case:
             cracked = self._begun(intact, left, elastic, cuts)

@@ -42,6 +42,10 @@ RECORDED_G_T = (3.0, 18.0)
 POSSIBLE_G_T = (1.0, 90.0)
 """Explosive by the mass of the structure: of most recorded jobs, and of all but the odd one."""
 
+POSSIBLE_KG_M3 = (0.05, 10.0)
+"""Specific charges beyond which masses were probably given in another unit: a quarter of the least that breaks plain
+concrete, and five times what throws it out of spirals."""
+
 _ROUNDING = 1e-6
 _KILO = 1000.0
 _MM_PER_M = 1000.0
@@ -195,6 +199,15 @@ class PlacedZone:
                 "covers the holes: fragments fly far"
             )
 
+    def unusual(self) -> Iterator[str]:
+        """Yield that its explosive is far from all that manuals and recorded jobs have, if it is."""
+        least, most = POSSIBLE_KG_M3
+        if self.zone.mass_kg and not least <= self.effective_kg_m3 <= most:
+            yield (
+                f"{self.zone.name} has {self.specific_kg_m3:.3g} kg of explosive a m³ of concrete, blasting manuals "
+                "and recorded jobs have 0.2 to 2 kg/m³; is blast_zones.charge_g in g?"
+            )
+
     def facts(self, scenario: Scenario) -> Iterator[Fact]:
         """Yield what a planner wants to know of it before a run."""
         zone, (begin_m, end_m) = self.zone, self.zone.ends_along_m
@@ -255,11 +268,13 @@ def _check_holes(placed: PlacedZone) -> None:
     _ = placed.thresholds  # refuses those in the wrong order
 
 
-def placed_zones(scenario: Scenario, members: Sequence[Member]) -> tuple[PlacedZone, ...]:
-    """Return all blast zones of a scenario in its members."""
+def placed_zones(
+    scenario: Scenario, members: Sequence[Member], layers: Sequence[BarLayer] | None = None
+) -> tuple[PlacedZone, ...]:
+    """Return all blast zones of a scenario in its members, whose layers of bars may be known."""
     if not scenario.blast_zones:
         return ()
-    layers = all_layers(scenario, members)
+    layers = all_layers(scenario, members) if layers is None else layers
     return tuple(placed_zone(zone, members, layers) for zone in scenario.blast_zones)
 
 

@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from copy import copy
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -29,7 +30,7 @@ from ...engineering.structure.connections import GROUND
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ..schema import given
 from .crack_bars import CrackBars
-from .equilibrium import held_motions, inertias_of
+from .equilibrium import held_motions, inertias_of, model_at_rest
 from .model import Model
 from .utilisation import Utilisations
 
@@ -256,12 +257,33 @@ def _standing(bare: StandingBare, from_row: int, built: RigidBodies, rest: Equil
     return cages
 
 
-def cracked_by_weight(model: Model, joints: Sequence[Joint], rest: Equilibrium) -> CrackedBridge | None:
+class RestingModel:
+    """A model under its own weight, worked out as it is first asked for, once for all who do."""
+
+    def __init__(self, model: Model, joints: Sequence[Joint]) -> None:
+        self.model, self.joints = model, joints
+        self._cracked: CrackedBridge | None = None
+
+    @cached_property
+    def rest(self) -> Equilibrium:
+        """Where it rests without cracks."""
+        return model_at_rest(self.model, self.joints)
+
+    def cracked(self, pause: Pause = lambda: None) -> CrackedBridge | None:
+        """Return it with its cracks, of which nothing may be changed; None without bars."""
+        if self._cracked is None:
+            self._cracked = cracked_by_weight(self.model, self.joints, self.rest, pause)
+        return self._cracked
+
+
+def cracked_by_weight(
+    model: Model, joints: Sequence[Joint], rest: Equilibrium, pause: Pause = lambda: None
+) -> CrackedBridge | None:
     """Return a model that cracks under its own weight, which it has at `rest` without cracks; None without bars."""
     if model.crack_bars is None:
         return None
     whole = np.ones(len(model.connections))
     beside = SteelBeside(tendons=model.tendons.forces_of_shards(model.centres_m)) if model.tendons else None
     cracked = CrackedBridge(model, joints, Utilisations(model, joints), whole > 0.0, whole, rest, beside)
-    cracked.carry(1.0)
+    cracked.carry(1.0, pause=pause)
     return cracked

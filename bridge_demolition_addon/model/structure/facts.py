@@ -24,8 +24,8 @@ from ..scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
 from ..scenario.scenario import bearing_tables
 from ..schema import given
 from .bearing_ranges import axis_facts
-from .cracking import CrackedBridge, cracked_by_weight
-from .equilibrium import deflection_m, force_utilisations, loads_of, model_at_rest, overloaded
+from .cracking import CrackedBridge, RestingModel
+from .equilibrium import deflection_m, force_utilisations, loads_of, overloaded
 from .face_bars import LayersOfMember, layers_of_members
 from .model import Model
 from .punching import punching_of_decks
@@ -206,14 +206,14 @@ def _punching_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
         yield "", stopped
 
 
-def rest_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
+def rest_facts(scenario: Scenario, resting: RestingModel) -> Iterator[Fact]:
     """Yield how an elastic bridge stands under its own weight."""
-    rest = model_at_rest(model, scenario.joints)
+    model, rest = resting.model, resting.rest
     held = int(rest.held[: len(model.shards)].sum())
     loose = len(model.shards) - held - int(model.fixed.sum())
     broken = int(overloaded(model, rest, scenario.joints).sum())
-    cracked = cracked_by_weight(model, scenario.joints, rest) if broken else None
-    stands = cracked if cracked and not cracked.fallen.any() else None
+    cracked = resting.cracked() if broken else None
+    stands = _with_cracks(resting)
     if loose:
         yield from _loose_facts(model, rest.held[: len(model.shards)], held)
     if cracked:
@@ -233,13 +233,6 @@ def rest_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
             f"{np.nanmax(used):.1%} used at most, {np.nanmean(used):.1%} in the mean of {by_force}",
         )
         yield "", "by the force or moment of each that is largest, in N or N·m, as Bullet breaks it"
-    if model.bearings and held:
-        bearings = model.bearings.forces(stands.loads if stands else loads_of(model, rest))
-        for bearing in bearings:
-            along, across, up = bearing.force_n / 1000.0
-            lifted = "" if up else ": it has lifted off"
-            yield bearing.name, f"{up:z.1f} kN up, {along:z.1f} kN along, {across:z.1f} kN across{lifted}"
-        yield from axis_facts(model, bearings)
     if held:
         deflected_m, with_cracks = (
             (stands.deflection_m, ", with its cracks") if stands else (deflection_m(model, rest), "")
@@ -247,6 +240,28 @@ def rest_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
         yield "deflection", f"{1000.0 * deflected_m:.2f} mm{with_cracks}"
         yield "first frequency", f"{rest.frequency_hz:.3f} Hz{', without cracks' if stands else ''}"
         yield "damping", _damping_text(scenario, rest.frequency_hz)
+
+
+def reaction_facts(resting: RestingModel) -> Iterator[Fact]:
+    """Yield what bearings carry under the bridge's own weight; nothing without bearings, or where nothing is held."""
+    model = resting.model
+    if not model.bearings or not resting.rest.held[: len(model.shards)].any():
+        return
+    stands = _with_cracks(resting)
+    bearings = model.bearings.forces(stands.loads if stands else loads_of(model, resting.rest))
+    for bearing in bearings:
+        along, across, up = bearing.force_n / 1000.0
+        lifted = "" if up else ": it has lifted off"
+        yield bearing.name, f"{up:z.1f} kN up, {along:z.1f} kN along, {across:z.1f} kN across{lifted}"
+    yield from axis_facts(model, bearings)
+
+
+def _with_cracks(resting: RestingModel) -> CrackedBridge | None:
+    """Return the bridge with its cracks; None where it does not crack, or does not stand so."""
+    if not overloaded(resting.model, resting.rest, resting.joints).any():
+        return None
+    cracked = resting.cracked()
+    return cracked if cracked and not cracked.fallen.any() else None
 
 
 def _loose_facts(model: Model, is_held: np.ndarray, held: int) -> Iterator[Fact]:
@@ -341,9 +356,9 @@ def _extents_of_walls(member: Member) -> tuple[float, float, float]:
     return member.thickness_m, width, length
 
 
-def foundation_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
+def foundation_facts(scenario: Scenario, resting: RestingModel) -> Iterator[Fact]:
     """Yield the pressure of footings on their soil by the bridge's own weight."""
-    rest, soil = model_at_rest(model, scenario.joints), given(model.soil)
+    model, rest, soil = resting.model, resting.rest, given(resting.model.soil)
     forces_n = np.abs(rest.loads[2, soil.rows])
     areas = model.connections.areas[soil.rows]
     members = model.member_of_shard[model.connections.pairs[soil.rows, 0]]

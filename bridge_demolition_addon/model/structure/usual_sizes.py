@@ -6,7 +6,6 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from ..actions import Fact
 from ..bridge.member import Member
 from ..scenario import Scenario
 
@@ -25,20 +24,18 @@ USUAL_SPAN_OVER_DECK = (3.0, 60.0)
 _MOST_NAMED = 5
 
 
-def size_facts(scenario: Scenario, members: Sequence[Member]) -> Iterator[Fact]:
-    """Yield what is so large or small that it was probably given in another unit."""
+def unusual_sizes(scenario: Scenario, members: Sequence[Member]) -> Iterator[str]:
+    """Yield what is so large or small that it was probably given in another unit, as sentences without full stops."""
     found = [*_deck_sizes(scenario), *_member_sizes(members), *_densities(members)]
-    yield from (("unusual", text) for text in found[:_MOST_NAMED])
-    if found:
-        yield "", "was it given in another unit? Lengths are in m, masses in kg, densities in kg/m³"
+    return (f"{text}; is it in another unit?" for text in found[:_MOST_NAMED])
 
 
 def _member_sizes(members: Sequence[Member]) -> Iterator[str]:
     for member in members:
         extents = np.ptp(member.solid.vertices, axis=0)
-        longest_m = float(extents.max())
-        if not _usual(longest_m, USUAL_LENGTH_M):
-            yield f"{member.name} is {longest_m:.4g} m long"
+        longest = int(extents.argmax())
+        if not _usual(extents[longest], USUAL_LENGTH_M):
+            yield f"{member.name} is {extents[longest]:.4g} m {('long', 'wide', 'high')[longest]}"
         elif not _usual(member.thickness_m, USUAL_THICKNESS_M):
             yield f"{member.name} is {member.thickness_m:.4g} m thick"
 
@@ -62,7 +59,7 @@ def _deck_sizes(scenario: Scenario) -> Iterator[str]:
     thickness_m = bridge.deck.thickness_m
     ratio = max(bridge.span_lengths_m) / thickness_m
     if not _usual(ratio, USUAL_SPAN_OVER_DECK):
-        yield f"the deck is {thickness_m:g} m thick for spans of up to {max(bridge.span_lengths_m):g} m"
+        yield f"The deck is {thickness_m:g} m thick for spans of up to {max(bridge.span_lengths_m):g} m"
 
 
 def _usual(value: float, limits: tuple[float, float]) -> bool:

@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
-from ...engineering.statistics.order_limits import least_runs
+from ...engineering.statistics.order_limits import achieved_confidence, least_runs
 from ...engineering.units import rounded_down, rounded_up
 from ...model.debris.measured_piles import PILES_NOTE
 from ...model.sequence.rest import FASTEST
 from ...model.study.conclusions import Conclusions, DebrisLimit, DoubtfulThrows, Proportion
 from ...model.study.file import Ensemble, Study
 from ...model.study.fragments import FragmentLimits
+from ...model.study.settings import StudySettings
 from .clearance import CORDON, cordon_text, flyrock_of_runs
 from .numbers import listed, ordinal, percent, percent_down, percent_up
 
@@ -99,6 +100,24 @@ def too_few_sentence(limit: DebrisLimit) -> str:
         f"then do {percent(limit.quantile)} of all runs stay within the {ordinal(limit.rank)} debris distance, with "
         f"{percent(limit.confidence)} confidence. Raise study.runs, and start the study again in the same folder: it "
         "keeps all runs that are done."
+    )
+
+
+def planned_limit_text(settings: StudySettings) -> str:
+    """Return which limit as many runs as are planned will give, or what they will lack for one."""
+    runs, rank, share = settings.runs, settings.rank, percent(settings.quantile)
+    needed = least_runs(settings.quantile, settings.confidence, rank)
+    if runs >= needed:
+        return (
+            f"The {ordinal(rank)} debris distance of {runs} runs will be the limit for {share} of all, with "
+            f"{percent(settings.confidence)} confidence; {needed} runs are needed."
+        )
+    other = f", or {least_runs(settings.quantile, settings.confidence)} with study.rank = 1" if rank > 1 else ""
+    largest = percent_down(achieved_confidence(1, runs, settings.quantile))
+    return (
+        f"{runs} runs give no limit: {needed} are needed for the {ordinal(rank)} debris distance to be one for {share} "
+        f"of all, with {percent(settings.confidence)} confidence{other}. The largest of {runs} holds for {share} with "
+        f"{largest} confidence."
     )
 
 

@@ -55,6 +55,8 @@ def draw_stability(layout: bpy.types.UILayout, context: bpy.types.Context) -> No
     except (DemolitionError, KeyError, TypeError):  # the custom property was edited: the button writes it again
         stability = None
     if stability and not changes(scene.bda):
+        for text in stability.unusual:
+            draw_sentence(layout, context, text, icon="ERROR")
         draw_sentence(layout, context, stability.sentence, icon=_ICONS.get(stability.verdict, "QUESTION"))
         if stability.is_asleep:
             draw_sentence(layout, context, stability.asleep_sentence, icon="INFO")

@@ -195,7 +195,8 @@ def test_frames_cover_the_duration():
         (BALL, {"mass_kg": float("inf")}, "ball.mass_kg is inf: expected a number above 0 (kg)"),
         (BALL, {"mass_kg": True}, "ball.mass_kg is true: expected a number above 0 (kg)"),
         (BALL, {"mass_kg": None}, "ball.mass_kg is missing: expected a number above 0 (kg)"),
-        (BALL, {"mass_kg": 1e39}, "ball.mass_kg is 1e+39: expected a number that single precision can hold"),
+        (BALL, {"mass_kg": 1e39}, "ball.mass_kg is 1e+39: expected at most 1000000000 (kg)"),
+        (BALL, {"mass_kg": 5e9}, "ball.mass_kg is 5000000000.0: expected at most 1000000000 (kg); is this in grams?"),
         (BALL, {"mass_kg": 1e-39}, "ball.mass_kg is 1e-39: expected a number that single precision can hold"),
         (
             BALL,
@@ -218,6 +219,16 @@ def test_frames_cover_the_duration():
         (BRIDGE, {"deck": 5}, "bridge.deck is 5: expected a table"),
         (BRIDGE, {"deck": PIERS}, "expected a table"),
         (DECK, {"width_m": 0}, "bridge.deck.width_m is 0: expected a number from 0.001 to 10000.0 (m)"),
+        (
+            DECK,
+            {"width_m": 12000},
+            "bridge.deck.width_m is 12000: expected a number from 0.001 to 10000.0 (m); is this in millimetres?",
+        ),
+        (DECK, {"width_m": 5500}, "width_m is 5500: expected at most 1000 (m); is this in millimetres?"),
+        (DECK, {"thickness_m": 250}, "thickness_m is 250: expected at most 100 (m); is this in millimetres?"),
+        (DECK, {"density_kg_m3": 2.5}, "density_kg_m3 is 2.5: expected a number of at least 10 (kg/m³); is this in t"),
+        (DECK, {"density_kg_m3": 1e30}, "density_kg_m3 is 1e+30: expected at most 100000 (kg/m³)"),
+        (SCENARIO.ground, {"friction": 1e30}, "ground.friction is 1e+30: expected at most 100"),
         (DECK, {"overhang_m": -1}, "bridge.deck.overhang_m is -1: expected a number from 0 to 10000.0 (m)"),
         (DECK, {"overhang_m": 1e9}, "bridge.deck.overhang_m is 1000000000.0: expected a number from 0 to 10000.0 (m)"),
         (BALL, {"drop_height_m": 3e38}, "ball.drop_height_m is 3e+38: expected a number above 0 and up to 10000.0 (m)"),
@@ -321,7 +332,7 @@ def test_values_outside_their_limits_are_refused(table, values, text):
         ),
         (SCENARIO.time, {"duration_s": 1e6}, "time.duration_s is 1000000.0: expected 1 to 1000000 frames"),
         (SCENARIO.time, {"duration_s": 1e-9}, "time.duration_s is 1e-09: expected 1 to 1000000 frames"),
-        (SCENARIO.time, {"duration_s": 1e38, "time_scale": 1e-37}, "expected 1 to 1000000 frames"),
+        (SCENARIO.time, {"duration_s": 1e6, "time_scale": 1e-37}, "expected 1 to 1000000 frames"),
     ],
 )
 def test_values_that_contradict_each_other_are_refused(table, values, text):
@@ -340,10 +351,10 @@ def test_limits_themselves_are_taken():
 
 
 def test_extreme_values_overflow_nothing():
-    for size in (0.001, 10_000.0):
-        ball = replace(BALL, mass_kg=3e38, diameter_m=size, drop_height_m=10_000.0)
+    for size in (0.001, 1000.0):
+        ball = replace(BALL, mass_kg=1e9, diameter_m=size, drop_height_m=10_000.0)
         assert np.isfinite([ball.density_kg_m3, ball.fall_time_s, ball.impact_speed_m_s]).all()
-    assert np.isfinite(replace(CONNECTIONS, breaking_force_kgf=3e38).breaking_force_newton)
+    assert np.isfinite(replace(CONNECTIONS, breaking_force_kgf=1e12).breaking_force_newton)
 
 
 def test_fields_are_named_not_counted():

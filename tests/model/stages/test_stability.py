@@ -21,7 +21,7 @@ from bridge_demolition_addon.model.stages.stability import (
     stability_texts,
 )
 from bridge_demolition_addon.model.stages.stability_by_statics import stability_of
-from bridge_demolition_addon.model.structure.usual_sizes import size_facts
+from bridge_demolition_addon.model.structure.usual_sizes import unusual_sizes
 
 pytestmark = pytest.mark.slow
 
@@ -151,8 +151,8 @@ def test_a_bridge_is_left_alone_awake_and_without_actions():
 def test_sizes_that_look_like_another_unit_are_named():
     def said(**deck):
         changed = replace(I235, bridge=replace(I235.bridge, deck=replace(I235.bridge.deck, **deck)))
-        return " ".join(text for _, text in size_facts(changed, prepared_members(changed).members))
+        return " ".join(unusual_sizes(changed, prepared_members(changed).members))
 
-    assert list(size_facts(I235, prepared_members(I235).members)) == []
-    assert "deck is 250 m thick" in said(thickness_m=250.0) and "another unit" in said(thickness_m=250.0)
+    assert list(unusual_sizes(I235, prepared_members(I235).members)) == []
+    assert "The deck is 90 m thick" in said(thickness_m=90.0) and "another unit" in said(thickness_m=90.0)
     assert "0.0012 m thick" in said(thickness_m=0.0012)

@@ -16,11 +16,13 @@ from bridge_demolition_addon.model.study.conclusions import (
     proportion,
     simultaneous_limits,
 )
+from bridge_demolition_addon.model.study.settings import StudySettings
 from bridge_demolition_addon.report.wording.numbers import listed, ordinal
 from bridge_demolition_addon.report.wording.study import (
     doubtful_sentence,
     harm_sentence,
     limit_sentence,
+    planned_limit_text,
     repeat_sentence,
     shape_sentence,
     success_sentence,
@@ -176,3 +178,13 @@ def test_lists_and_ranks_in_words():
     ranks = [ordinal(rank) for rank in (1, 2, 3, 4, 11, 21, 112)]
     words = ["2nd", "3rd", "4th", "11th", "21st", "112th"]
     assert ranks == ["largest", *(f"{word} largest" for word in words)]
+
+
+def test_which_limit_the_runs_will_give_is_said_beforehand():
+    # S. S. Wilks (1941): the largest of n is above the quantile p with confidence 1 - pⁿ, 1 - 0.95^20 = 0.6415, and the
+    # second of them with 1 - pⁿ - n (1 - p) pⁿ⁻¹. So 59 and 93 runs are the least for 95 % with 95 % confidence.
+    few = planned_limit_text(StudySettings(scenario="bridge.toml", runs=20))
+    assert few.startswith("20 runs give no limit: 93 are needed for the 2nd largest debris distance to be one for 95 %")
+    assert "or 59 with study.rank = 1. The largest of 20 holds for 95 % with 64.15 % confidence." in few
+    assert "the limit for 95 % of all, with 95 % confidence" in planned_limit_text(StudySettings(scenario="a.toml"))
+    assert "58 runs give no limit: 59" in planned_limit_text(StudySettings(scenario="a.toml", runs=58, rank=1))

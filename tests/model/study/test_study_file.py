@@ -123,7 +123,10 @@ def test_a_study_is_written_and_read_back_with_the_same_draws(tmp_path):
             vary("bridge.density_kg_m3", **NORMAL, factor="true"),
             "vary.factor is true: bridge.density_kg_m3 has no number in the scenario to multiply",
         ),
-        (vary("bridge.density_kg_m3", **NORMAL), "bridge.density_kg_m3 and bridge.mass_kg are given together"),
+        (
+            vary("bridge.density_kg_m3", **NORMAL | {"mean": 2400.0}),
+            "bridge.density_kg_m3 and bridge.mass_kg are given together",
+        ),
         ('[[criteria]]\nname = "it"\nkind = "span down"\nspan = 2', "[[criteria]] number 1: criteria.span is 2"),
         ("runs = 1e", "not a TOML file"),
     ],
