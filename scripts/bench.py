@@ -24,6 +24,7 @@ BENCHES = (
     "building",
     "fracture",
     "recording",
+    "demolition",
     "strength",
     "blast",
     "contours",
