@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -96,7 +97,7 @@ def run_scenario(
         times = {"building": lap_s()}
         progress.stage(f"simulating {len(model.shards)} shards and {len(model.connections)} connections")
         context = RunContext.of(scene, scenario.title, scenario)
-        with signals_noted() as signals:
+        with signals_noted() as signals, _model_not_searched():
             playing = _simulate(scene, lock.folder, scenario, progress, signals)
             recording = playing.recording
             times |= {"blender": playing.seconds - recording.seconds, "recording": recording.seconds}
@@ -210,6 +211,17 @@ def _prepare_view(scene: bpy.types.Scene, scenario: Scenario, model: Model, shar
     stage(scene, shards, model, points_to_see(scenario, model.members), scenario.pictures)
     show_charges(scene, scenario)
     show_blast_zones(scene, scenario)
+
+
+@contextmanager
+def _model_not_searched() -> Iterator[None]:
+    """Leave out what was built where Python looks for memory to free: 4 % of a run went into looking through it."""
+    gc.collect()
+    gc.freeze()
+    try:
+        yield
+    finally:
+        gc.unfreeze()
 
 
 def _simulate(

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "bars.h"
+#include "springs.h"
 
 static const double AGREES = 1e-4;   /* largest error of a force, by what its bars yield at, or the mean of springs */
 static const double LITTLE_M = 1e-5; /* or presses the sides of a crack together so far */
@@ -84,34 +85,9 @@ static void linear_crack(const bda_term *t, int64_t row, const double gap[3], do
         }
 }
 
-/* Force of a spring on what lies above, and by how much it falls with the gap: pressed upwards by its stiffness up to
- * its capacity, held sideways up to friction. */
-static void force_of_spring(const bda_term *t, int64_t row, const double gap[3], double force[3], double tangent[3][3])
+static bda_spring_law springs_of(const bda_term *t)
 {
-    double wanted = -t->vertical[row] * gap[2], held[2], limit;
-    int acts = t->pulls[row] || wanted > 0.0;
-    force[2] = acts ? (wanted < t->capacity[row] ? wanted : t->capacity[row]) : 0.0;
-    for (int axis = 0; axis < 2; axis++)
-        held[axis] = -t->sideways[axis * t->gaps + row] * gap[axis];
-    double size = sqrt(held[0] * held[0] + held[1] * held[1]);
-    if (t->friction[row] < INFINITY)
-        limit = t->friction[row] * t->pressed_by[row];
-    else
-        limit = t->pulls[row] || t->pressed_by[row] > 0.0 ? INFINITY : 0.0;
-    int slides = size > limit;
-    double share = slides ? limit / size : 1.0, across = slides ? share / (size * size) : 0.0;
-    for (int axis = 0; axis < 3; axis++)
-        for (int other = 0; other < 3; other++)
-            tangent[axis][other] = 0.0;
-    tangent[2][2] = t->vertical[row] * (acts && wanted < t->capacity[row] ? 1.0 : 0.0);
-    for (int axis = 0; axis < 2; axis++) {
-        force[axis] = share * held[axis];
-        for (int other = 0; other < 2; other++) {
-            double whole = axis == other ? t->sideways[axis * t->gaps + row] : 0.0;
-            tangent[axis][other] =
-                whole * share - across * held[axis] * held[other] * t->sideways[other * t->gaps + row];
-        }
-    }
+    return (bda_spring_law){t->gaps, t->vertical, t->sideways, t->capacity, t->friction, t->pressed_by, t->pulls};
 }
 
 /* Force along bare bars that are longer by `moved` than as the sub-step began, above 0 in tension. */
@@ -147,7 +123,8 @@ void resisted_at(const guessed_term *g, int64_t row, const double moved[3], doub
         crack_at(t, row, gap, &bar, &rub, &opened, normal, direction);
         force_of_crack(t, row, &bar, &rub, opened, normal, direction, force);
     } else {
-        force_of_spring(t, row, gap, force, tangent);
+        bda_spring_law springs = springs_of(t);
+        force_of_spring(&springs, row, gap, force, tangent);
         for (int axis = 0; axis < 3; axis++)
             force[axis] = -force[axis];
     }
@@ -201,11 +178,12 @@ void begin_at(guessed_term *g, int64_t row, const double moved[3])
         begin_bare_bars(g, row, moved[0]);
         return;
     }
+    bda_spring_law springs = springs_of(t);
     gap_at(t, row, moved, gap);
     if (t->kind == CRACKS)
         linear_crack(t, row, gap, force, tangent);
     else
-        force_of_spring(t, row, gap, force, tangent);
+        force_of_spring(&springs, row, gap, force, tangent);
     for (int axis = 0; axis < 3; axis++) {
         double pulling = t->kind == CRACKS ? force[axis] : -force[axis];
         for (int other = 0; other < 3; other++)

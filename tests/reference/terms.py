@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import numpy as np
 from reference.crack_law import CrackLaw
+from reference.spring_law import ReferenceSprings
 
 from bridge_demolition_addon.engineering.elasticity.joint_rows import cross_products, dot_products
-from bridge_demolition_addon.engineering.elasticity.spring_law import PressedSprings
 from bridge_demolition_addon.engineering.elasticity.steel_bars import Bars
 from bridge_demolition_addon.engineering.elasticity.substep import BARE_BARS, CRACKS, Term
 
@@ -28,7 +28,7 @@ class ReferenceTerm:
             self._law = CrackLaw(bars, *named)
         elif self.kind != BARE_BARS:
             named = ("vertical", "sideways", "capacity", "friction", "pulls", "pressed_by")
-            self._law = PressedSprings(*(arrays[name] for name in named))
+            self._law = ReferenceSprings(*(arrays[name] for name in named))
 
     def linear(self, moved: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Return the forces (3, q) that pull the sides of gaps together, opened by `moved` (3, q), and tangents."""

@@ -1,4 +1,4 @@
-"""The law of springs between two bodies: what footings on soil and pads of bearings resist.
+"""The law of springs between two bodies: what footings on soil and pads of bearings resist (`core/src/springs.h`).
 
 All arrays have their components first.
 """
@@ -6,13 +6,24 @@ All arrays have their components first.
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
+from functools import cached_property
 
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
+from ..core.calls import call
+from ..core.structs import Count, Doubles, Flags, Struct
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+class _Law(Struct):
+    _fields_ = (
+        ("count", Count),
+        *((name, Doubles) for name in ("vertical", "sideways", "capacity", "friction", "pressed")),
+        ("pulls", Flags),
+    )
+
+
+@dataclass(frozen=True, eq=False)
 class PressedSprings:
     """Resistance of q springs: they press upwards, and hold sideways by their stiffness up to friction."""
 
@@ -36,31 +47,33 @@ class PressedSprings:
 
     def resisted(self, gaps_m: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return forces (3, q) on what lies above gaps (3, q), and by how much these fall with them, (3, 3, q)."""
-        wanted = -self.vertical_n_m * gaps_m[2]
-        acts = self.pulls | (wanted > 0.0)
-        upwards = np.where(acts, np.minimum(wanted, self.capacity_n), 0.0)
-        held = -self.sideways_n_m * gaps_m[:2]
-        size = np.sqrt(held[0] * held[0] + held[1] * held[1])
-        limit = self._limits()
-        slides = size > limit
-        share = np.divide(limit, size, out=np.ones_like(size), where=slides)
-        forces = np.stack((share * held[0], share * held[1], upwards))
-        tangents = self.whole
-        tangents[2, 2] *= acts & (wanted < self.capacity_n)
-        tangents[:2, :2] *= share
-        across = np.divide(share, size * size, out=np.zeros_like(size), where=slides)
-        tangents[:2, :2] -= across * held[:, None] * held * self.sideways_n_m
+        count = len(self.vertical_n_m)
+        forces, tangents = np.empty((3, count)), np.empty((3, 3, count))
+        call("bda_springs_resisted", self._core, self._of_all(gaps_m), forces, tangents)
         return forces, tangents
 
     def stored_j(self, gaps_m: FloatArray) -> FloatArray:
         """Return the energy (q,) that springs across gaps (3, q) would give back."""
-        forces, stiffness = self.resisted(gaps_m)[0], np.stack((*self.sideways_n_m, self.vertical_n_m))
-        doubled = np.divide(forces * forces, stiffness, out=np.zeros_like(forces), where=stiffness > 0.0)
-        stored: FloatArray = 0.5 * doubled.sum(axis=0)
+        stored = np.empty(len(self.vertical_n_m))
+        call("bda_springs_stored", self._core, self._of_all(gaps_m), stored)
         return stored
 
-    def _limits(self) -> FloatArray:
-        """Largest forces sideways (q,)."""
-        holds = np.isinf(self.friction)
-        by_friction = np.where(holds, 0.0, self.friction) * self.pressed_n
-        return np.where(holds & (self.pulls | (self.pressed_n > 0.0)), np.inf, by_friction)
+    def _of_all(self, gaps_m: FloatArray) -> FloatArray:
+        if gaps_m.shape != (3, len(self.vertical_n_m)):
+            raise ValueError(f"gaps have shape {gaps_m.shape}: expected (3, {len(self.vertical_n_m)})")
+        return np.ascontiguousarray(gaps_m)
+
+    @cached_property
+    def _core(self) -> _Law:
+        count = len(self.vertical_n_m)
+        law = _Law(count=count)
+        for name, array in (
+            ("vertical", self.vertical_n_m),
+            ("sideways", self.sideways_n_m),
+            ("capacity", self.capacity_n),
+            ("friction", self.friction),
+            ("pressed", self.pressed_n),
+            ("pulls", self.pulls),
+        ):
+            law.point(name, np.ascontiguousarray(array), 2 * count if name == "sideways" else count)
+        return law

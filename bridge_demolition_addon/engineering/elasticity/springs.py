@@ -10,17 +10,30 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
+from ..core.calls import call
+from ..core.structs import Count, Doubles, Indices, Struct
 from .gaps import stiffness_of_points
-from .joint_rows import cross_products, turned, turned_back
+from .joint_rows import cross_products, turned_back
 from .spring_law import PressedSprings
-from .substep import SPRINGS, Term
+from .substep import SPRINGS, Places, Term
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+class _Places(Struct):
+    _fields_ = (
+        ("count", Count),
+        ("above", Indices),
+        ("below", Indices),
+        ("anchors_above", Doubles),
+        ("anchors_below", Doubles),
+    )
+
+
+@dataclass(frozen=True, eq=False)
 class SpringPositions:
     """Where p springs of c connections are, each between a body above and one below."""
 
@@ -56,10 +69,19 @@ class SpringPositions:
 
     def gaps(self, positions_m: FloatArray, rotations: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Return gaps (3, p) below the bodies above, and arms (3, p) of the force there, from both bodies' centres."""
-        arms = turned(rotations[..., self.above], self.anchors_above_m)
-        below = turned(rotations[..., self.below], self.anchors_below_m)
-        gaps = positions_m[:, self.above] - positions_m[:, self.below] + arms - below
-        return gaps, arms, below + gaps
+        gaps, arms, arms_below = (np.empty((3, len(self.of))) for _ in range(3))
+        call("bda_spring_gaps", self._core, Places.of(positions_m, rotations), gaps, arms, arms_below)
+        return gaps, arms, arms_below
+
+    @cached_property
+    def _core(self) -> _Places:
+        count = len(self.of)
+        places = _Places(count=count)
+        places.point("above", np.ascontiguousarray(self.above), count)
+        places.point("below", np.ascontiguousarray(self.below), count)
+        places.point("anchors_above", np.ascontiguousarray(self.anchors_above_m), 3 * count)
+        places.point("anchors_below", np.ascontiguousarray(self.anchors_below_m), 3 * count)
+        return places
 
     def ordered(self, above: FloatArray, below: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return what is of the bodies above and below (…, c) as of the first and second bodies."""

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Sub-steps of the compiled core are those of one dense system by numpy: random structures, all kinds of forces."""
 
-from dataclasses import replace
+from dataclasses import fields, replace
 
 import numpy as np
 import pytest
 from reference.crack_law import CrackLaw
+from reference.spring_law import ReferenceSprings
 from reference.substep import velocities_after
 from reference.terms import ReferenceTerm
 from support.core_terms import forces_and_tangents, term_of_law
@@ -18,6 +19,7 @@ from bridge_demolition_addon.engineering.elasticity.equations import RigidBodies
 from bridge_demolition_addon.engineering.elasticity.inertia import effective_inverse_masses
 from bridge_demolition_addon.engineering.elasticity.joint_rows import JointFrames, JointPositions, joint_positions
 from bridge_demolition_addon.engineering.elasticity.spring_law import PressedSprings
+from bridge_demolition_addon.engineering.elasticity.springs import SpringPositions
 from bridge_demolition_addon.engineering.elasticity.steel_bars import Bars, Steel
 from bridge_demolition_addon.engineering.elasticity.structure import ElasticStructure, StepInput
 from bridge_demolition_addon.engineering.elasticity.substep import CRACKS, SPRINGS, Frames, Places
@@ -262,7 +264,7 @@ def test_cracks_resist_as_by_numpy(seed):
 @pytest.mark.parametrize("seed", range(5))
 def test_springs_resist_as_by_numpy(seed):
     rng, number = np.random.default_rng(seed), np.arange(GAPS)
-    law = PressedSprings(
+    law = ReferenceSprings(
         rng.uniform(1e6, 1e9, GAPS),
         rng.uniform(0.0, 1e8, (2, GAPS)) * (number % 7 > 0),
         np.where(number % 3 > 0, np.inf, rng.uniform(1e3, 1e5, GAPS)),
@@ -279,6 +281,26 @@ def test_springs_resist_as_by_numpy(seed):
     found = forces_and_tangents(term, np.zeros((3, GAPS)))
     np.testing.assert_array_equal(found[0], -upwards)
     np.testing.assert_array_equal(found[1], tangents)
+    alone = PressedSprings(*(getattr(law, item.name) for item in fields(law)))
+    for own, expected in zip(alone.resisted(gaps), (upwards, tangents), strict=True):
+        np.testing.assert_array_equal(own, expected)
+    np.testing.assert_array_equal(alone.stored_j(gaps), law.stored_j(gaps))
+
+
+def test_gaps_of_springs_are_between_points_of_both_bodies():
+    rng = np.random.default_rng(4)
+    above, below = rng.integers(0, BODIES, (2, 50))
+    anchors = rng.normal(size=(2, 3, 50))
+    springs = SpringPositions(np.arange(50), above, below, *anchors, np.ones(50, bool))
+    positions, rotations = rng.normal(size=(3, BODIES)), turned(rng, BODIES, 2.0)
+    gaps, arms, arms_below = springs.gaps(positions, rotations)
+    ends = [
+        np.einsum("ijk,jk->ik", rotations[..., body], own) for body, own in zip((above, below), anchors, strict=True)
+    ]
+    np.testing.assert_allclose(gaps, positions[:, above] + ends[0] - positions[:, below] - ends[1], atol=1e-14)
+    np.testing.assert_allclose(arms, ends[0], atol=1e-14)
+    # The force acts where the body above is met, on both.
+    np.testing.assert_allclose(positions[:, below] + arms_below, positions[:, above] + arms, atol=1e-14)
 
 
 def test_numbers_out_of_range_are_refused(monkeypatch):

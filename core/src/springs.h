@@ -1,0 +1,63 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ *
+ * Springs between two bodies, one above the other: footings on soil, and pads of bearings. They press upwards by their
+ * stiffness up to their capacity, and hold sideways up to friction.
+ */
+#ifndef BDA_SPRINGS_H
+#define BDA_SPRINGS_H
+
+#include <math.h>
+
+#include "joints.h"
+
+/* Where p springs are: on bodies above and below, at anchors (3, p) from the centres of these, in their axes. */
+typedef struct {
+    int64_t count;
+    const int64_t *above, *below;
+    const double *anchors_above, *anchors_below;
+} bda_spring_places;
+
+/* Stiffness (p,) upwards, (2, p) along x and y; largest pressing force, friction, which may be infinite, and pressing
+ * force by which they hold sideways (p,); whether they hold what is lifted. */
+typedef struct {
+    int64_t count;
+    const double *vertical, *sideways, *capacity, *friction, *pressed;
+    const uint8_t *pulls;
+} bda_spring_law;
+
+BDA_API int bda_spring_gaps(const bda_spring_places *springs, const bda_places *places, double *gaps, double *arms_above,
+                            double *arms_below);
+BDA_API int bda_springs_resisted(const bda_spring_law *law, const double *gaps, double *forces, double *tangents);
+BDA_API int bda_springs_stored(const bda_spring_law *law, const double *gaps, double *energies);
+
+/* Force of a spring on what lies above, and by how much it falls with the gap. */
+static inline void force_of_spring(const bda_spring_law *s, int64_t row, const double gap[3], double force[3],
+                                   double tangent[3][3])
+{
+    double wanted = -s->vertical[row] * gap[2], held[2], limit;
+    int acts = s->pulls[row] || wanted > 0.0;
+    force[2] = acts ? (wanted < s->capacity[row] ? wanted : s->capacity[row]) : 0.0;
+    for (int axis = 0; axis < 2; axis++)
+        held[axis] = -s->sideways[axis * s->count + row] * gap[axis];
+    double size = sqrt(held[0] * held[0] + held[1] * held[1]);
+    if (s->friction[row] < INFINITY)
+        limit = s->friction[row] * s->pressed[row];
+    else
+        limit = s->pulls[row] || s->pressed[row] > 0.0 ? INFINITY : 0.0;
+    int slides = size > limit;
+    double share = slides ? limit / size : 1.0, across = slides ? share / (size * size) : 0.0;
+    for (int axis = 0; axis < 3; axis++)
+        for (int other = 0; other < 3; other++)
+            tangent[axis][other] = 0.0;
+    tangent[2][2] = s->vertical[row] * (acts && wanted < s->capacity[row] ? 1.0 : 0.0);
+    for (int axis = 0; axis < 2; axis++) {
+        force[axis] = share * held[axis];
+        for (int other = 0; other < 2; other++) {
+            double whole = axis == other ? s->sideways[axis * s->count + row] : 0.0;
+            tangent[axis][other] =
+                whole * share - across * held[axis] * held[other] * s->sideways[other * s->count + row];
+        }
+    }
+}
+
+#endif
