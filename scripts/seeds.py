@@ -33,8 +33,16 @@ DIGESTS = ("motion", "beginning")
 def main() -> int:
     """Run what is asked for and print a table for each example; the exit status."""
     options = arguments()
+    if options.begin:
+        print_beginning(options.names[0])
     if options.measure is not None:
         print_measured(options.names[0], options.measure, options.duration, options.shards)
+    if options.beginnings:
+        with ThreadPoolExecutor(options.at_once) as threads:
+            found = dict(zip(options.names, threads.map(beginning_alone, options.names), strict=True))
+        for name, beginning in found.items():
+            note_version(VERSIONS, name, beginning)
+        return 0
     if options.own:
         return any([is_another(name) for name in options.names])  # all of them, also after one that is
     seeds = range(options.first, options.first + options.seeds)
@@ -64,6 +72,10 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--at-once", type=int, default=2, metavar="N", help="runs side by side, each on a core (2)")
     parser.add_argument("--csv", type=Path, metavar="DIR", help="also keep a row for each run in DIR/NAME.csv")
     parser.add_argument("--own", action="store_true", help="run each once, as it is, and compare it with what was kept")
+    parser.add_argument(
+        "--beginnings", action="store_true", help="keep anew how each begins; its ranges stay of an earlier version"
+    )
+    parser.add_argument("--begin", action="store_true", help=argparse.SUPPRESS)
     parser.add_argument("--measure", type=int, metavar="SEED", help="run this seed alone and print JSON")
     return parser.parse_args()
 
@@ -97,13 +109,31 @@ def measured(
 
 def run_alone(name: str, seed: int, duration_s: float | None, shards: int | None) -> dict[str, Any]:
     """What was measured in the run of a seed, which has a process of its own, and the digests of its motion."""
-    command = [sys.executable, __file__, name, *(["--duration", str(duration_s)] if duration_s else [])]
-    command += ["--shards", str(shards)] if shards else []
-    alone = [*command, "--measure", str(seed)]
-    done = subprocess.run(alone, env=os.environ | {"OPENBLAS_NUM_THREADS": "1"}, capture_output=True, text=True)
+    options = [*(["--duration", str(duration_s)] if duration_s else []), *(["--shards", str(shards)] if shards else [])]
+    return in_own_process(name, *options, "--measure", str(seed))
+
+
+def beginning_alone(name: str) -> dict[str, str]:
+    """The digest of the beginning of an example, in a process of its own, where tests know how long it is."""
+    return in_own_process(name, "--begin") if name in BEGINNINGS else {}
+
+
+def in_own_process(name: str, *options: str) -> dict[str, Any]:
+    """What this program prints of an example with options."""
+    command = [sys.executable, __file__, name, *options]
+    done = subprocess.run(command, env=os.environ | {"OPENBLAS_NUM_THREADS": "1"}, capture_output=True, text=True)
     if done.returncode:
-        sys.exit(f"seeds: {name} with seed {seed} ended with status {done.returncode}:\n{done.stderr}")
+        sys.exit(f"seeds: {name} {' '.join(options)} ended with status {done.returncode}:\n{done.stderr}")
     return json.loads(done.stdout.splitlines()[-1])
+
+
+def print_beginning(name: str) -> None:
+    """Run the beginning of an example in this process, print its digest, and end the process."""
+    from support.example_runs import begun, motion_of_beginning
+
+    with tempfile.TemporaryDirectory() as folder:
+        print(json.dumps({"beginning": motion_of_beginning(name, begun(name, Path(folder)))}), flush=True)
+    os._exit(0)  # Blender's own end may hang
 
 
 def print_measured(name: str, seed: int, duration_s: float | None, shards: int | None) -> None:
@@ -141,7 +171,8 @@ def columns(rows: Iterable[dict[str, float | None]]) -> list[str]:
 def note_version(path: Path, name: str, digests: dict[str, str]) -> None:
     """Keep how the example moves with its own seed, by which its test finds that ranges are of an earlier version."""
     versions = json.loads(path.read_text(encoding="utf-8")) if path.exists() else {}
-    text = json.dumps(versions | {name: digests}, indent=1, sort_keys=True) + "\n"
+    kept = versions.get(name, {}) | digests
+    text = json.dumps(versions | {name: kept}, indent=1, sort_keys=True) + "\n"
     path.write_text(text, encoding="utf-8", newline="\n")
 
 
