@@ -73,7 +73,14 @@ class MissingLibraryError(DemolitionError):
 
 
 class CoreError(DemolitionError):
-    """The compiled core is missing, or another than is needed; the text says what to do."""
+    """The compiled core is missing, or another than is needed; the text says so behind its name, and what to do."""
+
+    def __str__(self) -> str:
+        return f"The compiled core {self.args[0]}"
+
+    def needed_by(self, subject: str) -> str:
+        """Return the sentence that a subject needs it, with its verb."""
+        return f"{subject} the compiled core, which {self.args[0]}"
 
 
 class LayoutError(DemolitionError):

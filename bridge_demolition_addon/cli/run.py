@@ -214,7 +214,8 @@ def _print_paths(paths: Sequence[Path]) -> None:
 
 def _result_facts(summary: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
     force = summary["largest_resultant"]
-    yield "connections", ConnectionCounts.of_summary(summary).text
+    if not summary.get("only_motion_because"):
+        yield "connections", ConnectionCounts.of_summary(summary).text
     if bars := bars_text(summary):
         yield "reinforcement", bars
     if use := largest_use_text(summary):

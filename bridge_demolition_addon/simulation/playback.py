@@ -62,7 +62,7 @@ class Playing:
     total, done
         Frames to play, without the start frame, and frames played.
     seconds, longest_frame_s
-        Wall time of all of them, and of the one that took longest.
+        Wall time of all of them with the start frame, and of the one that took longest after it.
     left_s
         Wall time that the remaining frames take, with the time between frames; None before the third frame.
     """
@@ -72,10 +72,11 @@ class Playing:
         self._rest = stop_at
         self._scene = recording.scene
         self.total, self.done = frames_to_play(self._scene), 0
-        self.seconds = self.longest_frame_s = 0.0
+        self.longest_frame_s, began = 0.0, time.perf_counter()
         self.left_s: float | None = None
         start_recording(recording, alone=alone)
         start_over(self._scene)
+        self.seconds = time.perf_counter() - began
         first = self._scene.rigidbody_world.point_cache.frame_start + 1
         self._workload = Workload(self._scene, first, first + self.total - 1)
         self._stepping, self._between = Pace(), Pace()

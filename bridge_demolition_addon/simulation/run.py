@@ -14,6 +14,7 @@ import bpy
 
 from ..display.camera_targets import points_to_see
 from ..display.contour_ranges import ContourSettings
+from ..engineering.core.library import missing_core
 from ..errors import DemolitionError, SimulationError, text_of
 from ..model.results.arrays import FRAMES_FILE
 from ..model.run_folder.files import BLEND_FILE
@@ -23,6 +24,7 @@ from ..model.scenario import Scenario
 from ..model.scenario.contact_facts import own_values_sentence
 from ..model.scenario.recording import PictureSettings
 from ..model.sequence.checked_model import checked_model
+from ..model.sequence.doubts import only_motion_text
 from ..model.sequence.lifts import pick_warnings
 from ..model.stages.stability_by_statics import stability_of
 from ..model.structure.model import Model
@@ -76,6 +78,8 @@ def run_scenario(
     check_folder(output, overwrite=overwrite)
     if pictures or film:
         check_camera(scenario.pictures)
+    if (missing := missing_core()) and scenario.connections.is_elastic:
+        raise SimulationError(missing.needed_by("elastic connections need"))
     lap_s = _laps()
     progress.stage("building the bridge and its shards")
     if of_bodies := own_values_sentence(scenario):
@@ -102,9 +106,8 @@ def run_scenario(
             recording = playing.recording
             times |= {"blender": playing.seconds - recording.seconds, "recording": recording.seconds}
             times["starting_and_ending"] = lap_s() - playing.seconds
-            if recording.layout_error:
-                notice = f"only motion was recorded, as Blender's memory is not as expected: {recording.layout_error}"
-                progress.stage(notice)
+            if recording.only_motion_because:
+                progress.stage(only_motion_text({"only_motion_because": recording.only_motion_because}))
             elif recording.rigid_because:
                 progress.stage(f"connections were rigid, as they cannot be elastic here: {recording.rigid_because}")
             is_whole = not (signals or progress.is_stopped or recording.error)

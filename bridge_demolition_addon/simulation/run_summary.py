@@ -87,6 +87,7 @@ def run_summary(recording: Recording, results: Results, context: RunContext, *, 
     summary = {
         "title": context.title,
         "completed": completed,
+        "only_motion_because": recording.only_motion_because,
         "blender": bpy.app.version_string,
         "fingerprint": _fingerprint(recording, results),
         "substep_s": context.substep_s,

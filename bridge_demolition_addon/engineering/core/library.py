@@ -37,6 +37,15 @@ def library() -> ctypes.CDLL:
     return load(FOLDER / FILE, builder if builder.is_file() else None)
 
 
+def missing_core() -> CoreError | None:
+    """Return why there is no core; None where there is."""
+    try:
+        library()
+    except CoreError as error:
+        return error
+    return None
+
+
 @cache
 def function(name: str, *arguments: Any, returns: Any = ctypes.c_int) -> Callable[..., Any]:
     """Return a function of the core that takes arguments of these types of ctypes."""
@@ -50,16 +59,16 @@ def load(beside: Path, builder: Path | None = None) -> ctypes.CDLL:
     remedy = f"run: {Path(sys.executable).name} {builder}" if builder else "install the program again"
     path = beside if beside.is_file() else _packaged()
     if path is None:
-        raise CoreError(f"The compiled core is missing ({beside}): {remedy}")
+        raise CoreError(f"is missing ({beside}): {remedy}")
     try:
         found = ctypes.CDLL(str(path))
         version = int(found["bda_core_version"]())
     except (OSError, AttributeError) as error:
-        raise CoreError(f"The compiled core cannot be loaded ({error}): {remedy}") from error
+        raise CoreError(f"cannot be loaded ({error}): {remedy}") from error
     if version != VERSION:
-        raise CoreError(f"The compiled core {path} has version {version}, and version {VERSION} is needed: {remedy}")
+        raise CoreError(f"has version {version}, and version {VERSION} is needed ({path}): {remedy}")
     if builder and _sources_of(found) != _digest(builder):
-        raise CoreError(f"The compiled core {path} is of other sources than those in {builder.parent}: {remedy}")
+        raise CoreError(f"is of other sources than those in {builder.parent} ({path}): {remedy}")
     return found
 
 

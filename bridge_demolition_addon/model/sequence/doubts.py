@@ -21,10 +21,11 @@ def doubts_of_run(summary: Mapping[str, Any]) -> tuple[str, ...]:
 
 
 def first_doubts(summary: Mapping[str, Any]) -> tuple[str, ...]:
-    """Return what has to be said before any result: that a run has no outcome, still moved, or gained energy."""
+    """Return what has to be said before any result: no loads, no outcome, still moving, or energy gained."""
     energy, stability = summary.get("energy"), summary.get("stability") or {}
     made = energy["made_by_solver"]["share_of_dissipated"] if energy else 0.0
     texts = (
+        only_motion_text(summary),
         gone_text(summary),
         much_made_text(made),
         Ending.of(summary).text,
@@ -32,3 +33,11 @@ def first_doubts(summary: Mapping[str, Any]) -> tuple[str, ...]:
         *stability.get("unusual", ()),
     )
     return tuple(text for text in texts if text)
+
+
+def only_motion_text(summary: Mapping[str, Any]) -> str:
+    """Return that no loads are known, as a sentence without a full stop, with the reason; empty where they are."""
+    reason = summary.get("only_motion_because")
+    return (
+        f"Only motion was recorded: what connections carry, and which broke, is not known. {reason}" if reason else ""
+    )

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from ...engineering.core.library import missing_core
 from ...engineering.geometry.level_contacts import level_contacts
 from ...engineering.units import mass_text
 from ...errors import DemolitionError
@@ -68,6 +69,8 @@ def stability_of(
         lies = f", and {_named(known['loose'])} lie loose" if known["loose"] else ""
         reason = f'connections.method is "{method}": without the faces of shards there are no stresses{lies}'
         return Stability(verdict=UNKNOWN, reason=reason, **known)
+    if missing := missing_core():
+        return Stability(verdict=UNKNOWN, reason=str(missing), **known)
     try:
         contacts = _loose_contacts(model, paths) if known["loose"] else []
         on_bearings = _with_bearings(scenario, model.members, contacts)

@@ -159,8 +159,8 @@ def _doubts(run: ReportedRun) -> Iterator[str]:
         yield f"{text}."
     if np.isnan(results.frames.loads.body_sums_n[1:]).any():
         yield (
-            "Forces are not known in every frame, as Blender's memory was not as expected or recording began late: "
-            "what needs them is empty."
+            "Forces are not known in every frame, as the compiled core or Blender's memory was not as expected or "
+            "recording began late: what needs them is empty."
         )
     if results.load_sampling.startswith("last sub-step"):
         yield "Loads were read once a frame only: peaks and impulses of impacts are missed for the most part."

@@ -1,4 +1,4 @@
-"""Net force on every body from its change of momentum: the fallback where Bullet's memory is not to be trusted."""
+"""Net force on every body from its change of momentum: all there is without Bullet's memory or the compiled core."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ...engineering.geometry.rotations import rotation_vectors
 from ...engineering.geometry.vectors import length
 from ...engineering.mechanics.frame_loads import FrameLoads, LoadAccumulator
 from ...engineering.mechanics.work import FrameWork
-from ...errors import LayoutError, SimulationError
+from ...errors import CoreError, LayoutError, SimulationError
 from ...model.results.frames import Frame
 from ...model.results.inventory import Inventory
 from ...scene.run_setup import RunSetup
@@ -36,15 +36,18 @@ _NEED_MEMORY: tuple[tuple[Callable[[RunSetup], Any], str, str], ...] = (
 """Features of a run that need Blender's memory, and a remedy without it."""
 
 
-def check_motion_is_enough(setup: RunSetup, layout_error: LayoutError, *, contacts: bool) -> None:
-    """Refuse a run that needs more than the motion of its bodies."""
+def check_motion_is_enough(setup: RunSetup, reason: LayoutError | CoreError, *, contacts: bool, elastic: bool) -> None:
+    """Refuse a run that needs more than the motion of its bodies, which is all that is known for a reason."""
     needs = [(subject, remedy) for is_needed, subject, remedy in _NEED_MEMORY if is_needed(setup)]
     if contacts:
         needs.append(("contacts need", "switch recording.contacts off in the scenario"))
+    if isinstance(reason, CoreError):
+        needs += [("elastic connections need", "")] * elastic + [("charges need", "")] * setup.goes_off
     for subject, remedy in needs:
+        if isinstance(reason, CoreError):
+            raise SimulationError(reason.needed_by(subject))
         raise SimulationError(
-            f"{subject} Blender's memory, which is not as expected ({layout_error}): {remedy}, "
-            "or run it in another Blender"
+            f"{subject} Blender's memory, which is not as expected ({reason}): {remedy}, or run it in another Blender"
         )
 
 

@@ -13,7 +13,8 @@ import numpy as np
 
 from ...bullet.time_control import time_stands_still
 from ...bullet.world import BulletWorld, WorldState
-from ...errors import LayoutError, OutputError, SimulationError
+from ...engineering.core.library import missing_core
+from ...errors import CoreError, LayoutError, OutputError, SimulationError
 from ...model.results.frames import BallHistory, ContactHistory, Frame
 from ...model.results.inventory import Inventory
 from ...model.scenario import ZoneFiring
@@ -76,9 +77,9 @@ class Recording(RecordedFrames):
         Which bodies are missing, were added or moved since the scene was built, in sentences.
     error : Exception or None
         Why the recording ended early.
-    layout_error : LayoutError or None
-        Why Bullet's memory is not read. Then only the motion of bodies is recorded, and the net force on each
-        from its change of momentum.
+    layout_error : LayoutError, CoreError or None
+        Why Bullet's memory is not read: it is not as expected, or there is no core that reads it. Then only the motion
+        of bodies is recorded, and the net force on each from its change of momentum.
     setup : RunSetup or None
         All that decides the run; None before the first frame.
     substeps : int
@@ -110,7 +111,7 @@ class Recording(RecordedFrames):
         self.build = build_of(scene)
         self.folder = folder
         self.error: Exception | None = None
-        self.layout_error: LayoutError | None = None
+        self.layout_error: LayoutError | CoreError | None = missing_core()
         self._every_substep = every_substep
         self._log_files, self.has_loads = log_files or LogFiles(), loads
         self._has_contacts = contacts and loads
@@ -220,9 +221,16 @@ class Recording(RecordedFrames):
         return self._bars.summary() if self._bars else None
 
     @property
+    def only_motion_because(self) -> str:
+        """Why only motion is recorded; empty where loads are."""
+        if isinstance(self.layout_error, LayoutError):
+            return f"Blender's memory is not as expected: {self.layout_error}"
+        return str(self.layout_error or "")
+
+    @property
     def rigid_because(self) -> LayoutError | None:
         """Why connections that should be elastic are rigid."""
-        if self.layout_error and is_elastic(self.scene):
+        if isinstance(self.layout_error, LayoutError) and is_elastic(self.scene):
             return self.layout_error
         return self._reader.rigid_because if self._reader else None
 
@@ -255,7 +263,8 @@ class Recording(RecordedFrames):
         begins = number == self.scene.rigidbody_world.point_cache.frame_start
         if begins or not self._momentum:
             setup = run_setup_of(self.scene, with_connections=False)
-            check_motion_is_enough(setup, given(self.layout_error), contacts=self._has_contacts)
+            reason, elastic = given(self.layout_error), is_elastic(self.scene)
+            check_motion_is_enough(setup, reason, contacts=self._has_contacts, elastic=elastic)
             self._momentum = MomentumReader(self.scene, setup.bodies.objects, setup.inventory)
             self._begin(setup, None)
         elif self.last is None or number != self.last.number + 1:

@@ -172,9 +172,7 @@ def end_with_results(operator: bpy.types.Operator, recording: Recording, *, stop
         warnings.append(f"Changed in Blender, and not in the scenario of the run: {'; '.join(by_hand)}")
     if moved:
         warnings.append(f"{recording.folder} was moved or deleted, and the logs with it")
-    if recording.layout_error:
-        warnings.append(f"Forces are estimated from motion: {recording.layout_error}")
-    elif recording.rigid_because:
+    if recording.rigid_because:
         warnings.append(f"Connections were rigid, not elastic: {recording.rigid_because}")
     for warning in filter(None, warnings):
         messages.tell(operator, "WARNING", warning)

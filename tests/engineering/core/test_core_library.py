@@ -38,9 +38,18 @@ def test_what_is_no_library_is_named(tmp_path):
         core.load(broken)
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="the mark of the processor is that of ELF")
+def test_a_core_for_another_processor_is_named(tmp_path):
+    other = bytearray((core.FOLDER / core.FILE).read_bytes())
+    other[18:20] = b"\x15\x00"  # e_machine: PowerPC, 64 bits (System V ABI, chapter 4)
+    (tmp_path / core.FILE).write_bytes(other)
+    with pytest.raises(CoreError, match=r"core cannot be loaded \(.*\): install the program again$"):
+        core.load(tmp_path / core.FILE)
+
+
 def test_another_version_is_named(tmp_path):
     newer = build_core.compile_to(tmp_path / core.FILE, options=["-DBDA_CORE_VERSION=999"])
-    with pytest.raises(CoreError, match=rf"has version 999, and version {core.VERSION} is needed: install"):
+    with pytest.raises(CoreError, match=rf"has version 999, and version {core.VERSION} is needed \(.*\): install"):
         core.load(newer)
 
 
