@@ -10,6 +10,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any, ClassVar, Protocol, Self
 
+from ..engineering.geometry.turned_boxes import TurnedBox
 from ..engineering.ground_motion.record import GroundRecord
 from ..engineering.timing.time_step import TimeStep
 from ..engineering.timing.timeline import Timeline
@@ -129,7 +130,7 @@ class CutOfMembers:
 class CutBox(CutOfMembers):
     """A box whose sides members are cut along, so that an action can take what of them is in it."""
 
-    box_m: tuple[Point, Point]  # lowest and highest corner
+    box: TurnedBox
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,7 +139,7 @@ class CutThrough(CutOfMembers):
 
     point_m: Point
     normal: Point
-    box_m: tuple[Point, Point] | None
+    box: TurnedBox | None
 
 
 class PlannedAction(Table):

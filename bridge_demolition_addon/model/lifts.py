@@ -116,9 +116,7 @@ class Lift(Part):
             yield self.hook_m
 
     def cut_planes(self) -> tuple[CutBox, ...]:
-        if self.lowest_corner_m is None or self.highest_corner_m is None:
-            return ()
-        return (CutBox(self.members, (self.lowest_corner_m, self.highest_corner_m)),)
+        return (CutBox(self.members, self.box),) if self.box else ()
 
     def facts(self, site: Worksite) -> Iterator[Fact]:
         part, pick = site.affected_by(self), site.pick_of(self)
@@ -185,6 +183,7 @@ def sling_of(lift: Lift, number: int, point_m: Point, hook_m: Point, force_n: fl
         members=lift.members,
         lowest_corner_m=lift.lowest_corner_m,
         highest_corner_m=lift.highest_corner_m,
+        skew_deg=lift.skew_deg,
         point_m=point_m,
         anchor_m=hook_m,
         start_s=lift.from_s,

@@ -8,6 +8,7 @@ from itertools import pairwise
 from math import sqrt
 from typing import ClassVar
 
+from ..engineering.geometry.turned_boxes import TurnedBox
 from ..engineering.units import STANDARD_GRAVITY_M_S2, mass_text
 from ..errors import ScenarioError
 from .actions import Fact, Plan, PlannedAction, Worksite
@@ -34,6 +35,21 @@ class Part(PlannedAction):
         unit="m",
     )
     highest_corner_m: tuple[float, float, float] | None = key("Highest x, y and z of that box.", default=None, unit="m")
+    skew_deg: float = key(
+        "By how much that box is turned about the vertical through its middle, as `bridge.skew_deg` says: above 0 the "
+        "ends of its sides across the road, towards positive y, lie further along the road.",
+        default=0.0,
+        unit="°",
+        at_least=-90,
+        at_most=90,
+    )
+
+    @property
+    def box(self) -> TurnedBox | None:
+        """Return the box; None without one."""
+        if self.lowest_corner_m is None or self.highest_corner_m is None:
+            return None
+        return TurnedBox(self.lowest_corner_m, self.highest_corner_m, self.skew_deg)
 
     @property
     def where(self) -> str:
@@ -41,13 +57,16 @@ class Part(PlannedAction):
         members = ", ".join(self.members or ())
         corners = zip(self.lowest_corner_m or (), self.highest_corner_m or (), strict=True)
         box = " by ".join(f"{low:g} to {high:g}" for low, high in corners)
-        return " in ".join(part for part in (members, box and f"{box} m") if part)
+        turned = f" turned by {self.skew_deg:g}°" if self.skew_deg else ""
+        return " in ".join(part for part in (members, box and f"{box} m{turned}") if part)
 
     def _check_together(self) -> None:
         lowest, highest = self.lowest_corner_m, self.highest_corner_m
         if (lowest is None) != (highest is None):
             given, missing = ("lowest", "highest") if highest is None else ("highest", "lowest")
             raise self.unexpected(f"{missing}_corner_m", f"it with {self.table}.{given}_corner_m")
+        if self.skew_deg and lowest is None:
+            raise self.unexpected("skew_deg", "0 without a box, which it turns")
         for axis, (low, high) in enumerate(zip(lowest or (), highest or (), strict=True), start=1):
             if not low < high:
                 raise ScenarioError(

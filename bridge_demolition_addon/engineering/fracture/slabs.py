@@ -11,6 +11,7 @@ from manifold3d import Manifold
 from ..arrays import FloatArray
 from ..geometry.mesh import TriangleMesh
 from ..geometry.solids import bodies, from_manifold, to_manifold
+from ..geometry.turned_boxes import TurnedBox
 from ..geometry.vectors import dot, unit
 
 _SAME_PLANE = 1e-7
@@ -37,13 +38,13 @@ def slabs(solid: TriangleMesh, axis: int, positions_m: Sequence[float]) -> tuple
     return (*pieces, *_connected(whole, solid.volume))
 
 
-def cut_out(solid: TriangleMesh, box_m: FloatArray) -> tuple[TriangleMesh, ...]:
-    """Return the connected pieces of a solid around a box (2, 3), then those in it; the solid itself beside the box.
+def cut_out(solid: TriangleMesh, box: TurnedBox) -> tuple[TriangleMesh, ...]:
+    """Return the connected pieces of a solid around a box, then those in it; the solid itself beside the box.
 
     The sides of the box are planes that cut off one piece after the other, so that the pieces of a convex solid are.
     """
-    rest, pieces = to_manifold(solid), list[TriangleMesh]()
-    for axis, (side, level) in product(range(3), enumerate(box_m)):
+    rest, pieces = to_manifold(box.solid_in_own_axes(solid)), list[TriangleMesh]()
+    for axis, (side, level) in product(range(3), enumerate(box.corners_m)):
         lower, upper = rest.bounding_box()[axis], rest.bounding_box()[3 + axis]
         outwards, level_m = 1.0 if side else -1.0, float(level[axis])
         beyond, within = (upper - level_m, level_m - lower) if side else (level_m - lower, upper - level_m)
@@ -54,25 +55,27 @@ def cut_out(solid: TriangleMesh, box_m: FloatArray) -> tuple[TriangleMesh, ...]:
         outside, rest = rest.split_by_plane((outwards * np.eye(3)[axis]).tolist(), outwards * level_m)
         pieces += _connected(outside, solid.volume)
     inside = _connected(rest, solid.volume)
-    return (*pieces, *inside) if pieces and inside else (solid,)
+    return tuple(map(box.solid_in_world, (*pieces, *inside))) if pieces and inside else (solid,)
 
 
 def cut_through(
-    solid: TriangleMesh, point_m: FloatArray, normal: FloatArray, box_m: FloatArray | None = None
+    solid: TriangleMesh, point_m: FloatArray, normal: FloatArray, box: TurnedBox | None = None
 ) -> tuple[TriangleMesh, ...]:
     """Return the connected pieces behind a plane, then those before it; the solid itself where it is not cut.
 
-    With a box (2, 3) only what its part of the plane meets is cut, and that right through.
+    With a box only what its part of the plane meets is cut, and that right through.
     """
     across = unit(normal)
     level_m = float(dot(across, point_m))
     if not _on_both_sides(solid.vertices, across, level_m, _THINNEST_M):
         return (solid,)
-    if box_m is not None:
-        lower, upper = np.maximum(solid.bounds[0], box_m[0]), np.minimum(solid.bounds[1], box_m[1])
+    if box is not None:
+        bounds, box_m, turned = box.solid_in_own_axes(solid).bounds, box.corners_m, box.direction_in_own_axes(across)
+        lower, upper = np.maximum(bounds[0], box_m[0]), np.minimum(bounds[1], box_m[1])
         beside = (upper - lower < np.minimum(_THINNEST_M, np.ptp(box_m, axis=0))).any()
         corners = np.array(list(product(*zip(lower, upper, strict=True))))
-        if beside or not _on_both_sides(corners, across, level_m, 0.0):
+        own_level_m = float(dot(turned, box.in_own_axes(np.asarray(point_m, float)[None])[0]))
+        if beside or not _on_both_sides(corners, turned, own_level_m, 0.0):
             return (solid,)
     before, behind = to_manifold(solid).split_by_plane(across.tolist(), level_m)
     return (*_connected(behind, solid.volume), *_connected(before, solid.volume))

@@ -7,11 +7,11 @@ from typing import ClassVar
 from ...engineering.drilled_charges.specific_charge import Effect
 from ...engineering.geometry.sides import AXES
 from ...errors import ScenarioError
-from ..actions import CutThrough, Fact, Plan, Worksite
+from ..actions import CutBox, CutThrough, Fact, Plan, Worksite
 from ..blast.cuts import MemberCut
 from ..lifts import Lift
 from ..loads import Part
-from ..schema import given, key, shown
+from ..schema import key, shown
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,13 +42,24 @@ class Change(Part):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Removal(Change):
-    """Shards that are taken away in one moment, such as a pier that is kicked out: all of the members, or those whose
-    centres of mass lie in the box. Their connections are cut, they collide with nothing any more, and what slept
-    wakes up. They are put out of sight, 1000 m below their positions.
+    """Shards that are taken away in one moment, such as a pier that is kicked out: all of the members, or what of them
+    lies in the box. The members are cut along the sides of the box before they are made into shards, so that what goes
+    weighs what the box holds. Connections of what goes are cut, it collides with nothing any more, and what slept wakes
+    up. It is put out of sight, 1000 m below its position.
     """
 
     table: ClassVar[str] = "removals"
     kind: ClassVar[str] = "removal"
+
+    along: str = key(
+        "What ends at the box: `box` cuts shards apart along its sides; `faces` takes whole shards, those whose "
+        "centres of mass lie in it, and so do all removals of steelwork and of members with `fracture.points`.",
+        default="box",
+        choices=("box", "faces"),
+    )
+
+    def cut_planes(self) -> tuple[CutBox, ...]:
+        return (CutBox(self.members, self.box),) if self.box and self.along == "box" else ()
 
     def _check_together(self) -> None:
         Change._check_together(self)
@@ -76,6 +87,7 @@ def lifting_away(lift: Lift) -> LiftingAway:
         members=lift.members,
         lowest_corner_m=lift.lowest_corner_m,
         highest_corner_m=lift.highest_corner_m,
+        skew_deg=lift.skew_deg,
     )
 
 
@@ -106,8 +118,7 @@ class SawCut(Change):
     def cut_planes(self) -> tuple[CutThrough, ...]:
         if self.along == "faces":
             return ()
-        box_m = None if self.lowest_corner_m is None else (self.lowest_corner_m, given(self.highest_corner_m))
-        return (CutThrough(self.members, self.point_m, self.normal, box_m),)
+        return (CutThrough(self.members, self.point_m, self.normal, self.box),)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -218,9 +218,7 @@ def of_members(part: Part, structure: Structure) -> np.ndarray:
 
 def in_box(part: Part, positions_m: np.ndarray) -> np.ndarray:
     """Return whether positions (k, 3) are in the box; all where there is none."""
-    if part.lowest_corner_m is None:
-        return np.ones(len(positions_m), bool)
-    return ((positions_m >= part.lowest_corner_m) & (positions_m <= part.highest_corner_m)).all(axis=1)
+    return np.ones(len(positions_m), bool) if part.box is None else part.box.contains(positions_m)
 
 
 def _sawn(cut: SawCut, structure: Structure) -> np.ndarray:

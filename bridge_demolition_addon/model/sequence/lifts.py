@@ -161,9 +161,9 @@ def volume_kg(lift: Lift, model: Model, structure: Structure) -> float:
 
 
 def _volume_in_box(solid: TriangleMesh, lift: Lift) -> float:
-    if lift.lowest_corner_m is None:
+    if lift.box is None:
         return solid.volume
-    low, high = np.array((lift.lowest_corner_m, lift.highest_corner_m))
+    solid, (low, high) = lift.box.solid_in_own_axes(solid), lift.box.corners_m
     if (solid.bounds[0] >= low).all() and (solid.bounds[1] <= high).all():
         return solid.volume
     return (to_manifold(solid) ^ to_manifold(box(high - low, (low + high) / 2.0))).volume()

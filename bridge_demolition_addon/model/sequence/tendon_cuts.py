@@ -44,7 +44,7 @@ def _cuts(change: TendonCut, tendons: ModelTendons) -> Iterator[CutTendon]:
             continue
         if change.members is not None and member not in change.members:
             continue
-        if change.lowest_corner_m is None or change.highest_corner_m is None:
+        if change.box is None:
             if tendons.steel.bonded[number]:
                 raise change.unexpected(
                     "lowest_corner_m",
@@ -53,7 +53,7 @@ def _cuts(change: TendonCut, tendons: ModelTendons) -> Iterator[CutTendon]:
                 )
             yield CutTendon(number, 0.0)
             continue
-        at_m = tendons.within_box(number, change.lowest_corner_m, change.highest_corner_m)
+        at_m = tendons.within_box(number, change.box)
         if at_m is not None:
             yield CutTendon(number, at_m)
 

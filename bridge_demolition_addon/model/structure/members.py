@@ -272,10 +272,9 @@ def _in_pieces(member: Member, cuts: Sequence[CutOfMembers]) -> Member:
 def _pieces(part: TriangleMesh, cut: CutOfMembers) -> tuple[TriangleMesh, ...]:
     match cut:
         case CutBox():
-            return cut_out(part, np.array(cut.box_m))
+            return cut_out(part, cut.box)
         case CutThrough():
-            box_m = None if cut.box_m is None else np.array(cut.box_m)
-            return cut_through(part, np.array(cut.point_m), np.array(cut.normal), box_m)
+            return cut_through(part, np.array(cut.point_m), np.array(cut.normal), cut.box)
     raise TypeError(cut)
 
 

@@ -26,6 +26,7 @@ from ...engineering.elasticity.tendons import (
 )
 from ...engineering.geometry.mesh import TriangleMesh, volumes_and_centres
 from ...engineering.geometry.paths_through_solids import Passages, passages
+from ...engineering.geometry.turned_boxes import TurnedBox
 from ...engineering.geometry.vectors import distance, dot, points_along, transformed_back
 from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.reinforcement import FaceBars
@@ -73,9 +74,9 @@ class ModelTendons:
         positions = np.vstack((centres_m, np.zeros(3))).T
         return self.forces(positions, np.repeat(np.eye(3)[:, :, None], positions.shape[1], axis=2))
 
-    def within_box(self, tendon: int, lowest_m: Sequence[float], highest_m: Sequence[float]) -> float | None:
+    def within_box(self, tendon: int, box: TurnedBox) -> float | None:
         """Return the distance along a tendon of the middle of what lies in a box; None where nothing does."""
-        path = self.paths_m[tendon]
+        path, (lowest_m, highest_m) = box.in_own_axes(self.paths_m[tendon]), box.corners_m
         ends = np.concatenate((np.zeros(1), np.cumsum(distance(path[1:], path[:-1]))))
         inside = []
         for start, stop, begin, end in zip(path[:-1], path[1:], ends[:-1], ends[1:], strict=True):
@@ -84,7 +85,7 @@ class ModelTendons:
             if (still & ((start < lowest_m) | (start > highest_m))).any():
                 continue
             safe = np.where(still, 1.0, way)
-            shares = np.sort(np.stack((np.array(lowest_m) - start, np.array(highest_m) - start)) / safe, axis=0)
+            shares = np.sort(np.stack((lowest_m - start, highest_m - start)) / safe, axis=0)
             low = max(0.0, float(np.where(still, 0.0, shares[0]).max()))
             high = min(1.0, float(np.where(still, 1.0, shares[1]).min()))
             if low <= high:

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Solids cut by planes: nothing is lost, and every piece ends at the planes."""
 
+import math
+
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.engineering.fracture.slabs import cut_through, slab_between, slabs
+from bridge_demolition_addon.engineering.fracture.slabs import cut_out, cut_through, slab_between, slabs
 from bridge_demolition_addon.engineering.geometry.solids import box, cylinder, difference
+from bridge_demolition_addon.engineering.geometry.turned_boxes import TurnedBox
 
 
 def test_a_column_between_two_planes():
@@ -52,7 +55,27 @@ def test_a_plane_cuts_only_what_it_meets_in_its_box():
         ([2.0, -9.0, -9.0], [3.0, 9.0, 9.0], 1),  # the plane lies beside it
         ([0.0, -9.0, -9.0], [2.0, 9.0, -0.25], 1),  # it ends where the deck begins
     ):
-        assert len(cut_through(DECK, np.array([1.0, 0.0, 0.0]), across, np.array([low, high]))) == pieces
+        assert len(cut_through(DECK, np.array([1.0, 0.0, 0.0]), across, TurnedBox(tuple(low), tuple(high)))) == pieces
+
+
+@pytest.mark.parametrize("skew_deg", [-60.0, -20.0, 0.0, 15.0, 45.0, 90.0])
+def test_a_turned_box_takes_what_lies_between_its_sides(skew_deg):
+    """A strip of 1 m across a deck of 4 by 0.5 m: a parallelogram of 1 m over the cosine of its skew."""
+    strip = TurnedBox((-0.5, -30.0, -9.0), (0.5, 30.0, 9.0), skew_deg)
+    *around, inside = cut_out(DECK, strip)
+    within = 1.0 / math.cos(math.radians(skew_deg)) if abs(skew_deg) < 90.0 else 12.0 / 4.0
+    assert inside.volume == pytest.approx(within * 4.0 * 0.5, rel=1e-12)
+    assert sum(piece.volume for piece in (*around, inside)) == pytest.approx(12.0 * 4.0 * 0.5, rel=1e-12)
+    left = inside.vertices[inside.vertices[:, 1] > 1.99]
+    # Its end towards positive y lies further along the road.
+    if abs(skew_deg) < 90.0:
+        assert left[:, 0].mean() == pytest.approx(2.0 * math.tan(math.radians(skew_deg)), abs=1e-9)
+
+
+def test_a_turned_box_has_the_points_that_lie_in_it():
+    turned = TurnedBox((9.0, -1.0, 0.0), (11.0, 1.0, 2.0), 45.0)
+    points = np.array([[10.0, 1.3, 1.0], [10.9, 0.9, 1.0], [10.0, 0.0, 2.1], [8.7, 0.0, 0.0]])
+    assert turned.contains(points).tolist() == [True, False, False, True]
 
 
 def test_a_slab_of_a_round_column():

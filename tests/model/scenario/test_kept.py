@@ -38,8 +38,9 @@ CHANGES = (
 
 def test_a_text_saved_before_is_read_and_written_as_it_was_with_new_keys():
     assert tables_from_text(SAVED_BEFORE, KINDS) == CHANGES
-    written = SAVED_BEFORE.replace('"normal": [1.0, 0.0, 0.0]', '"normal": [1.0, 0.0, 0.0], "along": "plane"')
-    assert values_from_text(tables_text(CHANGES), []) == values_from_text(written, [])
+    new = {"removals": {"along": "box"}, "saw_cuts": {"along": "plane"}, "weakenings": {}}
+    written = [table | {"skew_deg": 0.0} | new[table["table"]] for table in values_from_text(SAVED_BEFORE, [])]
+    assert values_from_text(tables_text(CHANGES), []) == written
 
 
 def test_an_empty_text_holds_no_tables():

@@ -4,6 +4,7 @@
 import pytest
 from support.prestressed_beam import MIDDLE_M, beam_text, tendon
 
+from bridge_demolition_addon.engineering.geometry.turned_boxes import TurnedBox
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.scenario import Tendon, TendonCut
 from bridge_demolition_addon.model.scenario.file import scenario_from_text
@@ -92,5 +93,8 @@ def test_a_cut_in_a_box_is_in_the_middle_of_it():
     scenario = scenario_from_text(beam_text(tendon(STRAIGHT) + "[[tendon_cuts]]\ntime_s = 0.5\n" + BOX))
     assert isinstance(scenario.tendon_cuts[0], TendonCut)
     model = checked_model(scenario)
-    assert model.tendons.within_box(0, (9.0, -1.0, 3.0), (11.0, 1.0, 4.0)) == pytest.approx(10.0)
-    assert model.tendons.within_box(0, (9.0, -1.0, 3.9), (11.0, 1.0, 4.0)) is None
+    assert model.tendons.within_box(0, TurnedBox((9.0, -1.0, 3.0), (11.0, 1.0, 4.0))) == pytest.approx(10.0)
+    assert model.tendons.within_box(0, TurnedBox((9.0, -1.0, 3.9), (11.0, 1.0, 4.0))) is None
+    # Turned by a right angle it is 2 m long across the road, and as wide along it.
+    turned = TurnedBox((9.5, -1.0, 3.0), (11.5, 1.0, 4.0), 90.0)
+    assert model.tendons.within_box(0, turned) == pytest.approx(10.5)

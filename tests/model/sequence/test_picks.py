@@ -1,15 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What picks of a crane weigh, by hand: the volume in the box of a lift, by its density."""
 
+import math
+
 import numpy as np
 import pytest
 from support.stage_folders import with_stages
 
+from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.lifts import Pick
 from bridge_demolition_addon.model.scenario.file import scenario_from_text
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
 from bridge_demolition_addon.model.sequence.doubts import doubts_of_run
-from bridge_demolition_addon.model.sequence.events import model_structure
+from bridge_demolition_addon.model.sequence.events import in_box, model_structure
 from bridge_demolition_addon.model.sequence.lifts import placed_lifts, volume_kg
 from bridge_demolition_addon.model.stages.lifted import LIFT_COLUMNS
 from bridge_demolition_addon.model.stages.stages import stages_of
@@ -118,6 +121,39 @@ def test_a_skewed_deck_in_a_box_weighs_what_lies_in_it():
     """Each strip of a parallelogram is as long as the box, which lies within its ends."""
     scenario, model = model_with(lift("pick", ["deck"], [4.0, -1.0, 3.0], [8.0, 1.0, 5.0]), skew=20.0)
     assert placed_lifts(scenario.lifts, model)[0].pick.volume_kg == pytest.approx(DENSITY_KG_M3 * 4.0, rel=1e-9)
+
+
+@pytest.mark.parametrize(("seed", "shards", "skew"), [(3, 40, 20.0), (5, 90, -35.0)])
+def test_a_turned_box_takes_a_strip_of_a_skewed_deck_along_its_joints(seed, shards, skew):
+    """3 m across the joints, right through the deck of 4 by 0.5 m."""
+    across = 3.0 * math.cos(math.radians(skew))
+    strip = lift("strip", ["deck"], [6.0 - across / 2.0, -9.0, 3.0], [6.0 + across / 2.0, 9.0, 5.0])
+    scenario, model = model_with(strip + f"skew_deg = {skew}\n", seed, shards, skew)
+    (placed,) = placed_lifts(scenario.lifts, model)
+    assert placed.pick.volume_kg == pytest.approx(DENSITY_KG_M3 * 3.0 * 4.0 * 0.5, rel=1e-9)
+    assert placed.pick.shards_kg == pytest.approx(placed.pick.volume_kg, rel=1e-9)
+    assert placed.centre_m[:2] == pytest.approx((6.0, 0.0), abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("skew", "along", "is_exact"), [(0.0, "box", True), (25.0, "box", True), (0.0, "faces", False)]
+)
+def test_what_is_removed_weighs_what_its_box_holds(skew, along, is_exact):
+    across = 2.0 * math.cos(math.radians(skew))
+    removal = (
+        f'[[removals]]\ntime_s = 1.0\nmembers = ["deck"]\nalong = "{along}"\nskew_deg = {skew}\n'
+        f"lowest_corner_m = [{5.0 - across / 2.0}, -9.0, 3.0]\nhighest_corner_m = [{5.0 + across / 2.0}, 9.0, 5.0]\n"
+    )
+    scenario, model = model_with(removal, seed=7)
+    gone = in_box(scenario.removals[0], model.centres_m) & (model.masses_kg > 0.0)
+    gone &= np.array([model.members[number].name == "deck" for number in model.member_of_shard])
+    weighs = float(model.masses_kg[gone].sum()) == pytest.approx(DENSITY_KG_M3 * 2.0 * 4.0 * 0.5, rel=1e-9)
+    assert weighs == is_exact
+
+
+def test_a_box_that_is_not_there_is_not_turned():
+    with pytest.raises(ScenarioError, match=r"removals\.skew_deg"):
+        model_with('[[removals]]\ntime_s = 1.0\nmembers = ["deck"]\nskew_deg = 10.0\n')
 
 
 def test_the_crane_is_judged_by_the_larger_mass_and_both_are_said():
