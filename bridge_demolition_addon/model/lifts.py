@@ -33,6 +33,8 @@ class Pick:
     lift: str
     shards_kg: float
     volume_kg: float
+    centre_m: Point | None = None  # of gravity, as the bridge was built
+    slings_n: tuple[float, ...] = ()  # what each carries once it hangs, by the larger mass
 
     @property
     def heavier_by(self) -> float:
@@ -126,6 +128,9 @@ class Lift(Part):
             f"{pick.masses}, of {', '.join(part.members)}, {used:.0%} of what the crane lifts; slings hold "
             f"from {self.from_s:g} s with {self.pretension:.0%} of it, lifted away at {self.lift_s:g} s",
         )
+        place = ", ".join(f"{value:.2f}" for value in pick.centre_m)
+        forces = ", ".join(f"{force_n / 1e3:.1f}" for force_n in pick.slings_n)
+        yield "", f"centre of gravity at {place} m; once it hangs, slings carry {forces} kN"
         if used > 1.0:
             yield "", "heavier than the crane lifts: cut it into smaller parts, or choose a larger crane"
         if pick.warning:

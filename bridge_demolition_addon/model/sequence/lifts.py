@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -132,6 +132,10 @@ def placed_lift(lift: Lift, model: Model, structure: Structure) -> PlacedLift:
     hook_m = np.array((*centre_m[:2].tolist(), above_m) if lift.hook_m is None else lift.hook_m)
     slings = _slings(lift, points_m, hook_m, np.ones(len(points_m)), pick)
     carriers = [int(placed_on_model(sling, 1, model, structure).bodies[0]) for sling in slings]
+    weight_n = STANDARD_GRAVITY_M_S2 * pick.heavier_by * pick.shards_kg
+    hangs = hanging(points_m, hook_m, centre_m, weight_n, lift.elastic_n)
+    x, y, z = centre_m.tolist()
+    pick = replace(pick, centre_m=(x, y, z), slings_n=tuple(hangs.forces_n.tolist()))
     return PlacedLift(lift, shards, pick, centre_m, points_m, hook_m, np.array(carriers))
 
 

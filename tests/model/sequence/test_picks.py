@@ -156,6 +156,23 @@ def test_a_box_that_is_not_there_is_not_turned():
         model_with('[[removals]]\ntime_s = 1.0\nmembers = ["deck"]\nskew_deg = 10.0\n')
 
 
+def test_check_says_the_centre_of_gravity_and_what_slings_carry():
+    """2 m of deck, 10 t, on two slings 0.5 and 1.5 m from its middle: upright they carry 3/4 and 1/4 by the lever rule."""
+    weight_kn = 9.80665 * DENSITY_KG_M3 * 2.0 * 4.0 * 0.5 / 1e3
+    table = lift("pick", ["deck"], [5.0, -9.0, 3.0], [7.0, 9.0, 5.0])
+    for slings, forces in (
+        ("", [weight_kn]),
+        (
+            "sling_points_m = [[6.0, -0.5, 4.3], [6.0, 1.5, 4.3]]\nhook_m = [6.0, 0.0, 12.3]\n",
+            [0.75 * weight_kn * np.hypot(1.0, 0.5 / 8.0), 0.25 * weight_kn * np.hypot(1.0, 1.5 / 8.0)],
+        ),
+    ):
+        scenario, model = model_with(table + slings)
+        (placed,) = placed_lifts(scenario.lifts, model)
+        assert placed.pick.centre_m == pytest.approx((6.0, 0.0, 4.05), abs=1e-9)
+        assert [force / 1e3 for force in placed.pick.slings_n] == pytest.approx(forces, rel=1e-6)
+
+
 def test_the_crane_is_judged_by_the_larger_mass_and_both_are_said():
     pick = Pick("strip", 50734.0, 66406.0)
     assert pick.heavier_by == pytest.approx(66406.0 / 50734.0) and Pick("strip", 88134.0, 66406.0).heavier_by == 1.0
