@@ -157,7 +157,7 @@ def test_a_box_that_is_not_there_is_not_turned():
 
 
 def test_check_says_the_centre_of_gravity_and_what_slings_carry():
-    """2 m of deck, 10 t, on two slings 0.5 and 1.5 m from its middle: upright they carry 3/4 and 1/4 by the lever rule."""
+    """2 m of deck, 10 t, on two slings 0.5 and 1.5 m from its middle: upright 3/4 and 1/4, by the lever rule."""
     weight_kn = 9.80665 * DENSITY_KG_M3 * 2.0 * 4.0 * 0.5 / 1e3
     table = lift("pick", ["deck"], [5.0, -9.0, 3.0], [7.0, 9.0, 5.0])
     for slings, forces in (
