@@ -138,9 +138,14 @@ def _arguments(words: Sequence[str]) -> argparse.Namespace:
     if words and words[0] not in COMMANDS and not words[0].startswith("-"):
         raise UsageError(f"{_unknown_command(words[0])}; see bda --help")
     parser, parsers = _parser(words)
-    arguments, unknown = parser.parse_known_args(words)
+    known = [option for command in parsers for option in command.options]
+    try:
+        arguments, unknown = parser.parse_known_args(words)
+    except UsageError:  # what is missing may be there under another name
+        unknown = [word for word in words[1:] if word.startswith("--") and word.partition("=")[0] not in known]
+        if not unknown:
+            raise
     if unknown:
-        known = [option for command in parsers for option in command.options]
         raise UsageError(f"{_unknown_arguments(unknown, known)}; see bda {words[0]} --help")
     return arguments
 

@@ -34,6 +34,10 @@ def add_to(commands: argparse._SubParsersAction) -> None:
 def new(arguments: argparse.Namespace) -> None:
     """Write the scenario, and print what to do with it."""
     file: Path = arguments.file
+    if not file.suffix:
+        file = file.with_name(f"{file.name}.toml")
+    if not file.parent.is_dir():
+        raise OutputError(f"{file}: folder {file.parent} is not there; make it first")
     if file.exists():
         raise OutputError(f"{file}: exists already; choose another name")
     given = {name: getattr(arguments, name) for name in _QUESTIONS if getattr(arguments, name) is not None}

@@ -167,7 +167,8 @@ def _content(path: Path) -> tuple[bytes, str]:
     if beginning.startswith(b"<"):
         raise IfcError(f"{path}: is XML; save it as a STEP file, .ifc")
     if not beginning.startswith(_BEGINNING):
-        raise IfcError(f"{path}: is no IFC file: expected one that begins with {_BEGINNING.decode()}")
+        meshes = "export one, or meshes as OBJ or STL, which [[geometry]] of a scenario names"
+        raise IfcError(f"{path}: is no IFC file, which begins with {_BEGINNING.decode()} {meshes}")
     if _END not in content[-_HEAD:]:
         raise IfcError(f"{path}: is cut short, as {_END.decode()} is missing at its end; copy or export it again")
     schema = _SCHEMA.search(beginning)

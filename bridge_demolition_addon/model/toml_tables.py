@@ -76,6 +76,18 @@ _OTHER_WORDS = {
 
 _IFC = "ISO-10303-21;"
 
+_OF_ENDING = {
+    **dict.fromkeys((".ifc", ".ifcxml", ".ifczip"), "this is an IFC file: use bda import"),
+    **dict.fromkeys((".obj", ".stl", ".ply", ".glb", ".gltf"), "this is a mesh: name it in a scenario, [[geometry]]"),
+    **dict.fromkeys(
+        (".las", ".laz", ".xyz", ".asc", ".tif", ".tiff"), "this is ground: name it in a scenario, [ground]"
+    ),
+    **dict.fromkeys(
+        (".dwg", ".dxf", ".rvt", ".skp", ".blend"), "this is not read: export an IFC file, or meshes as OBJ"
+    ),
+}
+"""What to do with files of other kinds, by their ending."""
+
 BARE_KEY = re.compile(r"[A-Za-z0-9_-]{1,60}")
 
 _Root = TypeVar("_Root", bound=Table)
@@ -86,11 +98,15 @@ def document_of_file(
 ) -> dict[str, Any]:
     """Return the content of a TOML file; errors do not name it. Where `faults` are given, slips are noted in them."""
     try:
+        if path.suffix.lower() in _OF_ENDING and path.is_file():
+            raise ScenarioError(_OF_ENDING[path.suffix.lower()])
         text = file_text(path, most_bytes)
     except UnreadableError as error:
         raise ScenarioError(f"{error}: expected {description} in TOML") from error
     if text.startswith(_IFC):
-        raise ScenarioError("this is an IFC file: use bda import")
+        raise ScenarioError(_OF_ENDING[".ifc"])
+    if not text.strip():
+        raise ScenarioError(f"is empty: expected {description} in TOML, such as bda new writes")
     return toml_document(text, faults)
 
 
@@ -208,10 +224,13 @@ def _alike(name: str, known: Sequence[str]) -> list[str]:
 
 def _suggestion(root: type[Table], table: str, name: str, known: Sequence[str], alike: Sequence[str]) -> str:
     """Return what is meant by an unknown name: a name of its table, one elsewhere, or any of its table."""
-    elsewhere = [full for full in _full_names(root) if full.rpartition(".")[2] == name]
-    if alike or elsewhere:
-        return f"did you mean {[*(dotted(table, match) for match in alike), *elsewhere][0]}?"
-    return f"expected one of {', '.join(known)}"
+    if alike:
+        return f"did you mean {dotted(table, alike[0])}?"
+    wanted = f"expected one of {', '.join(known)}"
+    elsewhere = next((full for full in _full_names(root) if full.rpartition(".")[2] == name), "")
+    if not elsewhere:
+        return wanted
+    return f"did you mean {elsewhere}?" if not table else f"{wanted}; {elsewhere} is in another table"
 
 
 def _full_names(table_class: type[Table]) -> Iterator[str]:

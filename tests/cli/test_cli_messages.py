@@ -203,8 +203,8 @@ def test_all_faults_of_a_file_are_said_at_once_in_the_order_of_its_lines_and_of_
     ]
 
 
-def test_an_empty_file_lacks_all_that_is_required(complaints):
-    assert complaints("") == [
+def test_a_file_without_tables_lacks_all_that_is_required(complaints):
+    assert complaints("# nothing yet") == [
         "scenario.title is missing: expected a text on one line, not blank",
         "time is missing: expected a table",
         "fracture is missing: expected a table",
@@ -263,3 +263,47 @@ def test_a_folder_that_is_not_empty_names_the_option(tmp_path, capsys):
 def test_commands_and_options_that_are_nearest_are_named(words, sentence, capsys):
     assert main(words) == 2
     assert capsys.readouterr().err == f"bda: error: {sentence}\n"
+
+
+def refused(capsys, *words):
+    assert main(list(map(str, words))) == 2
+    (line,) = capsys.readouterr().err.splitlines()
+    return line.removeprefix("bda: error: ")
+
+
+@pytest.mark.parametrize(
+    ("file", "content", "advice"),
+    [
+        ("a.ifc", "no IFC", "this is an IFC file: use bda import"),
+        ("a.OBJ", "v 0 0 0", "this is a mesh: name it in a scenario, [[geometry]]"),
+        ("a.laz", "LASF", "this is ground: name it in a scenario, [ground]"),
+        ("a.dwg", "AC1027", "this is not read: export an IFC file, or meshes as OBJ"),
+        ("a.toml", " \n", "is empty: expected a scenario in TOML, such as bda new writes"),
+    ],
+)
+@pytest.mark.parametrize("command", ["check", "run"])
+def test_files_of_other_kinds_are_told_what_to_do(complaints, command, file, content, advice):
+    assert complaints(content, command, file=file) == [advice]
+
+
+def test_a_key_of_another_table_is_answered_by_those_of_its_own(complaints):
+    (line,) = complaints(RIGHT.replace("[ground]\n", '[ground]\ngeometry = "a.obj"\n', 1))
+    assert line.startswith("ground.geometry is unknown: expected one of file, ")
+    assert line.endswith("; geometry is in another table")
+
+
+def test_commands_say_what_is_near(tmp_path, capsys):
+    study = tmp_path / "study.toml"
+    vary = 'key = "bridge.deck.widht_m"\ndistribution = "uniform"\nlowest = 1\nhighest = 2\n'
+    study.write_text(f'[study]\nscenario = "{I235_FILE}"\n[[vary]]\n{vary}', encoding="utf-8")
+    assert refused(capsys, "study", study, "--check").endswith("is unknown: did you mean bridge.deck.width_m?")
+    assert refused(capsys, "charge", "--load", "abc").startswith("unrecognized arguments: --load")
+    meant = refused(capsys, "explain", "charge")
+    assert "did you mean charges or " in meant and " or blast_zones" in meant
+
+
+def test_a_new_file_has_the_ending_of_scenarios_and_its_folder_is_named(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert refused(capsys, "new", "no/dir/n.toml") == "no/dir/n.toml: folder no/dir is not there; make it first"
+    assert main(["new", "n5", "--spans", "13"]) == 0
+    assert capsys.readouterr().out.startswith("n5.toml\n") and [path.name for path in tmp_path.iterdir()] == ["n5.toml"]

@@ -27,7 +27,7 @@ def refused(path, **settings):
 @pytest.mark.parametrize(
     "content, message",
     [
-        ("", "is no IFC file: expected one that begins with ISO-10303-21;"),
+        ("", "is no IFC file, which begins with ISO-10303-21; export one, or meshes as OBJ or STL"),
         ("solid cube", "is no IFC file"),
         ("PK\x03\x04", "is packed; unpack it"),
         ("<?xml version='1.0'?><ifc/>", "is XML; save it as a STEP file"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import textwrap
 from collections.abc import Iterator
 from dataclasses import Field, dataclass, fields
@@ -26,6 +27,7 @@ _FILES: dict[type[Table], str] = {  # most ask for keys of a scenario, so that i
 _WIDTH = 100
 _MOST_SHOWN = 20
 _LIKENESS = 0.7
+_MOST_MEANT = 6
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,8 +59,7 @@ def explanation(name: str) -> list[str]:
     found = [entry for entry in entries if entry.name == wanted]
     found = found or [entry for entry in entries if entry.name.rpartition(".")[2] == wanted]
     if not found:
-        names = [entry.name for entry in entries]
-        raise ScenarioError(f"{name} is no key or table of a file: {_advice(wanted, names)}")
+        raise ScenarioError(f"{name} is no key or table of a file: {_advice(wanted, entries)}")
     if len(found) > _MOST_SHOWN:
         return [f"{wanted} is a key of many tables; name one of:", *(f"  {entry.name}" for entry in found)]
     files: dict[tuple[str, ...], list[str]] = {}
@@ -85,13 +86,20 @@ def _default(item: Field[Any]) -> str:
     return text if text == "required" else f"by default {text}"
 
 
-def _advice(wanted: str, names: list[str]) -> str:
+def _advice(wanted: str, entries: list[_Entry]) -> str:
+    names = [entry.name for entry in entries]
     last = {name.rpartition(".")[2]: name for name in reversed(names)}
     alike = get_close_matches(wanted, names, n=3, cutoff=_LIKENESS)
     alike += [last[word] for word in get_close_matches(wanted.rpartition(".")[2], last, n=3, cutoff=_LIKENESS)]
-    if alike:
-        return f"did you mean {' or '.join(dict.fromkeys(alike))}?"
+    tables = [entry.name for entry in entries if entry.key is None and _is_about(wanted, entry)]
+    if likely := list(dict.fromkeys([*alike, *tables]))[:_MOST_MEANT]:
+        return f"did you mean {' or '.join(likely)}?"
     return "docs/scenario.md lists all of a scenario"
+
+
+def _is_about(wanted: str, entry: _Entry) -> bool:
+    """Return whether the meaning of a table has a word, in singular or plural."""
+    return re.search(rf"\b{re.escape(wanted.lower())}s?\b", meaning(entry.table_class).lower()) is not None
 
 
 def _wrapped(text: str) -> list[str]:

@@ -6,6 +6,7 @@ import json
 import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import Field, dataclass, fields, replace
+from difflib import get_close_matches
 from functools import cache
 from typing import Any, get_args, get_origin
 
@@ -109,6 +110,8 @@ def _keys(table: Table, name: str, parts: list[str], before: str, steps: tuple) 
     first, *rest = parts
     known = [item.name for item in fields(table)]
     if first not in known:
+        if alike := get_close_matches(first, known, n=1):
+            raise ScenarioError(f"{name} is unknown: did you mean {dotted(table.table, alike[0])}?")
         raise ScenarioError(f"{name} is unknown: expected one of {', '.join(known)} after {table.table}")
     item, value = _field(type(table), first), _value_of(table, first)
     so_far, way = dotted(before, first), (*steps, first)
