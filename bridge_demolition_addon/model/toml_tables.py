@@ -230,7 +230,12 @@ def _suggestion(root: type[Table], table: str, name: str, known: Sequence[str], 
     elsewhere = next((full for full in _full_names(root) if full.rpartition(".")[2] == name), "")
     if not elsewhere:
         return wanted
-    return f"did you mean {elsewhere}?" if not table else f"{wanted}; {elsewhere} is in another table"
+    # A table beside this one, such as [geometry] for what is a key of [ground], is rarely meant.
+    return (
+        f"{wanted}; [{elsewhere}] is a table by itself"
+        if table and "." not in elsewhere
+        else f"did you mean {elsewhere}?"
+    )
 
 
 def _full_names(table_class: type[Table]) -> Iterator[str]:

@@ -289,7 +289,7 @@ def test_files_of_other_kinds_are_told_what_to_do(complaints, command, file, con
 def test_a_key_of_another_table_is_answered_by_those_of_its_own(complaints):
     (line,) = complaints(RIGHT.replace("[ground]\n", '[ground]\ngeometry = "a.obj"\n', 1))
     assert line.startswith("ground.geometry is unknown: expected one of file, ")
-    assert line.endswith("; geometry is in another table")
+    assert line.endswith("; [geometry] is a table by itself")
 
 
 def test_commands_say_what_is_near(tmp_path, capsys):
