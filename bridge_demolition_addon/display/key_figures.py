@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from manifold3d import CrossSection
@@ -62,8 +64,8 @@ class RunFigures:
     Debris is what `debris_of` calls so, but at any frame: shards that are more than `MOVED_M` from where they began.
     """
 
-    def __init__(self, results: Results):
-        self._whole = results
+    def __init__(self, results: Results, summary: Mapping[str, Any] | None = None):
+        self._whole, self._summary = results, summary
         self._left, _ = without_removed(relative_to_ground(results))
         inventory = self._left.inventory
         self._shards = inventory.of_kind(_SHARD)
@@ -88,7 +90,7 @@ class RunFigures:
     @cached_property
     def rest(self) -> ShardRest:
         """When the shards began to move, and when they came to rest."""
-        return rest_of(self._left)
+        return rest_of(self._left, self._summary)
 
     @cached_property
     def largest(self) -> ForceHistory:

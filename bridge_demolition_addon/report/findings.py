@@ -8,7 +8,7 @@ import numpy as np
 
 from ..engineering.units import kilonewtons, mass_text, rounded_up
 from ..model.debris.throws import Debris, percentiles_by_mass
-from ..model.results.collapse import collapse_progress, rest_of
+from ..model.results.collapse import collapse_progress
 from ..model.results.connection_counts import ConnectionCounts
 from ..model.results.force_history import most_loaded
 from ..model.results.moving import still_moving_note
@@ -32,7 +32,7 @@ class Finding:
 def findings(run: ReportedRun, debris: Debris) -> list[Finding]:
     """Return the main findings of a run that has results, always in the same order, the value None where unknown."""
     results = run.recorded
-    rest, has_outcome = rest_of(results), run.ending.has_outcome
+    rest, has_outcome = run.rest, run.ending.has_outcome
     rest_s = rest.at_rest_s if has_outcome else None
     unrest = "nothing moved" if rest.first_motion_s is None else "not at rest at the end"
     unrest = unrest if has_outcome else NO_OUTCOME

@@ -16,6 +16,7 @@ from ..engineering.units import STANDARD_GRAVITY_M_S2
 from ..errors import OutputError, ScenarioError, UnreadableError
 from ..model.debris.footprint import check_covers_ground
 from ..model.results.arrays import FRAMES_FILE, RESULTS_FILE, Results, load_results, results_in
+from ..model.results.collapse import ShardRest, rest_of
 from ..model.results.motion import without_removed
 from ..model.results.moving import gone_text, moving_summary, moving_text
 from ..model.results.solver_energy import is_known, made_share, much_made_text
@@ -58,6 +59,11 @@ class ReportedRun:
     def recorded(self) -> Results:
         """Results of a run that is known to have them."""
         return given(self.results)
+
+    @property
+    def rest(self) -> ShardRest:
+        """When shards first moved, and when all came to rest: as the run noted it."""
+        return rest_of(self.recorded, self.summary.values if self.summary else None)
 
     @property
     def planned(self) -> Scenario:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -76,7 +77,7 @@ def collapse_progress(results: Results) -> np.ndarray:
 
 @dataclass(frozen=True, slots=True)
 class ShardRest:
-    """When a shard first moved, and from when on none did; None where that never was.
+    """When a shard first moved, and from when on all rested; None where that never was.
 
     `moving_at_end` counts those that still moved then.
     """
@@ -86,8 +87,11 @@ class ShardRest:
     moving_at_end: int
 
 
-def rest_of(results: Results) -> ShardRest:
-    """Return when the shards began to move on the ground and when they came to rest on it, by `REST_SPEED_M_S`."""
+def rest_of(results: Results, summary: Mapping[str, Any] | None = None) -> ShardRest:
+    """Return when the shards began to move on the ground, by `REST_SPEED_M_S`, and when they came to rest on it.
+
+    The run has found that by energy, and noted it in its summary; of a run without, it is by that speed.
+    """
     shards = results.inventory.of_kind("shard")
     moving = length(relative_to_ground(results).frames.velocities_m_s[:, shards]) > REST_SPEED_M_S
     at_times = np.flatnonzero(moving.any(axis=1))
@@ -95,6 +99,8 @@ def rest_of(results: Results) -> ShardRest:
         return ShardRest(None, None, 0)
     at_end = int(moving[-1].sum())
     at_rest = None if at_end else float(results.frames.time_s[at_times[-1] + 1])
+    if summary and "came_to_rest_s" in summary:
+        at_rest = summary["came_to_rest_s"]
     return ShardRest(float(results.frames.time_s[at_times[0]]), at_rest, at_end)
 
 

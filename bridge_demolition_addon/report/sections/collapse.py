@@ -9,7 +9,7 @@ import numpy as np
 from ...charts.histories import energy_history, progress_history, span_heights
 from ...engineering.mechanics.work import FrameWork
 from ...model.results.arrays import Results
-from ...model.results.collapse import REST_SPEED_M_S, Span, collapse_progress, rest_of, spans_of
+from ...model.results.collapse import REST_SPEED_M_S, Span, collapse_progress, spans_of
 from ...model.results.energy import Energy, energy_of
 from ...model.results.solver_energy import ACCEPTED_SHARE, is_known, made_share
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section, facts
@@ -25,7 +25,8 @@ def collapse_section(run: ReportedRun) -> Section:
     spans, progress, energy = spans_of(results, lengths), collapse_progress(results), energy_of(results)
     definitions = (
         "Progress is the part of the height of the shards' common centre of mass above the ground that is lost: 100 % "
-        f"would be all of it flat on the ground. A shard is at rest below a speed of {REST_SPEED_M_S:g} m/s."
+        f"would be all of it flat on the ground. A shard moves from a speed of {REST_SPEED_M_S:g} m/s on; all rest "
+        "once their kinetic energy stays below what the scenario takes for rest."
     )
     blocks: list[Block] = [
         Paragraph(definitions),
@@ -96,7 +97,7 @@ def _in_cracks(work: FrameWork) -> list[tuple[str, str]]:
 
 
 def _course(run: ReportedRun, progress: np.ndarray) -> list[tuple[str, str]]:
-    rest, ending = rest_of(run.recorded), run.ending
+    rest, ending = run.rest, run.ending
     began = "never" if rest.first_motion_s is None else f"{rest.first_motion_s:.3f} s"
     if not ending.has_outcome:
         began = f"not up to {ending.time_s:.2f} s" if rest.first_motion_s is None else began
@@ -105,6 +106,7 @@ def _course(run: ReportedRun, progress: np.ndarray) -> list[tuple[str, str]]:
         ended = "nothing moved"
     elif rest.at_rest_s is None:
         ended = f"not within this run: {rest.moving_at_end} shards still move at the end"
+        ended = ended if rest.moving_at_end else "not for long enough before the end of the run"
     else:
         ended = f"{rest.at_rest_s:.3f} s, {rest.at_rest_s - rest.first_motion_s:.3f} s after the first motion"
     return [
@@ -118,7 +120,7 @@ def _load_rows(run: ReportedRun) -> list[tuple[str, str]]:
     """Return each load at the first break, at the first motion and at the end."""
     results, rows = run.recorded, []
     broken = np.flatnonzero((~results.frames.intact).any(axis=1))
-    moved_s = rest_of(results).first_motion_s
+    moved_s = run.rest.first_motion_s
     for number, load in enumerate(run.scenario.loads if run.scenario else (), start=1):
         forces = [f"{load.force_n(float(results.frames.time_s[-1])) / 1e3:.4g} kN at the end"]
         if moved_s is not None:

@@ -11,7 +11,7 @@ from ...charts.plan_maps import debris_map, map_height_mm
 from ...model.debris.footprint import bodies_that_moved, footprint, reaches_on_the_way
 from ...model.debris.throws import Debris
 from ...model.results.arrays import Results
-from ...model.results.collapse import Span, rest_of, spans_of
+from ...model.results.collapse import Span, spans_of
 from ...model.results.creep import creep_summary, creep_text
 from ...model.results.motion import MOVED_M, relative_to_ground, travel, without_removed
 from ...model.results.moving import still_moving_note
@@ -60,7 +60,7 @@ def verdict_of(run: ReportedRun, distance_m: float) -> str:
     lost = lost_shares(_spans(run))
     if not run.ending.has_outcome:
         return verdict_so_far(lost, distance_m)
-    return run_verdict(lost, distance_m, _end(run.recorded), is_final=not run.still_moving)
+    return run_verdict(lost, distance_m, _end(run), is_final=not run.still_moving)
 
 
 def lost_shares(spans: Sequence[Span]) -> dict[str, float]:
@@ -74,12 +74,14 @@ def _spans(run: ReportedRun) -> tuple[Span, ...]:
     return spans_of(run.recorded, bridge.span_lengths_m if bridge else ())
 
 
-def _end(results: Results) -> str:
-    rest = rest_of(results)
+def _end(run: ReportedRun) -> str:
+    rest = run.rest
     if rest.first_motion_s is None:
         return "nothing moved"
+    if rest.at_rest_s is None and not rest.moving_at_end:
+        return "not all rested for long enough before the end"
     if rest.at_rest_s is None:
-        return f"{rest.moving_at_end} of {len(results.inventory.of_kind('shard'))} shards still moved at the end"
+        return f"{rest.moving_at_end} of {len(run.recorded.inventory.of_kind('shard'))} shards still moved at the end"
     return f"all was at rest from {rest.at_rest_s:.1f} s on"
 
 

@@ -17,7 +17,7 @@ from ...model.scenario import Exclusion
 from ...simulation.blender_events import shown_results
 from ..connection_counts import counts_line
 from ..languages.words import translated
-from ..results.shown_run import LargestValue
+from ..results.shown_run import LargestValue, shown_run
 from ..scenario.built import shown_exclusion
 from ..scene_units import area_text, force_text, length_text, mass_text, units_of_texts
 
@@ -85,7 +85,8 @@ def run_of(scene: bpy.types.Scene) -> RunFigures | None:
     key = (scene.session_uid, shown.number)
     if key not in _runs:
         forget()
-        _runs[key] = RunFigures(results)
+        run = shown_run(scene)
+        _runs[key] = RunFigures(results, run.summary.values if run else None)
     return _runs[key]
 
 
@@ -173,6 +174,8 @@ def _farthest_text(distance_m: float, exclusion: Exclusion | None) -> str:
 def _rest_text(rest: ShardRest) -> str:
     if rest.first_motion_s is None:
         return translated("Nothing moves in the whole run")
+    if rest.at_rest_s is None and not rest.moving_at_end:
+        return translated("Not all rested for long enough before the end")
     if rest.at_rest_s is None:
         return translated("Still moving at the end: {} shards").format(rest.moving_at_end)
     return translated("At rest from {} s on").format(f"{rest.at_rest_s:.2f}")

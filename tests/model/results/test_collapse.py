@@ -50,6 +50,13 @@ def test_rest_is_after_the_last_motion():
     assert (rest.first_motion_s, rest.at_rest_s, rest.moving_at_end) == (1.0, 2.0, 0)
 
 
+def test_rest_is_when_the_run_found_it_by_energy():
+    """So console, panel, summary, report and study say one time."""
+    assert rest_of(moving_until(3), {"came_to_rest_s": 1.5}).at_rest_s == 1.5
+    assert rest_of(moving_until(3), {"came_to_rest_s": None}).at_rest_s is None
+    assert rest_of(moving_until(3), {"title": "of an earlier version"}).at_rest_s == 2.0
+
+
 def test_what_moves_at_the_end_is_not_at_rest():
     rest = rest_of(moving_until(5))
     assert (rest.first_motion_s, rest.at_rest_s, rest.moving_at_end) == (1.0, None, 1)
