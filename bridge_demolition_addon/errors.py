@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
 
@@ -81,6 +81,36 @@ class CoreError(DemolitionError):
     def needed_by(self, subject: str) -> str:
         """Return the sentence that a subject needs it, with its verb."""
         return f"{subject} the compiled core, which {self.args[0]}"
+
+
+class NotFiniteError(DemolitionError):
+    """A quantity of a body or a connection is endless or no number; the text names both.
+
+    Attributes
+    ----------
+    quantity : str
+        What it is.
+    of_connection : bool
+        Whether it is of a connection, and not of a body.
+    row : int
+        Which body or connection.
+    """
+
+    def __init__(self, quantity: str, row: int, *, of_connection: bool = False) -> None:
+        super().__init__(quantity, row)
+        self.quantity, self.row, self.of_connection = quantity, row, of_connection
+
+    def __str__(self) -> str:
+        return f"the {self.quantity} of {'connection' if self.of_connection else 'body'} {self.row} is no finite number"
+
+    def named(self, bodies: Sequence[str], connections: Sequence[str], time_s: float) -> SimulationError:
+        """Return the error with the name of the body or connection, in a sub-step after a time."""
+        kind, names = ("connection", connections) if self.of_connection else ("body", bodies)
+        of = f"{kind} {names[self.row]!r}" if self.row < len(names) else "a bar that stands bare"
+        return SimulationError(
+            f"the {self.quantity} of {of} is no finite number in the sub-step after {time_s:.4f} s: look for what "
+            "pushes or holds it by an absurd amount"
+        )
 
 
 class LayoutError(DemolitionError):

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ..engineering.core.calls import DONE, answer_of, call
-from ..engineering.core.structs import Addresses, Count, Doubles, Struct
+from ..engineering.core.calls import call
+from ..engineering.core.structs import Addresses, Count, Doubles, NotFinite, Struct
 from ..errors import LayoutError
 from .layout import ASLEEP, DISABLED, BodyLayout, Layout
 from .memory import write_vectors
@@ -55,6 +55,7 @@ class BulletBodies(Struct):
         *((name, Count) for name in _OFFSETS),
         ("asleep", Count),
         ("disabled", Count),
+        ("wrong", NotFinite),
     )
 
     @classmethod
@@ -73,11 +74,13 @@ class BodyMotionReader:
         self._bodies, self._transform, self._core = bodies, layout.body.transform, BulletBodies.of(layout.body, bodies)
 
     def read(self) -> BodyMotion:
-        """Return how all bodies move."""
+        """Return how all bodies move; a `NotFiniteError` names one whose motion or mass is no number."""
         count = len(self._bodies)
         values, asleep = np.empty((34, count)), np.empty(count, bool)
-        if answer_of("bda_read_motion", self._core, SYMMETRIC, values, asleep) != DONE:
-            raise LayoutError(_WRONG_INERTIA)
+        try:
+            call("bda_read_motion", self._core, SYMMETRIC, values, asleep)
+        except ValueError as error:
+            raise LayoutError(_WRONG_INERTIA) from error
         rotations, inertias = values[:9].reshape(3, 3, -1), values[25:].reshape(3, 3, -1)
         return BodyMotion(values[9:12], rotations, values[12:18], values[24], inertias, values[18:24], asleep)
 
@@ -95,8 +98,10 @@ class BodyMotionReader:
         To be called before a sub-step: Bullet forgets torques after it. Where a time is infinite they stay.
         """
         times_s = Doubles.checked("times", times_s, len(self._bodies))
-        if answer_of("bda_turn_by_torques", self._core, times_s, SYMMETRIC) != DONE:
-            raise LayoutError(_WRONG_INERTIA)
+        try:
+            call("bda_turn_by_torques", self._core, times_s, SYMMETRIC)
+        except ValueError as error:
+            raise LayoutError(_WRONG_INERTIA) from error
 
     def set_positions(
         self, rows: np.ndarray, position_components_m: np.ndarray, rotation_components: np.ndarray

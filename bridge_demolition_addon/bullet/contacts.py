@@ -9,11 +9,11 @@ from dataclasses import dataclass, fields
 
 import numpy as np
 
-from ..engineering.core.calls import DONE, answer_of
+from ..engineering.core.calls import DONE, NOT_FINITE, answer_of
 from ..engineering.core.structs import Count, Indices, Struct, WrittenAddresses, WrittenDoubles
 from ..engineering.geometry.vectors import dot, length
 from ..engineering.mechanics.contact_pairs import contact_friction
-from ..errors import LayoutError
+from ..errors import LayoutError, NotFiniteError
 from .layout import Layout
 from .memory import INTEGERS, POINTERS, copy_pointers, read, read_pointers, read_value
 
@@ -47,6 +47,7 @@ class BulletContacts(Struct):
         ("values", WrittenDoubles),
         ("bodies", WrittenAddresses),
         ("found", Count),
+        ("wrong", ctypes.c_uint64),
     )
 
     @classmethod
@@ -168,6 +169,8 @@ class ContactReader:
         if answer == DONE and core.found > core.room:
             core.make_room(2 * core.found)
             answer = answer_of("bda_copy_contacts", core)
+        if answer == NOT_FINITE:
+            raise NotFiniteError("impulse of a contact", int(self._indices(np.array([core.wrong], np.uint64))[0]))
         if answer:
             raise LayoutError("contacts, or points of one, are more than there can be")
         points = core.copied

@@ -66,6 +66,16 @@ static void copy_places(const bda_bullet_bodies *b, double *components)
     }
 }
 
+/* Whether the places of bodies that were copied are finite. */
+static int are_places(bda_bullet_bodies *b, const double *components)
+{
+    int64_t n = b->count;
+    return are_finite(components + 12 * n, 3, n, BDA_VELOCITIES, &b->wrong) &&
+           are_finite(components + 15 * n, 3, n, BDA_ANGULAR_VELOCITIES, &b->wrong) &&
+           are_finite(components + 9 * n, 3, n, BDA_POSITIONS, &b->wrong) &&
+           are_finite(components, 9, n, BDA_ROTATIONS, &b->wrong);
+}
+
 static int is_intact(const bda_bullet_connections *c, int64_t row)
 {
     return c->exists[row] && *(const uint8_t *)(uintptr_t)(c->addresses[row] + (uint64_t)c->enabled) && !c->cracked[row];
@@ -73,7 +83,7 @@ static int is_intact(const bda_bullet_connections *c, int64_t row)
 
 /* Copy the state after a sub-step: bodies (19, n) with inverse masses, loads (6, k) on sides (k,) of connections, the
  * impulse (m,) of the last row of each, and whether it is intact (m,). Side 2 c is on body A of c, 2 c + 1 on its B. */
-int bda_take_snapshot(const bda_bullet_bodies *b, const bda_bullet_connections *c, int64_t count, const int64_t *sides,
+int bda_take_snapshot(bda_bullet_bodies *b, const bda_bullet_connections *c, int64_t count, const int64_t *sides,
                       double *components, double *loads, double *impulses, uint8_t *intact)
 {
     for (int64_t row = 0; row < count; row++)
@@ -89,7 +99,8 @@ int bda_take_snapshot(const bda_bullet_bodies *b, const bda_bullet_connections *
         }
     for (int64_t row = 0; row < c->count; row++)
         impulses[row] = c->exists[row] ? double_at(c->addresses[row] + (uint64_t)c->applied_impulse) : 0.0;
-    return bda_intact(c, intact);
+    bda_intact(c, intact);
+    return are_places(b, components) ? BDA_DONE : BDA_NOT_FINITE;
 }
 
 /* Find which connections (m,) exist and have not broken. */
@@ -130,8 +141,11 @@ int bda_copy_contacts(bda_bullet_contacts *c)
                 continue;
             for (int field = 0; field < OF_POINT; field++)
                 c->values[field * c->room + row] = double_at(point + (uint64_t)c->components[field]);
-            c->bodies[row] = pointer_at(manifold + (uint64_t)c->body_a);
+            c->bodies[row] = c->wrong = pointer_at(manifold + (uint64_t)c->body_a);
             c->bodies[c->room + row] = pointer_at(manifold + (uint64_t)c->body_b);
+            for (int field = 0; field < IMPULSES + 3; field++) /* Bullet sets the second direction only if it solved it */
+                if (!(fabs(c->values[field * c->room + row]) <= DBL_MAX))
+                    return BDA_NOT_FINITE;
         }
     }
     return BDA_DONE;
@@ -164,7 +178,7 @@ static int is_awake(const bda_bullet_bodies *b, int64_t body)
 
 /* Read how bodies move before a sub-step (34, n): places, forces and torques, inverse masses and tensors of inertia in
  * the axes of the world; and whether each is asleep (n,). A tensor that is none is out of range. */
-int bda_read_motion(const bda_bullet_bodies *b, double symmetric, double *components, uint8_t *asleep)
+int bda_read_motion(bda_bullet_bodies *b, double symmetric, double *components, uint8_t *asleep)
 {
     int64_t n = b->count;
     double *tensors = components + 25 * n;
@@ -176,9 +190,14 @@ int bda_read_motion(const bda_bullet_bodies *b, double symmetric, double *compon
         components[24 * n + body] = double_at(address + (uint64_t)b->inverse_mass);
         copy_matrix(address + (uint64_t)b->inverse_inertia, tensors, n, body);
         asleep[body] = !is_awake(b, body);
+    }
+    if (!are_places(b, components) || !are_finite(components + 18 * n, 6, n, BDA_FORCES, &b->wrong) ||
+        !are_finite(components + 24 * n, 1, n, BDA_MASSES, &b->wrong) ||
+        !are_finite(tensors, 9, n, BDA_INERTIAS, &b->wrong))
+        return BDA_NOT_FINITE;
+    for (int64_t body = 0; body < n; body++)
         if (!is_inertia(tensors, n, body, symmetric))
             return BDA_OUT_OF_RANGE;
-    }
     return BDA_DONE;
 }
 
@@ -207,12 +226,32 @@ static int turns(const bda_bullet_bodies *b, int64_t body, double time_s, double
     return (torque[0] != 0.0 || torque[1] != 0.0 || torque[2] != 0.0) && is_awake(b, body) && fabs(time_s) <= DBL_MAX;
 }
 
+/* Whether the motion of a body, and what acts on it, is finite before Bullet lets others feel it. */
+static int is_motion_finite(bda_bullet_bodies *b, int64_t body)
+{
+    double vectors[4][3];
+    uint64_t address = b->addresses[body];
+    copy_vector(address + (uint64_t)b->linear_velocity, vectors[0], 1, 0);
+    copy_vector(address + (uint64_t)b->angular_velocity, vectors[1], 1, 0);
+    copy_vector(address + (uint64_t)b->transform + 3 * IN_VECTOR, vectors[2], 1, 0);
+    copy_vector(address + (uint64_t)b->total_force, vectors[3], 1, 0);
+    int are_all = are_finite(vectors[0], 3, 1, BDA_VELOCITIES, &b->wrong) &&
+                  are_finite(vectors[1], 3, 1, BDA_ANGULAR_VELOCITIES, &b->wrong) &&
+                  are_finite(vectors[2], 3, 1, BDA_POSITIONS, &b->wrong) &&
+                  are_finite(vectors[3], 3, 1, BDA_FORCES, &b->wrong);
+    b->wrong.row = body;
+    return are_all;
+}
+
 /* Change angular velocities by what torques do in times (n,), and end these torques; where a time is infinite, they
  * stay. Where an inertia of a body is none, and some body would turn, nothing is written. */
-int bda_turn_by_torques(const bda_bullet_bodies *b, const double *times_s, double symmetric)
+int bda_turn_by_torques(bda_bullet_bodies *b, const double *times_s, double symmetric)
 {
     double torque[3], inertia[9];
     int any = 0, are_inertias = 1;
+    for (int64_t body = 0; body < b->count; body++)
+        if (!is_motion_finite(b, body))
+            return BDA_NOT_FINITE;
     for (int64_t body = 0; body < b->count; body++) {
         copy_matrix(b->addresses[body] + (uint64_t)b->inverse_inertia, inertia, 1, 0);
         any |= turns(b, body, times_s[body], torque);

@@ -19,6 +19,7 @@ typedef struct {
     int64_t transform, linear_velocity, angular_velocity, total_force, total_torque, inverse_mass, inverse_inertia;
     int64_t activation;
     int64_t asleep, disabled;   /* states of activation in which a body is not simulated */
+    bda_not_finite wrong;       /* what was not finite, where the answer is that something was not */
 } bda_bullet_bodies;
 
 /* m connections (btTypedConstraint), some of which do not exist. */
@@ -41,6 +42,7 @@ typedef struct {
     double *values;                 /* (15, room) */
     uint64_t *bodies;               /* (2, room) */
     int64_t found;                  /* points that carry a load; where there is no room for all, copy again */
+    uint64_t wrong;                 /* first body of the point that is not finite, where one is not */
 } bda_bullet_contacts;
 
 /* Six rows of each of k springs (btGeneric6DofSpring2Constraint). */
@@ -52,15 +54,15 @@ typedef struct {
     const uint8_t *held, *resists;  /* (6, k), whether rows hold a shift or rotation, and whether they resist it now */
 } bda_bullet_rows;
 
-BDA_API int bda_take_snapshot(const bda_bullet_bodies *bodies, const bda_bullet_connections *connections, int64_t count,
+BDA_API int bda_take_snapshot(bda_bullet_bodies *bodies, const bda_bullet_connections *connections, int64_t count,
                               const int64_t *sides, double *components, double *loads, double *impulses,
                               uint8_t *intact);
 BDA_API int bda_intact(const bda_bullet_connections *connections, uint8_t *intact);
 BDA_API int bda_copy_contacts(bda_bullet_contacts *contacts);
-BDA_API int bda_read_motion(const bda_bullet_bodies *bodies, double symmetric, double *components, uint8_t *asleep);
+BDA_API int bda_read_motion(bda_bullet_bodies *bodies, double symmetric, double *components, uint8_t *asleep);
 BDA_API int bda_push(const bda_bullet_bodies *bodies, const double *inverse_masses, const double *loads,
                      const double *impulses, double substep_s);
-BDA_API int bda_turn_by_torques(const bda_bullet_bodies *bodies, const double *times_s, double symmetric);
+BDA_API int bda_turn_by_torques(bda_bullet_bodies *bodies, const double *times_s, double symmetric);
 BDA_API int bda_expect(const bda_bullet_rows *rows, int64_t count, const int64_t *chosen, const double *limits,
                        const double *signs);
 BDA_API int bda_soften(const bda_bullet_rows *rows, int64_t count, const int64_t *chosen, double correction,

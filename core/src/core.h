@@ -5,7 +5,7 @@
 
 /* Add one wherever a function that Python calls, a struct or the meaning of a field changes. */
 #ifndef BDA_CORE_VERSION /* a test gives another one */
-#define BDA_CORE_VERSION 2
+#define BDA_CORE_VERSION 3
 #endif
 
 #include <float.h>
@@ -20,6 +20,12 @@
 #else
 #define BDA_API __attribute__((visibility("default")))
 #endif
+
+/* Quantities that have to be finite numbers: of bodies, and from BDA_STRAINS on of connections. */
+enum {
+    BDA_POSITIONS, BDA_ROTATIONS, BDA_VELOCITIES, BDA_ANGULAR_VELOCITIES, BDA_MASSES, BDA_INERTIAS, BDA_FORCES,
+    BDA_CONTACT_IMPULSES, BDA_STRAINS, BDA_STIFFNESS, BDA_DAMPING, BDA_IMPULSES
+};
 
 BDA_API int bda_core_version(void);
 BDA_API const char *bda_core_sources(void);

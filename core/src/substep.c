@@ -407,6 +407,59 @@ static void add_terms(work *w)
     }
 }
 
+/* Whether forces of a term, and what bars and sides of cracks are known by, are finite: laws take what is no number for
+ * bars that there are not. */
+static int is_term_finite(const guessed_term *g, bda_not_finite *wrong)
+{
+    const bda_term *t = g->term;
+    int64_t q = t->gaps;
+    return are_finite(g->at_rest, g->components, q, BDA_IMPULSES, wrong) &&
+           are_finite(t->tangents, 9, q, BDA_STIFFNESS, wrong) && are_finite(t->widths, 3, q, BDA_STRAINS, wrong) &&
+           (t->kind != CRACKS ||
+            (are_finite(t->yields, 1, q, BDA_IMPULSES, wrong) && are_finite(t->stiffness, 1, q, BDA_STIFFNESS, wrong) &&
+             are_finite(t->modulus, 1, q, BDA_STIFFNESS, wrong) && are_finite(t->slips, 3, q, BDA_STRAINS, wrong) &&
+             are_finite(t->flows, 1, q, BDA_STRAINS, wrong) && are_finite(t->rests, 3, q, BDA_STRAINS, wrong) &&
+             are_finite(t->pressed, 1, q, BDA_STIFFNESS, wrong) && are_finite(t->grips, 1, q, BDA_IMPULSES, wrong)));
+}
+
+/* Whether all that a sub-step is solved from is finite. */
+static int are_given(work *w)
+{
+    bda_substep *s = w->s;
+    int64_t n = s->places->count, m = s->frames->count;
+    if (!are_finite(s->velocities, 6, n, BDA_VELOCITIES, &s->wrong) ||
+        !are_finite(s->places->positions, 3, n, BDA_POSITIONS, &s->wrong) ||
+        !are_finite(s->places->rotations, 9, n, BDA_ROTATIONS, &s->wrong) ||
+        !are_finite(s->masses, 1, n, BDA_MASSES, &s->wrong) ||
+        !are_finite(s->inertias, 9, n, BDA_INERTIAS, &s->wrong) ||
+        !are_finite(s->stiffness, BLOCK, m, BDA_STIFFNESS, &s->wrong) ||
+        !are_finite(s->damping_s, 1, m, BDA_DAMPING, &s->wrong))
+        return 0;
+    if (!are_finite(s->strains, 6, s->acting_count, BDA_STRAINS, &s->wrong)) {
+        s->wrong.row = s->acting[s->wrong.row];
+        return 0;
+    }
+    for (int64_t number = 0; number < s->term_count; number++) {
+        const bda_term *t = s->terms[number];
+        if (!is_term_finite(w->all.terms + number, &s->wrong)) {
+            s->wrong.row = t->numbers[t->of_gap[s->wrong.row]];
+            return 0;
+        }
+    }
+    return 1;
+}
+
+/* Whether what came of it is finite. */
+static int are_found(bda_substep *s)
+{
+    if (!are_finite(s->of_first, 6, s->acting_count, BDA_IMPULSES, &s->wrong)) {
+        s->wrong.row = s->acting[s->wrong.row];
+        return 0;
+    }
+    return are_finite(s->ends, 6, s->places->count, BDA_VELOCITIES, &s->wrong) &&
+           are_finite(s->of_bodies, 6, s->places->count, BDA_FORCES, &s->wrong);
+}
+
 /* Find what connections do in a sub-step. */
 int bda_solve_substep(bda_substep *s)
 {
@@ -416,7 +469,7 @@ int bda_solve_substep(bda_substep *s)
     if (!is_in_range(s))
         return BDA_OUT_OF_RANGE;
     prepare(&w, &rooms);
-    int answer = rooms.is_short ? BDA_NO_MEMORY : BDA_DONE;
+    int answer = rooms.is_short ? BDA_NO_MEMORY : are_given(&w) ? BDA_DONE : BDA_NOT_FINITE;
     if (answer == BDA_DONE) {
         find_stale(s);
         answer = refresh(&w);
@@ -437,6 +490,7 @@ int bda_solve_substep(bda_substep *s)
             remember(w.all.terms + number);
         slow_down(&w);
         add_terms(&w);
+        answer = are_found(s) ? BDA_DONE : BDA_NOT_FINITE;
     }
     give_back(&rooms);
     return answer;

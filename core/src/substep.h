@@ -44,6 +44,7 @@ typedef struct {
     /* What comes of it: rates (6, k), impulses (6, k) on both bodies, their sums (6, n), velocities (6, n) at the end. */
     double *rates, *of_first, *of_second, *of_bodies, *ends;
     int64_t guesses, factorings; /* how many there were */
+    bda_not_finite wrong;        /* what was not finite, where the answer is that something was not */
 } bda_substep;
 
 BDA_API int bda_solve_substep(bda_substep *substep);

@@ -12,6 +12,26 @@
 
 enum { BDA_DONE = 0, BDA_NO_MEMORY = 1, BDA_OUT_OF_RANGE = 2, BDA_NOT_FINITE = 3 };
 
+/* Quantity that is not finite, and the body or connection that it is of. */
+typedef struct {
+    int64_t quantity, row;
+} bda_not_finite;
+
+/* Whether a quantity (c, n) is finite; where it is not, this is noted. */
+static inline int are_finite(const double *values, int64_t components, int64_t n, int64_t quantity,
+                             bda_not_finite *wrong)
+{
+    int any = 0;
+    for (int64_t at = 0; at < components * n; at++)
+        any |= !(values[at] - values[at] == 0.0);
+    for (int64_t at = 0; any && at < components * n; at++)
+        if (!(values[at] - values[at] == 0.0)) {
+            *wrong = (bda_not_finite){quantity, at % n};
+            return 0;
+        }
+    return 1;
+}
+
 static inline double dot3(const double a[3], const double b[3])
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

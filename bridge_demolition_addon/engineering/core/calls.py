@@ -7,11 +7,19 @@ from typing import Any
 
 import numpy as np
 
+from ...errors import NotFiniteError
 from .library import function
 from .structs import Struct
 
-DONE, NO_MEMORY, OUT_OF_RANGE = range(3)
-"""Answers of functions: the first of `core/src/vectors.h`."""
+DONE, NO_MEMORY, OUT_OF_RANGE, NOT_FINITE = range(4)
+"""Answers of functions: those of `core/src/vectors.h`."""
+
+_OF_BODIES = (
+    *("position", "rotation", "velocity", "angular velocity", "mass", "moment of inertia", "force"),
+    "impulse of a contact",
+)
+_OF_CONNECTIONS = ("deformation", "stiffness", "damping", "force")
+"""Quantities in the order of `core/src/core.h`."""
 
 _ANSWERS = {
     NO_MEMORY: "there is not enough memory for what the core was asked for",
@@ -31,14 +39,26 @@ def call(name: str, *arguments: Struct | np.ndarray | float) -> None:
 
     Raises
     ------
+    NotFiniteError
+        Something is endless or no number, as the first struct says.
     ValueError
         Numbers are out of range.
     MemoryError
         There is no room.
     """
     answer = answer_of(name, *arguments)
+    if answer == NOT_FINITE:
+        wrong = next(argument.wrong for argument in arguments if isinstance(argument, Struct))
+        raise not_finite(wrong.quantity, wrong.row)
     if answer:
         raise (MemoryError if answer == NO_MEMORY else ValueError)(_ANSWERS[answer])
+
+
+def not_finite(quantity: int, row: int) -> NotFiniteError:
+    """Return the error that a quantity of a body or connection is not finite, by their numbers in the core."""
+    if quantity < len(_OF_BODIES):
+        return NotFiniteError(_OF_BODIES[quantity], row)
+    return NotFiniteError(_OF_CONNECTIONS[quantity - len(_OF_BODIES)], row, of_connection=True)
 
 
 def _given(argument: Struct | np.ndarray | float) -> tuple[Any, int | float]:

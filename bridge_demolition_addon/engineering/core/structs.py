@@ -11,6 +11,12 @@ import numpy.typing as npt
 Count = ctypes.c_int64
 
 
+class NotFinite(ctypes.Structure):
+    """Quantity that is not finite, and the body or connection that it is of: `bda_not_finite`."""
+
+    _fields_ = (("quantity", Count), ("row", Count))
+
+
 class Pointer(ctypes.c_void_p):
     """A field that points to the numbers of an array, which the core reads."""
 

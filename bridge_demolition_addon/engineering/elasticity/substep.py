@@ -12,7 +12,7 @@ import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..core.calls import call
-from ..core.structs import Count, Doubles, Flags, Indices, Struct, WrittenDoubles, WrittenFlags
+from ..core.structs import Count, Doubles, Flags, Indices, NotFinite, Struct, WrittenDoubles, WrittenFlags
 from .joint_rows import JointFrames
 
 CRACKS, SPRINGS, BARE_BARS = range(3)
@@ -254,6 +254,7 @@ class Substep(Struct):
         ("ends", WrittenDoubles),
         ("guesses", Count),
         ("factorings", Count),
+        ("wrong", NotFinite),
     )
 
     def __init__(self) -> None:
@@ -264,6 +265,8 @@ class Substep(Struct):
 
         Raises
         ------
+        NotFiniteError
+            A quantity of a body or a connection is endless or no number.
         ValueError
             Numbers are out of range.
         MemoryError

@@ -259,6 +259,11 @@ class BulletReader:
         """Wall time that reading has taken so far."""
         return self._substeps.seconds
 
+    @property
+    def elapsed_s(self) -> float:
+        """Simulated time before the sub-step of now."""
+        return self._substeps.elapsed_s
+
     def read_first_frame(self, substep_s: float) -> Frame:
         """Return the first frame: no time has passed in it, or its loads are unknown.
 

@@ -14,7 +14,7 @@ import numpy as np
 from ...bullet.time_control import time_stands_still
 from ...bullet.world import BulletWorld, WorldState
 from ...engineering.core.library import missing_core
-from ...errors import CoreError, LayoutError, OutputError, SimulationError
+from ...errors import CoreError, LayoutError, NotFiniteError, OutputError, SimulationError
 from ...model.results.frames import BallHistory, ContactHistory, Frame
 from ...model.results.inventory import Inventory
 from ...model.scenario import ZoneFiring
@@ -158,6 +158,10 @@ class Recording(RecordedFrames):
             if self.layout_error:
                 self._follow_motion(depsgraph)
             begin_lifts(self._lifted, self.scene.frame_current, depsgraph)
+        except NotFiniteError as error:
+            inventory = given(self.setup).inventory
+            names = inventory.body_names.tolist(), inventory.connection_names.tolist()
+            raise error.named(*names, self._reader.elapsed_s if self._reader else 0.0) from error
         finally:
             self._seconds += time.perf_counter() - began
 
@@ -263,8 +267,8 @@ class Recording(RecordedFrames):
         begins = number == self.scene.rigidbody_world.point_cache.frame_start
         if begins or not self._momentum:
             setup = run_setup_of(self.scene, with_connections=False)
-            reason, elastic = given(self.layout_error), is_elastic(self.scene)
-            check_motion_is_enough(setup, reason, contacts=self._has_contacts, elastic=elastic)
+            reason: LayoutError | CoreError = given(self.layout_error)
+            check_motion_is_enough(setup, reason, contacts=self._has_contacts, elastic=is_elastic(self.scene))
             self._momentum = MomentumReader(self.scene, setup.bodies.objects, setup.inventory)
             self._begin(setup, None)
         elif self.last is None or number != self.last.number + 1:
@@ -332,6 +336,7 @@ class Recording(RecordedFrames):
 
     def _keep(self, frame: Frame, balls: BallHistory, contacts: ContactHistory | None = None) -> None:
         """Keep and log a frame, with its blast loads, hits of the balls and contacts."""
+        _check_finite(frame)
         frame_s = frame.time_s - (self.last.time_s if self.last else 0.0)
         blast_loads = None
         if self._blast is not None and frame_s > 0.0:
@@ -354,6 +359,14 @@ class Recording(RecordedFrames):
         loads = self._reader.of_bearings if self._reader else None
         if self._bearings and loads:
             logs.write_bearings(frame, self._bearings.note(frame, loads))
+
+
+def _check_finite(frame: Frame) -> None:
+    """See that bodies are somewhere: also where loads are not read after every sub-step."""
+    for quantity, values in (("position", frame.positions_m), ("velocity", frame.velocities_m_s)):
+        wrong = ~np.isfinite(values).all(axis=1)
+        if wrong.any():
+            raise NotFiniteError(quantity, int(wrong.argmax()))
 
 
 def _begin_motion(setup: RunSetup, world: BulletWorld, held: bool) -> None:

@@ -24,6 +24,7 @@ from bridge_demolition_addon.engineering.elasticity.steel_bars import Bars, Stee
 from bridge_demolition_addon.engineering.elasticity.structure import ElasticStructure, StepInput
 from bridge_demolition_addon.engineering.elasticity.substep import CRACKS, SPRINGS, Frames, Places
 from bridge_demolition_addon.engineering.geometry.rotations import rotated
+from bridge_demolition_addon.errors import NotFiniteError
 
 BODIES, GAPS = 9, 2000
 SUBSTEP_S, DAMPING_S = 1.0 / 480.0, 2e-4
@@ -40,7 +41,7 @@ class Structure:
     Some lie on others by bearings, and bars stand bare between some.
     """
 
-    def __init__(self, seed, *, cracked=True, borne=True, bared=True):
+    def __init__(self, seed, *, cracked=True, borne=True, bared=True, pulls_n=None):
         rng = np.random.default_rng(seed)
         pairs = [(number, number + 1) for number in range(BODIES - 1)] + [(0, 3), (2, 5), (4, 1), (8, 6), (5, 3)]
         first, second = np.array(pairs).T.copy()
@@ -68,7 +69,8 @@ class Structure:
         normals = along / np.sqrt((along * along).sum(axis=0))
         sides = turned(rng, len(rows), 1.0)[:, :2]
         corners = corner_positions(middles[:, rows], sides, np.full((2, len(rows)), 0.4))
-        self.cracks.add(rows, first[rows], second[rows], corners, normals, normals, self.positions, self.rotations)
+        ends = first[rows], second[rows]
+        self.cracks.add(rows, *ends, corners, normals, normals, self.positions, self.rotations, pulls_n)
         self.bearings = self._bearings(rng, first, second, middles) if borne else None
         self.structure = ElasticStructure(
             self.frames, self.stiffness, self.bodies, DAMPING_S, self.cracks, bearings=self.bearings
@@ -320,3 +322,41 @@ def test_numbers_out_of_range_are_refused(monkeypatch):
     frames = replace(structure.frames, first=structure.frames.first + BODIES)
     with pytest.raises(ValueError, match="connections end in bodies 9 to 17 of 9"):
         Frames.of(frames, BODIES)
+
+
+def put(name, *place):
+    """What puts a number into an array of a structure."""
+    return lambda structure, wrong: getattr(structure, name).__setitem__(place, wrong)
+
+
+@pytest.mark.parametrize("wrong", [np.nan, np.inf, -np.inf])
+@pytest.mark.parametrize(
+    ("damage", "named"),
+    [
+        (put("velocities", 4, 3), "velocity of body 3"),
+        (put("positions", 2, BODIES - 1), "position of body 8"),
+        (put("rotations", 0, 1, 0), "rotation of body 0"),
+        (put("stiffness", 5, 5, 12), "stiffness of connection 12"),
+    ],
+)
+def test_what_is_no_number_is_named_and_nothing_else_happens(damage, named, wrong):
+    structure = Structure(2, borne=False, bared=False)
+    damage(structure, wrong)
+    with pytest.raises(NotFiniteError, match=f"^the {named} is no finite number$"):
+        structure.step()
+
+
+def test_a_force_of_bars_that_is_no_number_is_named():
+    """That with which they begin, across the third of the cracks."""
+    pulls_n = np.zeros((3, 4, 4))
+    pulls_n[1, 3, 2] = np.nan
+    with pytest.raises(NotFiniteError, match=r"^the (force|deformation) of connection 6 is no finite number$"):
+        Structure(2, pulls_n=pulls_n).step()
+
+
+def test_numbers_that_grow_beyond_all_are_named():
+    """All are finite as a sub-step begins."""
+    structure = Structure(2, cracked=False, borne=False, bared=False)
+    structure.velocities[0, 5] = 1e308
+    with pytest.raises(NotFiniteError, match=r"^the (force of connection|velocity of body) \d+ is no finite number$"):
+        structure.step()
