@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.checkout import I235_FILE, SMALL
+from support.checkout import I235_FILE, ROOT, SMALL
 from support.processes import run_bda, run_program
 from support.scenarios import I235
 from support.stage_beams import beam_file
@@ -525,3 +525,12 @@ def test_a_bridge_that_nothing_holds_is_not_said_to_stand(tmp_path):
     found = facts(replace(floating, geometry=(block, foot)), stand=True)
     assert found["overloaded"].endswith("by the bridge's own weight alone, where it is held")
     assert ", 4.800 t, 67% of what can move" in found["not held"]
+
+
+def test_what_does_not_go_off_has_no_time():
+    drilled = read_scenario(ROOT / "examples" / "drilled" / "two_spans.toml")
+    still = replace(
+        drilled, blast=replace(drilled.blast, explosion=False), fracture=replace(drilled.fracture, shards=20)
+    )
+    said = [line for line in scenario_facts(still) if line.startswith(("  P1.1", "  P2.1"))]
+    assert len(said) == 2 and all(line.endswith("emulsion, does not go off") for line in said)

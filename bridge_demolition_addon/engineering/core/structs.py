@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Any, ClassVar
+from copy import deepcopy
+from typing import Any, ClassVar, Self
 
 import numpy as np
 import numpy.typing as npt
@@ -115,3 +116,14 @@ class Struct(ctypes.Structure):
         self._pointers[name].checked(name, array, size)
         setattr(self, name, array.ctypes.data)
         self._kept[name] = array
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Self:
+        """Return one that points to copies of the arrays: those of this one may be gone before it."""
+        other = type(self).from_buffer_copy(self)
+        other._kept = {}
+        memo[id(self)] = other
+        for name, array in self._kept.items():
+            copied = deepcopy(array, memo)
+            setattr(other, name, copied.ctypes.data)
+            other._kept[name] = copied
+        return other

@@ -66,7 +66,8 @@ class MemberCut(PlannedAction):
         return plan.detonation_s(self.time_s) if self.fires else math.inf
 
     def facts(self, site: Worksite) -> Iterator[Fact]:
-        when = f"{self.begins_s(site.plan):.3f} s" if self.fires else "misfires"
+        begins_s = self.begins_s(site.plan)
+        when = f"{begins_s:.3f} s" if math.isfinite(begins_s) else "does not go off" if self.fires else "misfires"
         where = f"{self.member}, severed at {self.along} = {self.position_m:g} m"
         yield f"{self.name}", f"{where}, {self.mass_kg:.3g} kg, {when}"
 

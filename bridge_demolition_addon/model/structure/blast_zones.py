@@ -212,7 +212,8 @@ class PlacedZone:
         """Yield what a planner wants to know of it before a run."""
         zone, (begin_m, end_m) = self.zone, self.zone.ends_along_m
         holes = f"{zone.holes} holes of {zone.charge_g:g} g = {zone.mass_kg:.3g} kg of {zone.explosive}"
-        when = "misfires" if not zone.fires else f"{zone.begins_s(scenario):.3f} s"
+        begins_s = zone.begins_s(scenario)
+        when = f"{begins_s:.3f} s" if math.isfinite(begins_s) else "does not go off" if zone.fires else "misfires"
         yield given(zone.name), f"{self.member.name}, {zone.along} {begin_m:g} to {end_m:g} m, {holes}, {when}"
         limits = f"breaks from {self.thresholds.break_kg_m3:.2f}, is thrown out from {self.thresholds.throw_kg_m3:.2f}"
         yield "", f"{self.specific_kg_m3:.2f} kg/m³ in {self.volume_m3:.3f} m³ ({limits}): {self.effect}"

@@ -2,6 +2,7 @@
 """Structs point to the arrays that they were given, and refuse those that the core would misread."""
 
 import ctypes
+from copy import deepcopy
 
 import numpy as np
 import pytest
@@ -43,3 +44,15 @@ def test_an_array_that_is_kept_is_looked_at_again_for_another_size():
     example.point("lengths_m", lengths, 4)
     with pytest.raises(ValueError, match="expected 5"):
         example.point("lengths_m", lengths, 5)
+
+
+def test_a_deep_copy_leads_to_numbers_of_its_own_also_to_those_of_whoever_is_copied_with_it():
+    lengths = np.array([1.0, 2.0, 3.0, 4.0])
+    example = Example(count=4)
+    example.point("lengths_m", lengths, 4)
+    copied, of_owner = deepcopy([example, lengths])
+    of_owner[0] = 9.0
+    assert ctypes.cast(copied.lengths_m, ctypes.POINTER(ctypes.c_double))[:4] == [9.0, 2.0, 3.0, 4.0]
+    assert ctypes.cast(example.lengths_m, ctypes.POINTER(ctypes.c_double))[:4] == [1.0, 2.0, 3.0, 4.0]
+    assert copied.count == 4
+    copied.point("lengths_m", of_owner, 4)  # known already
