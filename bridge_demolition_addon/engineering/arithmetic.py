@@ -29,12 +29,12 @@ def coefficients(text: str) -> tuple[float, ...]:
 
 
 # Upper parts end in zeros, so that their products with small integers are exact.
-LN2_PARTS = 6.93147180369123816490e-01, 1.90821492927058770002e-10
-PER_LN2 = 1.44269504088896338700e00
+_LN2_PARTS = 6.93147180369123816490e-01, 1.90821492927058770002e-10
+_PER_LN2 = 1.44269504088896338700e00
 _HALF_PI_PARTS = 1.57079632673412561417e00, 6.07710050630396597660e-11, 2.02226624879595063154e-21
 PI_REST = 1.2246467991473531772e-16
 
-EXPONENTIAL = coefficients(
+_EXPONENTIAL = coefficients(
     "1.66666666666666019037e-01 -2.77777777770155933842e-03 6.61375632143793436117e-05 -1.65339022054652515390e-06 "
     "4.13813679705723846039e-08"
 )
@@ -141,12 +141,12 @@ def arctangent(y: ArrayLike, x: ArrayLike = 1.0) -> FloatArray:
 def _exponential(x: FloatArray, rest: FloatArray | float) -> FloatArray:
     """e to the power of the sum of x and a rest that is small beside it."""
     limited = np.clip(x, -750.0, 710.0)
-    doublings = np.rint(limited * PER_LN2)
+    doublings = np.rint(limited * _PER_LN2)
     doublings = np.where(np.isnan(doublings), 0.0, doublings)
-    upper, lower = limited - doublings * LN2_PARTS[0], doublings * LN2_PARTS[1] - rest
+    upper, lower = limited - doublings * _LN2_PARTS[0], doublings * _LN2_PARTS[1] - rest
     short = upper - lower
     square = short * short
-    bend = short - square * _polynomial(square, EXPONENTIAL)
+    bend = short - square * _polynomial(square, _EXPONENTIAL)
     with np.errstate(over="ignore", under="ignore"):
         scaled: FloatArray = np.ldexp(1.0 - ((lower - short * bend / (2.0 - bend)) - upper), doublings.astype(np.int32))
         return scaled
@@ -163,8 +163,8 @@ def _logarithm(x: FloatArray) -> tuple[FloatArray, FloatArray]:
     product, product_rest = _product(part, part)
     upper, rest = _sum(part, -0.5 * product)
     lower = rest + (ratio * (0.5 * product + square * _polynomial(square, _LOGARITHM)) - 0.5 * product_rest)
-    upper, rest = _sum(twos * LN2_PARTS[0], upper)
-    upper, lower = _sum(upper, rest + (lower + twos * LN2_PARTS[1]))
+    upper, rest = _sum(twos * _LN2_PARTS[0], upper)
+    upper, lower = _sum(upper, rest + (lower + twos * _LN2_PARTS[1]))
     outside = np.where(x == 0.0, -np.inf, np.where(x == np.inf, np.inf, np.nan))
     return np.where(usable, upper, outside), np.where(usable, lower, 0.0)
 

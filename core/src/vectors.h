@@ -32,6 +32,15 @@ static inline int are_finite(const double *values, int64_t components, int64_t n
     return 1;
 }
 
+/* Whether numbers are 0 or more, and below a bound: rows of an array. */
+static inline int all_below(const int64_t *numbers, int64_t count, int64_t bound)
+{
+    for (int64_t at = 0; at < count; at++)
+        if (numbers[at] < 0 || numbers[at] >= bound)
+            return 0;
+    return 1;
+}
+
 static inline double dot3(const double a[3], const double b[3])
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

@@ -25,6 +25,14 @@ OF_COMPILER = re.compile(
     r"_ITM_|__gmon_start__|__cxa_finalize|__stack_chk_fail|__mem\w+_chk|dyld_stub_binder|_?_dso_handle"
 )
 
+STEPPED = {
+    "elasticity": ("substep", "joint_forces"),
+    "mechanics": ("overloads", "sums_of_frames", "touches"),
+    "blast": ("blast_projection", "blast_pulses"),
+    "geometry": ("vectors",),
+}
+"""Tests that call what the core has, with random numbers and with such as are out of range."""
+
 needs_own_compiler = pytest.mark.skipif(build_core.own_compiler() is None, reason="this machine has no C compiler")
 
 
@@ -91,7 +99,10 @@ sys.exit(pytest.main(["-q", "-p", "no:cacheprovider", "-p", "no:xdist", *sys.arg
 @needs_own_compiler
 @pytest.mark.skipif(sys.platform != "linux", reason="only here are sanitizers preloaded")
 def test_sanitizers_find_nothing_in_substeps(tmp_path):
-    """They end the process at the first fault: random structures with cracks, bearings and bare bars are stepped."""
+    """They end the process at the first fault: random structures with cracks, bearings and bare bars are stepped.
+
+    Random connections are judged and added up, in frames with contacts and charges.
+    """
     command = build_core.own_compiler()
     sanitizers = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-g", "-O1"]
     build_core.compile_to(tmp_path / HERE.library, options=sanitizers)
@@ -99,8 +110,7 @@ def test_sanitizers_find_nothing_in_substeps(tmp_path):
     preloaded = subprocess.run(ask, capture_output=True, text=True, check=True).stdout.strip()
     # Python itself keeps memory until its end.
     environment = os.environ | {"LD_PRELOAD": preloaded, "ASAN_OPTIONS": "detect_leaks=0", "PYTHONMALLOC": "malloc"}
-    tests = TESTS / "engineering" / "elasticity"
-    files = [tests / "test_substep.py", tests / "test_joint_forces.py", tests / "test_sparse_system.py"]
+    files = [TESTS / "engineering" / room / f"test_{name}.py" for room, names in STEPPED.items() for name in names]
     run = [sys.executable, "-c", SANITIZED, tmp_path, *files, "-k", "not numpy"]
     done = subprocess.run(run, capture_output=True, text=True, env=environment)
     assert done.returncode == 0, done.stdout + done.stderr

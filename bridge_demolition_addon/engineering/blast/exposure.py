@@ -7,12 +7,12 @@ anything narrow the load is more than this share. A body that contains the charg
 """
 
 from itertools import pairwise
-from types import ModuleType
 
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
-from ..compilation import where_compiled
+from ..core.calls import call
+from ..core.structs import Count, Doubles, Indices, Struct, WrittenDoubles
 from ..geometry.hulls import ConvexHulls
 from ..geometry.proximity import ranges
 from ..geometry.vectors import dot, length, transformed, transformed_back
@@ -28,6 +28,20 @@ _HALF_WAY = 0.5
 
 PAIRS_AT_ONCE = 1_000_000
 """Ray-and-body or ray-and-face pairs in one array operation: some tens of megabytes."""
+
+
+class ShownAreas(Struct):
+    """Hulls, and directions from charges: `bda_shown_areas`."""
+
+    _fields_ = (
+        *((name, Count) for name in ("bodies", "charges", "faces", "most_faces")),
+        ("face_vectors", Doubles),
+        ("starts", Indices),
+        ("rotations", Doubles),
+        ("directions", Doubles),
+        ("shown", WrittenDoubles),
+        ("areas", WrittenDoubles),
+    )
 
 
 def lines_of_blast(sources: FloatArray, centres: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -49,31 +63,18 @@ def projected_areas(hulls: ConvexHulls, rotations: FloatArray, directions: Float
 
     That is the report's equation 6. Rotations (n, 3, 3) are from the axes of each body to those of the world.
     """
-    if not len(hulls):
-        return np.zeros(directions.shape[:2])
-    loops = area_loops()
-    if loops is not None and hulls.most_faces <= loops.MOST_TERMS:
-        found: FloatArray = loops.projected(hulls.face_vectors, hulls.starts, rotations, directions)
-        return found
-    # One axis after the other, in rows that lie together in memory: this is computed in every sub-step.
-    in_body_axes = _in_body_axes(rotations, directions)
-    shown, added = (np.empty((directions.shape[1], hulls.face_vectors.shape[1])) for _ in range(2))
-    for axis, vectors in enumerate(hulls.face_vectors):
-        in_body_axes[axis].take(hulls.bodies, axis=1, out=added, mode="clip")  # all are within; others are buffered
-        np.multiply(vectors, added, out=added if axis else shown)
-        if axis:
-            shown += added
-    np.abs(shown, out=shown)
-    shown /= 2.0
-    return np.add.reduceat(shown, hulls.starts[:-1], axis=1).T
-
-
-@where_compiled
-def area_loops() -> ModuleType:
-    """Loops over the areas of bodies."""
-    from . import area_loops
-
-    return area_loops
+    (bodies, charges), faces, most = directions.shape[:2], hulls.face_vectors.shape[1], hulls.most_faces
+    areas = np.empty((bodies, charges))
+    shown = ShownAreas(bodies=bodies, charges=charges, faces=faces, most_faces=most).take(
+        face_vectors=(hulls.face_vectors, 3 * faces),
+        starts=(hulls.starts, bodies + 1),
+        rotations=(rotations, 9 * bodies),
+        directions=(directions, 3 * bodies * charges),
+        shown=(np.empty(most), most),
+        areas=(areas, bodies * charges),
+    )
+    call("bda_project", shown)
+    return areas
 
 
 def visible_shares(hulls: ConvexHulls, centres: FloatArray, rotations: FloatArray, sources: FloatArray) -> FloatArray:
@@ -96,16 +97,6 @@ def visible_shares(hulls: ConvexHulls, centres: FloatArray, rotations: FloatArra
             stopped[rays[passing]] = True
         shares[:, column] = np.bincount(owners, ~stopped, len(hulls)) / counts
     return shares
-
-
-def _in_body_axes(rotations: FloatArray, directions: FloatArray) -> FloatArray:
-    """Return components (3, c, n) of directions (n, c, 3) in the axes of bodies with rotations (n, 3, 3)."""
-    matrices = np.ascontiguousarray(rotations.transpose(1, 2, 0))[:, :, None]
-    x, y, z = np.ascontiguousarray(directions.transpose(2, 1, 0))
-    turned: FloatArray = matrices[0] * x
-    turned += matrices[1] * y
-    turned += matrices[2] * z
-    return turned
 
 
 def _targets(hulls: ConvexHulls, centres: FloatArray, rotations: FloatArray) -> tuple[IntArray, FloatArray]:

@@ -7,7 +7,6 @@ front arrived; the pulse is over at τ = t_d. The suction that follows, the nega
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
 from math import factorial
-from types import ModuleType
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,7 +14,8 @@ from numpy.typing import ArrayLike
 from ...errors import BlastError
 from ..arithmetic import cube_root, exponential
 from ..arrays import BoolArray, FloatArray, IntArray
-from ..compilation import where_compiled
+from ..core.calls import call
+from ..core.structs import Count, Doubles, Struct, WrittenDoubles
 from . import kingery_bulmash, kinney_graham
 from .wave import Burst, NamedChoice, Wave, checked, scaled_distance
 
@@ -25,11 +25,11 @@ REPORT_DECAY = 1.0
 LARGEST_SHARE = 0.5
 """Share of p₀ t_d that the impulse of a pulse without decay has, a triangle; no decay gives more."""
 
-SERIES_BELOW = 0.5
+_SERIES_BELOW = 0.5
 _SERIES_TERMS = 15
 """Enough for the last term to be below rounding where the series is used: 0.5^15 / 15! is 2e-17."""
 
-SERIES = [
+_SERIES = [
     [1.0 / (factorial(term) * (term + order + 1)) for order in range(3)] for term in reversed(range(_SERIES_TERMS))
 ]
 """Coefficients of the series of three moments, the last term first."""
@@ -119,6 +119,16 @@ class Pulses:
         return (self.peaks_pa > 0.0) & (self.arrivals_s < end_s) & (start_s < self.ends_s)
 
 
+class CorePulses(Struct):
+    """Pulses in a step: `bda_pulses`."""
+
+    _fields_ = (
+        ("count", Count),
+        *((name, Doubles) for name in ("peaks", "durations", "decays", "starts", "ends")),
+        ("impulses", WrittenDoubles),
+    )
+
+
 def blast_pulses(
     stand_offs_m: ArrayLike,
     tnt_kg: ArrayLike,
@@ -165,23 +175,25 @@ def blast_pulses(
 
 
 def impulse_between(pulses: Pulses, start_s: float, end_s: float) -> FloatArray:
-    """Return the exact impulse per area (n, c) of every pulse from `start_s` to `end_s`, Pa·s."""
+    """Return the exact impulse per area (n, c) of every pulse from `start_s` to `end_s`, Pa·s.
+
+    The interval may begin before the front and end after the pulse. It is integrated from its own beginning, so that
+    short intervals lose nothing to the difference of two long ones.
+    """
     if not end_s >= start_s:
         raise BlastError(f"end of the step is {end_s:g}: expected at least its start, {start_s:g} (s)")
     starts, ends = start_s - pulses.arrivals_s, end_s - pulses.arrivals_s
-    loops = pulse_loops()
-    if loops is not None and starts.ndim == 1:
-        found: FloatArray = loops.impulses(pulses.peaks_pa, pulses.durations_s, pulses.decays, starts, ends)
-        return found
-    return pulse_impulse(pulses.peaks_pa, pulses.durations_s, pulses.decays, starts, ends)
-
-
-@where_compiled
-def pulse_loops() -> ModuleType:
-    """Return the loop of impulses."""
-    from . import pulse_loops
-
-    return pulse_loops
+    found = np.empty_like(starts)
+    core = CorePulses(count=found.size).take(
+        peaks=(pulses.peaks_pa, found.size),
+        durations=(pulses.durations_s, found.size),
+        decays=(pulses.decays, found.size),
+        starts=(starts, found.size),
+        ends=(ends, found.size),
+        impulses=(found, found.size),
+    )
+    call("bda_impulses_of_pulses", core)
+    return found
 
 
 def pressure_at(pulses: Pulses, time_s: float | FloatArray) -> FloatArray:
@@ -208,22 +220,6 @@ def pulse_pressure(peak: FloatArray, duration: FloatArray, decay: FloatArray, ti
     part = _part_of_phase(time, duration)
     passed = np.clip(part, 0.0, 1.0)
     return np.where(part >= 0.0, peak * (1.0 - passed) * exponential(-decay * passed), 0.0)
-
-
-def pulse_impulse(
-    peak: FloatArray, duration: FloatArray, decay: FloatArray, start: FloatArray, end: FloatArray
-) -> FloatArray:
-    """Return the exact integral of the overpressure from `start` to `end`, s since the front arrived, in Pa·s.
-
-    The interval may begin before the front and end after the pulse. It is integrated from its own beginning, so that
-    short intervals lose nothing to the difference of two long ones.
-    """
-    first = np.clip(_part_of_phase(start, duration), 0.0, 1.0)
-    length = np.clip(_part_of_phase(end, duration), 0.0, 1.0) - first
-    exponent = decay * length
-    whole, centre = _moments(exponent, 2)
-    mean = (1.0 - first) * whole - length * centre
-    return peak * duration * exponential(-decay * first) * length * mean
 
 
 def whole_impulse(peak: FloatArray, duration: FloatArray, decay: FloatArray) -> FloatArray:
@@ -272,21 +268,21 @@ def _share(decay: FloatArray) -> FloatArray:
 
 def _moments(exponent: FloatArray, count: int) -> list[FloatArray]:
     """Return ∫₀¹ uⁿ e^(-y u) du for y ≥ 0 and n from 0 on; a series where the closed form would lose its digits."""
-    is_small = exponent < SERIES_BELOW
+    is_small = exponent < _SERIES_BELOW
     # Both are costly: most steps are so short, or so long, that one of them serves all pulses.
     if is_small.all():
         return list(_series_of_moments(exponent, count))
     if not is_small.any():
         return _closed_moments(exponent, count)
-    series = _series_of_moments(np.minimum(exponent, SERIES_BELOW), count)
-    closed = _closed_moments(np.maximum(exponent, SERIES_BELOW), count)
+    series = _series_of_moments(np.minimum(exponent, _SERIES_BELOW), count)
+    closed = _closed_moments(np.maximum(exponent, _SERIES_BELOW), count)
     return [np.where(is_small, *moments) for moments in zip(series, closed, strict=True)]
 
 
 def _series_of_moments(exponent: FloatArray, count: int) -> FloatArray:
     """Return the moments (count, ...) by their series, for small exponents."""
     sums = np.zeros((count, *exponent.shape))
-    for coefficients in np.array(SERIES)[:, :count].reshape(-1, count, *[1] * exponent.ndim):
+    for coefficients in np.array(_SERIES)[:, :count].reshape(-1, count, *[1] * exponent.ndim):
         np.multiply(exponent, sums, out=sums)
         np.subtract(coefficients, sums, out=sums)
     return sums

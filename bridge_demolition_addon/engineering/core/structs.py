@@ -117,6 +117,21 @@ class Struct(ctypes.Structure):
         setattr(self, name, array.ctypes.data)
         self._kept[name] = array
 
+    def take(self, **arrays: tuple[npt.NDArray[Any], int]) -> Self:
+        """Let fields point to arrays, each with its number of elements, and return the struct.
+
+        The core gets a copy of what it reads that is in another order.
+
+        Raises
+        ------
+        ValueError
+            As of `point`.
+        """
+        for name, (array, size) in arrays.items():
+            written = self._pointers[name].written
+            self.point(name, array if written else np.ascontiguousarray(array), size)
+        return self
+
     def __deepcopy__(self, memo: dict[int, Any]) -> Self:
         """Return one that points to copies of the arrays: those of this one may be gone before it."""
         other = type(self).from_buffer_copy(self)

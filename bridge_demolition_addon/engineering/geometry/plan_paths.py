@@ -7,16 +7,11 @@ from bisect import bisect_right
 import numpy as np
 
 from ..arrays import FloatArray
-from .plan_areas import plan_loops
 from .vectors import transformed
 
 
 def path_of_corners(rotations: FloatArray, positions: FloatArray, corners: FloatArray) -> FloatArray:
     """Corners (v, 3) of a body in plan (k, v, 2) at all steps, by its rotations (k, 3, 3) and positions (k, 3)."""
-    if (loops := plan_loops()) is not None:
-        arrays = (np.ascontiguousarray(of, float) for of in (rotations, positions, corners))
-        path: FloatArray = loops.path_of_corners(*arrays)
-        return path
     return transformed(rotations[:, None, :2], corners) + positions[:, None, :2]
 
 
@@ -41,9 +36,6 @@ def bends_and_moves(plans: FloatArray) -> tuple[FloatArray, FloatArray]:
 
     Both are 0 at the last step, and bends at the first.
     """
-    if (loops := plan_loops()) is not None:
-        found: tuple[FloatArray, FloatArray] = loops.bends_and_moves(np.ascontiguousarray(plans, float))
-        return found
     bends, moves = np.zeros(len(plans)), np.zeros(len(plans))
     bends[1:-1] = np.abs(np.diff(plans, 2, axis=0)).max(axis=(1, 2), initial=0.0)
     moves[:-1] = np.abs(np.diff(plans, axis=0)).max(axis=(1, 2), initial=0.0)

@@ -9,15 +9,17 @@ Arrays whose components lie together in memory, all x and then all y, are worked
 `length` and `transformed` keep that order, `by_component` and `cross_by_component` give it.
 """
 
-from types import ModuleType
-
 import numpy as np
 
 from ..arrays import FloatArray
-from ..compilation import where_compiled
+from ..core.calls import call
+from ..core.structs import Count, Struct, WrittenDoubles
 
-_SWEEPS = 8
-"""Sweeps of Jacobi's method, each of which squares the rest beside the diagonal: double precision needs five."""
+
+class Matrices(Struct):
+    """Matrices that become diagonal, and others that turn along: `bda_matrices`."""
+
+    _fields_ = (("count", Count), ("matrices", WrittenDoubles), ("followed", WrittenDoubles))
 
 
 def dot(first: FloatArray, second: FloatArray) -> FloatArray:
@@ -112,48 +114,27 @@ def outer(first: FloatArray, second: FloatArray) -> FloatArray:
 
 def symmetric_eigenvalues(matrices: FloatArray) -> FloatArray:
     """Eigenvalues (..., 3), ascending, of symmetric matrices (..., 3, 3)."""
-    loops = eigenvalue_loops()
-    if loops is None:
-        return np.sort(_diagonalised(matrices)[0], axis=-1)
-    stacked = np.ascontiguousarray(matrices, float).reshape(-1, 3, 3)
-    return np.sort(loops.diagonals(stacked, _SWEEPS).reshape(matrices.shape[:-1]), axis=-1)
-
-
-@where_compiled
-def eigenvalue_loops() -> ModuleType:
-    """Loops over matrices."""
-    from . import eigenvalue_loops
-
-    return eigenvalue_loops
+    return np.sort(_diagonalised(matrices), axis=-1)
 
 
 def symmetric_eigenvectors(matrices: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Eigenvalues (..., 3), ascending, of symmetric matrices (..., 3, 3), and right-handed eigenvectors as columns."""
-    values, rows = _diagonalised(matrices, np.broadcast_to(np.eye(3), matrices.shape))
+    rows = np.broadcast_to(np.eye(3), matrices.shape).copy()
+    values = _diagonalised(matrices, rows)
     order = np.argsort(values, axis=-1, kind="stable")
     rows = np.take_along_axis(rows, order[..., None], axis=-2)
     rows[..., 2, :] = np.cross(rows[..., 0, :], rows[..., 1, :])
     return np.take_along_axis(values, order, axis=-1), np.swapaxes(rows, -1, -2)
 
 
-def _diagonalised(matrices: FloatArray, followed: FloatArray | None = None) -> tuple[FloatArray, FloatArray]:
-    """Diagonals (..., 3) of matrices (..., 3, 3) by Jacobi's method, and other matrices with their rows rotated along.
-
-    G. H. Golub, C. F. Van Loan (1996), Matrix Computations, 3rd edition, section 8.4.
-    """
-    # The components of all matrices lie together in memory.
-    rest, followed = (
-        np.moveaxis(np.array(np.moveaxis(each, (-2, -1), (0, 1)), float, order="C"), (0, 1), (-2, -1))
-        for each in (matrices, matrices[..., :0, :] if followed is None else followed)
-    )
-    for _ in range(_SWEEPS):
-        for p, q in ((0, 1), (0, 2), (1, 2)):
-            cosine, sine = _jacobi_rotation(rest[..., p, p], rest[..., q, q], rest[..., p, q])
-            _turn(rest, p, q, cosine, sine)
-            _turn(np.swapaxes(rest, -1, -2), p, q, cosine, sine)
-            if followed.shape[-2]:
-                _turn(followed, p, q, cosine, sine)
-    return np.stack([rest[..., axis, axis] for axis in range(3)], axis=-1), followed
+def _diagonalised(matrices: FloatArray, followed: FloatArray | None = None) -> FloatArray:
+    """Diagonals (..., 3) of matrices (..., 3, 3) by Jacobi's method; other matrices have their rows rotated along."""
+    rest = np.array(matrices, float, order="C")
+    core = Matrices(count=rest.size // 9).take(matrices=(rest, rest.size))
+    if followed is not None:
+        core.take(followed=(followed, rest.size))
+    call("bda_diagonalise", core)
+    return np.diagonal(rest, axis1=-2, axis2=-1)
 
 
 def symmetric_eigenvectors_2d(matrices: FloatArray) -> tuple[FloatArray, FloatArray]:
@@ -179,13 +160,6 @@ def _jacobi_rotation(first: FloatArray, second: FloatArray, beside: FloatArray) 
     tangent = np.where(needed, tangent, 0.0)
     cosine = 1.0 / np.sqrt(tangent * tangent + 1.0)
     return cosine, tangent * cosine
-
-
-def _turn(matrices: FloatArray, p: int, q: int, cosine: FloatArray, sine: FloatArray) -> None:
-    """Rotate rows p and q of matrices (..., 3, 3), in place."""
-    first, second = matrices[..., p, :].copy(order="K"), matrices[..., q, :].copy(order="K")
-    matrices[..., p, :] = cosine[..., None] * first - sine[..., None] * second
-    matrices[..., q, :] = sine[..., None] * first + cosine[..., None] * second
 
 
 def points_along(path_m: np.ndarray, distances_m: np.ndarray) -> np.ndarray:

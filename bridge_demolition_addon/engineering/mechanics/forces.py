@@ -1,19 +1,11 @@
-"""Effects of connections on bodies: resultants, sums of magnitudes, and moments at the connections themselves."""
+"""Effects of connections on bodies: resultants, and sums of magnitudes."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
-from ..geometry.vectors import by_component, cross_by_component
-
-
-def moments_at(points: FloatArray, forces: FloatArray, torques: FloatArray, centres: FloatArray) -> FloatArray:
-    """Return the moments (..., 3), N·m, of connections about their own points (..., 3), m.
-
-    `torques` (..., 3) are those of the whole load about the body's centre; the force's lever arm is taken off.
-    """
-    return torques - cross_by_component(points - centres, forces)
+from ..geometry.vectors import by_component
 
 
 class PairSums:

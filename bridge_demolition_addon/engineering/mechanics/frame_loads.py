@@ -10,10 +10,11 @@ from functools import cached_property
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
+from ..core.calls import call
+from ..core.structs import Count, Doubles, Indices, Struct, WrittenDoubles
 from ..geometry.vectors import as_components, as_vectors, length
-from .compiled_mechanics import frame_loops
 from .forces import PairSums
-from .stress import average_stress, average_stress_of_moments, von_mises
+from .stress import average_stress, von_mises
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,6 +119,17 @@ class FrameLoads:
         )
 
 
+class CoreFrameLoads(Struct):
+    """Loads of connections in the sub-steps of a frame: `bda_frame_loads`."""
+
+    _fields_ = (
+        *((name, Count) for name in ("substeps", "connections", "bodies")),
+        ("pairs", Indices),
+        *((name, Doubles) for name in ("forces", "moments", "signs", "lengths")),
+        *((name, WrittenDoubles) for name in ("impulses", "peaks", "of_first", "of_second")),
+    )
+
+
 class LoadAccumulator:
     """Adds up the loads of a frame, some sub-steps at a time; how many makes no difference, to the last bit.
 
@@ -130,7 +142,6 @@ class LoadAccumulator:
 
     def __init__(self, pairs: IntArray, volumes_m3: FloatArray, normals_at: Callable[[FloatArray], FloatArray]):
         self._pairs, self._volumes, self._normals_at = pairs, volumes_m3, normals_at
-        self._sums = PairSums(pairs, None, (1, len(volumes_m3)))
         self.begin()
 
     def begin(self) -> None:
@@ -200,39 +211,26 @@ class LoadAccumulator:
 
     def _of_connections(self, loads: SubstepLoads, shape: tuple[int, int]) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Add what connections carry; return resultants (s, n, 3), sums of sizes and of signed numbers (s, n)."""
-        forces, moments = loads.connection_forces_n, loads.connection_moments_nm
-        loops = frame_loops()
-        if loops is not None:
-            resultants, sums, signed = loops.of_connections(
-                self._pairs,
-                shape[1],
-                as_components(forces),
-                as_components(moments),
-                loads.signed_2019_ns,
-                loads.substeps_s,
-                self._connection_impulses,
-                self._connection_peaks,
-            )
-            return as_vectors(resultants), sums, signed
-        if self._sums.shape != shape:
-            self._sums = PairSums(self._pairs, None, shape)
-        sizes = length(forces)
-        impulses = loads.connection_impulses_ns, loads.connection_angular_impulses_nms
-        for substep in range(shape[0]):
-            higher = sizes[substep] > self._connection_peaks[0]
-            if higher.any():
-                for vectors, peaks in ((forces, self._connection_peaks[1:4]), (moments, self._connection_peaks[4:])):
-                    np.copyto(peaks, vectors[substep].T, where=higher)
-            np.maximum(self._connection_peaks[0], sizes[substep], out=self._connection_peaks[0])
-            for half, of_kind in zip(
-                (self._connection_impulses[:3], self._connection_impulses[3:]), impulses, strict=True
-            ):
-                half += of_kind[substep].T
-        return self._sums.resultants(forces), self._sums.sums(sizes), self._sums.differences(loads.signed_2019_ns)
+        (substeps, bodies), count = shape, len(self._pairs)
+        of_first, of_second = np.zeros((2, 5, substeps, bodies))
+        of_frame = CoreFrameLoads(substeps=substeps, connections=count, bodies=bodies)
+        of_frame.take(
+            pairs=(self._pairs, 2 * count),
+            forces=(as_components(loads.connection_forces_n), 3 * substeps * count),
+            moments=(as_components(loads.connection_moments_nm), 3 * substeps * count),
+            signs=(loads.signed_2019_ns, substeps * count),
+            lengths=(loads.substeps_s, substeps),
+            impulses=(self._connection_impulses, 6 * count),
+            peaks=(self._connection_peaks, 7 * count),
+            of_first=(of_first, 5 * substeps * bodies),
+            of_second=(of_second, 5 * substeps * bodies),
+        )
+        call("bda_add_frame_loads", of_frame)
+        return as_vectors(of_first[:3] - of_second[:3]), of_first[3] + of_second[3], of_first[4] - of_second[4]
 
     def _add_contacts(self, loads: SubstepLoads, by_contacts: FloatArray) -> None:
         substeps, count = by_contacts.shape[:2]
-        stresses = self._stresses(
+        stresses = average_stress(
             loads.contact_pairs + count * loads.contact_substeps[:, None],
             loads.contact_impulses_ns,
             loads.contact_points_m,
@@ -257,37 +255,12 @@ class LoadAccumulator:
     def _stress_impulses_of_contacts(self, loads: Moment) -> FloatArray:
         """Stresses (n, 3, 3) under the contacts of a sub-step times its length, Pa·s."""
         pairs, impulses, points = loads.contact_pairs, loads.contact_impulses_ns, loads.contact_points_m
-        return self._stresses(pairs, impulses, points, loads.centres_m, self._volumes)
+        return average_stress(pairs, impulses, points, loads.centres_m, self._volumes)
 
     def _stresses_of_connections(self, loads: Moment, forces: FloatArray, moments: FloatArray) -> FloatArray:
         """Stresses (n, 3, 3) under forces and moments (m, 3) of the connections, where they are in a sub-step."""
-        normals, loops = self._normals_at(loads.rotations), frame_loops()
-        if loops is not None:
-            found: FloatArray = loops.stresses_of_connections(
-                self._pairs, forces, moments, normals, loads.connection_points_m, loads.centres_m, self._volumes
-            )
-            return found
-        of_moments = average_stress_of_moments(
-            self._pairs.T.ravel(),
-            np.concatenate((moments, -moments)),
-            np.concatenate((normals, -normals)),
-            self._volumes,
-        )
-        of_forces = self._stresses(self._pairs, forces, loads.connection_points_m, loads.centres_m, self._volumes)
-        return of_forces + _of_solids(of_moments, self._volumes)
-
-    @staticmethod
-    def _stresses(
-        pairs: IntArray, forces: FloatArray, points: FloatArray, centres: FloatArray, volumes: FloatArray
-    ) -> FloatArray:
-        """Stresses under forces (k, 3) on the first bodies of pairs (k, 2), and their opposites on the second."""
-        both, twice = np.concatenate((forces, -forces)), np.concatenate((points, points))
-        return _of_solids(average_stress(pairs.T.ravel(), both, twice, centres, volumes), volumes)
-
-
-def _of_solids(stresses: FloatArray, volumes: FloatArray) -> FloatArray:
-    """Stresses (n, 3, 3), 0 for bodies without a volume; what is nan because its loads are stays nan."""
-    return np.where(volumes[:, None, None] > 0.0, stresses, 0.0)
+        places = loads.connection_points_m, loads.centres_m, self._volumes
+        return average_stress(self._pairs, forces, *places, moments, self._normals_at(loads.rotations))
 
 
 def _vectors(*shape: int) -> FloatArray:

@@ -3,20 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import fields, replace
-from typing import Any
 
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
-from ..geometry.vectors import length
+from ..core.calls import call
+from ..core.structs import Count, Doubles, Flags, Indices, Struct, WrittenDoubles, WrittenIndices
 from .carried_sections import CarriedSections
-from .compiled_mechanics import overload_loops
 from .member_sections import MemberSections
-from .packed_faces import CUT_THROUGH, RESISTING, pack
+from .packed_faces import CUT_THROUGH, RESISTING, CutsThrough, Resisting, pack
 from .section_cuts import ConnectedFaces, ConnectionLoads, SectionCuts, worst_around
 from .section_forces import SectionForces
 from .strength import (
-    SINGLE_PRECISION,
     Sections,
     Strength,
     largest_utilisations,
@@ -32,6 +30,38 @@ _MOST_REDISTRIBUTED = 3.0
 A section evens out peaks of stress beside notches and edges, two to three times the mean. A sliver that is stretched
 further has torn, whatever the faces beside it carry. Rigid connections share a load by chance: only the cut counts.
 """
+
+
+class Judging(Struct):
+    """What connections resist, and which are overloaded: `bda_judging`."""
+
+    _fields_ = (
+        *((name, Count) for name in ("connections", "entries", "most_faces")),
+        ("intact", Flags),
+        *((name, Doubles) for name in ("left", "by_force", "by_moment", "levers")),
+        ("resisting", Resisting),
+        ("pressed", Doubles),
+        ("friction", Doubles),
+        ("starts", Indices),
+        ("through", CutsThrough),
+        ("found", WrittenIndices),
+        ("noted", WrittenDoubles),
+        ("lines", WrittenDoubles),
+        ("rows", WrittenIndices),
+        ("used", WrittenDoubles),
+        ("count", Count),
+    )
+
+
+class LoadsInCuts(Struct):
+    """Loads of connections in their cuts: `bda_loads_in_cuts`."""
+
+    _fields_ = (
+        ("count", Count),
+        ("rows", Indices),
+        *((name, Doubles) for name in ("axes", "forces", "moments", "points")),
+        ("used", WrittenDoubles),
+    )
 
 
 class Overloads:
@@ -61,16 +91,8 @@ class Overloads:
         self._pairs, self._moves, self._strength = faces.pairs, moves, strength
         self._member_sections = member_sections
         self._sections = rectangular_sections(faces.areas_m2, faces.second_moments_m4)
-        self._largest_utilisations = largest_utilisations(self._sections, strength)
-        self._cuts = cuts = SectionCuts.through(faces, moves)
-        self._most_faces = int(np.diff(cuts.starts).max(initial=0))
-        everywhere = np.ones(len(faces.pairs)) if pressed is None else pressed
-        resisting = _packed(faces, self._sections, strength)
-        self._resisting = resisting, everywhere, np.zeros(0) if friction is None else friction
-        self._packed_cuts = (
-            cuts.starts,
-            pack(CUT_THROUGH, face=cuts.faces, sign=cuts.signs, cosine=cuts.cosines),
-        )
+        self._rows, self._used = np.empty(len(faces.pairs), int), np.empty(len(faces.pairs))
+        self._judging = self._core_judging(faces, SectionCuts.through(faces, moves))
 
     def breaking(
         self,
@@ -87,12 +109,10 @@ class Overloads:
         Loads and places are as `over_alone` takes them. When one breaks, its neighbours take over its load: they are
         judged again after the next sub-step.
         """
-        rows: IntArray
-        places, loops = (loads, positions_m, rotations), overload_loops()
-        by_cuts = self._member_sections is None or parts is None
-        if loops is not None and by_cuts and self._most_faces <= loops.MOST_TERMS:
-            rows, used = loops.over_in_cuts(*self._judged(places, sections, intact, left), self._packed_cuts)
+        if self._member_sections is None or parts is None:
+            rows, used = self._judged("bda_over_in_cuts", intact, sections, loads, positions_m, rotations, left)
         else:
+            places = loads, positions_m, rotations
             rows, used = self.over_alone(intact, sections, *places, left)
             if len(rows):  # mostly nothing is overloaded: then what the others carry is not worked out
                 of_all, axes = sections.loads_at_once(*places), sections.carried_axes(rows, rotations)
@@ -129,26 +149,46 @@ class Overloads:
 
         Loads are about the centres of bodies, which are at positions (3, n) in rotations (3, 3, n).
         """
-        loops = overload_loops()
-        if loops is None:
-            rows = self.candidates(loads, sections.lever_arms_m, left)
-            rows = rows[intact[rows]]
-            return _overloaded(
-                rows, self.of_forces(rows, sections.forces(rows, loads, positions_m, rotations)) / left[rows]
-            )
-        rows, used = loops.over_alone(*self._judged((loads, positions_m, rotations), sections, intact, left))
-        return rows, used
+        return self._judged("bda_over_alone", intact, sections, loads, positions_m, rotations, left)
 
-    def candidates(self, loads: FloatArray, lever_arms_m: FloatArray, left: FloatArray) -> IntArray:
-        """Return the connections (k,) whose loads are large enough to break them, whatever they act on.
+    def _judged(
+        self,
+        name: str,
+        intact: BoolArray,
+        sections: CarriedSections,
+        loads: FloatArray,
+        positions_m: FloatArray,
+        rotations: FloatArray,
+        left: FloatArray,
+    ) -> tuple[IntArray, FloatArray]:
+        """Return what a function of the core finds overloaded, as `over_alone` does."""
+        judging, count = self._judging, len(self._pairs)
+        judging.take(intact=(intact, count), left=(left, count), levers=(sections.lever_arms_m, count))
+        call(name, judging, sections.carrying(loads, positions_m, rotations))
+        found = slice(judging.count)
+        return self._rows[found].copy(), self._used[found].copy()
 
-        Loads (6, m) are forces, and moments about other points than the connections', which are `lever_arms_m` (m,)
-        away.
-        """
-        by_force, by_moment = self._largest_utilisations
-        force, torque = length(loads[:3].T), length(loads[3:].T)
-        most = (by_force + by_moment * lever_arms_m) * force + by_moment * torque
-        return np.flatnonzero(most * (1.0 + SINGLE_PRECISION) > left)
+    def _core_judging(self, faces: ConnectedFaces, cuts: SectionCuts) -> Judging:
+        """Return what the core knows of all connections; arrays that the caller keeps up to date are his own."""
+        count, entries, most = len(faces.pairs), len(cuts.faces), int(np.diff(cuts.starts).max(initial=0))
+        by_force, by_moment = largest_utilisations(self._sections, self._strength)
+        through = pack(CUT_THROUGH, face=cuts.faces, sign=cuts.signs, cosine=cuts.cosines)
+        judging = Judging(connections=count, entries=entries, most_faces=most).take(
+            by_force=(by_force, count),
+            by_moment=(by_moment, count),
+            resisting=(_packed(faces, self._sections, self._strength), count),
+            starts=(cuts.starts, 2 * count + 1),
+            through=(through, entries),
+            found=(np.empty(most, int), most),
+            noted=(np.empty((most, 9)), 9 * most),
+            lines=(np.empty((9, most)), 9 * most),
+            rows=(self._rows, count),
+            used=(self._used, count),
+        )
+        judging.point("pressed", np.ones(count) if self._pressed is None else self._pressed, count)
+        if self._friction is not None:
+            judging.point("friction", self._friction, count)
+        return judging
 
     def alone(self, rows: IntArray, loads: ConnectionLoads, axes: FloatArray, left: FloatArray) -> FloatArray:
         """Utilisations (r,) of some connections, each by itself."""
@@ -174,13 +214,6 @@ class Overloads:
         used = self._in_members(self._member_sections, rows, loads, axes, intact, parts) / left[rows]
         return np.maximum(used, alone / _MOST_REDISTRIBUTED)
 
-    def _judged(
-        self, places: tuple[FloatArray, ...], sections: CarriedSections, intact: BoolArray, left: FloatArray
-    ) -> tuple[tuple[Any, ...], ...]:
-        """What compiled loops need to judge each connection alone."""
-        bounds = *self._largest_utilisations, sections.lever_arms_m
-        return (*places, sections.packed), (intact, left, *bounds), self._resisting
-
     def _strength_at(self, rows: IntArray) -> Strength:
         """Strength (r,) of some connections, without what is lost of it in all directions."""
         strength = strength_at(self._strength, rows)
@@ -193,17 +226,20 @@ class Overloads:
 
     def in_cuts(self, rows: IntArray, loads: ConnectionLoads, axes: FloatArray, intact: BoolArray) -> FloatArray:
         """Mean utilisations (r,), of whole strengths, of the cuts through the two shards of some connections."""
-        loops = overload_loops()
-        if loops is not None and self._most_faces <= loops.MOST_TERMS:
-            of_loads = tuple(np.ascontiguousarray(each) for each in (loads.forces_n, loads.moments_nm, loads.points_m))
-            found: FloatArray = loops.used_in_cuts(rows, intact, of_loads, axes, self._packed_cuts, self._resisting)
-            return found
-        cut_loads, areas, second_moments = self._cuts.sections(rows, intact, loads, axes)
-        both = np.concatenate((rows, rows))
-        sections = rectangular_sections(areas, second_moments)
-        used = utilisation(cut_loads, sections, self._strength_at(both), self._friction_at(both))
-        mean: FloatArray = used.reshape(2, -1).mean(axis=0)
-        return mean
+        count, used = len(rows), np.empty(len(rows))
+        if count and not 0 <= rows.min() <= rows.max() < len(self._pairs):
+            raise ValueError(f"rows are {rows.min()} to {rows.max()} of {len(self._pairs)} connections")
+        in_cuts = LoadsInCuts(count=count).take(
+            rows=(rows, count),
+            axes=(axes, 9 * count),
+            forces=(loads.forces_n, 3 * len(self._pairs)),
+            moments=(loads.moments_nm, 3 * len(self._pairs)),
+            points=(loads.points_m, 3 * len(self._pairs)),
+            used=(used, count),
+        )
+        self._judging.take(intact=(intact, len(self._pairs)))
+        call("bda_used_in_cuts", self._judging, in_cuts)
+        return used
 
     def _in_members(
         self,
@@ -229,7 +265,7 @@ class Overloads:
 
 
 def _packed(faces: ConnectedFaces, sections: Sections, strength: Strength) -> np.ndarray:
-    """Faces, sections and strengths (m,) as compiled loops take them."""
+    """Faces, sections and strengths (m,) as the core takes them."""
     count, second = len(faces.pairs), faces.second_moments_m4
     strengths = [np.broadcast_to(np.asarray(getattr(strength, item.name), float), count) for item in fields(strength)]
     return pack(

@@ -1,8 +1,8 @@
 """What judging reads of a connection, packed so that it lies together in memory.
 
-Compiled loops judge few connections here and there, between sub-steps in which Bullet drives out of the processor's
-cache what they read before. So what counts is not how much they calculate, but how many cache lines they wait for, and
-how many of Bullet's own they take the place of.
+The core judges few connections here and there, between sub-steps in which Bullet drives out of the processor's cache
+what was read before. So what counts is not how much it calculates, but how many cache lines it waits for, and how many
+of Bullet's own they take the place of.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
+from ..core.structs import Pointer
 
 _CACHE_LINE = 64
 
@@ -39,6 +40,24 @@ RESISTING = np.dtype(
 
 CUT_THROUGH = np.dtype([("face", np.int64), ("sign", float), ("cosine", float)])
 """One face of a cut."""
+
+
+class Carried(Pointer):
+    """`const bda_carried *`."""
+
+    dtype = CARRIED
+
+
+class Resisting(Pointer):
+    """`const bda_resisting *`."""
+
+    dtype = RESISTING
+
+
+class CutsThrough(Pointer):
+    """`const bda_cut_through *`."""
+
+    dtype = CUT_THROUGH
 
 
 def pack(kind: np.dtype[Any], **values: FloatArray | IntArray) -> np.ndarray:

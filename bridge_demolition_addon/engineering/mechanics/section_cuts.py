@@ -78,21 +78,6 @@ class SectionCuts:
         signs = np.where((cut < count) == (half < count), 1.0, -1.0)
         return cls(connected, starts, half % count, signs, cosines)
 
-    def sections(
-        self, rows: IntArray, intact: BoolArray, loads: ConnectionLoads, axes: FloatArray
-    ) -> tuple[SectionForces, FloatArray, FloatArray]:
-        """Loads, areas (2 k,) and second moments (2 k, 2, 2) of the cuts of intact connections `rows` (k,).
-
-        First are the cuts through the first bodies. `intact` (m,): a broken face is in no cut. `axes` (k, 3, 3) are
-        those of the sections, as columns.
-        """
-        cuts = np.concatenate((rows, rows + len(intact)))
-        owners, entries = ranges(self.starts[cuts], np.diff(self.starts)[cuts])
-        holds = intact[self.faces[entries]]
-        owners, entries = owners[holds], entries[holds]
-        faces, signs, cosines = self.faces[entries], self.signs[entries], self.cosines[entries]
-        return cut_loads(self.connected, loads, owners, faces, signs, cosines, np.concatenate((axes, axes)))
-
 
 def cut_loads(
     connected: ConnectedFaces,

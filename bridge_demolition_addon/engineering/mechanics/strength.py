@@ -19,9 +19,6 @@ from .section_forces import SectionForces
 NEWTON_PER_SQUARE_MILLIMETRE = 1e6
 """1 N/mm² in Pa."""
 
-SINGLE_PRECISION = 1e-6
-"""Relative slack of bounds by which connections are left out before they are judged."""
-
 ROUNDING = 1e-9
 """Largest difference of principal second moments of a square that was cut from a mesh, as a part of the larger."""
 

@@ -7,18 +7,34 @@ than it has taken since the bodies touched.
 
 from __future__ import annotations
 
-import itertools
-
 import numpy as np
 
 from ..arrays import FloatArray, IntArray
-from .compiled_mechanics import touch_loops
+from ..core.calls import call
+from ..core.structs import Count, Doubles, Indices, Struct, WrittenDoubles, WrittenIndices
 
-_APART = 3
+APART = 3
 """Sub-steps without any work after which bodies have parted; what trembles touches again before."""
 
 _NO_PAIR = np.iinfo(np.int64).max
 """Number after those of all pairs, so that one is found for each."""
+
+
+class CoreTouches(Struct):
+    """Accounts of pairs that touch, and their work in sub-steps: `bda_touches`."""
+
+    _fields_ = (
+        *((name, Count) for name in ("count", "substeps", "substep", "apart")),
+        ("pairs", Indices),
+        ("work", Doubles),
+        ("order", Indices),
+        ("ends", Indices),
+        ("returned", WrittenDoubles),
+        *((name, Count) for name in ("room", "known", "side")),
+        ("all_pairs", WrittenIndices),
+        ("taken", WrittenDoubles),
+        ("last", WrittenIndices),
+    )
 
 
 class Touches:
@@ -46,33 +62,25 @@ class Touches:
         ends : (s + 1,) int
             Where the rows of each of s sub-steps begin and end.
         """
-        loops = touch_loops()
+        count, substeps, known = len(work_j), len(ends) - 1, len(self._pairs)
+        room = count + known + 1
+        all_pairs, taken_j, last = np.empty((2, room), int), np.empty((2, room)), np.empty((2, room), int)
+        all_pairs[0, :known], taken_j[0, :known], last[0, :known] = self._pairs, self._taken_j, self._last
         returned_j: FloatArray = np.zeros_like(work_j)
-        if loops is not None:
-            accounts = self._pairs, self._taken_j, self._last
-            order = np.lexsort((pairs, np.repeat(np.arange(len(ends) - 1), np.diff(ends))))
-            found = loops.returned(pairs, work_j, order, ends, *accounts, self._substep, _APART)
-            returned_j, self._pairs, self._taken_j, self._last = found
-            self._substep += len(ends) - 1
-            return returned_j
-        for start, end in itertools.pairwise(ends.tolist()):
-            working = start + np.flatnonzero(work_j[start:end])
-            if len(working):
-                order = working[np.argsort(pairs[working], kind="stable")]
-                returned_j[order] = self._book(pairs[order], work_j[order])
-            self._substep += 1
+        touches = CoreTouches(count=count, substeps=substeps, substep=self._substep, apart=APART)
+        touches.room, touches.known = room, known
+        touches.take(
+            pairs=(pairs, count),
+            work=(work_j, count),
+            order=(np.lexsort((pairs, np.repeat(np.arange(substeps), np.diff(ends)))), count),
+            ends=(ends, substeps + 1),
+            returned=(returned_j, count),
+            all_pairs=(all_pairs, 2 * room),
+            taken=(taken_j, 2 * room),
+            last=(last, 2 * room),
+        )
+        call("bda_book_touches", touches)
+        kept = touches.side, slice(touches.known)
+        self._pairs, self._taken_j, self._last = all_pairs[kept].copy(), taken_j[kept].copy(), last[kept].copy()
+        self._substep += substeps
         return returned_j
-
-    def _book(self, pairs: IntArray, work_j: FloatArray) -> FloatArray:
-        """Book the work of pairs (k,), in ascending order, in one sub-step; return what they give back."""
-        touch = self._last >= self._substep - _APART
-        rows = np.searchsorted(self._pairs, pairs)
-        had_j = np.where((self._pairs[rows] == pairs) & touch[rows], self._taken_j[rows], 0.0)
-        touch[rows[self._pairs[rows] == pairs]] = False
-        touch[-1] = True
-        all_pairs = np.concatenate((pairs, self._pairs[touch]))
-        order = np.argsort(all_pairs, kind="stable")
-        self._pairs = all_pairs[order]
-        self._taken_j = np.concatenate((np.maximum(had_j - work_j, 0.0), self._taken_j[touch]))[order]
-        self._last = np.concatenate((np.full(len(pairs), self._substep), self._last[touch]))[order]
-        return np.clip(work_j, 0.0, had_j)

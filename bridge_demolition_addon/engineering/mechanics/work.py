@@ -22,8 +22,9 @@ import numpy as np
 
 from ..arithmetic import power
 from ..arrays import BoolArray, FloatArray, IntArray
+from ..core.calls import call
+from ..core.structs import Count, Doubles, Flags, Indices, Struct, WrittenDoubles, WrittenIndices
 from ..geometry.vectors import as_components, as_vectors, cross_by_component, dot
-from .compiled_mechanics import frame_loops
 from .forces import PairSums
 from .touches import Touches
 
@@ -229,7 +230,7 @@ class WorkAccumulator:
         # The velocity of a point p of a body is v + ω × (p - c): of what it has at the origin and of ω.
         at_origin = mean.velocities_m_s - cross_by_component(mean.angular_velocities_rad_s, mean.centres_m)
         motion = _components(at_origin, mean.angular_velocities_rad_s)
-        on_first, on_second = _works(between, motion, first, second)
+        on_first, on_second = works_on_bodies(between, motion, first, second)
         if between.substeps is not None:
             first, second, on_first, on_second = _of_both_bodies(first, second, on_first, on_second)
         total = on_first - on_second
@@ -242,7 +243,7 @@ class WorkAccumulator:
             total[~(is_free[first] | is_free[second])] = 0.0
             lower, upper = np.minimum(first, second) % bodies, np.maximum(first, second) % bodies
             returned_j = self._touches.returned(bodies * lower + upper, total, ends)
-        shared = _shared(total, returned_j, on_first, on_second, first, second, is_free)
+        shared = shared_work(total, returned_j, on_first, on_second, first, second, is_free)
         starts = np.searchsorted(shared.rows, ends)
         return PairWork(
             taken_j=[float(shared.taken_j[start:end].sum()) for start, end in itertools.pairwise(ends.tolist())],
@@ -307,25 +308,59 @@ def _of_tools(
     return works
 
 
-def _works(
+class CoreWorks(Struct):
+    """Impulses of pairs, and the motion of their bodies: `bda_works`."""
+
+    _fields_ = (
+        ("count", Count),
+        ("bodies", Count),
+        ("first", Indices),
+        ("second", Indices),
+        *((name, Doubles) for name in ("impulses", "points", "angular", "motion")),
+        *((name, WrittenDoubles) for name in ("on_first", "on_second")),
+    )
+
+
+def works_on_bodies(
     between: PairImpulses, motion: FloatArray, first: IntArray, second: IntArray
 ) -> tuple[FloatArray, FloatArray]:
     """Return the work of impulses on first and on second bodies, rows (k,) of their motion (6, s n)."""
-    loops = frame_loops()
-    if loops is None:
-        loads = between.components()
-        on_first, on_second = (_dot(loads, [*motion.take(bodies, axis=1)]) for bodies in (first, second))
-        return on_first, on_second
-    angular = between.angular_impulses_nms
-    turning = np.zeros((3, 0)) if angular is None else _rows(angular)
-    found: tuple[FloatArray, FloatArray] = loops.works(
-        first, second, _rows(between.impulses_ns), _rows(between.points_m), turning, motion
+    count, bodies = len(first), motion.shape[1]
+    on_first, on_second = np.empty((2, count))
+    works = CoreWorks(count=count, bodies=bodies).take(
+        first=(first, count),
+        second=(second, count),
+        impulses=(_rows(between.impulses_ns), 3 * count),
+        points=(_rows(between.points_m), 3 * count),
+        motion=(motion, 6 * bodies),
+        on_first=(on_first, count),
+        on_second=(on_second, count),
     )
-    return found
+    if between.angular_impulses_nms is not None:
+        works.take(angular=(_rows(between.angular_impulses_nms), 3 * count))
+    call("bda_find_works", works)
+    return on_first, on_second
+
+
+class CoreSharedWork(Struct):
+    """Work between pairs by what it does: `bda_shared_work`."""
+
+    _fields_ = (
+        ("count", Count),
+        ("bodies", Count),
+        ("first", Indices),
+        ("second", Indices),
+        *((name, Doubles) for name in ("total", "on_first", "on_second", "returned")),
+        ("is_free", Flags),
+        ("taken", WrittenDoubles),
+        ("rows", WrittenIndices),
+        *((name, WrittenDoubles) for name in ("made", "by_first", "by_second")),
+        ("makers", Count),
+    )
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class _SharedWork:
+class SharedWork:
     """Work of k pairs in all of s sub-steps, J: what is taken, and what is made, by the bodies that get it."""
 
     taken_j: FloatArray  # (k,), less what comes back of it, as negative numbers
@@ -335,7 +370,7 @@ class _SharedWork:
     by_second_j: FloatArray
 
 
-def _shared(
+def shared_work(
     total: FloatArray,
     returned_j: FloatArray,
     on_first: FloatArray,
@@ -343,31 +378,31 @@ def _shared(
     first: IntArray,
     second: IntArray,
     is_free: BoolArray,
-) -> _SharedWork:
+) -> SharedWork:
     """Return the works (k,) of pairs of bodies, rows of `is_free` (s n,), by what they do; (0,) where none is returned.
 
     Pairs of bodies that are both led do no work that counts.
     """
-    loops = frame_loops()
-    if loops is not None:
-        return _SharedWork(*loops.shared(total, returned_j, on_first, on_second, first, second, is_free))
-    first_free, second_free = is_free[first], is_free[second]
-    total = np.where(first_free | second_free, total, 0.0)
-    taken = np.minimum(total, 0.0)
+    count, bodies = len(total), len(is_free)
+    taken, made, rows = np.empty(count), np.empty(count), np.empty(count, int)
+    by_first, by_second = np.zeros((2, bodies))
+    work = CoreSharedWork(count=count, bodies=bodies).take(
+        first=(first, count),
+        second=(second, count),
+        total=(total, count),
+        on_first=(on_first, count),
+        on_second=(on_second, count),
+        is_free=(is_free, bodies),
+        taken=(taken, count),
+        rows=(rows, count),
+        made=(made, count),
+        by_first=(by_first, bodies),
+        by_second=(by_second, bodies),
+    )
     if len(returned_j):
-        total, taken = total - returned_j, taken + returned_j
-    rows = np.flatnonzero(total > 0.0)
-    gains = [
-        np.maximum(gain.take(rows), 0.0) * are_free.take(rows)
-        for gain, are_free in ((on_first, first_free), (-on_second, second_free))
-    ]
-    both, made = gains[0] + gains[1], total.take(rows)
-    share = np.divide(made, both, out=np.zeros_like(both), where=both > 0.0)
-    by_body = [
-        np.bincount(bodies.take(rows), share * gain, len(is_free))
-        for bodies, gain in zip((first, second), gains, strict=True)
-    ]
-    return _SharedWork(taken, rows, made, *by_body)
+        work.take(returned=(returned_j, count))
+    call("bda_share_work", work)
+    return SharedWork(taken, rows[: work.makers], made[: work.makers], by_first, by_second)
 
 
 def _of_both_bodies(

@@ -1,15 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The Friedlander pulse against numerical integration and against its own limits."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from numpy.polynomial.legendre import leggauss
 
 from bridge_demolition_addon.engineering.blast.pulses import (
     LARGEST_SHARE,
+    Pulses,
     decay_of,
     fitted,
-    pulse_impulse,
+    impulse_between,
     pulse_pressure,
     whole_impulse,
 )
@@ -17,6 +20,10 @@ from bridge_demolition_addon.engineering.blast.pulses import (
 DECAYS = (0.0, 1e-12, 1e-6, 1e-3, 0.1, 0.49999, 0.5, 0.50001, 1.0, 8.48, 60.0)
 INTERVALS = ((-1.0, 9.0), (-1.0, 0.3), (0.2, 0.9), (1.7, 9.0), (0.0, 2.0), (0.5, 0.5), (-2.0, -1.0), (2.0, 3.0))
 PEAK, DURATION = 3.0e5, 2.0
+
+
+def pulse_impulse(peak, duration, decay, start, end):
+    return impulse_between(Pulses(*(np.array([value]) for value in (0.0, peak, duration, decay))), start, end).item()
 
 
 def integrated(decay, start, end):
@@ -60,7 +67,7 @@ def test_no_decay_is_a_triangle():
 def test_any_cut_into_steps_adds_up():
     edges = np.concatenate(([-3.0], np.sort(np.random.default_rng(4).uniform(-1.0, 3.0, 500)), [5.0]))
     for decay in DECAYS:
-        parts = pulse_impulse(PEAK, DURATION, decay, edges[:-1], edges[1:])
+        parts = np.array([pulse_impulse(PEAK, DURATION, decay, *step) for step in pairwise(edges.tolist())])
         # Rounding in a sum of 500 positive numbers.
         assert parts.sum() == pytest.approx(whole_impulse(PEAK, DURATION, decay), rel=1e-12)
         assert (parts >= 0.0).all()

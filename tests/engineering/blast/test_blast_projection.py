@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Convex hulls and projected areas against shapes whose shadows are known."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from reference import blast as reference
 
-from bridge_demolition_addon.engineering.blast import exposure
 from bridge_demolition_addon.engineering.blast.exposure import UPWARDS, lines_of_blast, projected_areas
 from bridge_demolition_addon.engineering.geometry.hulls import convex_hulls
 from bridge_demolition_addon.engineering.geometry.rotations import rotated
@@ -114,15 +116,25 @@ def test_faces_turned_to_the_source_are_half_of_all():
     np.testing.assert_allclose(facing, projected_areas(hulls, rotations, directions), rtol=1e-12)
 
 
-def test_the_compiled_loop_gives_the_bits_of_numpy(monkeypatch):
-    rng = np.random.default_rng(11)
-    hulls = convex_hulls([rng.normal(size=(count, 3)) for count in (4, 6, 20, 45)])
-    rotations = rotated(np.tile(np.eye(3), (4, 1, 1)), rng.normal(size=(4, 3)))
-    directions = unit(rng.normal(size=(4, 3, 3)))
-    compiled = projected_areas(hulls, rotations, directions)
-    assert exposure.area_loops() is not None and hulls.most_faces > 30
-    monkeypatch.setattr(exposure, "area_loops", lambda: None)
-    np.testing.assert_array_equal(compiled, projected_areas(hulls, rotations, directions))
+@pytest.mark.parametrize("seed", range(3))
+def test_areas_are_those_of_the_reference(seed):
+    rng = np.random.default_rng(seed)
+    hulls = convex_hulls([rng.normal(size=(count, 3)) for count in (4, 6, 20, 45, 300, 8, 12)])
+    turns = rotated(np.tile(np.eye(3), (7, 1, 1)), rng.normal(size=(7, 3)))
+    directions = unit(rng.normal(size=(7, 40, 3)))
+    found = projected_areas(hulls, turns, directions)
+    assert hulls.most_faces > 30
+    np.testing.assert_array_equal(found, reference.projected_areas(hulls, turns, directions))
+
+
+def test_hulls_that_do_not_fit_are_not_read():
+    hulls, rotations, directions = random_bodies()
+    with pytest.raises(ValueError, match="rotations has"):
+        projected_areas(hulls, rotations[1:], directions)
+    starts = hulls.starts.copy()
+    starts[-1] += 1
+    with pytest.raises(ValueError, match="rows that there are not"):
+        projected_areas(replace(hulls, starts=starts), rotations, directions)
 
 
 def test_all_bodies_together_are_all_bodies_one_by_one():

@@ -41,3 +41,17 @@ def test_gaps_are_closed_where_they_are_narrower_and_nothing_is_lost():
     assert without_gaps(far, 1.0).area() == pytest.approx(2.0, abs=1e-3)
     assert without_gaps(far, 1.0).num_contour() == 2
     assert without_gaps(CrossSection(), 1.0).is_empty()
+
+
+@pytest.mark.parametrize("lost", [(np.nan, 1.0), (1.0, np.nan), (np.inf, 0.0), (9.0, -np.inf)])
+def test_points_that_are_lost_are_not_near(lost):
+    with np.errstate(invalid="ignore"):
+        found = distances_outside(SQUARE, np.array([lost, (9.0, 0.0)]))
+    assert not np.isfinite(found[0]) and found[1] == 8.0
+
+
+def test_points_level_with_corners_and_on_sides():
+    diamond = CrossSection([np.array([(0.0, -1.0), (1.0, 0.0), (0.0, 1.0), (-1.0, 0.0)])])
+    points = np.array([(-2.0, 0.0), (0.5, 0.0), (1.0, 0.0), (2.0, 0.0), (-1.0, 1.0), (0.0, 3.0), (0.5, 0.5)])
+    assert distances_outside(diamond, points) == pytest.approx([1.0, 0.0, 0.0, 1.0, np.sqrt(0.5), 2.0, 0.0])
+    assert distances_outside(diamond, np.zeros((0, 2))).shape == (0,)

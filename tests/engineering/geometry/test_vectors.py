@@ -3,8 +3,8 @@
 
 import numpy as np
 import pytest
+from reference.geometry import diagonalised
 
-from bridge_demolition_addon.engineering.geometry import vectors
 from bridge_demolition_addon.engineering.geometry.vectors import (
     cross_2d,
     distance,
@@ -13,6 +13,7 @@ from bridge_demolition_addon.engineering.geometry.vectors import (
     outer,
     product,
     symmetric_eigenvalues,
+    symmetric_eigenvectors,
     symmetric_eigenvectors_2d,
     transformed,
     transformed_back,
@@ -31,7 +32,7 @@ def close(found, expected):
     np.testing.assert_allclose(found, expected, rtol=0.0, atol=ROUNDING)
 
 
-def test_products_are_those_of_numpy():
+def test_products_are_those_of_the_reference():
     close(dot(FIRST, SECOND), (FIRST * SECOND).sum(axis=1))
     close(dot(FIRST[:, None], SECOND), FIRST @ SECOND.T)
     close(transformed(MATRICES, FIRST), np.einsum("nij,nj->ni", MATRICES, FIRST))
@@ -74,11 +75,31 @@ def test_principal_axes_that_lie_along_the_axes(matrix):
     close(matrix @ vectors, vectors * values)
 
 
-@pytest.mark.parametrize("matrix", [MATRICES + np.swapaxes(MATRICES, 1, 2), np.zeros((4, 2, 3, 3)), 1e200 * np.eye(3)])
-def test_compiled_eigenvalues_have_the_same_bits(matrix, monkeypatch):
-    compiled = symmetric_eigenvalues(matrix)
-    assert vectors.eigenvalue_loops() is not None
-    monkeypatch.setattr(vectors, "eigenvalue_loops", lambda: None)
-    plain = symmetric_eigenvalues(matrix)
-    assert compiled.shape == plain.shape
-    np.testing.assert_array_equal(compiled.view(np.int64), plain.view(np.int64))
+def symmetric_matrices(seed):
+    """Random ones, and ones that are diagonal already, equal in some axes, or of very different sizes."""
+    rng = np.random.default_rng(seed)
+    matrices = rng.normal(size=(3000, 3, 3)) * 10.0 ** rng.integers(-150, 150, (3000, 1, 1))
+    matrices[:500] *= rng.integers(0, 2, (500, 3, 3))
+    matrices[500:1000] = rng.integers(-1, 2, (500, 3, 3))
+    matrices[1000:1500, 0] *= 1e-9
+    return np.concatenate((matrices + np.swapaxes(matrices, 1, 2), np.zeros((1, 3, 3)), 1e200 * np.eye(3)[None]))
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_eigenvalues_and_eigenvectors_are_those_of_the_reference(seed):
+    matrices = symmetric_matrices(seed)
+    values, rows = diagonalised(matrices, np.broadcast_to(np.eye(3), matrices.shape))
+    found, columns = symmetric_eigenvectors(matrices.reshape(2, -1, 3, 3))
+    order = np.argsort(values, axis=-1, kind="stable")
+    np.testing.assert_array_equal(symmetric_eigenvalues(matrices), np.sort(values, axis=-1))
+    np.testing.assert_array_equal(found.reshape(-1, 3), np.sort(values, axis=-1))
+    rows = np.take_along_axis(rows, order[..., None], axis=-2)
+    np.testing.assert_array_equal(np.swapaxes(columns, -1, -2).reshape(-1, 3, 3)[:, :2], rows[:, :2])
+
+
+def test_matrices_stay_as_they_are():
+    matrices = np.asfortranarray(MATRICES + np.swapaxes(MATRICES, 1, 2))
+    before = matrices.copy()
+    assert symmetric_eigenvalues(matrices[:0]).shape == (0, 3)
+    symmetric_eigenvectors(matrices)
+    assert matrices.tolist() == before.tolist()

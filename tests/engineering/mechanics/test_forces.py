@@ -5,7 +5,8 @@ import numpy as np
 import pytest
 
 from bridge_demolition_addon.engineering.geometry.rotations import carried_points
-from bridge_demolition_addon.engineering.mechanics.forces import PairSums, moments_at
+from bridge_demolition_addon.engineering.mechanics.carried_sections import CarriedSections
+from bridge_demolition_addon.engineering.mechanics.forces import PairSums
 
 NO_PAIRS, NO_VECTORS = np.zeros((0, 2), int), np.zeros((0, 3))
 
@@ -66,6 +67,14 @@ def test_bodies_without_connections_feel_nothing():
     assert resultants(NO_PAIRS, NO_VECTORS, 3).tolist() == np.zeros((3, 3)).tolist()
     assert magnitude_sums(NO_PAIRS, np.linalg.norm(NO_VECTORS, axis=1), 3).tolist() == [0, 0, 0]
     assert resultants(CHAIN, CHAIN_FORCES, 5)[3:].tolist() == np.zeros((2, 3)).tolist()
+
+
+def moments_at(points, forces, torques, centres):
+    """Moments about points of bodies that are not turned, each loaded about its own centre."""
+    count = len(points)
+    sections = CarriedSections(np.arange(count), np.ones(count), points - centres, np.tile(np.eye(3), (count, 1, 1)))
+    turns = np.repeat(np.eye(3)[..., None], count, axis=-1)
+    return sections.loads_at_once(np.concatenate((forces.T, torques.T)), centres.T, turns).moments_nm
 
 
 def test_moment_that_clamps_a_cantilever():

@@ -3,7 +3,9 @@
 
 import numpy as np
 import pytest
+from reference.overloads import cut_sections as sections_of_cuts
 
+from bridge_demolition_addon.engineering.mechanics.overloads import Overloads
 from bridge_demolition_addon.engineering.mechanics.section_cuts import (
     ConnectedFaces,
     ConnectionLoads,
@@ -36,7 +38,7 @@ def cut_sections(rows, forces, moments, intact=INTACT):
     cuts = SectionCuts.through(FACES, IS_SHARD)
     rows = np.array(rows)
     axes = section_axes(DIRECTIONS[rows])
-    return cuts.sections(rows, intact, ConnectionLoads(forces, moments, POINTS), axes)
+    return sections_of_cuts(cuts, rows, intact, ConnectionLoads(forces, moments, POINTS), axes)
 
 
 def test_faces_of_one_side_make_the_whole_section():
@@ -63,15 +65,31 @@ def test_load_is_that_of_the_section_however_it_is_shared(shares):
     assert loads.shear_n[:2] == pytest.approx(np.tile([0.0, -60e3], (2, 1)))
     assert loads.bending_nm[:2] == pytest.approx(np.tile([120e3, 0.0], (2, 1)))
     strength = Strength.in_n_mm2(compression=1e9, tension=10.0, shear=1e9, torsion=1e9, bending=10.0)
-    used = utilisation(loads, rectangular_sections(areas, second_moments), strength)[0]
+    used = utilisation(loads, rectangular_sections(areas, second_moments), strength)
     # By hand: N/A + M/W with W = b h² / 6.
-    assert used == pytest.approx((90e3 / 0.4 + 120e3 / (WIDTH / 6.0)) / 10e6, rel=1e-6)
+    assert used[0] == pytest.approx((90e3 / 0.4 + 120e3 / (WIDTH / 6.0)) / 10e6, rel=1e-6)
+    judged = Overloads(FACES, IS_SHARD, strength, None)
+    of_all, axes = ConnectionLoads(forces, moments, POINTS), section_axes(DIRECTIONS[1:3])
+    # Beyond the cut each shard has one face, with its own load: the mean of both cuts counts.
+    assert judged.in_cuts(np.array([1, 2]), of_all, axes, INTACT) == pytest.approx((used[:2] + used[2:]) / 2.0)
 
 
 def test_a_broken_face_is_in_no_cut():
     zero = np.zeros((4, 3))
     _, areas, _ = cut_sections([1], zero, zero, intact=np.array([True, True, False, True]))
     assert areas[0] == pytest.approx(AREAS[1] + AREAS[3])
+
+
+def test_what_a_broken_face_carried_is_in_no_cut():
+    # An even pull of 2 MPa on all faces; the shards beyond the cut have one face each.
+    forces = 2e6 * AREAS[:, None] * DIRECTIONS
+    strength = Strength.in_n_mm2(compression=1e9, tension=4.0, shear=1e9, torsion=1e9, bending=1e9)
+    judged = Overloads(FACES, IS_SHARD, strength, None)
+    of_all, axes = ConnectionLoads(forces, np.zeros((4, 3)), POINTS), section_axes(DIRECTIONS[1:2])
+    for intact in (INTACT, np.array([True, True, False, True])):
+        assert judged.in_cuts(np.array([1]), of_all, axes, intact) == pytest.approx(0.5, rel=1e-6)
+    forces[2] *= 1e3
+    assert judged.in_cuts(np.array([1]), of_all, axes, intact) == pytest.approx(0.5, rel=1e-6)
 
 
 def test_through_what_is_no_shard_goes_one_face():
@@ -86,7 +104,9 @@ def test_slanted_faces_count_with_what_they_show():
     zero = np.zeros((3, 3))
     cuts = SectionCuts.through(ConnectedFaces(pairs, zero, slanted, np.ones(3), np.zeros((3, 2, 2))), np.ones(4, bool))
     row = np.array([0])
-    _, areas, _ = cuts.sections(row, np.ones(3, bool), ConnectionLoads(zero, zero, zero), section_axes(slanted[:1]))
+    _, areas, _ = sections_of_cuts(
+        cuts, row, np.ones(3, bool), ConnectionLoads(zero, zero, zero), section_axes(slanted[:1])
+    )
     assert areas.tolist() == [1.6, 1.0]
 
 

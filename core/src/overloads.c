@@ -1,0 +1,304 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "overloads.h"
+
+#include "sums.h"
+
+#include <math.h>
+
+static const double SINGLE_PRECISION = 1e-6; /* slack of bounds by which connections are left out */
+static const double ROUNDING = 1e-9;         /* largest difference of principal second moments of a square */
+
+enum { COMPRESSION, TENSION, SHEAR, TORSION, BENDING };
+
+/* Load on the first body of a connection, about the connection's point. */
+typedef struct {
+    double force[3], moment[3], point[3];
+} carried_load;
+
+/* A section as the rectangle with the same area and second moments. */
+typedef struct {
+    double area, directions[4], moduli[2], torsion_modulus; /* directions: principal axes of bending as columns */
+} section;
+
+/* Larger of two numbers; none where one of them is none. */
+static double larger(double one, double other)
+{
+    return one != one || one > other ? one : other;
+}
+
+/* Load of a connection after a sub-step. */
+static void carry(const bda_carried_loads *all, int64_t step, int64_t row, carried_load *load)
+{
+    const bda_carried *own = all->carried + row;
+    int64_t places = all->substeps * all->bodies, place = step * all->bodies + own->body;
+    int64_t loads = all->substeps * all->connections, at = step * all->connections + row;
+    double centre[3], turned[3], lever[3], force[3], torque[3], by_force[3];
+    vector_at(all->positions, places, place, centre);
+    turned_at(all->rotations, places, place, own->point, turned);
+    vector_at(all->loads, loads, at, force);
+    vector_at(all->loads + 3 * loads, loads, at, torque);
+    for (int axis = 0; axis < 3; axis++) {
+        load->point[axis] = centre[axis] + turned[axis];
+        lever[axis] = load->point[axis] - centre[axis];
+    }
+    cross3(lever, force, by_force);
+    for (int axis = 0; axis < 3; axis++) {
+        load->moment[axis] = own->sign * (torque[axis] - by_force[axis]);
+        load->force[axis] = own->sign * force[axis];
+    }
+}
+
+/* Axes of a section, one after another, as they turn with its body. */
+static void turn_axes(const bda_carried_loads *all, int64_t row, double axes[3][3])
+{
+    const bda_carried *own = all->carried + row;
+    for (int axis = 0; axis < 3; axis++) {
+        const double column[3] = {own->axes[axis], own->axes[3 + axis], own->axes[6 + axis]};
+        turned_at(all->rotations, all->bodies, own->body, column, axes[axis]);
+    }
+}
+
+static void in_axes(double axes[3][3], const double vector[3], double along[3])
+{
+    for (int axis = 0; axis < 3; axis++)
+        along[axis] = dot3(axes[axis], vector);
+}
+
+/* Section with an area and second moments. Its edges are as far from its middle as those of the rectangle with the same:
+ * √(3 I / A). Torsion of b > c: stress = T / (b c²) (3 + 1.8 c / b) (S. Timoshenko, 1955, Strength of Materials, part I,
+ * section 62). Principal axes by Jacobi's rotation; squares, which rounding alone would turn, lie along the section's. */
+static section rectangle(double area, const double second[3])
+{
+    double tangent = 0.0;
+    if (second[1] != 0.0) {
+        double ratio = (second[2] - second[0]) / (2.0 * second[1]);
+        tangent = (ratio >= 0.0 ? 1.0 : -1.0) / (fabs(ratio) + sqrt(ratio * ratio + 1.0));
+    }
+    double cosine = 1.0 / sqrt(tangent * tangent + 1.0), sine = tangent * cosine, slope = sine / cosine;
+    double small = second[0] - slope * second[1], large = second[2] + slope * second[1];
+    section s = {area > 0.0 ? area : NAN, {cosine, sine, -sine, cosine}, {0.0, 0.0}, 0.0};
+    if (small > large) {
+        double other = small;
+        small = large, large = other;
+        s.directions[0] = sine, s.directions[1] = cosine, s.directions[2] = cosine, s.directions[3] = -sine;
+    }
+    if (large - small <= ROUNDING * large)
+        s.directions[0] = s.directions[3] = 1.0, s.directions[1] = s.directions[2] = 0.0;
+    double shorter = sqrt(12.0 * small / s.area), longer = sqrt(12.0 * large / s.area);
+    s.moduli[0] = 2.0 * small / shorter;
+    s.moduli[1] = 2.0 * large / longer;
+    s.torsion_modulus = s.area * shorter / (3.0 + 1.8 * shorter / longer);
+    return s;
+}
+
+/* Utilisation of a section by force and moment in its axes, with the strength of a connection: the larger of the stretched
+ * and the pressed edge acts together with shear, √(edge² + shear²) (EN 1993-1-1:2005, equation 6.1; L. Ye, 1988). Friction
+ * helps a pressed section: EN 1992-1-1:2004, equation 6.25. */
+static double utilisation(const bda_judging *j, int64_t row, const section *s, const double force[3],
+                          const double moment[3])
+{
+    const double *strength = j->resisting[row].strength, *d = s->directions;
+    double axial = force[0] / s->area;
+    double first = fabs(d[0] * moment[1] + d[2] * moment[2]), second = fabs(d[1] * moment[1] + d[3] * moment[2]);
+    double bending = first / s->moduli[0] + second / s->moduli[1];
+    double shear = sqrt(force[1] * force[1] + force[2] * force[2]) / s->area;
+    if (j->friction)
+        shear = larger(shear + j->friction[row] * (axial > 0.0 ? 0.0 : axial), 0.0);
+    shear = shear / strength[SHEAR];
+    shear += fabs(moment[0]) / s->torsion_modulus / strength[TORSION];
+    double stretched = axial / strength[axial > 0.0 ? TENSION : BENDING] + bending / strength[BENDING];
+    double edge = larger(stretched, (bending - axial) / (j->pressed[row] * strength[COMPRESSION]));
+    return sqrt(edge * edge + shear * shear);
+}
+
+/* Utilisation of a connection alone, by whole strengths. */
+static double used_alone(const bda_judging *j, const bda_carried_loads *all, int64_t row)
+{
+    const bda_resisting *own = j->resisting + row;
+    section s = {own->area > 0.0 ? own->area : NAN,
+                 {own->directions[0], own->directions[1], own->directions[2], own->directions[3]},
+                 {own->moduli[0], own->moduli[1]},
+                 own->torsion_modulus};
+    double axes[3][3], force[3], moment[3];
+    carried_load load;
+    carry(all, 0, row, &load);
+    turn_axes(all, row, axes);
+    in_axes(axes, load.force, force);
+    in_axes(axes, load.moment, moment);
+    return utilisation(j, row, &s, force, moment);
+}
+
+/* Whether the load of a connection is so small that it holds, whatever it acts on. */
+static int holds_anyway(const bda_judging *j, const bda_carried_loads *all, int64_t row)
+{
+    double force[3], torque[3];
+    vector_at(all->loads, all->connections, row, force);
+    vector_at(all->loads + 3 * all->connections, all->connections, row, torque);
+    double push = sqrt(dot3(force, force)), turn = sqrt(dot3(torque, torque));
+    double most = (j->by_force[row] + j->by_moment[row] * j->levers[row]) * push + j->by_moment[row] * turn;
+    return !(most * (1.0 + SINGLE_PRECISION) > j->left[row]);
+}
+
+/* Find the intact faces of a cut, and return how many there are. */
+static int64_t intact_faces(const bda_judging *j, int64_t cut)
+{
+    int64_t count = 0;
+    for (int64_t entry = j->starts[cut]; entry < j->starts[cut + 1]; entry++)
+        if (j->intact[j->through[entry].face])
+            j->found[count++] = entry;
+    return count;
+}
+
+/* Middle of the faces of a cut that are noted, by their areas, and their area. */
+static double middle_of_cut(const bda_judging *j, int64_t count, double middle[3])
+{
+    int64_t room = j->most_faces;
+    for (int64_t at = 0; at < count; at++) {
+        const bda_cut_through *member = j->through + j->found[at];
+        j->lines[at] = j->resisting[member->face].area * member->cosine;
+        for (int axis = 0; axis < 3; axis++)
+            j->lines[(1 + axis) * room + at] = j->lines[at] * j->noted[9 * at + 6 + axis];
+    }
+    double area = total_of(j->lines, count);
+    for (int axis = 0; axis < 3; axis++)
+        middle[axis] = total_of(j->lines + (1 + axis) * room, count) / area;
+    return area;
+}
+
+/* Write force, moment about a middle, and second moments of a face of a cut into a column of what is added up. */
+static void add_face(const bda_judging *j, int64_t at, double axes[3][3], const double middle[3])
+{
+    const bda_cut_through *member = j->through + j->found[at];
+    const bda_resisting *face = j->resisting + member->face;
+    const double *load = j->noted + 9 * at;
+    double lever[3], pull[3], turn[3], share = face->area * member->cosine;
+    for (int axis = 0; axis < 3; axis++) {
+        lever[axis] = load[6 + axis] - middle[axis];
+        pull[axis] = member->sign * load[axis];
+    }
+    cross3(lever, pull, turn);
+    double across = dot3(axes[1], lever), up = dot3(axes[2], lever);
+    double moved[3] = {up * up, -across * up, across * across};
+    for (int axis = 0; axis < 3; axis++) {
+        j->lines[axis * j->most_faces + at] = pull[axis];
+        j->lines[(3 + axis) * j->most_faces + at] = member->sign * load[3 + axis] + turn[axis];
+        j->lines[(6 + axis) * j->most_faces + at] = face->second[axis] * member->cosine + share * moved[axis];
+    }
+}
+
+/* Utilisation of a cut through faces that are noted and stay plane together, by the strength of a connection. */
+static double used_in_cut(const bda_judging *j, int64_t row, int64_t count, double axes[3][3])
+{
+    double middle[3], sums[9], force[3], moment[3], area = middle_of_cut(j, count, middle);
+    for (int64_t at = 0; at < count; at++)
+        add_face(j, at, axes, middle);
+    for (int line = 0; line < 9; line++)
+        sums[line] = total_of(j->lines + line * j->most_faces, count);
+    in_axes(axes, sums, force);
+    in_axes(axes, sums + 3, moment);
+    section s = rectangle(area, sums + 6);
+    return utilisation(j, row, &s, force, moment);
+}
+
+static void note(const bda_judging *j, int64_t at, const double force[3], const double moment[3], const double point[3])
+{
+    for (int axis = 0; axis < 3; axis++) {
+        j->noted[9 * at + axis] = force[axis];
+        j->noted[9 * at + 3 + axis] = moment[axis];
+        j->noted[9 * at + 6 + axis] = point[axis];
+    }
+}
+
+/* Utilisation, by what is left, of the cuts through both shards of a connection. What a face carries is worked out for
+ * each cut: mostly few are overloaded alone, and numbers that are kept take longer to find again. */
+static double used_in_both(const bda_judging *j, const bda_carried_loads *all, int64_t row)
+{
+    double axes[3][3], sides[2];
+    turn_axes(all, row, axes);
+    for (int side = 0; side < 2; side++) {
+        int64_t count = intact_faces(j, row + side * j->connections);
+        for (int64_t at = 0; at < count; at++) {
+            carried_load load;
+            carry(all, 0, j->through[j->found[at]].face, &load);
+            note(j, at, load.force, load.moment, load.point);
+        }
+        sides[side] = used_in_cut(j, row, count, axes);
+    }
+    return (sides[0] + sides[1]) / 2.0 / j->left[row];
+}
+
+/* Write forces, moments and points (3, s, m) of all connections. */
+int bda_carry(const bda_carried_loads *all, double *forces, double *moments, double *points)
+{
+    int64_t count = all->substeps * all->connections;
+    for (int64_t step = 0; step < all->substeps; step++)
+        for (int64_t row = 0; row < all->connections; row++) {
+            carried_load load;
+            carry(all, step, row, &load);
+            put_vector(forces, count, step * all->connections + row, load.force);
+            put_vector(moments, count, step * all->connections + row, load.moment);
+            put_vector(points, count, step * all->connections + row, load.point);
+        }
+    return BDA_DONE;
+}
+
+/* Find the intact connections that loads overload alone. */
+int bda_over_alone(bda_judging *j, const bda_carried_loads *all)
+{
+    j->count = 0;
+    if (all->substeps != 1 || all->connections != j->connections)
+        return BDA_OUT_OF_RANGE;
+    for (int64_t row = 0; row < j->connections; row++) {
+        if (!j->intact[row] || holds_anyway(j, all, row))
+            continue;
+        double used = used_alone(j, all, row) / j->left[row];
+        if (used > 1.0) {
+            j->rows[j->count] = row;
+            j->used[j->count++] = used;
+        }
+    }
+    return BDA_DONE;
+}
+
+/* Find those that loads overload alone and in their cuts, with their utilisations in these. */
+int bda_over_in_cuts(bda_judging *j, const bda_carried_loads *all)
+{
+    int answer = bda_over_alone(j, all);
+    int64_t alone = j->count;
+    if (answer != BDA_DONE || !alone)
+        return answer;
+    j->count = 0;
+    for (int64_t number = 0; number < alone; number++) {
+        int64_t row = j->rows[number];
+        double used = used_in_both(j, all, row);
+        if (used > 1.0) {
+            j->rows[j->count] = row;
+            j->used[j->count++] = used;
+        }
+    }
+    return BDA_DONE;
+}
+
+/* Write utilisations of the cuts of some connections. */
+int bda_used_in_cuts(const bda_judging *j, const bda_loads_in_cuts *loads)
+{
+    for (int64_t number = 0; number < loads->count; number++) {
+        int64_t row = loads->rows[number];
+        double axes[3][3], sides[2];
+        if (row < 0 || row >= j->connections)
+            return BDA_OUT_OF_RANGE;
+        for (int axis = 0; axis < 3; axis++)
+            for (int line = 0; line < 3; line++)
+                axes[axis][line] = loads->axes[9 * number + 3 * line + axis];
+        for (int side = 0; side < 2; side++) {
+            int64_t count = intact_faces(j, row + side * j->connections);
+            for (int64_t at = 0; at < count; at++) {
+                int64_t face = 3 * j->through[j->found[at]].face;
+                note(j, at, loads->forces + face, loads->moments + face, loads->points + face);
+            }
+            sides[side] = used_in_cut(j, row, count, axes);
+        }
+        loads->used[number] = (sides[0] + sides[1]) / 2.0;
+    }
+    return BDA_DONE;
+}
