@@ -4,11 +4,14 @@ import argparse
 import sys
 from pathlib import Path
 
-from ...errors import IfcError
+from ...errors import GeometryError, IfcError, ScenarioError
 from ...ifc.folder import SCENARIO_FILE, check_new, folder_beside
 from ...ifc.import_process import import_bridge
 from ...ifc.materials import write_material_table
 from ...ifc.settings import KINDS, UNITS, ImportSettings
+from ...model.scenario.file import read_scenario
+from ...model.sequence.checked_model import checked_model
+from ...model.stages.stability_by_statics import stability_of
 from ..progress import progress_on
 
 _MOST_SHARDS = 1_000_000
@@ -120,14 +123,25 @@ def import_ifc(arguments: argparse.Namespace) -> None:
         time_limit_s=arguments.time_limit,
         bars=arguments.bars,
     )
-    progress = progress_on(sys.stderr, quiet=arguments.quiet or not sys.stderr.isatty())
+    progress = progress_on(sys.stderr, quiet=arguments.quiet)
     try:
         imported = import_bridge(arguments.file, output, settings, progress)
+        for line in imported.lines:
+            print(line)
+        print(f"\n{output / SCENARIO_FILE}", flush=True)
+        progress.stage("working out whether it stands")
+        print(f"\n{_verdict(output / SCENARIO_FILE)}.")
     finally:
         progress.finish()
-    for line in imported.lines:
-        print(line)
-    print(f"\n{output / SCENARIO_FILE}")
+
+
+def _verdict(path: Path) -> str:
+    """Return whether what was written stands under its own weight, as a sentence without a full stop."""
+    scenario = read_scenario(path)
+    try:
+        return stability_of(scenario, checked_model(scenario), with_factor=False).sentence
+    except (GeometryError, ScenarioError) as error:
+        return f"Whether the bridge stands is not known, as it cannot be cut into shards: {error}"
 
 
 def _height(text: str) -> float:
