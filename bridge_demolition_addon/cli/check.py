@@ -44,10 +44,12 @@ from ..studies.estimate import FACTOR, disk_megabytes, duration_text, megabytes_
 from .arguments import naming
 from .blender import simulation_module
 
-_LONG_S = 20.0
+_LONG_S = 5.0
 """Time after which a check says what takes it so long."""
 
-_LONG = "bda: works out how the bridge stands, which takes minutes where much of it cracks by its own weight"
+_LONG = (
+    "bda: cuts the bridge and works out how it stands, which takes minutes where much of it cracks by its own weight"
+)
 
 
 def add_to(commands: argparse._SubParsersAction) -> None:

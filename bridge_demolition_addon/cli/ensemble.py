@@ -76,6 +76,7 @@ def _run(ensemble: Ensemble, arguments: argparse.Namespace) -> tuple[EnsembleSes
     progress = progress_on(sys.stdout, quiet=arguments.quiet)
     with signals_noted() as signals:
         session = EnsembleSession(ensemble, arguments.output, _engine(ensemble, arguments))
+        progress.stage(f"making {session.planner.total} runs in {arguments.output}")
         try:
             while not session.planner.is_finished:
                 session.step(_LOOK_EVERY_S)

@@ -23,15 +23,19 @@ def test_what_is_imported_can_be_checked(schema, tmp_path, capsys):
     assert main(["import", str(path), "--output", str(folder), "--shards", "30"]) == 0
     told = capsys.readouterr().out
     assert told.startswith("Two spans\n")
-    assert told.endswith(f"\n{folder / 'scenario.toml'}\n")
+    _, verdict = told.split(f"\n{folder / 'scenario.toml'}\n")
+    assert verdict.startswith("\nThe bridge stands under its own weight, by statics: largest utilisation ")
     assert (folder / "import.txt").read_text() in told
     assert main(["check", str(folder / "scenario.toml")]) == 0
     assert f"{MASS_KG / 1000.0:.3f} t" in capsys.readouterr().out
 
 
-def test_the_files_hold_what_was_told(path, tmp_path):
+def test_the_files_hold_what_was_told(path, tmp_path, capsys):
     folder = tmp_path / "bridge"
     assert main(["import", str(path), "--output", str(folder)]) == 0
+    said = capsys.readouterr()
+    assert said.out.splitlines()[-1].startswith("The bridge stands under its own weight")
+    assert said.err.splitlines()[0] == "reading bridge.ifc" and "whether it stands" in said.err.splitlines()[-1]
     scenario = read_scenario(folder / "scenario.toml")
     members = prepared_members(scenario).members
     assert sum(member.mass_kg for member in members) == pytest.approx(MASS_KG, rel=1e-6)
