@@ -75,7 +75,8 @@ def _distances_to_sides(points: FloatArray, starts: FloatArray, ends: FloatArray
     np.clip(shares, 0.0, 1.0, out=shares)
     x = points[0] - (starts[0] + shares * sides_x)
     y = points[1] - (starts[1] + shares * sides_y)
-    return np.sqrt((x * x + y * y).min(axis=1))
+    nearest: FloatArray = np.sqrt((x * x + y * y).min(axis=1))
+    return nearest
 
 
 def _windings(points: FloatArray, starts: FloatArray, ends: FloatArray) -> IntArray:
@@ -88,7 +89,8 @@ def _windings(points: FloatArray, starts: FloatArray, ends: FloatArray) -> IntAr
     starts_below, ends_below = starts[1] <= points[1], ends[1] <= points[1]
     rises = starts_below & ~ends_below & (is_left > 0.0)
     falls = ends_below & ~starts_below & (is_left < 0.0)
-    return np.count_nonzero(rises, axis=1) - np.count_nonzero(falls, axis=1)
+    windings: IntArray = np.count_nonzero(rises, axis=1) - np.count_nonzero(falls, axis=1)
+    return windings
 
 
 def sides_cross(corners: FloatArray) -> bool:
