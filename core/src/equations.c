@@ -27,6 +27,8 @@ static void *room(int64_t count, size_t size)
     return calloc((size_t)(count > 0 ? count : 1), size);
 }
 
+int64_t bodies_of_equations(const bda_equations *e) { return e->bodies; }
+
 void bda_equations_free(bda_equations *e)
 {
     if (!e)

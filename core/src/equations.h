@@ -23,6 +23,7 @@ typedef struct bda_equations bda_equations;
 
 BDA_API bda_equations *bda_equations_new(int64_t bodies, int64_t connections, const int64_t *first,
                                          const int64_t *second);
+int64_t bodies_of_equations(const bda_equations *equations);
 BDA_API void bda_equations_free(bda_equations *equations);
 BDA_API int bda_equations_assemble(bda_equations *equations, const double *of_bodies, int64_t count,
                                    const int64_t *connections, const blocks_of_connection *blocks);

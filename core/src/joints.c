@@ -73,6 +73,8 @@ int bda_deformations(const bda_frames *f, const bda_places *p, int64_t count, co
         if (row < 0 || row >= f->count)
             return BDA_OUT_OF_RANGE;
         int64_t a = f->first[row], b = f->second[row];
+        if (a < 0 || a >= p->count || b < 0 || b >= p->count)
+            return BDA_OUT_OF_RANGE;
         double one[3][3], other[3][3], lever[3], lever_of_second[3], shift[3];
         axes_at(p->rotations, p->count, a, f->first_axes, f->count, row, one);
         axes_at(p->rotations, p->count, b, f->second_axes, f->count, row, other);

@@ -53,10 +53,39 @@ static int64_t part_of(const bda_substep *s, int64_t number)
     return part < 0 ? s->parts : part;
 }
 
+/* Whether parts are of bodies that there are, and those that are awake have equations of these. */
+static int are_parts(const bda_substep *s)
+{
+    int64_t n = s->places->count, last = s->part_starts[s->parts];
+    if (s->part_starts[0] != 0 || last > n)
+        return 0;
+    for (int64_t part = 0; part < s->parts; part++) {
+        int64_t count = s->part_starts[part + 1] - s->part_starts[part];
+        if (count < 0 || (s->awake[part] && (!s->equations[part] || bodies_of_equations(s->equations[part]) != count)))
+            return 0;
+    }
+    for (int64_t at = 0; at < last; at++)
+        if (s->part_bodies[at] < 0 || s->part_bodies[at] >= n)
+            return 0;
+    for (int64_t body = 0; body < n; body++)
+        if (s->part_of_body[body] < -1 || s->part_of_body[body] >= s->parts)
+            return 0;
+    for (int64_t number = 0; number < s->frames->count + s->bars; number++)
+        if (s->part_of_connection[number] < -1 || s->part_of_connection[number] >= s->parts)
+            return 0;
+    return 1;
+}
+
 /* Check all numbers of bodies, connections and parts that come with a sub-step. */
 static int is_in_range(const bda_substep *s)
 {
     int64_t n = s->places->count, all = s->frames->count + s->bars;
+    if (!are_parts(s))
+        return 0;
+    for (int64_t row = 0; row < s->frames->count; row++)
+        if (s->frames->first[row] < 0 || s->frames->first[row] >= n || s->frames->second[row] < 0 ||
+            s->frames->second[row] >= n)
+            return 0;
     for (int64_t at = 0; at < s->acting_count; at++)
         if (s->acting[at] < 0 || s->acting[at] >= s->frames->count || (at && s->acting[at] <= s->acting[at - 1]))
             return 0;
@@ -66,7 +95,7 @@ static int is_in_range(const bda_substep *s)
             (t->kind == BARE_BARS && t->gaps != t->connections))
             return 0;
         for (int64_t at = 0; at < t->connections; at++)
-            if (t->numbers[at] < 0 || t->numbers[at] >= all || s->part_of_connection[t->numbers[at]] >= s->parts)
+            if (t->numbers[at] < 0 || t->numbers[at] >= all)
                 return 0;
         for (int64_t row = 0; row < t->gaps; row++)
             if (t->of_gap[row] < 0 || t->of_gap[row] >= t->connections || t->which[row] < 0 ||

@@ -16,6 +16,7 @@ import build_core
 import numpy as np
 import pytest
 from support.checkout import TESTS
+from support.sanitized import sanitized_core
 
 HERE = build_core.here()
 CALLED = {"calloc", "free", "malloc", "memcmp", "memcpy", "memmove", "memset", "realloc", "sqrt"}
@@ -103,13 +104,7 @@ def test_sanitizers_find_nothing_in_substeps(tmp_path):
 
     Random connections are judged and added up, in frames with contacts and charges.
     """
-    command = build_core.own_compiler()
-    sanitizers = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all", "-g", "-O1"]
-    build_core.compile_to(tmp_path / HERE.library, options=sanitizers)
-    ask = [*command, "-print-file-name=libasan.so"]
-    preloaded = subprocess.run(ask, capture_output=True, text=True, check=True).stdout.strip()
-    # Python itself keeps memory until its end.
-    environment = os.environ | {"LD_PRELOAD": preloaded, "ASAN_OPTIONS": "detect_leaks=0", "PYTHONMALLOC": "malloc"}
+    environment = os.environ | sanitized_core(tmp_path)
     files = [TESTS / "engineering" / room / f"test_{name}.py" for room, names in STEPPED.items() for name in names]
     run = [sys.executable, "-c", SANITIZED, tmp_path, *files, "-k", "not numpy"]
     done = subprocess.run(run, capture_output=True, text=True, env=environment)

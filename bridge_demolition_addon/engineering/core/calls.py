@@ -26,6 +26,8 @@ _ANSWERS = {
     OUT_OF_RANGE: "the core was given numbers of bodies, connections or other rows that there are not",
 }
 
+_TYPES = frozenset(np.dtype(kind).str for kind in (np.float64, np.int64, np.uint64, np.bool_))
+
 
 def answer_of(name: str, *arguments: Struct | np.ndarray | float) -> int:
     """Call a function with structs, arrays, counts and numbers, and return its answer."""
@@ -64,6 +66,8 @@ def not_finite(quantity: int, row: int) -> NotFiniteError:
 def _given(argument: Struct | np.ndarray | float) -> tuple[Any, int | float]:
     """Return the type of C of an argument, and what C gets: the address of what is more than a number."""
     if isinstance(argument, np.ndarray):
+        if argument.dtype.str not in _TYPES or not argument.flags.c_contiguous:
+            raise ValueError(f"the core gets no numbers of type {argument.dtype}, nor any out of order")
         return ctypes.c_void_p, argument.__array_interface__["data"][0]
     if isinstance(argument, Struct):
         return ctypes.c_void_p, ctypes.addressof(argument)

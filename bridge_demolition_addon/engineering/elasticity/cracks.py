@@ -302,18 +302,18 @@ class ExpectedCracks(Struct):
         found = cls(bodies=bodies, substep_s=substep_s)
         found.first, found.second = ((np.empty((3, 3, count)), np.empty((3, count))) for _ in range(2))
         found.rows = np.empty((6, count)), np.empty((6, count))
-        for name, array in (
-            ("inverse_masses", inverse_masses),
-            ("inverse_inertias", inverse_inertias),
-            ("velocities", velocities),
-            ("first_axes", found.first[0]),
-            ("first_points", found.first[1]),
-            ("second_axes", found.second[0]),
-            ("second_points", found.second[1]),
-            ("softness", found.rows[0]),
-            ("deformations", found.rows[1]),
+        for name, array, size in (
+            ("inverse_masses", inverse_masses, bodies),
+            ("inverse_inertias", inverse_inertias, 9 * bodies),
+            ("velocities", velocities, 6 * bodies),
+            ("first_axes", found.first[0], 9 * count),
+            ("first_points", found.first[1], 3 * count),
+            ("second_axes", found.second[0], 9 * count),
+            ("second_points", found.second[1], 3 * count),
+            ("softness", found.rows[0], 6 * count),
+            ("deformations", found.rows[1], 6 * count),
         ):
-            found.point(name, np.ascontiguousarray(array), array.size)
+            found.point(name, np.ascontiguousarray(array), size)
         call("bda_expect_cracks", cracks, places, found)
         return found
 

@@ -62,7 +62,8 @@ def put_loads(
 def stored(stiffness: FloatArray, strains: FloatArray) -> FloatArray:
     """Return the energy (k,) in connections of stiffness (6, 6, k) with strains (6, k)."""
     count = strains.shape[1]
-    energies, stiffness, strains = np.empty(count), np.ascontiguousarray(stiffness), np.ascontiguousarray(strains)
+    energies = np.empty(count)
+    stiffness, strains = (np.ascontiguousarray(array, float) for array in (stiffness, strains))
     if stiffness.size != 36 * count or strains.size != 6 * count:
         raise ValueError(f"stiffness has shape {stiffness.shape}, strains {strains.shape}")
     call = function("bda_stored", ctypes.c_int64, *[_POINTER] * 3, returns=None)

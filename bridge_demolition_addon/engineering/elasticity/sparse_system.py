@@ -10,6 +10,7 @@ import numpy as np
 
 from ..arrays import FloatArray, IntArray
 from ..core.library import function
+from ..core.structs import Doubles, Indices
 
 _BLOCK = 6
 
@@ -46,7 +47,8 @@ class BlockSystem:
 
         A connection adds to its first body, its second, and between them, with rows for the first body.
         """
-        own, added = _matrices(of_bodies), _added(blocks)
+        own = Doubles.checked("blocks of bodies", _matrices(of_bodies), _BLOCK * _BLOCK * self._count)
+        connections, added = _handed(connections, blocks)
         call = function("bda_equations_assemble", _POINTER, _POINTER, ctypes.c_int64, _POINTER, _POINTER)
         answer = call(self.address, own.ctypes.data, len(connections), connections.ctypes.data, added.ctypes.data)
         if answer:
@@ -54,8 +56,7 @@ class BlockSystem:
 
     def factor(self, connections: IntArray | None = None, *blocks: FloatArray) -> None:
         """Factor what was assembled, with what other connections (k,) add; the next time that is forgotten."""
-        rows = np.zeros(0, int) if connections is None else connections
-        added = _added(blocks) if blocks else np.zeros(0)
+        rows, added = _handed(np.zeros(0, int) if connections is None else connections, blocks)
         call = function("bda_equations_factor", _POINTER, ctypes.c_int64, _POINTER, _POINTER)
         if call(self.address, len(rows), rows.ctypes.data, added.ctypes.data):
             raise ValueError(f"there are no connections {rows} in the equations")
@@ -63,16 +64,17 @@ class BlockSystem:
     def solve(self, right: FloatArray) -> FloatArray:
         """Return the unknowns (6, b) for a right-hand side (6, b)."""
         right, unknowns = np.ascontiguousarray(right), np.empty((_BLOCK, self._count))
-        if right.shape != unknowns.shape:
-            raise ValueError(f"the right-hand side has shape {right.shape}: expected {unknowns.shape}")
+        right = Doubles.checked("the right-hand side", right, unknowns.size)
         solve = function("bda_equations_solve", _POINTER, _POINTER, _POINTER, returns=None)
         solve(self.address, right.ctypes.data, unknowns.ctypes.data)
         return unknowns
 
 
-def _added(blocks: Sequence[FloatArray]) -> FloatArray:
-    """Return three blocks (6, 6, k) of each connection as (k, 3, 6, 6)."""
-    return np.stack([_matrices(block) for block in blocks], axis=1)
+def _handed(connections: IntArray, blocks: Sequence[FloatArray]) -> tuple[IntArray, FloatArray]:
+    """Return connections (k,), and three blocks (6, 6, k) of each as (k, 3, 6, 6)."""
+    added = np.stack([_matrices(block) for block in blocks], axis=1) if blocks else np.zeros(0)
+    size = 3 * _BLOCK * _BLOCK * len(connections)
+    return Indices.checked("connections", connections, len(connections)), Doubles.checked("blocks", added, size)
 
 
 def _matrices(blocks: FloatArray) -> FloatArray:

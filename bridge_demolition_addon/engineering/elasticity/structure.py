@@ -145,13 +145,13 @@ class ElasticStructure:
         self._joints = KeptJoints(frames, self._count, stiffness, positions.deformations())
         self._stiffness = np.ascontiguousarray(stiffness)
         self._solved = Substep()
-        for name, array in (
-            ("masses", np.ascontiguousarray(bodies.masses_kg, float)),
-            ("inertias", np.ascontiguousarray(bodies.inertias_kg_m2)),
-            ("stiffness", self._stiffness),
-            ("rows", np.zeros((len(frames), 36))),
+        for name, array, size in (
+            ("masses", np.ascontiguousarray(bodies.masses_kg, float), self._count),
+            ("inertias", np.ascontiguousarray(bodies.inertias_kg_m2), 9 * self._count),
+            ("stiffness", self._stiffness, 36 * len(frames)),
+            ("rows", np.zeros((len(frames), 36)), 36 * len(frames)),
         ):
-            self._solved.point(name, array, array.size)
+            self._solved.point(name, array, size)
         self._intact = np.ones(len(frames), bool)
         self._substep_s = 0.0
         self._cracks, self._has_broken = cracks, False
@@ -198,6 +198,8 @@ class ElasticStructure:
 
     def step(self, start: StepInput, intact: BoolArray, substep_s: float) -> ElasticStep:
         """Return what connections do in a sub-step of a length in s, of those (m,) that are intact."""
+        if start.positions_m.shape[1] != self._count:
+            raise ValueError(f"there are positions of {start.positions_m.shape[1]} bodies: expected {self._count}")
         self._follow_breaks(intact)
         if substep_s != self._substep_s:
             self._substep_s = substep_s

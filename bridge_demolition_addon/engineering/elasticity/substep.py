@@ -283,5 +283,5 @@ class Substep(Struct):
 def deformations(frames: Frames, places: Places, chosen: IntArray) -> FloatArray:
     """Return deformations (6, k) of chosen connections (k,), m and rad."""
     found = np.empty((6, len(chosen)))
-    call("bda_deformations", frames, places, len(chosen), chosen, found)
+    call("bda_deformations", frames, places, chosen.size, chosen, found)
     return found

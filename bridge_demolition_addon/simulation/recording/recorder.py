@@ -267,8 +267,9 @@ class Recording(RecordedFrames):
         begins = number == self.scene.rigidbody_world.point_cache.frame_start
         if begins or not self._momentum:
             setup = run_setup_of(self.scene, with_connections=False)
-            reason: LayoutError | CoreError = given(self.layout_error)
-            check_motion_is_enough(setup, reason, contacts=self._has_contacts, elastic=is_elastic(self.scene))
+            assert self.layout_error is not None
+            needs = {"contacts": self._has_contacts, "elastic": is_elastic(self.scene)}
+            check_motion_is_enough(setup, self.layout_error, **needs)
             self._momentum = MomentumReader(self.scene, setup.bodies.objects, setup.inventory)
             self._begin(setup, None)
         elif self.last is None or number != self.last.number + 1:

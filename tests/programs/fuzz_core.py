@@ -1,0 +1,266 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Calls the entry points of the core with random arrays for some seconds: what is wrong is refused in words.
+
+Arguments: seconds, the first seed, and the folder of another library, such as one with sanitizers, or nothing. Before
+each case its seed is printed, so that one that ends the process is known.
+"""
+
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+
+from bridge_demolition_addon.bullet.body_motion import BodyMotionReader, BulletBodies
+from bridge_demolition_addon.bullet.constraint_rows import BulletRows
+from bridge_demolition_addon.bullet.constraints import BulletConnections
+from bridge_demolition_addon.bullet.contacts import BulletContacts
+from bridge_demolition_addon.bullet.layout import SYSTEM_V
+from bridge_demolition_addon.engineering.core import library
+from bridge_demolition_addon.engineering.core.calls import answer_of, call
+from bridge_demolition_addon.engineering.elasticity.cracks import Cracks, ExpectedCracks, corner_positions
+from bridge_demolition_addon.engineering.elasticity.equations import RigidBodies
+from bridge_demolition_addon.engineering.elasticity.joint_forces import stored, velocities_alone
+from bridge_demolition_addon.engineering.elasticity.joint_rows import JointFrames
+from bridge_demolition_addon.engineering.elasticity.sparse_system import BlockSystem
+from bridge_demolition_addon.engineering.elasticity.spring_law import PressedSprings
+from bridge_demolition_addon.engineering.elasticity.springs import SpringPositions
+from bridge_demolition_addon.engineering.elasticity.steel_bars import Steel
+from bridge_demolition_addon.engineering.elasticity.structure import ElasticStructure, StepInput
+from bridge_demolition_addon.engineering.elasticity.substep import Frames, Places, Substep, Term, deformations
+from bridge_demolition_addon.errors import LayoutError, NotFiniteError
+
+REFUSALS = (ValueError, IndexError, TypeError, NotFiniteError, LayoutError)
+"""Of wrappers and of numpy, before anything is handed over."""
+
+WRONG_OF = 12
+"""One array in so many is wrong."""
+
+
+class Cases:
+    """Random calls by a seed."""
+
+    def __init__(self, seed):
+        self.rng = np.random.default_rng(seed)
+
+    def count(self, most):
+        """So many, often none or one."""
+        return int(self.rng.choice([0, 1, self.rng.integers(0, most + 1)], p=[0.1, 0.2, 0.7]))
+
+    def odd(self, array):
+        """Return an array as it is, or one that is wrong."""
+        if self.rng.integers(WRONG_OF) or not array.size:
+            return array
+        wrong = array.copy()
+        place = tuple(self.rng.integers(size) for size in array.shape)
+        if array.dtype.kind == "i":
+            wrong[place] = self.rng.choice([-1, -7, 9, 10**6, 2**62])
+        elif array.dtype.kind == "f":
+            wrong[place] = self.rng.choice([np.nan, np.inf, -np.inf, 1e308, -1e-320])
+        return [wrong, array[..., :-1], array.astype(np.float32), array.T, array.astype(np.int32)][self.rng.integers(5)]
+
+    def numbers(self, *shape):
+        return self.odd(self.rng.normal(size=shape) * 10.0 ** self.rng.integers(-3, 4))
+
+    def among(self, count, size):
+        """So many of a number of things, often the same, and now and then one that there is not."""
+        return self.odd(self.rng.integers(0, max(size, 1), count) if size else np.zeros(0, int))
+
+    def frames(self, bodies, count):
+        axes = [self.numbers(3, 3, count) for _ in range(2)]
+        ends = [self.among(count, bodies) for _ in range(2)]
+        return JointFrames(*ends, *axes, *(self.numbers(3, count) for _ in range(2)))
+
+    def places(self, bodies):
+        return self.numbers(3, bodies), self.numbers(3, 3, bodies)
+
+    def of_deformations(self):
+        bodies, count = self.count(6), self.count(9)
+        frames = Frames.of(self.frames(bodies, count), bodies)
+        deformations(frames, Places.of(*self.places(bodies if self.rng.integers(6) else 1)), self.among(5, count))
+
+    def of_forces_alone(self):
+        bodies = self.count(6)
+        moving = [self.numbers(6, bodies), self.numbers(6, bodies), self.numbers(bodies)]
+        velocities_alone(*moving, self.numbers(3, 3, bodies), self.numbers(6, bodies), 0.01)
+        stored(self.numbers(6, 6, bodies), self.numbers(6, bodies))
+
+    def of_equations(self):
+        """No connection, repeated pairs, a body with itself, and bodies whose motion is known."""
+        bodies, count = self.count(12), self.count(20)
+        ends = [self.among(count, bodies) - self.rng.integers(0, 2) for _ in range(2)]
+        system, shapes = BlockSystem(bodies, *ends), self.numbers(6, 6, bodies)
+        chosen = [self.among(min(count, self.count(8)), count) for _ in range(2)]
+        adding = [[self.numbers(6, 6, len(rows)) for _ in range(3)] for rows in chosen]
+        system.assemble(np.einsum("ikn,jkn->ijn", shapes, shapes), chosen[0], *adding[0])
+        system.factor(*((chosen[1], *adding[1]) if self.rng.integers(2) else ()))
+        system.solve(self.numbers(6, bodies))
+
+    def cracks(self, bodies, connections):
+        rng = self.rng
+        cracks = Cracks(
+            Steel(),
+            rng.uniform(0.001, 0.05, connections),
+            self.odd(rng.uniform(0.0, 3e4, (4, connections))),
+            self.odd(np.ones(connections)),
+            self.odd(np.full(connections, 2e8)),
+        )
+        count = self.count(4)
+        places, sides = self.numbers(3, count), self.numbers(3, 2, count)
+        corners = corner_positions(places, sides, np.full((2, count), 0.4))
+        ends = self.among(count, bodies), self.among(count, bodies)
+        axes = self.numbers(3, count), self.numbers(3, count)
+        cracks.add(self.among(count, connections), *ends, corners, *axes, *self.places(bodies))
+        return cracks
+
+    def of_cracks(self):
+        bodies, connections = self.count(6), self.count(8)
+        cracks, places = self.cracks(bodies, connections), self.places(bodies)
+        cracks.settle(*places)
+        cracks.grip(*places)
+        cracks.state(*places)
+        chosen = self.among(self.count(4), len(cracks))
+        term = cracks.in_substep(chosen, *places, 0.01)
+        moving = self.numbers(bodies), self.numbers(3, 3, bodies), self.numbers(6, bodies)
+        ExpectedCracks.of(term, Places.of(*places), *moving, 0.01)
+
+    def of_springs(self):
+        bodies, count = self.count(6), self.count(9)
+        ends = self.among(count, bodies), self.among(count, bodies)
+        anchors = self.numbers(3, count), self.numbers(3, count)
+        places = SpringPositions(np.zeros(count, int), *ends, *anchors, np.ones(1, bool))
+        gaps, *_ = places.gaps(*self.places(bodies))
+        law = [self.numbers(count), self.numbers(2, count), self.numbers(count), self.numbers(count)]
+        springs = PressedSprings(*law, self.rng.integers(0, 2, count).astype(bool), self.numbers(count))
+        springs.resisted(self.odd(gaps))
+        springs.stored_j(self.odd(gaps))
+
+    def of_structure(self):
+        """One body, all fixed, none connected, all asleep, pairs that are named twice."""
+        rng, bodies, count = self.rng, self.count(7), self.count(12)
+        masses = rng.uniform(1.0, 1e4, bodies) * rng.choice([0.0, 1.0], bodies, p=[0.3, 0.7]) * rng.integers(0, 4)
+        places, shapes = self.places(bodies), rng.normal(size=(6, 6, count))
+        rigid = RigidBodies(masses, np.eye(3)[:, :, None] * masses, *places)
+        stiffness = self.odd(1e6 * np.einsum("ikn,jkn->ijn", shapes, shapes))
+        cracks = self.cracks(bodies, count) if rng.integers(2) else None
+        structure = ElasticStructure(self.frames(bodies, count), stiffness, rigid, 1e-4, cracks)
+        intact = np.ones(count, bool)
+        if cracks is not None:
+            intact[cracks.rows] = False
+        for _ in range(3):
+            asleep = np.full(bodies, bool(rng.integers(4) == 0))
+            structure.settle(*places)
+            start, substep_s = (
+                StepInput(*places, self.numbers(6, bodies), asleep),
+                float(rng.choice([1e-9, 0.002, 1.0])),
+            )
+            structure.step(start, intact, substep_s)
+            structure.end_substep()
+            intact &= rng.uniform(size=count) < 0.7
+            places = places[0] + 1e-3 * rng.normal(size=places[0].shape), places[1]
+
+    def of_parts(self):
+        """A sub-step by hand: parts without equations, of no body, or of bodies that there are not."""
+        rng, bodies, count = self.rng, 1 + self.count(5), self.count(6)
+        parts = self.count(3)
+        frames, places = Frames.of(self.frames(bodies, count), bodies), Places.of(*self.places(bodies))
+        starts = np.concatenate(([0], np.sort(rng.integers(0, bodies + 1, parts))))
+        systems = [BlockSystem(int(size), np.zeros(0, int), np.zeros(0, int)) for size in np.diff(starts)]
+        addresses = np.array([system.address for system in systems], np.int64)
+        acting = np.unique(rng.integers(0, count, self.count(4))) if count else np.zeros(0, int)
+        substep = Substep()
+        substep.substep_s, substep.parts, substep.acting_count = 0.01, parts, len(acting)
+        for name, array, size in (
+            ("velocities", self.numbers(6, bodies), 6 * bodies),
+            ("masses", rng.uniform(1.0, 2.0, bodies), bodies),
+            ("inertias", np.ascontiguousarray(np.eye(3)[:, :, None] * np.ones(bodies)), 9 * bodies),
+            ("assembled_rotations", np.zeros((3, 3, bodies)), 9 * bodies),
+            ("stiffness", self.numbers(6, 6, count), 36 * count),
+            ("damping_s", np.zeros(count), count),
+            ("rows", np.zeros((count, 36)), 36 * count),
+            ("equations", addresses * rng.integers(0, 6, parts).clip(max=1), parts),
+            ("part_starts", starts * rng.choice([1, 1, 1, 2, -1]), parts + 1),
+            ("part_bodies", self.among(bodies, bodies), bodies),
+            ("part_of_body", self.among(bodies, parts) if parts else np.full(bodies, -1), bodies),
+            ("part_of_connection", self.among(count, parts) if parts else np.full(count, -1), count),
+            ("within_part", self.among(count, count), count),
+            ("stale", np.ones(parts + 1, bool), parts + 1),
+            ("awake", rng.integers(0, 2, parts + 1).astype(bool), parts + 1),
+            ("acting", self.odd(acting), len(acting)),
+            ("strains", self.numbers(6, len(acting)), 6 * len(acting)),
+            *((name, np.zeros((6, len(acting))), 6 * len(acting)) for name in ("rates", "of_first", "of_second")),
+            *((name, np.zeros((6, bodies)), 6 * bodies) for name in ("of_bodies", "ends")),
+        ):
+            substep.point(name, array, size)
+        substep.solve(frames, places, list[Term]())
+
+    def of_bullet(self):
+        """Bodies, springs and contacts in memory of our own, with rows that there are not."""
+        rng, count, size = self.rng, self.count(6), 4096
+        memory = rng.normal(size=(count + 2) * size // 8)
+        addresses = memory.ctypes.data + size * np.arange(count, dtype=np.uint64)
+        reader = BodyMotionReader(SYSTEM_V, addresses)
+        bodies = BulletBodies.of(SYSTEM_V.body, addresses)
+        for act in (
+            reader.read,
+            lambda: reader.turn_by_torques(self.numbers(count)),
+            lambda: reader.push(reader.read(), self.numbers(6, count), 0.01),
+        ):
+            self.refused_or_done(act)
+        exists, sides = rng.integers(0, 2, (2, count)).astype(bool), self.among(count, 2 * count)
+        connections = BulletConnections(count=count, enabled=32, applied_impulse=56)
+        for name, array in (("addresses", addresses), ("exists", exists), ("cracked", ~exists)):
+            connections.point(name, array, count)
+        connections.point("feedback", self.odd(np.zeros((count, 16))), 16 * count)
+        taken = np.empty((19, count)), np.empty((6, len(sides))), np.empty(count), np.empty(count, bool)
+        call("bda_take_snapshot", bodies, connections, len(sides), sides, *taken)
+        held = rng.integers(0, 2, (6, count)).astype(bool)
+        rows, chosen = BulletRows.of(SYSTEM_V.spring, addresses, held, held), self.among(self.count(5), count)
+        call("bda_expect", rows, len(chosen), chosen, np.zeros((6, len(chosen))), np.ones(6))
+        call("bda_soften", rows, len(chosen), chosen, 1.0, np.zeros((6, len(chosen))), 0)
+        call("bda_put_frames", rows, 80, len(chosen), chosen, np.zeros((9, len(chosen))), np.zeros((3, len(chosen))))
+        whole = memory.view(np.int64)
+        lists = SYSTEM_V.dispatcher
+        dispatcher = memory.ctypes.data + count * size
+        whole.view(np.int32)[(count * size + lists.manifold_count) // 4] = rng.choice([0, -1, 2**30, count])
+        whole[(count * size + lists.manifold_data) // 8] = dispatcher + 1024
+        whole[(count * size + 1024) // 8 :][:count] = addresses
+        for number in range(count):
+            at = (number * size + SYSTEM_V.manifold.count) // 4
+            whole.view(np.int32)[at] = rng.choice([0, 1, 4, 5, -1, 2**30], p=[0.3, 0.3, 0.2, 0.1, 0.05, 0.05])
+        contacts = BulletContacts.of(SYSTEM_V, dispatcher)
+        contacts.make_room(self.count(8))
+        assert answer_of("bda_copy_contacts", contacts) in range(4)
+
+    def refused_or_done(self, act):
+        try:
+            act()
+        except REFUSALS as refusal:
+            assert str(refusal)
+            return True
+        return False
+
+
+NAMES = [name for name in vars(Cases) if name.startswith("of_")]
+
+
+def main():
+    """Try case after case until the time is over."""
+    seconds, seed, *folder = sys.argv[1:]
+    if folder:
+        library.FOLDER = Path(folder[0])
+    tried, until = {name: [0, 0] for name in NAMES}, time.monotonic() + float(seconds)
+    number = int(seed)
+    while time.monotonic() < until:
+        cases, name = Cases(number), NAMES[number % len(NAMES)]
+        print(number, name, flush=True)
+        with np.errstate(all="ignore"):
+            tried[name][cases.refused_or_done(getattr(cases, name))] += 1
+        number += 1
+    print("done", tried)
+    rare = [name for name, counts in tried.items() if min(counts) == 0]
+    if rare:
+        sys.exit(f"always done or always refused: {rare}")
+
+
+main()
