@@ -32,7 +32,8 @@ def unusual_texts(scenario: Scenario, model: Model) -> tuple[str, ...]:
 
 
 def _explosive(scenario: Scenario, model: Model) -> Iterator[str]:
-    mass_kg = math.fsum(charge.mass_kg for charge in (*scenario.charges, *scenario.cuts))
+    masses_kg = [charge.mass_kg for charge in scenario.charges] + [cut.mass_kg for cut in scenario.cuts]
+    mass_kg = math.fsum(masses_kg)
     rate = grams_per_tonne(mass_kg, model.members)
     if rate > _LARGEST_G_T:
         least, most = RECORDED_G_T
