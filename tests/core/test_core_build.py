@@ -27,7 +27,7 @@ OF_COMPILER = re.compile(
 )
 
 STEPPED = {
-    "elasticity": ("substep", "joint_forces"),
+    "elasticity": ("substep", "sparse_system", "joint_forces"),
     "mechanics": ("overloads", "sums_of_frames", "touches"),
     "blast": ("blast_projection", "blast_pulses"),
     "geometry": ("vectors",),

@@ -41,7 +41,8 @@ class TurnedBox:
 
     def direction_in_own_axes(self, direction: FloatArray) -> FloatArray:
         """Return a direction (3,) in its own axes."""
-        return self._turned(direction[None], self.skew_deg, about_middle=False)[0]
+        turned: FloatArray = self._turned(direction[None], self.skew_deg, about_middle=False)[0]
+        return turned
 
     def solid_in_own_axes(self, solid: TriangleMesh) -> TriangleMesh:
         """Return a solid in its own axes."""

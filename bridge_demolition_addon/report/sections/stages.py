@@ -189,7 +189,7 @@ def _picks(folder: Path) -> list[Block]:
     rows = _rows(path, LIFT_COLUMNS[:-1], may_be_empty=True) if path.is_file() else []
     known = rows and "volume_kg" in rows[0]
     try:
-        picks = [Pick(row["lift"], *(float(row[key]) for key in ("part_kg", "volume_kg"))) for row in rows if known]
+        picks = [Pick(row["lift"], float(row["part_kg"]), float(row["volume_kg"])) for row in rows if known]
     except ValueError as error:
         raise _damaged(path, error) from error
     return [Paragraph(f"{text}.", True) for text in dict.fromkeys(pick.warning for pick in picks) if text]
