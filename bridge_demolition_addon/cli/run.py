@@ -154,7 +154,7 @@ def _run_and_report(
     report = _report([output], None, arguments, progress) if arguments.report else []
     if arguments.quiet:
         if gone := gone_text(summary):
-            print(f"bda: {path}: {gone}", file=sys.stderr)
+            print(f"bda: {path}: {gone}", file=sys.stderr, flush=True)
     else:
         progress.finish()
         quantities = ReportUnits(UnitSystem(arguments.units or scenario.report.units or UnitSystem.METRIC))

@@ -177,4 +177,4 @@ def unusual_force(name: str, force_n: float, site: Worksite) -> Iterator[str]:
     """Yield that a force is far above the weight of the bridge, if it is."""
     weights = force_n / (site.mass_kg * STANDARD_GRAVITY_M_S2)
     if weights > _UNUSUAL_WEIGHTS:
-        yield f"{name} is {weights:.3g} times the weight of the bridge; is it in N?"
+        yield f"{name} is {weights:.3g} times the weight of the bridge (is it in N?)"

@@ -39,11 +39,11 @@ def _explosive(scenario: Scenario, model: Model) -> Iterator[str]:
         least, most = RECORDED_G_T
         yield (
             f"{mass_kg:.4g} kg of explosive beside drill holes are {rate:.4g} g a tonne of the bridge, recorded jobs "
-            f"have {least:g} to {most:g} in holes; is it in kg?"
+            f"have {least:g} to {most:g} in holes (is it in kg?)"
         )
 
 
 def _machines(scenario: Scenario, bridge_kg: float) -> Iterator[str]:
     for machine in scenario.equipment:
         if machine.mass_kg > _MOST_MACHINES * bridge_kg:
-            yield f"{machine.name} is {machine.mass_kg / bridge_kg:.3g} times as heavy as the bridge; is it in kg?"
+            yield f"{machine.name} is {machine.mass_kg / bridge_kg:.3g} times as heavy as the bridge (is it in kg?)"

@@ -205,7 +205,7 @@ class PlacedZone:
         if self.zone.mass_kg and not least <= self.effective_kg_m3 <= most:
             yield (
                 f"{self.zone.name} has {self.specific_kg_m3:.3g} kg of explosive a m³ of concrete, blasting manuals "
-                "and recorded jobs have 0.2 to 2 kg/m³; is blast_zones.charge_g in g?"
+                "and recorded jobs have 0.2 to 2 kg/m³ (is blast_zones.charge_g in g?)"
             )
 
     def facts(self, scenario: Scenario) -> Iterator[Fact]:

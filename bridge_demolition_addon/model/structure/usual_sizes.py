@@ -27,7 +27,7 @@ _MOST_NAMED = 5
 def unusual_sizes(scenario: Scenario, members: Sequence[Member]) -> Iterator[str]:
     """Yield what is so large or small that it was probably given in another unit, as sentences without full stops."""
     found = [*_deck_sizes(scenario), *_member_sizes(members), *_densities(members)]
-    return (f"{text}; is it in another unit?" for text in found[:_MOST_NAMED])
+    return (f"{text} (is it in another unit?)" for text in found[:_MOST_NAMED])
 
 
 def _member_sizes(members: Sequence[Member]) -> Iterator[str]:

@@ -47,7 +47,7 @@ def cut(mass_kg):
 
 
 UNUSUAL = (
-    ({"loads": (load(10.0 * WEIGHT_N),)}, "Load 1 is 10 times the weight of the bridge; is it in N?"),
+    ({"loads": (load(10.0 * WEIGHT_N),)}, "Load 1 is 10 times the weight of the bridge (is it in N?)"),
     ({"ball": replace(I235.ball, mass_kg=1e6)}, "The ball of 1e+06 kg and 1.34 m has 7.94e+05 kg/m³; steel has 7850"),
     ({"ball": replace(I235.ball, mass_kg=1e6)}, "The ball is 9.35 times as heavy as the bridge"),
     (
@@ -66,7 +66,7 @@ UNUSUAL = (
     ),
     ({"charges": (charge(mass_kg=735.0),)}, "735 kg of explosive beside drill holes are 6869 g a tonne of the bridge"),
     ({"cuts": (cut(735.0),)}, "735 kg of explosive beside drill holes are 6869 g a tonne of the bridge, recorded jobs"),
-    ({"equipment": (machine(2_140_000.0),)}, "crane is 20 times as heavy as the bridge; is it in kg?"),
+    ({"equipment": (machine(2_140_000.0),)}, "crane is 20 times as heavy as the bridge (is it in kg?)"),
 )
 
 USUAL = {
