@@ -12,6 +12,10 @@ _LARGEST_COT = 2.5
 _LEVER_ARM = 0.9
 """z / d: EN 1992-1-1:2004, 6.2.3 (1)."""
 
+FRICTION_ALONG_CRACK = 0.9
+"""μ along a crack between web and slab, cast in one: EN 1992-1-1:2004, 6.2.5 (2), indented. Cohesion, c, is none under
+traffic: EN 1992-2:2005, 6.2.5 (105)."""
+
 
 def without_links_n(width_m: float, depth_m: float, bars_m2: float, concrete: Concrete) -> float:
     """Return V_Rd,c of a section without axial force: EN 1992-1-1:2004, equations 6.2a, 6.2b and 6.3N."""
@@ -48,6 +52,11 @@ def links(shear_n: float, width_m: float, depth_m: float, concrete: Concrete, yi
     angle = 0.5 * math.asin(shear_n / largest)
     cot = _LARGEST_COT if angle <= math.atan(1.0 / _LARGEST_COT) else 1.0 / math.tan(angle)
     return Links(shear_n / (_LEVER_ARM * depth_m * yield_pa * cot), cot)
+
+
+def links_along_m2_m(shear_n: float, depth_m: float, yield_pa: float) -> float:
+    """Return the links across the joint of a web and its slab: EN 1992-1-1:2004, equations 6.24 and 6.25, β = 1."""
+    return shear_n / (_LEVER_ARM * depth_m * yield_pa * FRICTION_ALONG_CRACK)
 
 
 def links_resist_n(area_m2_m: float, depth_m: float, yield_pa: float, cot_strut: float) -> float:

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -180,10 +180,11 @@ class BarLayer(Table):
 
 @dataclass(frozen=True, slots=True)
 class ReinforcedSection:
-    """A rectangular section with layers of bars.
+    """A rectangular section, or a T, with layers of bars.
 
     `compressive_pa` is the strength of its concrete. Each layer has a depth below the first edge, an area and a yield
-    strength; the width is that along the layers.
+    strength; the width is that along the layers, of a T that of its web. A T has a `flange` at the first edge, whose
+    width and depth that is.
     """
 
     height_m: float
@@ -192,6 +193,7 @@ class ReinforcedSection:
     depths_m: Sequence[float]
     areas_m2: Sequence[float]
     yields_pa: Sequence[float]
+    flange: tuple[float, float] | None = None
 
     def moments_nm(self) -> tuple[float, float]:
         """Return the plastic moments with the first and with the other edge pressed.
@@ -199,7 +201,7 @@ class ReinforcedSection:
         Sections stay plane, concrete in tension resists nothing, and there is no axial force: EN 1992-1-1:2004, 6.1
         (2). With one layer that yields, this is M = A_s f_y (d - a / 2) with a = A_s f_y / (b f_c).
         """
-        return self._moment(self.depths_m), self._moment([self.height_m - depth_m for depth_m in self.depths_m])
+        return self._moment(from_first=True), self._moment(from_first=False)
 
     def utilisations(self, axial_n: np.ndarray, moments_nm: np.ndarray) -> np.ndarray:
         """Return the parts (k,) of its resistance that axial forces and moments use, which grow together.
@@ -207,10 +209,9 @@ class ReinforcedSection:
         Forces (k,) are positive in tension; moments (k,), about half the height, where they press the first edge.
         Resistances are as in `moments_nm`, under any axial force: a convex curve around no load at all.
         """
-        depths = np.array(self.depths_m)
         sides = [
-            self._on_curve(depths) * (1.0, 1.0),
-            self._on_curve(self.height_m - depths)[::-1] * (1.0, -1.0),
+            self._on_curve(from_first=True) * (1.0, 1.0),
+            self._on_curve(from_first=False)[::-1] * (1.0, -1.0),
         ]
         curve = np.concatenate(sides)  # their ends meet: all bars pulled, and all of the section pressed
         edges = np.roll(curve, -1, axis=0) - curve
@@ -222,16 +223,16 @@ class ReinforcedSection:
         used: np.ndarray = parts.max(axis=1)
         return used
 
-    def _on_curve(self, depths_m: np.ndarray) -> np.ndarray:
+    def _on_curve(self, *, from_first: bool) -> np.ndarray:
         """Return axial forces, tension positive, and moments about half the height (k, 2) that crush an edge."""
+        depths_m = np.array(self._depths_m(from_first))
         neutrals_m = self.height_m * power(10.0, np.linspace(*_DEPTHS, _ON_CURVE))
         strains = _CRUSHING_STRAIN * (depths_m - neutrals_m[:, None]) / neutrals_m[:, None]
         yields_pa = np.array(self.yields_pa)
         pulls = np.array(self.areas_m2) * np.clip(MODULUS_PA * strains, -yields_pa, yields_pa)
-        block_m = np.minimum(_BLOCK * neutrals_m, self.height_m)
-        pressed = block_m * self.width_m * self.compressive_pa
+        pressed, by_depth = self._pressed(np.minimum(_BLOCK * neutrals_m, self.height_m), from_first)
         middle_m = 0.5 * self.height_m
-        moments = (pulls * (depths_m - middle_m)).sum(axis=1) + pressed * (middle_m - 0.5 * block_m)
+        moments = (pulls * (depths_m - middle_m)).sum(axis=1) + pressed * middle_m - by_depth
         return np.column_stack((pulls.sum(axis=1) - pressed, moments))
 
     def across_cracks_n(self) -> list[float]:
@@ -270,21 +271,32 @@ class ReinforcedSection:
         rows = [(pull, depth) for pull, depth, counts in zip(pulls, self.depths_m, chosen, strict=True) if counts]
         return math.fsum(pull for pull, _ in rows), math.fsum(pull * depth for pull, depth in rows)
 
-    def _moment(self, depths_m: Sequence[float]) -> float:
-        """Return the plastic moment with the edge pressed that depths count from."""
+    def _moment(self, *, from_first: bool) -> float:
+        """Return the plastic moment with an edge pressed."""
+        depths_m = self._depths_m(from_first)
         low, high = 0.0, self.height_m / _BLOCK
         for _ in range(_HALVINGS):
             neutral = 0.5 * (low + high)
-            low, high = (neutral, high) if self._axial_n(neutral, depths_m) > 0.0 else (low, neutral)
+            is_pulled = math.fsum(self._pulls(neutral, depths_m)) > self._pressed(_BLOCK * neutral, from_first)[0]
+            low, high = (neutral, high) if is_pulled else (low, neutral)
         neutral = 0.5 * (low + high)
         pulled = math.fsum(pull * depth for pull, depth in zip(self._pulls(neutral, depths_m), depths_m, strict=True))
-        return pulled - self._pressed_n(neutral) * 0.5 * _BLOCK * neutral
+        return float(pulled - self._pressed(_BLOCK * neutral, from_first)[1])
 
-    def _axial_n(self, neutral_m: float, depths_m: Sequence[float]) -> float:
-        return math.fsum(self._pulls(neutral_m, depths_m)) - self._pressed_n(neutral_m)
+    def _depths_m(self, from_first: bool) -> Sequence[float]:
+        return self.depths_m if from_first else [self.height_m - depth_m for depth_m in self.depths_m]
 
-    def _pressed_n(self, neutral_m: float) -> float:
-        return _BLOCK * neutral_m * self.width_m * self.compressive_pa
+    def _pressed(self, block_m: Any, from_first: bool) -> tuple[Any, Any]:
+        """Return the force of a block, or of each of some (k,), so deep from an edge, and that by its depth there."""
+        flange_m, flange_depth_m = self.flange or (self.width_m, 0.0)
+        if from_first:
+            of_flange = np.minimum(block_m, flange_depth_m)
+            lever_m = 0.5 * of_flange
+        else:
+            of_flange = np.maximum(block_m - (self.height_m - flange_depth_m), 0.0)
+            lever_m = block_m - 0.5 * of_flange
+        web, beside = self.width_m * block_m, (flange_m - self.width_m) * of_flange
+        return self.compressive_pa * (web + beside), self.compressive_pa * (0.5 * block_m * web + lever_m * beside)
 
     def _pulls(self, neutral_m: float, depths_m: Sequence[float]) -> list[float]:
         """Return forces of the layers with the neutral axis so deep, as concrete is crushed; tension positive."""

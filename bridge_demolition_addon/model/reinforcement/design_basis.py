@@ -18,7 +18,7 @@ from ...engineering.reinforced_concrete.bar_choice import (
 from ...engineering.reinforced_concrete.bending import PressedShape, tension_steel
 from ...engineering.reinforced_concrete.least_areas import LARGEST_SHARE, of_beam_m2, of_links_m2_m
 from ...engineering.reinforced_concrete.materials import Concrete, design_yield_pa
-from ...engineering.reinforced_concrete.shear import Links, links, struts_n, without_links_n
+from ...engineering.reinforced_concrete.shear import Links, links, links_along_m2_m, struts_n, without_links_n
 from ...engineering.reinforced_concrete.traffic import Traffic
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...errors import ScenarioError
@@ -231,10 +231,12 @@ class BarDesign:
         length_m: float,
         advice: str,
         is_slab: bool = False,
+        has_slab: bool = False,
     ) -> ScheduledLinks | None:
         """Return the links for a shear force; None for a slab that needs none.
 
-        `width_m` is that of all webs together, `bars_m2` the bars in tension beside them.
+        `width_m` is that of all webs together, `bars_m2` the bars in tension beside them. Where a girder `has_slab`
+        above it, its links hold this.
         """
         concrete_n = without_links_n(width_m, depth_m, bars_m2, self.concrete)
         least = of_links_m2_m(width_m, self.concrete, self.yield_pa)
@@ -252,6 +254,9 @@ class BarDesign:
             needed, reason = found, f"V_Ed = {shear_n / _KILO:.0f} kN"
             if least > found.area_m2_m:
                 needed, reason = Links(least, found.cot_strut), LEAST
+        along = links_along_m2_m(shear_n, depth_m, self.design_yield_pa) if has_slab else 0.0
+        if along > needed.area_m2_m:
+            needed, reason = Links(along, needed.cot_strut), f"V_Ed = {shear_n / _KILO:.0f} kN along the slab"
         most = min(0.75 * depth_m, 0.6 if is_slab else 0.3)  # 9.2.2 (6)
         apart = 1.5 * depth_m if is_slab else min(0.75 * depth_m, _MOST_LEGS_APART_M)  # 9.3.2 (5) and 9.2.2 (8)
         legs = max(2 * webs, webs * (1 + int(np.ceil((width_m / webs - 2.0 * self.rule.cover_m) / apart - 1e-9))))

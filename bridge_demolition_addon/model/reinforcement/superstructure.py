@@ -242,6 +242,7 @@ def _links(
         length_m=line.length_m,
         advice=advice,
         is_slab=is_slab,
+        has_slab=kind == "girder",
     )
     if row:
         yield row

@@ -12,12 +12,16 @@ from .standing import Standing, StandingBridge
 RESISTANCE = "resistance"
 """In place of one of `DIRECTIONS`: bending and axial force, by the resistance of a section with its bars."""
 
+ALONG_SLAB = "links along the slab"
+"""In place of one of these: shear between a girder and its slab, by what the links between them resist."""
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class MostUsed:
     """The section with bars, or the face elsewhere, with the largest utilisation.
 
-    `governed_by` is `RESISTANCE` or one of `DIRECTIONS`, and `between` are the members on both sides, which may be one.
+    `governed_by` is `RESISTANCE`, `ALONG_SLAB` or one of `DIRECTIONS`, and `between` are the members on both sides,
+    which may be one.
     """
 
     used: float
@@ -28,13 +32,16 @@ class MostUsed:
     @property
     def words(self) -> str:
         """What the utilisation is a part of."""
+        if self.governed_by == ALONG_SLAB:
+            return "of what links carry along the slab"
         return "of the resistance in bending" if self.governed_by == RESISTANCE else "of the strength of a face"
 
 
 def most_used_of(bridge: StandingBridge, sections: SectionsWithBars, standing: Standing) -> MostUsed | None:
     """Return what is used most; None where nothing is held.
 
-    Faces within members with layers of bars are judged by their sections: such a face cracks, and the bars hold.
+    Faces within members with layers of bars are judged by their sections, and those of girders under slabs by their
+    links: such a face cracks, and the bars hold.
     """
     model = bridge.model
     of_faces = np.where(sections.judged, np.nan, standing.used)
@@ -42,7 +49,8 @@ def most_used_of(bridge: StandingBridge, sections: SectionsWithBars, standing: S
     section = sections.most_used(standing.loads, uncracked)
     face = int(np.nanargmax(of_faces)) if np.isfinite(of_faces).any() else None
     if section and (face is None or section.used >= of_faces[face]):
-        return MostUsed(section.used, RESISTANCE, (model.members[section.member].name,), section.at_m)
+        governed_by = ALONG_SLAB if section.along_slab else RESISTANCE
+        return MostUsed(section.used, governed_by, (model.members[section.member].name,), section.at_m)
     if face is None:
         return None
     return MostUsed(

@@ -31,6 +31,8 @@ _MOST_ROUNDS = 200
 LARGEST_FACTOR = 64.0
 """Load factor up to which collapse is looked for."""
 _PRECISION = 0.01
+_LITTLE_BY_LITTLE = 1.05
+"""Growth of a load factor in which a bridge cracks little by little."""
 
 DIRECTIONS = TENSION, COMPRESSION, SHEAR, TORSION, BENDING, FORCE, BARS = (
     "tension",
@@ -296,16 +298,20 @@ class StandingBridge:
         return self._collapse_factor_of(self._begun(intact, left, elastic, cuts), loads)
 
     def _collapse_factor_of(self, kept: CrackedBridge, loads: np.ndarray) -> float:
+        stood = 0.0
+
         def stands(factor: float) -> bool:
-            nonlocal kept
+            nonlocal kept, stood
             heavier = kept.copy()
             heavier.carry(factor, loads, self._pause)
             if heavier.fallen.any():
                 return False
-            kept = heavier
+            kept, stood = heavier, factor
             return True
 
-        return _largest(stands)
+        # What fell with many cracks at once may stand where it cracks little by little.
+        factor = _largest(stands)
+        return _largest(stands, stood, _LITTLE_BY_LITTLE) if stood and factor < np.inf else factor
 
     def governed_by(self, standing: Standing) -> np.ndarray:
         """Return which of `DIRECTIONS` has the largest utilisation of each connection (m,); empty where it is gone."""
@@ -333,11 +339,14 @@ class StandingBridge:
         return self._utilisations.worst(standing.alone, standing.together, intact)
 
 
-def _largest(stands: Callable[[float], bool]) -> float:
-    """Return the largest load factor under which a bridge stands, within 1 %; ∞ above 64."""
-    low, high = 0.0, 1.0
+def _largest(stands: Callable[[float], bool], low: float = 0.0, growth: float = 2.0) -> float:
+    """Return the largest load factor under which a bridge stands, within 1 %; ∞ above 64.
+
+    It stands under `low`, from which on the factor is looked for in steps of a growth.
+    """
+    high = low * growth or 1.0
     while stands(high):
-        low, high = high, 2.0 * high
+        low, high = high, growth * high
         if high > LARGEST_FACTOR:
             return np.inf
     while high - low > _PRECISION * high:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from ...engineering.geometry.overlap import SHARD_OVERLAP_TOLERANCE, Overlaps, h
 from ...engineering.geometry.sides import AXES, SIDES
 from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE, SMEARED, Strength
+from ...engineering.reinforced_concrete.shear import FRICTION_ALONG_CRACK
 from ...engineering.units import mass_text
 from ..actions import Fact
 from ..bridge.member import Member
@@ -26,10 +28,12 @@ from ..schema import given
 from .bearing_ranges import axis_facts
 from .cracking import CrackedBridge, RestingModel
 from .equilibrium import deflection_m, force_utilisations, loads_of, overloaded
-from .face_bars import LayersOfMember, layers_of_members
+from .member_layers import LayersOfMember, layers_of_members
 from .model import Model
 from .punching import punching_of_decks
 from .spread_bars import spread_bars
+from .starter_bars import GIRDER, ON_GIRDERS
+from .t_beams import TBeam, t_beams
 
 MOST_SHARDS_COMPARED = 2000
 """Comparing so many shards with their neighbours takes as long as cutting them."""
@@ -92,6 +96,7 @@ def connection_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
     yield from _piece_facts(model)
     yield from _bar_facts(scenario, model)
     yield from _spread_facts(scenario, model)
+    yield from _starter_facts(scenario, model)
     yield from _punching_facts(scenario, model)
     yield from _rule_facts(scenario)
     yield from _clamping_facts(scenario, model)
@@ -135,8 +140,12 @@ def _listed(names: Sequence[str]) -> str:
 
 def _bar_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
     alike: dict[tuple[str, str], list[str]] = {}
+    beams = tuple(t_beams(scenario, model.layers, model.members))
+    for beam in beams:
+        alike.setdefault(_beam_texts(scenario, beam), []).append(model.members[beam.girder.member].name)
     for group in layers_of_members(model.layers, model.members):
-        alike.setdefault(_bar_texts(scenario, group), []).append(model.members[group.member].name)
+        if not any(beam.has(group) for beam in beams):
+            alike.setdefault(_bar_texts(scenario, group), []).append(model.members[group.member].name)
     for (resisted, ruptured), names in alike.items():
         yield "reinforcement", f"{_together(names)}, {resisted}"
         yield "", ruptured
@@ -146,20 +155,49 @@ def _bar_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
 
 def _bar_texts(scenario: Scenario, group: LayersOfMember) -> tuple[str, str]:
     """Return which moments the bars of a member resist, and when they rupture."""
-    compression_pa = float(given(scenario.joints[0].strength).compression_pa)
-    section = group.section(compression_pa, scenario.connections.strength_factor)
     along, across, _ = group.axes
     sides = sorted((highest, side) for side, (axis, highest) in SIDES.items() if axis == across)
-    moments = zip([side for _, side in reversed(sides)], section.moments_nm(), strict=True)
+    compression_pa, factor = (
+        float(given(scenario.joints[0].strength).compression_pa),
+        scenario.connections.strength_factor,
+    )
+    moments = zip(
+        [side for _, side in reversed(sides)], group.section(compression_pa, factor).moments_nm(), strict=True
+    )
     resisted = ", ".join(f"{moment / 1000.0:.4g} kN·m with its {side} pressed" for side, moment in moments)
-    own_m = scenario.connections.ductile_elongation_m
-    openings = group.openings_m(compression_pa, scenario.steel) if own_m is None else [own_m]
+    return f"along {AXES[along]}{_between_text(group.between_m)}: {resisted}", _ruptured_text(scenario, [group])
+
+
+def _beam_texts(scenario: Scenario, beam: TBeam) -> tuple[str, str]:
+    """Return the same of a girder with the slab that it is cast with, in the span and over a pier."""
+    factor = scenario.connections.strength_factor
+    compression_pa = float(given(scenario.joints[0].strength).compression_pa)
+    begin_m, end_m = beam.deck.between_m
+    moments = []
+    for number, (pressed, where, places_m) in enumerate(
+        (
+            ("top", "in the span", [0.5 * (one + other) for one, other in pairwise(beam.supports_m)]),
+            ("bottom", "over a pier", beam.supports_m[1:-1]),
+        )
+    ):
+        if at_m := [place for place in places_m if begin_m <= place <= end_m]:
+            moment_nm = beam.section(at_m[0], compression_pa, factor).moments_nm()[number]
+            flange = f"{beam.flange_m(at_m[0]):.2f} m of slab"
+            moments.append(f"{moment_nm / 1000.0:.4g} kN·m with its {pressed} pressed, {flange}, {where}")
+    return (
+        f"and slab along x{_between_text(beam.deck.between_m)}: {'; '.join(moments)}",
+        _ruptured_text(scenario, [beam.girder, beam.deck], beam.depth_m),
+    )
+
+
+def _ruptured_text(scenario: Scenario, groups: Sequence[LayersOfMember], whole_m: float | None = None) -> str:
+    own_m, steel = scenario.connections.ductile_elongation_m, scenario.steel
+    compression_pa = float(given(scenario.joints[0].strength).compression_pa)
+    openings = [opening for group in groups for opening in group.openings_m(compression_pa, steel, whole_m)]
+    openings = openings if own_m is None else [own_m]
     ranged = " to ".join(dict.fromkeys(f"{1000.0 * opening:.3g}" for opening in (min(openings), max(openings))))
     more = " more than what shards beside it stretch" if scenario.connections.cracks_within_shards else ""
-    return (
-        f"along {AXES[along]}{_between_text(group.between_m)}: {resisted}",
-        f"These bars rupture once a crack has opened by {ranged} mm{more}.",
-    )
+    return f"These bars rupture once a crack has opened by {ranged} mm{more}."
 
 
 def _together(names: Sequence[str]) -> str:
@@ -187,6 +225,31 @@ def _spread_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
         alike.setdefault(text, []).append(model.members[spread.member].name)
     for text, names in alike.items():
         yield "reinforcement", f"{_together(names)}, {text}"
+
+
+def _starter_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
+    """Yield what bars between members of one piece carry."""
+    alike: dict[tuple[str, str], list[str]] = {}
+    if bars := model.bars:
+        of_pair = np.sort(np.append(model.member_of_shard, -1)[model.connections.pairs], axis=1)
+        has = (of_pair[:, 0] != of_pair[:, 1]) & (bars.yield_n > 0.0) & ~bars.have_own_law
+        for one, other in np.unique(of_pair[has], axis=0).tolist():
+            rows = has & (of_pair == (one, other)).all(axis=1)
+            first, last = model.members[one] if one >= 0 else None, model.members[other]
+            carried_n, opened_mm = float(bars.yield_n[rows].sum()), 1e3 * float(bars.openings_m[rows].max())
+            ruptured = f"These bars rupture once a crack has opened by {opened_mm:.3g} mm."
+            if first and {first.kind, last.kind} == ON_GIRDERS:
+                girder = last if last.kind == GIRDER else first
+                by_m = carried_n / float(np.ptp(girder.without_skew(girder.solid.vertices)[:, 0])) / 1000.0
+                text = f"links to the slab carry {by_m:.4g} kN/m across a crack, "
+                text += f"{FRICTION_ALONG_CRACK * by_m:.4g} kN/m along it (EN 1992-1-1, 6.2.5)"
+                alike.setdefault((text, ruptured), []).append(girder.name)
+            else:
+                text = f"bars into the {first.kind}" if first else "bars into its footing"
+                alike.setdefault((f"{text} carry {carried_n / 1000.0:.4g} kN", ruptured), []).append(last.name)
+    for (text, ruptured), names in alike.items():
+        yield "reinforcement", f"{_together(names)}, {text}"
+        yield "", ruptured
 
 
 def _punching_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:

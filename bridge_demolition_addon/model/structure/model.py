@@ -59,6 +59,7 @@ from .steelwork import (
 )
 from .stiffness import CutMembers, connection_stiffness
 from .supports import HeldPart, held_parts
+from .t_beams import t_beams
 from .tendons import ModelTendons, model_tendons
 
 
@@ -236,9 +237,9 @@ def model_on(basis: ModelBasis, members: Sequence[Member] | None = None) -> Mode
     layers = all_layers(scenario, members)
     if layers:
         within = within_reinforced(layers, members, fractured.member_of_shard, connections)
-        of_bearings = bearings.springs.rows if bearings else np.zeros(0, int)
+        without = np.concatenate([part.rows for part in (bearings and bearings.springs, soil) if part] or [[]])
         starters = starter_bars(
-            scenario, layers, members, fractured.member_of_shard, connections, joint_of_connection, of_bearings
+            scenario, layers, members, fractured.member_of_shard, connections, joint_of_connection, without.astype(int)
         )
         if starters:
             within |= starters.yield_n > 0.0
@@ -255,6 +256,7 @@ def model_on(basis: ModelBasis, members: Sequence[Member] | None = None) -> Mode
             scenario.steel,
             scenario.connections.ductile_elongation_m,
             _cracked_shards(scenario, fractured, connections, decks),
+            tuple(t_beams(scenario, layers, members)),
         )
         if starters:
             bars = bars.with_even(starters.yield_n, starters.openings_m)

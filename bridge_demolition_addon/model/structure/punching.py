@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from ...engineering.reinforced_concrete.punching import punching_n
 from ..bridge.member import Member
 from ..materials.bar_layers import BarLayer
-from .face_bars import LayersOfMember, layers_of_members
+from .member_layers import LayersOfMember, layers_of_members
 
 _UP = 2
 

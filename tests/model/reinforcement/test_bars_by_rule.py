@@ -29,8 +29,8 @@ from bridge_demolition_addon.model.scenario import (
 )
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
-from bridge_demolition_addon.model.structure.face_bars import layers_of_members
 from bridge_demolition_addon.model.structure.facts import connection_facts
+from bridge_demolition_addon.model.structure.member_layers import layers_of_members
 from bridge_demolition_addon.model.structure.model import build_model
 
 pytestmark = pytest.mark.slow

@@ -9,7 +9,7 @@ from support.bridges_by_rule import bridge, scenario
 
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.scenario import BarLayer, FractureSettings
-from bridge_demolition_addon.model.structure.face_bars import layers_of_members
+from bridge_demolition_addon.model.structure.member_layers import layers_of_members
 from bridge_demolition_addon.model.structure.model import build_model
 
 pytestmark = pytest.mark.slow

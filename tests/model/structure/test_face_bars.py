@@ -8,11 +8,12 @@ import numpy as np
 import pytest
 from support.scenarios import I235
 
+from bridge_demolition_addon.engineering.elasticity.steel_bars import Steel
 from bridge_demolition_addon.engineering.geometry.vectors import transformed
 from bridge_demolition_addon.engineering.mechanics.section_forces import section_axes
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.scenario import BarLayer, ConnectionSettings
-from bridge_demolition_addon.model.structure.face_bars import layers_of_members
+from bridge_demolition_addon.model.structure.member_layers import layers_of_members
 from bridge_demolition_addon.model.structure.model import build_model
 
 THICKNESS_M, WIDTH_M = 0.25, 8.5
@@ -132,3 +133,14 @@ def test_bars_both_ways_resist_askew_as_yield_lines_do():
     np.testing.assert_allclose(forces[2], forces[0] + forces[1], atol=1e-6 * abs(forces[2]).max())
     by_x = one.bars.yield_n * abs(normals[:, 0])
     np.testing.assert_allclose(forces[0][:, 0], by_x, atol=1e-6 * by_x.max())
+
+
+def test_few_bars_rupture_no_earlier_than_in_one_crack():
+    """Slip out of both sides of a crack by the bond of Sezen and Setzler (2008), ACI Structural Journal 105, 280-289:
+    1.0 √f_c up to yield and 0.5 √f_c beyond, N/mm²."""
+    few = BarLayer(members=("deck",), depth_m=0.04, area_mm2=1_500.0, diameter_mm=12.0)
+    (group,) = layers_of_members((few,), model_with(BOTTOM).members)
+    (opening_m,) = group.openings_m(35e6, Steel())
+    root, yielding = 35.0**0.5, 500.0 / 200e3
+    slip_mm = 12.0 / 8.0 * (yielding * 500.0 / root + (0.05 + yielding) * 0.08 * 500.0 / (0.5 * root))
+    assert opening_m == pytest.approx(2e-3 * slip_mm, rel=0.1)
