@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from itertools import pairwise
+
 from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.solids import box, difference, union
 from ..scenario import Bridge
@@ -27,12 +30,20 @@ def superstructure(bridge: Bridge) -> list[Member]:
     return parts
 
 
+def cast_decks(bridge: Bridge) -> Iterator[tuple[str, list[str]]]:
+    """Yield the names of decks and of the girders that each is cast with."""
+    decks, number = len(deck_ends(bridge)), bridge.girders.number if bridge.girders else 0
+    for prefix in [f"span {span} " for span in range(1, decks + 1)] if decks > 1 else [""]:
+        yield f"{prefix}deck", [f"{prefix}girder {girder}" for girder in range(1, number + 1)]
+
+
 def _deck(bridge: Bridge, name: str, begin: float, end: float) -> Member:
     if bridge.frame and bridge.frame.is_haunched:
         profile, width = deck_profile(bridge, begin, end), bridge.deck.width_m
         return Member(name, "deck", profile.solid(width), parts=profile.pieces(width), is_in_pieces=True)
     if not bridge.box_girder:
-        return Member(name, "deck", skewed(bridge, _slab(bridge, begin, end)), unskewed=without_shear(bridge))
+        slab, strips = skewed(bridge, _slab(bridge, begin, end)), tuple(_strips(bridge, begin, end))
+        return Member(name, "deck", slab, parts=strips, unskewed=without_shear(bridge))
     plates = (skewed(bridge, plate) for plate in _plates(bridge, begin, end))
     solid = skewed(bridge, _box_girder(bridge, begin, end))
     return Member(name, "deck", solid, parts=tuple(plates), unskewed=without_shear(bridge))
@@ -42,6 +53,19 @@ def _slab(bridge: Bridge, begin: float, end: float) -> TriangleMesh:
     deck = bridge.deck
     middle = ((begin + end) / 2.0, 0.0, slab_underside(bridge) + deck.thickness_m / 2.0)
     return box((end - begin, deck.width_m, deck.thickness_m), middle)
+
+
+def _strips(bridge: Bridge, begin: float, end: float) -> Iterator[TriangleMesh]:
+    """Yield the slab in a strip above each girder: a shard that lay on two would hold both as one body."""
+    number = bridge.girders.number if bridge.girders else 1
+    if number == 1:
+        return
+    deck, edge = bridge.deck, 0.5 * bridge.deck.width_m
+    inner = [bridge.girder_spacing_m * (girder - 0.5 * number) for girder in range(1, number)]
+    height = slab_underside(bridge) + deck.thickness_m / 2.0
+    for right, left in pairwise((-edge, *inner, edge)):
+        middle = ((begin + end) / 2.0, (right + left) / 2.0, height)
+        yield skewed(bridge, box((end - begin, left - right, deck.thickness_m), middle))
 
 
 def _girder(bridge: Bridge, begin: float, end: float, girder: int) -> TriangleMesh:

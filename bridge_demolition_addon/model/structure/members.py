@@ -32,6 +32,7 @@ from ...engineering.geometry.solids import contains
 from ...errors import GeometryError
 from ..actions import CutBox, CutOfMembers, CutPlane, CutThrough
 from ..bridge.member import Member, members_named
+from ..bridge.superstructure import cast_decks
 from ..reinforcement.concrete_members import names_with_bars
 from ..scenario import FractureSettings, Scenario
 from ..scenario.fracture import MemberFracture
@@ -60,6 +61,9 @@ _MOST_ATTEMPTS = 8
 _SPANNING = ("deck", "girder", "arch", "parapet", "pier cap")
 _SLENDER, _LONGEST_PIECE = 4.0, 3.0
 """Length by the size of the section of a member that is cut across it first, and of its pieces."""
+
+_FEW = 2
+"""Shards of a piece of a girder or its slab up to which these are cut across alone."""
 
 _SHARDS_OF_PIECE, _MOST_PIECES = 6, 12
 """Shards of a piece of a member with many, and number of pieces of wide ones: what is cambered is straight in each."""
@@ -94,6 +98,7 @@ def fractured_members(
     with_bars = names_with_bars(scenario)
     counts = _counts(scenario, members, rules, own_points, density)
     seeds = np.random.SeedSequence(scenario.seed).generate_state(len(members))
+    stations = _stations_m(scenario, members, counts, rules, own_points)
     parts = []
     for index, member in enumerate(members):
         if member.steel is not None:
@@ -107,17 +112,24 @@ def fractured_members(
             through_plates=bool({member.name, member.kind} & with_bars),
             recursion=_recursion(settings),
         )
+        pieces = len(member.parts or (member,)) * (1 + len(stations.get(index, ())))
+        is_across = index in stations and counts[index] < _FEW * pieces
+        if is_across:
+            options = replace(options, stretch=options.stretch or (1.0, _THROUGH_PART, _THROUGH_PART))
         own_planes = [plane for plane in planes if isinstance(plane, CutPlane) and plane.member == member.name]
         cuts = [cut for cut in planes if isinstance(cut, CutOfMembers) and cut.cuts((member.name, member.kind))]
-        whole = member if len(own_points[index]) else _in_convex_parts(member, int(counts[index]))
+        whole = member
+        if not len(own_points[index]):
+            whole = _in_convex_parts(_across(member, stations.get(index, ())), int(counts[index]))
         cut = _cut_along(whole, own_planes, own_points[index]) if own_planes else whole
         if cuts and not len(own_points[index]) and (pieces := _in_pieces(cut, cuts)) is not cut:
             cut, options = pieces, replace(options, stretch=options.stretch or through_thickness(member.solid))
         # Each part takes one shard at least, but of those that a bridge is made of by rule.
-        as_planned = cut is member and not (member.keeps_parts or member.is_in_pieces)
+        as_planned = cut is whole and not (member.keeps_parts or member.is_in_pieces or index in stations)
         count = int(counts[index]) if as_planned else max(int(counts[index]), len(cut.parts))
         try:
-            parts.append(_fractured(cut, count, own_points[index], int(seeds[index]), options))
+            found = _fractured(cut, count, own_points[index], int(seeds[index]), options)
+            parts.append(replace(found, points=found.centres) if is_across else found)
         except GeometryError as error:
             files = [f"{table.file}: " for table in scenario.geometry if table.name == member.name]
             raise GeometryError(f"{files[0] if files else ''}{error}") from error
@@ -253,6 +265,51 @@ def _cut_along(member: Member, planes: Sequence[CutPlane], points: np.ndarray) -
     columns = zip(pieces, member.directions, strict=True) if member.directions else ()
     directions = tuple(direction for own, direction in columns for _ in own)
     return replace(member, parts=tuple(chain.from_iterable(pieces)), directions=directions)
+
+
+def _stations_m(
+    scenario: Scenario,
+    members: Sequence[Member],
+    counts: np.ndarray,
+    rules: Sequence[MemberFracture | None],
+    own_points: Sequence[np.ndarray],
+) -> dict[int, list[float]]:
+    """Return where girders and the slab that they are cast with are cut across together, by the members' indices.
+
+    Cut elsewhere, each would hold the cuts of the other closed, and single girders be up to a fifth too stiff or soft.
+    No piece is shorter than half of the depth of the T-beam; where there are more shards, each piece is cut into some.
+    """
+    found: dict[int, list[float]] = {}
+    if scenario.bridge is None or scenario.bridge.girders is None:
+        return found
+    index_of = {member.name: index for index, member in enumerate(members)}
+    for deck, girders in cast_decks(scenario.bridge):
+        rows = [index_of[name] for name in (deck, *girders) if name in index_of]
+        if len(rows) <= len(girders):
+            continue
+        along = members[rows[0]].without_skew(members[rows[0]].solid.vertices)[:, 0]
+        begin, length = float(along.min()), float(np.ptp(along))
+        shortest = 0.5 * (scenario.bridge.girders.depth_m + scenario.bridge.deck.thickness_m)
+        alike = int(counts[rows].sum()) // (2 * len(girders))
+        if alike * shortest < length and not any(rules[row] or len(own_points[row]) for row in rows):
+            rest = int(counts[rows].sum()) - 2 * len(girders) * alike
+            counts[rows] = [len(girders) * alike, *[alike] * len(girders)]
+            others = [row for row in np.flatnonzero(counts).tolist() if row not in rows] or rows[:1]
+            counts[max(others, key=lambda row: members[row].volume_m3)] += rest
+        pieces = min(int(counts[rows[0]]) // len(girders), *counts[rows[1:]].tolist(), int(length / shortest))
+        moved = 0.5 * np.random.default_rng([scenario.seed, rows[0]]).random(max(pieces - 1, 0)) - 0.25
+        places = (begin + length * (np.arange(1, pieces) + moved) / max(pieces, 1)).tolist()
+        found |= dict.fromkeys(rows, places)
+    return found
+
+
+def _across(member: Member, stations_m: Sequence[float]) -> Member:
+    """Return a member in parts that end at stations along the road, square to its own axis."""
+    if not len(stations_m):
+        return member
+    parts = [replace(part, vertices=member.without_skew(part.vertices)) for part in member.parts or (member.solid,)]
+    pieces = (piece for part in parts for piece in slabs(part, 0, stations_m))
+    return replace(member, parts=tuple(replace(piece, vertices=member.with_skew(piece.vertices)) for piece in pieces))
 
 
 def _in_pieces(member: Member, cuts: Sequence[CutOfMembers]) -> Member:

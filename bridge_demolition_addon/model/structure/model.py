@@ -242,7 +242,8 @@ def model_on(basis: ModelBasis, members: Sequence[Member] | None = None) -> Mode
             scenario, layers, members, fractured.member_of_shard, connections, joint_of_connection, without.astype(int)
         )
         if starters:
-            within |= starters.yield_n > 0.0
+            # A foot on the ground cracks at the strength of its face, as where it has no bars, and they hold it then.
+            within |= (starters.yield_n > 0.0) & (connections.pairs >= 0).all(axis=1)
         joint_of_connection = joint_of_connection + np.where(within, len(joints_of_faces(scenario)) // 2, 0)
         bars = face_bars(
             layers,

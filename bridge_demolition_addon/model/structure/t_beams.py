@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 
 from ...engineering.reinforced_concrete.bending import flange_width_m
-from ..bridge.layout import deck_ends, pier_axes
+from ..bridge.layout import pier_axes
 from ..bridge.member import Member
+from ..bridge.superstructure import cast_decks
 from ..materials.bar_layers import BarLayer, ReinforcedSection
 from ..reinforcement.concrete_members import is_concrete
 from ..scenario import Bridge, Scenario
@@ -93,16 +95,14 @@ def t_beams(scenario: Scenario, layers: Sequence[BarLayer], members: Sequence[Me
         return
     along = [group for group in layers_of_members(layers, members) if group.axes[0] == 0 and group.own is None]
     rows = {member.name: row for row, member in enumerate(members) if is_concrete(scenario, member)}
-    prefixes = [f"span {number} " for number in range(1, len(deck_ends(bridge)) + 1)]
-    for prefix, ends in zip(prefixes if bridge.deck.per_span else [""], deck_ends(bridge), strict=True):
-        supports = tuple(axis for axis in pier_axes(bridge).tolist() if ends[0] <= axis <= ends[1])
-        of_deck = [group for group in along if group.member == rows.get(f"{prefix}deck")]
-        for number in range(bridge.girders.number):
-            of_girder = [group for group in along if group.member == rows.get(f"{prefix}girder {number + 1}")]
-            beside = _beside_m(bridge, number)
-            for girder in of_girder:
-                for deck in of_deck:
-                    yield TBeam(girder, deck, bridge.girders.number, beside, supports)
+    axes, decks = tuple(pier_axes(bridge).tolist()), list(cast_decks(bridge))
+    for span, (deck_name, girders) in enumerate(decks):
+        supports = axes[span : span + 2] if len(decks) > 1 else axes
+        of_deck = [group for group in along if group.member == rows.get(deck_name)]
+        for number, name in enumerate(girders):
+            of_girder = [group for group in along if group.member == rows.get(name)]
+            for girder, deck in product(of_girder, of_deck):
+                yield TBeam(girder, deck, len(girders), _beside_m(bridge, number), supports)
 
 
 def _beside_m(bridge: Bridge, number: int) -> tuple[float, float]:
