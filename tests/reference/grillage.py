@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A grillage of beams: T-beams along the road, and the slab in beams across it, by the direct stiffness method.
 
-Nodes move down and turn about both level axes. Beams bend by Euler and Bernoulli and twist by Saint-Venant; the slab
-beside a web is as rigid as this. E. C. Hambly (1991), Bridge Deck Behaviour, chapter 3.
+Nodes move down and turn about both level axes. Beams bend by Euler and Bernoulli and twist by Saint-Venant.
+E. C. Hambly (1991), Bridge Deck Behaviour, chapter 3.
 """
 
 from dataclasses import dataclass, field
@@ -21,7 +21,6 @@ class Grillage:
     widths_m: np.ndarray  # (g,), of the slab of each
     young_pa: float
     shear_pa: float
-    rigid_m: float = 0.0
     loads: np.ndarray = field(init=False)
 
     def __post_init__(self):
@@ -29,11 +28,11 @@ class Grillage:
         self._stiffness = np.zeros((3 * count, 3 * count))
         self.loads = np.zeros(3 * count)
         for girder in range(len(self.girders_m)):
-            bending, torsion = self._of_girder(girder)
+            bending, torsion = self.girder(girder)
             for station in range(len(self.stations_m) - 1):
                 ends = self.node(girder, station), self.node(girder, station + 1)
                 length = self.stations_m[station + 1] - self.stations_m[station]
-                self._beam(ends, length, self.young_pa * bending, self.shear_pa * torsion, 0, 0.0)
+                self._beam(ends, length, self.young_pa * bending, self.shear_pa * torsion, 0)
         for station in range(len(self.stations_m)):
             wide = self._tributary_m(station)
             bending, torsion = wide * self.slab_m**3 / 12.0, wide * self.slab_m**3 / 6.0
@@ -41,7 +40,7 @@ class Grillage:
                 ends = self.node(girder, station), self.node(girder + 1, station)
                 length = self.girders_m[girder + 1] - self.girders_m[girder]
                 stiff = self.young_pa * bending, self.shear_pa * torsion
-                self._beam(ends, length, *stiff, 1, self.rigid_m)
+                self._beam(ends, length, *stiff, 1)
 
     def node(self, girder, station):
         return girder * len(self.stations_m) + station
@@ -77,7 +76,7 @@ class Grillage:
             found[row, girder] = forces[3 * node]
         return found
 
-    def _of_girder(self, girder):
+    def girder(self, girder):
         """Second moment of area and torsion constant of a T-beam; its slab twists half as much as a bar."""
         (wide, deep), slab = self.web_m, (self.widths_m[girder], self.slab_m)
         areas, apart = (wide * deep, slab[0] * slab[1]), 0.5 * (deep + slab[1])
@@ -96,22 +95,17 @@ class Grillage:
         share = (at_m - places_m[upper - 1]) / (places_m[upper] - places_m[upper - 1])
         return (upper - 1, 1.0 - share), (upper, share)
 
-    def _beam(self, ends, length_m, bending_nm2, twisting_nm2, axis, rigid_m):
-        """Add a beam along x (0) or y (1), of which so much is rigid at both ends."""
-        clear = length_m - 2.0 * rigid_m
-        one, two, four = 12.0 / clear**3, 6.0 / clear**2, 4.0 / clear
-        # Downwards w and slope w' at each end; with rigid ends slopes shift what they hold.
+    def _beam(self, ends, length_m, bending_nm2, twisting_nm2, axis):
+        """Add a beam along x (0) or y (1): downwards w and slope w' at each end, and its twist."""
+        one, two, four = 12.0 / length_m**3, 6.0 / length_m**2, 4.0 / length_m
         own = bending_nm2 * np.array(
             [
                 [one, two, -one, two],
-                [two, four, -two, 2.0 / clear],
+                [two, four, -two, 2.0 / length_m],
                 [-one, -two, one, -two],
-                [two, 2.0 / clear, -two, four],
+                [two, 2.0 / length_m, -two, four],
             ]
         )
-        shift = np.eye(4)
-        shift[0, 1], shift[2, 3] = rigid_m, -rigid_m
-        own = shift.T @ own @ shift
         slope, twist = (2, 1) if axis == 0 else (1, 2)
         rows = [3 * ends[0], 3 * ends[0] + slope, 3 * ends[1], 3 * ends[1] + slope]
         self._stiffness[np.ix_(rows, rows)] += own

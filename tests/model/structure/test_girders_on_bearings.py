@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Forces of bearings below girders that share a slab, in coarse shards and by any seed, against a grillage of beams."""
+
+import numpy as np
+import pytest
+from reference.grillage import Grillage
+
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.model.scenario.file import scenario_from_text
+from bridge_demolition_addon.model.structure.equilibrium import loads_of, model_at_rest
+from bridge_demolition_addon.model.structure.model import build_model
+
+TEXT = """
+[scenario]
+title = "girders under a slab"
+seed = {seed}
+[time]
+duration_s = 1.0
+[bridge]
+density_kg_m3 = 2500
+span_lengths_m = {spans}
+skew_deg = {skew}
+[bridge.deck]
+width_m = {width}
+thickness_m = {slab}
+overhang_m = 0.4
+[bridge.girders]
+number = {number}
+width_m = {web}
+depth_m = {deep}
+[bridge.abutments]
+length_m = 0.8
+width_m = {width}
+{height}
+[bridge.bearings]
+tension = true
+[[supports]]
+member = "abutment"
+[fracture]
+shards = {shards}
+[[fracture.members]]
+member = "abutment"
+shards = 1
+{of_piers}
+[connections]
+type = "FIXED"
+method = "face"
+material = "reinforced concrete slab"
+stiffness = "elastic"
+strength_factor = 50.0
+[shards]
+start_deactivated = false
+"""
+PIERS = "[bridge.piers]\ncolumns = {}\ncolumn_length_m = 0.8\ncolumn_width_m = 1.0\nheight_m = 4.0"
+OF_PIERS = '[[supports]]\nmember = "pier"\n[[fracture.members]]\nmember = "pier"\nshards = 1'
+FOUR = {"spans": [16.0], "width": 8.0, "slab": 0.25, "number": 4, "web": 0.4, "deep": 0.9}
+THREE = {"spans": [25.0, 25.0], "width": 15.0, "slab": 0.4, "number": 3, "web": 1.5, "deep": 1.6}
+
+
+def bearings_kn(bridge, shards, seed, skew=0.0):
+    """Upward forces (supports, girders) under its own weight."""
+    height, of_piers = (
+        ("height_m = 4.0", "") if len(bridge["spans"]) == 1 else (PIERS.format(bridge["number"]), OF_PIERS)
+    )
+    keys = {**bridge, "shards": shards, "seed": seed, "height": height, "of_piers": of_piers, "skew": skew}
+    plan = scenario_from_text(TEXT.format(**keys))
+    model = build_model(plan)
+    forces = model.bearings.forces(loads_of(model, model_at_rest(model, plan.joints)))
+    supports = ["abutment 1", *(f"pier {number}" for number in range(1, len(bridge["spans"]))), "abutment 2"]
+    found = np.zeros((len(supports), bridge["number"]))
+    for force in forces:
+        girder, support = force.name.split(" on ")
+        row = next(row for row, name in enumerate(supports) if support.startswith(name))
+        found[row, int(girder.split()[-1]) - 1] = 1e-3 * force.force_n[2]
+    return found
+
+
+def by_grillage_kn(bridge):
+    supports, spacing = np.cumsum([0.0, *bridge["spans"]]), bridge["width"] / bridge["number"]
+    stations = np.concatenate(([-0.4], np.linspace(0.0, supports[-1], 65), [supports[-1] + 0.4]))
+    girders = spacing * (np.arange(bridge["number"]) - (bridge["number"] - 1) / 2.0)
+    widths = np.full(bridge["number"], spacing)
+    grillage = Grillage(girders, stations, bridge["slab"], (bridge["web"], bridge["deep"]), widths, 33e9, 33e9 / 2.4)
+    grillage.put_weight(2500.0 * STANDARD_GRAVITY_M_S2)
+    return 1e-3 * grillage.reactions_n(supports)
+
+
+def test_the_grillage_shares_an_eccentric_load_as_rigid_cross_beams_do():
+    """Guyon, Massonnet and Bareš: with cross beams that hardly bend, girder i has 1/n + α e y_i / Σ y², where α is 1
+    over 1 + G ΣJ L² / (12 E Σ I y²), supports hold the twist, and the load is at mid-span."""
+    girders = np.array([-3.0, -1.0, 1.0, 3.0])
+    grillage = Grillage(girders, np.linspace(0.0, 16.0, 33), 0.5, (0.4, 0.9), np.full(4, 2.0), 30e9, 12.5e9)
+    bending, torsion = grillage.girder(0)
+    alpha = 1.0 / (1.0 + 12.5e9 * 4.0 * torsion * 16.0**2 / (12.0 * 30e9 * bending * (girders @ girders)))
+    grillage.put(8.0, 3.0, 1.0)
+    shares = grillage.reactions_n([0.0, 16.0]).sum(axis=0)
+    assert shares == pytest.approx(0.25 + alpha * 3.0 * girders / (girders @ girders), abs=0.05)
+
+
+@pytest.mark.parametrize(("shards", "seed"), [(60, 1), (100, 11), (100, 29), (140, 47), (200, 2)])
+def test_each_girder_of_four_has_its_share(shards, seed):
+    assert bearings_kn(FOUR, shards, seed) == pytest.approx(by_grillage_kn(FOUR), rel=0.03)
+
+
+@pytest.mark.parametrize(("shards", "seed"), [(70, 5), (100, 1), (100, 5), (160, 2)])
+def test_three_girders_over_two_spans_have_theirs(shards, seed):
+    """Beams of this depth shear, which the grillage has not: their end supports carry 1 to 2 % more."""
+    found = bearings_kn(THREE, shards, seed)
+    assert found == pytest.approx(by_grillage_kn(THREE), rel=0.05)
+    assert found == pytest.approx(found[:, ::-1], rel=0.02)  # as symmetric as the bridge is
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("bridge", "shards", "seed"), [(FOUR, 300, 3), (FOUR, 400, 4), (THREE, 300, 3)])
+def test_fine_ones_have_theirs_too(bridge, shards, seed):
+    assert bearings_kn(bridge, shards, seed) == pytest.approx(by_grillage_kn(bridge), rel=0.05)
+
+
+def test_a_skewed_bridge_carries_all_of_its_weight_and_no_bearing_lifts():
+    """It looks alike turned by half a turn; in coarse shards obtuse and acute corners are not better than so."""
+    found = bearings_kn(FOUR, 100, 3, skew=25.0)
+    assert found.sum() == pytest.approx(by_grillage_kn(FOUR).sum(), rel=1e-3)
+    assert found[0] == pytest.approx(found[1, ::-1], rel=0.3)
