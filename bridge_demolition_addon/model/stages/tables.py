@@ -19,7 +19,7 @@ from .changed_bridge import PressedBars
 from .changed_tendons import ReleasedTendon
 from .lifted import LIFT_COLUMNS, LIFTS_FILE, hook_cells, lift_rows, lift_sentences
 from .misfires import MISFIRE_COLUMNS, MISFIRES_FILE, Misfire, misfire_row
-from .most_used import RESISTANCE
+from .most_used import ALONG_SLAB, RESISTANCE
 from .reactions import SupportPoint, supports_of
 from .stages import Criticality, Stage, reactions_n
 from .standing import StandingBridge
@@ -232,7 +232,7 @@ def stage_sentences(stage: Stage, row: Mapping[str, Any]) -> list[str]:
         part = f"{row['not_held']} shards, {mass_text(row['not_held_kg'], 1)} of {row['not_held_of']}"
         sentences.append(f"{part}, held by no connection to a support")
     if stage.most_used:
-        by = "" if stage.most_used.governed_by == RESISTANCE else f" by {row['governed_by']}"
+        by = "" if stage.most_used.governed_by in (RESISTANCE, ALONG_SLAB) else f" by {row['governed_by']}"
         sentences.append(
             f"used most: {row['largest_utilisation']:.0%} {stage.most_used.words}{by}, in {row['between']} at "
             f"[{row['at_x_m']:.1f}, {row['at_y_m']:.1f}, {row['at_z_m']:.1f}] m"

@@ -37,9 +37,9 @@ from .plan_contents import with_plan_contents
 _MOST_BYTES = 10 * MEGABYTE
 _WORDS = (
     "Worked out at rest, by the stiffness of the connections and without a simulation. Utilisation is of the "
-    "resistance in bending of sections with bars, and elsewhere of the strength of a face, which breaks above 100 %. "
-    "Collapse load factor: times the weight of everything, equipment included, at which the bridge begins to come "
-    "down; below 1 the stage does not stand."
+    "resistance in bending of sections with bars, or of what links carry between a girder and its slab, and elsewhere "
+    "of the strength of a face, which breaks above 100 %. Collapse load factor: times the weight of everything, "
+    "equipment included, at which the bridge begins to come down; below 1 the stage does not stand."
 )
 _COLUMNS = (
     Column("Stage", "stage", "", lambda row: row["stage"]),
