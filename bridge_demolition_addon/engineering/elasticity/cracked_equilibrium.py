@@ -16,6 +16,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ..arithmetic import LARGEST_ANGLE
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..geometry.rotations import rotated
 from .bearings import Bearings
@@ -196,8 +197,10 @@ class CrackedStructure:
         return step
 
     def _moving(self, step: ElasticStep) -> FloatArray:
-        """Velocities (6, n) of what is held, at the end of a step."""
+        """Velocities (6, n) of what is held, at the end of a step; what falls turns no more than can be measured."""
         moving: FloatArray = np.where(self.held & self._bodies.moves, step.velocities, 0.0)
+        most = 0.25 * LARGEST_ANGLE / self._step_s
+        moving[3:] = np.clip(moving[3:], -most, most)
         return moving
 
     def _loads_of(self, step: ElasticStep) -> FloatArray:

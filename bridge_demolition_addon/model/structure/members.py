@@ -112,8 +112,8 @@ def fractured_members(
             through_plates=bool({member.name, member.kind} & with_bars),
             recursion=_recursion(settings),
         )
-        pieces = len(member.parts or (member,)) * (1 + len(stations.get(index, ())))
-        is_across = index in stations and counts[index] < _FEW * pieces
+        of_stations = len(member.parts or (member,)) * (1 + len(stations.get(index, ())))
+        is_across = index in stations and counts[index] < _FEW * of_stations
         if is_across:
             options = replace(options, stretch=options.stretch or (1.0, _THROUGH_PART, _THROUGH_PART))
         own_planes = [plane for plane in planes if isinstance(plane, CutPlane) and plane.member == member.name]

@@ -237,9 +237,10 @@ def model_on(basis: ModelBasis, members: Sequence[Member] | None = None) -> Mode
     layers = all_layers(scenario, members)
     if layers:
         within = within_reinforced(layers, members, fractured.member_of_shard, connections)
-        without = np.concatenate([part.rows for part in (bearings and bearings.springs, soil) if part] or [[]])
+        others = [part.rows for part in (bearings.springs if bearings else None, soil) if part]
+        without = np.concatenate([np.zeros(0, int), *others])
         starters = starter_bars(
-            scenario, layers, members, fractured.member_of_shard, connections, joint_of_connection, without.astype(int)
+            scenario, layers, members, fractured.member_of_shard, connections, joint_of_connection, without
         )
         if starters:
             # A foot on the ground cracks at the strength of its face, as where it has no bars, and they hold it then.

@@ -152,7 +152,7 @@ class SectionsWithBars:
         least_m, most = _LEAST_SLIP * min(np.diff(beam.supports_m).tolist()), None
         for first, second in combinations(range(len(sections)), 2):
             between = (along >= sections[first]) & (along < sections[second])
-            if sections[second] - sections[first] < least_m or not between.any():
+            if sections[second] - sections[first] < least_m or not resisted[between].any():
                 continue
             of_links = abs(pulls[second] - pulls[first]) / resisted[between].sum()
             limit = used[rows[between]].max()
