@@ -77,7 +77,9 @@ def starter_bars(
             crossing = [tuple(_crossing(own[index], members[index], point, normal)) for index in pair if index >= 0]
             kinds = frozenset(members[index].kind for index in pair if index >= 0)
             compression_pa = float(joint.strength.compression_pa) / factor
-            bars = max((*crossing, (_least(kinds, compression_pa, scenario.steel),)), key=_pull_pa)
+            bars = max(crossing, key=_pull_pa)
+            if kinds != ON_GIRDERS or not _pull_pa(bars):  # a girder's own links are as they are given
+                bars = max((bars, (_least(kinds, compression_pa, scenario.steel),)), key=_pull_pa)
             yield_n[row] = factor * _pull_pa(bars) * connections.areas[row]
             openings[row] = _opening_m(bars, compression_pa, scenario.steel) if opening_m is None else opening_m
     return StarterBars(yield_n, openings) if yield_n.any() else None

@@ -12,8 +12,10 @@ import numpy as np
 import pytest
 from support.bridges_by_rule import bridge, scenario
 
+from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.model.reinforcement.design import bar_schedule
-from bridge_demolition_addon.model.scenario import BarLayer, Deck, FractureSettings, Girders
+from bridge_demolition_addon.model.scenario import BarLayer, Deck, FractureSettings, Girders, Support
+from bridge_demolition_addon.model.stages.standing import StandingBridge
 from bridge_demolition_addon.model.structure.facts import connection_facts
 from bridge_demolition_addon.model.structure.model import build_model
 
@@ -110,3 +112,27 @@ def test_anchored_bars_slip_out_of_both_sides_until_they_rupture(diameter_mm):
     slip_mm = diameter_mm / 8.0 * (yielding * 500.0 / root + (0.05 + yielding) * 0.08 * 500.0 / (0.5 * root))
     openings_m = model.bars.openings_m[between(model, "girder 1", "deck")]
     np.testing.assert_allclose(openings_m, 2e-3 * slip_mm, rtol=0.15)
+
+
+def test_a_slab_tears_from_its_girders_at_the_force_that_is_stated():
+    """Pulled up evenly from girders that are held: more links than concrete holds yield at once, and harden by 8 %."""
+    by_hand = (
+        BarLayer(members=("girder",), depth_m=0.08, area_mm2=5000.0),
+        BarLayer(members=("girder",), along="z", spread_mm2_m2=12000.0, diameter_mm=10.0),
+    )
+    of_bridge = bridge(rule=None, **GIRDERS)
+    plan = without_opening(scenario(of_bridge, reinforcement=by_hand, supports=(Support(member="girder"),)))
+    settings = replace(plan.connections, stiffness="elastic")
+    plan = replace(plan, connections=settings, fracture=FractureSettings(shards=44))
+    model = build_model(plan)
+    bridge_at_rest, count = StandingBridge(model, plan.joints), len(model.connections)
+    of_slab = [member.kind == "deck" for member in model.members]
+    weights_n = STANDARD_GRAVITY_M_S2 * model.masses_kg * np.array(of_slab)[model.member_of_shard]
+    loads = np.zeros((6, len(model.shards)))
+    loads[2] = 21.0 * weights_n
+    (line,) = [text for _, text in connection_facts(plan, model) if "links to the slab" in text]
+    stated = line.split()
+    stated_n = 2.0 * 1e3 * float(stated[stated.index("kN/m") - 1]) * LENGTH_M
+    assert stated_n == pytest.approx(2.0 * 12000e-6 * 0.5 * YIELD_PA * LENGTH_M, rel=1e-3)
+    torn_at = bridge_at_rest.collapse_factor(np.ones(count, bool), np.ones(count), loads) * 20.0 * weights_n.sum()
+    assert torn_at == pytest.approx(1.08 * stated_n, rel=0.05)
