@@ -291,6 +291,8 @@ def _stations_m(
         begin, length = float(along.min()), float(np.ptp(along))
         shortest = 0.5 * (scenario.bridge.girders.depth_m + scenario.bridge.deck.thickness_m)
         alike = int(counts[rows].sum()) // (2 * len(girders))
+        if min(alike, *counts[rows[1:]].tolist()) < 2 or counts[rows[0]] < 2 * len(girders):
+            continue
         if alike * shortest < length and not any(rules[row] or len(own_points[row]) for row in rows):
             rest = int(counts[rows].sum()) - 2 * len(girders) * alike
             counts[rows] = [len(girders) * alike, *[alike] * len(girders)]
