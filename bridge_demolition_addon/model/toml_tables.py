@@ -106,7 +106,7 @@ def document_of_file(
     if text.startswith(_IFC):
         raise ScenarioError(_OF_ENDING[".ifc"])
     if not text.strip():
-        raise ScenarioError(f"is empty: expected {description} in TOML, such as bda new writes")
+        raise ScenarioError(f"is empty: expected {description} in TOML, see examples")
     return toml_document(text, faults)
 
 

@@ -278,7 +278,7 @@ def refused(capsys, *words):
         ("a.OBJ", "v 0 0 0", "this is a mesh: name it in a scenario, [[geometry]]"),
         ("a.laz", "LASF", "this is ground: name it in a scenario, [ground]"),
         ("a.dwg", "AC1027", "this is not read: export an IFC file, or meshes as OBJ"),
-        ("a.toml", " \n", "is empty: expected a scenario in TOML, such as bda new writes"),
+        ("a.toml", " \n", "is empty: expected a scenario in TOML, see examples"),
     ],
 )
 @pytest.mark.parametrize("command", ["check", "run"])

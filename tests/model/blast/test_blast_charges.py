@@ -71,7 +71,7 @@ def test_charges_without_a_name_are_called_after_their_number():
         ({"mass_kg": None}, "charges.mass_kg is missing: expected a number"),
         ({"delay_ms": -1.0}, "charges.delay_ms is -1.0: expected a number from 0"),
         ({"delay_ms": float("nan")}, "charges.delay_ms is nan"),
-        ({"place_m": (0.0, 0.0)}, "charges.place_m is a list of length 2: expected a list of 3 numbers (m)"),
+        ({"place_m": (0.0, 0.0)}, "charges.place_m is a list of length 2: expected a list of 3 numbers"),
         ({"place_m": (0.0, 0.0, float("inf"))}, "charges.place_m.3 is inf: expected a list of 3 numbers"),
         ({"place_m": 3.0}, "charges.place_m is 3.0: expected a list of 3 numbers"),
         ({"explosive": "jelly"}, 'charges.explosive is "jelly": expected one of "TNT", "ANFO", "C-4"'),

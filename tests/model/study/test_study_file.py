@@ -87,7 +87,7 @@ def test_a_study_is_written_and_read_back_with_the_same_draws(tmp_path):
         (vary(**NORMAL, lowest=8, highest=9), "less than 1e-06 of this distribution lies from lowest to highest"),
         (vary(**NORMAL) + vary(**NORMAL), "number 2: ball.drop_height_m is sampled more than once"),
         (vary("scenario.seed", **NORMAL), "vary.key is scenario.seed, which is always sampled: leave it out"),
-        (vary("ball.height_m", **NORMAL), "number 1: ball.height_m is unknown: expected one of"),
+        (vary("ball.height_m", **NORMAL), "number 1: ball.height_m is unknown: did you mean ball.drop_height_m?"),
         (
             vary(**NORMAL | {"deviation": 1.0}),
             "number 1: a run may sample ball.drop_height_m = -3.20954: expected a number above 0 and up to 10000.0 "
@@ -143,7 +143,8 @@ def test_what_cannot_be_studied_is_refused_on_one_line(tmp_path, text, message):
 @pytest.mark.parametrize(
     "heading, message",
     [
-        ("", "study.scenario is missing: expected a text"),
+        ("", "is empty: expected a study in TOML"),
+        ("[study]\nseed = 1\n", "study.scenario is missing: expected a text"),
         ('[study]\nscenario = "missing.toml"\n', "missing.toml: no such file"),
         ('[study]\nscenario = "study.toml"\n', "this is a study: use bda study"),
         ('[study]\nscenario = "a\\u0000b"\n', "expected a text on one line"),
