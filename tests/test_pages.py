@@ -24,7 +24,7 @@ def test_what_is_to_be_installed_can_be():
 def test_its_commands_are_those_of_the_readme_which_a_test_runs():
     with_tables = [
         *commands_in_blocks(README),
-        *re.findall(r"python -m pip install \"[^\"]+\"", README),
+        *re.findall(r"python -m pip install (?:\"[^\"]+\"|\.)", README),
         "bda --version",
     ]
     assert set(commands_in_blocks(INSTALL)) <= set(with_tables)

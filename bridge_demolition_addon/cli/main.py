@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from difflib import get_close_matches
 from importlib import import_module
-from typing import Any, NamedTuple, NoReturn
+from typing import NamedTuple, NoReturn
 
 from ..errors import (
     BlastError,
@@ -74,14 +74,10 @@ class UsageError(DemolitionError):
 class Parser(argparse.ArgumentParser):
     """A parser whose errors are printed as all others are: one line, without the usage."""
 
-    def __init__(self, **settings: Any) -> None:
-        self.options: list[str] = []
-        super().__init__(**settings)
-
-    def add_argument(self, *names: str, **settings: Any) -> argparse.Action:
-        """Add an argument, and remember its name, which a wrong one may be like."""
-        self.options += [name for name in names if name.startswith("--")]
-        return super().add_argument(*names, **settings)
+    @property
+    def options(self) -> list[str]:
+        """Names of all options, also of those in groups: a wrong one may be like one of them."""
+        return [name for name in self._option_string_actions if name.startswith("--")]
 
     def error(self, message: str) -> NoReturn:
         """Refuse a command line."""

@@ -123,7 +123,8 @@ class SectionsWithBars:
             return
         slab = cut(beam.deck.member)[-1]
         girders = {other.girder.member for other in self._beams if other.deck.member == beam.deck.member}
-        axial = -dot(slab.forces_n + sum(cut(number)[-1].forces_n for number in girders), runs) / len(girders)
+        whole_n = np.add.reduce([slab.forces_n, *(cut(number)[-1].forces_n for number in sorted(girders))])
+        axial = -dot(whole_n, runs) / len(girders)
         turns = unit(cross(runs, np.eye(3)[2]))
         pressing = -dot(own.moments_nm + slab.moments_nm / len(girders), turns)
         pressing -= axial * (beam.slab_m - beam.middle_m)

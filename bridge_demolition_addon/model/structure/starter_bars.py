@@ -7,6 +7,7 @@ their footings.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
@@ -97,7 +98,7 @@ class _Crossing:
 
 
 def _pull_pa(bars: Sequence[_Crossing]) -> float:
-    return float(sum(bar.ratio * bar.yield_pa for bar in bars))
+    return math.fsum(bar.ratio * bar.yield_pa for bar in bars)
 
 
 def _pieces(scenario: Scenario, members: Sequence[Member]) -> Iterator[np.ndarray]:
