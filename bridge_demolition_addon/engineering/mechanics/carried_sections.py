@@ -41,10 +41,9 @@ class CarriedSections:
         return length(self.points_m)
 
     @cached_property
-    def _core(self) -> CarriedLoads:
+    def _records(self) -> np.ndarray:
         """All of it, as the core takes it."""
-        records = pack(CARRIED, body=self.bodies, sign=self.signs, point=self.points_m, axes=self.axes)
-        return CarriedLoads(connections=len(self.bodies)).take(carried=(records, len(self.bodies)))
+        return pack(CARRIED, body=self.bodies, sign=self.signs, point=self.points_m, axes=self.axes)
 
     @cached_property
     def _ends(self) -> tuple[int, int]:
@@ -62,9 +61,9 @@ class CarriedSections:
         first, last = self._ends
         if count and not 0 <= first <= last < bodies:
             raise ValueError(f"connections are known on bodies {first} to {last} of {bodies}")
-        core = self._core
-        core.substeps, core.bodies = substeps, bodies
-        return core.take(
+        # One of its own each time: loads of a frame are worked out in a second thread while connections are judged.
+        return CarriedLoads(substeps=substeps, connections=count, bodies=bodies).take(
+            carried=(self._records, count),
             loads=(loads, 6 * substeps * count),
             positions=(positions_m, 3 * substeps * bodies),
             rotations=(rotations, 9 * substeps * bodies),
