@@ -151,6 +151,19 @@ static void go(guessed_term *g, const double *shares, const uint8_t *off)
     }
 }
 
+/* Begin with no motion in the parts that are open. */
+void guess_no_motion(guesses *all)
+{
+    const double none[3] = {0.0, 0.0, 0.0};
+    for (int64_t number = 0; number < all->count; number++) {
+        guessed_term *g = all->terms + number;
+        for (int64_t row = 0; row < g->term->gaps; row++)
+            if (all->open[g->part[g->term->of_gap[row]]])
+                begin_at(g, row, none);
+    }
+    all->are_first = 1;
+}
+
 /* Return whether forces do not agree with the velocities (6, n) that solve the equations; then guess others. Parts that
  * agree are not open any more. */
 int guess_again(guesses *all, const double *velocities, int64_t bodies, double substep_s)

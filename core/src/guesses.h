@@ -23,6 +23,7 @@ typedef struct {
     double *low, *share, *at_low, *at_high, *at_share, *flat; /* (p + 1,), of that search */
 } guesses;
 
+void guess_no_motion(guesses *guesses);
 int guess_again(guesses *guesses, const double *velocities, int64_t bodies, double substep_s);
 
 #endif

@@ -7,7 +7,7 @@
 
 #include "guesses.h"
 
-enum { MOST_ROOMS = 96 };
+enum { MOST_ROOMS = 96, BAD_BEGINNING = 16 };
 
 /* Room that is given back at the end of the sub-step. */
 typedef struct {
@@ -144,7 +144,8 @@ static void prepare_term(work *w, pool *p, int64_t number)
     for (int64_t row = 0; row < t->gaps; row++)
         begin_at(g, row, at_rest);
     find_slack(g);
-    begin_as_remembered(g);
+    if (!s->from_rest)
+        begin_as_remembered(g);
 }
 
 static void prepare(work *w, pool *p)
@@ -510,6 +511,9 @@ int bda_solve_substep(bda_substep *s)
     for (; answer == BDA_DONE && s->term_count && s->guesses < s->most_guesses; s->guesses++) {
         if (!guess_again(&w.all, s->ends, s->places->count, s->substep_s))
             break;
+        /* What gaps did in the last sub-step may be a bad beginning, as where they were wide open and now close. */
+        if (s->guesses == BAD_BEGINNING)
+            guess_no_motion(&w.all);
         answer = refresh(&w);
         if (answer == BDA_DONE)
             solve(&w);

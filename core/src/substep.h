@@ -41,6 +41,7 @@ typedef struct {
     int64_t term_count;
     bda_term *const *terms;     /* (t,) */
     int64_t most_guesses;
+    int64_t from_rest;          /* whether guesses begin with no motion, and not with that of the last sub-step */
     /* What comes of it: rates (6, k), impulses (6, k) on both bodies, their sums (6, n), velocities (6, n) at the end. */
     double *rates, *of_first, *of_second, *of_bodies, *ends;
     int64_t guesses, factorings; /* how many there were */

@@ -116,7 +116,7 @@ class CrackedStructure:
         """
         built = self._built
         structure = ElasticStructure(
-            built.frames, built.stiffness, built.bodies, 0.0, self.cracks, built.soil, built.bearings
+            built.frames, built.stiffness, built.bodies, 0.0, self.cracks, built.soil, built.bearings, from_rest=True
         )
         if self.bare_bars is not None:
             structure.stand_bare(self.bare_bars)

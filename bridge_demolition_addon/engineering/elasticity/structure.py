@@ -119,7 +119,8 @@ class ElasticStructure:
 
     `stiffness` (6, 6, m) is against shifts, N/m, and then turns, N·m/rad, in the axes of the first frames;
     `damping_s` (m,) is damping over stiffness, β, or one for all. What rounding leaves of deformations where the
-    `bodies` are counts as none.
+    `bodies` are counts as none. `from_rest`: steps do not follow one another in time, and none begins with the
+    motion of the last.
     """
 
     def __init__(
@@ -131,6 +132,8 @@ class ElasticStructure:
         cracks: Cracks | None = None,
         soil: SpringLaw | None = None,
         bearings: Bearings | None = None,
+        *,
+        from_rest: bool = False,
     ):
         self._bare_bars: BareBarLaw | None = None
         self._frames, self._bodies = frames, bodies
@@ -145,6 +148,7 @@ class ElasticStructure:
         self._joints = KeptJoints(frames, self._count, stiffness, positions.deformations())
         self._stiffness = np.ascontiguousarray(stiffness)
         self._solved = Substep()
+        self._solved.from_rest = int(from_rest)
         for name, array, size in (
             ("masses", np.ascontiguousarray(bodies.masses_kg, float), self._count),
             ("inertias", np.ascontiguousarray(bodies.inertias_kg_m2), 9 * self._count),

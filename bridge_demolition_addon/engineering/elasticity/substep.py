@@ -247,6 +247,7 @@ class Substep(Struct):
         ("term_count", Count),
         ("terms", ctypes.c_void_p),
         ("most_guesses", Count),
+        ("from_rest", Count),
         ("rates", WrittenDoubles),
         ("of_first", WrittenDoubles),
         ("of_second", WrittenDoubles),
