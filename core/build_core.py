@@ -45,7 +45,7 @@ FLAGS = ("-std=c11", "-O3", "-ffp-contract=off", "-fno-math-errno", "-fvisibilit
 """Arithmetic stays as it is written: nothing is contracted or reordered, and every processor rounds the same. Without
 errno, sqrt is one instruction. Processors need no more than the first of their kind had."""
 
-SHARED = ("-shared", "-lm")
+SHARED = "-shared"
 ZIG = "ziglang"
 """The wheel that brings a compiler where there is none."""
 
@@ -109,7 +109,19 @@ def zig(platform: Platform) -> list[str] | None:
     if not platform.target or importlib.util.find_spec(ZIG) is None:
         return None
     # It would make debug information, and trap where the C standard leaves something undefined.
-    return [sys.executable, "-m", ZIG, "cc", "-target", platform.target, "-g0", "-fno-sanitize=undefined"]
+    command = [sys.executable, "-m", ZIG, "cc", "-target", platform.target, "-g0", "-fno-sanitize=undefined"]
+    return [*command, *without_runtime()] if platform.ending == ".dll" else command
+
+
+def without_runtime() -> list[str]:
+    """Return what has zig link the C library that Windows comes with, and nothing of its own.
+
+    It would first build a runtime from hundreds of files, for minutes. The core has nothing to initialise, and calls
+    only what allocates, copies and fills memory: so it needs no entry point either.
+    """
+    (folder,) = importlib.util.find_spec(ZIG).submodule_search_locations
+    headers = Path(folder, "lib", "libc", "include", "any-windows-any")
+    return ["-nostdlib", "-isystem", str(headers), "-lucrtbase", "-Wl,--no-entry"]
 
 
 @cache
@@ -135,7 +147,7 @@ def works(command: Sequence[str]) -> bool:
         source.write_text(EXAMPLE, encoding="ascii")
         load = [sys.executable, "-c", "import ctypes, sys; ctypes.CDLL(sys.argv[1])", library]
         try:
-            compiled = [*command, *FLAGS, *system_flags(here()), source, "-o", library, *SHARED]
+            compiled = [*command, *FLAGS, *system_flags(here()), source, "-o", library, SHARED]
             return all(subprocess.run(step, capture_output=True).returncode == 0 for step in (compiled, load))
         except OSError:
             return False
@@ -169,7 +181,7 @@ def compile_to(
         library = Path(name, target.name)
         words = [*command, *FLAGS, *system_flags(platform), f'-DBDA_CORE_SOURCES="{mark(platform)}"', *options]
         done = subprocess.run(
-            [*words, *sorted(SOURCES.glob("*.c")), "-o", library, *SHARED], capture_output=True, text=True
+            [*words, *sorted(SOURCES.glob("*.c")), "-o", library, SHARED], capture_output=True, text=True
         )
         if done.returncode:
             raise BuildError(f"{command[0]} could not build the core for {platform.name}:\n{done.stderr.strip()}")
@@ -190,7 +202,7 @@ def update(folder: Path = ROOM, platform: Platform | None = None) -> Path:
 
 
 def kept(platform: Platform) -> Path:
-    """Return the library for a platform, for which zig builds it once: its first one for Windows takes minutes."""
+    """Return the library for a platform, for which zig builds it once."""
     command = zig(platform)
     if command is None:
         raise BuildError(f"libraries for other machines are built by zig: python -m pip install {ZIG}")

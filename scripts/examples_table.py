@@ -53,7 +53,7 @@ HEADER = """\
 
 Does the bridge of an example stand, what does it carry, and what do runs come to that differ in nothing but their seed?
 How it stands is worked out by statics, as `bda check --stand` and `bda stages` do, for the example's own seed. Runs are
-those of `scripts/seeds`; each row of [their tables](data/seeds) is one. All of it is of the version that
+those of `scripts/seeds`; each row of [their tables](data/seeds) is one. Runs are of an earlier version, which
 [remade.json](data/remade.json) names: bridges whose connections are elastic begin otherwise today, as members that are
 cast together share bars now, and `scripts/remake --list` says what waits to be made again.
 
