@@ -202,6 +202,7 @@ def test_a_single_shard(build):
         fixed=MODEL.fixed[:1],
         connections=type(MODEL.connections)(np.zeros((0, 2), int), np.zeros((0, 3)), np.zeros(0), np.zeros((0, 3))),
         joint_of_connection=np.zeros(0, int),
+        origins=np.zeros(0, str),
         second_moments_m4=np.zeros((0, 2, 2)),
     )
     scene = build(SCENARIO, model)

@@ -1,9 +1,10 @@
 """A whole scenario, made of its tables."""
 
 import math
+from collections.abc import Hashable
 from dataclasses import dataclass, field, replace
 from itertools import chain
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Literal, NamedTuple
 
 from ...engineering.elasticity.steel_bars import Steel
 from ...engineering.ground_motion.record import GroundRecord
@@ -53,6 +54,15 @@ from .steelwork import Steelwork
 from .structural_changes import Change, Removal, SawCut, TendonCut, Weakening, lifting_away, severing
 from .tendons import Tendon, check_tendons
 from .time import MOST_FRAMES, TimeSettings
+
+
+class JointName(NamedTuple):
+    """What connections with the same joint are: number 0 of `rule` follows none, others are counted as in the file."""
+
+    kind: Literal["rule", "bearing", "steel", "deck"]
+    of: Hashable
+    with_bars: bool = False
+
 
 _RIGID_WITH_BARS = "bars between rigid bodies would make energy"
 
@@ -123,11 +133,26 @@ class Scenario(Table):
         Rules are those of `connections.between`. With reinforcement, the same follow for members that have bars. Those
         of steelwork come last, and after them those of decks with girders.
         """
-        factor = self.connections.strength_factor
-        of_steel = self.steelwork.joints(factor) if self.steelwork else ()
-        decks = self.steelwork.decks if self.steelwork else ()
-        of_decks = chain.from_iterable(joints_of_deck(span, deck_joint(self, span), factor) for span in decks)
-        return (*joints_of_faces(self), *of_steel, *of_decks)
+        return tuple(self.named_joints.values())
+
+    @property
+    def named_joints(self) -> dict[JointName, Joint]:
+        """Return all joints by what has them."""
+        settings = self.connections
+        factor, is_elastic = settings.strength_factor, settings.is_elastic
+        plain = joints_of_connections(settings, self.materials)
+        pads = [table.joint(plain[0], factor, is_elastic=is_elastic) for table in bearing_tables(self)]
+        named: dict[JointName, Joint] = {}
+        for with_bars in (False, True) if self.reinforcement or rules_of_bars(self) else (False,):
+            own = joints_of_connections(settings, self.materials, have_bars=True) if with_bars else plain
+            named |= {JointName("rule", number, with_bars): joint for number, joint in enumerate(own)}
+            named |= {JointName("bearing", number, with_bars): joint for number, joint in enumerate(pads)}
+        if self.steelwork:
+            named |= {JointName("steel", kind): joint for kind, joint in self.steelwork.joints(factor).items()}
+            for number, span in enumerate(self.steelwork.decks):
+                between, over_piers = joints_of_deck(span, deck_joint(self, span), factor)
+                named |= {JointName("deck", (number, False)): between, JointName("deck", (number, True)): over_piers}
+        return named
 
     @property
     def is_reinforced(self) -> bool:
@@ -347,17 +372,6 @@ def no_actions(scenario: Scenario) -> dict[str, Any]:
     """Return the fields of all actions where nothing is done to the bridge, as `replace` takes them."""
     held = {name: getattr(scenario, name) for name in action_fields(Scenario)}
     return {name: () if isinstance(value, tuple) else None for name, value in held.items()}
-
-
-def joints_of_faces(scenario: Scenario) -> tuple[Joint, ...]:
-    """Return the joints of a scenario that are not those of steelwork, and stand before these."""
-    connections = scenario.connections
-    own, *others = joints_of_connections(connections, scenario.materials)
-    factor, is_elastic = connections.strength_factor, connections.is_elastic
-    pads = [table.joint(own, factor, is_elastic=is_elastic) for table in bearing_tables(scenario)]
-    if not scenario.reinforcement and not rules_of_bars(scenario):
-        return (own, *others, *pads)
-    return (own, *others, *pads, *joints_of_connections(connections, scenario.materials, have_bars=True), *pads)
 
 
 def deck_joint(scenario: Scenario, span: GirderSpan) -> Joint:

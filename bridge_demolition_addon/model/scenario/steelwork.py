@@ -261,16 +261,12 @@ class Steelwork(Table):
         yield_pa, _ = self.yield_and_ultimate_pa(member)
         return initial_bow_m(member.steel_section, yield_pa, (about_y * length_m, about_z * length_m))
 
-    def joints(self, strength_factor: float) -> tuple[Joint, ...]:
-        """Return the joints of bars that are alike, by `joint_keys`."""
-        return tuple(
-            Joint(kind, strength=_times(strength, strength_factor), moduli=STEEL_MODULI)
-            for strength, kind in self._kinds().values()
-        )
-
-    def joint_rows(self) -> dict[tuple[str, ...], int]:
-        """Return which of the joints each kind of connection has, by what makes it: see `bar_key`, `support_key`."""
-        return {name: row for row, name in enumerate(self._kinds())}
+    def joints(self, strength_factor: float) -> dict[tuple[str, ...], Joint]:
+        """Return the joints of connections that are alike, by their `bar_key` or `support_key`."""
+        return {
+            name: Joint(kind, strength=_times(strength, strength_factor), moduli=STEEL_MODULI)
+            for name, (strength, kind) in self._kinds().items()
+        }
 
     def bar_key(self, member: SteelMember, end: int | None = None) -> tuple[str, ...]:
         """Return what the joints of a bar have in common, within it or at one of its ends."""

@@ -16,10 +16,10 @@ from ...errors import ScenarioError
 from ..actions import Fact
 from ..scenario import Scenario
 from ..schema import LARGEST_INTEGER, given
-from .bearings import BearingForce
 from .cracking import cracked_by_weight
 from .equilibrium import loads_of, model_at_rest, overloaded
 from .model import Model, build_model
+from .model_bearings import BearingForce
 
 ONE_CUT = (
     "Single bearings are of this one cut: each seed shares what an axis carries otherwise, and bda check --cuts 5 says "

@@ -1,4 +1,4 @@
-"""Bearings of a model: where their pads are, which shards these connect, and the forces that they carry."""
+"""Bearings between members: where their pads are, and which shards these connect."""
 
 from __future__ import annotations
 
@@ -11,13 +11,15 @@ from ...engineering.elasticity.bearings import PadSprings
 from ...engineering.geometry.level_contacts import LevelContact, level_contacts
 from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.solids import contains, from_manifold, to_manifold
-from ...engineering.geometry.vectors import cross, dot
-from ...engineering.mechanics.section_cuts import ConnectionLoads
+from ...engineering.geometry.vectors import dot
 from ...engineering.structure.connections import Connections
 from ...errors import ScenarioError
 from ..bridge.member import Member
 from ..scenario.bearings import Bearing, BearingOfBridge, names_one
+from ..scenario.scenario import JointName, bearing_tables
 from ..schema import shown
+from .connection_source import ConnectionRows, ConnectionSource, CutBridge
+from .model_bearings import ModelBearings
 
 _SPRINGS_OF_LINE = 64
 _SPRINGS_OF_PAD = 16
@@ -36,7 +38,7 @@ _ON_PLANE_M = 1e-4
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class PlacedBearing:
+class _PlacedBearing:
     """A bearing between two members, by their indices."""
 
     table: int  # which table of the scenario says how it is
@@ -45,64 +47,70 @@ class PlacedBearing:
     contacts: tuple[LevelContact, ...]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class ModelBearings:
-    """The b bearings of a model, and the springs of their pads in its connections."""
+class Pads(ConnectionSource):
+    """Connections at the pads of bearings: of each the first shard lies above."""
 
-    names: tuple[str, ...]
-    springs: PadSprings
+    def __init__(self, cut: CutBridge):
+        super().__init__(cut)
+        self._tables = bearing_tables(cut.scenario)
+        self._placed = _placed_bearings(self._tables, cut.members)
 
-    def followed_by(self, springs: PadSprings, names: tuple[str, ...]) -> ModelBearings:
-        """Return these bearings and others, whose springs count on from theirs."""
-        return ModelBearings((*self.names, *names), self.springs.followed_by(springs))
+    def takes(self, pairs: np.ndarray) -> np.ndarray:
+        """Return those of two members with a bearing."""
+        members, found = self.cut.members_of(pairs), np.zeros(len(pairs), bool)
+        for bearing in self._placed:
+            for one, other in ((bearing.above, bearing.below), (bearing.below, bearing.above)):
+                found |= (members[:, 0] == one) & (members[:, 1] == other)
+        return found
 
-    def rows_of(self, bearing: int) -> np.ndarray:
-        """Return the connections (k,) of a bearing."""
-        return self.springs.rows[self.springs.bearings == bearing]
+    def added(self, rows: ConnectionRows) -> ConnectionRows:
+        """Return the connections at pads: the area of each is its share of that where the members touch."""
+        if not self._placed:
+            return rows
+        cut, names, groups = self.cut, [], []
+        for number, bearing in enumerate(self._placed):
+            name = f"{cut.members[bearing.above].name} on {cut.members[bearing.below].name}"
+            names.append(name)
+            pads = list(_pads(self._tables[bearing.table], bearing, name))
+            places = np.concatenate([pad.places_m for pad in pads])
+            sides = ((bearing.above, _INTO_M), (bearing.below, -_INTO_M))
+            pairs = [
+                shards_at(
+                    places + np.array([0.0, 0.0, into_m]), np.flatnonzero(cut.member_of_shard == member), cut.shards
+                )
+                for member, into_m in sides
+            ]
+            groups += _groups(number, name, pads, np.column_stack(pairs))
+        tables = [self._placed[group.bearing].table for group in groups]
+        springs = _springs(groups, [self._tables[table] for table in tables], cut.scenario.connections.strength_factor)
+        connections = Connections(
+            np.array([group.pair for group in groups], int).reshape(len(groups), 2),
+            springs.middles_m(),
+            np.array([group.area_m2 for group in groups], float),
+            np.tile([0.0, 0.0, -1.0], (len(groups), 1)),
+        )
+        joints = np.array([cut.joint_rows[JointName("bearing", table)] for table in tables], int)
+        followed, moves = rows.followed_by(cut, "pads", connections, joints)
+        return followed.on_bearings(ModelBearings(tuple(names), springs).among(moves, len(rows)))
 
-    def forces(self, loads: ConnectionLoads) -> list[BearingForce]:
-        """Return the force of each bearing, by the loads of all connections on their first bodies."""
-        return [self._force(number, loads) for number in range(len(self.names))]
-
-    def utilisations(self, loads: ConnectionLoads, intact: np.ndarray, left: np.ndarray) -> np.ndarray:
-        """Return the part (c,) of its breaking force that the bearing of each of its connections carries.
-
-        All connections (m,) are `intact` or not, and have a part `left` of their strength.
-        """
-        rows = self.springs.rows
-        return self.springs.utilisations((loads.forces_n[rows] * intact[rows, None]).T, left[rows])
-
-    def broken_together(self, rows: np.ndarray) -> np.ndarray:
-        """Return connections (k,) that break, with all others of the bearings among them."""
-        bearings = self.springs.bearings[np.isin(self.springs.rows, rows)]
-        return np.union1d(rows, self.springs.rows[np.isin(self.springs.bearings, bearings)])
-
-    def _force(self, number: int, loads: ConnectionLoads) -> BearingForce:
-        rows = self.rows_of(number)
-        of_springs = np.isin(self.springs.parts, np.flatnonzero(self.springs.bearings == number))
-        axis = self.springs.places_m[of_springs].mean(axis=0) if len(rows) else np.zeros(3)
-        moments = loads.moments_nm[rows] + cross(loads.points_m[rows] - axis, loads.forces_n[rows])
-        return BearingForce(self.names[number], axis, loads.forces_n[rows].sum(axis=0), moments.sum(axis=0))
+    def shaped(self, shards: tuple[TriangleMesh, ...]) -> tuple[TriangleMesh, ...]:
+        """Return shards of which those on bearings are thinner from below: only the pads touch both members."""
+        changed = list(shards)
+        for bearing in self._placed:
+            for shard in np.flatnonzero(self.cut.member_of_shard == bearing.above).tolist():
+                for contact in bearing.contacts:
+                    changed[shard] = _raised(changed[shard], contact, self._tables[bearing.table].height_m)
+        return tuple(changed)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class BearingForce:
-    """Force of a bearing on what lies above it, N, and its moment about the middle of its axis, N·m; all (3,)."""
-
-    name: str
-    axis_m: np.ndarray
-    force_n: np.ndarray
-    moment_nm: np.ndarray
-
-
-def placed_bearings(tables: Sequence[Bearing], members: Sequence[Member]) -> list[PlacedBearing]:
+def _placed_bearings(tables: Sequence[Bearing], members: Sequence[Member]) -> list[_PlacedBearing]:
     """Return the bearings between all members that tables name and that lie on each other."""
-    placed: dict[tuple[int, int], PlacedBearing] = {}
+    placed: dict[tuple[int, int], _PlacedBearing] = {}
     for number, table in enumerate(tables):
         above, below = (_named(members, name, _source(table, number)) for name in table.members)
         pairs = [(one, other) for one in above for other in below if one != other]
         found = [
-            PlacedBearing(number, one, other, tuple(contacts))
+            _PlacedBearing(number, one, other, tuple(contacts))
             for one, other in pairs
             if (contacts := level_contacts(members[one].solid, members[other].solid))
         ]
@@ -116,61 +124,6 @@ def placed_bearings(tables: Sequence[Bearing], members: Sequence[Member]) -> lis
         for bearing in found:
             placed.setdefault((bearing.above, bearing.below), bearing)
     return list(placed.values())
-
-
-def have_bearing(placed: Sequence[PlacedBearing], member_of_shard: np.ndarray, pairs: np.ndarray) -> np.ndarray:
-    """Return which pairs (k, 2) of shards, or of one and the ground, are of two members with a bearing."""
-    of_body = np.append(member_of_shard, -1)[pairs]
-    found = np.zeros(len(pairs), bool)
-    for bearing in placed:
-        for one, other in ((bearing.above, bearing.below), (bearing.below, bearing.above)):
-            found |= (of_body[:, 0] == one) & (of_body[:, 1] == other)
-    return found
-
-
-def bearing_connections(
-    placed: Sequence[PlacedBearing],
-    tables: Sequence[Bearing],
-    members: Sequence[Member],
-    member_of_shard: np.ndarray,
-    shards: Sequence[TriangleMesh],
-    first_row: int,
-    strength_factor: float,
-) -> tuple[Connections, ModelBearings, np.ndarray]:
-    """Return the connections at pads, their bearings, and the table of each (c,); rows are counted from `first_row`.
-
-    Of each connection the first shard lies above. Its area is its share of that where the members touch. Breaking
-    forces are as many times as large as their tables say.
-    """
-    names, groups = [], []
-    for number, bearing in enumerate(placed):
-        table = tables[bearing.table]
-        name = f"{members[bearing.above].name} on {members[bearing.below].name}"
-        names.append(name)
-        pads = list(_pads(table, bearing, name))
-        places = np.concatenate([pad.places_m for pad in pads])
-        sides = ((bearing.above, _INTO_M), (bearing.below, -_INTO_M))
-        pairs = [
-            shards_at(places + np.array([0.0, 0.0, into_m]), np.flatnonzero(member_of_shard == member), shards)
-            for member, into_m in sides
-        ]
-        groups += _groups(number, name, pads, np.column_stack(pairs))
-    return _joined(groups, tables, placed, first_row, names, strength_factor)
-
-
-def raised_shards(
-    shards: tuple[TriangleMesh, ...],
-    placed: Sequence[PlacedBearing],
-    tables: Sequence[Bearing],
-    member_of_shard: np.ndarray,
-) -> tuple[TriangleMesh, ...]:
-    """Return shards of which those on bearings are thinner from below: only the pads touch both members."""
-    changed = list(shards)
-    for bearing in placed:
-        for shard in np.flatnonzero(member_of_shard == bearing.above).tolist():
-            for contact in bearing.contacts:
-                changed[shard] = _raised(changed[shard], contact, tables[bearing.table].height_m)
-    return tuple(changed)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -208,7 +161,7 @@ def _named(members: Sequence[Member], pattern: str, source: str) -> list[int]:
     return chosen
 
 
-def _pads(table: Bearing, bearing: PlacedBearing, name: str) -> Iterator[_Pad]:
+def _pads(table: Bearing, bearing: _PlacedBearing, name: str) -> Iterator[_Pad]:
     """Yield the pads of a bearing, in each area where its members touch."""
     for contact in bearing.contacts:
         chords = contact.axis_chords(table.offset_m)
@@ -313,37 +266,21 @@ def _groups(number: int, name: str, pads: Sequence[_Pad], pairs: np.ndarray) -> 
     ]
 
 
-def _joined(
-    groups: Sequence[_Group],
-    tables: Sequence[Bearing],
-    placed: Sequence[PlacedBearing],
-    first_row: int,
-    names: Sequence[str],
-    strength_factor: float,
-) -> tuple[Connections, ModelBearings, np.ndarray]:
-    count = len(groups)
-    table_of = np.array([placed[group.bearing].table for group in groups], int)
-    of_groups = [tables[table] for table in table_of.tolist()]
-    columns = list(zip(groups, of_groups, strict=True))
-    springs = PadSprings(
-        rows=first_row + np.arange(count),
+def _springs(groups: Sequence[_Group], tables: Sequence[Bearing], strength_factor: float) -> PadSprings:
+    """Return the springs of connections, each with its table."""
+    count, columns = len(groups), list(zip(groups, tables, strict=True))
+    return PadSprings(
+        rows=np.arange(count),
         parts=np.repeat(np.arange(count), [len(group.shares) for group in groups]),
         places_m=np.concatenate([group.places_m for group in groups]),
         vertical_n_m=np.concatenate([table.vertical_n_m * group.shares for group, table in columns]),
         sideways_n_m=np.concatenate([np.multiply.outer(group.shares, table.sideways_n_m) for group, table in columns]),
-        friction=np.array([table.slides_at for table in of_groups], float),
-        pulls=np.array([table.tension for table in of_groups], bool),
-        travel_m=np.array([table.travel_m for table in of_groups], float),
+        friction=np.array([table.slides_at for table in tables], float),
+        pulls=np.array([table.tension for table in tables], bool),
+        travel_m=np.array([table.travel_m for table in tables], float),
         bearings=np.array([group.bearing for group in groups], int),
-        breaking_n=strength_factor * np.array([table.breaking_force_n or np.inf for table in of_groups], float),
+        breaking_n=strength_factor * np.array([table.breaking_force_n or np.inf for table in tables], float),
     )
-    connections = Connections(
-        np.array([group.pair for group in groups], int).reshape(count, 2),
-        springs.middles_m(),
-        np.array([group.area_m2 for group in groups], float),
-        np.tile([0.0, 0.0, -1.0], (count, 1)),
-    )
-    return connections, ModelBearings(tuple(names), springs), table_of
 
 
 def _raised(shard: TriangleMesh, contact: LevelContact, height_m: float) -> TriangleMesh:

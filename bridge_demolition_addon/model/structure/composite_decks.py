@@ -8,17 +8,15 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 
 from ...engineering.elasticity.bearings import PadSprings
-from ...engineering.elasticity.section_stiffness import SectionStiffness
-from ...engineering.fracture.shared_faces import SharedFaces
 from ...engineering.geometry.mesh import TriangleMesh
-from ...engineering.mechanics.reinforcement import FaceBars
 from ...engineering.structure.connections import Connections
 from ..bridge.member import Member
-from ..scenario import Scenario
-from ..scenario.girders import StudRow, top_width_m
-from ..scenario.scenario import deck_joint, joints_of_faces, studs_of
+from ..scenario.girders import GirderSpan, StudRow, top_width_m
+from ..scenario.scenario import JointName, deck_joint, studs_of
 from ..scenario.steelwork import Steelwork
 from ..schema import given
+from .connection_source import ConnectionRows, ConnectionSource
+from .model_bearings import ModelBearings
 
 _SHORTEST_M = 1e-3
 """Length up to which a contact is rounding: pieces and shards end in one plane."""
@@ -78,55 +76,179 @@ class DeckContacts:
         """Length (c,) of girder whose studs each has: by its part of the flange."""
         return self.lengths_m * self.widths_m / self.flanges_m
 
-    def among(self, kept: np.ndarray) -> DeckContacts:
-        """Return those that are left where only some connections (m,) are kept."""
-        mine = kept[self.rows]
-        return replace(self.only(mine), rows=(np.cumsum(kept) - 1)[self.rows[mine]])
-
     def only(self, mine: np.ndarray) -> DeckContacts:
         """Return some of them (c,)."""
         return DeckContacts(*(getattr(self, item.name)[mine] for item in fields(self)))
 
 
-def deck_connections(
-    steelwork: Steelwork,
-    members: Sequence[Member],
-    member_of_shard: np.ndarray,
-    shards: Sequence[TriangleMesh],
-    points_m: np.ndarray,
-    faces: SharedFaces,
-    first_row: int,
-) -> tuple[Connections, DeckContacts]:
-    """Return the connections of decks with the girders below, of the faces that all shards share, and what they are.
+class DecksOnGirders(ConnectionSource):
+    """Contacts of decks with the girders below them."""
 
-    Rows are counted from `first_row`. The stiffness of shards is measured from points (n, 3).
-    """
-    deck_of, girder_of, width_of = _owners(steelwork, members)
-    of_faces = member_of_shard[faces.pairs]
-    first, second = of_faces.T
-    lies = (deck_of[first] >= 0) & (girder_of[first] < 0) & (girder_of[second] >= 0)
-    lies &= deck_of[first] == deck_of[second]
-    widths = width_of[second]
-    rows = np.flatnonzero(lies & (faces.areas > _SHORTEST_M * widths))
-    connections = Connections(faces.pairs[rows], faces.centres[rows], faces.areas[rows], faces.normals[rows])
-    on_deck, below = faces.pairs[rows].T
-    lengths = np.array(
-        [_in_common(shards[one], shards[other], 0) for one, other in zip(on_deck.tolist(), below.tolist(), strict=True)]
-    )
-    of_bars = [_turns_as_m(member) for member in members if member.steel]
-    steel = np.full(len(member_of_shard), np.nan)
-    steel[np.array([member.steel is not None for member in members])[member_of_shard]] = np.concatenate(of_bars)
-    middles = 0.5 * (points_m[on_deck, 0] + steel[below])
-    contacts = DeckContacts(
-        first_row + np.arange(len(rows)),
-        deck_of[first[rows]],
-        girder_of[second[rows]],
-        lengths,
-        faces.areas[rows] / lengths,
-        widths[rows],
-        middles - connections.points[:, 0],
-    )
-    return connections, contacts
+    def takes(self, pairs: np.ndarray) -> np.ndarray:
+        """Return those of a deck on girders and of steel."""
+        of_steel = np.array([*(member.steel is not None for member in self.cut.members), False], bool)
+        first, second = self.cut.members_of(pairs).T
+        return np.asarray((self._of_decks[first] & of_steel[second]) | (of_steel[first] & self._of_decks[second]))
+
+    def added(self, rows: ConnectionRows) -> ConnectionRows:
+        """Return the contacts after the other connections: of the faces that all shards share, those on girders."""
+        if not self._spans:
+            return rows
+        connections, contacts = self._contacts()
+        is_over = np.isclose(
+            contacts.flanges_m, np.array([top_width_m(span.sections[1]) for span in self._spans])[contacts.decks]
+        )
+        joints = [
+            self.cut.joint_rows[JointName("deck", key)]
+            for key in zip(contacts.decks.tolist(), is_over.tolist(), strict=True)
+        ]
+        loose = self._loose_bearings(contacts, connections)
+        moments = _contact_moments(contacts)
+        followed, moves = rows.followed_by(self.cut, "decks", connections, np.array(joints, int), moments)
+        if loose:
+            followed = followed.on_bearings(loose.among(moves, len(rows)))
+        self._set_moments_across(followed)
+        return followed.with_part(replace(contacts.only(moves), rows=np.arange(len(rows), len(followed))))
+
+    def barred(self, rows: ConnectionRows) -> ConnectionRows:
+        """Return bars across all connections, with studs, which yield along the girder until they fail."""
+        contacts = rows.part(DeckContacts)
+        if not contacts:
+            return rows
+        of_contacts = self._studs_of(contacts)
+        mine = np.array([row is not None for row in of_contacts], bool)
+        if not mine.any():
+            return rows
+        studs = [row for row in of_contacts if row is not None]
+        chosen, factor = contacts.only(mine), self.cut.scenario.connections.strength_factor
+        yields = np.array([factor * row.per_m * row.shear_n for row in studs]) * chosen.studded_m
+        openings = np.array([row.slip_m for row in studs])
+        at_yield = np.array([factor * row.shear_n / row.stiffness_n_m for row in studs])
+        laws = np.column_stack((at_yield / openings, np.full(len(studs), _GROWS), np.ones(len(studs))))
+        return replace(rows, bars=rows.bars_or_none.with_studs(chosen.rows, yields, openings, laws, _ALONG))
+
+    def stiffen(self, rows: ConnectionRows, matrices: np.ndarray) -> None:
+        """Set the stiffness of contacts, in their axes.
+
+        Along the face studs slip by their stiffness. Across it the concrete up to the middle of the deck deforms. The
+        contact turns as an even bed about the girder, and about an axis across the road by its share of the length of
+        the deck alone, as faces that members have in common along their length (`interfaces`).
+        """
+        contacts = rows.part(DeckContacts)
+        if not contacts:
+            return
+        pressed, sideways = self._pressed_n_m(contacts), self._sideways_n_m(contacts)
+        lengths, widths = np.square(contacts.lengths_m) / 12.0, np.square(contacts.widths_m) / 12.0
+        shares = contacts.lengths_m / np.array([span.length_m for span in self._spans])[contacts.decks]
+        own = np.zeros((len(contacts.rows), 6, 6))
+        turning = pressed * (shares * shares * lengths + np.square(contacts.levers_m))
+        columns = (pressed, sideways, sideways, sideways * (lengths + widths), turning, pressed * widths)
+        for row, values in enumerate(columns):
+            own[:, row, row] = values
+        own[:, 0, 4] = own[:, 4, 0] = pressed * contacts.levers_m
+        matrices[contacts.rows] = own
+
+    @property
+    def _spans(self) -> Sequence[GirderSpan]:
+        return self.cut.scenario.steelwork.decks if self.cut.scenario.steelwork else ()
+
+    @property
+    def _of_decks(self) -> np.ndarray:
+        """Which members, and last the ground, (k + 1,) are decks on girders."""
+        names = {span.deck_name for span in self._spans}
+        return np.array([*(member.name in names for member in self.cut.members), False], bool)
+
+    def _contacts(self) -> tuple[Connections, DeckContacts]:
+        """Return the connections of decks with the girders below, and what these are, counted from 0."""
+        cut, faces = self.cut, self.cut.faces
+        deck_of, girder_of, width_of = _owners(self._spans, cut.members)
+        first, second = cut.member_of_shard[faces.pairs].T
+        lies = (deck_of[first] >= 0) & (girder_of[first] < 0) & (girder_of[second] >= 0)
+        lies &= deck_of[first] == deck_of[second]
+        widths = width_of[second]
+        rows = np.flatnonzero(lies & (faces.areas > _SHORTEST_M * widths))
+        connections = Connections(faces.pairs[rows], faces.centres[rows], faces.areas[rows], faces.normals[rows])
+        on_deck, below = faces.pairs[rows].T
+        pairs = zip(on_deck.tolist(), below.tolist(), strict=True)
+        lengths = np.array([_in_common(cut.shards[one], cut.shards[other], 0) for one, other in pairs])
+        steel = np.full(len(cut.member_of_shard), np.nan)
+        is_steel = np.array([member.steel is not None for member in cut.members])
+        steel[is_steel[cut.member_of_shard]] = np.concatenate(
+            [_turns_as_m(member) for member in cut.members if member.steel]
+        )
+        middles = 0.5 * (cut.points_m[on_deck, 0] + steel[below])
+        return connections, DeckContacts(
+            np.arange(len(rows)),
+            deck_of[first[rows]],
+            girder_of[second[rows]],
+            lengths,
+            faces.areas[rows] / lengths,
+            widths[rows],
+            middles - connections.points[:, 0],
+        )
+
+    def _set_moments_across(self, rows: ConnectionRows) -> None:
+        """Set second moments of faces across the parts of decks.
+
+        There a shard meets several behind it, so that the mesh of none has the face. It is a rectangle as deep as both
+        have in common, with the area of the face.
+        """
+        connections, shards = rows.connections, self.cut.shards
+        is_across = np.abs(connections.normals[:, 0]) > _ACROSS
+        for row in np.flatnonzero(is_across & self._of_decks[self.cut.members_of(connections.pairs)].all(axis=1)):
+            one, other = connections.pairs[row].tolist()
+            deep, area = _in_common(shards[one], shards[other], 2), float(connections.areas[row])
+            wide = area / deep
+            rows.moments_m4[row] = np.diag((area * deep * deep, area * wide * wide)) / 12.0
+
+    def _loose_bearings(self, contacts: DeckContacts, connections: Connections) -> ModelBearings | None:
+        """Return springs of the contacts of decks without studs, which press, slide and lift off.
+
+        Each deck has a bearing on each girder. None where all decks have studs.
+        """
+        decks = self._spans
+        loose = contacts.only(np.array([not decks[deck].studs_per_m for deck in contacts.decks.tolist()], bool))
+        count = len(loose.rows)
+        if not count:
+            return None
+        of_contacts = list(zip(loose.decks.tolist(), loose.girders.tolist(), strict=True))
+        lines = sorted(set(of_contacts))
+        names = tuple(f"{decks[deck].deck_name} on {decks[deck].girder_names[girder]}" for deck, girder in lines)
+        arms = np.zeros((count, 2, 3))
+        arms[:, :, 0] = loose.levers_m[:, None]
+        arms[:, :, 1] = np.array((-0.5, 0.5)) * _AT_GAUSS_POINTS * loose.widths_m[:, None]
+        places = connections.points[loose.rows][:, None] + arms
+        bed = np.repeat(0.5 * _BED_N_M3 * loose.lengths_m * loose.widths_m, 2)
+        springs = PadSprings(
+            rows=loose.rows,
+            parts=np.repeat(np.arange(count), 2),
+            places_m=places.reshape(-1, 3),
+            vertical_n_m=bed,
+            sideways_n_m=np.column_stack((bed, bed)),
+            friction=np.array([decks[deck].deck_friction for deck in loose.decks.tolist()], float),
+            pulls=np.zeros(count, bool),
+            travel_m=np.full(count, _TRAVEL_M),
+            bearings=np.array([lines.index(line) for line in of_contacts], int),
+            breaking_n=np.full(count, np.inf),
+        )
+        return ModelBearings(names, springs)
+
+    def _studs_of(self, contacts: DeckContacts) -> list[StudRow | None]:
+        of_decks = [studs_of(span, self.cut.scenario) for span in self._spans]
+        return [of_decks[deck] for deck in contacts.decks.tolist()]
+
+    def _pressed_n_m(self, contacts: DeckContacts) -> np.ndarray:
+        """Stiffness (c,) of the concrete up to the middle of the deck, where it is pressed."""
+        per_m2 = [
+            given(deck_joint(self.cut.scenario, span).moduli).young_pa / (0.5 * given(span.deck_thickness_m))
+            for span in self._spans
+        ]
+        return np.asarray(contacts.lengths_m * contacts.widths_m * np.array(per_m2)[contacts.decks])
+
+    def _sideways_n_m(self, contacts: DeckContacts) -> np.ndarray:
+        """Stiffness (c,) along the face, of studs; 0 without any, where springs are in place of it."""
+        studs = self._studs_of(contacts)
+        return np.array([row.per_m * row.stiffness_n_m if row else 0.0 for row in studs]) * contacts.studded_m
 
 
 def points_above_girders(
@@ -157,27 +279,7 @@ def points_above_girders(
     return points
 
 
-def are_of_decks(
-    steelwork: Steelwork | None, members: Sequence[Member], member_of_shard: np.ndarray, pairs: np.ndarray
-) -> np.ndarray:
-    """Return which pairs (k, 2) of shards, or of one and the ground, are of a deck on girders and of steel."""
-    names = {span.deck_name for span in steelwork.decks} if steelwork else set()
-    of_decks = np.array([*(member.name in names for member in members), False], bool)
-    of_steel = np.array([*(member.steel is not None for member in members), False], bool)
-    first, second = np.append(member_of_shard, len(members))[pairs].T
-    return np.asarray((of_decks[first] & of_steel[second]) | (of_steel[first] & of_decks[second]))
-
-
-def contact_rows(contacts: DeckContacts, scenario: Scenario) -> np.ndarray:
-    """Return which of the scenario's joints each contact (c,) has; those of decks come last."""
-    steelwork = given(scenario.steelwork)
-    first = len(joints_of_faces(scenario)) + len(steelwork.joint_rows())
-    over_piers = [top_width_m(span.sections[1]) for span in steelwork.decks]
-    is_over = np.isclose(contacts.flanges_m, np.array(over_piers)[contacts.decks])
-    return np.asarray(first + 2 * contacts.decks + is_over)
-
-
-def contact_moments(contacts: DeckContacts) -> np.ndarray:
+def _contact_moments(contacts: DeckContacts) -> np.ndarray:
     """Return second moments (c, 2, 2) of contacts, in their axes: y across the road, z along it."""
     moments = np.zeros((len(contacts.rows), 2, 2))
     areas = contacts.lengths_m * contacts.widths_m
@@ -186,107 +288,10 @@ def contact_moments(contacts: DeckContacts) -> np.ndarray:
     return moments
 
 
-def faces_across_decks(
-    steelwork: Steelwork | None,
-    members: Sequence[Member],
-    member_of_shard: np.ndarray,
-    shards: Sequence[TriangleMesh],
-    connections: Connections,
-) -> tuple[np.ndarray, np.ndarray]:
-    """Return connections (r,) by faces across the parts of decks, and their second moments (r, 2, 2).
-
-    There a shard meets several behind it, so that the mesh of none has the face. It is a rectangle as deep as both have
-    in common, with the area of the face.
-    """
-    names = {span.deck_name for span in steelwork.decks} if steelwork else set()
-    of_decks = np.array([*(member.name in names for member in members), False], bool)
-    of_pairs = np.append(member_of_shard, len(members))[connections.pairs]
-    is_across = of_decks[of_pairs].all(axis=1) & (np.abs(connections.normals[:, 0]) > _ACROSS)
-    rows = np.flatnonzero(is_across)
-    moments = np.zeros((len(rows), 2, 2))
-    for row, connection in enumerate(rows.tolist()):
-        one, other = connections.pairs[connection].tolist()
-        deep = _in_common(shards[one], shards[other], 2)
-        area = float(connections.areas[connection])
-        wide = area / deep
-        moments[row] = np.diag((area * deep * deep, area * wide * wide)) / 12.0
-    return rows, moments
-
-
-def contact_stiffness(contacts: DeckContacts, scenario: Scenario) -> SectionStiffness:
-    """Return the stiffness of contacts (c,), in their axes.
-
-    Along the face studs slip by their stiffness. Across it the concrete up to the middle of the deck deforms. The
-    contact turns as an even bed about the girder, and about an axis across the road by its share of the length of the
-    deck alone, as faces that members have in common along their length (`interfaces`).
-    """
-    pressed, sideways = _pressed_n_m(contacts, scenario), _sideways_n_m(contacts, scenario)
-    lengths, widths = np.square(contacts.lengths_m) / 12.0, np.square(contacts.widths_m) / 12.0
-    whole = np.array([span.length_m for span in given(scenario.steelwork).decks])[contacts.decks]
-    shares = contacts.lengths_m / whole
-    matrices = np.zeros((len(contacts.rows), 6, 6))
-    turning = pressed * (shares * shares * lengths + np.square(contacts.levers_m))
-    columns = (pressed, sideways, sideways, sideways * (lengths + widths), turning, pressed * widths)
-    for row, values in enumerate(columns):
-        matrices[:, row, row] = values
-    matrices[:, 0, 4] = matrices[:, 4, 0] = pressed * contacts.levers_m
-    return SectionStiffness(matrices)
-
-
-def with_studs(bars: FaceBars | None, contacts: DeckContacts, scenario: Scenario, count: int) -> FaceBars | None:
-    """Return bars across the faces of all m connections, with studs, which yield along the girder until they fail."""
-    rows = _studs_of_contacts(contacts, scenario)
-    mine = np.array([row is not None for row in rows], bool)
-    if not mine.any():
-        return bars
-    studs = [row for row in rows if row is not None]
-    chosen, factor = contacts.only(mine), scenario.connections.strength_factor
-    yields = np.array([factor * row.per_m * row.shear_n for row in studs]) * chosen.studded_m
-    openings = np.array([row.slip_m for row in studs])
-    at_yield = np.array([factor * row.shear_n / row.stiffness_n_m for row in studs])
-    laws = np.column_stack((at_yield / openings, np.full(len(studs), _GROWS), np.ones(len(studs))))
-    return (bars or FaceBars.none(count)).with_studs(chosen.rows, yields, openings, laws, _ALONG)
-
-
-def loose_deck_springs(
-    contacts: DeckContacts, scenario: Scenario, connections: Connections, first_bearing: int
-) -> tuple[PadSprings, tuple[str, ...]] | None:
-    """Return springs of the contacts of decks without studs, which press, slide and lift off, and names of bearings.
-
-    Each deck has a bearing on each girder. None where all decks have studs.
-    """
-    decks = given(scenario.steelwork).decks
-    loose = contacts.only(np.array([not decks[deck].studs_per_m for deck in contacts.decks.tolist()], bool))
-    count = len(loose.rows)
-    if not count:
-        return None
-    lines = sorted({(deck, girder) for deck, girder in zip(loose.decks.tolist(), loose.girders.tolist(), strict=True)})
-    names = tuple(f"{decks[deck].deck_name} on {decks[deck].girder_names[girder]}" for deck, girder in lines)
-    bearing = [lines.index(line) for line in zip(loose.decks.tolist(), loose.girders.tolist(), strict=True)]
-    arms = np.zeros((count, 2, 3))
-    arms[:, :, 0] = loose.levers_m[:, None]
-    arms[:, :, 1] = np.array((-0.5, 0.5)) * _AT_GAUSS_POINTS * loose.widths_m[:, None]
-    places = connections.points[loose.rows][:, None] + arms
-    bed = np.repeat(0.5 * _BED_N_M3 * loose.lengths_m * loose.widths_m, 2)
-    springs = PadSprings(
-        rows=loose.rows,
-        parts=np.repeat(np.arange(count), 2),
-        places_m=places.reshape(-1, 3),
-        vertical_n_m=bed,
-        sideways_n_m=np.column_stack((bed, bed)),
-        friction=np.array([decks[deck].deck_friction for deck in loose.decks.tolist()], float),
-        pulls=np.zeros(count, bool),
-        travel_m=np.full(count, _TRAVEL_M),
-        bearings=first_bearing + np.array(bearing, int),
-        breaking_n=np.full(count, np.inf),
-    )
-    return springs, names
-
-
-def _owners(steelwork: Steelwork, members: Sequence[Member]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _owners(spans: Sequence[GirderSpan], members: Sequence[Member]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Deck (k,) that each member is, or is a girder or node of, its girder (k,), and width of its top (k,); else -1."""
     rows: dict[str, tuple[int, int, float]] = {}
-    for number, span in enumerate(steelwork.decks):
+    for number, span in enumerate(spans):
         rows[span.deck_name] = number, -1, 0.0
         for girder, name in enumerate(span.girder_names):
             for keys in span.bars_of(name):
@@ -310,23 +315,3 @@ def _turns_as_m(member: Member) -> np.ndarray:
     """Where along the road the pieces of a bar, or a node, turn as the girder does, (s,)."""
     steel = given(member.steel)
     return steel.centre_m[:1] if steel.bar is None else steel.bar.at(steel.bar.turns_as_m)[:, 0]
-
-
-def _studs_of_contacts(contacts: DeckContacts, scenario: Scenario) -> list[StudRow | None]:
-    of_decks = [studs_of(span, scenario) for span in given(scenario.steelwork).decks]
-    return [of_decks[deck] for deck in contacts.decks.tolist()]
-
-
-def _pressed_n_m(contacts: DeckContacts, scenario: Scenario) -> np.ndarray:
-    """Stiffness (c,) of the concrete up to the middle of the deck, where it is pressed."""
-    per_m2 = [
-        given(deck_joint(scenario, span).moduli).young_pa / (0.5 * given(span.deck_thickness_m))
-        for span in given(scenario.steelwork).decks
-    ]
-    return np.asarray(contacts.lengths_m * contacts.widths_m * np.array(per_m2)[contacts.decks])
-
-
-def _sideways_n_m(contacts: DeckContacts, scenario: Scenario) -> np.ndarray:
-    """Stiffness (c,) along the face, of studs; 0 without any, where springs are in place of it."""
-    studs = _studs_of_contacts(contacts, scenario)
-    return np.array([row.per_m * row.stiffness_n_m if row else 0.0 for row in studs]) * contacts.studded_m

@@ -29,9 +29,8 @@ from ...engineering.mechanics.section_cuts import ConnectionLoads
 from ...engineering.structure.connections import GROUND
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ..schema import given
-from .crack_bars import CrackBars
 from .equilibrium import held_motions, inertias_of, model_at_rest
-from .model import Model
+from .model import CrackBars, Model
 from .utilisation import Utilisations
 
 FALLEN_SHARE = 0.005

@@ -23,7 +23,7 @@ from ..bridge.member import Member
 from ..reinforcement.concrete_members import plain_concrete_text
 from ..scenario import ConnectionBetween, ConnectionSettings, Scenario
 from ..scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
-from ..scenario.scenario import bearing_tables
+from ..scenario.scenario import JointName, bearing_tables
 from ..schema import given
 from .bearing_ranges import axis_facts
 from .cracking import CrackedBridge, RestingModel
@@ -448,8 +448,9 @@ def _stress_facts(force_n: float, scenario: Scenario, model: Model) -> Iterator[
 
 
 def _rule_facts(scenario: Scenario) -> Iterator[Fact]:
-    rules = scenario.connections.between
-    for rule, joint in zip(rules, scenario.joints[1 : 1 + len(rules)], strict=True):
+    joints = scenario.named_joints
+    for number, rule in enumerate(scenario.connections.between, start=1):
+        joint = joints[JointName("rule", number)]
         yield "between", f"{' and '.join(rule.members)}: {'none' if rule.none else _joint_text(rule, joint)}"
 
 
@@ -474,14 +475,14 @@ def _bearing_facts(scenario: Scenario, model: Model) -> Iterator[Fact]:
     if not model.bearings:
         return
     bearings = model.bearings
-    first_joint, tables = 1 + len(scenario.connections.between), bearing_tables(scenario)
+    joints = list(scenario.named_joints)
+    tables = {joints.index(JointName("bearing", row)): table for row, table in enumerate(bearing_tables(scenario))}
     for number, name in enumerate(bearings.names):
         rows = bearings.rows_of(number)
         if not len(rows):
             continue
-        table = int(model.joint_of_connection[rows[0]]) - first_joint
-        if table < len(tables):
-            yield "bearing", f"{name}: {tables[table].described}, {len(rows)} connections"
+        if table := tables.get(int(model.joint_of_connection[rows[0]])):
+            yield "bearing", f"{name}: {table.described}, {len(rows)} connections"
         else:
             yield _of_steelwork(scenario, name, len(rows))
     if not scenario.connections.is_elastic:

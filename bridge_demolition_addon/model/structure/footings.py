@@ -14,6 +14,7 @@ from ...engineering.structure.connections import GROUND, Connections
 from ...errors import ScenarioError
 from ..bridge.member import Member, members_named
 from ..foundations import Foundation
+from .connection_source import ConnectionRows, ConnectionSource
 
 _PLACES = 128
 """Fewest positions under a footing: with them a rectangular one resists rotation within 2 %."""
@@ -22,77 +23,71 @@ _LEVEL_M = 1e-6
 """How far a face may lie off the ground and still stand on it."""
 
 
-def soil_springs(
-    foundations: Sequence[Foundation],
-    members: Sequence[Member],
-    member_of_shard: np.ndarray,
-    shards: Sequence[TriangleMesh],
-    connections: Connections,
-) -> SoilSprings | None:
-    """Return the springs under a model's footings; None where it stands on unyielding ground."""
-    footings: dict[int, tuple[Foundation, np.ndarray, np.ndarray]] = {}
-    for foundation in foundations:
-        for index in members_named(foundation.member, members, "foundations.member"):
-            rows = _standing_rows(connections, member_of_shard, index)
-            if not len(rows):
-                raise ScenarioError(
-                    f'foundations.member is "{foundation.member}", and nothing of {members[index].name} stands on the '
-                    "ground and can move: expected a member that does, and no support under it"
-                )
-            for row, positions, areas in _places(foundation, members[index], rows, shards, connections):
-                if row in footings:
-                    raise ScenarioError(f"{members[index].name} has two foundations: expected one")
-                footings[row] = foundation, positions, areas
-    if not footings:
-        return None
-    order = sorted(footings)
-    of_rows = [footings[row] for row in order]
-    stiffness = np.array([foundation.ground.stiffness_n_m3 for foundation, _, _ in of_rows])
-    return SoilSprings(
-        rows=np.array(order),
-        footings=np.repeat(np.arange(len(order)), [len(areas) for _, _, areas in of_rows]),
-        places_m=np.concatenate([positions for _, positions, _ in of_rows]),
-        areas_m2=np.concatenate([areas for _, _, areas in of_rows]),
-        stiffness_n_m3=stiffness,
-        horizontal_n_m3=stiffness * np.array([foundation.horizontal_share for foundation, _, _ in of_rows]),
-        capacity_pa=np.array([foundation.capacity_pa for foundation, _, _ in of_rows]),
-        friction=np.array([foundation.ground.friction for foundation, _, _ in of_rows]),
-    )
+class FootingsOnSoil(ConnectionSource):
+    """Connections of what stands on the ground, where this yields."""
+
+    def added(self, rows: ConnectionRows) -> ConnectionRows:
+        """Return the same connections, those on soil with the middles, areas and moments of their footings."""
+        soil = self._springs(rows.connections)
+        if soil is None:
+            return rows
+        points, areas = rows.connections.points.copy(), rows.connections.areas.copy()
+        areas[soil.rows], points[soil.rows] = _summed(soil, soil.areas_m2), _middles(soil)
+        on_soil = rows.claimed(soil.rows, "soil", moments_m4=_second_moments(soil)).with_part(soil)
+        return replace(on_soil, connections=replace(rows.connections, points=points, areas=areas))
+
+    def stiffen(self, rows: ConnectionRows, matrices: np.ndarray) -> None:
+        """Set the stiffness of pressed footings."""
+        if not (soil := rows.part(SoilSprings)):
+            return
+        moments, areas = _second_moments(soil), _summed(soil, soil.areas_m2)
+        horizontal = soil.horizontal_n_m3 * areas
+        matrices[soil.rows] = SectionStiffness.uncoupled(
+            soil.stiffness_n_m3 * areas,
+            np.column_stack((horizontal, horizontal)),
+            soil.horizontal_n_m3 * (moments[:, 0, 0] + moments[:, 1, 1]),
+            soil.stiffness_n_m3[:, None, None] * moments,
+        ).matrices
+
+    def _springs(self, connections: Connections) -> SoilSprings | None:
+        """Return the springs under footings; None where all stands on unyielding ground."""
+        footings: dict[int, tuple[Foundation, np.ndarray, np.ndarray]] = {}
+        cut = self.cut
+        for foundation in cut.scenario.foundations:
+            for index in members_named(foundation.member, cut.members, "foundations.member"):
+                rows = np.flatnonzero((cut.members_of(connections.pairs) == (index, GROUND)).all(axis=1))
+                if not len(rows):
+                    raise ScenarioError(
+                        f'foundations.member is "{foundation.member}", and nothing of {cut.members[index].name} stands '
+                        "on the ground and can move: expected a member that does, and no support under it"
+                    )
+                for row, positions, areas in _places(foundation, cut.members[index], rows, cut.shards, connections):
+                    if row in footings:
+                        raise ScenarioError(f"{cut.members[index].name} has two foundations: expected one")
+                    footings[row] = foundation, positions, areas
+        if not footings:
+            return None
+        order = sorted(footings)
+        of_rows = [footings[row] for row in order]
+        stiffness = np.array([foundation.ground.stiffness_n_m3 for foundation, _, _ in of_rows])
+        return SoilSprings(
+            rows=np.array(order),
+            footings=np.repeat(np.arange(len(order)), [len(areas) for _, _, areas in of_rows]),
+            places_m=np.concatenate([positions for _, positions, _ in of_rows]),
+            areas_m2=np.concatenate([areas for _, _, areas in of_rows]),
+            stiffness_n_m3=stiffness,
+            horizontal_n_m3=stiffness * np.array([foundation.horizontal_share for foundation, _, _ in of_rows]),
+            capacity_pa=np.array([foundation.capacity_pa for foundation, _, _ in of_rows]),
+            friction=np.array([foundation.ground.friction for foundation, _, _ in of_rows]),
+        )
 
 
-def on_footings(connections: Connections, soil: SoilSprings) -> Connections:
-    """Return connections with the middles and areas of footings in place of those of the faces that stand on them."""
-    points, areas = connections.points.copy(), connections.areas.copy()
-    areas[soil.rows] = _summed(soil, soil.areas_m2)
-    points[soil.rows] = _middles(soil)
-    return replace(connections, points=points, areas=areas)
-
-
-def second_moments_of(soil: SoilSprings) -> np.ndarray:
+def _second_moments(soil: SoilSprings) -> np.ndarray:
     """Return the second moments (f, 2, 2) of footings, as `second_moments` has them; their z is along the road."""
     x, y = (soil.places_m - _middles(soil)[soil.footings])[:, :2].T
     area = soil.areas_m2
     xx, yy, xy = (_summed(soil, area * product) for product in (x * x, y * y, x * y))
     return np.stack((np.stack((xx, -xy), axis=-1), np.stack((-xy, yy), axis=-1)), axis=-2)
-
-
-def with_soil(stiffness: SectionStiffness, soil: SoilSprings) -> SectionStiffness:
-    """Return the stiffness of connections with that of pressed footings in it."""
-    moments, areas = second_moments_of(soil), _summed(soil, soil.areas_m2)
-    horizontal = soil.horizontal_n_m3 * areas
-    matrices = stiffness.matrices.copy()
-    matrices[soil.rows] = SectionStiffness.uncoupled(
-        soil.stiffness_n_m3 * areas,
-        np.column_stack((horizontal, horizontal)),
-        soil.horizontal_n_m3 * (moments[:, 0, 0] + moments[:, 1, 1]),
-        soil.stiffness_n_m3[:, None, None] * moments,
-    ).matrices
-    return SectionStiffness(matrices)
-
-
-def _standing_rows(connections: Connections, member_of_shard: np.ndarray, member: int) -> np.ndarray:
-    first, second = connections.pairs.T
-    return np.flatnonzero((second == GROUND) & (member_of_shard[first] == member))
 
 
 def _places(

@@ -38,7 +38,7 @@ from ..scenario import FractureSettings, Scenario
 from ..scenario.fracture import MemberFracture
 from ..schema import SHORTEST_LENGTH_M, given
 from .point_files import paint_from_file, points_from_file
-from .steelwork import BarJoints, bar_joints, joint_faces, steel_fracture
+from .steelwork import bar_joints, joint_faces, steel_fracture
 
 _DENSITY_SAMPLES = 4000
 """Points that the mean density of a member is taken over: it is off by some percent at most, and so is a number of
@@ -74,8 +74,8 @@ class FracturedMembers:
     """The n shards of all members, one member after the other, without gaps.
 
     `member_of_shard` (n,) holds indices of members, `centres_m` (n, 3) centres of mass, and `points_m` (n, 3) the
-    points whose Voronoi cells the shards are. `faces` are those that neighbouring shards share. `bar_joints` are those
-    of steelwork, whose faces are among them.
+    points whose Voronoi cells the shards are. `faces` are those that neighbouring shards share, the joints of steelwork
+    among them.
     """
 
     shards: tuple[TriangleMesh, ...]
@@ -84,7 +84,6 @@ class FracturedMembers:
     centres_m: np.ndarray
     points_m: np.ndarray
     faces: SharedFaces
-    bar_joints: BarJoints
 
 
 def fractured_members(
@@ -145,7 +144,6 @@ def fractured_members(
         faces=_all_faces(
             [part.faces for part in parts], joint_faces(joints, members), members, shards, member_of_shard
         ),
-        bar_joints=joints,
     )
 
 

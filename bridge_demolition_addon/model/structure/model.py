@@ -2,65 +2,57 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
-from functools import partial
+from collections.abc import Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from ...engineering.elasticity.section_stiffness import SectionStiffness
+from ...engineering.elasticity.steel_bars import Steel
 from ...engineering.foundations.footings import SoilSprings
-from ...engineering.fracture.shared_faces import SharedFaces
 from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.vectors import cross
 from ...engineering.mechanics.reinforcement import FaceBars
-from ...engineering.structure import connections as connecting
 from ...engineering.structure.connections import Connections
-from ...engineering.structure.face_sections import second_moments
 from ..bridge.extent import ground_half_size
 from ..bridge.member import Member, mean_density
 from ..bridge.preparation import prepared_members
 from ..materials.bar_layers import BarLayer
-from ..reinforcement.design import all_layers
-from ..scenario import ConnectionSettings, Geometry, Scenario
-from ..scenario.scenario import bearing_tables, joints_of_faces
+from ..scenario import Geometry, Scenario
 from ..schema import given
 from ..terrain.built import BuiltGround, built_ground
-from .bearings import ModelBearings, bearing_connections, have_bearing, placed_bearings, raised_shards
-from .composite_decks import (
-    DeckContacts,
-    are_of_decks,
-    contact_moments,
-    contact_rows,
-    contact_stiffness,
-    deck_connections,
-    faces_across_decks,
-    loose_deck_springs,
-    points_above_girders,
-    with_studs,
-)
-from .connection_rules import rules_of_pairs
-from .crack_bars import CrackBars, even_bars_n
-from .face_bars import CrackedShards, face_bars, within_reinforced
-from .footings import on_footings, second_moments_of, soil_springs, with_soil
+from .bearings import Pads
+from .composite_decks import DeckContacts, DecksOnGirders, points_above_girders
+from .connection_source import ConnectionRows, ConnectionSource, CutBridge
+from .face_bars import BarRows, MemberBars, ReinforcedFaces
+from .face_connections import FaceConnections
+from .footings import FootingsOnSoil
 from .members import FracturedMembers, fractured_members, shards_with_gaps
 from .model_basis import ModelBasis
-from .starter_bars import starter_bars
-from .steelwork import (
-    SteelConnections,
-    joint_rows,
-    node_supports,
-    on_supports,
-    pins_of_supports,
-    resisting_moments,
-    steel_connections,
-    steel_stiffness,
-    with_steel_hinges,
-)
-from .stiffness import CutMembers, connection_stiffness
+from .model_bearings import ModelBearings
+from .steelwork import SteelConnections, SteelEnds
+from .stiffness import connection_stiffness
 from .supports import HeldPart, held_parts
-from .t_beams import t_beams
-from .tendons import ModelTendons, model_tendons
+from .tendons import ModelTendons, TendonsAcross
+
+SOURCES: tuple[type[ConnectionSource], ...] = (
+    MemberBars,
+    Pads,
+    SteelEnds,
+    DecksOnGirders,
+    FootingsOnSoil,
+    TendonsAcross,
+)
+"""All that connects shards but faces, in order: sections of steel and studs stand in place of bars in layers, and
+tendons are added to what is there."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class CrackBars:
+    """All bars across the faces of m connections, in layers and spread evenly, and what they are made of."""
+
+    bars: FaceBars
+    steel: Steel
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,6 +69,8 @@ class Model:
         Index of the member that each shard was cut from, its mass and centre of mass.
     joint_of_connection : (m,) int
         Index of one of the scenario's joints, which says what a connection has in common with others.
+    origins : (m,) str
+        What each is from: "faces", "pads", "supports" or "decks", or as a face "steel" or "soil".
     second_moments_m4 : (m, 2, 2) float
         Second moments of area of the connections' faces; 0 for one without a face.
     fixed : (n,) bool
@@ -96,6 +90,8 @@ class Model:
         None without `[[tendons]]`.
     layers : tuple of BarLayer
         All layers of bars that the members have, by hand and by rule.
+    bar_rows : BarRows or None
+        Each layer across each face, of which `bars` are the sum; None without layers.
     """
 
     members: tuple[Member, ...]
@@ -105,6 +101,7 @@ class Model:
     centres_m: np.ndarray
     connections: Connections
     joint_of_connection: np.ndarray
+    origins: np.ndarray
     second_moments_m4: np.ndarray
     fixed: np.ndarray
     held_parts: tuple[HeldPart, ...] = ()
@@ -118,6 +115,7 @@ class Model:
     decks: DeckContacts | None = None
     tendons: ModelTendons | None = None
     layers: tuple[BarLayer, ...] = ()
+    bar_rows: BarRows | None = None
 
     def thicknesses_m(self) -> np.ndarray:
         """Return the thickness (m,) of the thinner of the members that each connection is between."""
@@ -159,207 +157,96 @@ def model_on(basis: ModelBasis, members: Sequence[Member] | None = None) -> Mode
     solids = [(member.name, member.solid) for member in members]
     ground = built_ground(scenario, solids, ground_half_size(members, basis.clear_height_m))
     fractured = fractured_members(scenario, members, basis.planes)
-    shards, centres, faces = fractured.shards, fractured.centres_m, fractured.faces
-    rules = scenario.connections.between
-    rules_of = partial(rules_of_pairs, rules, members, fractured.member_of_shard)
-    excluded = np.array([False, *(rule.none for rule in rules)])
-    heights_at = None if ground.terrain is None else ground.terrain.heights_at
-    placed = placed_bearings(bearing_tables(scenario), members)
-
-    def allowed(pairs: np.ndarray) -> np.ndarray:
-        of_decks = are_of_decks(scenario.steelwork, members, fractured.member_of_shard, pairs)
-        is_joined = ~excluded[rules_of(pairs)] & ~have_bearing(placed, fractured.member_of_shard, pairs) & ~of_decks
-        return is_joined & ~on_supports(scenario.steelwork, members, fractured.member_of_shard, pairs)
-
-    is_steel = np.array([member.steel is not None for member in members])[fractured.member_of_shard]
-    connections = _connections(scenario.connections, shards, centres, faces, allowed, heights_at, ~is_steel)
-    joint_of_connection = rules_of(connections.pairs)
-    bearings = None
-    if placed:
-        of_pads, bearings, tables = bearing_connections(
-            placed,
-            bearing_tables(scenario),
-            members,
-            fractured.member_of_shard,
-            shards,
-            len(connections),
-            scenario.connections.strength_factor,
-        )
-        connections = connecting.joined([connections, of_pads])
-        joint_of_connection = np.concatenate((joint_of_connection, 1 + len(rules) + tables))
-    steel = None
-    if scenario.steelwork:
-        supports, nodes = node_supports(scenario.steelwork, members, fractured.member_of_shard, shards)
-        first_support = len(connections)
-        connections = connecting.joined([connections, supports])
-        steel = steel_connections(fractured.bar_joints, connections, first_support, nodes)
-        joint_of_connection = np.concatenate((joint_of_connection, np.zeros(len(nodes), int)))
-        joint_of_connection[steel.rows] = joint_rows(steel, scenario, members)
-        pins, names = pins_of_supports(
-            scenario.steelwork, members, nodes, first_support, len(bearings.names) if bearings else 0
-        )
-        if names:
-            bearings = bearings.followed_by(pins, names) if bearings else ModelBearings(names, pins)
-    points = points_above_girders(scenario.steelwork, members, fractured.member_of_shard, shards, _middles(fractured))
-    decks = None
-    if scenario.steelwork and scenario.steelwork.decks:
-        on_girders, decks = deck_connections(
-            scenario.steelwork, members, fractured.member_of_shard, shards, points, faces, len(connections)
-        )
-        connections = connecting.joined([connections, on_girders])
-        joint_of_connection = np.concatenate((joint_of_connection, contact_rows(decks, scenario)))
-        loose = loose_deck_springs(decks, scenario, connections, len(bearings.names) if bearings else 0)
-        if loose:
-            bearings = bearings.followed_by(*loose) if bearings else ModelBearings(loose[1], loose[0])
-    held = held_parts(scenario.supports, members, shards, fractured.member_of_shard)
-    fixed = np.zeros(len(shards), dtype=bool)
-    for part in held:
-        fixed[part.shards] = True
-    # The ground, at index -1, is fixed as well.
-    moves = ~np.append(fixed, True)[connections.pairs].all(axis=1)
-    connections, joint_of_connection = connections.only(moves), joint_of_connection[moves]
-    bearings = replace(bearings, springs=bearings.springs.among(moves)) if bearings else None
-    steel = steel.among(moves) if steel else None
-    decks = decks.among(moves) if decks else None
-    moments = second_moments(
-        shards, connections.pairs[:, 0], connections.areas, connections.points, connections.normals
-    )
-    if steel:
-        moments[steel.rows] = resisting_moments(steel, connections, given(scenario.steelwork), members)
-    if decks:
-        moments[decks.rows] = contact_moments(decks)
-        across, of_rectangles = faces_across_decks(
-            scenario.steelwork, members, fractured.member_of_shard, shards, connections
-        )
-        moments[across] = of_rectangles
-    soil = soil_springs(scenario.foundations, members, fractured.member_of_shard, shards, connections)
-    bars = within = None
-    layers = all_layers(scenario, members)
-    if layers:
-        within = within_reinforced(layers, members, fractured.member_of_shard, connections)
-        others = [part.rows for part in (bearings.springs if bearings else None, soil) if part]
-        without = np.concatenate([np.zeros(0, int), *others])
-        starters = starter_bars(
-            scenario, layers, members, fractured.member_of_shard, connections, joint_of_connection, without
-        )
-        if starters:
-            # A foot on the ground cracks at the strength of its face, as where it has no bars, and they hold it then.
-            within |= (starters.yield_n > 0.0) & (connections.pairs >= 0).all(axis=1)
-        joint_of_connection = joint_of_connection + np.where(within, len(joints_of_faces(scenario)) // 2, 0)
-        bars = face_bars(
-            layers,
-            members,
-            fractured.member_of_shard,
-            shards,
-            connections,
-            scenario.joints,
-            joint_of_connection,
-            scenario.connections.strength_factor,
-            scenario.steel,
-            scenario.connections.ductile_elongation_m,
-            _cracked_shards(scenario, fractured, connections, decks),
-            tuple(t_beams(scenario, layers, members)),
-        )
-        if starters:
-            bars = bars.with_even(starters.yield_n, starters.openings_m)
-    if steel:
-        bars = with_steel_hinges(bars, steel, scenario, members, len(connections))
-    if decks:
-        bars = with_studs(bars, decks, scenario, len(connections))
-    tendons, bars = model_tendons(
-        scenario, members, fractured.member_of_shard, shards, connections, joint_of_connection, bars
-    )
-    stiffness = None
-    if scenario.connections.is_elastic:
-        cut = CutMembers(members, fractured.member_of_shard, shards, points, fixed)
-        stiffness = _stiffness(connections, moments, scenario, joint_of_connection, cut, steel, decks)
-    if soil and stiffness:
-        connections, stiffness = on_footings(connections, soil), with_soil(stiffness, soil)
-        moments[soil.rows] = second_moments_of(soil)
+    held = held_parts(scenario.supports, members, fractured.shards, fractured.member_of_shard)
+    cut = _cut_bridge(scenario, members, fractured, ground, held)
+    others = [kind(cut) for kind in SOURCES]
+    sources = (FaceConnections(cut, others), *others)
+    rows = ConnectionRows.none()
+    for source in sources:
+        rows = source.added(rows)
+    for source in sources:
+        rows = source.barred(rows)
+    stiffness = _stiffness(rows, cut, sources) if scenario.connections.is_elastic else None
+    shards = shards_with_gaps(fractured, members, scenario.fracture.margin_m)
+    for source in sources:
+        shards = source.shaped(shards)
+    reinforced = rows.part(ReinforcedFaces)
     return Model(
         members=members,
-        shards=raised_shards(
-            shards_with_gaps(fractured, members, scenario.fracture.margin_m),
-            placed,
-            bearing_tables(scenario),
-            fractured.member_of_shard,
-        ),
+        shards=shards,
         member_of_shard=fractured.member_of_shard,
         masses_kg=fractured.masses_kg,
-        centres_m=centres,
-        connections=connections,
-        joint_of_connection=joint_of_connection,
-        second_moments_m4=moments,
-        fixed=fixed,
+        centres_m=fractured.centres_m,
+        connections=rows.connections,
+        joint_of_connection=rows.joints,
+        origins=rows.origins,
+        second_moments_m4=rows.moments_m4,
+        fixed=cut.fixed,
         held_parts=held,
         stiffness=stiffness,
         ground=ground,
-        soil=soil,
-        bars=bars,
-        bearings=bearings,
-        crack_bars=_crack_bars(scenario, bars, within, connections, joint_of_connection, bearings)
-        if stiffness
-        else None,
-        steel=steel,
-        decks=decks,
-        tendons=tendons,
-        layers=layers,
+        soil=rows.part(SoilSprings),
+        bars=rows.bars,
+        bearings=rows.bearings,
+        crack_bars=_crack_bars(scenario, rows) if stiffness else None,
+        steel=rows.part(SteelConnections),
+        decks=rows.part(DeckContacts),
+        tendons=rows.part(ModelTendons),
+        layers=reinforced.layers if reinforced else (),
+        bar_rows=reinforced.rows if reinforced else None,
     )
 
 
-def _cracked_shards(
-    scenario: Scenario, fractured: FracturedMembers, connections: Connections, decks: DeckContacts | None
-) -> CrackedShards | None:
-    """Return how far bars stretch where shards crack within, as the scenario says; None where they do not."""
-    if not scenario.connections.cracks_within_shards:
-        return None
-    on_girders = connections.pairs[decks.rows, 0] if decks else np.zeros(0, int)
-    return CrackedShards(fractured.centres_m, frozenset(fractured.member_of_shard[on_girders].tolist()))
-
-
-def _stiffness(
-    connections: Connections,
-    moments: np.ndarray,
+def _cut_bridge(
     scenario: Scenario,
-    joint_of_connection: np.ndarray,
-    cut: CutMembers,
-    steel: SteelConnections | None,
-    decks: DeckContacts | None,
-) -> SectionStiffness:
-    """Return the stiffness of all connections: by faces of shards, sections of steel bars, and studs of decks."""
-    if steel is None:
-        return connection_stiffness(connections, moments, scenario.joints, joint_of_connection, cut)
-    matrices = np.zeros((len(connections), 6, 6))
-    others = np.setdiff1d(np.arange(len(connections)), steel.rows)
-    if decks:
-        others = np.setdiff1d(others, decks.rows)
-        matrices[decks.rows] = contact_stiffness(decks, scenario).matrices
+    members: Sequence[Member],
+    fractured: FracturedMembers,
+    ground: BuiltGround,
+    held: Sequence[HeldPart],
+) -> CutBridge:
+    fixed = np.zeros(len(fractured.shards), dtype=bool)
+    for part in held:
+        fixed[part.shards] = True
+    return CutBridge(
+        members,
+        fractured.member_of_shard,
+        fractured.shards,
+        points_above_girders(
+            scenario.steelwork, members, fractured.member_of_shard, fractured.shards, _middles(fractured)
+        ),
+        fixed,
+        scenario,
+        fractured.centres_m,
+        fractured.faces,
+        ground,
+        {name: row for row, name in enumerate(scenario.named_joints)},
+    )
+
+
+def _stiffness(rows: ConnectionRows, cut: CutBridge, sources: Sequence[ConnectionSource]) -> SectionStiffness:
+    """Return the stiffness of all connections: as their source knows it, or else by faces of shards."""
+    matrices = np.full((len(rows), 6, 6), np.nan)
+    for source in sources:
+        source.stiffen(rows, matrices)
+    others = np.flatnonzero(np.isnan(matrices[:, 0, 0]))
     if len(others):
-        of_faces = connections.only(others), moments[others], scenario.joints, joint_of_connection[others]
+        of_faces = rows.connections.only(others), rows.moments_m4[others], cut.scenario.joints, rows.joints[others]
         matrices[others] = connection_stiffness(*of_faces, cut).matrices
-    matrices[steel.rows] = steel_stiffness(steel, connections, cut.members).matrices
     return SectionStiffness(matrices)
 
 
-def _crack_bars(
-    scenario: Scenario,
-    bars: FaceBars | None,
-    within: np.ndarray | None,
-    connections: Connections,
-    joint_of_connection: np.ndarray,
-    bearings: ModelBearings | None,
-) -> CrackBars | None:
-    """Return all bars; even ones are not where connections lie `within` (m,) members that have layers."""
-    settings = scenario.connections
+def _crack_bars(scenario: Scenario, rows: ConnectionRows) -> CrackBars | None:
+    """Return all bars, with even ones where no layers are."""
+    settings, bars = scenario.connections, rows.bars
     if settings.ductile_share > 0.0:
-        even = even_bars_n(settings, scenario.joints, joint_of_connection, connections.areas)
-        if within is not None:
-            even[within] = 0.0
-        if bearings:
-            even[bearings.springs.rows] = 0.0  # no bars run through a bearing
-        bars = bars or FaceBars.none(len(connections))
-        even[bars.have_own_law] = 0.0
-        bars = bars.with_even(even, float(given(settings.ductile_elongation_m)))
+        tension_pa = np.array([joint.strength.tension_pa if joint.strength else 0.0 for joint in scenario.joints])
+        even: np.ndarray = settings.ductile_share * tension_pa[rows.joints] * rows.connections.areas
+        if reinforced := rows.part(ReinforcedFaces):
+            even[reinforced.have_bars] = 0.0
+        if rows.bearings:
+            even[rows.bearings.springs.rows] = 0.0  # no bars run through a bearing
+        even[rows.bars_or_none.have_own_law] = 0.0
+        bars = rows.bars_or_none.with_even(even, float(given(settings.ductile_elongation_m)))
     return CrackBars(bars, scenario.steel) if bars else None
 
 
@@ -370,37 +257,6 @@ def _middles(fractured: FracturedMembers) -> np.ndarray:
     """
     whole = np.bincount(fractured.member_of_shard)[fractured.member_of_shard] == 1
     return np.where(whole[:, None], fractured.centres_m, fractured.points_m)
-
-
-def _connections(
-    settings: ConnectionSettings,
-    shards: tuple[TriangleMesh, ...],
-    centres: np.ndarray,
-    faces: SharedFaces,
-    allowed: Callable[[np.ndarray], np.ndarray],
-    heights_at: Callable[[np.ndarray], np.ndarray] | None,
-    may_stand: np.ndarray,
-) -> Connections:
-    """Return the connections of allowed pairs (k, 2), and to the ground, flat or with such heights.
-
-    On the ground stand those shards (n,) that may.
-    """
-    match settings.method:
-        case "face":
-            pairs, distances = connecting.neighbours_by_face(faces)
-        case "centre":
-            pairs, distances = connecting.neighbours_by_centre(centres, given(settings.search_radius_m))
-        case "vertex":
-            pairs, distances = connecting.neighbours_by_vertex(shards, given(settings.search_radius_m))
-        case "nearest":
-            pairs, distances = connecting.neighbours_by_count(centres, given(settings.neighbours))
-    kept = allowed(pairs)
-    between = connecting.connect(centres, faces, pairs[kept], distances[kept], settings.limit_per_shard)
-    if not settings.foundation:
-        return between
-    standing = connecting.foundations(shards, heights_at)
-    stands = allowed(standing.pairs) & may_stand[standing.pairs[:, 0]]
-    return connecting.joined([between, standing.only(stands)])
 
 
 def start_motions(tables: Sequence[Geometry], model: Model) -> tuple[np.ndarray, np.ndarray]:

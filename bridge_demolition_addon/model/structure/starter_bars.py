@@ -19,12 +19,12 @@ from ...engineering.geometry.sides import AXES
 from ...engineering.geometry.vectors import dot
 from ...engineering.reinforced_concrete.least_areas import of_links_m2_m
 from ...engineering.reinforced_concrete.materials import Concrete
-from ...engineering.structure.connections import Connections
 from ..bridge.member import Member
 from ..bridge.own_axes import own_axes
 from ..materials.bar_layers import BarLayer
 from ..reinforcement.concrete_members import is_concrete, names_of_bridge
 from ..scenario import Bridge, Scenario
+from .connection_source import ConnectionRows, CutBridge
 
 _LEAST_RATIO = 0.002
 """As of the bars along columns and the upright ones of walls: EN 1992-1-1:2004, 9.5.2 (2) and 9.6.2 (1)."""
@@ -48,30 +48,23 @@ class StarterBars:
     openings_m: np.ndarray
 
 
-def starter_bars(
-    scenario: Scenario,
-    layers: Sequence[BarLayer],
-    members: Sequence[Member],
-    member_of_shard: np.ndarray,
-    connections: Connections,
-    joint_of_connection: np.ndarray,
-    without: np.ndarray,
-) -> StarterBars | None:
+def starter_bars(cut: CutBridge, layers: Sequence[BarLayer], rows: ConnectionRows) -> StarterBars | None:
     """Return the bars between members of one piece; None where there are none.
 
     Either member's bars that run across the face go on into the other: as many as those of the one with more, and the
-    least that EN 1992-1-1 asks for where either has bars. Rows `without` have none, as bearings and soil, nor have
-    those that leave something free.
+    least that EN 1992-1-1 asks for where either has bars. Bearings and soil have none, nor have connections that leave
+    something free.
     """
+    scenario, members, connections, joints = cut.scenario, cut.members, rows.connections, cut.scenario.joints
     yield_n, openings = np.zeros((2, len(connections)))
     factor, opening_m = scenario.connections.strength_factor, scenario.connections.ductile_elongation_m
     own = [_bars_of(layers, member) for member in members]
-    of_pair = np.append(member_of_shard, -1)[connections.pairs]
+    of_pair, sprung = cut.members_of(connections.pairs), rows.sprung
     for piece in _pieces(scenario, members):
         meets = (of_pair[:, 0] != of_pair[:, 1]) & piece[of_pair].all(axis=1) & (connections.areas > 0.0)
-        meets[without] = False
+        meets[sprung] = False
         for row in np.flatnonzero(meets).tolist():
-            pair, joint = of_pair[row].tolist(), scenario.joints[joint_of_connection[row]]
+            pair, joint = of_pair[row].tolist(), joints[rows.joints[row]]
             if joint.free or joint.strength is None or not any(own[index] for index in pair if index >= 0):
                 continue
             point, normal = connections.points[row], connections.normals[row]

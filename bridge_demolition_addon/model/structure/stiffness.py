@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -24,13 +23,12 @@ from ...engineering.elasticity.section_stiffness import (
     section_stiffness,
     whole_section_turning,
 )
-from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.vectors import dot, product, transformed
 from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.section_forces import section_axes
 from ...engineering.structure.connections import GROUND, Connections
 from ...errors import GeometryError
-from ..bridge.member import Member
+from .connection_source import CutMembers
 
 _DEEP = 0.75
 """Part of a member's extent from which on a shard counts as being as deep as the member."""
@@ -45,27 +43,6 @@ Faces as wide as shards are far apart have all of theirs; in slivers, which shea
 With it no face of a slab in 40 to 1,000 shards is stressed to more than 1.5 times the strength of its section, without
 it some are to 45 times; frames are as stiff with both.
 """
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class CutMembers:
-    """Members, and the n shards that they were cut into.
-
-    Attributes
-    ----------
-    members, member_of_shard : sequence of Member, (n,) int
-        The members, and which of them each shard is of.
-    shards, points_m : n TriangleMesh, (n, 3) float
-        The shards, and the points from which they extend to their faces: those whose Voronoi cells they are.
-    fixed : (n,) bool
-        Shards that never move: like the ground, they do not deform.
-    """
-
-    members: Sequence[Member]
-    member_of_shard: np.ndarray
-    shards: Sequence[TriangleMesh]
-    points_m: np.ndarray
-    fixed: np.ndarray
 
 
 def connection_stiffness(
@@ -164,7 +141,7 @@ def _with_poisson_effect(
     Between two members, where neither decides, faces are as stiff along as across.
     """
     moduli, turning = young_pa[:, None, None] * np.eye(3), turning_m4.copy()
-    of_members = np.append(cut.member_of_shard, -1)[connections.pairs]
+    of_members = cut.members_of(connections.pairs)
     rows = np.flatnonzero((of_members[:, 0] == of_members[:, 1]) & (of_members[:, 0] >= 0))
     within = of_members[rows, 0]
     shards = np.bincount(cut.member_of_shard, minlength=len(cut.members))
@@ -226,7 +203,7 @@ def _interfaces(
     shares, slips = np.ones((len(connections), 2)), np.zeros((len(connections), 2))
     in_plane = section_axes(connections.normals)[:, :, 1:]
     sides = np.sqrt(12.0 * second_moments_m4[:, [1, 0], [1, 0]] / connections.areas[:, None])  # along y, along z
-    of_members = np.sort(np.append(cut.member_of_shard, -1)[connections.pairs], axis=1)
+    of_members = np.sort(cut.members_of(connections.pairs), axis=1)
     between = deforms.all(axis=0) & (of_members[:, 0] != of_members[:, 1])
     for pair in np.unique(of_members[between], axis=0):
         rows = np.flatnonzero(between & (of_members == pair).all(axis=1))

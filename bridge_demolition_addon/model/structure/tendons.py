@@ -24,7 +24,7 @@ from ...engineering.elasticity.tendons import (
     TendonSteel,
     transmission_length_m,
 )
-from ...engineering.geometry.mesh import TriangleMesh, volumes_and_centres
+from ...engineering.geometry.mesh import volumes_and_centres
 from ...engineering.geometry.paths_through_solids import Passages, passages
 from ...engineering.geometry.turned_boxes import TurnedBox
 from ...engineering.geometry.vectors import distance, dot, points_along, transformed_back
@@ -34,8 +34,9 @@ from ...engineering.mechanics.section_forces import section_axes
 from ...engineering.structure.connections import Connections
 from ...errors import ScenarioError
 from ..bridge.member import Member
-from ..scenario import Scenario, Tendon
+from ..scenario import Tendon
 from ..schema import given
+from .connection_source import ConnectionRows, ConnectionSource
 
 _PARABOLA_PIECES = 64
 """Straight pieces of a parabola: the deviation forces of one are within 0.1 % of those of the other."""
@@ -147,44 +148,38 @@ class _Placed:
         return pulls
 
 
-def model_tendons(
-    scenario: Scenario,
-    members: Sequence[Member],
-    member_of_shard: np.ndarray,
-    shards: Sequence[TriangleMesh],
-    connections: Connections,
-    joint_of_connection: np.ndarray,
-    bars: FaceBars | None,
-) -> tuple[ModelTendons | None, FaceBars | None]:
-    """Return the tendons of a scenario in shards without gaps, and bars across connections together with theirs.
+class TendonsAcross(ConnectionSource):
+    """Tendons of a scenario, in shards without gaps: bonded ones hold cracks as bars do."""
 
-    Bonded tendons hold cracks as bars do, with what their prestress has left of their strength. Without tendons there
-    are none, and the bars as they were.
-    """
-    if not scenario.tendons:
-        return None, bars
-    rows = {tuple(pair): row for row, pair in reversed(list(enumerate(np.sort(connections.pairs, axis=1).tolist())))}
-    placed = []
-    for table in scenario.tendons:
-        member = _member_of(table, members)
-        own = np.flatnonzero(member_of_shard == member)
-        path_m = _path(table, members[member])
-        passed = passages(path_m, [shards[shard] for shard in own.tolist()])
-        _check_within(table, path_m, passed)
-        pairs = np.stack((own[passed.first], own[passed.second]))
-        crossed = np.array([rows.get(tuple(pair), -1) for pair in np.sort(pairs.T, axis=1).tolist()])
-        compression_pa = _compression_pa(scenario.joints, joint_of_connection[crossed[crossed >= 0]])
-        placed.append(_Placed(table, members[member], path_m, passed, pairs, crossed, compression_pa))
-    tendons = ModelTendons(
-        names=tuple(one.table.name for one in placed),
-        members=tuple(one.table.member for one in placed),
-        steel=_steel(placed),
-        passages=_passages(placed, connections),
-        paths_m=tuple(one.path_m for one in placed),
-    )
-    blocks = [math.fsum(other.block_m for other in placed if other.member is one.member) for one in placed]
-    pulls_n = np.concatenate([one.pulls_n(block_m) for one, block_m in zip(placed, blocks, strict=True)])
-    return _with_bars(tendons, pulls_n / scenario.steel.hardening, bars or FaceBars.none(len(connections)), connections)
+    def barred(self, rows: ConnectionRows) -> ConnectionRows:
+        """Return bars across connections together with tendons, by what prestress has left of the strength of these."""
+        cut, scenario = self.cut, self.cut.scenario
+        if not scenario.tendons:
+            return rows
+        pairs_of_rows = np.sort(rows.connections.pairs, axis=1).tolist()
+        row_of = {tuple(pair): row for row, pair in reversed(list(enumerate(pairs_of_rows)))}
+        placed, joints = [], scenario.joints
+        for table in scenario.tendons:
+            member = _member_of(table, cut.members)
+            own = np.flatnonzero(cut.member_of_shard == member)
+            path_m = _path(table, cut.members[member])
+            passed = passages(path_m, [cut.shards[shard] for shard in own.tolist()])
+            _check_within(table, path_m, passed)
+            pairs = np.stack((own[passed.first], own[passed.second]))
+            crossed = np.array([row_of.get(tuple(pair), -1) for pair in np.sort(pairs.T, axis=1).tolist()])
+            compression_pa = _compression_pa(joints, rows.joints[crossed[crossed >= 0]])
+            placed.append(_Placed(table, cut.members[member], path_m, passed, pairs, crossed, compression_pa))
+        tendons = ModelTendons(
+            names=tuple(one.table.name for one in placed),
+            members=tuple(one.table.member for one in placed),
+            steel=_steel(placed),
+            passages=_passages(placed, rows.connections),
+            paths_m=tuple(one.path_m for one in placed),
+        )
+        blocks = [math.fsum(other.block_m for other in placed if other.member is one.member) for one in placed]
+        pulls_n = np.concatenate([one.pulls_n(block_m) for one, block_m in zip(placed, blocks, strict=True)])
+        tendons, bars = _with_bars(tendons, pulls_n / scenario.steel.hardening, rows.bars_or_none, rows.connections)
+        return replace(rows, bars=bars).with_part(tendons)
 
 
 def _steel(placed: Sequence[_Placed]) -> TendonSteel:

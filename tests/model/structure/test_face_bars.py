@@ -60,6 +60,23 @@ def test_bars_pull_at_their_depth():
     assert 0 < with_bars.sum() < len(with_bars)
 
 
+def test_each_row_of_bars_knows_its_layer_and_member():
+    """Links along the road beside a layer: through one plane goes what each resists, by hand."""
+    links = BarLayer(members=("deck",), along="x", spread_mm2_m2=2000.0, diameter_mm=10.0)
+    model = model_with(links, BOTTOM)
+    bars, is_before = model.bar_rows, np.append(model.centres_m[:, 0] < 6.5, False)
+    first, second = is_before[model.connections.pairs[bars.connections]].T
+    across_n = bars.pulls_n * bars.directions[:, 0] * (first.astype(int) - second)
+    links_n, bottom_n = (float(across_n[bars.layers == layer].sum()) for layer in (0, 1))
+    assert links_n == pytest.approx(2000e-6 * 500e6 * WIDTH_M * THICKNESS_M, rel=1e-6)
+    pull_n = 12_000e-6 * 500e6
+    assert bottom_n == pytest.approx(pull_n * (0.21 - 0.5 * pull_n / (WIDTH_M * 35e6)) / 0.21, rel=1e-6)
+    (deck,) = set(bars.members.tolist())
+    assert (model.members[deck].kind, model.layers) == ("deck", (links, BOTTOM))
+    heights_m = (bars.moments_nm[:, 2] / bars.pulls_n)[bars.layers == 1]
+    np.testing.assert_allclose(heights_m, model.members[deck].solid.bounds[0, 2] + 0.04, atol=1e-9)
+
+
 def test_only_the_member_that_is_named_has_bars_and_none_end_in_others():
     model = model_with(BOTTOM)
     members = np.append(model.member_of_shard, -1)[model.connections.pairs]

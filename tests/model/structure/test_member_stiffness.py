@@ -23,8 +23,9 @@ from bridge_demolition_addon.engineering.structure.connections import (
 )
 from bridge_demolition_addon.engineering.structure.face_sections import second_moments
 from bridge_demolition_addon.model.bridge.member import Member
+from bridge_demolition_addon.model.structure.connection_source import CutMembers
 from bridge_demolition_addon.model.structure.equilibrium import at_rest, box_inertia
-from bridge_demolition_addon.model.structure.stiffness import CutMembers, connection_stiffness
+from bridge_demolition_addon.model.structure.stiffness import connection_stiffness
 
 pytestmark = pytest.mark.slow
 

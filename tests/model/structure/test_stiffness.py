@@ -24,9 +24,10 @@ from bridge_demolition_addon.errors import GeometryError
 from bridge_demolition_addon.model.bridge.member import Member
 from bridge_demolition_addon.model.bridge.mesh_files import exported
 from bridge_demolition_addon.model.scenario.file import read_scenario
+from bridge_demolition_addon.model.structure.connection_source import CutMembers
 from bridge_demolition_addon.model.structure.equilibrium import at_rest, box_inertia
 from bridge_demolition_addon.model.structure.model import build_model
-from bridge_demolition_addon.model.structure.stiffness import CutMembers, connection_stiffness
+from bridge_demolition_addon.model.structure.stiffness import connection_stiffness
 
 pytestmark = pytest.mark.slow
 

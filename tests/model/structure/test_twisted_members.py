@@ -16,7 +16,8 @@ from bridge_demolition_addon.engineering.mechanics.section_forces import section
 from bridge_demolition_addon.engineering.structure.connections import connect, neighbours_by_face
 from bridge_demolition_addon.engineering.structure.face_sections import second_moments
 from bridge_demolition_addon.model.bridge.member import Member
-from bridge_demolition_addon.model.structure.stiffness import CutMembers, connection_stiffness
+from bridge_demolition_addon.model.structure.connection_source import CutMembers
+from bridge_demolition_addon.model.structure.stiffness import connection_stiffness
 
 pytestmark = pytest.mark.slow
 
