@@ -125,6 +125,11 @@ def test_no_two_public_classes_have_one_name():
     assert {name: found for name, found in modules.items() if len(found) > 1} == {}
 
 
+def test_what_is_frozen_never_changes_itself():
+    sources = (ROOT / PACKAGE).rglob("*.py")
+    assert [path for path in sources if "object.__setattr__" in path.read_text(encoding="utf-8")] == []
+
+
 def test_nothing_resets_the_preferences_of_blender():
     """Blender then deletes the libraries of all extensions from the disk of the user."""
     sources = (ROOT / PACKAGE).rglob("*.py")

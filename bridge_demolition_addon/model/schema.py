@@ -129,7 +129,20 @@ def key(description: str, *, default: Any = MISSING, **limits: Any) -> Any:
     return field(default=default, metadata={"key": Key(description=description, **limits)})
 
 
-class Table:
+class _TableType(type):
+    """Makes a table as it is written, and returns it resolved: with its values as they are kept, and what follows."""
+
+    def __call__(cls, *args: Any, **values: Any) -> Any:
+        table = super().__call__(*args, **values)
+        for changes_of in (_kept_values, named_tables, cls.resolved):  # type: ignore[attr-defined]
+            if changes := changes_of(table):
+                written = {item.name: getattr(table, item.name) for item in fields(table)}
+                table = super().__call__(**written | changes)
+        table._check_together()
+        return table
+
+
+class Table(metaclass=_TableType):
     """Base of the dataclasses of a scenario, one for each table: checks its values when it is made.
 
     Whole numbers are taken where a number is expected, and lists are kept as tuples.
@@ -145,15 +158,9 @@ class Table:
     numbered: ClassVar[str] = ""
     """What a table without a name is called, with its number after it."""
 
-    def __post_init__(self) -> None:
-        faults = Faults()
-        for item in fields(self):
-            with faults.noted():
-                value = checked(item, key_name(type(self), item), getattr(self, item.name))
-                object.__setattr__(self, item.name, value)
-        faults.check()
-        settle_names(self)
-        self._check_together()
+    def resolved(self) -> dict[str, Any]:
+        """Return the values that follow from others, by the names of their fields."""
+        return {}
 
     def _check_together(self) -> None:
         """Check the values against each other."""
@@ -163,16 +170,30 @@ class Table:
         return ScenarioError(f"{self.table}.{name} is {shown(getattr(self, name))}: expected {wanted}")
 
 
-def settle_names(holder: Table) -> None:
-    """Call tables without a name after their number, and check that no two have one that it identifies."""
+def _kept_values(table: Table) -> dict[str, Any]:
+    """Return the values of a table that are kept otherwise than they are given, each checked by itself."""
+    kept, faults = {}, Faults()
+    for item in fields(table):
+        with faults.noted():
+            value = getattr(table, item.name)
+            if (as_kept := checked(item, key_name(type(table), item), value)) is not value:
+                kept[item.name] = as_kept
+    faults.check()
+    return kept
+
+
+def named_tables(holder: Table) -> dict[str, Any]:
+    """Return tables without a name called after their number; no two may have one that it identifies."""
     places: dict[tuple[str, str], list[str]] = {}
+    numbered = {}
     for item in fields(holder):
         inner = subtable_class(item)
         if inner is None or not holds_many(item) or "name" not in inner.__dataclass_fields__:
             continue
-        if inner.numbered:
-            object.__setattr__(holder, item.name, named(getattr(holder, item.name)))
-        for number, table in enumerate(() if inner.may_share_names else getattr(holder, item.name) or (), start=1):
+        tables = getattr(holder, item.name) or ()
+        if inner.numbered and not all(table.name for table in tables):
+            tables = numbered[item.name] = named(tables)
+        for number, table in enumerate(() if inner.may_share_names else tables, start=1):
             alike = normalize("NFC", " ".join(table.name.split()))
             places.setdefault((inner.named_beside or inner.table, alike), []).append(
                 f"[[{inner.table}]] number {number}"
@@ -185,6 +206,7 @@ def settle_names(holder: Table) -> None:
                 for name, found in twice.items()
             )
         )
+    return numbered
 
 
 def named(tables: Sequence[_Table]) -> tuple[_Table, ...]:

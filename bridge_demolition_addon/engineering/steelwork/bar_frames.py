@@ -10,7 +10,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
@@ -46,7 +47,7 @@ _MET_M = 5e-5
 """How far an axis may run beside a node that it is taken to meet."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, eq=False)
 class BarAxes:
     """Axes and sections of n bars.
 
@@ -62,16 +63,21 @@ class BarAxes:
     ends_m: FloatArray
     outlines: Sequence[FloatArray]
     areas_m2: FloatArray
-    sizes_m: FloatArray = field(init=False)
-    lengths_m: FloatArray = field(init=False)
-    ways: FloatArray = field(init=False)
 
-    def __post_init__(self) -> None:
-        sizes = [2.0 * float(np.sqrt(dot(points, points)).max()) for points in self.outlines]
-        lengths = length(self.ends_m - self.begins_m)
-        object.__setattr__(self, "sizes_m", np.array(sizes))
-        object.__setattr__(self, "lengths_m", lengths)
-        object.__setattr__(self, "ways", (self.ends_m - self.begins_m) / lengths[:, None])
+    @cached_property
+    def sizes_m(self) -> FloatArray:
+        """Sizes (n,) of the sections about the axes."""
+        return np.array([2.0 * float(np.sqrt(dot(points, points)).max()) for points in self.outlines])
+
+    @cached_property
+    def lengths_m(self) -> FloatArray:
+        """Lengths (n,) of the axes."""
+        return length(self.ends_m - self.begins_m)
+
+    @cached_property
+    def ways(self) -> FloatArray:
+        """Directions (n, 3) from beginning to end."""
+        return (self.ends_m - self.begins_m) / self.lengths_m[:, None]
 
     def __len__(self) -> int:
         return len(self.begins_m)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
-from ..arrays import BoolArray, FloatArray, IntArray
+from ..arrays import FloatArray, IntArray
 from ..geometry.mesh import TriangleMesh
 from ..geometry.proximity import blocks, ranges
 from ..geometry.vectors import cross_2d
@@ -17,7 +18,7 @@ _ON_EDGE = 1e-9
 _MOST_CELLS_ALONG = 1024
 
 
-@dataclass(frozen=True, eq=False, slots=True)
+@dataclass(frozen=True, eq=False)
 class Surface:
     """Triangles over a plan, sorted into square cells so that those at a position are known at once.
 
@@ -25,35 +26,15 @@ class Surface:
     """
 
     mesh: TriangleMesh
-    bounds: FloatArray = field(init=False)  # lowest and highest x and y, (2, 2)
-    _corners: FloatArray = field(init=False)
-    _low: BoolArray = field(init=False)
-    _cell_m: float = field(init=False)
-    _counts: IntArray = field(init=False)
-    _triangles: IntArray = field(init=False)
-    _firsts: IntArray = field(init=False)
 
-    def __post_init__(self) -> None:
-        corners = self.mesh.corners
-        doubled = cross_2d(corners[:, 1, :2] - corners[:, 0, :2], corners[:, 2, :2] - corners[:, 0, :2])
-        corners = corners[doubled != 0.0]
-        lower, upper = corners[:, :, :2].min(axis=1), corners[:, :, :2].max(axis=1)
-        low = lower.min(axis=0, initial=np.inf) if len(corners) else np.zeros(2)
-        size = (upper.max(axis=0) - low).max() if len(corners) else 1.0
-        along = min(_MOST_CELLS_ALONG, int(np.sqrt(max(len(corners), 1))) + 1)
-        cell = max(float(size) / along, np.finfo(float).tiny)
-        first, last = (np.floor((corner - low) / cell).astype(np.int64) for corner in (lower, upper))
-        counts = last.max(axis=0, initial=0) + 1
-        wide, high = (last - first + 1).T
-        rows, number = ranges(np.zeros(len(corners), np.int64), wide * high)
-        cells = (first[rows, 1] + number // wide[rows]) * counts[0] + first[rows, 0] + number % wide[rows]
-        order = np.argsort(cells, kind="stable")
-        values = (self.mesh.bounds[:, :2], corners, low, cell, counts, rows[order])
-        names = ("bounds", "_corners", "_low", "_cell_m", "_counts", "_triangles")
-        for name, value in zip(names, values, strict=True):
-            object.__setattr__(self, name, value)
-        firsts = np.searchsorted(cells[order], np.arange(int(counts[0] * counts[1]) + 1))
-        object.__setattr__(self, "_firsts", firsts)
+    @cached_property
+    def bounds(self) -> FloatArray:
+        """Lowest and highest x and y, (2, 2)."""
+        return self.mesh.bounds[:, :2]
+
+    @cached_property
+    def _cells(self) -> _Cells:
+        return _Cells.of(self.mesh)
 
     @property
     def points(self) -> FloatArray:
@@ -67,23 +48,55 @@ class Surface:
 
     def heights_at(self, positions: FloatArray) -> FloatArray:
         """Heights (n,) of the highest triangle at positions (n, 2); nan where there is none."""
-        positions = np.asarray(positions, float).reshape(-1, 2)
+        positions, sorted_in = np.asarray(positions, float).reshape(-1, 2), self._cells
         highest = np.full(len(positions), np.nan)
-        if not len(self._corners):
+        if not len(sorted_in.corners):
             return highest
-        column, row = np.floor((positions - self._low) / self._cell_m).astype(np.int64).T
+        column, row = np.floor((positions - sorted_in.low) / sorted_in.side_m).astype(np.int64).T
         on_edge = positions == self.bounds[1]
-        column = np.where(on_edge[:, 0], np.minimum(column, self._counts[0] - 1), column)
-        row = np.where(on_edge[:, 1], np.minimum(row, self._counts[1] - 1), row)
-        inside = (column >= 0) & (row >= 0) & (column < self._counts[0]) & (row < self._counts[1])
-        rows = np.flatnonzero(inside)
-        cells = row[rows] * self._counts[0] + column[rows]
-        counts = self._firsts[cells + 1] - self._firsts[cells]
+        columns, rows = sorted_in.counts
+        column = np.where(on_edge[:, 0], np.minimum(column, columns - 1), column)
+        row = np.where(on_edge[:, 1], np.minimum(row, rows - 1), row)
+        inside = np.flatnonzero((column >= 0) & (row >= 0) & (column < columns) & (row < rows))
+        cells = row[inside] * columns + column[inside]
+        counts = sorted_in.firsts[cells + 1] - sorted_in.firsts[cells]
         for part in blocks(counts):
-            of, candidate = ranges(self._firsts[cells[part]], counts[part])
-            heights = _heights_in(self._corners[self._triangles[candidate]], positions[rows[part][of]])
-            np.fmax.at(highest, rows[part][of], heights)
+            of, candidate = ranges(sorted_in.firsts[cells[part]], counts[part])
+            at = inside[part][of]
+            heights = _heights_in(sorted_in.corners[sorted_in.triangles[candidate]], positions[at])
+            np.fmax.at(highest, at, heights)
         return highest
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Cells:
+    """Square cells over a plan, and the triangles in each."""
+
+    corners: FloatArray  # (t, 3, 3), of triangles that are not upright
+    low: FloatArray  # lowest x and y, (2,)
+    side_m: float
+    counts: IntArray  # along x and y, (2,)
+    triangles: IntArray  # in cells, one cell after the other
+    firsts: IntArray  # of each cell among these, and their number
+
+    @classmethod
+    def of(cls, mesh: TriangleMesh) -> _Cells:
+        corners = mesh.corners
+        doubled = cross_2d(corners[:, 1, :2] - corners[:, 0, :2], corners[:, 2, :2] - corners[:, 0, :2])
+        corners = corners[doubled != 0.0]
+        lower, upper = corners[:, :, :2].min(axis=1), corners[:, :, :2].max(axis=1)
+        low = lower.min(axis=0, initial=np.inf) if len(corners) else np.zeros(2)
+        size = (upper.max(axis=0) - low).max() if len(corners) else 1.0
+        along = min(_MOST_CELLS_ALONG, int(np.sqrt(max(len(corners), 1))) + 1)
+        side = max(float(size) / along, np.finfo(float).tiny)
+        first, last = (np.floor((corner - low) / side).astype(np.int64) for corner in (lower, upper))
+        counts = last.max(axis=0, initial=0) + 1
+        wide, high = (last - first + 1).T
+        rows, number = ranges(np.zeros(len(corners), np.int64), wide * high)
+        cells = (first[rows, 1] + number // wide[rows]) * counts[0] + first[rows, 0] + number % wide[rows]
+        order = np.argsort(cells, kind="stable")
+        firsts = np.searchsorted(cells[order], np.arange(int(counts[0] * counts[1]) + 1))
+        return cls(corners, low, side, counts, rows[order], firsts)
 
 
 def _heights_in(corners: FloatArray, positions: FloatArray) -> FloatArray:

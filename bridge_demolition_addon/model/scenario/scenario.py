@@ -237,15 +237,36 @@ class Scenario(Table):
         lifted = (lifting_away(lift) for lift in self.lifts)
         return (*self.removals, *self.saw_cuts, *self.weakenings, *severed, *self.tendon_cuts, *lifted)
 
+    def resolved(self) -> dict[str, Any]:
+        """Return connections with strength and stiffness, the time that these need, and how bodies touch."""
+        connections = self.connections.with_strength(self.fracture.shards).with_stiffness(self.materials)
+        has_bars = self.is_reinforced or self.steelwork or self.tendons
+        time = self.time.with_bars() if has_bars and connections.is_elastic else self.time
+        return {"connections": connections, "time": time, **self._resolved_contacts()}
+
+    def _resolved_contacts(self) -> dict[str, Any]:
+        """Return pairs of surfaces, or bodies with values of their own where any body gives one."""
+        bodies = self.bodies_in_contact
+        of_bodies = [name for body in bodies for name in body.given_keys]
+        if not of_bodies:
+            contacts = self.contacts or ContactSettings()
+            contacts.check_possible(dict.fromkeys(body.contact for body in bodies))
+            return {"contacts": contacts}
+        if self.contacts is not None:
+            check_not_both(self.contacts.given_keys, of_bodies)
+        surfaces = tuple(map(with_own_values, self.ground.surfaces))
+        return {
+            "contacts": None,
+            "shards": with_own_values(self.shards),
+            "ground": replace(with_own_values(self.ground), surfaces=surfaces),
+            "ball": self.ball and with_own_values(self.ball),
+            "jackhammers": tuple(map(with_own_values, self.jackhammers)),
+        }
+
     def _check_together(self) -> None:
-        self._settle_contacts()
         check_zones_apart(self.blast_zones)
         check_cuts(self.cuts, self.blast_zones)
         self._check_slow_motion()
-        object.__setattr__(self, "connections", self.connections.with_strength(self.fracture.shards))
-        object.__setattr__(self, "connections", self.connections.with_stiffness(self.materials))
-        if (self.is_reinforced or self.steelwork or self.tendons) and self.connections.is_elastic:
-            object.__setattr__(self, "time", self.time.with_bars())
         check_materials(self.materials)
         self._check_reinforcement()
         check_tendons(self.tendons, self.tendon_cuts, self.connections)
@@ -277,28 +298,6 @@ class Scenario(Table):
                 "expected shards.start_deactivated = false, or it would begin at rest"
             )
         self._check_foundations()
-
-    def _settle_contacts(self) -> None:
-        """Have either pairs of surfaces, or values of every single body where any body gives one."""
-        bodies = self.bodies_in_contact
-        of_bodies = [name for body in bodies for name in body.given_keys]
-        if not of_bodies:
-            contacts = self.contacts or ContactSettings()
-            contacts.check_possible(dict.fromkeys(body.contact for body in bodies))
-            object.__setattr__(self, "contacts", contacts)
-            return
-        if self.contacts is not None:
-            check_not_both(self.contacts.given_keys, of_bodies)
-            object.__setattr__(self, "contacts", None)
-        surfaces = tuple(map(with_own_values, self.ground.surfaces))
-        own = {
-            "shards": with_own_values(self.shards),
-            "ground": replace(with_own_values(self.ground), surfaces=surfaces),
-            "ball": self.ball and with_own_values(self.ball),
-            "jackhammers": tuple(map(with_own_values, self.jackhammers)),
-        }
-        for name, value in own.items():
-            object.__setattr__(self, name, value)
 
     def _check_foundations(self) -> None:
         if not self.foundations:

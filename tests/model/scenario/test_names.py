@@ -12,7 +12,7 @@ from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.optimise.settings import OptimiseSettings
 from bridge_demolition_addon.model.scenario import Scenario, Zone
 from bridge_demolition_addon.model.scenario.file import read_scenario, scenario_text
-from bridge_demolition_addon.model.schema import Table, holds_many, settle_names, subtable_class, subtable_fields
+from bridge_demolition_addon.model.schema import Table, holds_many, named_tables, subtable_class, subtable_fields
 from bridge_demolition_addon.model.search.settings import SearchSettings
 from bridge_demolition_addon.model.study.criteria import Criterion, zone_output
 from bridge_demolition_addon.model.study.settings import StudySettings
@@ -46,7 +46,7 @@ def test_no_list_takes_a_name_twice_but_those_that_nothing_refers_to():
         lists = {item.name: () for item in subtable_fields(owner) if holds_many(item)}
         named = [bare(inner, name=text) for text in ("other", "road", "side road", "road")]
         try:
-            settle_names(bare(owner, **lists | {name: named}))
+            named_tables(bare(owner, **lists | {name: named}))
         except ScenarioError as error:
             assert str(error) == (
                 f'[[{inner.table}]] number 2 and [[{inner.table}]] number 4 have one name, "road": '
