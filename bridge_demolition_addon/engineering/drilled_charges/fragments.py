@@ -139,24 +139,29 @@ def landings_m(
 
     m dv/dt = m g - ½ ρ C_d A v², solved by Runge and Kutta's method of fourth order in steps of 5 ms.
     """
-    positions, velocities = fragments.positions_m.copy(), fragments.velocities_m_s.copy()
+    landings = fragments.positions_m.copy()
+    flying = np.arange(len(landings))
+    # By components (3, n), whose sums are of whole rows.
+    positions, velocities = fragments.positions_m.T.copy(), fragments.velocities_m_s.T.copy()
     slowing = 0.5 * AIR_KG_M3 * drag_coefficient * _FRAGMENT_AREA / (fragments.density_kg_m3 * fragments.sizes_m)
-    gravity = np.array([0.0, 0.0, -gravity_m_s2])
-    flying = np.arange(len(positions))
+    gravity = np.array([[0.0], [0.0], [-gravity_m_s2]])
     clear = _clearance(positions, heights_at)
     for _ in range(round(_LONGEST_FLIGHT_S / _STEP_S)):
         if not len(flying):
             break
-        before, before_clear = positions[flying], clear[flying]
-        after, velocities[flying] = _step(before, velocities[flying], slowing[flying, None], gravity)
+        after, velocities = _step(positions, velocities, slowing, gravity)
         after_clear = _clearance(after, heights_at)
         landed: BoolArray = after_clear <= 0.0
-        fall = np.where(landed, before_clear - after_clear, 1.0)
-        share = np.where(landed, np.clip(before_clear / fall, 0.0, 1.0), 1.0)
-        positions[flying] = before + share[:, None] * (after - before)
-        clear[flying] = after_clear
-        flying = flying[~landed]
-    return positions
+        if landed.any():
+            before, fall = clear[landed], clear[landed] - after_clear[landed]
+            share = np.clip(before / fall, 0.0, 1.0)
+            began = positions[:, landed]
+            landings[flying[landed]] = (began + share * (after[:, landed] - began)).T
+            flying, after, velocities = flying[~landed], after[:, ~landed], velocities[:, ~landed]
+            slowing, after_clear = slowing[~landed], after_clear[~landed]
+        positions, clear = after, after_clear
+    landings[flying] = positions.T
+    return landings
 
 
 def ranges_m(origin_m: ArrayLike, landings: FloatArray, masses_kg: FloatArray, least_kg: float = 0.1) -> Ranges:
@@ -176,7 +181,8 @@ def _step(
     positions: FloatArray, velocities: FloatArray, slowing: FloatArray, gravity: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     def acceleration(velocity: FloatArray) -> FloatArray:
-        speed = np.sqrt((velocity * velocity).sum(axis=1, keepdims=True))
+        squares = velocity * velocity
+        speed = np.sqrt(squares[0] + squares[1] + squares[2])
         gained: FloatArray = gravity - slowing * speed * velocity
         return gained
 
@@ -193,10 +199,10 @@ def _step(
 
 
 def _clearance(positions: FloatArray, heights_at: HeightsAt | None) -> FloatArray:
-    """Heights (n,) above the ground; what is beyond its edge has none below it, and falls on height 0."""
+    """Heights (n,) of positions (3, n) above the ground; what is beyond its edge falls on height 0."""
     if heights_at is None:
-        return positions[:, 2].copy()
-    return positions[:, 2] - np.nan_to_num(heights_at(positions[:, :2]), nan=0.0)
+        return positions[2].copy()
+    return positions[2] - np.nan_to_num(heights_at(positions[:2].T), nan=0.0)
 
 
 def _normal(count: int, generator: np.random.Generator) -> FloatArray:

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from scipy.linalg import solveh_banded
+import scipy
 
 from ..arrays import FloatArray
 
@@ -68,7 +68,7 @@ def influence_lines(supports_m: Sequence[float], begin_m: float, end_m: float) -
         banded[0, 2 * supports + 1] += _RIGID / mean
     loads = np.zeros((2 * count, count))
     loads[2 * np.arange(count), np.arange(count)] = -1.0
-    moved = solveh_banded(banded, loads, lower=True).reshape(count, 2, count)
+    moved = scipy.linalg.solveh_banded(banded, loads, lower=True).reshape(count, 2, count)
     moments, shears = _section_forces(lengths, moved)
     # What a support carries follows from the shears beside it: the penalty's own force has fewer digits.
     beside = np.concatenate((np.zeros((1, count)), shears, np.zeros((1, count))))

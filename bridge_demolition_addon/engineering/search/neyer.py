@@ -15,7 +15,7 @@ from collections.abc import Callable, Iterator, Sequence
 from itertools import islice
 
 import numpy as np
-from scipy.special import log_ndtr
+import scipy
 
 from ..arrays import FloatArray
 from .probit import LevelOutcomes, SuccessCurve, fitted
@@ -121,5 +121,7 @@ def most_informative(levels: FloatArray, normal: SuccessCurve) -> float:
 
 def information(scores: FloatArray) -> FloatArray:
     """Information (n,) that runs at scores (x - μ) / σ give on the median, φ² / (Φ (1 - Φ))."""
-    gained: FloatArray = np.exp(-scores * scores - np.log(2.0 * np.pi) - log_ndtr(scores) - log_ndtr(-scores))
+    gained: FloatArray = np.exp(
+        -scores * scores - np.log(2.0 * np.pi) - scipy.special.log_ndtr(scores) - scipy.special.log_ndtr(-scores)
+    )
     return gained

@@ -11,8 +11,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import brentq, minimize_scalar
-from scipy.special import fdtri, log_ndtr, ndtr, ndtri
+import scipy  # loads its parts, which take long, as they are asked for
 
 from ..arrays import BoolArray, FloatArray
 
@@ -31,7 +30,7 @@ class SuccessCurve:
 
     def quantile(self, probability: float) -> float:
         """Return the level at which success has a probability."""
-        return self.median + self.spread * float(ndtri(probability))
+        return self.median + self.spread * float(scipy.special.ndtri(probability))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -81,10 +80,10 @@ def _likeliest(runs: LevelOutcomes) -> SuccessCurve:
     x = (runs.levels - middle) / unit
     signs = np.where(runs.successes, 1.0, -1.0)
     intercept, slope = 0.0, 1.0
-    value = log_ndtr(signs * (intercept + slope * x)).sum()
+    value = scipy.special.log_ndtr(signs * (intercept + slope * x)).sum()
     for _ in range(_ITERATIONS):
         argument = signs * (intercept + slope * x)
-        mills = np.exp(-0.5 * argument * argument - 0.5 * np.log(2.0 * np.pi) - log_ndtr(argument))
+        mills = np.exp(-0.5 * argument * argument - 0.5 * np.log(2.0 * np.pi) - scipy.special.log_ndtr(argument))
         first = signs * mills
         second = mills * (argument + mills)
         gradient = np.array((first.sum(), (first * x).sum()))
@@ -94,7 +93,7 @@ def _likeliest(runs: LevelOutcomes) -> SuccessCurve:
         share = 1.0
         while True:
             tried = intercept + share * step[0], slope + share * step[1]
-            better = log_ndtr(signs * (tried[0] + tried[1] * x)).sum()
+            better = scipy.special.log_ndtr(signs * (tried[0] + tried[1] * x)).sum()
             if better >= value or share < _SAME:
                 break
             share /= 2.0
@@ -109,23 +108,25 @@ def log_likelihood(runs: LevelOutcomes, normal: SuccessCurve) -> float:
     if normal.spread == 0.0:
         return 0.0 if runs.highest_failure <= normal.median <= runs.lowest_success else -np.inf
     signs = np.where(runs.successes, 1.0, -1.0)
-    return float(log_ndtr(signs * (runs.levels - normal.median) / normal.spread).sum())
+    return float(scipy.special.log_ndtr(signs * (runs.levels - normal.median) / normal.spread).sum())
 
 
 def profile_likelihood(runs: LevelOutcomes, position: float, probability: float) -> float:
     """Largest logarithm of the likelihood of all distributions with this probability of success at a level."""
     signs = np.where(runs.successes, 1.0, -1.0)
-    offsets, base = runs.levels - position, float(ndtri(probability))
+    offsets, base = runs.levels - position, float(scipy.special.ndtri(probability))
     unit = max(np.ptp(runs.levels), abs(offsets).max(), 1e-300)
 
     def loss(slope: float) -> float:
-        return -float(log_ndtr(signs * (base + slope * offsets / unit)).sum())
+        return -float(scipy.special.log_ndtr(signs * (base + slope * offsets / unit)).sum())
 
     # Concave in the slope, from 0, as good anywhere, to a jump.
     high = 1.0
     while high < _STEEPEST and loss(2.0 * high) < loss(high):
         high *= 2.0
-    least = minimize_scalar(loss, bounds=(0.0, 4.0 * high), method="bounded", options={"xatol": 1e-7 * high})
+    least = scipy.optimize.minimize_scalar(
+        loss, bounds=(0.0, 4.0 * high), method="bounded", options={"xatol": 1e-7 * high}
+    )
     return -min(float(least.fun), loss(0.0), loss(_STEEPEST))
 
 
@@ -140,7 +141,7 @@ def limit(runs: LevelOutcomes, probability: float, confidence: float, side: int)
     if normal is None or len(runs) < 4:
         return side * np.inf
     most = log_likelihood(runs, normal)
-    least = most - float(fdtri(2, len(runs) - 2, confidence))
+    least = most - float(scipy.special.fdtri(2, len(runs) - 2, confidence))
 
     def above(position: float) -> float:
         return profile_likelihood(runs, position, probability) - least
@@ -150,7 +151,7 @@ def limit(runs: LevelOutcomes, probability: float, confidence: float, side: int)
     for _ in range(60):
         outside = inside + side * step
         if above(outside) < 0.0:
-            return float(brentq(above, inside, outside, xtol=1e-6 * step))
+            return float(scipy.optimize.brentq(above, inside, outside, xtol=1e-6 * step))
         if step > 1e3 * max(np.ptp(runs.levels), normal.spread):
             break
         step *= 2.0
@@ -161,5 +162,5 @@ def chance(normal: SuccessCurve, positions: FloatArray) -> FloatArray:
     """Probability of success (k,) at levels (k,)."""
     if normal.spread == 0.0:
         return np.where(positions >= normal.median, 1.0, 0.0)
-    chances: FloatArray = ndtr((positions - normal.median) / normal.spread)
+    chances: FloatArray = scipy.special.ndtr((positions - normal.median) / normal.spread)
     return chances

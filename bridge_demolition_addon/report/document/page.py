@@ -2,25 +2,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import cache, lru_cache
+from itertools import groupby, pairwise
 from typing import Any
 
 import numpy as np
 from matplotlib.backends.backend_mixed import MixedModeRenderer
 from matplotlib.backends.backend_pdf import Op, PdfFile, RendererPdf
 from matplotlib.figure import Figure
-from matplotlib.font_manager import FontProperties
+from matplotlib.font_manager import FontProperties, findfont, get_font
+from matplotlib.ft2font import FT2Font, Kerning, LoadFlags
 from matplotlib.path import Path as Outline
-from matplotlib.textpath import TextToPath
 from matplotlib.transforms import IdentityTransform
 
-from ...charts.style import MM_PER_INCH, MM_PER_POINT
+from ...charts.style import MM_PER_INCH, MM_PER_POINT, POINTS_PER_INCH
 from ..languages.letters import families
 from .drawings import IMAGE_DOTS_PER_INCH
 
 PAGE_MM = (210.0, 297.0)
 """A4."""
+
+_MEASURED_PT = 100.0
 
 _WIDTH_IN, _HEIGHT_IN = (side / MM_PER_INCH for side in PAGE_MM)
 
@@ -78,7 +82,7 @@ class Page:
     strokes: list[tuple[np.ndarray, float]] = field(default_factory=list)  # corners (k, 2) in mm, pen in points
     drawings: list[Placed] = field(default_factory=list)
 
-    def write(self, file: PdfFile) -> None:
+    def write(self, file: PageFile) -> None:
         """Add the page to a PDF."""
         file.newPage(_WIDTH_IN, _HEIGHT_IN)
         renderer = RendererPdf(file, IMAGE_DOTS_PER_INCH, _HEIGHT_IN, _WIDTH_IN)
@@ -86,10 +90,9 @@ class Page:
         for corners_mm, width_pt in self.strokes:
             pen.set_linewidth(width_pt)
             renderer.draw_path(pen, Outline(_points(corners_mm)), IdentityTransform())
-        for line in self.lines:
-            x, y = _points(np.array([line.left_mm, line.base_mm]))
-            renderer.draw_text(pen, x, y, line.text, _properties(line.font, line.font.families), 0.0)
         renderer.finalize()
+        for line in self.lines:
+            file.line(line)
         for placed in self.drawings:
             drawn, scale = placed.drawn, placed.scale
             x, y = _points(np.array([placed.left_mm, placed.top_mm + placed.size_mm[1]]))
@@ -105,6 +108,57 @@ class Page:
             file.output(Op.grestore)
 
 
+class PageFile(PdfFile):
+    """A PDF whose lines of text are put together of words and letters, each of which matplotlib is asked for once."""
+
+    def __init__(self, *args: Any, **options: Any) -> None:
+        self._words: dict[tuple[str, Font], list[Any]] = {}
+        self._letters: dict[tuple[str, Font], tuple[object, bytes]] = {}
+        self._noted: list[Any] | None = None
+        super().__init__(*args, **options)
+
+    def output(self, *data: Any) -> None:
+        """Write operators, or note those of a letter."""
+        if self._noted is None:
+            super().output(*data)
+        else:
+            self._noted += data
+
+    def line(self, line: Line) -> None:
+        """Write a line of text."""
+        x, y = _points(np.array([line.left_mm, line.base_mm]))
+        shown = [part for word in _parts(line.text) for part in self._word(word, line.font)]
+        operators: list[Any] = [Op.begin_text, x, y, Op.textpos]
+        for name, parts in groupby(shown, key=lambda part: part[0]):
+            operators += [name, line.font.size_pt, Op.selectfont, [each for _, each in parts], Op.showkern]
+        self.output(*operators, Op.end_text)
+
+    def _word(self, word: str, font: Font) -> list[Any]:
+        """Return the parts of a word: the name of a font, and letters or what brings the next one nearer."""
+        if (word, font) not in self._words:
+            parts = [self._letter(word[0], font)]
+            for pair in pairwise(word):
+                name, letter = self._letter(pair[1], font)
+                if kerning := _kerning(*pair, font.weight, font.families):
+                    parts.append((parts[-1][0], -1000.0 * kerning))
+                parts.append((name, letter))
+            self._words[word, font] = parts
+        return self._words[word, font]
+
+    def _letter(self, letter: str, font: Font) -> tuple[object, Any]:
+        """Return the name of the font in the file, and the glyph of a letter in it."""
+        if (letter, font) not in self._letters:
+            renderer = RendererPdf(self, IMAGE_DOTS_PER_INCH, _HEIGHT_IN, _WIDTH_IN)
+            noted = self._noted = []
+            try:
+                renderer.draw_text(renderer.new_gc(), 0.0, 0.0, letter, _properties(font, font.families), 0.0)
+            finally:
+                self._noted = None
+            name, shown = noted[noted.index(Op.selectfont) - 2], noted[noted.index(Op.showkern) - 1]
+            self._letters[letter, font] = name, shown[-1]
+        return self._letters[letter, font]
+
+
 def _points(positions_mm: np.ndarray) -> np.ndarray:
     """Return positions (..., 2) in the PDF's own units: points, from the lower left corner."""
     return (np.array([0.0, PAGE_MM[1]]) + positions_mm * (1.0, -1.0)) / MM_PER_POINT
@@ -118,19 +172,45 @@ def _properties(font: Font, families: tuple[str, ...]) -> FontProperties:
 def width_mm(text: str, font: Font) -> float:
     """Return how wide a text is: its words and the spaces between them, as words are measured once each."""
     families = font.families
-    return sum(_word_mm(word, font, families) for word in text.split(" ")) + text.count(" ") * _word_mm(
-        " ", font, families
-    )
+    return font.height_mm * sum(_word_em(word, font.weight, families) for word in _parts(text))
+
+
+def _parts(text: str) -> Iterator[str]:
+    """Yield the words of a text and the spaces between them."""
+    for number, word in enumerate(text.split(" ")):
+        if number:
+            yield " "
+        if word:
+            yield word
 
 
 @lru_cache(maxsize=50_000)
-def _word_mm(word: str, font: Font, families: tuple[str, ...]) -> float:
-    # Between two bars, as what is measured is ink, without the room at its sides.
-    return _ink_mm(f"|{word}|", font, families) - _ink_mm("||", font, families) if word else 0.0
+def _word_em(word: str, weight: str, families: tuple[str, ...]) -> float:
+    """Width of a word by the size of its letters."""
+    nearer = sum(_kerning(left, right, weight, families) for left, right in pairwise(word))
+    return sum(_advance(letter, weight, families) for letter in word) + nearer
 
 
-@lru_cache(maxsize=50_000)
-def _ink_mm(text: str, font: Font, families: tuple[str, ...]) -> float:
-    properties = _properties(font, families)
-    width, _, _ = TextToPath().get_text_width_height_descent(text, properties, ismath=False)
-    return width * MM_PER_POINT
+@cache
+def _advance(letter: str, weight: str, families: tuple[str, ...]) -> float:
+    face = _face(weight, families)
+    return face.load_char(ord(letter), flags=LoadFlags.NO_HINTING).linearHoriAdvance / 65536.0 / _MEASURED_PT
+
+
+@cache
+def _kerning(left: str, right: str, weight: str, families: tuple[str, ...]) -> float:
+    """Return how much farther from a letter the next one stands, by the size of letters: negative where nearer."""
+    face = _face(weight, families[:1])
+    indices = face.get_char_index(ord(left)), face.get_char_index(ord(right))
+    return face.get_kerning(*indices, Kerning.UNFITTED) / 64.0 / _MEASURED_PT if all(indices) else 0.0
+
+
+def _face(weight: str, families: tuple[str, ...]) -> FT2Font:
+    face = get_font(_font_files(weight, families))
+    face.set_size(_MEASURED_PT, POINTS_PER_INCH)  # matplotlib draws with the same, in other sizes
+    return face
+
+
+@cache
+def _font_files(weight: str, families: tuple[str, ...]) -> tuple[str, ...]:
+    return tuple(findfont(FontProperties(family=family, weight=weight)) for family in families)

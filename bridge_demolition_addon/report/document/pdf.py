@@ -10,14 +10,13 @@ from pathlib import Path
 
 import matplotlib
 import numpy as np
-from matplotlib.backends.backend_pdf import PdfFile
 
 from ...charts.style import PAGE_WIDTH_MM
 from ...system.disk import whole_file
 from ..languages.translation import IN_ENGLISH, Translation
 from .blocks import Block, DataTable, Document, Listing, Paragraph, Picture
 from .drawings import Drawings
-from .page import Font, Line, Page, Placed, width_mm
+from .page import Font, Line, Page, PageFile, Placed, width_mm
 from .page_style import (
     BOTTOM_MM,
     FOOT_MM,
@@ -70,7 +69,7 @@ def write_pdf(
         pages = laid_out(document, drawings, translation)
         # Without a date the same run gives the same file.
         metadata = {"Title": document.title, "CreationDate": None}
-        with whole_file(path) as part, closing(PdfFile(part, metadata=metadata)) as file:
+        with whole_file(path) as part, closing(PageFile(part, metadata=metadata)) as file:
             for number, page in enumerate(pages, start=1):
                 page.write(file)
                 finished(number, len(pages))

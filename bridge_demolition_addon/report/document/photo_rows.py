@@ -8,6 +8,7 @@ from itertools import groupby
 
 from matplotlib.figure import Figure
 from matplotlib.image import imread
+from PIL import Image
 
 from ...charts.style import MM_PER_INCH, PAGE_WIDTH_MM, POINTS_PER_INCH, blank_figure
 from .blocks import AnimatedModel, Block, DataTable, Listing, Paragraph, Photo, Picture
@@ -74,7 +75,8 @@ def caption_mm(block: Drawn) -> float:
 
 def _photo_mm(photo: Photo, width_mm: float) -> tuple[float, float]:
     """Return the width and height of a photo that is not to be wider, and not higher than a page."""
-    height, width = imread(photo.path).shape[:2]
+    with Image.open(photo.path) as image:
+        width, height = image.size
     return width_mm, min(width_mm * height / width, BOTTOM_MM - TOP_MM - 20.0)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import struct
 import zipfile
 from collections.abc import Container, Iterator, Mapping
@@ -16,6 +17,12 @@ _ENDING = ".npy"
 
 _MAPPED_FROM = 1 << 16
 """Bytes from which on an array is mapped; a smaller one is read, which takes less."""
+
+MOST_PACKED = 1 << 28
+"""Bytes of all arrays that are packed, or too small to be mapped: a file of a kilobyte can unpack to a thousand times
+as many."""
+
+_MOST_ARRAYS = 1000
 
 _NUMBERS = 1 << 18
 """Numbers in a piece of an array: the results of a piece stay in the processor's cache."""
@@ -54,10 +61,12 @@ def write_archive(path: Path, arrays: Mapping[str, np.ndarray], packed: Containe
 def read_archive(path: Path) -> dict[str, np.ndarray]:
     """Read all arrays of an archive by their names, and check that they are as they were written.
 
-    Large arrays are mapped from a copy, and stay as they are, whatever happens to the archive.
+    Large arrays are mapped from a copy, and stay as they are, whatever happens to the archive. What claims to be larger
+    than it can be raises `ValueError` before any of it is read.
     """
     with zipfile.ZipFile(path) as archive:
         members = [member for member in archive.infolist() if member.filename.endswith(_ENDING)]
+        _check_sizes(members, path.stat().st_size)
         return {member.filename.removesuffix(_ENDING): _array(archive, member) for member in members}
 
 
@@ -69,12 +78,34 @@ def blocks_of(values: np.ndarray) -> Iterator[np.ndarray]:
         yield values[first : first + rows]
 
 
+def _is_mapped(member: zipfile.ZipInfo) -> bool:
+    return member.compress_type == zipfile.ZIP_STORED and member.file_size >= _MAPPED_FROM
+
+
+def _check_sizes(members: list[zipfile.ZipInfo], bytes_on_disk: int) -> None:
+    if len(members) > _MOST_ARRAYS:
+        raise ValueError(f"holds {len(members)} arrays, expected at most {_MOST_ARRAYS}")
+    packed = sum(member.file_size for member in members if not _is_mapped(member))
+    if packed > MOST_PACKED:
+        raise ValueError(f"unpacks to {packed / 1e6:.0f} MB, expected at most {MOST_PACKED / 1e6:.0f} MB")
+    if sum(member.file_size for member in members if _is_mapped(member)) > bytes_on_disk:
+        raise ValueError("its arrays claim to be larger than the file")
+
+
 def _array(archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> np.ndarray:
     with archive.open(member) as content:
-        if member.compress_type != zipfile.ZIP_STORED or member.file_size < _MAPPED_FROM:
-            return np.lib.format.read_array(content, allow_pickle=False)
-        read_header = _HEADER_READERS[np.lib.format.read_magic(content)]
-        shape, is_fortran, dtype = read_header(content)
+        version = np.lib.format.read_magic(content)
+        if version not in _HEADER_READERS:
+            raise ValueError(f"{member.filename}: is of version {version} of numpy's format, expected 1.0 or 2.0")
+        shape, is_fortran, dtype = _HEADER_READERS[version](content)
         if dtype.hasobject:
             raise ValueError(f"{member.filename}: holds objects")
-        return mapped_copy(content, dtype, shape, is_fortran=is_fortran)  # read to its end, where the checksum is
+        size, left = math.prod(shape) * dtype.itemsize, member.file_size - content.tell()
+        if size != left or not dtype.itemsize or min(shape, default=0) < 0:
+            raise ValueError(f"{member.filename}: claims numbers {shape} of {dtype.itemsize} bytes, and holds {left} bytes")
+        if _is_mapped(member):
+            return mapped_copy(content, dtype, shape, is_fortran=is_fortran)  # read to its end, where the checksum is
+        values = bytearray(content.read())
+        if len(values) != size:
+            raise ValueError(f"{member.filename}: is cut short")
+        return np.ndarray(shape, dtype, values, order="F" if is_fortran else "C")

@@ -3,6 +3,7 @@
 
 import struct
 import sys
+import tracemalloc
 import zipfile
 import zlib
 
@@ -107,3 +108,47 @@ def test_blocks_put_together_are_the_array(shape):
     assert all(block.size <= 1 << 18 or len(block) == 1 for block in blocks)
     if values.size:
         assert np.array_equal(np.concatenate(blocks), np.atleast_1d(values))
+
+
+def claiming(path, shape, content=b"", dtype="<f8", compress=zipfile.ZIP_DEFLATED):
+    """An archive of one array whose header claims a shape."""
+    header = f"{{'descr': '{dtype}', 'fortran_order': False, 'shape': {shape}, }}".encode().ljust(117) + b"\n"
+    with zipfile.ZipFile(path, "w", compress) as archive, archive.open("bomb.npy", "w", force_zip64=True) as member:
+        member.write(np.lib.format.magic(1, 0) + struct.pack("<H", len(header)) + header)
+        for _ in range(0, 300_000_000 if content is None else 0, 10_000_000):
+            member.write(bytes(10_000_000))
+        member.write(content or b"")
+    return path
+
+
+@pytest.mark.parametrize(
+    ("shape", "content", "dtype", "said"),
+    [
+        ("(10000000000000,)", b"", "<f8", "claims"),
+        ("(10000000000000,)", bytes(100_000), "<f8", "claims"),
+        ("(-1, -2)", bytes(16), "<f8", "claims"),
+        ("(1000000000000000000,)", b"", "|V0", "claims"),
+        ("(2, 1000000000)", bytes(16), "<U1", "claims"),
+        ("(37500000,)", None, "<f8", "unpacks to 300 MB"),
+    ],
+)
+def test_an_archive_that_unpacks_to_much_more_or_claims_to_is_refused(tmp_path, shape, content, dtype, said):
+    path = claiming(tmp_path / "bomb.npz", shape, content, dtype)
+    assert path.stat().st_size < 1_000_000
+    tracemalloc.start()
+    with pytest.raises(ValueError, match=said):
+        read_archive(path)
+    assert tracemalloc.get_traced_memory()[1] < 10_000_000
+    tracemalloc.stop()
+
+
+def test_arrays_that_share_their_place_in_an_archive_are_no_larger_than_it(tmp_path):
+    path = claiming(tmp_path / "bomb.npz", "(100000,)", bytes(800_000), compress=zipfile.ZIP_STORED)
+    content = path.read_bytes()
+    begin = content.index(b"PK\x01\x02")
+    entry, end = content[begin : content.index(b"PK\x05\x06")], bytearray(content[content.index(b"PK\x05\x06") :])
+    entries = b"".join(entry.replace(b"bomb.npy", b"%04d.npy" % number) for number in range(500))
+    struct.pack_into("<HHI", end, 8, 500, 500, len(entries))
+    path.write_bytes(content[:begin] + entries + bytes(end))
+    with pytest.raises(ValueError, match="larger than the file"):
+        read_archive(path)
