@@ -16,6 +16,9 @@ from .file_heights import FileHeights
 
 _MOST_BYTES = 1000 * MEGABYTE
 _LIMIT_S = 600.0
+_MOST_MEMORY = 2 * 10**9
+"""Bytes for as many heights, in the numbers of the file and in double precision."""
+
 
 MOST_HEIGHTS = 50_000_000
 """Heights that are read; a square of 7 km by 7 km in steps of 1 m."""
@@ -39,7 +42,9 @@ def read_geotiff(path: Path, no_data: float | None, scale: float) -> FileHeights
         kept = Path(folder) / "heights.npz"
         request = {"path": str(path.absolute()), "kept": str(kept), "no_data": no_data, "scale": scale}
         try:
-            said = isolated("model.terrain.geotiff_program", request | {"most_heights": MOST_HEIGHTS}, _LIMIT_S)
+            said = isolated(
+                "model.terrain.geotiff_program", request | {"most_heights": MOST_HEIGHTS}, _LIMIT_S, _MOST_MEMORY
+            )
         except UnreadableError as error:
             raise GeometryError(str(error)) from error
         with np.load(kept) as arrays:
@@ -58,7 +63,7 @@ def heights_in(path: Path, no_data: float | None, scale: float, most_heights: in
             keys = page.geotiff_tags or {}
             tags = {code: page.tags[code].value for code in _tags_in(page)}
             values = page.asarray()
-    except GeometryError:
+    except (GeometryError, MemoryError):
         raise
     except Exception as error:  # the reader has many for a file that is damaged or compressed in ways it does not know
         raise GeometryError(

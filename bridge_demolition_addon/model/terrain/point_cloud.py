@@ -18,6 +18,9 @@ MOST_BYTES = 4000 * MEGABYTE
 MOST_POINTS = 200_000_000
 
 _LIMIT_S = 600.0
+_MOST_MEMORY = 16 * 10**9
+"""Bytes of as many points, with all that a file says of each."""
+
 _HOW = "point clouds in LAS are read by laspy: install it with pip install 'bridge-demolition-addon[scans]'"
 
 
@@ -33,7 +36,7 @@ def read_cloud(path: Path, most_points: int = MOST_POINTS) -> tuple[np.ndarray, 
     with tempfile.TemporaryDirectory(prefix="bda-cloud-") as folder:
         kept = Path(folder) / "points.npz"
         request = {"path": str(path.absolute()), "kept": str(kept), "most_points": most_points}
-        isolated("model.terrain.cloud_program", request, _LIMIT_S)
+        isolated("model.terrain.cloud_program", request, _LIMIT_S, _MOST_MEMORY)
         with np.load(kept) as arrays:
             points, classes = arrays["points"], arrays["classes"]
     if not len(points):

@@ -102,7 +102,9 @@ def _array(archive: zipfile.ZipFile, member: zipfile.ZipInfo) -> np.ndarray:
             raise ValueError(f"{member.filename}: holds objects")
         size, left = math.prod(shape) * dtype.itemsize, member.file_size - content.tell()
         if size != left or not dtype.itemsize or min(shape, default=0) < 0:
-            raise ValueError(f"{member.filename}: claims numbers {shape} of {dtype.itemsize} bytes, and holds {left} bytes")
+            raise ValueError(
+                f"{member.filename}: claims numbers {shape} of {dtype.itemsize} bytes, and holds {left} bytes"
+            )
         if _is_mapped(member):
             return mapped_copy(content, dtype, shape, is_fortran=is_fortran)  # read to its end, where the checksum is
         values = bytearray(content.read())
