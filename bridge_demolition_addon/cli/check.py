@@ -2,9 +2,8 @@
 
 import argparse
 import sys
-import threading
+import time
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
 
 from ..model.actions import Fact, PlannedAction
 from ..model.bridge.layout import bridge_facts
@@ -41,15 +40,13 @@ from ..model.structure.tendon_facts import tendon_facts
 from ..model.structure.zone_loads import ZoneLoad
 from ..model.terrain.built import terrain_facts
 from ..studies.estimate import FACTOR, disk_megabytes, duration_text, megabytes_by_size, seconds_by_size
+from ..system.progress import Progress
 from .arguments import naming
 from .blender import simulation_module
+from .progress import StepsOfLongWork
 
-_LONG_S = 5.0
-"""Time after which a check says what takes it so long."""
-
-_LONG = (
-    "bda: cuts the bridge and works out how it stands, which takes minutes where much of it cracks by its own weight"
-)
+_STEPS = 3
+"""Of `scenario_facts`."""
 
 
 def add_to(commands: argparse._SubParsersAction) -> None:
@@ -78,13 +75,16 @@ def add_to(commands: argparse._SubParsersAction) -> None:
 def check(arguments: argparse.Namespace) -> None:
     """Print what a planner wants to know before a run."""
     scenario = read_scenario(arguments.scenario)
-    with naming(arguments.scenario), _said_if_long():
-        for line in scenario_facts(scenario, stand=arguments.stand):
+    steps = _STEPS + bool(arguments.cuts) + arguments.awake
+    with naming(arguments.scenario), StepsOfLongWork(sys.stderr, steps) as progress:
+        for line in scenario_facts(scenario, stand=arguments.stand, progress=progress):
             print(line)
         if arguments.cuts:
+            progress.stage(f"cuts the bridge {arguments.cuts} times, and works out how it stands each time")
             for line in _cut_lines(scenario, arguments.cuts):
                 print(line)
         if arguments.awake:
+            progress.stage(f"runs the bridge for {AWAKE_S:g} s without what is done to it")
             for line in _section("Awake", _awake_facts(scenario)):
                 print(line)
 
@@ -103,29 +103,24 @@ def _cut_lines(scenario: Scenario, count: int) -> Iterator[str]:
     yield from _section(f"Bearings in {count} cuts, seeds {ranges.seeds[0]} to {ranges.seeds[-1]}", ranges.facts())
 
 
-@contextmanager
-def _said_if_long() -> Iterator[None]:
-    """Say what takes long where it does, so that a check is not taken for one that hangs."""
-    timer = threading.Timer(_LONG_S, print, (_LONG,), {"file": sys.stderr, "flush": True})
-    timer.daemon = True
-    timer.start()
-    try:
-        yield
-    finally:
-        timer.cancel()
-
-
-def scenario_facts(scenario: Scenario, *, stand: bool = False) -> Iterator[str]:
+def scenario_facts(scenario: Scenario, *, stand: bool = False, progress: Progress | None = None) -> Iterator[str]:
     """Yield lines on a scenario's bridge, time steps, connections, contacts, ball, sequence and charges.
 
     With `stand` they say how a bridge with rigid connections would stand if these were elastic.
     """
     as_elastic = made_elastic(scenario) if stand else scenario  # refused before anything is said
+    progress = progress or Progress()
     yield scenario.title
+    began_s = time.monotonic()
+    progress.stage("cuts the bridge into shards")
     prepared = prepared_members(scenario)
     model = checked_model(scenario, prepared.members)
+    # As long as the cut at most for bridges of 100 to 200 shards that do not crack.
+    likely_s = max(1.0, time.monotonic() - began_s)
+    progress.stage(f"works out how it stands: about {likely_s:.0f} s, minutes where much cracks by its own weight")
     resting = RestingModel(model, scenario.joints)
     stability = stability_of(scenario, model, with_factor=stand or None, resting=resting)
+    progress.stage("works out what follows for the run")
     yield from _section("Does it stand?", stability.facts())
     yield from _section("Masses", mass_facts(prepared.members))
     if stand and model.stiffness is None:

@@ -1,6 +1,7 @@
 """Command line ``bda``: its commands, and what each kind of failure prints and returns."""
 
 import argparse
+import re
 import signal
 import sys
 from collections.abc import Sequence
@@ -137,13 +138,27 @@ def _arguments(words: Sequence[str]) -> argparse.Namespace:
     known = [option for command in parsers for option in command.options]
     try:
         arguments, unknown = parser.parse_known_args(words)
-    except UsageError:  # what is missing may be there under another name
+    except UsageError as error:  # what is missing may be there under another name, or without one
+        if meant := _meant_by(parser, words, str(error)):
+            raise UsageError(f"{meant}; see bda {words[0]} --help") from error
         unknown = [word for word in words[1:] if word.startswith("--") and word.partition("=")[0] not in known]
         if not unknown:
             raise
     if unknown:
         raise UsageError(f"{_unknown_arguments(unknown, known)}; see bda {words[0]} --help")
     return arguments
+
+
+def _meant_by(parser: Parser, words: Sequence[str], error: str) -> str:
+    """Return what to write where an option is missing, and its value stands without its name; empty if it does not."""
+    missing = re.search(r"are required: (--[\w-]+);", error)
+    if missing is None:
+        return ""
+    with suppress(UsageError):
+        _, left = parser.parse_known_args([*words, missing[1], "1"])
+        if len(left) == 1 and not left[0].startswith("-"):
+            return f"{missing[1]} is missing: write {missing[1]} {left[0]}"
+    return ""
 
 
 def _unknown_command(word: str) -> str:

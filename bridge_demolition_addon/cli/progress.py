@@ -1,6 +1,9 @@
 """Progress of a command: a bar on a terminal, plain lines elsewhere, or nothing."""
 
-from typing import TextIO
+import threading
+import time
+from collections.abc import Callable
+from typing import Self, TextIO
 
 from tqdm import tqdm
 
@@ -63,34 +66,87 @@ class _Bar(tqdm):
 
 
 class PlainLines(CommandProgress):
-    """Stages as lines, and a line after each tenth of the frames or runs and at the end of parts."""
+    """Stages as lines, and a line after each tenth of the frames or runs, at the end of parts, and where one is due.
 
-    def __init__(self, stream: TextIO) -> None:
-        self._stream = stream
+    One is due 2 s after the last one; after 20 s they come ever more seldom, so that a night's log can be read.
+    """
+
+    _EACH_S, _EACH_SHARE = 2.0, 0.1
+
+    def __init__(self, stream: TextIO, clock_s: Callable[[], float] = time.monotonic) -> None:
+        self._stream, self._clock_s = stream, clock_s
         self._tenths = 0
+        self._began_s = self._stage_s = self._last_s = clock_s()
 
     def stage(self, text: str) -> None:
-        print(text, file=self._stream, flush=True)
+        self._stage_s = self._clock_s()
+        self._print(text)
 
     def frame(self, done: int, total: int, connections: Counts, left_s: float | None) -> None:
-        if self._begins_a_tenth(done, total):
+        if self._begins_a_tenth(done, total) or self._is_due:
             super().frame(done, total, connections, left_s)
 
     def runs(self, done: int, total: int, lost: int) -> None:
-        if self._begins_a_tenth(done, total):
+        if self._begins_a_tenth(done, total) or self._is_due:
             super().runs(done, total, lost)
+
+    def part(self, done: int, total: int, text: str) -> None:
+        if done == total:
+            super().part(done, total, text)
+        elif self._is_due and done:
+            left_s = (self._clock_s() - self._stage_s) / done * (total - done)
+            self._print(f"{_counted(done, total)} {text}, about {clock(left_s)} left")
 
     def _begins_a_tenth(self, done: int, total: int) -> bool:
         tenths, before = 10 * done // total, self._tenths
         self._tenths = tenths
         return tenths > before
 
-    def part(self, done: int, total: int, text: str) -> None:
-        if done == total:
-            super().part(done, total, text)
+    @property
+    def _is_due(self) -> bool:
+        now_s = self._clock_s()
+        return now_s - self._last_s >= max(self._EACH_S, self._EACH_SHARE * (now_s - self._began_s))
 
     def _show(self, done: int, total: int, text: str, left_s: float | None = None) -> None:
+        self._print(text if left_s is None or done == total else f"{text}, about {clock(left_s)} left")
+
+    def _print(self, text: str) -> None:
+        self._last_s = self._clock_s()
         print(text, file=self._stream, flush=True)
+
+
+class StepsOfLongWork(Progress):
+    """Steps of work that is short as a rule: the one that is done 2 s after it began, and those after it, as lines."""
+
+    def __init__(self, stream: TextIO, steps: int, long_s: float = 2.0) -> None:
+        self._stream, self._steps = stream, steps
+        self._done, self._text = 0, ""
+        self._is_long = False
+        self._timer = threading.Timer(long_s, self._begin)
+        self._timer.daemon = True
+        self._timer.start()
+
+    def stage(self, text: str) -> None:
+        self._done, self._text = self._done + 1, text
+        if self._is_long:
+            self._print()
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.finish()
+
+    def finish(self) -> None:
+        self._timer.cancel()
+
+    def _begin(self) -> None:
+        self._is_long = True
+        if self._text:
+            self._print()
+
+    def _print(self) -> None:
+        print(f"bda: step {self._done} of {self._steps}: {self._text}", file=self._stream, flush=True)
 
 
 def progress_on(stream: TextIO, *, quiet: bool) -> CommandProgress:

@@ -6,11 +6,12 @@ import re
 import select
 import struct
 import sys
+import time
 from io import StringIO
 
 import pytest
 
-from bridge_demolition_addon.cli.progress import PlainLines, Silence, TerminalBar, progress_on
+from bridge_demolition_addon.cli.progress import PlainLines, Silence, StepsOfLongWork, TerminalBar, progress_on
 from bridge_demolition_addon.model.results.connection_counts import ConnectionCounts
 
 if sys.platform != "win32":
@@ -36,7 +37,7 @@ def test_plain_lines_come_with_each_tenth():
     play(PlainLines(stream), 120)
     lines = stream.getvalue().splitlines()
     assert lines[0] == "simulating"
-    assert lines[1] == "frame  12 of 120, torn: 6 of 60 connections"
+    assert lines[1] == "frame  12 of 120, torn: 6 of 60 connections, about 117:00 left"
     assert lines[-2:] == ["frame 120 of 120, torn: 60 of 60 connections", "rendering"]
     assert len(lines) == 12
 
@@ -45,10 +46,45 @@ def test_few_frames_have_a_line_each():
     stream = StringIO()
     play(PlainLines(stream), 3)
     assert stream.getvalue().splitlines()[1:4] == [
-        "frame 1 of 3, torn: 0 of 60 connections",
-        "frame 2 of 3, torn: 1 of 60 connections",
+        "frame 1 of 3, torn: 0 of 60 connections, about 2:10 left",
+        "frame 2 of 3, torn: 1 of 60 connections, about 1:05 left",
         "frame 3 of 3, torn: 1 of 60 connections",
     ]
+
+
+def test_parts_of_long_work_say_how_far_it_is_and_how_long_it_takes():
+    """100 parts of 1 s each: lines after 2 s, from 20 s on ever more seldom."""
+    now, stream = [0.0], StringIO()
+    progress = PlainLines(stream, lambda: now[0])
+    progress.stage("writing")
+    for done in range(1, 101):
+        now[0] = float(done)
+        progress.part(done, 100, "pages written")
+    lines = stream.getvalue().splitlines()
+    assert lines[1] == "  2 of 100 pages written, about 1:38 left"
+    assert lines[-1] == "100 of 100 pages written"
+    assert 15 < len(lines) < 30
+
+
+def test_parts_of_short_work_have_one_line():
+    stream = StringIO()
+    progress = PlainLines(stream, lambda: 0.0)
+    for done in range(1, 101):
+        progress.part(done, 100, "pages written")
+    assert stream.getvalue() == "100 of 100 pages written\n"
+
+
+def test_steps_are_said_once_work_is_long():
+    stream = StringIO()
+    with StepsOfLongWork(stream, 3, long_s=0.05) as progress:
+        progress.stage("cuts")
+        assert stream.getvalue() == ""
+        while not stream.getvalue():
+            time.sleep(0.01)
+        progress.stage("stands")
+    with StepsOfLongWork(stream, 3, long_s=60.0) as progress:
+        progress.stage("is short")
+    assert stream.getvalue() == "bda: step 1 of 3: cuts\nbda: step 2 of 3: stands\n"
 
 
 @pytest.fixture
