@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.spatial import ConvexHull, QhullError
 
 from ..engineering.geometry.mesh import TriangleMesh
 from ..engineering.geometry.rotations import carried_points
@@ -40,17 +39,17 @@ def body_meshes(inventory: Inventory) -> list[TriangleMesh]:
 
 
 def _mesh(vertices: np.ndarray, triangles: np.ndarray) -> TriangleMesh:
-    if len(triangles):
-        return TriangleMesh(vertices, triangles)
-    try:
-        return _hull(vertices)
-    except (QhullError, ValueError):  # fewer than four vertices, or all of them in one plane
-        return TriangleMesh(vertices, _NO_TRIANGLES)
+    return TriangleMesh(vertices, triangles) if len(triangles) else _hull(vertices)
 
 
 def _hull(vertices: np.ndarray) -> TriangleMesh:
     """Return the convex hull, by Qhull: it gives the same triangles each time, as the engine of solids does not."""
-    hull = ConvexHull(vertices)
+    from scipy.spatial import ConvexHull, QhullError  # who exports nothing does not wait for it
+
+    try:
+        hull = ConvexHull(vertices)
+    except (QhullError, ValueError):  # fewer than four vertices, or all of them in one plane
+        return TriangleMesh(vertices, _NO_TRIANGLES)
     rows, triangles = np.unique(hull.simplices, return_inverse=True)
     triangles, corners = triangles.reshape(-1, 3), vertices[hull.simplices]
     inwards = dot(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), hull.equations[:, :3]) < 0.0

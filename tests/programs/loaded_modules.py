@@ -7,7 +7,7 @@ Usage: loaded_modules.py "command line" | extension
 import os
 import sys
 
-SLOW = {"bpy", "matplotlib", "trimesh"}
+SLOW = {"bpy", "matplotlib", "scipy", "trimesh"}
 
 if sys.argv[1] == "extension":
     import bridge_demolition_addon
@@ -18,5 +18,5 @@ else:
 
     main(["--help"])  # loads all commands
 
-print(*(SLOW & sys.modules.keys()), flush=True)
+print(*sorted(SLOW & sys.modules.keys()), flush=True)
 os._exit(0)  # Blender's own end may hang or crash where its handlers are registered.

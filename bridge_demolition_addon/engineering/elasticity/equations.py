@@ -5,8 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import connected_components
 
 from ..arrays import BoolArray, FloatArray, IntArray
 from .joint_rows import JointRows, matrix_products, transposed
@@ -55,8 +53,14 @@ def without(stiffness: FloatArray, rows: IntArray) -> FloatArray:
 def connected_parts(moves: BoolArray, first: IntArray, second: IntArray) -> IntArray:
     """Return the part (n,) of each body, by the bodies (m,) of connections; -1 for those that do not move."""
     free = moves[first] & moves[second]
-    links = coo_matrix((np.ones(free.sum()), (first[free], second[free])), shape=(len(moves),) * 2)
-    return np.where(moves, connected_components(links, directed=False)[1], -1)
+    first, second = first[free], second[free]
+    lowest = np.arange(len(moves))  # index of the lowest body that each is known to hang together with
+    while len(apart := np.flatnonzero(lowest[first] != lowest[second])):
+        ends = lowest[first[apart]], lowest[second[apart]]
+        np.minimum.at(lowest, np.concatenate(ends), np.tile(np.minimum(*ends), 2))
+        while (lowest[lowest] != lowest).any():
+            lowest = lowest[lowest]
+    return np.where(moves, np.unique(lowest, return_inverse=True)[1], -1)
 
 
 def stressed(stiffness: FloatArray, strains: FloatArray) -> FloatArray:

@@ -9,7 +9,6 @@ section is as large with few shards as with many, and so is the load at which it
 from __future__ import annotations
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..geometry.vectors import dot
@@ -50,7 +49,6 @@ class MemberSections:
         first, second = faces.pairs.T
         self._before = np.where(moves[first, None], centres_m[first], faces.points_m - beyond)
         self._behind = np.where(moves[second, None], centres_m[second], faces.points_m + beyond)
-        self._tree = cKDTree(faces.points_m)
         self._known: dict[int, tuple[FloatArray, FloatArray, FloatArray]] = {}
 
     def are_whole(self, rows: IntArray) -> BoolArray:
@@ -81,7 +79,8 @@ class MemberSections:
         """
         if row not in self._known:
             point, normal = self._connected.points_m[row], self._connected.normals[row]
-            near = np.array(sorted(self._tree.query_ball_point(point, self._extents[row])))
+            apart = self._connected.points_m - point
+            near = np.flatnonzero(dot(apart, apart) <= self._extents[row] ** 2)
             near = near[(self._kinds[near] == self._kinds[row]) | (near == row)]
             before, behind = dot(self._before[near] - point, normal), dot(self._behind[near] - point, normal)
             parted = (before * behind < 0.0) | (near == row)

@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-import scipy
 
 from ..arrays import FloatArray
 
@@ -68,7 +67,7 @@ def influence_lines(supports_m: Sequence[float], begin_m: float, end_m: float) -
         banded[0, 2 * supports + 1] += _RIGID / mean
     loads = np.zeros((2 * count, count))
     loads[2 * np.arange(count), np.arange(count)] = -1.0
-    moved = scipy.linalg.solveh_banded(banded, loads, lower=True).reshape(count, 2, count)
+    moved = _solved(banded, loads).reshape(count, 2, count)
     moments, shears = _section_forces(lengths, moved)
     # What a support carries follows from the shears beside it: the penalty's own force has fewer digits.
     beside = np.concatenate((np.zeros((1, count)), shears, np.zeros((1, count))))
@@ -102,6 +101,26 @@ def _add(banded: FloatArray, first: int, element: FloatArray) -> None:
     for row in range(4):
         for column in range(row + 1):
             banded[row - column, first + column] += element[row, column]
+
+
+def _solved(banded: FloatArray, loads: FloatArray) -> FloatArray:
+    """Return displacements (d, n) under loads (d, n), by the diagonal of the stiffness and those below it (4, d).
+
+    L D L^T without pivots, in one order on every processor.
+    """
+    moved, last = loads.copy(), banded.shape[1] - 1
+    factors = np.zeros((last + 1, 3))
+    for row in range(last + 1):
+        below = min(3, last - row)
+        factors[row, :below] = banded[1 : 1 + below, row] / banded[0, row]
+        for other in range(below):
+            banded[: below - other, row + 1 + other] -= factors[row, other] * banded[1 + other : 1 + below, row]
+        moved[row + 1 : row + 1 + below] -= factors[row, :below, None] * moved[row]
+    moved /= banded[0, :, None]
+    for row in range(last - 1, -1, -1):
+        for other in range(min(3, last - row)):
+            moved[row] -= factors[row, other] * moved[row + 1 + other]
+    return moved
 
 
 def _section_forces(lengths: FloatArray, moved: FloatArray) -> tuple[FloatArray, FloatArray]:
