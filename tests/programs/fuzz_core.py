@@ -10,14 +10,18 @@ import time
 from pathlib import Path
 
 import numpy as np
+from support.core_terms import forces_and_tangents, term_of_law
 
 from bridge_demolition_addon.bullet.body_motion import BodyMotionReader, BulletBodies
 from bridge_demolition_addon.bullet.constraint_rows import BulletRows
 from bridge_demolition_addon.bullet.constraints import BulletConnections
 from bridge_demolition_addon.bullet.contacts import BulletContacts
 from bridge_demolition_addon.bullet.layout import SYSTEM_V
+from bridge_demolition_addon.engineering.blast.exposure import projected_areas
+from bridge_demolition_addon.engineering.blast.pulses import Pulses, impulse_between
 from bridge_demolition_addon.engineering.core import library
 from bridge_demolition_addon.engineering.core.calls import answer_of, call
+from bridge_demolition_addon.engineering.drilled_charges.cages import BareBars, Cages
 from bridge_demolition_addon.engineering.elasticity.cracks import Cracks, ExpectedCracks, corner_positions
 from bridge_demolition_addon.engineering.elasticity.equations import RigidBodies
 from bridge_demolition_addon.engineering.elasticity.joint_forces import stored, velocities_alone
@@ -27,10 +31,29 @@ from bridge_demolition_addon.engineering.elasticity.spring_law import PressedSpr
 from bridge_demolition_addon.engineering.elasticity.springs import SpringPositions
 from bridge_demolition_addon.engineering.elasticity.steel_bars import Steel
 from bridge_demolition_addon.engineering.elasticity.structure import ElasticStructure, StepInput
-from bridge_demolition_addon.engineering.elasticity.substep import Frames, Places, Substep, Term, deformations
-from bridge_demolition_addon.errors import LayoutError, NotFiniteError
+from bridge_demolition_addon.engineering.elasticity.substep import (
+    BARE_BARS,
+    CRACKS,
+    SPRINGS,
+    Frames,
+    Places,
+    Substep,
+    Term,
+    deformations,
+)
+from bridge_demolition_addon.engineering.geometry.hulls import ConvexHulls
+from bridge_demolition_addon.engineering.geometry.vectors import symmetric_eigenvectors
+from bridge_demolition_addon.engineering.mechanics.carried_sections import CarriedSections
+from bridge_demolition_addon.engineering.mechanics.frame_loads import LoadAccumulator, SubstepLoads
+from bridge_demolition_addon.engineering.mechanics.overloads import Overloads
+from bridge_demolition_addon.engineering.mechanics.section_cuts import ConnectedFaces
+from bridge_demolition_addon.engineering.mechanics.strength import MATERIALS
+from bridge_demolition_addon.engineering.mechanics.stress import average_stress
+from bridge_demolition_addon.engineering.mechanics.touches import Touches
+from bridge_demolition_addon.engineering.mechanics.work import PairImpulses, shared_work, works_on_bodies
+from bridge_demolition_addon.errors import BlastError, LayoutError, NotFiniteError
 
-REFUSALS = (ValueError, IndexError, TypeError, NotFiniteError, LayoutError)
+REFUSALS = (ValueError, IndexError, TypeError, NotFiniteError, LayoutError, BlastError)
 """Of wrappers and of numpy, before anything is handed over."""
 
 WRONG_OF = 12
@@ -134,6 +157,126 @@ class Cases:
         springs = PressedSprings(*law, self.rng.integers(0, 2, count).astype(bool), self.numbers(count))
         springs.resisted(self.odd(gaps))
         springs.stored_j(self.odd(gaps))
+
+    def flags(self, *shape):
+        return self.odd(self.rng.integers(0, 2, shape).astype(bool))
+
+    def of_terms(self):
+        """Laws by themselves: of cracks, springs and bare bars."""
+        gaps = self.count(9)
+        kind, of_gap = self.rng.choice([CRACKS, SPRINGS, BARE_BARS]), self.among(gaps, 1 + self.count(5))
+        named = {
+            CRACKS: (("yields", "stiffness", "modulus", "flows", "pressed", "grips"), ("slips", "normals", "rests")),
+            SPRINGS: (("vertical", "capacity", "friction", "pressed_by"), ()),
+            BARE_BARS: (("lengths", "bared", "stays", "pulled_limits", "pressed_limits"), ("bared_lines",)),
+        }[kind]
+        law = {name: self.numbers(*lead, gaps) for names, lead in zip(named, ((), (3,)), strict=True) for name in names}
+        if kind == SPRINGS:
+            law |= {"sideways": self.numbers(2, gaps), "pulls": self.flags(gaps)}
+        else:
+            law["directions"] = self.numbers(3, gaps)
+        if kind == CRACKS:
+            law |= {"dowel": 0.1, "sheared": 0.2}
+        if kind == BARE_BARS:
+            law |= {"yields": self.numbers(gaps), "stiffness": self.numbers(gaps), "holds": self.flags(gaps)}
+        term = term_of_law(kind, law, self.numbers(3, gaps), of_gap)
+        forces_and_tangents(term, self.rng.normal(size=(1 if kind == BARE_BARS else 3, term.gaps)))
+
+    def of_bare_bars(self):
+        """Groups of bars that come, settle and are taken away, in a sub-step of all."""
+        bodies, count, connections = 1 + self.count(5), self.count(6), self.count(3)
+        places = self.places(bodies)
+        cages = Cages(
+            self.rng.choice([connections, connections, self.count(9)]), held_sideways=bool(self.rng.integers(2))
+        )
+        bars = [self.odd(self.rng.uniform(low, high, count)) for low, high in ((1.0, 9.0), (0.01, 0.03), (2e8, 6e8))]
+        ends = [self.among(count, bodies) for _ in range(2)]
+        cages.add(BareBars(*ends, self.numbers(3, count), self.numbers(3, count), *bars), *places)
+        masses = self.rng.uniform(1.0, 1e3, bodies)
+        rigid = RigidBodies(masses, np.eye(3)[:, :, None] * masses, *places)
+        structure = ElasticStructure(self.frames(bodies, connections), np.zeros((6, 6, connections)), rigid, 1e-4)
+        for _ in range(2):
+            structure.stand_bare(cages)
+            start = StepInput(*places, self.numbers(6, bodies), np.zeros(bodies, bool))
+            structure.step(start, np.ones(connections, bool), 0.002)
+            structure.settle(*places)
+            structure.end_substep()
+        term = cages.in_substep(self.among(self.count(4), count), *places, 0.002)
+        forces_and_tangents(term, self.rng.normal(size=(1, term.gaps)))
+
+    def connected(self, bodies, count):
+        """Faces between bodies, in pairs that there may not be, with areas and second moments of nothing."""
+        pairs = np.stack([self.among(count, bodies), self.rng.integers(0, bodies, count)[: count or None]], axis=1)
+        return ConnectedFaces(
+            self.odd(pairs), *(self.numbers(count, 3) for _ in range(2)), self.numbers(count), self.numbers(count, 2, 2)
+        )
+
+    def of_overloads(self):
+        rng, bodies, count = self.rng, 1 + self.count(6), self.count(12)
+        faces, moves = self.connected(bodies, count), rng.integers(0, 2, bodies).astype(bool)
+        further = {name: self.numbers(count) for name in ("pressed", "friction") if rng.integers(2)}
+        judging = Overloads(faces, moves, MATERIALS["concrete"], None, **further)
+        own = self.among(count, bodies), self.numbers(count), self.numbers(count, 3), self.numbers(count, 3, 3)
+        sections, left = CarriedSections(*own), self.numbers(count)
+        loads, places = self.numbers(6, count), self.places(bodies)
+        judging.over_alone(self.flags(count), sections, loads, *places, left)
+        judging.breaking(self.flags(count), sections, loads, *places, left)
+        rows = self.among(self.count(5), count)
+        at_once = sections.loads_at_once(loads, *places)
+        judging.in_cuts(rows, at_once, self.numbers(len(rows), 3, 3), self.flags(count))
+
+    def of_frame_loads(self):
+        bodies, count, substeps, points = 1 + self.count(6), self.count(9), 1 + self.count(3), self.count(5)
+        pairs = self.odd(self.rng.integers(0, bodies, (count, 2)))
+        loads = SubstepLoads(
+            self.rng.uniform(0.001, 0.1, substeps),
+            *(self.numbers(substeps, count, 3) for _ in range(3)),
+            self.numbers(substeps, count),
+            np.sort(self.rng.integers(0, substeps, points)),
+            self.odd(self.rng.integers(0, bodies, (points, 2))),
+            *(self.numbers(points, 3) for _ in range(2)),
+            self.numbers(substeps, bodies, 3),
+            self.numbers(substeps, bodies, 3, 3),
+        )
+        of_frame = LoadAccumulator(pairs, self.numbers(bodies), lambda rotations: self.numbers(count, 3))
+        of_frame.add(loads)
+        of_frame.finish()
+        faces = [self.numbers(count, 3) for _ in range(2)]
+        average_stress(pairs, *faces, self.numbers(bodies, 3), self.numbers(bodies), *faces)
+        symmetric_eigenvectors(self.numbers(count, 3, 3))
+
+    def of_works(self):
+        bodies, count = self.count(6), self.count(9)
+        first, second = self.among(count, bodies), self.among(count, bodies)
+        impulses = [self.numbers(count, 3) for _ in range(3)]
+        works = works_on_bodies(
+            PairImpulses(np.zeros((count, 2), int), *impulses), self.numbers(6, bodies), first, second
+        )
+        returned = self.numbers(count) if self.rng.integers(2) else np.zeros(0)
+        shared_work(self.numbers(count), returned, *works, first, second, self.flags(bodies))
+        touches = Touches()
+        for _ in range(3):
+            substeps = 1 + self.count(3)
+            pairs, ends = [self.rng.permutation(20)[: self.count(5)] for _ in range(substeps)], [0]
+            ends += np.cumsum([len(own) for own in pairs]).tolist()
+            rows = np.concatenate(pairs)
+            touches.returned(self.odd(rows), self.numbers(len(rows)), self.odd(np.array(ends)))
+            touches.pass_over(int(self.rng.choice([0, 1, 100])))
+
+    def of_blast(self):
+        bodies, charges = self.count(6), self.count(3)
+        shape = bodies, charges
+        impulse_between(
+            Pulses(*(self.numbers(*shape) for _ in range(4))), 0.0, float(self.rng.choice([0.0, 0.01, 9.0]))
+        )
+        of_bodies = self.rng.integers(0, 8, bodies)
+        starts = np.concatenate(([0], np.cumsum(of_bodies)))
+        faces = int(starts[-1])
+        hulls = ConvexHulls(
+            *(np.zeros((faces, 3)), np.zeros(faces), self.numbers(3, faces), np.zeros(faces), self.odd(starts)),
+            *(np.zeros((0, 3)), np.zeros(bodies + 1, int)),
+        )
+        projected_areas(hulls, self.numbers(bodies, 3, 3), self.numbers(*shape, 3))
 
     def of_structure(self):
         """One body, all fixed, none connected, all asleep, pairs that are named twice."""
