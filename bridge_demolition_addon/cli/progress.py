@@ -68,7 +68,7 @@ class _Bar(tqdm):
 class PlainLines(CommandProgress):
     """Stages as lines, and a line after each tenth of the frames or runs, at the end of parts, and where one is due.
 
-    One is due 2 s after the last one; after 20 s they come ever more seldom, so that a night's log can be read.
+    One is due 2 s after the last one; after 20 s they come less and less often, so that a night's log can be read.
     """
 
     _EACH_S, _EACH_SHARE = 2.0, 0.1

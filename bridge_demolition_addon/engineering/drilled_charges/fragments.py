@@ -200,9 +200,10 @@ def _step(
 
 def _clearance(positions: FloatArray, heights_at: HeightsAt | None) -> FloatArray:
     """Heights (n,) of positions (3, n) above the ground; what is beyond its edge falls on height 0."""
-    if heights_at is None:
-        return positions[2].copy()
-    return positions[2] - np.nan_to_num(heights_at(positions[:2].T), nan=0.0)
+    heights: FloatArray = positions[2].copy()
+    if heights_at is not None:
+        heights -= np.nan_to_num(heights_at(positions[:2].T), nan=0.0)
+    return heights
 
 
 def _normal(count: int, generator: np.random.Generator) -> FloatArray:
