@@ -15,7 +15,7 @@ import reinforced_deck
 import sensitivity
 
 from bridge_demolition_addon.model.scenario.file import read_scenario
-from bridge_demolition_addon.model.structure.convergence import DEBRIS_M, SAG_M, convergence_facts
+from bridge_demolition_addon.model.structure.facts import DEBRIS_M, SAG_M, convergence_facts
 
 PAGE = ROOT / "docs" / "choosing.md"
 WALKS = {"drilled": 4, "ball": 3}

@@ -14,7 +14,7 @@ from matplotlib.patches import Polygon
 from ..engineering.geometry.mesh import TriangleMesh
 from ..engineering.geometry.plan_areas import outlines
 from ..engineering.geometry.solids import to_manifold
-from ..engineering.reinforced_concrete.bar_choice import clear_m
+from ..engineering.reinforced_concrete.least_areas import clear_m
 from ..model.bridge.member import Member
 from ..model.reinforcement.schedule import Schedule, ScheduledBars
 from .style import plain

@@ -10,7 +10,7 @@ from ..model.bridge.layout import bridge_facts
 from ..model.bridge.member import mass_facts, member_facts
 from ..model.bridge.preparation import prepared_members
 from ..model.reinforcement.design import bar_schedule
-from ..model.reinforcement.facts import schedule_facts
+from ..model.reinforcement.schedule import schedule_facts
 from ..model.results.moving import moving_text
 from ..model.scenario import BlastZone, Charge, Scenario
 from ..model.scenario.contact_facts import contact_facts
@@ -23,12 +23,12 @@ from ..model.stages.stages import equipment_facts
 from ..model.stages.standing import made_elastic
 from ..model.structure.bearing_ranges import LEAST_CUTS, MOST_CUTS, bearing_ranges
 from ..model.structure.blast_zones import placed_zones, zone_totals
-from ..model.structure.convergence import convergence_facts
 from ..model.structure.cracking import RestingModel
-from ..model.structure.deck_facts import deck_facts
 from ..model.structure.facts import (
     accuracy_facts,
     connection_facts,
+    convergence_facts,
+    deck_facts,
     foundation_facts,
     overlap_facts,
     reaction_facts,
@@ -36,7 +36,7 @@ from ..model.structure.facts import (
 )
 from ..model.structure.model import Model, build_model
 from ..model.structure.steel_bars import steel_facts
-from ..model.structure.tendon_facts import tendon_facts
+from ..model.structure.tendons import tendon_facts
 from ..model.structure.zone_loads import ZoneLoad
 from ..model.terrain.built import terrain_facts
 from ..studies.estimate import FACTOR, disk_megabytes, duration_text, megabytes_by_size, seconds_by_size

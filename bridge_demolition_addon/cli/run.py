@@ -24,7 +24,7 @@ from ..model.run_folder.reported import remove_report
 from ..model.scenario import Scenario
 from ..model.scenario.file import read_scenario
 from ..model.sequence.checked_model import checked_model
-from ..model.sequence.doubts import doubts_of_run, first_doubts
+from ..model.sequence.ending import doubts_of_run, first_doubts
 from ..model.stages.stability import stability_texts
 from ..model.structure.model import Model
 from ..report.units.quantities import ReportUnits

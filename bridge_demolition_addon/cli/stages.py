@@ -12,7 +12,6 @@ from ..errors import OutputError
 from ..model.run_folder.folder import numbered_folder
 from ..model.scenario.file import read_scenario
 from ..model.sequence.checked_model import checked_model
-from ..model.stages.bearing_rows import bearing_rows
 from ..model.stages.design_loads import design_load_sentences, design_loads
 from ..model.stages.misfires import misfire_sentences, misfires
 from ..model.stages.stages import Stage, criticality, stages_of
@@ -20,6 +19,7 @@ from ..model.stages.standing import StandingBridge, made_elastic
 from ..model.stages.tables import (
     FILES,
     all_reaction_rows,
+    bearing_rows,
     bearing_sentences,
     criticality_sentences,
     reaction_sentences,

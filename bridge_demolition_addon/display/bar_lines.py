@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from ..engineering.geometry.plane_cuts import plane_cuts
+from ..engineering.geometry.mesh import plane_cuts
 from ..model.bridge.member import Member
 from ..model.bridge.own_axes import own_axes
 from ..model.materials.bar_layers import BarLayer

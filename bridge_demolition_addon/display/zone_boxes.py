@@ -8,8 +8,8 @@ import numpy as np
 
 from ..engineering.drilled_charges.drill_holes import hole_positions_m
 from ..engineering.geometry.mesh import TriangleMesh
-from ..engineering.geometry.sides import SIDES
 from ..engineering.geometry.solids import box
+from ..engineering.geometry.vectors import SIDES
 from ..model.structure.blast_zones import PlacedZone
 from .colour_scale import ColourMap, colours
 

@@ -9,9 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from ..engineering.geometry.sides import AXES, SIDES
 from ..engineering.geometry.solids import contains
-from ..engineering.geometry.vectors import length, transformed
+from ..engineering.geometry.vectors import AXES, SIDES, length, transformed
 from ..errors import GeometryError
 from ..model.bridge.member import Member
 from ..model.materials.bar_layers import BarLayer

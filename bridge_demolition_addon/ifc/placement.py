@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..engineering.geometry.mesh import TriangleMesh
+from ..engineering.geometry.own_axes import longer_side
 from ..engineering.geometry.rotations import turn_in_plane
-from ..engineering.geometry.smallest_rectangle import longer_side
 from ..engineering.geometry.vectors import transformed
 
 _ON_AXIS_RAD = 1e-7

@@ -12,8 +12,7 @@ from typing import Any, ClassVar, Protocol, Self
 
 from ..engineering.geometry.turned_boxes import TurnedBox
 from ..engineering.ground_motion.record import GroundRecord
-from ..engineering.timing.time_step import TimeStep
-from ..engineering.timing.timeline import Timeline
+from ..engineering.timing.timeline import Timeline, TimeStep
 from .schema import Table
 
 Fact = tuple[str, str]

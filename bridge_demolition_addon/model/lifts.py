@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ..engineering.mechanics.cables import rope_stiffness_n
+from ..engineering.mechanics.slings import rope_stiffness_n
 from ..engineering.units import mass_text
 from ..errors import ScenarioError
 from .actions import CutBox, Fact, HeightAt, Plan, Point, Worksite

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ..engineering.mechanics.cables import rope_stiffness_n, stored_j
+from ..engineering.mechanics.slings import rope_stiffness_n, stored_j
 from ..errors import ScenarioError
 from .actions import Fact, HeightAt, Plan, Point, Worksite
 from .loads import Part, unusual_force

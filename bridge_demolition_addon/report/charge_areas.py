@@ -17,7 +17,7 @@ from ..model.bridge.preparation import prepared_members
 from ..model.debris.exclusion import widened, widened_around
 from ..model.scenario import Scenario
 from ..model.structure.charge_plan import charge_plan
-from ..model.structure.fragment_areas import fragment_areas, zone_areas
+from ..model.structure.zone_fragments import fragment_areas, zone_areas
 
 
 def charge_areas(scenario: Scenario) -> dict[str, CrossSection]:

@@ -30,7 +30,7 @@ from ..model.scenario.file import read_scenario
 from ..model.schema import given
 from ..model.sequence.bare_bars import bare_bars_text
 from ..model.sequence.ending import Ending, undone_at_end
-from ..model.sequence.held_parts import held_parts_text, pick_texts
+from ..model.sequence.lifts import held_parts_text, pick_texts
 from ..model.sequence.undisturbed import self_collapse_text
 from ..system.reading import MEGABYTE, check_file
 

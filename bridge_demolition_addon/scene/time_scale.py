@@ -9,8 +9,7 @@ from typing import Any
 import bpy
 import numpy as np
 
-from ..engineering.timing.time_step import TimeStep
-from ..engineering.timing.timeline import Timeline
+from ..engineering.timing.timeline import Timeline, TimeStep
 from .tools.keyframes import curves_of
 from .world import FIRST_STEP_FRAME, START_FRAME, farthest_per_substep_of, scene_time_step
 

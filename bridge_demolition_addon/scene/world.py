@@ -8,7 +8,7 @@ from typing import Any
 
 import bpy
 
-from ..engineering.timing.time_step import TimeStep
+from ..engineering.timing.timeline import TimeStep
 from ..engineering.units import STANDARD_GRAVITY_M_S2
 from ..model.scenario import TimeSettings
 from .custom_properties import keep, kept_number

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..engineering.geometry.vectors import length
 from ..engineering.timing.time_left import Pace, speeds_to_come
-from ..engineering.timing.time_step import substeps_within
+from ..engineering.timing.timeline import substeps_within
 from ..errors import SimulationError
 from ..model.results.frames import Frame
 from ..model.sequence.rest import Rest

@@ -24,7 +24,7 @@ from ..model.scenario import Scenario
 from ..model.scenario.contact_facts import own_values_sentence
 from ..model.scenario.recording import PictureSettings
 from ..model.sequence.checked_model import checked_model
-from ..model.sequence.doubts import only_motion_text
+from ..model.sequence.ending import only_motion_text
 from ..model.sequence.lifts import pick_warnings
 from ..model.stages.stability_by_statics import stability_of
 from ..model.structure.model import Model

@@ -20,8 +20,7 @@ from ..geometry.mesh import TriangleMesh, joined_meshes, triangle_areas_and_norm
 from ..geometry.proximity import ranges
 from ..geometry.seams import sewn
 from ..geometry.solids import bodies, contains, from_manifold, to_manifold
-from .options import PLAIN, FractureOptions, Recursion
-from .plates import through_thickness
+from .options import PLAIN, FractureOptions, Recursion, through_thickness
 from .seeds import moved_points, random_points
 from .shared_faces import NO_FACES, SharedFaces, joined_faces, overlaps, shared_faces, touching_faces
 from .voronoi import convex_cells

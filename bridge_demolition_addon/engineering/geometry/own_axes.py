@@ -6,15 +6,15 @@ layer of bars, is so in these axes.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
+from manifold3d import CrossSection
 
 from ..arrays import FloatArray
-from .mesh import TriangleMesh
-from .plane_cuts import plane_cuts
-from .smallest_rectangle import longer_side
+from .mesh import TriangleMesh, plane_cuts
 from .vectors import cross_2d, dot, length, unit
 
 _STATIONS = 24
@@ -310,3 +310,20 @@ def _width(section: FloatArray, height_m: float) -> float:
 
 def _crossings(section: FloatArray, height_m: float) -> Iterator[float]:
     yield from _heights_at(section[..., ::-1], height_m)
+
+
+_ALIKE = 1.0 - 1e-9
+
+
+def longer_side(points: FloatArray) -> FloatArray:
+    """Return the direction (2,) of the longer side of the smallest rectangle around points (n, 2)."""
+    middle = points.mean(axis=0)
+    (corners,) = CrossSection.hull_points(points - middle).to_polygons()
+    sides = np.roll(corners, -1, axis=0) - corners
+    best_area, best = math.inf, np.array([1.0, 0.0])
+    for side in unit(sides):
+        long, wide = float(np.ptp(dot(corners, side))), float(np.ptp(cross_2d(side, corners)))
+        if long * wide < best_area * _ALIKE:
+            best_area = long * wide
+            best = side if long >= wide * _ALIKE else np.array([-side[1], side[0]])
+    return best

@@ -166,3 +166,9 @@ def points_along(path_m: np.ndarray, distances_m: np.ndarray) -> np.ndarray:
     """Return the points (k, d) of a path (p, d) at distances (k,) from its beginning; its end beyond it."""
     passed = np.concatenate(([0.0], np.cumsum(length(np.diff(path_m, axis=0)))))
     return np.column_stack([np.interp(distances_m, passed, column) for column in path_m.T])
+
+
+AXES = ("x", "y", "z")
+
+SIDES = {"start": (0, -1), "end": (0, 1), "right": (1, -1), "left": (1, 1), "bottom": (2, -1), "top": (2, 1)}
+"""Axis across each side, and whether the side is where that is lowest or highest."""

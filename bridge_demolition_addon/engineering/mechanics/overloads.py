@@ -9,9 +9,8 @@ import numpy as np
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..core.calls import call
 from ..core.structs import Count, Doubles, Flags, Indices, Struct, WrittenDoubles, WrittenIndices
-from .carried_sections import CarriedSections
+from .carried_sections import CUT_THROUGH, RESISTING, CarriedSections, CutsThrough, Resisting, pack
 from .member_sections import MemberSections
-from .packed_faces import CUT_THROUGH, RESISTING, CutsThrough, Resisting, pack
 from .section_cuts import ConnectedFaces, ConnectionLoads, SectionCuts, worst_around
 from .section_forces import SectionForces
 from .strength import (

@@ -1,6 +1,7 @@
-"""What steel bars resist: plastic sections under axial force and bending, and buckling (EN 1993-1-1:2005).
+"""What steel bars resist: plastic sections under axial force and bending, and buckling (EN 1993-1-1:2005), webs in
+shear, which buckle where they are thin (EN 1993-1-5:2006, 5.2 and 5.3), and lateral torsional buckling.
 
-No partial factors: γ_M0 = γ_M1 = 1.
+No partial factors: γ_M0 = γ_M1 = 1. Of shear, the contribution of the web alone, without that of the flanges.
 """
 
 from __future__ import annotations
@@ -123,3 +124,105 @@ def initial_bow_m(section: SteelSection, yield_pa: float, lengths_m: tuple[float
     modulus = float(section.shape.plastic_moduli_m3[0 if strut.axis == "y" else 1])
     size = IMPERFECTIONS[strut.curve] * max(0.0, strut.slenderness - NO_BUCKLING) * modulus / section.area_m2
     return np.asarray(size * np.array((-about[1], about[0])))
+
+
+_HARDENING = 1.2
+"""η up to S460: EN 1993-1-5:2006, 5.1 (2), recommended."""
+
+_STOCKY, _SLENDER = 0.83, 1.08
+"""Slenderness at which the factor of table 5.1 changes its form: times 1 / η, and for rigid end posts."""
+
+_REFERENCE_PA = 235e6
+
+
+@dataclass(frozen=True, slots=True)
+class WebShear:
+    """What the webs of a bar resist in shear."""
+
+    buckling_factor: float  # k_τ
+    slenderness: float  # λ_w
+    reduction: float  # χ_w, up to η
+    resistance_n: float
+
+    @property
+    def buckles(self) -> bool:
+        """Whether they resist less than by yielding."""
+        return self.reduction < 1.0
+
+
+def web_shear(section: SteelSection, yield_pa: float, stiffeners_m: float, *, rigid_end_posts: bool) -> WebShear | None:
+    """Return what webs resist between upright stiffeners at a distance; None of sections without a web between flanges.
+
+    V_bw = χ_w f_yw h_w t / √3 for each web, with λ_w = h_w / (37.4 t ε √k_τ), equations 5.2 and 5.6, and k_τ without
+    stiffeners along the bar, A.3 (1).
+    """
+    if section.web is None:
+        return None
+    web = section.web
+    ratio = web.height_m / stiffeners_m
+    one, square = (5.34, 4.0) if ratio <= 1.0 else (4.0, 5.34)
+    factor = one + square * ratio * ratio
+    epsilon = math.sqrt(_REFERENCE_PA / yield_pa)
+    slenderness = web.height_m / (37.4 * web.thickness_m * epsilon * math.sqrt(factor))
+    reduction = shear_reduction(slenderness, rigid_end_posts=rigid_end_posts)
+    plastic_n = web.count * web.height_m * web.thickness_m * yield_pa / math.sqrt(3.0)
+    return WebShear(factor, slenderness, reduction, reduction * plastic_n)
+
+
+def shear_reduction(slenderness: float, *, rigid_end_posts: bool) -> float:
+    """Return χ_w of a web: EN 1993-1-5:2006, table 5.1."""
+    if slenderness < _STOCKY / _HARDENING:
+        return _HARDENING
+    if rigid_end_posts and slenderness >= _SLENDER:
+        return 1.37 / (0.7 + slenderness)
+    return _STOCKY / slenderness
+
+
+_UNREDUCED, _BETA = 0.4, 0.75
+"""Slenderness up to which a beam does not buckle sideways, and β: EN 1993-1-1:2005, 6.3.2.3 (1), recommended."""
+
+_NARROW = 2.0
+"""Height by width above which curves are the worse ones: EN 1993-1-1:2005, table 6.5."""
+
+
+@dataclass(frozen=True, slots=True)
+class LateralBuckling:
+    """Resistance of a bar in bending about its strong axis, as it buckles sideways and turns."""
+
+    curve: str
+    critical_nm: float
+    slenderness: float
+    reduction: float  # χ_LT
+    resistance_nm: float
+
+
+def critical_moment_nm(section: SteelSection, length_m: float) -> float | None:
+    """Return the elastic critical moment of a bar between forks at a distance; None where it is not judged.
+
+    π² E I_z / L² √(I_w / I_z + L² G I_t / (π² E I_z)) for a moment that is the same all along, which is the worst
+    (Timoshenko and Gere, Theory of Elastic Stability, 6.2). I_w = I_z d² / 4, with d between the middles of flanges.
+    """
+    if section.flanges_apart_m is None:
+        return None
+    weak = float(section.shape.second_moments_m4[1, 1])
+    euler_n = math.pi * math.pi * STEEL_MODULI.young_pa * weak / (length_m * length_m)
+    warping_m2 = section.flanges_apart_m * section.flanges_apart_m / 4.0
+    return euler_n * math.sqrt(warping_m2 + STEEL_MODULI.shear_pa * section.torsion_m4 / euler_n)
+
+
+def lateral_buckling(section: SteelSection, yield_pa: float, length_m: float) -> LateralBuckling | None:
+    """Return the resistance χ_LT W_pl f_y of a bar that is held sideways at its ends; None where it is not judged."""
+    critical_nm = critical_moment_nm(section, length_m)
+    if critical_nm is None:
+        return None
+    plastic_nm = yield_pa * float(section.shape.plastic_moduli_m3[0])
+    slenderness = math.sqrt(plastic_nm / critical_nm)
+    width, height = section.size_m.tolist()
+    better, worse = ("b", "c") if section.is_rolled else ("c", "d")
+    curve = worse if height > _NARROW * width + 1e-9 else better
+    phi = 0.5 * (1.0 + IMPERFECTIONS[curve] * (slenderness - _UNREDUCED) + _BETA * slenderness * slenderness)
+    reduction = 1.0
+    if slenderness > _UNREDUCED:
+        by_curve = 1.0 / (phi + math.sqrt(phi * phi - _BETA * slenderness * slenderness))
+        reduction = min(1.0, by_curve, 1.0 / (slenderness * slenderness))
+    return LateralBuckling(curve, critical_nm, slenderness, reduction, reduction * plastic_nm)

@@ -12,7 +12,7 @@ import numpy as np
 from ...engineering.arithmetic import cosine, logarithm
 from ...engineering.drilled_charges.drill_holes import charge_length_m, hole_capacity_kg
 from ...engineering.drilled_charges.specific_charge import THROW_KG_M3, DrilledElement
-from ...engineering.geometry.sides import AXES, SIDES
+from ...engineering.geometry.vectors import AXES, SIDES
 from ...errors import ScenarioError
 from ..actions import CutPlane, Fact, Plan, PlannedAction, Worksite
 from ..schema import POSITION, SHARE, SIZE, given, key, shown

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
-from ...engineering.geometry.sides import AXES
+from ...engineering.geometry.vectors import AXES
 from ..actions import CutPlane, Fact, Plan, PlannedAction, Worksite
 from ..schema import POSITION, SHARE, key, shown
 from .blast_zones import DETONATORS, NO_SCATTER, BlastZone, check_fires_within, scattered_time_s

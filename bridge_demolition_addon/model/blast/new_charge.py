@@ -7,8 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from manifold3d import CrossSection
 
-from ...engineering.geometry.mesh import TriangleMesh
-from ...engineering.geometry.plane_cuts import plane_cuts
+from ...engineering.geometry.mesh import TriangleMesh, plane_cuts
 from ...engineering.geometry.vectors import distance
 
 ABOVE_FOOT_M = 1.0

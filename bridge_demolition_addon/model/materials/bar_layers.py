@@ -9,7 +9,7 @@ import numpy as np
 
 from ...engineering.arithmetic import power
 from ...engineering.elasticity.steel_bars import MODULUS_PA, YIELD_PA
-from ...engineering.geometry.sides import AXES, SIDES
+from ...engineering.geometry.vectors import AXES, SIDES
 from ...engineering.mechanics.strength import NEWTON_PER_SQUARE_MILLIMETRE
 from ...errors import ScenarioError
 from ..schema import POSITION, Table, given, key

@@ -1,4 +1,4 @@
-"""The bars of a scenario: by the rule of its bridge, and as it gives them itself."""
+"""The bars of a scenario: by the rule of its bridge or of its `[[geometry]]`, and as it gives them itself."""
 
 from __future__ import annotations
 
@@ -13,16 +13,17 @@ from ..bridge.member import Member
 from ..materials.bar_layers import BarLayer
 from ..materials.materials import strengths
 from ..scenario import Bridge, Scenario
-from ..scenario.reinforcement import BarRule, BridgeReinforcement
+from ..scenario.reinforcement import BarRule, BridgeReinforcement, GeometryReinforcement
 from ..scenario.scenario import bars_by_rule, rules_of_bars
 from ..schema import given
 from .concrete_members import is_concrete, material_of, names_of_bridge
-from .design_basis import DesignBasis
-from .file_design import file_bars
-from .link_layers import link_layers
-from .load_paths import contacts_of
+from .design_basis import BarDesign, DesignBasis
+from .file_decks import file_deck_bars, file_deck_line
+from .file_members import FileDesign
+from .file_substructure import file_substructure_bars, loads_of_carriers
+from .load_paths import Seat, contacts_of, superstructures
 from .ratios import ratio_bars
-from .schedule import Schedule, ScheduledBars, ScheduledLinks, row_text
+from .schedule import Schedule, ScheduledBars, ScheduledLinks, link_layers, row_text
 from .substructure import pier_bars, support_loads
 from .superstructure import deck_bars, deck_lines
 
@@ -168,3 +169,34 @@ def _merged(rows: Sequence[_Row]) -> list[_Row]:
         alike = row.kind, row_text(row), f"{row.length_m:.3f}"
         merged.setdefault(alike, (row, []))[1].extend(row.members)
     return [row.of_members(tuple(dict.fromkeys(names))) for row, names in merged.values()]
+
+
+def file_bars(
+    rule: GeometryReinforcement,
+    concrete: Concrete,
+    members: Sequence[Member],
+    contacts: Sequence[Seat],
+    of_concrete: frozenset[int],
+) -> tuple[list[ScheduledBars | ScheduledLinks], list[str]]:
+    """Return the bars of members from files, and notes.
+
+    Decks and girders are beams over what they rest on; what carries them has bars for the loads that come down to it;
+    all else has the least that EN 1992-1-1 asks for.
+    """
+    basis = FileDesign(BarDesign(rule, concrete), tuple(members), tuple(contacts), of_concrete)
+    parts = superstructures(basis.members, contacts)
+    widest = max((part.axes.width_m for part in parts), default=None)
+    if rule.carriageway_m is not None and widest is not None and rule.carriageway_m > widest:
+        raise rule.unexpected("carriageway_m", f"at most the width of the widest deck, {widest:.4g} (m)")
+    lines = [line for part in parts if (line := file_deck_line(basis, part))]
+    rows: list[ScheduledBars | ScheduledLinks] = []
+    for line in lines:
+        rows += file_deck_bars(basis, line)
+    for part in parts:
+        if not part.supports:
+            for index in (*part.decks, *part.girders):
+                basis.note(basis.members[index].name, "rests on no other member, and has least bars")
+    with_bars = {name for row in rows for name in row.members}
+    rest = [index for index in sorted(of_concrete) if basis.members[index].name not in with_bars]
+    rows += file_substructure_bars(basis, rest, loads_of_carriers(basis, lines))
+    return rows, basis.sentences

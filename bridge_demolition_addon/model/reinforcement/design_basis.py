@@ -7,16 +7,18 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...engineering.reinforced_concrete.bar_choice import (
+from ...engineering.reinforced_concrete.bending import PressedShape, tension_steel
+from ...engineering.reinforced_concrete.least_areas import (
     DIAMETERS_M,
+    LARGEST_SHARE,
     MOST_ROWS,
     BarChoice,
     bars_in_rows,
     diameters_from,
+    of_beam_m2,
+    of_links_m2_m,
     row_depth_m,
 )
-from ...engineering.reinforced_concrete.bending import PressedShape, tension_steel
-from ...engineering.reinforced_concrete.least_areas import LARGEST_SHARE, of_beam_m2, of_links_m2_m
 from ...engineering.reinforced_concrete.materials import Concrete, design_yield_pa
 from ...engineering.reinforced_concrete.shear import Links, links, links_along_m2_m, struts_n, without_links_n
 from ...engineering.reinforced_concrete.traffic import Traffic

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from typing import TypeVar
 
 from ...engineering.geometry.own_axes import OwnAxes
-from ...engineering.geometry.sides import AXES
+from ...engineering.geometry.vectors import AXES
 from ...engineering.reinforced_concrete.bending import PressedShape
 from ...errors import ScenarioError
 from ..bridge.member import Member

@@ -1,4 +1,4 @@
-"""The schedule of bars: layers and links of each member, what they are for, and what they weigh."""
+"""The schedule of bars: layers and links of each member, what they are for and weigh, and links spread over them."""
 
 from __future__ import annotations
 
@@ -7,10 +7,16 @@ from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
-from ...engineering.reinforced_concrete.bar_choice import BarChoice
+import numpy as np
+
+from ...engineering.geometry.vectors import AXES
+from ...engineering.reinforced_concrete.least_areas import BarChoice
 from ...engineering.reinforced_concrete.materials import STEEL_DENSITY_KG_M3
+from ..actions import Fact
 from ..bridge.member import Member
 from ..materials.bar_layers import BarLayer
+from ..scenario import Scenario
+from ..scenario.scenario import rules_of_bars
 from ..schema import given
 
 _MM2 = 1e6
@@ -184,3 +190,55 @@ def row_text(row: ScheduledBars | ScheduledLinks) -> str:
     else:
         area = f"links: {row.link_area_mm2_per_m:.0f} mm²/m"
     return f"{area}, {row.bars_text}, {row.ratio:.2%}, {row.utilisation:.0%} used, {row.reason}"
+
+
+def schedule_facts(scenario: Scenario, members: Sequence[Member], schedule: Schedule) -> Iterator[Fact]:
+    """Yield the schedule of bars, line by line, with the steel by the concrete."""
+    rules = rules_of_bars(scenario)
+    if not rules:
+        return
+    for rule in rules:
+        yield "by", f"{rule.described}; {rule.steel}, cover {1e3 * rule.cover_m:g} mm"
+    for row in schedule.rows:
+        yield named_text(row), row_text(row)
+    yield from steel_facts(members, schedule)
+    yield "", "bars run along the whole of a member where no positions are given; laps, hooks and bars that"
+    yield "", "detailing adds are not in it"
+    for note in schedule.notes:
+        yield "note", note
+
+
+def steel_facts(members: Sequence[Member], schedule: Schedule) -> Iterator[Fact]:
+    """Yield the steel of each kind of member by its concrete."""
+    concrete_m3, steel_kg = 0.0, 0.0
+    for kind, mass_kg, volume_m3 in schedule.masses(members):
+        yield f"steel of {kind}", f"{mass_kg:.0f} kg in {volume_m3:.1f} m³ of concrete, {mass_kg / volume_m3:.0f} kg/m³"
+        concrete_m3, steel_kg = concrete_m3 + volume_m3, steel_kg + mass_kg
+    if concrete_m3:
+        yield (
+            "steel of all",
+            f"{steel_kg:.0f} kg, {steel_kg / concrete_m3:.0f} kg/m³; "
+            f"usual in decks are {USUAL_KG_M3[0]} to {USUAL_KG_M3[1]} kg/m³",
+        )
+
+
+_PER_SQUARE_METRE = 1e6
+
+_USUAL_MM = 10.0
+"""Diameter of links of which only a ratio is given."""
+
+
+def link_layers(schedule: Schedule, members: Sequence[Member]) -> Iterator[BarLayer]:
+    """Yield the links of a schedule: upright legs of what lies, and legs both ways of columns."""
+    extents = {member.name: np.ptp(member.without_skew(member.solid.vertices), axis=0) for member in members}
+    yields = [row.layer.yield_n_mm2 for row in schedule.bars]
+    for row in schedule.links:
+        along = AXES[int(np.argmax(extents[row.members[0]]))]
+        for axis in ("x", "y") if along == "z" else ("z",):
+            layer = BarLayer(
+                members=row.members,
+                along=axis,
+                spread_mm2_m2=_PER_SQUARE_METRE * row.ratio,
+                diameter_mm=_MM * row.diameter_m or _USUAL_MM,
+            )
+            yield layer if not yields else replace(layer, yield_n_mm2=yields[0])

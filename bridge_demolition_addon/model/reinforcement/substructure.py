@@ -7,14 +7,17 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from ...engineering.reinforced_concrete.bar_choice import bar_area_m2, bars_in_rows, clear_m, diameters_from
 from ...engineering.reinforced_concrete.bending import PressedShape
 from ...engineering.reinforced_concrete.columns import ColumnSection, design_moment_nm
 from ...engineering.reinforced_concrete.influence_lines import MovingLoad, extreme_effects, influence_lines
 from ...engineering.reinforced_concrete.least_areas import (
     LARGEST_SHARE,
+    bar_area_m2,
+    bars_in_rows,
+    clear_m,
     column_link_bar_m,
     column_link_spacing_m,
+    diameters_from,
     level_of_wall_m2,
     of_column_m2,
     upright_of_wall_m2,

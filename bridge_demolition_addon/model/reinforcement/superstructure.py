@@ -8,14 +8,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...engineering.reinforced_concrete.bar_choice import BarChoice
 from ...engineering.reinforced_concrete.bending import PressedShape, flange_width_m
 from ...engineering.reinforced_concrete.influence_lines import (
     InfluenceLines,
     MovingLoad,
     influence_lines,
 )
-from ...engineering.reinforced_concrete.least_areas import SECONDARY_SHARE
+from ...engineering.reinforced_concrete.least_areas import SECONDARY_SHARE, BarChoice
 from ...engineering.reinforced_concrete.traffic import lever_rule, strip_widths_m
 from ..bridge.layout import deck_ends, pier_axes
 from ..bridge.member import Member

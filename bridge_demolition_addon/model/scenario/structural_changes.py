@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from ...engineering.drilled_charges.specific_charge import Effect
-from ...engineering.geometry.sides import AXES
+from ...engineering.geometry.vectors import AXES
 from ...errors import ScenarioError
 from ..actions import CutBox, CutThrough, Fact, Plan, Worksite
 from ..blast.cuts import MemberCut

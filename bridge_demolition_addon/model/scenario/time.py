@@ -4,8 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import ClassVar, Self
 
-from ...engineering.timing.time_step import MOST_SUBSTEPS, TimeStep
-from ...engineering.timing.timeline import Timeline
+from ...engineering.timing.timeline import MOST_SUBSTEPS, Timeline, TimeStep
 from ..actions import Fact
 from ..schema import Table, key
 

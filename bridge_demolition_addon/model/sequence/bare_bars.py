@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ...engineering.geometry.sides import AXES
+from ...engineering.geometry.vectors import AXES
 from ...engineering.mechanics.strength import NEWTON_PER_SQUARE_MILLIMETRE
 from ..scenario import ZoneFiring
 from ..schema import given

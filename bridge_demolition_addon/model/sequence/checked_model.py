@@ -9,8 +9,8 @@ from functools import cached_property
 import numpy as np
 from manifold3d import Manifold
 
-from ...engineering.geometry.sides import AXES
 from ...engineering.geometry.solids import to_manifold
+from ...engineering.geometry.vectors import AXES
 from ..actions import Affected, Fact, Place, PlannedAction, Point
 from ..blast.blast_zones import BlastZone
 from ..bridge.extent import surface_height

@@ -11,8 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...engineering.geometry.sides import AXES
-from ...engineering.geometry.vectors import length, unit
+from ...engineering.geometry.vectors import AXES, length, unit
 from ..scenario import ZoneFiring
 from ..schema import given
 

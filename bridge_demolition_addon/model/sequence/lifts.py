@@ -1,10 +1,12 @@
-"""What each lift of a scenario does to a model: its part, where slings hold it, and what they carry."""
+"""What each lift of a scenario does to a model: its part, where slings hold it, what they carry, what still held
+it."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -202,3 +204,25 @@ def _gravity(model: Model, shards: np.ndarray) -> tuple[float, np.ndarray]:
     mass_kg = math.fsum(masses_kg.tolist())
     moments = [math.fsum((masses_kg * model.centres_m[shards, axis]).tolist()) for axis in range(3)]
     return mass_kg, np.array(moments) / mass_kg
+
+
+def held_parts_text(summary: Mapping[str, Any]) -> str:
+    """Return what the events of a summary say of them, as a sentence without a full stop; empty for nothing."""
+    held = [event for event in summary.get("events", ()) if event.get("held_by")]
+    if not held:
+        return ""
+    parts = ", and ".join(f"lift {event['lift']!r} by {', '.join(event['held_by'])}" for event in held)
+    return (
+        f"Parts were still held when the crane lifted them away: {parts}. The run took them out nevertheless; a crane "
+        "cannot. Cut them free before, or lift later"
+    )
+
+
+def pick_texts(summary: Mapping[str, Any]) -> tuple[str, ...]:
+    """Return which parts weigh otherwise by their volume, by a summary, as sentences without full stops."""
+    masses_kg = (
+        (lift["name"], *(lift[key] / STANDARD_GRAVITY_M_S2 for key in ("weight_N", "volume_weight_N")))
+        for lift in summary.get("lifts", ())
+        if "volume_weight_N" in lift  # earlier versions did not say
+    )
+    return tuple(filter(None, (Pick(*values).warning for values in masses_kg)))

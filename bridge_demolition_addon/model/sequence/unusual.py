@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
+import numpy as np
+
+from ..bridge.member import Member
 from ..scenario import Scenario
 from ..structure.blast_zones import RECORDED_G_T, grams_per_tonne, placed_zones
 from ..structure.model import Model
-from ..structure.usual_sizes import unusual_sizes
 from .checked_model import ModelWorksite
 
 _LARGEST_G_T = 2000.0
@@ -47,3 +49,60 @@ def _machines(scenario: Scenario, bridge_kg: float) -> Iterator[str]:
     for machine in scenario.equipment:
         if machine.mass_kg > _MOST_MACHINES * bridge_kg:
             yield f"{machine.name} is {machine.mass_kg / bridge_kg:.3g} times as heavy as the bridge (is it in kg?)"
+
+
+USUAL_DENSITY_KG_M3 = (300.0, 9000.0)
+"""From light timber to steel."""
+
+USUAL_LENGTH_M = (0.05, 2000.0)
+"""Of the longest side of a member: no part of a bridge that is a member is smaller, and no deck in one piece longer."""
+
+USUAL_THICKNESS_M = (0.003, 30.0)
+"""From the plates of a steel girder to a solid pier of a large bridge."""
+
+USUAL_SPAN_OVER_DECK = (3.0, 60.0)
+"""Span over the thickness of a deck: slabs have about 15 to 25, prestressed box girders up to 45."""
+
+_MOST_NAMED = 5
+
+
+def unusual_sizes(scenario: Scenario, members: Sequence[Member]) -> Iterator[str]:
+    """Yield what is so large or small that it was probably given in another unit, as sentences without full stops."""
+    found = [*_deck_sizes(scenario), *_member_sizes(members), *_densities(members)]
+    return (f"{text} (is it in another unit?)" for text in found[:_MOST_NAMED])
+
+
+def _member_sizes(members: Sequence[Member]) -> Iterator[str]:
+    for member in members:
+        extents = np.ptp(member.solid.vertices, axis=0)
+        longest = int(extents.argmax())
+        if not _usual(extents[longest], USUAL_LENGTH_M):
+            yield f"{member.name} is {extents[longest]:.4g} m {('long', 'wide', 'high')[longest]}"
+        elif not _usual(member.thickness_m, USUAL_THICKNESS_M):
+            yield f"{member.name} is {member.thickness_m:.4g} m thick"
+
+
+def _densities(members: Sequence[Member]) -> Iterator[str]:
+    by_density: dict[str, list[str]] = {}
+    for member in members:
+        if member.steel and not member.steel.bar:
+            continue  # a node carries what its body is too small for
+        density = member.mass_kg / member.volume_m3
+        if not _usual(density, USUAL_DENSITY_KG_M3):
+            by_density.setdefault(f"{density:.4g} kg/m³", []).append(member.name)
+    for text, names in by_density.items():
+        yield f"{names[0]} has {text}" if len(names) == 1 else f"{len(names)} members, such as {names[0]}, have {text}"
+
+
+def _deck_sizes(scenario: Scenario) -> Iterator[str]:
+    bridge = scenario.bridge
+    if bridge is None or bridge.girders or bridge.box_girder:  # their deck is but the slab on top
+        return
+    thickness_m = bridge.deck.thickness_m
+    ratio = max(bridge.span_lengths_m) / thickness_m
+    if not _usual(ratio, USUAL_SPAN_OVER_DECK):
+        yield f"The deck is {thickness_m:g} m thick for spans of up to {max(bridge.span_lengths_m):g} m"
+
+
+def _usual(value: float, limits: tuple[float, float]) -> bool:
+    return limits[0] <= value <= limits[1]

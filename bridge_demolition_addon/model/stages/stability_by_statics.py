@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from ...engineering.core.library import missing_core
+from ...engineering.elasticity.equations import connected_parts
 from ...engineering.geometry.level_contacts import level_contacts
+from ...engineering.geometry.proximity import boxes_that_meet
 from ...engineering.units import mass_text
 from ...errors import DemolitionError
 from ..bridge.member import Member
@@ -20,11 +22,9 @@ from ..sequence.unusual import unusual_texts
 from ..structure.cracking import FALLEN_SHARE, RestingModel
 from ..structure.model import Model, build_model
 from ..structure.section_use import SectionsWithBars
-from ..structure.support_paths import SupportPaths, support_paths
 from ..structure.zone_loads import zone_loads
-from .most_used import most_used_of
 from .stability import COMES_DOWN, STANDS, UNKNOWN, MemberShare, OverloadedMember, Stability
-from .standing import LARGEST_FACTOR, StandingBridge, made_elastic
+from .standing import LARGEST_FACTOR, StandingBridge, made_elastic, most_used_of
 
 MOST_SHARDS_WITH_FACTOR = 400
 """Shards up to which a load factor takes seconds, where neither bars nor bearings make it slow."""
@@ -204,3 +204,50 @@ def _named(shares: Sequence[MemberShare]) -> str:
     more = " and more" if len(shares) > _MOST_NAMED else ""
     count, mass_kg = sum(share.shards for share in shares), math.fsum(share.mass_kg for share in shares)
     return f"{count} shards of {names}{more} ({mass_text(mass_kg).strip()})"
+
+
+_TOUCHING_M = 0.005
+"""Distance between the boxes of two shards, or of one and the ground, up to which they may touch: shards are cut with
+gaps of about a millimetre. Boxes are larger than shards, so that what falls for certain touches nothing."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class SupportPaths:
+    """How the n shards of a model are held.
+
+    Attributes
+    ----------
+    connected : (n,) bool
+        Whether connections lead from a shard to the ground or to a support.
+    loose : (n,) bool
+        Whether none do, but it touches what is connected so or the ground, maybe by way of others.
+    """
+
+    connected: np.ndarray
+    loose: np.ndarray
+
+    @property
+    def falling(self) -> np.ndarray:
+        """Return which shards (n,) neither connections nor contacts hold."""
+        return ~self.connected & ~self.loose
+
+
+def support_paths(model: Model) -> SupportPaths:
+    """Return what holds each shard of a model."""
+    count = len(model.shards)
+    moves = np.append(~model.fixed, False)  # the ground is the last body
+    first, second = (model.connections.pairs % (count + 1)).T
+    label = connected_parts(moves, first, second)
+    to_support = label[np.concatenate((first[~moves[second]], second[~moves[first]]))]
+    connected = model.fixed | np.isin(label[:-1], to_support[to_support >= 0])
+    boxes = np.array([shard.bounds for shard in model.shards])
+    meeting = boxes_that_meet(boxes[:, 0], boxes[:, 1], _TOUCHING_M)
+    ground_m = model.ground.heights_at(boxes.mean(axis=1)[:, :2])
+    stands = np.isfinite(ground_m) & (boxes[:, 0, 2] <= np.nan_to_num(ground_m) + _TOUCHING_M)
+    on_ground = np.flatnonzero(stands)
+    touching = connected_parts(
+        np.ones(count + 1, bool),
+        np.concatenate((meeting[:, 0], on_ground, np.flatnonzero(connected), first)),
+        np.concatenate((meeting[:, 1], np.full(len(on_ground) + int(connected.sum()), count), second)),
+    )
+    return SupportPaths(connected, ~connected & (touching[:-1] == touching[-1]))

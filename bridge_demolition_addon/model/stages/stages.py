@@ -9,6 +9,7 @@ from functools import partial
 
 import numpy as np
 
+from ...engineering.elasticity.tendons import LEAST_RELEASED_J
 from ...engineering.geometry.vectors import unit
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...errors import ScenarioError
@@ -24,11 +25,9 @@ from ..structure.cracking import FALLEN_SHARE
 from ..structure.model import Model
 from ..structure.section_use import SectionsWithBars
 from .changed_bridge import ChangedBridge, PressedBars
-from .changed_tendons import ReleasedTendon, released_tendons
 from .lifted import CraneWork, PartOnHook
-from .most_used import MostUsed, most_used_of
 from .reactions import supports_of
-from .standing import Standing, StandingBridge
+from .standing import MostUsed, Standing, StandingBridge, most_used_of
 
 _BUILT, _MACHINES, _PULLS = "as it was built", "equipment comes or goes", "pull by {}"
 _SLINGS, _LIFTED = "slings of {} take up {:.0%}", "{} is lifted away"
@@ -309,3 +308,21 @@ def _described(event: Event, model: Model) -> str:
         cut = sorted({cut.tendon for cut in event.tendons})
         return f"{event.kind} of {', '.join(given(model.tendons).names[tendon] for tendon in cut)}"
     return f"{event.kind} of {len(event.connections)} connections"
+
+
+@dataclass(frozen=True, slots=True)
+class ReleasedTendon:
+    """A tendon that is cut, and the energy that it lets go."""
+
+    name: str
+    released_j: float
+
+
+def released_tendons(bridge: StandingBridge, before: ChangedBridge, after: ChangedBridge) -> tuple[ReleasedTendon, ...]:
+    """Return what the tendons of a bridge let go by changes."""
+    first, then = (bridge.tendons(changed.intact, changed.cuts) for changed in (before, after))
+    if first is None or then is None:
+        return ()
+    released_j = (first.stored_j() - then.stored_j()).tolist()
+    pairs = zip(given(bridge.model.tendons).names, released_j, strict=True)
+    return tuple(ReleasedTendon(name, energy_j) for name, energy_j in pairs if energy_j > LEAST_RELEASED_J)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -14,20 +14,17 @@ from ...engineering.units import STANDARD_GRAVITY_M_S2, mass_text, with_digits
 from ...system.csv_tables import csv_cell
 from ...system.disk import whole_file
 from ..structure.model import Model
-from .bearing_rows import BEARING_COLUMNS, BEARINGS_FILE, bearing_rows
 from .changed_bridge import PressedBars
-from .changed_tendons import ReleasedTendon
 from .lifted import LIFT_COLUMNS, LIFTS_FILE, hook_cells, lift_rows, lift_sentences
 from .misfires import MISFIRE_COLUMNS, MISFIRES_FILE, Misfire, misfire_row
-from .most_used import ALONG_SLAB, RESISTANCE
 from .reactions import SupportPoint, supports_of
-from .stages import Criticality, Stage, reactions_n
-from .standing import StandingBridge
+from .stages import Criticality, ReleasedTendon, Stage, reactions_n
+from .standing import ALONG_SLAB, RESISTANCE, StandingBridge
 
-FILES = STAGES_FILE, REACTIONS_FILE, _, UTILISATION_FILE, CRITICALITY_FILE, _, _ = (
+FILES = STAGES_FILE, REACTIONS_FILE, BEARINGS_FILE, UTILISATION_FILE, CRITICALITY_FILE, _, _ = (
     "stages.csv",
     "reactions.csv",
-    BEARINGS_FILE,
+    "bearings.csv",
     "utilisation.csv",
     "criticality.csv",
     MISFIRES_FILE,
@@ -339,3 +336,37 @@ def _cell(value: Any) -> str:
     if value is None or (isinstance(value, float) and math.isnan(value)):
         return ""
     return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+BEARING_COLUMNS = (
+    "stage",
+    "time_s",
+    "step",
+    "bearing",
+    "axis_x_m",
+    "axis_y_m",
+    "axis_z_m",
+    "force_x_kN",
+    "force_y_kN",
+    "force_z_kN",
+    "moment_x_kNm",
+    "moment_y_kNm",
+    "moment_z_kNm",
+    "left_share",
+)
+
+
+def bearing_rows(stages: Sequence[Stage], model: Model) -> Iterator[dict[str, Any]]:
+    """Yield the rows of all bearings in all stages; none without `[[bearings]]`.
+
+    Moments are about the middle of the axis. What has lifted off has no force, and what is gone no `left_share`.
+    """
+    if model.bearings is None:
+        return
+    for number, stage in enumerate(stages, start=1):
+        for index, bearing in enumerate(model.bearings.forces(stage.standing.loads)):
+            left = np.isfinite(stage.standing.used[model.bearings.rows_of(index)])
+            values = *(bearing.force_n / _KILO).tolist(), *(bearing.moment_nm / _KILO).tolist()
+            of_stage = number, stage.time_s, stage.step
+            row = *of_stage, bearing.name, *bearing.axis_m.tolist(), *values, float(left.mean()) if len(left) else 0.0
+            yield dict(zip(BEARING_COLUMNS, row, strict=True))

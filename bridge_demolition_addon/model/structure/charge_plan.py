@@ -18,8 +18,7 @@ from ...engineering.drilled_charges.neighbours import (
     fires_together,
     largest_mass_together_kg,
 )
-from ...engineering.geometry.sides import AXES
-from ...engineering.geometry.vectors import distance
+from ...engineering.geometry.vectors import AXES, distance
 from ..bridge.extent import room_around
 from ..bridge.member import Member
 from ..scenario import MemberCut, Neighbour, Scenario

@@ -11,8 +11,7 @@ import numpy as np
 from ...engineering.elasticity.anchorage import anchorage_length_m, anchored_shares
 from ...engineering.elasticity.bar_rupture import tensile_strength_pa
 from ...engineering.elasticity.steel_bars import MODULUS_PA, Steel
-from ...engineering.geometry.mesh import TriangleMesh
-from ...engineering.geometry.plane_cuts import plane_cuts
+from ...engineering.geometry.mesh import TriangleMesh, plane_cuts
 from ...engineering.geometry.vectors import dot, length, transformed, transformed_back, unit
 from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.reinforcement import FaceBars
@@ -25,8 +24,7 @@ from ..reinforcement.design import all_layers
 from ..schema import given
 from .composite_decks import DeckContacts
 from .connection_source import ConnectionRows, ConnectionSource, CutBridge
-from .member_layers import LayersOfMember, layers_of_members
-from .spread_bars import spread_bars
+from .member_layers import LayersOfMember, layers_of_members, spread_bars
 from .starter_bars import starter_bars
 from .t_beams import TBeam, t_beams
 

@@ -1,4 +1,5 @@
-"""Facts about a model before a run: shards, connections, and how the bridge stands at rest."""
+"""Facts about a model before a run: shards, connections, how the bridge stands at rest, what changes with
+the number of shards."""
 
 from __future__ import annotations
 
@@ -10,10 +11,11 @@ import numpy as np
 
 from ...engineering.elasticity.accuracy import expected_corner_deviation, expected_deviation, spacing_m
 from ...engineering.elasticity.equations import connected_parts
+from ...engineering.elasticity.equilibrium import Equilibrium
 from ...engineering.elasticity.member_shapes import member_shapes
 from ...engineering.elasticity.section_stiffness import DAMPING_RATIO
 from ...engineering.geometry.overlap import SHARD_OVERLAP_TOLERANCE, Overlaps, hulls, overlaps
-from ...engineering.geometry.sides import AXES, SIDES
+from ...engineering.geometry.vectors import AXES, SIDES
 from ...engineering.mechanics.joint import Joint
 from ...engineering.mechanics.strength import MATERIALS, NEWTON_PER_SQUARE_MILLIMETRE, SMEARED, Strength
 from ...engineering.reinforced_concrete.shear import FRICTION_ALONG_CRACK
@@ -23,15 +25,15 @@ from ..bridge.member import Member
 from ..reinforcement.concrete_members import plain_concrete_text
 from ..scenario import ConnectionBetween, ConnectionSettings, Scenario
 from ..scenario.connections import LARGE_MODEL, MATERIAL_OF_LARGE_MODELS
-from ..scenario.scenario import JointName, bearing_tables
+from ..scenario.girders import GirderSpan, StudRow
+from ..scenario.scenario import JointName, bearing_tables, studs_of
 from ..schema import given
 from .bearing_ranges import axis_facts
 from .cracking import CrackedBridge, RestingModel
 from .equilibrium import deflection_m, force_utilisations, loads_of, overloaded
-from .member_layers import LayersOfMember, layers_of_members
+from .member_layers import LayersOfMember, layers_of_members, spread_bars
 from .model import Model
 from .punching import punching_of_decks
-from .spread_bars import spread_bars
 from .starter_bars import GIRDER, ON_GIRDERS
 from .t_beams import TBeam, t_beams
 
@@ -527,3 +529,71 @@ def _method(connections: ConnectionSettings) -> str:
         return f"each with its {connections.neighbours} nearest"
     positions = {"vertex": "nearest vertices", "centre": "centres of mass"}
     return f"{positions[connections.method]} within {connections.search_radius_m:g} m"
+
+
+def deck_facts(scenario: Scenario, model: Model, rest: Equilibrium) -> Iterator[Fact]:
+    """Yield how decks of a model at rest lie on their girders, without cracks."""
+    if not model.decks or not scenario.steelwork:
+        return
+    for number, span in enumerate(scenario.steelwork.decks):
+        studs = studs_of(span, scenario)
+        if studs is None:
+            loose = f"on {span.girders} girders without studs, with a friction of {span.deck_friction:g}"
+            yield span.deck_name, loose
+            continue
+        yield span.deck_name, f"on {span.girders} girders, {_described(span, studs)}"
+        mine = model.decks.only(model.decks.decks == number)
+        counts = mine.studded_m * studs.per_m
+        if (several := counts >= 1.0).any():
+            yield from _used(scenario, model, rest, mine.rows[several], counts[several], studs)
+
+
+def _described(span: GirderSpan, studs: StudRow) -> str:
+    by = "by EN 1994-1-1, 6.6.3.1" if span.stud_diameter_mm is not None else "as given"
+    return (
+        f"{studs.per_m:g} studs/m on each: {studs.shear_n / 1e3:.1f} kN in shear ({by}), "
+        f"{studs.uplift_n / 1e3:.1f} kN in uplift, {studs.stiffness_n_m / 1e6:.0f} kN/mm, no partial factors"
+    )
+
+
+def _used(
+    scenario: Scenario, model: Model, rest: Equilibrium, rows: np.ndarray, counts: np.ndarray, studs: StudRow
+) -> Iterator[Fact]:
+    """Yield the shear and uplift of the stud that has most of each, of contacts with so many studs (c,), 1 or more."""
+    forces, factor = loads_of(model, rest).forces_n[rows], scenario.connections.strength_factor
+    shear = np.sqrt(np.square(forces[:, :2]).sum(axis=1)) / counts
+    lifted = np.maximum(-forces[:, 2], 0.0) / counts
+    for what, each, strength in (("shear", shear, studs.shear_n), ("uplift", lifted, studs.uplift_n)):
+        row = int(each.argmax())
+        place = model.connections.points[rows[row], 0]
+        share = f"{each[row] / factor / strength:.0%}"
+        yield f"studs in {what}", f"{each[row] / 1e3:.1f} kN each at most, {share}, at x = {place:.2f} m"
+
+
+DEBRIS_M = {50: 2.6, 100: 3.5, 200: 3.8, 400: 7.0}
+"""Debris distance of a drilled span of 13 m by its shards, the median of the seeds in docs/data/convergence.csv."""
+
+SAG_M = {100: 0.055, 200: 0.058, 400: 0.064}
+"""Deflection of a reinforced span of 13 m under a ball of 10 t by the shards of two of them, from
+docs/data/reinforced_deck.csv."""
+
+
+def convergence_facts(scenario: Scenario, shards: int) -> Iterator[Fact]:
+    """Yield how much finer and coarser cuts changed the outcome of a demolition of the same kind."""
+    if scenario.bridge is None:
+        return
+    spans = len(scenario.bridge.span_lengths_m)
+    here = f"here {shards / spans:.0f} shards a span: docs/choosing.md says what to take"
+    if scenario.blast_zones or scenario.charges:
+        yield "debris distance", f"of a drilled span in {_by_shards(DEBRIS_M, 1, 'm')}, the median over seeds;"
+        yield "", here
+    elif scenario.ball:
+        halves = {count // 2: sag for count, sag in SAG_M.items()}
+        yield "dent of a ball", f"in a span in {_by_shards(halves, 3, 'm')}, the median over seeds;"
+        yield "", here
+
+
+def _by_shards(found: dict[int, float], digits: int, unit: str) -> str:
+    counts = ", ".join(map(str, found))
+    values = ", ".join(f"{value:.{digits}f}" for value in found.values())
+    return f"{counts} shards: {values} {unit}"

@@ -11,8 +11,7 @@ import numpy as np
 
 from ..bridge.member import Member
 from ..scenario import Scenario
-from .model import Model, model_on
-from .model_basis import ModelBasis
+from .model import Model, ModelBasis, model_on
 
 MOST_BYTES = 100_000_000
 """Arrays of all models that are kept, together: some of 10,000 shards, or many small ones."""

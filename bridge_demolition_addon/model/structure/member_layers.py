@@ -1,4 +1,4 @@
-"""Layers of bars of members that run the same way, beside the same two sides, and their sections."""
+"""Bars of members: layers that run the same way, beside the same two sides, and their sections; and spread bars."""
 
 from __future__ import annotations
 
@@ -13,12 +13,14 @@ from ...engineering.elasticity.bar_rupture import (
     crack_spacing_m,
     mean_strain_at_rupture,
     rupture_opening_m,
+    spacing_of_ratio_m,
     tensile_strength_pa,
 )
 from ...engineering.elasticity.steel_bars import MODULUS_PA, Steel
+from ...engineering.geometry.mesh import plane_cuts
 from ...engineering.geometry.own_axes import OwnAxes
-from ...engineering.geometry.plane_cuts import plane_cuts
-from ...engineering.geometry.sides import AXES
+from ...engineering.geometry.vectors import AXES
+from ...engineering.structure.connections import Connections
 from ...errors import ScenarioError
 from ..bridge.member import Member
 from ..bridge.own_axes import is_standing, own_axes
@@ -187,3 +189,45 @@ def _check_widths(
 def _width(corners: np.ndarray, across: int, beside: int, level: float) -> float:
     _, points = plane_cuts(corners, across, level)
     return float(np.ptp(points[..., beside])) if len(points) else 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class SpreadBars:
+    """Spread bars of a member, such as links, which is `length_m` long along them.
+
+    A crack with the normal n and the area A is crossed by ρ |n · e| A of bars along e, with ρ of steel in each area
+    across them. So a plane crack at an angle θ in a beam has links for V = A_sw / s · z f_y cot θ: EN 1992-1-1:2004,
+    equation 6.8.
+    """
+
+    member: int
+    layer: BarLayer
+    length_m: float
+
+    @property
+    def along(self) -> int:
+        """Return the axis that the bars run along."""
+        return AXES.index(self.layer.along)
+
+    def pulls_n(self, connections: Connections, factor: float) -> np.ndarray:
+        """Return the forces (m,) at which the bars across connections yield, which are so many times as strong."""
+        crossed_m2 = abs(connections.normals[:, self.along]) * connections.areas
+        return factor * self.layer.ratio * self.layer.yield_pa * crossed_m2
+
+    def opening_m(self, compressive_pa: float, steel: Steel) -> float:
+        """Return the opening of one crack at which they rupture: of the length between cracks, or of all of it."""
+        layer, tensile_pa = self.layer, tensile_strength_pa(compressive_pa)
+        spacing_m = min(spacing_of_ratio_m(layer.diameter_m, layer.ratio), self.length_m)
+        own = replace(steel, yield_pa=layer.yield_pa)
+        return spacing_m * mean_strain_at_rupture(own, layer.diameter_m, spacing_m, tensile_pa)
+
+
+def spread_bars(layers: Sequence[BarLayer], members: Sequence[Member]) -> Iterator[SpreadBars]:
+    """Yield the spread bars of each member."""
+    for layer in layers:
+        if not layer.is_spread:
+            continue
+        for index, member in enumerate(members):
+            if layer.is_in(member.name, member.kind):
+                lengths = np.ptp(member.solid.vertices, axis=0)
+                yield SpreadBars(index, layer, float(lengths[AXES.index(layer.along)]))

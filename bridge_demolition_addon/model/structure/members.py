@@ -19,16 +19,16 @@ from ...engineering.fracture.options import (
     densest,
     density_around,
     painted_density,
+    through_thickness,
 )
-from ...engineering.fracture.plates import through_thickness
 from ...engineering.fracture.seeds import random_points
 from ...engineering.fracture.shards import Fracture, fracture, joined_fractures, voronoi_cells
 from ...engineering.fracture.shared_faces import SharedFaces, joined_faces, touching_faces
 from ...engineering.fracture.slabs import cut_out, cut_through, slabs
 from ...engineering.geometry.convex_parts import convex_parts
 from ...engineering.geometry.mesh import TriangleMesh
-from ...engineering.geometry.sides import AXES
 from ...engineering.geometry.solids import contains
+from ...engineering.geometry.vectors import AXES
 from ...errors import GeometryError
 from ..actions import CutBox, CutOfMembers, CutPlane, CutThrough
 from ..bridge.member import Member, members_named

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from itertools import chain
+from typing import Self
 
 import numpy as np
 
@@ -14,11 +17,16 @@ from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.vectors import cross
 from ...engineering.mechanics.reinforcement import FaceBars
 from ...engineering.structure.connections import Connections
+from ..actions import CutOfMembers, CutPlane
+from ..blast.settings import BlastSettings
 from ..bridge.extent import ground_half_size
 from ..bridge.member import Member, mean_density
 from ..bridge.preparation import prepared_members
 from ..materials.bar_layers import BarLayer
 from ..scenario import Geometry, Scenario
+from ..scenario.file import file_digests
+from ..scenario.scenario import no_actions
+from ..scenario.time import TimeSettings
 from ..schema import given
 from ..terrain.built import BuiltGround, built_ground
 from .bearings import Pads
@@ -28,7 +36,6 @@ from .face_bars import BarRows, MemberBars, ReinforcedFaces
 from .face_connections import FaceConnections
 from .footings import FootingsOnSoil
 from .members import FracturedMembers, fractured_members, shards_with_gaps
-from .model_basis import ModelBasis
 from .model_bearings import ModelBearings
 from .steelwork import SteelConnections, SteelEnds
 from .stiffness import connection_stiffness
@@ -275,3 +282,39 @@ def start_motions(tables: Sequence[Geometry], model: Model) -> tuple[np.ndarray,
         velocities[shards] = np.array(table.velocity_m_s) + cross(angular_velocities[shards], arms)
     velocities[model.fixed], angular_velocities[model.fixed] = 0.0, 0.0
     return velocities, angular_velocities
+
+
+@dataclass(frozen=True, slots=True)
+class ModelBasis:
+    """What a model is built from: all of a scenario but what is done to its bridge, and when.
+
+    `build_model` sees nothing else. So two scenarios with the same basis have the same model, to the last bit: a key
+    that is new belongs to the basis, and what a scenario is stripped of cannot change a model.
+
+    Attributes
+    ----------
+    scenario : Scenario
+        As it stands: without actions, and with the blast and the time that a scenario has by default.
+    planes : tuple of CutPlane or CutOfMembers
+        What actions have the bridge cut along.
+    clear_height_m : float
+        How high a ball hangs above the bridge, for which terrain gets more room; 0 without terrain or ball.
+    """
+
+    scenario: Scenario
+    planes: tuple[CutPlane | CutOfMembers, ...]
+    clear_height_m: float
+
+    @classmethod
+    def of(cls, scenario: Scenario) -> Self:
+        """Return what the model of a scenario is built from."""
+        standing = replace(scenario, **no_actions(scenario), blast=BlastSettings(), time=TimeSettings())
+        planes = tuple(chain.from_iterable(action.cut_planes() for action in scenario.actions))
+        on_terrain = scenario.ball if not scenario.has_flat_ground else None
+        return cls(standing, planes, on_terrain.largest_height_m(0.0) if on_terrain else 0.0)
+
+    @property
+    def digest(self) -> str:
+        """SHA-256, in hexadecimal digits, of all fields, down to the sign of a zero, and of all files that are read."""
+        text = "\n".join((repr(self), *file_digests(self.scenario)))
+        return hashlib.sha256(text.encode()).hexdigest()

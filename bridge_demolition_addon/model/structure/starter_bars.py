@@ -15,8 +15,7 @@ import numpy as np
 
 from ...engineering.elasticity.bar_rupture import mean_strain_at_rupture, tensile_strength_pa
 from ...engineering.elasticity.steel_bars import Steel
-from ...engineering.geometry.sides import AXES
-from ...engineering.geometry.vectors import dot
+from ...engineering.geometry.vectors import AXES, dot
 from ...engineering.reinforced_concrete.least_areas import of_links_m2_m
 from ...engineering.reinforced_concrete.materials import Concrete
 from ..bridge.member import Member

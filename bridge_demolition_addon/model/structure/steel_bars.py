@@ -14,9 +14,14 @@ from ...engineering.mechanics.section_cuts import ConnectionLoads
 from ...engineering.mechanics.section_forces import section_forces
 from ...engineering.steelwork.bars import SteelBar
 from ...engineering.steelwork.bolted_ends import BoltedEnd
-from ...engineering.steelwork.lateral_buckling import LateralBuckling, lateral_buckling
-from ...engineering.steelwork.resistance import Buckling, buckling
-from ...engineering.steelwork.web_shear import WebShear, web_shear
+from ...engineering.steelwork.resistance import (
+    Buckling,
+    LateralBuckling,
+    WebShear,
+    buckling,
+    lateral_buckling,
+    web_shear,
+)
 from ..actions import Fact
 from ..scenario import Scenario
 from ..scenario.steelwork import SteelMember, Steelwork

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -33,8 +33,9 @@ from ...engineering.mechanics.reinforcement import FaceBars
 from ...engineering.mechanics.section_forces import section_axes
 from ...engineering.structure.connections import Connections
 from ...errors import ScenarioError
+from ..actions import Fact
 from ..bridge.member import Member
-from ..scenario import Tendon
+from ..scenario import Scenario, Tendon
 from ..schema import given
 from .connection_source import ConnectionRows, ConnectionSource
 
@@ -292,3 +293,24 @@ def _opening_m(placed: _Placed, connections: Connections, row: int) -> float:
     area_m2 = float(connections.areas[row]) if row >= 0 else depth_m * depth_m
     spacing_m = spacing_of_ratio_m(table.diameter_m, table.area_m2 / max(area_m2, table.area_m2))
     return rupture_opening_m(mean_strain_at_rupture(steel, table.diameter_m, spacing_m, placed.tensile_pa), depth_m)
+
+
+def tendon_facts(scenario: Scenario, tendons: ModelTendons) -> Iterator[Fact]:
+    """Yield force, length and energy of each tendon, and what a cut takes of it."""
+    count = 1 + int(max(tendons.passages.first.max(), tendons.passages.second.max()))
+    unturned = np.repeat(np.eye(3)[:, :, None], count, axis=2)
+    stored_j = tendons.forces(np.zeros((3, count)), unturned).stored_j()
+    steel = tendons.steel
+    for number, table in enumerate(scenario.tendons):
+        share = table.prestress_n_mm2 / table.strength_n_mm2
+        yield (
+            table.name,
+            f"{table.member}: {steel.forces_n[number] / 1000.0:.0f} kN, {share:.0%} of its strength, "
+            f"{steel.lengths_m[number]:.2f} m, {stored_j[number] / 1000.0:.1f} kJ",
+        )
+        if table.bonded:
+            ends = "" if table.anchored else ", and so do its ends, without anchorages"
+            yield "", f"bonded: a cut takes its force over {steel.transmission_m[number]:.2f} m to both sides{ends}"
+        else:
+            yield "", "not bonded: any cut takes all of its force"
+    yield "", "energy of tendons hurts people: keep everybody off their lines and anchorages while they are cut"

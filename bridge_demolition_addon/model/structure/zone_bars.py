@@ -14,7 +14,7 @@ from ...engineering.drilled_charges.bare_bars import (
     yield_force_n,
 )
 from ...engineering.elasticity.steel_bars import YIELD_PA
-from ...engineering.geometry.sides import AXES
+from ...engineering.geometry.vectors import AXES
 from ..blast.blast_zones import M_PER_MM, BlastZone
 from ..bridge.member import Member
 from ..materials.bar_layers import BarLayer

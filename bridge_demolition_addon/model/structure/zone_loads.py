@@ -9,8 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...engineering.drilled_charges.specific_charge import Effect
-from ...engineering.geometry.sides import AXES
-from ...engineering.geometry.vectors import cross, length
+from ...engineering.geometry.vectors import AXES, cross, length
 from ...engineering.mechanics.section_cuts import ConnectionLoads
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ..actions import Fact

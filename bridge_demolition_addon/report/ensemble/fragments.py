@@ -9,7 +9,7 @@ import numpy as np
 
 from ...charts.plan_maps import map_height_mm
 from ...charts.study_plan import study_plan
-from ...model.structure.fragment_areas import DOUBT
+from ...model.structure.zone_fragments import DOUBT
 from ...model.study.fragments import FragmentLimits
 from ..charge_areas import cordon_area
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section

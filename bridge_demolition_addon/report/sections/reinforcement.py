@@ -17,8 +17,7 @@ from ...model.bridge.member import Member
 from ...model.bridge.preparation import prepared_members
 from ...model.reinforcement.concrete_members import plain_concrete_text
 from ...model.reinforcement.design import bar_schedule
-from ...model.reinforcement.facts import steel_facts
-from ...model.reinforcement.schedule import Schedule, ScheduledBars, ScheduledLinks, named_text
+from ...model.reinforcement.schedule import Schedule, ScheduledBars, ScheduledLinks, named_text, steel_facts
 from ...model.scenario import BridgeReinforcement, Scenario
 from ...model.scenario.scenario import rules_of_bars
 from ..document.blocks import Block, Column, DataTable, Paragraph, Picture, Section, facts

@@ -11,10 +11,11 @@ from typing import Any
 from ...engineering.units import mass_text
 from ...errors import OutputError, UnreadableError
 from ...model.lifts import Pick
-from ...model.stages.bearing_rows import BEARING_COLUMNS, BEARINGS_FILE
 from ...model.stages.lifted import LIFT_COLUMNS, LIFTS_FILE
 from ...model.stages.misfires import MISFIRE_COLUMNS, MISFIRES_FILE
 from ...model.stages.tables import (
+    BEARING_COLUMNS,
+    BEARINGS_FILE,
     CRITICALITY_COLUMNS,
     CRITICALITY_FILE,
     NOT_SOUGHT,

@@ -11,7 +11,7 @@ import numpy as np
 from ...engineering.elasticity.steel_bars import USUAL_STEEL, Steel
 from ...engineering.mechanics.reinforcement import FaceBars
 from ...engineering.mechanics.strength import Ductility, Strength
-from ...engineering.timing.time_step import TimeStep
+from ...engineering.timing.timeline import TimeStep
 from ..custom_properties import keep, kept_number, kept_numbers
 from ..time_scale import time_step_at
 from .constraints import connections_of

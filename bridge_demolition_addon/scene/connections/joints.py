@@ -8,7 +8,7 @@ import bpy
 import numpy as np
 
 from ...engineering.mechanics.joint import Joint, JointMotion
-from ...engineering.timing.time_step import TimeStep
+from ...engineering.timing.timeline import TimeStep
 from .breaking_settings import set_breaking_force, set_strength
 
 _BLENDER_NAMES = {

@@ -10,7 +10,7 @@ import numpy as np
 
 from ...bullet.bodies import BodyTable
 from ...engineering.geometry.vectors import cross, dot, length, transformed, transformed_back
-from ...engineering.mechanics.cables import cable_force_n, force_of_step_n, free_length_m, stored_j
+from ...engineering.mechanics.slings import cable_force_n, force_of_step_n, free_length_m, stored_j
 from ...model.pulls import Pull
 from ...model.sequence.loads import PlacedLoad
 from .drivers import Driver

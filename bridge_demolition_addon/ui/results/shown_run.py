@@ -16,7 +16,7 @@ from ...model.results.bar_extremes import bars_text, largest_use_text
 from ...model.results.connection_counts import ConnectionCounts
 from ...model.run_folder.files import SUMMARY_FILE
 from ...model.run_folder.summary import RunSummary, read_summary
-from ...model.sequence.doubts import doubts_of_run
+from ...model.sequence.ending import doubts_of_run
 from ...model.stages.stability import STANDS, stability_texts
 from ...simulation.kept_run import digest_of_run, folder_of_run, has_run, results_of_run
 from ..connection_counts import counts_line

@@ -7,12 +7,12 @@ import bpy
 from ...display.contour_quantities import ContourQuantity
 from ...display.stage_contours import StageContours
 from ...model.sequence.checked_model import checked_model
-from ...model.stages.bearing_rows import bearing_rows
 from ...model.stages.misfires import misfire_sentences, misfires
 from ...model.stages.stages import criticality, stages_of
 from ...model.stages.standing import StandingBridge, made_elastic
 from ...model.stages.tables import (
     all_reaction_rows,
+    bearing_rows,
     bearing_sentences,
     criticality_sentences,
     reaction_sentences,

@@ -13,7 +13,7 @@ from bridge_demolition_addon.engineering.blast.pulses import (
     pressure_at,
 )
 from bridge_demolition_addon.engineering.geometry.hulls import convex_hulls
-from bridge_demolition_addon.engineering.timing.time_step import TimeStep
+from bridge_demolition_addon.engineering.timing.timeline import TimeStep
 
 CUBE = np.array([[x, y, z] for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)])
 

@@ -4,8 +4,7 @@
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.engineering.fracture.options import FractureOptions
-from bridge_demolition_addon.engineering.fracture.plates import through_thickness
+from bridge_demolition_addon.engineering.fracture.options import FractureOptions, through_thickness
 from bridge_demolition_addon.engineering.fracture.shards import fracture
 from bridge_demolition_addon.engineering.geometry.mesh import TriangleMesh
 from bridge_demolition_addon.engineering.geometry.solids import box, from_manifold, to_manifold

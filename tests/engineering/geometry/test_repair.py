@@ -9,8 +9,7 @@ from support.meshes import mesh, moved, of_trimesh, together, turned
 
 from bridge_demolition_addon.engineering.fracture.shards import fracture
 from bridge_demolition_addon.engineering.geometry.mesh import TriangleMesh
-from bridge_demolition_addon.engineering.geometry.repair import repaired_solid
-from bridge_demolition_addon.engineering.geometry.self_intersection import first_crossing
+from bridge_demolition_addon.engineering.geometry.repair import first_crossing, repaired_solid
 from bridge_demolition_addon.engineering.geometry.solids import bodies, box, from_manifold, to_manifold, union
 from bridge_demolition_addon.errors import GeometryError
 

@@ -5,7 +5,7 @@ import math
 
 import pytest
 
-from bridge_demolition_addon.engineering.mechanics.cables import (
+from bridge_demolition_addon.engineering.mechanics.slings import (
     cable_force_n,
     force_of_step_n,
     free_length_m,

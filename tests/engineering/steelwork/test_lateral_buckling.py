@@ -6,7 +6,7 @@ import math
 import pytest
 
 from bridge_demolition_addon.engineering.steelwork.catalogue import section_named
-from bridge_demolition_addon.engineering.steelwork.lateral_buckling import critical_moment_nm, lateral_buckling
+from bridge_demolition_addon.engineering.steelwork.resistance import critical_moment_nm, lateral_buckling
 
 # Warping constants I_w, 10³ cm⁶, of the tables (ArcelorMittal, Sections and Merchant Bars).
 WARPING = {"IPE 200": 12.99, "IPE 300": 125.9, "HEA 200": 108.0, "HEB 200": 171.1, "HEB 300": 1688.0, "HEM 300": 4386.0}

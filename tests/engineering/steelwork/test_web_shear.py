@@ -6,7 +6,7 @@ import math
 import pytest
 
 from bridge_demolition_addon.engineering.steelwork.catalogue import section_named
-from bridge_demolition_addon.engineering.steelwork.web_shear import shear_reduction, web_shear
+from bridge_demolition_addon.engineering.steelwork.resistance import shear_reduction, web_shear
 
 GIRDER = section_named("PG 1000x12x300x20x400x30")
 """A web of 950 mm × 12 mm."""

@@ -3,7 +3,7 @@
 
 import pytest
 
-from bridge_demolition_addon.engineering.timing.time_step import TimeStep
+from bridge_demolition_addon.engineering.timing.timeline import TimeStep
 
 FILM = TimeStep(frames_per_second=24, frames_per_second_base=1.0, substeps_per_frame=10, time_scale=1.0)
 NTSC = TimeStep(frames_per_second=30, frames_per_second_base=1.001, substeps_per_frame=7, time_scale=1.0)

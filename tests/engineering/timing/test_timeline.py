@@ -4,8 +4,7 @@
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.engineering.timing.time_step import TimeStep
-from bridge_demolition_addon.engineering.timing.timeline import SLOWING, SlowMotion, Timeline
+from bridge_demolition_addon.engineering.timing.timeline import SLOWING, SlowMotion, Timeline, TimeStep
 
 FRAME_S = 1.0 / 24.0
 

@@ -15,7 +15,7 @@ from bridge_demolition_addon.model.bridge.preparation import prepared_members
 from bridge_demolition_addon.model.materials.bar_layers import ReinforcedSection
 from bridge_demolition_addon.model.reinforcement import design
 from bridge_demolition_addon.model.reinforcement.design import all_layers, bar_schedule
-from bridge_demolition_addon.model.reinforcement.facts import schedule_facts
+from bridge_demolition_addon.model.reinforcement.schedule import schedule_facts
 from bridge_demolition_addon.model.scenario import (
     Abutments,
     BarLayer,

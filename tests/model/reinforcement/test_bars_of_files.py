@@ -13,7 +13,7 @@ from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.bridge.preparation import prepared_members
 from bridge_demolition_addon.model.reinforcement.concrete_members import plain_concrete_text
 from bridge_demolition_addon.model.reinforcement.design import bar_schedule
-from bridge_demolition_addon.model.reinforcement.facts import schedule_facts
+from bridge_demolition_addon.model.reinforcement.schedule import schedule_facts
 from bridge_demolition_addon.model.scenario import BarLayer, ConnectionBetween, ConnectionSettings
 from bridge_demolition_addon.model.structure.model import build_model
 

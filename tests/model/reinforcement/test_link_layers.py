@@ -5,8 +5,7 @@ import pytest
 from support.scenarios import I235
 
 from bridge_demolition_addon.model.bridge.preparation import prepared_members
-from bridge_demolition_addon.model.reinforcement.link_layers import link_layers
-from bridge_demolition_addon.model.reinforcement.schedule import Schedule, ScheduledLinks
+from bridge_demolition_addon.model.reinforcement.schedule import Schedule, ScheduledLinks, link_layers
 
 
 def links_of(name, kind, width_m, diameter_m):

@@ -2,7 +2,7 @@
 """What a run says of bars that held in it, by its summary."""
 
 from bridge_demolition_addon.model.sequence.bare_bars import bare_bars_text
-from bridge_demolition_addon.model.sequence.doubts import doubts_of_run
+from bridge_demolition_addon.model.sequence.ending import doubts_of_run
 
 
 def fired(zone, pressed_n, folded_m=0.0):

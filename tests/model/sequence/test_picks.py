@@ -11,7 +11,7 @@ from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.lifts import Pick
 from bridge_demolition_addon.model.scenario.file import scenario_from_text
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
-from bridge_demolition_addon.model.sequence.doubts import doubts_of_run
+from bridge_demolition_addon.model.sequence.ending import doubts_of_run
 from bridge_demolition_addon.model.sequence.events import in_box, model_structure
 from bridge_demolition_addon.model.sequence.lifts import placed_lifts, volume_kg
 from bridge_demolition_addon.model.stages.lifted import LIFT_COLUMNS

@@ -9,7 +9,7 @@ from support.scenarios import I235
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.scenario import BlastZone, Charge, Equipment, Load, MemberCut
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
-from bridge_demolition_addon.model.sequence.doubts import first_doubts
+from bridge_demolition_addon.model.sequence.ending import first_doubts
 from bridge_demolition_addon.model.sequence.unusual import unusual_texts
 from bridge_demolition_addon.report.languages.translation import Translation
 

@@ -13,6 +13,7 @@ from bridge_demolition_addon.model.bridge.preparation import prepared_members
 from bridge_demolition_addon.model.scenario import Charge, ConnectionSettings
 from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.sequence.undisturbed import left_alone
+from bridge_demolition_addon.model.sequence.unusual import unusual_sizes
 from bridge_demolition_addon.model.stages.stability import (
     COMES_DOWN,
     STANDS,
@@ -21,7 +22,6 @@ from bridge_demolition_addon.model.stages.stability import (
     stability_texts,
 )
 from bridge_demolition_addon.model.stages.stability_by_statics import stability_of
-from bridge_demolition_addon.model.structure.usual_sizes import unusual_sizes
 
 pytestmark = pytest.mark.slow
 

@@ -10,9 +10,9 @@ from bridge_demolition_addon.engineering.geometry.solids import box
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.scenario.file import scenario_from_text
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
-from bridge_demolition_addon.model.stages.bearing_rows import bearing_rows
 from bridge_demolition_addon.model.stages.stages import stages_of
 from bridge_demolition_addon.model.stages.standing import StandingBridge
+from bridge_demolition_addon.model.stages.tables import bearing_rows
 from bridge_demolition_addon.model.structure.bearings import shards_at
 
 pytestmark = pytest.mark.slow

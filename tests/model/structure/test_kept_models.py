@@ -12,8 +12,7 @@ from bridge_demolition_addon.model.scenario.file import read_scenario
 from bridge_demolition_addon.model.scenario.scenario import Scenario, action_fields
 from bridge_demolition_addon.model.schema import Table, subtable_class
 from bridge_demolition_addon.model.structure.kept_models import KeptModels
-from bridge_demolition_addon.model.structure.model import Model, build_model
-from bridge_demolition_addon.model.structure.model_basis import ModelBasis
+from bridge_demolition_addon.model.structure.model import Model, ModelBasis, build_model
 
 EVERYTHING = read_scenario(TESTS / "simulation" / "everything.toml")
 DRILLED = read_scenario(EXAMPLES / "drilled" / "two_spans_in_100_shards.toml")

@@ -22,8 +22,8 @@ from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.bridge.mesh_files import exported
 from bridge_demolition_addon.model.scenario import BarLayer, ConnectionSettings
 from bridge_demolition_addon.model.scenario.file import read_scenario
+from bridge_demolition_addon.model.structure.member_layers import spread_bars
 from bridge_demolition_addon.model.structure.model import build_model
-from bridge_demolition_addon.model.structure.spread_bars import spread_bars
 
 LINKS = BarLayer(members=("deck",), along="z", spread_mm2_m2=2000.0, diameter_mm=10.0)
 BOTTOM = BarLayer(members=("deck",), depth_m=0.04, area_mm2=12_000.0)

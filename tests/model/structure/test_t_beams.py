@@ -9,8 +9,7 @@ import pytest
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.model.materials.bar_layers import ReinforcedSection
 from bridge_demolition_addon.model.scenario.file import scenario_from_text
-from bridge_demolition_addon.model.stages.most_used import RESISTANCE, most_used_of
-from bridge_demolition_addon.model.stages.standing import StandingBridge
+from bridge_demolition_addon.model.stages.standing import RESISTANCE, StandingBridge, most_used_of
 from bridge_demolition_addon.model.structure.facts import connection_facts
 from bridge_demolition_addon.model.structure.model import build_model
 from bridge_demolition_addon.model.structure.section_use import SectionsWithBars

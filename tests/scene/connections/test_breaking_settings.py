@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from support.blocks import Blocks
 
-from bridge_demolition_addon.engineering.timing.time_step import TimeStep
+from bridge_demolition_addon.engineering.timing.timeline import TimeStep
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.scene.connections.breaking_settings import rewrite_thresholds, set_breaking_force
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 from support.steelwork import bar, node, steel_scenario
 
 from bridge_demolition_addon.cli.progress import Silence
-from bridge_demolition_addon.model.sequence.held_parts import held_parts_text
+from bridge_demolition_addon.model.sequence.lifts import held_parts_text
 from bridge_demolition_addon.simulation.run import run_scenario
 
 LIFT = """

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from support.blocks import Blocks
 
-from bridge_demolition_addon.engineering.timing.time_step import MOST_SUBSTEPS, TimeStep
+from bridge_demolition_addon.engineering.timing.timeline import MOST_SUBSTEPS, TimeStep
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.recording.recorder import Recording
