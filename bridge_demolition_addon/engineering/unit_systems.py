@@ -20,7 +20,6 @@ GRAVITY_M_S2 = Decimal("9.80665")
 POUND_FORCE_N = POUND_KG * GRAVITY_M_S2
 KIP_N = POUND_FORCE_N * 1000
 PSI_PA = POUND_FORCE_N / INCH_M**2
-HOUR_S = Decimal(3600)
 
 LEAST_DIGITS = 3
 """Significant digits that a converted number has at least, as what a user chose, such as 5 m, is often exact."""

@@ -11,13 +11,11 @@ from ..arrays import FloatArray
 LEAST_STEMMING_M = 0.15
 """No hole has less, whatever its burden."""
 
-USUAL_DIAMETERS_M = (0.032, 0.042)
 USUAL_DEPTH_SHARES = (0.5, 0.75)
 """Part of the thickness that a hole is deep: two thirds as a rule. A deeper one blows out at the far side."""
 
 SPACING_OVER_BURDEN = (1.0, 1.8)
-ROWS_OVER_SPACING = (0.85, 1.0)
-"""Spacing along a row by the burden, and between rows by the spacing, of reinforced concrete."""
+"""Spacing along a row by the burden, of reinforced concrete."""
 
 _DEPTH_SHARE = 2.0 / 3.0
 _ONE_ROW_UP_TO_M = 0.6

@@ -26,11 +26,6 @@ def lundborg_range_m(diameter_m: ArrayLike) -> FloatArray:
     return 260.0 * power(np.asarray(diameter_m, float) / _INCH_M, 2.0 / 3.0)
 
 
-def lundborg_size_m(diameter_m: ArrayLike) -> FloatArray:
-    """Return the size of the block that flies so far, T = 0.1 d^(2/3), d in inches; source as above."""
-    return 0.1 * power(np.asarray(diameter_m, float) / _INCH_M, 2.0 / 3.0)
-
-
 def scaled_depth_of_burial(
     charge_length_m: ArrayLike, stemming_m: ArrayLike, diameter_m: ArrayLike, density_kg_m3: ArrayLike
 ) -> FloatArray:
@@ -53,24 +48,7 @@ def mckenzie_range_m(diameter_m: ArrayLike, scaled_depth: ArrayLike) -> FloatArr
     return 9.74 * power(_MM_PER_M * np.asarray(diameter_m, float) / buried, 2.0 / 3.0)
 
 
-def vacuum_range_m(speed_m_s: ArrayLike, elevation_rad: ArrayLike, height_m: ArrayLike = 0.0) -> FloatArray:
-    """Return how far something flies without drag, from a height to level ground: the parabola of Galilei."""
-    speed, elevation = np.asarray(speed_m_s, float), np.asarray(elevation_rad, float)
-    level, upwards = speed * np.cos(elevation), speed * np.sin(elevation)
-    longer = np.sqrt(np.square(upwards) + 2.0 * STANDARD_GRAVITY_M_S2 * np.asarray(height_m, float))
-    flight: FloatArray = level * (upwards + longer) / STANDARD_GRAVITY_M_S2
-    return flight
-
-
 def speed_for_range_m_s(range_m: ArrayLike) -> FloatArray:
     """Return the least speed with which something flies so far over level ground without drag: √(g R)."""
     speed: FloatArray = np.sqrt(STANDARD_GRAVITY_M_S2 * np.asarray(range_m, float))
     return speed
-
-
-def envelope_height_m(distance_m: ArrayLike, speed_m_s: ArrayLike) -> FloatArray:
-    """Return the height that nothing of a speed passes at a distance without drag: (v⁴ - g² x²) / (2 g v²)."""
-    square = np.square(np.asarray(speed_m_s, float))
-    passed = np.square(square) - np.square(STANDARD_GRAVITY_M_S2 * np.asarray(distance_m, float))
-    height: FloatArray = passed / (2.0 * STANDARD_GRAVITY_M_S2 * square)
-    return height

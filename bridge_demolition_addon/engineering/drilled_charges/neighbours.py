@@ -20,11 +20,6 @@ DELAY_WINDOW_S = 0.008
 """What detonates less than this apart shakes the ground together; more, one after the other. USBM Bulletin 656 (1971)
 has 8 ms, and most rules since."""
 
-MEDIUM_ROCK_CM_S, MEDIUM_ROCK_EXPONENT = 200.0, 1.65
-"""K and α of GB 6722 for rock of medium hardness, 150 to 250 and 1.5 to 1.8, to begin with."""
-
-_M_PER_CM = 0.01
-
 
 def air_pressure_pa(distance_m: ArrayLike, charge_kg: ArrayLike, site_kpa: float = STEMMED_KPA) -> FloatArray:
     """Return the peak pressure in air, P = K_a (R / Q^(1/3))^-1.45, AS 2187.2 (2006), appendix J."""
@@ -32,36 +27,10 @@ def air_pressure_pa(distance_m: ArrayLike, charge_kg: ArrayLike, site_kpa: float
     return _PA_PER_KPA * site_kpa * power(scaled, -_AIR_EXPONENT)
 
 
-def air_charge_kg(distance_m: ArrayLike, pressure_pa: ArrayLike, site_kpa: float = STEMMED_KPA) -> FloatArray:
-    """Return the charge that gives a pressure in air at a distance."""
-    scaled = power(np.asarray(pressure_pa, float) / (_PA_PER_KPA * site_kpa), -1.0 / _AIR_EXPONENT)
-    size = np.asarray(distance_m, float) / scaled
-    return size * size * size
-
-
 def decibels(pressure_pa: ArrayLike) -> FloatArray:
     """Return the peak level of a pressure in air over 20 µPa, dB."""
     level: FloatArray = 20.0 * logarithm(np.asarray(pressure_pa, float) / _REFERENCE_PA) / np.log(10.0)
     return level
-
-
-def pressure_of_decibels_pa(level_db: ArrayLike) -> FloatArray:
-    """Return the pressure of a peak level in air."""
-    return _REFERENCE_PA * power(10.0, np.asarray(level_db, float) / 20.0)
-
-
-def cube_root_velocity_m_s(
-    distance_m: ArrayLike,
-    charge_kg: ArrayLike,
-    site_cm_s: float = MEDIUM_ROCK_CM_S,
-    exponent: float = MEDIUM_ROCK_EXPONENT,
-    height_factor: float = 1.0,
-) -> FloatArray:
-    """Return the peak particle velocity, v = K' K (Q^(1/3) / R)^α, GB 6722 (2014).
-
-    K' is 1 for charges in the ground, and 0.25 to 1 for those high in a structure.
-    """
-    return height_factor * site_cm_s * _M_PER_CM * power(cube_root(charge_kg) / np.asarray(distance_m, float), exponent)
 
 
 def largest_mass_together_kg(

@@ -7,7 +7,6 @@ what columns took in recorded jobs for throwing it out of its reinforcement.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -96,11 +95,6 @@ def breaking_range_kg_m3(element: DrilledElement, burden_m: float) -> tuple[floa
         return _BREAKING_KG_M3[element]
     least, most = (np.interp(burden_m, _BURDENS_M, column) for column in (_LEAST_BY_BURDEN, _MOST_BY_BURDEN))
     return float(least), float(most)
-
-
-def thresholds_of(element: DrilledElement, burden_m: float, throw_kg_m3: float = THROW_KG_M3) -> Thresholds:
-    """Return the thresholds of an element; it breaks at the middle of the table's range."""
-    return Thresholds(math.fsum(breaking_range_kg_m3(element, burden_m)) / 2.0, throw_kg_m3)
 
 
 def specific_charge_kg_m3(mass_kg: ArrayLike, volume_m3: ArrayLike, relative_strength: ArrayLike = 100.0) -> FloatArray:

@@ -59,11 +59,6 @@ def links_along_m2_m(shear_n: float, depth_m: float, yield_pa: float) -> float:
     return shear_n / (_LEVER_ARM * depth_m * yield_pa * FRICTION_ALONG_CRACK)
 
 
-def links_resist_n(area_m2_m: float, depth_m: float, yield_pa: float, cot_strut: float) -> float:
-    """Return V_Rd,s: equation 6.8."""
-    return area_m2_m * _LEVER_ARM * depth_m * yield_pa * cot_strut
-
-
 _LARGEST_RATIO = 0.02
 
 

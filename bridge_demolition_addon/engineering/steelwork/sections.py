@@ -114,11 +114,6 @@ class SteelSection:
         return self.shape.area_m2
 
     @property
-    def radii_of_gyration_m(self) -> FloatArray:
-        """About y and z, (2,)."""
-        return np.sqrt(np.diagonal(self.shape.second_moments_m4) / self.area_m2)
-
-    @property
     def size_m(self) -> FloatArray:
         """Width along y and height along z, (2,)."""
         return np.ptp(np.concatenate(self.rings), axis=0)

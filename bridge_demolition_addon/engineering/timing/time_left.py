@@ -72,8 +72,3 @@ def clock(seconds: float) -> str:
     """Return a time in minutes and seconds, such as ``1:05``."""
     whole = round(seconds)
     return f"{whole // _SECONDS_PER_MINUTE}:{whole % _SECONDS_PER_MINUTE:02d}"
-
-
-def in_words(seconds: float) -> str:
-    """Return a time left as text, such as ``about 1:05 min left``."""
-    return f"about {clock(seconds)} min left"

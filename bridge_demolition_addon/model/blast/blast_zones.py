@@ -283,19 +283,6 @@ def check_zones_apart(zones: Sequence[BlastZone]) -> None:
             )
 
 
-def charges_fired(zones: Sequence[BlastZone]) -> list[tuple[float, float, float]]:
-    """Return time after the start of the blasting (s), mass (kg) and spread of time (s) of each row that fires.
-
-    A row may fire earlier or later by as much as its spread: two standard deviations.
-    """
-    return [
-        (time_s, zone.holes_a_row * zone.charge_kg, 2.0 * deviation_s)
-        for zone in zones
-        if zone.goes_off
-        for time_s, deviation_s in zip(zone.row_times_s(), zone.deviations_s(), strict=True)
-    ]
-
-
 def check_fires_within(plan: Plan, first_s: float, last_s: float, when: str) -> None:
     """Check that charges fire after the settling and before the end, if at all; `when` says which do, and when."""
     latest_s = plan.time.duration_s - plan.time.step.frame_s

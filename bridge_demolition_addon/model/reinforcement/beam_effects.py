@@ -25,7 +25,6 @@ class BeamEffects:
     least_nm: np.ndarray  # (n,)
     shears_n: np.ndarray  # (n - 1,), larger of both directions, between the points
     permanent_reactions_n: np.ndarray  # (r,), without factors
-    moving_reactions_n: np.ndarray  # (r,), largest, without factors
 
     @property
     def sagging_nm(self) -> float:
@@ -58,7 +57,6 @@ def beam_effects(lines: InfluenceLines, permanent_n_m: float, moving: Sequence[M
     shears = permanent_effects(points, lines.shears, permanent_n_m)
     least, largest = extreme_effects(points, lines.moments, moving)
     downwards, upwards = extreme_effects(points, lines.shears, [_everywhere(load) for load in moving])
-    _, reactions = extreme_effects(points, lines.reactions, [_everywhere(load) for load in moving])
     raised, lowered = np.maximum(PERMANENT_FACTOR * shears, shears), np.minimum(PERMANENT_FACTOR * shears, shears)
     return BeamEffects(
         lines,
@@ -66,7 +64,6 @@ def beam_effects(lines: InfluenceLines, permanent_n_m: float, moving: Sequence[M
         np.minimum(PERMANENT_FACTOR * moments, moments) + VARIABLE_FACTOR * least,
         np.maximum(raised + VARIABLE_FACTOR * upwards, -(lowered + VARIABLE_FACTOR * downwards)),
         permanent_effects(points, lines.reactions, permanent_n_m),
-        reactions,
     )
 
 

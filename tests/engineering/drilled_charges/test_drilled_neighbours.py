@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Air pressure and vibration of confined charges, against AS 2187.2, GB 6722 and sums by hand."""
+"""Air pressure and vibration of confined charges, against AS 2187.2 and sums by hand."""
 
 import numpy as np
 import pytest
@@ -7,12 +7,9 @@ import pytest
 from bridge_demolition_addon.engineering.blast.vibration import peak_particle_velocity
 from bridge_demolition_addon.engineering.drilled_charges.neighbours import (
     BARE_KPA,
-    air_charge_kg,
     air_pressure_pa,
-    cube_root_velocity_m_s,
     decibels,
     largest_mass_together_kg,
-    pressure_of_decibels_pa,
 )
 
 
@@ -24,27 +21,21 @@ def test_air_pressure_of_5_kg_at_100_m(site_kpa, pressure_kpa, level_db):
     pressure = air_pressure_pa(100.0, 5.0, site_kpa)
     assert pressure / 1e3 == pytest.approx(pressure_kpa, rel=1e-3)  # the digits given
     assert decibels(pressure) == pytest.approx(level_db, abs=0.05)
-    assert air_charge_kg(100.0, pressure, site_kpa) == pytest.approx(5.0)
 
 
 def test_levels_of_known_pressures():
     # 94 dB are 1 Pa, as calibrators of sound-level meters have it; 20 µPa are 0 dB.
     assert decibels(1.0) == pytest.approx(93.979, abs=1e-3)
     assert decibels(20e-6) == pytest.approx(0.0, abs=1e-9)
-    assert pressure_of_decibels_pa(decibels(37.0)) == pytest.approx(37.0)
 
 
 def test_stemmed_holes_make_a_twenty_fifth_of_a_bare_charge():
     assert air_pressure_pa(50.0, 3.0, BARE_KPA) / air_pressure_pa(50.0, 3.0) == pytest.approx(25.8)
 
 
-def test_vibration_of_5_kg_at_30_m_by_two_laws():
-    # AS 2187.2 with 1140, and GB 6722 with K 200 and α 1.65: sums by hand, three digits.
+def test_vibration_of_5_kg_at_30_m():
+    # AS 2187.2 with 1140: a sum by hand, three digits.
     assert 1e3 * peak_particle_velocity(30.0, 5.0) == pytest.approx(17.9, abs=0.05)
-    assert 1e3 * cube_root_velocity_m_s(30.0, 5.0) == pytest.approx(17.7, abs=0.05)
-    assert cube_root_velocity_m_s(30.0, 5.0, height_factor=0.25) == pytest.approx(
-        cube_root_velocity_m_s(30.0, 5.0) / 4.0
-    )
 
 
 def test_mass_within_8_ms_by_hand():

@@ -28,7 +28,6 @@ from bridge_demolition_addon.engineering.drilled_charges.specific_charge import 
     effect_of,
     left_of_concrete,
     specific_charge_kg_m3,
-    thresholds_of,
 )
 from bridge_demolition_addon.errors import BlastError
 
@@ -139,7 +138,7 @@ def test_specific_charges_that_break_are_those_of_the_table(element, burden_m, e
 
 
 def test_effects_by_the_two_thresholds():
-    limits = thresholds_of(DrilledElement.BEAM_OR_COLUMN, 0.30)  # breaks at 0.32, throws at 1
+    limits = Thresholds(0.32)  # throws at 1
     effects = [effect_of(q, limits) for q in (0.1, 0.16, 0.31, 0.32, 0.99, 1.0)]
     assert effects == [
         Effect.NOTHING,
