@@ -33,7 +33,7 @@ PULSE_CHARGE_KG = 10_000.0
 """Charge of Figure 10."""
 
 PULSE_SCALED_DISTANCES = (2.0, 2.5, 3.0, 4.0, 5.0, 7.0, 10.0)
-LARGEST_CHARGE_KG = 100_000.0
+_LARGEST_DRAWN_KG = 100_000.0
 FARTHEST_M = 50.0
 """Charges and distances of Figure 11."""
 
@@ -131,7 +131,7 @@ def overpressure_contours(settings: ChartSettings) -> Figure:
     figure, axes = _figure()
     axes.set(xlabel="distance (m)", ylabel="charge (kg of TNT)", xscale="log", yscale="log")
     distances = np.geomspace(1.0, FARTHEST_M, 300)
-    charges = np.geomspace(1.0, LARGEST_CHARGE_KG, 300)
+    charges = np.geomspace(1.0, _LARGEST_DRAWN_KG, 300)
     wave = blast_wave(distances, charges[:, None], settings.burst, settings.model)
     peaks = wave.peak_overpressure_pa / settings.pressure_unit_pa
     levels = _levels(peaks)

@@ -7,10 +7,9 @@ import numpy as np
 import pytest
 from support.meshes import is_closed
 
-from bridge_demolition_addon.engineering.fracture.inclined import inclined_fracture
 from bridge_demolition_addon.engineering.fracture.options import FractureOptions
-from bridge_demolition_addon.engineering.geometry.arches import ArchAxis
-from bridge_demolition_addon.engineering.geometry.road_profiles import RoadProfile, across_road
+from bridge_demolition_addon.engineering.fracture.slabs import inclined_fracture
+from bridge_demolition_addon.engineering.geometry.arches import ArchAxis, RoadProfile, across_road
 
 PARABOLA = ArchAxis(1.0, 31.0, 2.0, 6.0, 0.5)
 CIRCLE = ArchAxis(1.0, 31.0, 2.0, 6.0, 0.5, is_circle=True)

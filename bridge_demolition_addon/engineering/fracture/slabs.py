@@ -1,8 +1,9 @@
-"""Solids cut so that shards end at given planes and boxes."""
+"""Solids cut so that shards end at given planes and boxes, and inclined ones, such as arches, square to their slope."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from itertools import product
 
 import numpy as np
@@ -13,6 +14,8 @@ from ..geometry.mesh import TriangleMesh
 from ..geometry.solids import bodies, from_manifold, to_manifold
 from ..geometry.turned_boxes import TurnedBox
 from ..geometry.vectors import dot, unit
+from .options import FractureOptions, PointDensity
+from .shards import Fracture, fracture
 
 _SAME_PLANE = 1e-7
 """Part of the solid's extent along the axis within which a plane lies in its end, and does not cut it."""
@@ -96,3 +99,47 @@ def slab_between(solid: TriangleMesh, axis: int, lowest_m: float, highest_m: flo
 
 def _connected(part: Manifold, volume: float) -> list[TriangleMesh]:
     return [from_manifold(*shells) for shells in bodies(part, smallest_volume=_RUBBISH * volume)]
+
+
+_THROUGH = (1.0, 1.0, 100.0)
+"""So long are shards across the slope that none ends within the thickness."""
+
+
+def inclined_fracture(
+    solid: TriangleMesh, shard_count: int, seed: int, options: FractureOptions, direction: tuple[float, float]
+) -> Fracture:
+    """Return a solid in shards as `fracture` does, none of which ends within its thickness where plates are cut so.
+
+    Parameters
+    ----------
+    direction
+        Direction that the solid runs along, of length 1: along the road, and upwards. Its thickness is square to that.
+    """
+    if not options.through_plates or options.stretch is not None:
+        return fracture(solid, shard_count, seed, options)
+    along, up = direction
+    density = options.density
+    turned_density = density and PointDensity(lambda points: density.at(_turned(points, along, -up)), density.largest)
+    own = replace(options, stretch=_THROUGH, density=turned_density)
+    found = fracture(_turned_solid(solid, along, up), shard_count, seed, own)
+    return replace(
+        found,
+        shards=tuple(_turned_solid(shard, along, -up) for shard in found.shards),
+        centres=_turned(found.centres, along, -up),
+        points=_turned(found.points, along, -up),
+        faces=replace(
+            found.faces,
+            centres=_turned(found.faces.centres, along, -up),
+            normals=_turned(found.faces.normals, along, -up),
+        ),
+    )
+
+
+def _turned_solid(solid: TriangleMesh, along: float, up: float) -> TriangleMesh:
+    return replace(solid, vertices=_turned(solid.vertices, along, up))
+
+
+def _turned(vectors: FloatArray, along: float, up: float) -> FloatArray:
+    """Return vectors (n, 3) with what runs in a direction, along the road and upwards, level along the road."""
+    x, y, z = vectors.T
+    return np.column_stack((along * x + up * z, y, along * z - up * x))

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from ...engineering.geometry.road_profiles import RoadProfile, across_road
+from ...engineering.geometry.arches import RoadProfile, across_road
 from ..scenario import Bridge
 from ..scenario.arch import ARCH_KIND, BLOCK_KIND
 from ..scenario.bridge_axes import arch_axis, axes_on_arch_m, rib_axes_m, springing_axes_m

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ...engineering.geometry.road_profiles import RoadProfile, across_road
+from ...engineering.geometry.arches import RoadProfile, across_road
 from ...engineering.geometry.vectors import unit
 from ..scenario import Bridge
 from ..scenario.bridge_axes import leg_axes_m

@@ -8,8 +8,7 @@ import numpy as np
 from manifold3d import CrossSection, OpType
 
 from ...engineering.arrays import Rows
-from ...engineering.geometry.plan_areas import distances_outside, united
-from ...engineering.geometry.plan_paths import ends_of_straight_parts, path_of_corners
+from ...engineering.geometry.plan_areas import distances_outside, ends_of_straight_parts, path_of_corners, united
 from ...engineering.geometry.vectors import distance, transformed
 from ...errors import OutputError
 from ..results.arrays import Results

@@ -222,8 +222,6 @@ def steel_facts(members: Sequence[Member], schedule: Schedule) -> Iterator[Fact]
         )
 
 
-_PER_SQUARE_METRE = 1e6
-
 _USUAL_MM = 10.0
 """Diameter of links of which only a ratio is given."""
 
@@ -238,7 +236,7 @@ def link_layers(schedule: Schedule, members: Sequence[Member]) -> Iterator[BarLa
             layer = BarLayer(
                 members=row.members,
                 along=axis,
-                spread_mm2_m2=_PER_SQUARE_METRE * row.ratio,
+                spread_mm2_m2=_MM2 * row.ratio,
                 diameter_mm=_MM * row.diameter_m or _USUAL_MM,
             )
             yield layer if not yields else replace(layer, yield_n_mm2=yields[0])

@@ -24,10 +24,9 @@ from ..schema import given
 from ..structure.blast_zones import one_member, placed_zone, placed_zones
 from ..structure.model import Model, build_model
 from ..structure.zone_loads import ZoneFall, ZoneLoad, facts_of_zones, zone_falls
-from .events import Structure, model_structure, schedule
+from .events import Structure, cut_text, model_structure, schedule
 from .lifts import placed_lift
 from .loads import placed_on_model
-from .tendon_cuts import cut_text
 
 _SPHERE_FACETS = 64
 """Round enough: the corners are on the sphere, and its sides 0.1 % of the radius within it."""

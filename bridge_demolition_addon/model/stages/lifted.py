@@ -25,7 +25,7 @@ from .changed_bridge import ChangedBridge
 if TYPE_CHECKING:
     from .stages import Stage
 
-STATES = HELD, HANGS, GONE = "held", "hangs free", "lifted away"
+HELD, HANGS, GONE = "held", "hangs free", "lifted away"
 """Whether connections still hold a part beside its slings, none do, or it was lifted away in this stage."""
 
 LIFTS_FILE = "lifts.csv"

@@ -11,7 +11,7 @@ from ..actions import Fact
 from ..structure.zone_loads import ZoneLoad
 from .standing import LARGEST_FACTOR
 
-STANDS, COMES_DOWN, UNKNOWN = VERDICTS = ("stands", "comes down", "unknown")
+STANDS, COMES_DOWN, UNKNOWN = ("stands", "comes down", "unknown")
 
 NARROW = 1.3
 """Load factor below which a bridge that stands by statics has come down in runs: docs/stages.md, *Limits*."""

@@ -12,8 +12,7 @@ import numpy as np
 
 from ...engineering.drilled_charges.bare_bars import slender_from_m
 from ...engineering.drilled_charges.drill_holes import USUAL_DEPTH_SHARES
-from ...engineering.drilled_charges.flyrock import RISKY_BURIAL, scaled_depth_of_burial
-from ...engineering.drilled_charges.fragments import mean_speed_m_s
+from ...engineering.drilled_charges.fragments import RISKY_BURIAL, mean_speed_m_s, scaled_depth_of_burial
 from ...engineering.drilled_charges.specific_charge import (
     FACTOR_OF_DOUBT,
     Effect,

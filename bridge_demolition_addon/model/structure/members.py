@@ -11,7 +11,6 @@ from pathlib import Path
 import numpy as np
 
 from ...engineering.fracture.gaps import with_gaps
-from ...engineering.fracture.inclined import inclined_fracture
 from ...engineering.fracture.options import (
     FractureOptions,
     PointDensity,
@@ -24,7 +23,7 @@ from ...engineering.fracture.options import (
 from ...engineering.fracture.seeds import random_points
 from ...engineering.fracture.shards import Fracture, fracture, joined_fractures, voronoi_cells
 from ...engineering.fracture.shared_faces import SharedFaces, joined_faces, touching_faces
-from ...engineering.fracture.slabs import cut_out, cut_through, slabs
+from ...engineering.fracture.slabs import cut_out, cut_through, inclined_fracture, slabs
 from ...engineering.geometry.convex_parts import convex_parts
 from ...engineering.geometry.mesh import TriangleMesh
 from ...engineering.geometry.solids import contains

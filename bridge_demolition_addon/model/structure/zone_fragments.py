@@ -10,17 +10,19 @@ from dataclasses import dataclass
 import numpy as np
 from manifold3d import CrossSection
 
-from ...engineering.drilled_charges.flyrock import lundborg_range_m, mckenzie_range_m, speed_for_range_m_s
 from ...engineering.drilled_charges.fragments import (
     Fragments,
     HeightsAt,
     Ranges,
     landings_m,
+    lundborg_range_m,
+    mckenzie_range_m,
     mean_size_m,
     ranges_m,
     sampled_directions,
     sampled_speeds_m_s,
     size_of_share_m,
+    speed_for_range_m_s,
 )
 from ...engineering.geometry.plan_areas import united
 from ..schema import given

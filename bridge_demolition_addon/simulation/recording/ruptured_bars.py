@@ -12,7 +12,7 @@ import numpy as np
 
 from ...bullet.body_motion import BodyMotion, BodyMotionReader
 from ...engineering.elasticity.joint_rows import components_last
-from ...engineering.geometry.hull_depths import ConvexBody, convex_body, depth_m
+from ...engineering.geometry.hulls import ConvexBody, convex_body, depth_m
 from ...engineering.mechanics.reinforcement import FaceBars
 from ...model.results.inventory import Inventory
 

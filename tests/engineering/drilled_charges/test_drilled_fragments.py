@@ -7,22 +7,20 @@ from scipy import stats
 from scipy.integrate import solve_ivp
 
 from bridge_demolition_addon.engineering.drilled_charges.drill_holes import charge_length_m
-from bridge_demolition_addon.engineering.drilled_charges.flyrock import (
-    lundborg_range_m,
-    mckenzie_range_m,
-    scaled_depth_of_burial,
-    speed_for_range_m_s,
-)
 from bridge_demolition_addon.engineering.drilled_charges.fragments import (
     Fragments,
     landings_m,
+    lundborg_range_m,
+    mckenzie_range_m,
     mean_size_m,
     mean_speed_m_s,
     passing_share,
     ranges_m,
     sampled_directions,
     sampled_speeds_m_s,
+    scaled_depth_of_burial,
     size_of_share_m,
+    speed_for_range_m_s,
 )
 
 pytestmark = pytest.mark.slow

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from bridge_demolition_addon.engineering.geometry.hull_depths import ConvexBody, convex_body, depth_m
+from bridge_demolition_addon.engineering.geometry.hulls import ConvexBody, convex_body, depth_m
 from bridge_demolition_addon.engineering.geometry.solids import hull
 
 pytestmark = pytest.mark.slow

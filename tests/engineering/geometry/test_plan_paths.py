@@ -6,7 +6,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.engineering.geometry.plan_paths import (
+from bridge_demolition_addon.engineering.geometry.plan_areas import (
     bends_and_moves,
     ends_of_straight_parts,
     path_of_corners,
