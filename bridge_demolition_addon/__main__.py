@@ -2,17 +2,16 @@
 
 import os
 import sys
-from typing import NoReturn
-
-from .system.signals import interrupted_afterwards
 
 INTERRUPTED = 130
 
 
-def main() -> NoReturn:
+def main() -> None:
     """Run the command line; Ctrl-C also ends it without a word of Python's while it is being loaded."""
     try:
         _open_closed_streams()
+        from .system.signals import interrupted_afterwards  # loaded here, as it may be interrupted too
+
         with interrupted_afterwards():  # while they load, some libraries take an interrupt for a missing part
             from .cli.main import entry
 

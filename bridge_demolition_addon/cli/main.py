@@ -21,7 +21,7 @@ from ..errors import (
     ScenarioError,
     text_of,
 )
-from ..system.signals import Interrupted, interrupt_by_system, interrupted_afterwards
+from ..system.signals import Interrupted, ignore_from_now_on, interrupt_by_system, interrupted_afterwards
 from ..version import VERSION
 from .console import StandardStream, end_process
 
@@ -125,6 +125,7 @@ def entry() -> NoReturn:
     except OSError as error:
         sys.stdout.drop()  # or Python would try again when it ends
         status = _failed(error, RUN_FAILED)
+    ignore_from_now_on()
     if "bpy" in sys.modules:
         end_process(status)
     sys.exit(status)

@@ -27,6 +27,12 @@ def interrupt_by_system() -> None:
         signal.signal(number, _interrupt)
 
 
+def ignore_from_now_on() -> None:
+    """Have no such signal end a process that is ending: all that is left to say is its status."""
+    for number in (signal.SIGINT, *_BY_SYSTEM):
+        signal.signal(number, signal.SIG_IGN)
+
+
 def _interrupt(signal_number: int, _frame: FrameType | None) -> NoReturn:
     raise Interrupted(signal_number)
 
