@@ -76,10 +76,11 @@ class PlainLines(CommandProgress):
     def __init__(self, stream: TextIO, clock_s: Callable[[], float] = time.monotonic) -> None:
         self._stream, self._clock_s = stream, clock_s
         self._tenths = 0
-        self._began_s = self._stage_s = self._last_s = clock_s()
+        self._began_s = self._last_s = clock_s()
+        self._first: tuple[int, float] | None = None  # part of a stage, and when it was done: it may load libraries
 
     def stage(self, text: str) -> None:
-        self._stage_s = self._clock_s()
+        self._first = None
         self._print(text)
 
     def frame(self, done: int, total: int, connections: Counts, left_s: float | None) -> None:
@@ -91,11 +92,12 @@ class PlainLines(CommandProgress):
             super().runs(done, total, lost)
 
     def part(self, done: int, total: int, text: str) -> None:
+        first, first_s = self._first = self._first or (done, self._clock_s())
         if done == total:
             super().part(done, total, text)
-        elif self._is_due and done:
-            left_s = (self._clock_s() - self._stage_s) / done * (total - done)
-            self._print(f"{_counted(done, total)} {text}, about {clock(left_s)} left")
+        elif self._is_due:
+            left_s = None if done == first else (self._clock_s() - first_s) / (done - first) * (total - done)
+            self._show(done, total, f"{_counted(done, total)} {text}", left_s)
 
     def _begins_a_tenth(self, done: int, total: int) -> bool:
         tenths, before = 10 * done // total, self._tenths

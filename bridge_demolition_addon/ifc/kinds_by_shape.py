@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import replace
 
 import numpy as np
@@ -21,6 +22,11 @@ by the larger size in plan from which on it is high."""
 _WALL = 4.0
 """Length by height up to which what is higher than thick is a wall; a girder is longer."""
 
+_SUPPORTS = ("pier", "pier cap", "wall", "footing")
+
+_GAP_M, _LEAST_HEIGHT_M = 0.1, 0.3
+"""Between a girder and its deck, and height of a girder at least."""
+
 _LARGE = 0.3
 """Plan by the largest one from which on a flat body is a deck."""
 
@@ -30,12 +36,20 @@ def with_kinds_by_shape(
 ) -> tuple[tuple[Element, ...], tuple[str, ...]]:
     """Return elements of which those that nothing is known of have kinds by their shape, and a note on them.
 
-    This is done where nothing else carries the road.
+    This is done where nothing else carries the road, and below a deck for what it lacks: girders, or all supports.
     """
     unknown = [element for element in elements if element.kind == LeftOut(OTHER)]
-    if not unknown or any(element.kind in CARRYING for element in elements):
+    known_kinds = {element.kind for element in elements if element.is_member}
+    lacking = _lacking(known_kinds)
+    if not unknown or not lacking:
         return tuple(elements), ()
-    kinds = kinds_of_shapes(shapes_of(source, unknown, kept))
+    shapes = shapes_of(source, unknown, kept)
+    if "deck" in known_kinds:
+        decks = shapes_of(source, [element for element in elements if element.kind == "deck"], kept)
+        below = kinds_below(list(decks.values()), shapes)
+        kinds = {number: kind for number, kind in below.items() if kind in lacking}
+    else:
+        kinds = kinds_of_shapes(shapes)
     if not kinds:
         return tuple(elements), ()
     counts = {kind: list(kinds.values()).count(kind) for kind in dict.fromkeys(kinds.values())}
@@ -43,6 +57,30 @@ def with_kinds_by_shape(
     note = f"nothing says what {len(kinds)} elements are: by their shapes they are {texts}; --kind says it better"
     known = (replace(one, kind=kinds.get(one.entity.id(), one.kind)) for one in elements)
     return tuple(known), (note,)
+
+
+def _lacking(kinds: Set[object]) -> Set[str]:
+    """Return the kinds that a bridge with members of some kinds lacks; none where it has a girder or an arch."""
+    if not kinds & set(CARRYING):
+        return {"deck", "girder", *_SUPPORTS}
+    if kinds & {"girder", "arch"}:
+        return set()
+    return {"girder"} if kinds & {"abutment", *_SUPPORTS} else {"girder", *_SUPPORTS}
+
+
+def kinds_below(decks: Sequence[TriangleMesh], shapes: Mapping[int, TriangleMesh]) -> dict[int, str]:
+    """Return the kind of each shape below one of the decks, by its number; pipes are thin, or hang lower."""
+    found = {}
+    lowest_m = min((float(mesh.bounds[0, 2]) for mesh in shapes.values()), default=0.0)
+    for number, mesh in shapes.items():
+        (low, high), middle = mesh.bounds, mesh.bounds.mean(axis=0)
+        for deck_low, deck_high in (deck.bounds for deck in decks):
+            is_within = bool(np.all((deck_low[:2] <= middle[:2]) & (middle[:2] <= deck_high[:2])))
+            if is_within and low[2] < deck_low[2] and high[2] < deck_high[2] and high[2] - low[2] >= _LEAST_HEIGHT_M:
+                is_low = high[2] < deck_low[2] - _GAP_M and middle[2] < (lowest_m + deck_low[2]) / 2.0
+                found[number] = _kind(high - low, math.inf, is_low=bool(is_low))
+                break
+    return found
 
 
 def kinds_of_shapes(shapes: Mapping[int, TriangleMesh]) -> dict[int, str]:

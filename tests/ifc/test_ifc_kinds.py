@@ -6,7 +6,7 @@ import pytest
 from bridge_demolition_addon.engineering.geometry.solids import box
 from bridge_demolition_addon.errors import IfcError
 from bridge_demolition_addon.ifc.kinds import ElementFacts, LeftOut, is_french, kind_of
-from bridge_demolition_addon.ifc.kinds_by_shape import kinds_of_shapes
+from bridge_demolition_addon.ifc.kinds_by_shape import kinds_below, kinds_of_shapes
 from bridge_demolition_addon.ifc.settings import ImportSettings
 
 
@@ -82,6 +82,24 @@ def test_a_wall_without_a_name_is_no_girder_however_high_it_ends():
     ]
     shapes = {number: box(size, middle) for number, (size, middle, _) in enumerate(sizes)}
     assert list(kinds_of_shapes(shapes).values()) == [kind for _, _, kind in sizes]
+
+
+def test_what_lies_below_a_deck_is_known_by_its_shape():
+    """A deck of 20 m × 8 m at 5 m; girders right below it, a pipe that hangs from it, and a light on it."""
+    deck = box((20.0, 8.0, 0.3), (10.0, 0.0, 5.15))
+    bodies = [
+        ((20.0, 0.5, 1.0), (10.0, -2.0, 4.5), "girder"),
+        ((20.0, 0.5, 1.0), (10.0, 2.0, 4.45), "girder"),
+        ((20.0, 0.2, 0.2), (10.0, 0.0, 4.8), None),
+        ((20.0, 0.6, 0.6), (10.0, 6.0, 4.7), None),  # beside it
+        ((0.2, 0.2, 4.0), (10.0, 3.0, 7.3), None),  # on it
+        ((2.0, 6.0, 0.8), (10.0, 0.0, 3.4), "pier cap"),
+        ((1.0, 1.0, 3.0), (10.0, 0.0, 1.5), "pier"),
+        ((3.0, 3.0, 0.5), (10.0, 0.0, -0.25), "footing"),
+    ]
+    shapes = {number: box(size, middle) for number, (size, middle, _) in enumerate(bodies)}
+    found = kinds_below([deck], shapes)
+    assert [found.get(number) for number in range(len(bodies))] == [kind for _, _, kind in bodies]
 
 
 def test_the_user_says_what_an_element_is():
