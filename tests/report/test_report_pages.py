@@ -273,3 +273,11 @@ def test_widths_are_those_of_the_letters():
     assert width_mm("0" * 10, font) == pytest.approx(10 * 1303 / 2048 * 10 * point_mm, rel=0.01)
     assert width_mm("0 0", font) == pytest.approx((2 * 1303 + 651) / 2048 * 10 * point_mm, rel=0.01)
     assert width_mm("", font) == 0.0
+    assert width_mm("\u6865\U0001f309\u202e", font) >= 0.0  # no letters of this font
+
+
+def test_letters_that_no_font_has_and_marks_without_any_are_written(tmp_path):
+    text = "Br\u00fccke \u202e\u200b \u6865 \U0001f309 a\tb"
+    document = Document(text, text, (Section(text, (Paragraph(text),)),))
+    write_pdf(document, {}, tmp_path / "report.pdf")
+    assert (tmp_path / "report.pdf").read_bytes().startswith(b"%PDF")

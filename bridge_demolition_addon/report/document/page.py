@@ -113,7 +113,7 @@ class PageFile(PdfFile):
 
     def __init__(self, *args: Any, **options: Any) -> None:
         self._words: dict[tuple[str, Font], list[Any]] = {}
-        self._letters: dict[tuple[str, Font], tuple[object, bytes]] = {}
+        self._letters: dict[tuple[str, Font], list[tuple[object, Any]]] = {}
         self._noted: list[Any] | None = None
         super().__init__(*args, **options)
 
@@ -136,17 +136,16 @@ class PageFile(PdfFile):
     def _word(self, word: str, font: Font) -> list[Any]:
         """Return the parts of a word: the name of a font, and letters or what brings the next one nearer."""
         if (word, font) not in self._words:
-            parts = [self._letter(word[0], font)]
+            parts = [*self._letter(word[0], font)]
             for pair in pairwise(word):
-                name, letter = self._letter(pair[1], font)
-                if kerning := _kerning(*pair, font.weight, font.families):
+                if parts and (kerning := _kerning(*pair, font.weight, font.families)):
                     parts.append((parts[-1][0], -1000.0 * kerning))
-                parts.append((name, letter))
+                parts += self._letter(pair[1], font)
             self._words[word, font] = parts
         return self._words[word, font]
 
-    def _letter(self, letter: str, font: Font) -> tuple[object, Any]:
-        """Return the name of the font in the file, and the glyph of a letter in it."""
+    def _letter(self, letter: str, font: Font) -> list[tuple[object, Any]]:
+        """Return the name of the font in the file, with the glyph of a letter in it; nothing for what has none."""
         if (letter, font) not in self._letters:
             renderer = RendererPdf(self, IMAGE_DOTS_PER_INCH, _HEIGHT_IN, _WIDTH_IN)
             noted = self._noted = []
@@ -154,8 +153,9 @@ class PageFile(PdfFile):
                 renderer.draw_text(renderer.new_gc(), 0.0, 0.0, letter, _properties(font, font.families), 0.0)
             finally:
                 self._noted = None
-            name, shown = noted[noted.index(Op.selectfont) - 2], noted[noted.index(Op.showkern) - 1]
-            self._letters[letter, font] = name, shown[-1]
+            fonts = [noted[row - 2] for row, each in enumerate(noted) if each is Op.selectfont]
+            shown = [noted[row - 1][-1] for row, each in enumerate(noted) if each is Op.showkern]
+            self._letters[letter, font] = list(zip(fonts, shown, strict=True))
         return self._letters[letter, font]
 
 
@@ -193,20 +193,23 @@ def _word_em(word: str, weight: str, families: tuple[str, ...]) -> float:
 
 @cache
 def _advance(letter: str, weight: str, families: tuple[str, ...]) -> float:
-    face = _face(weight, families)
-    return face.load_char(ord(letter), flags=LoadFlags.NO_HINTING).linearHoriAdvance / 65536.0 / _MEASURED_PT
+    """Width of a letter by its size, of the first font that has it; where none has, of what stands for it."""
+    faces = [_face(file) for file in _font_files(weight, families)]
+    face = next((face for face in faces if face.get_char_index(ord(letter))), faces[0])
+    glyph = face.load_glyph(face.get_char_index(ord(letter)), flags=LoadFlags.NO_HINTING)
+    return glyph.linearHoriAdvance / 65536.0 / _MEASURED_PT
 
 
 @cache
 def _kerning(left: str, right: str, weight: str, families: tuple[str, ...]) -> float:
     """Return how much farther from a letter the next one stands, by the size of letters: negative where nearer."""
-    face = _face(weight, families[:1])
+    face = _face(_font_files(weight, families)[0])
     indices = face.get_char_index(ord(left)), face.get_char_index(ord(right))
     return face.get_kerning(*indices, Kerning.UNFITTED) / 64.0 / _MEASURED_PT if all(indices) else 0.0
 
 
-def _face(weight: str, families: tuple[str, ...]) -> FT2Font:
-    face = get_font(_font_files(weight, families))
+def _face(file: str) -> FT2Font:
+    face = get_font(file)
     face.set_size(_MEASURED_PT, POINTS_PER_INCH)  # matplotlib draws with the same, in other sizes
     return face
 
