@@ -13,7 +13,17 @@ import bpy
 import numpy as np
 
 from ..errors import LayoutError
-from .layout import ACTIVATION_STATES, CONSTRAINT_TYPES, DRAWING_SIZE, FIRST_STEP_S, RIGID_BODY, WARM_STARTING, Layout
+from .layout import (
+    ACTIVATION_STATES,
+    CONSTRAINT_TYPES,
+    DRAWING_SIZE,
+    FIRST_STEP_S,
+    RIGID_BODY,
+    ROLLING,
+    SLOW_BOUNCE_M_S,
+    WARM_STARTING,
+    Layout,
+)
 from .memory import read, read_pointer, read_pointers_at, read_value, read_values
 
 _LONGEST_S = 1e9
@@ -51,6 +61,8 @@ def check_solver(layout: Layout, dynamics: int, world: bpy.types.RigidBodyWorld,
     """Bullet's solver settings are where they are expected."""
     _expect("solver iterations", read_value(dynamics + layout.world.iterations, "i"), world.solver_iterations)
     _expect("warm starting", read_value(dynamics + layout.world.warm_starting, "d"), WARM_STARTING)
+    _expect_close("rolling friction", read_value(dynamics + layout.world.rolling, "d"), ROLLING)
+    _expect_close("speed without bounce", read_value(dynamics + layout.world.slow_bounce, "d"), SLOW_BOUNCE_M_S)
     step = read_value(dynamics + layout.world.step, "d")
     if not any(abs(step - known) <= _FLOAT32 * known for known in (FIRST_STEP_S, substep_s, 0.0)):
         raise LayoutError(f"solver step is {step:g} s, not {substep_s:g} s")

@@ -137,6 +137,9 @@ class WorldLayout:
     step = Behind("solver_settings", 24)  # length of the last sub-step
     iterations = Behind("solver_settings", 40)
     warm_starting = Behind("solver_settings", 160)  # share of the last impulses that the solver starts with
+    rolling = Behind("solver_settings", 200)  # threshold of rolling friction, which Blender keeps
+    least_change = Behind("solver_settings", 208)  # square of a change of velocity; a pass with less is the last
+    slow_bounce = Behind("solver_settings", 216)  # speed up to which nothing bounces, which Blender keeps
 
 
 @dataclass(frozen=True, slots=True)
@@ -274,6 +277,9 @@ CONSTRAINT_TYPES = {
 
 WARM_STARTING = 0.85
 """Bullet's default warm-starting factor, which Blender keeps: a mark to know the solver's settings by."""
+
+ROLLING, SLOW_BOUNCE_M_S = 1e30, 0.2
+"""Bullet's defaults beside the least change that makes another pass, in single precision: marks to know it by."""
 
 DRAWING_SIZE = 0.05
 """Bullet's default size for debug drawings of constraints, in single precision: a mark to know a constraint by."""

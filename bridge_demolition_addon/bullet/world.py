@@ -148,6 +148,13 @@ class BulletWorld:
             address = ctypes.cast(_callback(action), ctypes.c_void_p).value or 0 if action else 0
             POINTERS.write(self._world.dynamics + field, address)
 
+    def end_passes(self, least_change_m_s: float) -> None:
+        """Have the solver's pass over all connections and contacts be the last that changes no velocity by more.
+
+        The change of angular velocities counts in rad/s.
+        """
+        DOUBLES.write(self._world.dynamics + self._layout.world.least_change, least_change_m_s**2)
+
     def take_substep(self) -> float:
         """Return the length in s of the sub-steps since the last call, 0.0 where Bullet took none, and clear it.
 
@@ -196,6 +203,7 @@ class BulletWorld:
             world = self._layout.world
             for field in (world.before_step, world.after_step, world.user_info):
                 POINTERS.write(self._world.dynamics + field, 0)
+            self.end_passes(0.0)
         self._bound = None
 
     def detach_freed(self, *, bodies_stay: bool = True) -> None:

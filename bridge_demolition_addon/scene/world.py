@@ -11,6 +11,7 @@ import bpy
 from ..engineering.timing.timeline import TimeStep
 from ..engineering.units import STANDARD_GRAVITY_M_S2
 from ..model.scenario import TimeSettings
+from ..model.scenario.time import PASSES
 from .custom_properties import keep, kept_number
 
 START_FRAME = 1
@@ -43,7 +44,7 @@ def create_world(scene: bpy.types.Scene, settings: TimeSettings, last_frame: int
         bpy.ops.rigidbody.world_add()
     world = scene.rigidbody_world
     world.substeps_per_frame = settings.substeps_per_frame
-    world.solver_iterations = settings.solver_iterations
+    world.solver_iterations = settings.solver_iterations or PASSES
     keep(scene, _FARTHEST_PER_SUBSTEP, settings.farthest_per_substep_m)
     world.use_split_impulse = settings.split_impulse
     world.time_scale = settings.time_scale

@@ -6,6 +6,7 @@ import numpy as np
 
 from ..engineering.units import STANDARD_GRAVITY_M_S2
 from ..model.scenario import Scenario
+from ..model.schema import given
 from ..model.structure.model import Model
 
 FACTOR = 3.0
@@ -36,7 +37,9 @@ def seconds_by_size(scenario: Scenario, model: Model) -> float:
     parts = len(model.shards) + len(model.connections)
     elastic = _ELASTIC if scenario.connections.is_elastic else 1.0
     bars = _WITH_BARS if scenario.is_reinforced and scenario.connections.is_elastic else 1.0
-    return _PER_RUN_S + elastic * bars * _PER_PART_S * substeps * parts * (1.0 + time.solver_iterations / _ITERATIONS)
+    return _PER_RUN_S + elastic * bars * _PER_PART_S * substeps * parts * (
+        1.0 + min(given(time.solver_iterations), _ITERATIONS) / _ITERATIONS
+    )
 
 
 def megabytes_by_size(model: Model) -> float:

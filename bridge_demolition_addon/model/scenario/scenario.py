@@ -240,8 +240,8 @@ class Scenario(Table):
     def resolved(self) -> dict[str, Any]:
         """Return connections with strength and stiffness, the time that these need, and how bodies touch."""
         connections = self.connections.with_strength(self.fracture.shards).with_stiffness(self.materials)
-        has_bars = self.is_reinforced or self.steelwork or self.tendons
-        time = self.time.with_bars() if has_bars and connections.is_elastic else self.time
+        has_bars = bool(self.is_reinforced or self.steelwork or self.tendons)
+        time = self.time.completed(is_elastic=connections.is_elastic, has_bars=has_bars)
         return {"connections": connections, "time": time, **self._resolved_contacts()}
 
     def _resolved_contacts(self) -> dict[str, Any]:

@@ -11,6 +11,9 @@ from ..schema import Table, key
 FARTHEST_WITH_BARS_M = 0.01
 """How far a body goes in a sub-step where bars hold cracks: bars yield once these have opened by some millimetres."""
 
+PASSES, PASSES_OF_ELASTIC = 10, 200
+"""Passes of the solver in a sub-step: as in Blender, and at most where elastic connections spread what contacts stop."""
+
 MOST_FRAMES = 1_000_000
 """Blender's timeline ends at frame 1 048 574; a run needs a few frames of it before time begins."""
 
@@ -44,9 +47,11 @@ class TimeSettings(Table):
         unit="m",
         above=0,
     )
-    solver_iterations: int = key(
-        "Passes over all connections and contacts in one sub-step; more make a stiffer bridge.",
-        default=10,
+    solver_iterations: int | None = key(
+        "Most passes over all connections and contacts in one sub-step; more make a stiffer bridge. Elastic "
+        "connections need no more once none changes a velocity, and with few their pile creeps. Where it is left out "
+        f"{PASSES_OF_ELASTIC} with these, else {PASSES}.",
+        default=None,
         at_least=1,
         at_most=1000,
     )
@@ -75,11 +80,14 @@ class TimeSettings(Table):
     )
     rest_hold_s: float = key("How long everything has to rest.", default=1.0, unit="s", above=0)
 
-    def with_bars(self) -> Self:
-        """Return the settings of a bridge with bars, which need short steps where something is fast."""
-        if self.farthest_per_substep_m is not None:
-            return self
-        return replace(self, farthest_per_substep_m=FARTHEST_WITH_BARS_M)
+    def completed(self, *, is_elastic: bool, has_bars: bool) -> Self:
+        """Return the settings with what was left out; bars need short steps where bodies are fast."""
+        farthest_m, passes = self.farthest_per_substep_m, self.solver_iterations
+        if is_elastic and has_bars and farthest_m is None:
+            farthest_m = FARTHEST_WITH_BARS_M
+        if passes is None:
+            passes = PASSES_OF_ELASTIC if is_elastic else PASSES
+        return replace(self, farthest_per_substep_m=farthest_m, solver_iterations=passes)
 
     @property
     def step(self) -> TimeStep:

@@ -51,6 +51,11 @@ _SOFTEST = 0.1
 keeps the damping that it had: more of it would break what hangs by little."""
 
 
+_LEAST_CHANGE_M_S = 1e-4
+"""Change of velocities with which Bullet's solver has found what contacts and connections do to each other. A pile that
+it leaves before creeps: what lies on the ground learns by one connection a pass what hangs on it."""
+
+
 @dataclass(frozen=True, slots=True)
 class RestingState:
     """How a bridge deforms and vibrates under its weight alone.
@@ -175,6 +180,7 @@ class ElasticConnections:
         self._on_first = np.ones(len(self._frames), bool)
         self.loads = np.zeros((6, len(self._frames)))
         world.constraints.hold_thresholds(held=True)
+        world.end_passes(_LEAST_CHANGE_M_S)
 
     def reinforce(self, breaking: Breaking, left: np.ndarray) -> None:
         """Have reinforcement hold where connections break; to be called before any time passes.

@@ -63,6 +63,7 @@ TYPICAL: dict[str, Any] = {
     "bridge.frame.leg_thickness_m": 0.8,
     "bridge.frame.leg_width_m": 8.0,
     "time.farthest_per_substep_m": 0.01,
+    "time.solver_iterations": 100,
     "steelwork.nodes.radius_m": 0.3,
     "steelwork.members.eccentricities_m": [[0.0, 0.0, 0.2], [0.0, 0.0, 0.2]],
     "steelwork.members.pieces": 8,
