@@ -12,7 +12,7 @@ FARTHEST_WITH_BARS_M = 0.01
 """How far a body goes in a sub-step where bars hold cracks: bars yield once these have opened by some millimetres."""
 
 PASSES, PASSES_OF_ELASTIC = 10, 200
-"""Passes of the solver in a sub-step: as in Blender, and at most where elastic connections spread what contacts stop."""
+"""Passes of the solver: as in Blender, and at most where elastic connections spread what contacts stop."""
 
 MOST_FRAMES = 1_000_000
 """Blender's timeline ends at frame 1 048 574; a run needs a few frames of it before time begins."""
