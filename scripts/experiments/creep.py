@@ -27,6 +27,7 @@ title = "A slab on contacts"
 seed = 3
 [time]
 duration_s = 1.5
+stop_at_rest = false
 frames_per_second = 24
 substeps_per_frame = {substeps}
 solver_iterations = {iterations}
