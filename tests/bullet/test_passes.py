@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from support.blocks import Blocks
 
-from bridge_demolition_addon.bullet.memory import read_value
 from bridge_demolition_addon.bullet.world import BulletWorld
 from bridge_demolition_addon.engineering.elasticity.section_stiffness import ElasticModuli, whole_section_stiffness
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
@@ -80,22 +79,3 @@ def test_a_beam_that_lies_loose_sags_as_statics_says_however_long_substeps_are(b
     found_mm = sag_mm(blender, tmp_path, 10)
     assert found_mm == pytest.approx(expected_mm, rel=0.06)
     assert sag_mm(blender, tmp_path, 20) == pytest.approx(found_mm, rel=0.01)
-
-
-def test_a_world_that_is_released_makes_all_its_passes_again(blender, tmp_path, monkeypatch):
-    blocks = Blocks()
-    blocks.block((0, 0, 0.5), 100.0)
-    seen, release = [], BulletWorld.release
-
-    def note(world):
-        if world._bound is None:
-            return
-        field = world._world.dynamics + world._layout.world.least_change
-        world.end_passes(1e-3)
-        seen.append(read_value(field, "d"))
-        release(world)
-        seen.append(read_value(field, "d"))
-
-    monkeypatch.setattr(BulletWorld, "release", note)
-    blocks.play(tmp_path, 3)
-    assert seen == [pytest.approx(1e-6), 0.0]
