@@ -142,11 +142,12 @@ CLAIMS: dict[str, dict[str, tuple[float, float]]] = {
     "drilled_two_spans": {  # over 20 seeds
         # It stands by its bars until the first zone fires.
         "moved_before_m": (0.0, 0.05),  # 0.012 to 0.014
-        "span_1_share_fallen_2_m": (0.5, 1.0),  # 0.80 to 1.00
-        "span_2_share_fallen_2_m": (0.5, 1.0),  # 0.55 to 1.00
+        # By the height of its zones at least; the first stands on its stubs with 5 of the 20.
+        "span_1_median_fall_m": (1.4, 6.5),  # 1.6 to 5.4
+        "span_2_share_fallen_2_m": (0.5, 1.0),  # 0.81 to 1.00
         # The decks come down between their piers: debris ends no farther than twice the height of the bridge.
-        "throw_95_percent_m": (0.5, 12.0),  # 1.4 to 5.9
-        "made_share": (0.0, 0.04),  # 0.003 to 0.021
+        "throw_95_percent_m": (0.5, 12.0),  # 1.1 to 6.5
+        "made_share": (0.0, 0.02),  # 0.001 to 0.009
     },
     "drilled_two_spans_in_100_shards": {  # over 20 seeds
         # It stands by its bars until the first zone fires.
