@@ -35,11 +35,12 @@ def seconds_by_size(scenario: Scenario, model: Model) -> float:
     time = scenario.time
     substeps = time.duration_s * time.frames_per_second * _mean_substeps(scenario, model)
     parts = len(model.shards) + len(model.connections)
-    elastic = _ELASTIC if scenario.connections.is_elastic else 1.0
-    bars = _WITH_BARS if scenario.is_reinforced and scenario.connections.is_elastic else 1.0
-    return _PER_RUN_S + elastic * bars * _PER_PART_S * substeps * parts * (
-        1.0 + min(given(time.solver_iterations), _ITERATIONS) / _ITERATIONS
-    )
+    is_elastic, iterations = scenario.connections.is_elastic, given(time.solver_iterations)
+    elastic = _ELASTIC if is_elastic else 1.0
+    bars = _WITH_BARS if scenario.is_reinforced and is_elastic else 1.0
+    if is_elastic:  # whose passes end once nothing changes
+        iterations = min(iterations, _ITERATIONS)
+    return _PER_RUN_S + elastic * bars * _PER_PART_S * substeps * parts * (1.0 + iterations / _ITERATIONS)
 
 
 def megabytes_by_size(model: Model) -> float:
