@@ -35,7 +35,7 @@ def seconds_by_size(scenario: Scenario, model: Model) -> float:
     time = scenario.time
     substeps = time.duration_s * time.frames_per_second * _mean_substeps(scenario, model)
     parts = len(model.shards) + len(model.connections)
-    is_elastic, iterations = scenario.connections.is_elastic, given(time.solver_iterations)
+    is_elastic, iterations = scenario.connections.is_elastic, float(given(time.solver_iterations))
     elastic = _ELASTIC if is_elastic else 1.0
     bars = _WITH_BARS if scenario.is_reinforced and is_elastic else 1.0
     if is_elastic:  # whose passes end once nothing changes
