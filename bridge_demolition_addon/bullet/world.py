@@ -153,7 +153,7 @@ class BulletWorld:
 
         The change of angular velocities counts in rad/s.
         """
-        DOUBLES.write(self._world.dynamics + self._layout.world.least_change, least_change_m_s**2)
+        DOUBLES.write(self._world.dynamics + self._layout.world.least_change, least_change_m_s * least_change_m_s)
 
     def take_substep(self) -> float:
         """Return the length in s of the sub-steps since the last call, 0.0 where Bullet took none, and clear it.

@@ -80,7 +80,7 @@ class MemberSections:
         if row not in self._known:
             point, normal = self._connected.points_m[row], self._connected.normals[row]
             apart = self._connected.points_m - point
-            near = np.flatnonzero(dot(apart, apart) <= self._extents[row] ** 2)
+            near = np.flatnonzero(dot(apart, apart) <= self._extents[row] * self._extents[row])
             near = near[(self._kinds[near] == self._kinds[row]) | (near == row)]
             before, behind = dot(self._before[near] - point, normal), dot(self._behind[near] - point, normal)
             parted = (before * behind < 0.0) | (near == row)
