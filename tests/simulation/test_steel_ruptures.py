@@ -12,7 +12,7 @@ from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.simulation.run import run_scenario
 
 AWAKE = "[shards]\nstart_deactivated = false\n"
-HEIGHT_M, PANEL_M, MASS_KG = 6.0, 4.0, 10_000.0
+HEIGHT_M, PANEL_M, MASS_KG = 8.0, 4.0, 10_000.0
 
 
 def falling_truss():
