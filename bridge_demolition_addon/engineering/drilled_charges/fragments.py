@@ -8,7 +8,7 @@ Largest distances of flyrock by published rules are as if nothing covered the ho
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -57,7 +57,22 @@ class Fragments:
     sizes_m: FloatArray  # (n,), cube roots of their volumes
     positions_m: FloatArray  # (n, 3)
     velocities_m_s: FloatArray  # (n, 3)
-    density_kg_m3: float
+    density_kg_m3: float | FloatArray  # of all, or of each (n,)
+
+    def of(self, chosen: BoolArray) -> Fragments:
+        """Return those that are chosen (n,)."""
+        density = np.broadcast_to(self.density_kg_m3, self.sizes_m.shape)[chosen]
+        return Fragments(self.sizes_m[chosen], self.positions_m[chosen], self.velocities_m_s[chosen], density)
+
+    @classmethod
+    def joined(cls, parts: Sequence[Fragments]) -> Fragments:
+        """Return those of several zones as one."""
+        return cls(
+            np.concatenate([part.sizes_m for part in parts]),
+            np.concatenate([part.positions_m for part in parts]),
+            np.concatenate([part.velocities_m_s for part in parts]),
+            np.concatenate([np.broadcast_to(part.density_kg_m3, part.sizes_m.shape) for part in parts]),
+        )
 
     @property
     def masses_kg(self) -> FloatArray:

@@ -25,7 +25,7 @@ from ..scenario import MemberCut, Neighbour, Scenario
 from ..schema import given
 from ..terrain.built import built_ground
 from .blast_zones import PlacedZone, grams_per_tonne, one_member, placed_zones
-from .zone_fragments import FlyrockOfZone, flyrock_of
+from .zone_fragments import FlyrockOfZone, flyrock_of_zones
 
 _DEVIATIONS = 2.0
 """Standard deviations by which a row may fire earlier or later."""
@@ -123,14 +123,18 @@ def charge_plan(scenario: Scenario, members: Sequence[Member]) -> ChargePlan:
     """Return the plan of a scenario with blast zones or cuts, in its members."""
     zones = placed_zones(scenario, members)
     rows = _rows(scenario, zones, members)
-    heights_at = _heights_at(scenario, members)
+    flown = iter(
+        flyrock_of_zones(
+            [placed for placed in zones if placed.zone.mass_kg], _heights_at(scenario, members), scenario.seed
+        )
+    )
     return ChargePlan(
         zones,
         scenario.cuts,
         rows,
         _totals(scenario, zones, rows, members),
         _at_neighbours(scenario, rows),
-        tuple(flyrock_of(placed, heights_at, scenario.seed) if placed.zone.mass_kg else None for placed in zones),
+        tuple(next(flown) if placed.zone.mass_kg else None for placed in zones),
     )
 
 
@@ -147,8 +151,7 @@ def flyrock_of_run(scenario: Scenario, members: Sequence[Member]) -> tuple[Flyro
     fired = [placed for placed in placed_zones(scenario, members) if placed.zone.goes_off]
     if not fired or not scenario.blast.explosion:
         return ()
-    heights_at = _heights_at(scenario, members)
-    return tuple(flyrock_of(placed, heights_at, scenario.seed) for placed in fired)
+    return flyrock_of_zones(fired, _heights_at(scenario, members), scenario.seed)
 
 
 def neighbours_of_zones(scenario: Scenario, members: Sequence[Member]) -> tuple[AtNeighbour, ...]:
