@@ -18,7 +18,7 @@ from .elements import Element
 from .gaps import STEEPEST, cut_by, largest_body, lengthened
 from .library import library
 from .placement import Placement
-from .shapes import CONTRADICTIONS
+from .representations import CONTRADICTIONS
 
 SEAT_M = 0.001
 """How far a bearing is let into what it lies on, so that the two become one solid in spite of rounding."""

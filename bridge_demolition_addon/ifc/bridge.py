@@ -112,7 +112,7 @@ def _bridge(path: Path, table: MaterialTable, settings: ImportSettings, kept: Ke
     quantities = {element.entity.id(): quantities_of(element.psets, units) for element in elements}
     volumes = {number: known.volume_m3 for number, known in quantities.items() if known.volume_m3}
     bodies = bodies_of(source, wanted, shapes, kept, volumes, strict=settings.strict)
-    ground_m, ground_source = _ground(wanted, bodies, settings)
+    ground_m, ground_source = _ground(path, wanted, bodies, settings)
     placement, solids = _placed(path, wanted, bodies, ground_m)
     site, site_source = site_of(source, placement)
     ground, of_ground = ground_of(source, placement)
@@ -225,16 +225,17 @@ def _check_kinds(path: Path, elements: Sequence[Element], settings: ImportSettin
         needed.append((_STANDING, "stands on the ground"))
     for kinds, use in needed:
         if set(present).isdisjoint(kinds):
+            but = f"but {', '.join(present)}" if present else "nor of any other"
             raise IfcError(
-                f"{path}: has no element that {use}, of the kinds {', '.join(kinds)}, but {', '.join(present)}; say "
+                f"{path}: has no element that {use}, of the kinds {', '.join(kinds)}, {but}; say "
                 f"which are by --kind, as in --kind 'NAME={kinds[0]}'"
             )
 
 
-def _ground(elements: Sequence[Element], bodies: Bodies, settings: ImportSettings) -> tuple[float, str]:
+def _ground(path: Path, elements: Sequence[Element], bodies: Bodies, settings: ImportSettings) -> tuple[float, str]:
     members = [element for element in elements if element.kind != "bearing" and element.entity.id() in bodies.solids]
     if not members:
-        raise IfcError("no member has a body that can be used: export the file again, with closed bodies")
+        raise IfcError(f"{path}: no member has a body that can be used; export it again, with closed bodies")
     origin_m = float(bodies.origin[2])
     bounds = [bodies.solids[element.entity.id()].bounds for element in members]
     undersides = [float(low[2]) + origin_m for low, _ in bounds]
@@ -248,8 +249,8 @@ def _ground(elements: Sequence[Element], bodies: Bodies, settings: ImportSetting
     highest = max(float(high[2]) + origin_m for _, high in bounds)
     if not settings.ground_m < highest:
         raise IfcError(
-            f"the ground at {settings.ground_m:g} m would cover the bridge, which reaches from {lowest:.2f} m to "
-            f"{highest:.2f} m in its file"
+            f"{path}: the ground at {settings.ground_m:g} m would cover the bridge, which reaches from {lowest:.2f} m "
+            f"to {highest:.2f} m in its file"
         )
     return settings.ground_m, "as given by --ground"
 

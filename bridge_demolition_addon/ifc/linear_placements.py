@@ -12,7 +12,7 @@ import numpy as np
 from ..engineering.geometry.vectors import unit
 from ..errors import GeometryError
 from .alignments import curve_of, place_along
-from .representations import items_of
+from .representations import CONTRADICTIONS, items_of
 
 
 def place_along_curves(model: Any, unit_m: float) -> tuple[str, ...]:
@@ -54,13 +54,13 @@ def _plain(model: Any, placement: Any, unit_m: float) -> Any:
     try:
         along, left, up = place_along(point, unit_m)
         frame = curve_of(point.BasisCurve, unit_m).at(float(along))
-    except (AttributeError, GeometryError):
+        axis, way = frame.up, frame.along
+        if placement.RelativePlacement.Axis or placement.RelativePlacement.RefDirection:
+            axis, way = _turned(placement.RelativePlacement, frame.along, frame.left, frame.up)
+    except (GeometryError, *CONTRADICTIONS):
         at = placement.CartesianPosition
         return model.create_entity("IfcLocalPlacement", placement.PlacementRelTo, at) if at else None
     origin = (frame.point + left * frame.left + up * frame.up) / unit_m
-    axis, way = frame.up, frame.along
-    if placement.RelativePlacement.Axis or placement.RelativePlacement.RefDirection:
-        axis, way = _turned(placement.RelativePlacement, frame.along, frame.left, frame.up)
     location = model.create_entity("IfcCartesianPoint", tuple(map(float, origin)))
     directions = [model.create_entity("IfcDirection", tuple(map(float, one))) for one in (axis, way)]
     at = model.create_entity("IfcAxis2Placement3D", location, *directions)

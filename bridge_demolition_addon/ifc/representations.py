@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
+CONTRADICTIONS = (ArithmeticError, AttributeError, IndexError, KeyError, RecursionError, TypeError, ValueError)
+"""What reading an element fails with where it lacks what its schema asks for."""
+
 
 def representations_of(product: Any) -> tuple[Any, ...]:
     """Return the representations of a product."""

@@ -16,14 +16,12 @@ from ..errors import GeometryError
 from .elements import Element
 from .extrusions import extruded_mesh
 from .library import library
+from .representations import CONTRADICTIONS
 from .sectioned_solids import swept_mesh
 from .source import IfcSource
 
 CHORD_M = 0.001
 """Largest distance of the middle of a chord from its curve."""
-
-CONTRADICTIONS = (ArithmeticError, AttributeError, IndexError, KeyError, RecursionError, TypeError, ValueError)
-"""What reading an element fails with where it lacks what its schema asks for."""
 
 FAILED = "its geometry cannot be worked out"
 

@@ -29,8 +29,7 @@ from .element_materials import Substance
 from .elements import NO_BODIES, Element
 from .library import library
 from .placement import Placement
-from .representations import representations_of
-from .shapes import CONTRADICTIONS
+from .representations import CONTRADICTIONS, representations_of
 from .source import IfcSource
 from .steel_profiles import section_of_profile
 

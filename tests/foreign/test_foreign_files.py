@@ -151,10 +151,11 @@ def test_a_network_of_12d_has_its_triangles():
 
 @pytest.mark.long
 def test_damaged_files_are_read_or_refused(tmp_path):
-    """Two of each kind of those that `scripts/fuzz_foreign.py` reads by hundreds."""
-    from fuzz_foreign import read_damaged_ifc, read_damaged_terrain
+    """Some of each kind of those that `scripts/fuzz_foreign.py` reads by hundreds."""
+    from fuzz_foreign import read_damaged_ifc, read_damaged_terrain, read_mutated_ifc
 
     none = tmp_path / "none"  # no files of other programs beside those of the tests
     said = [read_damaged_terrain(tmp_path, seed, none) for seed in range(22)]
     said += [read_damaged_ifc(tmp_path, seed, none) for seed in range(2)]
+    said += [read_mutated_ifc(tmp_path, seed, none) for seed in range(6)]
     assert set(said) <= {"read", "refused"}

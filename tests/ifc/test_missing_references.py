@@ -9,6 +9,7 @@ from support.ifc_bridges import CONCRETE_KG_M3, MASS_KG, STEEL_KG_M3, VOLUMES_M3
 from bridge_demolition_addon.errors import IfcError
 from bridge_demolition_addon.ifc.bridge import read_bridge
 from bridge_demolition_addon.ifc.elements import elements_of
+from bridge_demolition_addon.ifc.linear_placements import place_along_curves
 from bridge_demolition_addon.ifc.settings import ImportSettings
 from bridge_demolition_addon.ifc.source import open_source
 
@@ -145,3 +146,31 @@ def test_a_place_in_a_missing_line(is_shared, is_line, tmp_path):
     assert (said in bridge.notes) == is_shared
     missing_kg = 0.0 if is_shared else GIRDER_KG
     assert mass_kg(bridge) == pytest.approx(MASS_KG - missing_kg)
+
+
+ALONG = {
+    "whole": ((0.0, 0.0), (1.0, 0.0), 100.0),
+    "a point of one coordinate": ((0.0,), (1.0, 0.0), 100.0),
+    "a direction of one ratio": ((0.0, 0.0), (1.0,), 100.0),
+    "a segment without a length": ((0.0, 0.0), (1.0, 0.0), None),
+}
+
+
+@pytest.mark.parametrize("lacking", ALONG)
+def test_what_stands_along_an_alignment_that_contradicts_its_schema(lacking):
+    """30 m along a line from the origin: at (30, 0), by its plan or else by the position that the file gives beside."""
+    make = (made := IfcBridge()).file.create_entity
+    start, way, long_m = ALONG[lacking]
+    plan = make("IfcAxis2Placement2D", make("IfcCartesianPoint", start), make("IfcDirection", way))
+    segment = make("IfcCurveSegment", "CONTINUOUS", plan, make("IfcLengthMeasure", 0.0))
+    segment.ParentCurve = make("IfcLine")
+    if long_m:
+        segment.SegmentLength = make("IfcLengthMeasure", long_m)
+    curve = make("IfcCompositeCurve", [segment], False)
+    point = make("IfcPointByDistanceExpression", make("IfcLengthMeasure", 30.0), None, None, None, curve)
+    given = make("IfcAxis2Placement3D", make("IfcCartesianPoint", (30.0, 0.0, 0.0)))
+    at = make("IfcLinearPlacement", None, make("IfcAxis2PlacementLinear", point), given)
+    sign = made.root("IfcSign", "Sign", ObjectPlacement=at)
+    place_along_curves(made.file, 1.0)
+    assert sign.ObjectPlacement.is_a("IfcLocalPlacement")
+    assert sign.ObjectPlacement.RelativePlacement.Location.Coordinates == pytest.approx((30.0, 0.0, 0.0))

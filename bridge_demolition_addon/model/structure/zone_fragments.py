@@ -75,7 +75,7 @@ def flyrock_of(placed: PlacedZone, heights_at: HeightsAt | None = None, seed: in
 def flyrock_of_zones(
     zones: Sequence[PlacedZone], heights_at: HeightsAt | None = None, seed: int = 0
 ) -> tuple[FlyrockOfZone, ...]:
-    """Return that of zones with explosive in them; all their fragments that count fly at once, which takes less time."""
+    """Return that of zones with explosive in them; all fragments that count fly at once, which is quicker."""
     if not zones:
         return ()
     thrown = [zone_fragments(placed, seed) for placed in zones]
