@@ -29,7 +29,13 @@ def play(request, folder):
     _DEEDS.get(deed, lambda _folder: None)(folder)
     _played.append(deed)
     (folder / "outlines.npz").write_bytes(b"outlines")
-    outputs = {"reach_m": seed / 2**31, "broken": seed % 7, "heavy": scenario["ball"]["mass_kg"] > 9000.0}
+    outputs = {"reach_m": seed / 2**31, "broken": seed % 7}
+    if ball := scenario.get("ball"):
+        outputs["heavy"] = ball["mass_kg"] > 9000.0
+    if charges := scenario.get("charges"):
+        outputs["success"] = sum(charge["mass_kg"] for charge in charges) > 1.0
+    elif "[[criteria]]" in request["study"]:
+        outputs["success"] = outputs["heavy"]
     return {"outputs": outputs, "fingerprint": {"motion": f"{seed:x}"}}
 
 

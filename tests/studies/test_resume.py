@@ -30,7 +30,7 @@ DEEDS = ("nothing", "take time", "crash if shared", "crash", "fail", "refuse")
 def start(study, output, log, *arguments, largest=0):
     """Start a study whose draws do what is drawn for them, and note in a log what they begin."""
     log.touch()
-    return start_program("bda_study", log, largest, study, "--output", output, *arguments)
+    return start_program("bda_ensemble", log, largest, "study", study, "--output", output, *arguments)
 
 
 @pytest.fixture(scope="module")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Be `bda study` whose draws are run by the program that simulates nothing. Usage: … LOG LARGEST ARGUMENTS OF BDA STUDY
+"""Be `bda`, whose draws are run by the program that simulates nothing. Usage: … LOG LARGEST ARGUMENTS OF BDA
 
 LARGEST is the size in bytes above which no file can be written, as on a full disk; 0 for none.
 """
@@ -23,5 +23,5 @@ from bridge_demolition_addon.cli import ensemble  # noqa: E402
 from bridge_demolition_addon.cli.main import entry  # noqa: E402
 
 ensemble.LocalProcesses = partial(ensemble.LocalProcesses, command=command_with(Path(LOG)), versions=VERSIONS)
-sys.argv[1:] = ["study", *ARGUMENTS]
+sys.argv[1:] = ARGUMENTS
 entry()
