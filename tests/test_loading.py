@@ -5,7 +5,7 @@ import pytest
 from support.long_cases import long_but
 from support.processes import run_program
 
-BROUGHT = [("command line", []), ("extension", ["bpy", "scipy"])]  # a search in the window asks scipy
+BROUGHT = [("command line", []), ("extension", ["bpy"])]
 
 
 @pytest.mark.parametrize(("loading", "brought"), long_but(BROUGHT[1:], BROUGHT, several=True))

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import numpy as np
 
+from ..engineering.geometry.hulls import THINNEST
 from ..engineering.geometry.mesh import TriangleMesh
 from ..engineering.geometry.rotations import carried_points
-from ..engineering.geometry.vectors import dot, transformed_back
+from ..engineering.geometry.solids import from_manifold, hull
+from ..engineering.geometry.vectors import transformed_back
 from ..model.results.arrays import Results
 from ..model.results.frames import Frame
 from ..model.results.inventory import Inventory
 
 _FRAMES_PER_SECOND = 24.0
 _NO_TRIANGLES = np.zeros((0, 3), np.int64)
+_FEWEST_VERTICES = 4
 
 Colour = tuple[float, float, float]
 
@@ -43,18 +46,15 @@ def _mesh(vertices: np.ndarray, triangles: np.ndarray) -> TriangleMesh:
 
 
 def _hull(vertices: np.ndarray) -> TriangleMesh:
-    """Return the convex hull, by Qhull: it gives the same triangles each time, as the engine of solids does not."""
-    from scipy.spatial import ConvexHull, QhullError  # who exports nothing does not wait for it
-
-    try:
-        hull = ConvexHull(vertices)
-    except (QhullError, ValueError):  # fewer than four vertices, or all of them in one plane
+    """Return the convex hull; vertices and triangles are in order, so that files are the same each time."""
+    mesh = from_manifold(hull(vertices)) if len(vertices) >= _FEWEST_VERTICES else TriangleMesh(vertices, _NO_TRIANGLES)
+    if not len(mesh.triangles) or mesh.volume <= THINNEST * mesh.cube_volume:  # all of them in one plane
         return TriangleMesh(vertices, _NO_TRIANGLES)
-    rows, triangles = np.unique(hull.simplices, return_inverse=True)
-    triangles, corners = triangles.reshape(-1, 3), vertices[hull.simplices]
-    inwards = dot(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), hull.equations[:, :3]) < 0.0
-    triangles[inwards] = triangles[inwards, ::-1]
-    return TriangleMesh(vertices[rows], triangles)
+    corners, places = np.unique(mesh.vertices, axis=0, return_inverse=True)
+    triangles = places.ravel()[mesh.triangles]
+    first = triangles.argmin(axis=1)[:, None]
+    triangles = np.take_along_axis(triangles, (first + np.arange(3)) % 3, axis=1)
+    return TriangleMesh(corners, triangles[np.lexsort(triangles.T[::-1])])
 
 
 class ConnectionPositions:

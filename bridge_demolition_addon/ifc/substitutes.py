@@ -11,6 +11,7 @@ from dataclasses import replace
 import numpy as np
 from manifold3d import CrossSection, Error, FillRule, Manifold, Mesh64
 
+from ..engineering.elasticity.equations import connected_parts
 from ..engineering.geometry.mesh import TriangleMesh, joined_meshes
 from ..engineering.geometry.plan_areas import distances_outside, outlines, signed_area
 from ..engineering.geometry.repair import Repaired, repaired_solid
@@ -128,13 +129,7 @@ def _made_sound(part: TriangleMesh) -> TriangleMesh:
 
 def _parts(count: int, triangles: np.ndarray) -> np.ndarray:
     """Return which body each of so many vertices belongs to, (v,), by triangles (t, 3) that share them."""
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
-
-    edges = triangles[:, [0, 1, 1, 2]].reshape(-1, 2)
-    links = coo_matrix((np.ones(len(edges)), (edges[:, 0], edges[:, 1])), shape=(count, count))
-    labels: np.ndarray = connected_components(links, directed=False)[1]
-    return labels
+    return connected_parts(np.ones(count, bool), triangles[:, [0, 1]].ravel(), triangles[:, [1, 2]].ravel())
 
 
 def hull_of(mesh: TriangleMesh) -> TriangleMesh:

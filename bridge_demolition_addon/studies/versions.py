@@ -9,7 +9,7 @@ from pathlib import Path
 
 from ..errors import SimulationError
 
-_LIBRARIES = ("numpy", "manifold3d", "scipy", "trimesh")
+_LIBRARIES = ("numpy", "manifold3d", "trimesh")
 _PACKAGE = Path(__file__).resolve().parents[1]
 _CALCULATING = ("bullet", "engineering", "model", "scene", "simulation", "system")
 """Layers of this package that decide the result."""

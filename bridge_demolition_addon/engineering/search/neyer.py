@@ -12,12 +12,13 @@ several at once are a greedy D-optimal batch.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from functools import cache
 from itertools import islice
 
 import numpy as np
-import scipy
 
 from ..arrays import FloatArray
+from ..statistics.normal import log_probability
 from .probit import LevelOutcomes, SuccessCurve, fitted
 
 SHRINKS = 0.8
@@ -106,8 +107,7 @@ def most_informative(levels: FloatArray, normal: SuccessCurve) -> float:
     scores = (levels - normal.median) / normal.spread
     weights = information(scores)
     b11, b12, b22 = weights.sum(), (weights * scores).sum(), (weights * scores * scores).sum()
-    positions = np.linspace(-_FARTHEST, _FARTHEST, _PLACES)
-    added = information(positions)
+    positions, added = _places()
     gain = (b11 + added) * (b22 + added * positions * positions) - np.square(b12 + added * positions)
     best = int(np.argmax(gain))
     # The top of the parabola through the best of the positions and its neighbours.
@@ -119,9 +119,16 @@ def most_informative(levels: FloatArray, normal: SuccessCurve) -> float:
     return normal.median + normal.spread * float(positions[best])
 
 
+@cache
+def _places() -> tuple[FloatArray, FloatArray]:
+    """Positions that are tried, and the information of a run at each."""
+    positions = np.linspace(-_FARTHEST, _FARTHEST, _PLACES)
+    return positions, information(positions)
+
+
 def information(scores: FloatArray) -> FloatArray:
     """Information (n,) that runs at scores (x - μ) / σ give on the median, φ² / (Φ (1 - Φ))."""
     gained: FloatArray = np.exp(
-        -scores * scores - np.log(2.0 * np.pi) - scipy.special.log_ndtr(scores) - scipy.special.log_ndtr(-scores)
+        -scores * scores - np.log(2.0 * np.pi) - log_probability(scores) - log_probability(-scores)
     )
     return gained

@@ -8,12 +8,14 @@ Sensitivity testing and analysis, 16th International Pyrotechnics Seminar).
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-import scipy  # loads its parts, which take long, as they are asked for
 
 from ..arrays import BoolArray, FloatArray
+from ..statistics.normal import log_probability, normal_quantile, probability
 
 _ITERATIONS = 100
 _SAME = 1e-12
@@ -30,7 +32,7 @@ class SuccessCurve:
 
     def quantile(self, probability: float) -> float:
         """Return the level at which success has a probability."""
-        return self.median + self.spread * float(scipy.special.ndtri(probability))
+        return self.median + self.spread * normal_quantile(probability)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -80,10 +82,10 @@ def _likeliest(runs: LevelOutcomes) -> SuccessCurve:
     x = (runs.levels - middle) / unit
     signs = np.where(runs.successes, 1.0, -1.0)
     intercept, slope = 0.0, 1.0
-    value = scipy.special.log_ndtr(signs * (intercept + slope * x)).sum()
+    value = log_probability(signs * (intercept + slope * x)).sum()
     for _ in range(_ITERATIONS):
         argument = signs * (intercept + slope * x)
-        mills = np.exp(-0.5 * argument * argument - 0.5 * np.log(2.0 * np.pi) - scipy.special.log_ndtr(argument))
+        mills = _mills(argument, log_probability(argument))
         first = signs * mills
         second = mills * (argument + mills)
         gradient = np.array((first.sum(), (first * x).sum()))
@@ -93,7 +95,7 @@ def _likeliest(runs: LevelOutcomes) -> SuccessCurve:
         share = 1.0
         while True:
             tried = intercept + share * step[0], slope + share * step[1]
-            better = scipy.special.log_ndtr(signs * (tried[0] + tried[1] * x)).sum()
+            better = log_probability(signs * (tried[0] + tried[1] * x)).sum()
             if better >= value or share < _SAME:
                 break
             share /= 2.0
@@ -108,26 +110,48 @@ def log_likelihood(runs: LevelOutcomes, normal: SuccessCurve) -> float:
     if normal.spread == 0.0:
         return 0.0 if runs.highest_failure <= normal.median <= runs.lowest_success else -np.inf
     signs = np.where(runs.successes, 1.0, -1.0)
-    return float(scipy.special.log_ndtr(signs * (runs.levels - normal.median) / normal.spread).sum())
+    return float(log_probability(signs * (runs.levels - normal.median) / normal.spread).sum())
 
 
-def profile_likelihood(runs: LevelOutcomes, position: float, probability: float) -> float:
+def profile_likelihood(runs: LevelOutcomes, position: float, chance: float) -> float:
     """Largest logarithm of the likelihood of all distributions with this probability of success at a level."""
     signs = np.where(runs.successes, 1.0, -1.0)
-    offsets, base = runs.levels - position, float(scipy.special.ndtri(probability))
-    unit = max(np.ptp(runs.levels), abs(offsets).max(), 1e-300)
-
-    def loss(slope: float) -> float:
-        return -float(scipy.special.log_ndtr(signs * (base + slope * offsets / unit)).sum())
+    offsets, base = runs.levels - position, normal_quantile(chance)
+    offsets = offsets / max(np.ptp(runs.levels), abs(offsets).max(), 1e-300)
 
     # Concave in the slope, from 0, as good anywhere, to a jump.
-    high = 1.0
-    while high < _STEEPEST and loss(2.0 * high) < loss(high):
-        high *= 2.0
-    least = scipy.optimize.minimize_scalar(
-        loss, bounds=(0.0, 4.0 * high), method="bounded", options={"xatol": 1e-7 * high}
-    )
-    return -min(float(least.fun), loss(0.0), loss(_STEEPEST))
+    low, slope, high, most = 0.0, 0.0, _STEEPEST, -np.inf
+    for _ in range(_ITERATIONS):
+        arguments = signs * (base + slope * offsets)
+        logarithms = log_probability(arguments)
+        most = max(most, float(logarithms.sum()))
+        mills = _mills(arguments, logarithms)
+        rise = float((signs * offsets * mills).sum())
+        low, high = (slope, high) if rise > 0.0 else (low, slope)
+        step = rise / max(float((offsets * offsets * mills * (arguments + mills)).sum()), 1e-300)
+        if high == 0.0 or abs(rise * step) <= _SAME:
+            break
+        slope = slope + step if low < slope + step < high else 0.5 * (low + high)
+    return most
+
+
+def crossing(function: Callable[[float], float], above: float, below: float, width: float) -> float:
+    """Return where a function crosses 0, between arguments where it is above and below 0, within a width.
+
+    By regula falsi with halved ends (M. Dowell, P. Jarratt, 1971, BIT 11, 168-174).
+    """
+    (one, of_one), (other, of_other) = (above, function(above)), (below, function(below))
+    for _ in range(_ITERATIONS):
+        middle = other - of_other * (other - one) / (of_other - of_one)
+        value = function(middle)
+        if value * of_other < 0.0:
+            one, of_one = other, of_other
+        else:
+            of_one *= 0.5
+        other, of_other = middle, value
+        if value == 0.0 or abs(other - one) <= width:
+            break
+    return other
 
 
 def limit(runs: LevelOutcomes, probability: float, confidence: float, side: int) -> float:
@@ -141,7 +165,9 @@ def limit(runs: LevelOutcomes, probability: float, confidence: float, side: int)
     if normal is None or len(runs) < 4:
         return side * np.inf
     most = log_likelihood(runs, normal)
-    least = most - float(scipy.special.fdtri(2, len(runs) - 2, confidence))
+    freedom = len(runs) - 2
+    # Half of twice the quantile of F, which has a closed form with 2 degrees of freedom.
+    least = most - 0.5 * freedom * ((1.0 - confidence) ** (-2.0 / freedom) - 1.0)
 
     def above(position: float) -> float:
         return profile_likelihood(runs, position, probability) - least
@@ -151,7 +177,7 @@ def limit(runs: LevelOutcomes, probability: float, confidence: float, side: int)
     for _ in range(60):
         outside = inside + side * step
         if above(outside) < 0.0:
-            return float(scipy.optimize.brentq(above, inside, outside, xtol=1e-6 * step))
+            return crossing(above, inside, outside, 1e-6 * step)
         if step > 1e3 * max(np.ptp(runs.levels), normal.spread):
             break
         step *= 2.0
@@ -162,5 +188,9 @@ def chance(normal: SuccessCurve, positions: FloatArray) -> FloatArray:
     """Probability of success (k,) at levels (k,)."""
     if normal.spread == 0.0:
         return np.where(positions >= normal.median, 1.0, 0.0)
-    chances: FloatArray = scipy.special.ndtr((positions - normal.median) / normal.spread)
-    return chances
+    return probability((positions - normal.median) / normal.spread)
+
+
+def _mills(values: FloatArray, logarithms: FloatArray) -> FloatArray:
+    """φ / Φ (n,) at values (n,), the inverse of Mills' ratio, by the logarithms (n,) of Φ."""
+    return np.exp(-0.5 * values * values - 0.5 * math.log(2.0 * math.pi) - logarithms)

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from ...engineering.geometry.mesh import TriangleMesh
+from ...engineering.terrain.gaps import nearest_known
 from ...engineering.terrain.levelling import Levelled, levelled
 from ...engineering.terrain.recorded import NamedSurface, RecordedGround
 from ...engineering.terrain.surface import Surface
@@ -158,10 +159,7 @@ def _sampled(terrain: Terrain, half_m: float) -> Grid:
 def _without_gaps(grid: Grid, known: np.ndarray) -> Grid:
     if known.all():
         return grid
-    from scipy.ndimage import distance_transform_edt  # most files have no gaps on the site
-
-    nearest = distance_transform_edt(~known, return_distances=False, return_indices=True)
-    return Grid(grid.low, grid.step_m, grid.heights[tuple(nearest)])
+    return Grid(grid.low, grid.step_m, grid.heights[nearest_known(known)])
 
 
 def _near(kept: np.ndarray, grid: Grid, points: np.ndarray) -> np.ndarray:

@@ -72,12 +72,12 @@ def triangulated(points: np.ndarray) -> Surface:
         raise GeometryError(
             f"holds {len(points)} points that lie on no grid: expected at most {MOST_SCATTERED}; make a grid of them"
         )
-    from scipy.spatial import Delaunay, QhullError
+    from matplotlib.tri import Triangulation  # takes long to load, and most ground is a grid or level
 
-    middle = points[:, :2].mean(axis=0)
+    x, y = (points[:, :2] - points[:, :2].mean(axis=0)).T
     try:
-        triangles = Delaunay(points[:, :2] - middle).simplices
-    except QhullError as error:
+        triangles = Triangulation(x, y).triangles
+    except (RuntimeError, ValueError) as error:
         raise GeometryError("holds points that lie on a line: expected an area of them") from error
     return Surface(TriangleMesh(points, triangles.astype(np.int64)))
 

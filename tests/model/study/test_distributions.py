@@ -16,28 +16,11 @@ from bridge_demolition_addon.model.study.distributions import (
     Normal,
     Triangular,
     Uniform,
-    normal_probability,
-    normal_quantile,
 )
 
 PROBABILITIES = [LEAST_PROBABILITY, 1e-9, *np.linspace(0.0005, 0.9995, 1000), 1.0 - 1e-9, 1.0 - LEAST_PROBABILITY]
 
 DEVIATION_OF_30_PERCENT = math.sqrt(math.log(1.0 + 0.3**2))
-
-
-def test_normal_quantiles_are_those_of_scipy_to_their_last_digits():
-    probabilities = np.concatenate([PROBABILITIES, 10.0 ** -np.arange(1.0, 300.0, 0.7)])
-    found = [normal_quantile(float(probability)) for probability in probabilities]
-    np.testing.assert_allclose(found, special.ndtri(probabilities), rtol=2e-15)
-
-
-@pytest.mark.slow
-def test_normal_probabilities_are_those_of_scipy():
-    # The inverse of what has 16 digits: at -37 a digit of the value is 1e-13 of the probability.
-    values = np.linspace(-37.0, 8.0, 400)
-    np.testing.assert_allclose([normal_probability(float(value)) for value in values], special.ndtr(values), rtol=1e-12)
-    assert normal_probability(0.0) == 0.5
-    assert (normal_probability(-math.inf), normal_probability(math.inf)) == (0.0, 1.0)
 
 
 @pytest.mark.parametrize(
