@@ -125,6 +125,43 @@ def test_no_two_public_classes_have_one_name():
     assert {name: found for name, found in modules.items() if len(found) > 1} == {}
 
 
+def kinds_of(base):
+    return {base.__name__}.union(*map(kinds_of, base.__subclasses__()))
+
+
+def told_apart(node, kinds):
+    """Names of kinds that a node tells apart: by `isinstance`, by a pattern, or by the identity of their class."""
+    match node:
+        case ast.Call(func=ast.Name(id="isinstance" | "issubclass"), args=[_, asked]):
+            found = ast.walk(asked)
+        case ast.MatchClass(cls=named):
+            found = ast.walk(named)
+        case ast.Compare(comparators=right, ops=ops) if any(not isinstance(op, ast.In | ast.NotIn) for op in ops):
+            found = [node.left, *right]
+        case _:
+            return set()
+    names = {getattr(part, "id", getattr(part, "attr", None)) for part in found}
+    return names & kinds
+
+
+def test_nothing_tells_kinds_of_actions_apart():
+    """Each says all of itself: what asks for its class would have to be changed for another."""
+    from bridge_demolition_addon.model.actions import PlannedAction
+    from bridge_demolition_addon.model.scenario import Scenario
+
+    kinds = kinds_of(PlannedAction) - {PlannedAction.__name__}
+    assert {"Ball", "BlastZone", "Charge", "Lift", "Load", "Pull", "SawCut", "Severing"} < kinds and Scenario
+    assert told_apart(ast.parse("isinstance(action, lifts.Lift | Pull)").body[0].value, kinds) == {"Lift", "Pull"}
+    assert told_apart(ast.parse("type(action) is Ball").body[0].value, kinds) == {"Ball"}
+    found = {
+        f"{path.relative_to(ROOT / PACKAGE)}:{node.lineno} {name}"
+        for path in sorted((ROOT / PACKAGE).rglob("*.py"))
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        for name in told_apart(node, kinds)
+    }
+    assert found == set()
+
+
 def test_what_is_frozen_never_changes_itself():
     sources = (ROOT / PACKAGE).rglob("*.py")
     assert [path for path in sources if "object.__setattr__" in path.read_text(encoding="utf-8")] == []

@@ -1,18 +1,22 @@
 """Planned actions: what is done to a bridge at a planned time, by a tool, a charge, a load or the ground.
 
 A scenario holds actions in fields of their own. All else asks them the same: when they begin and end, what
-a camera is to see, what `bda check` says of them, and whether they fit the model.
+a camera is to see, what `bda check` and a report say of them, whether they fit the model, which shards they act on,
+and what of them a scene keeps for a run. A kind of action is a subclass in one module; nothing else tells kinds apart.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, Protocol, Self
+
+import numpy as np
 
 from ..engineering.geometry.turned_boxes import TurnedBox
 from ..engineering.ground_motion.record import GroundRecord
 from ..engineering.timing.timeline import Timeline, TimeStep
+from .as_built import Structure
 from .schema import Table
 
 Fact = tuple[str, str]
@@ -50,7 +54,21 @@ class Plan(Protocol):
     def has_flat_ground(self) -> bool: ...
     @property
     def actions(self) -> tuple[PlannedAction, ...]: ...
+    @property
+    def seed(self) -> int: ...
+    @property
+    def blast_start_s(self) -> float: ...
     def detonation_s(self, delay_s: float) -> float: ...
+
+
+@dataclass(frozen=True, slots=True)
+class PlannedStep:
+    """Something that is planned: when it begins and ends on the clock of the run, s, what it is, and where."""
+
+    begins_s: float  # infinite where it is planned not to happen
+    ends_s: float
+    what: str
+    where: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,6 +87,8 @@ class Worksite(Protocol):
     def plan(self) -> Plan: ...
     @property
     def mass_kg(self) -> float: ...
+    @property
+    def structure(self) -> Structure: ...
 
     def surface_height(self, place_m: Place) -> float:
         """Return the height of what a falling body meets first at a position; refuse one beside all members."""
@@ -88,8 +108,11 @@ class Worksite(Protocol):
     def pick_of(self, lift: Any) -> Any:
         """Return what a crane takes in a lift."""
 
-    def cut_tendons_text(self, action: Any) -> str:
-        """Return which tendons a cut meets, where, and what energy they let go; refuse one that meets none."""
+    def slings_of(self, lift: Any) -> Sequence[Any]:
+        """Return the slings of a lift as cables of a run."""
+
+    def firings_of(self, zone: Any) -> Sequence[Any]:
+        """Return what a blast zone does to the structure; nothing where it does not fire, or loosens nothing."""
 
     def number_of(self, action: PlannedAction) -> int:
         """Return the number of an action in its list, from 1 on."""
@@ -147,6 +170,10 @@ class PlannedAction(Table):
     __slots__ = ()
     heading: ClassVar[str] = "Sequence"
     """Section of `bda check` that describes it. Under this one, actions are in order of time."""
+    noun: ClassVar[str] = "action"
+    """What one of them is called where they are counted."""
+    kept_in: ClassVar[str] = ""
+    """Under what name a scene keeps it for a run; empty for what has bodies or objects of its own."""
 
     @property
     def held_by_machine(self) -> str | None:
@@ -184,6 +211,40 @@ class PlannedAction(Table):
         """Yield points that a camera is to see."""
         yield from ()
 
+    def shards(self, structure: Structure, number: int) -> np.ndarray:
+        """Return the rows (s,) of the bodies that it acts on, as they were built; refuse one that acts on nothing.
+
+        `number` is its own in its list, from 1 on.
+        """
+        return np.zeros(0, int)
+
+    @classmethod
+    def run_tables(cls) -> tuple[type[PlannedAction], ...]:
+        """Return the kinds of tables by which a run does it: its own, or what follows from it and the model."""
+        return (cls,) if cls.kept_in else ()
+
+    def in_run(self, site: Worksite) -> Iterator[PlannedAction]:
+        """Yield the tables by which a run does it, which its scene keeps."""
+        if self.kept_in:
+            yield self
+
+    def changes(self, plan: Plan) -> Iterator[Any]:
+        """Yield the changes to the structure that follow from it, whatever the model."""
+        yield from ()
+
+    def described(self) -> tuple[str, str]:
+        """Return what it does and where, for the planned sequence of a report."""
+        return self.heading.lower(), ""
+
+    def planned(self, plan: Plan) -> Iterator[PlannedStep]:
+        """Yield its steps in the planned sequence."""
+        yield PlannedStep(self.begins_s(plan), self.ends_s(plan), *self.described())
+
+    @classmethod
+    def means(cls, actions: Sequence[Self]) -> str:
+        """Return all actions of this kind as a means of demolition, in a few words; empty for none that counts."""
+        return counted(len(actions), cls.noun)
+
     def facts(self, site: Worksite) -> Iterator[Fact]:
         """Yield what a planner wants to know of it before a run."""
         yield from ()
@@ -197,3 +258,13 @@ class PlannedAction(Table):
 
     def check_model(self, site: Worksite) -> None:
         """Check it against the model that was built of its scenario."""
+
+
+def counted(number: int, noun: str) -> str:
+    """Return a number with a noun."""
+    return f"{number} {noun}{'' if number == 1 else 's'}"
+
+
+def point_text(position_m: Sequence[float]) -> str:
+    """Return a position in brackets, in m."""
+    return f"({', '.join(f'{value:g}' for value in position_m)}) m"

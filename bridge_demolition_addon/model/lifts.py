@@ -5,10 +5,14 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
+import numpy as np
+
 from ..engineering.mechanics.slings import rope_stiffness_n
 from ..engineering.units import mass_text
 from ..errors import ScenarioError
-from .actions import CutBox, Fact, HeightAt, Plan, Point, Worksite
+from .actions import CutBox, Fact, HeightAt, Plan, PlannedAction, Point, Worksite
+from .as_built import Structure
+from .changes.removals import LiftingAway
 from .loads import Part
 from .pulls import Pull
 from .schema import POSITION, key, shown
@@ -69,6 +73,7 @@ class Lift(Part):
 
     table: ClassVar[str] = "lifts"
     heading: ClassVar[str] = "Lifts"
+    noun: ClassVar[str] = "lift"
 
     name: str = key("Name of the lift.")
     from_s: float = key("When slings hold the part, and begin to take up its weight.", unit="s", at_least=0)
@@ -119,6 +124,40 @@ class Lift(Part):
 
     def cut_planes(self) -> tuple[CutBox, ...]:
         return (CutBox(self.members, self.box),) if self.box else ()
+
+    def shards(self, structure: Structure, number: int) -> np.ndarray:
+        inside = self.of_members(structure) & self.in_box(structure.centres_m) & structure.is_shard
+        if not inside.any():
+            raise ScenarioError(
+                f"lifts {self.name!r}: no shard that can move is there; expected members or a box with some that no "
+                "support holds"
+            )
+        return np.flatnonzero(inside)
+
+    @classmethod
+    def run_tables(cls) -> tuple[type[PlannedAction], ...]:
+        return Sling, LiftingAway
+
+    def in_run(self, site: Worksite) -> Iterator[PlannedAction]:
+        yield from site.slings_of(self)
+        yield self.lifting_away()
+
+    def changes(self, plan: Plan) -> Iterator[LiftingAway]:
+        yield self.lifting_away()
+
+    def lifting_away(self) -> LiftingAway:
+        """Return its end as a change to the structure."""
+        return LiftingAway(
+            time_s=self.lift_s,
+            name=self.name,
+            members=self.members,
+            lowest_corner_m=self.lowest_corner_m,
+            highest_corner_m=self.highest_corner_m,
+            skew_deg=self.skew_deg,
+        )
+
+    def described(self) -> tuple[str, str]:
+        return f"{self.name}: slings hold with {self.pretension:.0%}, then it is lifted away", self.where
 
     def facts(self, site: Worksite) -> Iterator[Fact]:
         part, pick = site.affected_by(self), site.pick_of(self)
@@ -175,6 +214,10 @@ class Sling(Pull):
     @property
     def keeps_its_length(self) -> bool:
         return True
+
+    @property
+    def hangs_on(self) -> tuple[str, float, float]:
+        return self.lift, self.part_kg, self.volume_kg or self.part_kg
 
     def _check_together(self) -> None:
         Part._check_together(self)

@@ -1,17 +1,22 @@
 """Loads: forces on parts of the bridge that grow with time, as a scenario gives them."""
 
+import json
 import math
 from bisect import bisect_right
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from math import sqrt
-from typing import ClassVar
+from typing import ClassVar, Generic, Self, TypeVar
+
+import numpy as np
 
 from ..engineering.geometry.turned_boxes import TurnedBox
+from ..engineering.geometry.vectors import distance, length
 from ..engineering.units import STANDARD_GRAVITY_M_S2, mass_text
 from ..errors import ScenarioError
-from .actions import Fact, Plan, PlannedAction, Worksite
+from .actions import Fact, Plan, PlannedAction, Point, Worksite
+from .as_built import Structure
 from .schema import key, shown
 
 _UNUSUAL_WEIGHTS = 3.0
@@ -60,6 +65,35 @@ class Part(PlannedAction):
         turned = f" turned by {self.skew_deg:g}°" if self.skew_deg else ""
         return " in ".join(part for part in (members, box and f"{box} m{turned}") if part)
 
+    def of_members(self, structure: Structure) -> np.ndarray:
+        """Return whether each body (n,) is of the members; all where none are named."""
+        if self.members is None:
+            return np.ones(len(structure.centres_m), bool)
+        names, kinds = structure.member_names, structure.member_kinds
+        known = sorted({*names.tolist(), *kinds.tolist()} - {""})
+        for name in self.members:
+            if name not in known:
+                raise ScenarioError(
+                    f"{self.table}.members names {json.dumps(name, ensure_ascii=False)}: "
+                    f"expected names or kinds of members, which are {', '.join(known) or 'not known here'}"
+                )
+        return np.isin(names, self.members) | np.isin(kinds, self.members)
+
+    def in_box(self, positions_m: np.ndarray) -> np.ndarray:
+        """Return whether positions (k, 3) are in the box; all where there is none."""
+        return np.ones(len(positions_m), bool) if self.box is None else self.box.contains(positions_m)
+
+    def movable(self, structure: Structure, number: int) -> np.ndarray:
+        """Return the shards (s,) of it that can move; refuse one without any."""
+        chosen = self.of_members(structure) & self.in_box(structure.centres_m) & structure.is_shard
+        bodies = np.flatnonzero(chosen & (structure.masses_kg > 0.0))
+        if not len(bodies):
+            raise ScenarioError(
+                f"[[{self.table}]] number {number}: no shard that can move is there; expected members or a box with "
+                "some that no support holds"
+            )
+        return bodies
+
     def _check_together(self) -> None:
         lowest, highest = self.lowest_corner_m, self.highest_corner_m
         if (lowest is None) != (highest is None):
@@ -75,8 +109,54 @@ class Part(PlannedAction):
                 )
 
 
+_Acting = TypeVar("_Acting", bound="Acting")
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class PlacedLoad(Generic[_Acting]):
+    """Forces on bodies as they were built: of each row size by share, along a direction."""
+
+    load: _Acting
+    bodies: np.ndarray  # (f,)
+    shares: np.ndarray  # (f,)
+    directions: np.ndarray  # (f, 3), unit vectors
+    arms_m: np.ndarray  # (f, 3), from the centres of mass to where they act; they turn with the bodies
+    turns: bool = False  # whether directions turn with the bodies, too
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Load(Part):
+class Acting(Part):
+    """What acts on bodies by forces in each sub-step of a run."""
+
+    table: ClassVar[str] = "acting"
+
+    def placed(self, structure: Structure, number: int) -> PlacedLoad[Self]:
+        """Return its forces on bodies, by its number in its list; refuse what acts on nothing."""
+        raise NotImplementedError
+
+    def shards(self, structure: Structure, number: int) -> np.ndarray:
+        return np.unique(self.placed(structure, number).bodies)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SizedLoad(Acting):
+    """What acts by forces whose size follows from time alone."""
+
+    table: ClassVar[str] = "sized_loads"
+    kept_in: ClassVar[str] = "loads"
+
+    @property
+    def course(self) -> np.ndarray:
+        """All numbers (k,) that its size and its directions follow from."""
+        raise NotImplementedError
+
+    def mean_size(self, start_s: float, step_s: float) -> float:
+        """Return its mean size in a sub-step that begins at a time."""
+        raise NotImplementedError
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Load(SizedLoad):
     """A force that grows with time, such as that of jacks in a load test, or of a machine that pushes or pulls: on
     members, on the shards whose centres of mass lie in a box, or at a point. It is distributed by mass and acts at the
     centres of mass; with a point, it acts there, on the shard that is nearest. It goes with the shards, and its
@@ -85,6 +165,7 @@ class Load(Part):
 
     table: ClassVar[str] = "loads"
     heading: ClassVar[str] = "Loads"
+    noun: ClassVar[str] = "load"
 
     point_m: tuple[float, float, float] | None = key(
         "Where it acts, as the bridge was built: on one shard of the members, in the box. Of those whose outlines "
@@ -112,6 +193,10 @@ class Load(Part):
         size = sqrt(math.fsum(component * component for component in self.direction))
         return x / size, y / size, z / size
 
+    @property
+    def course(self) -> np.ndarray:
+        return np.array((*self.direction, *self.times_s, *self.forces_n, *(self.point_m or ())))
+
     def begins_s(self, plan: Plan) -> float:
         for (time_s, force_n), (_, next_n) in pairwise([*zip(self.times_s, self.forces_n, strict=True), (0.0, 0.0)]):
             if force_n > 0.0 or next_n > 0.0:
@@ -130,6 +215,21 @@ class Load(Part):
             return self.forces_n[-1]
         (start_s, end_s), (start_n, end_n) = self.times_s[after - 1 : after + 1], self.forces_n[after - 1 : after + 1]
         return start_n + (end_n - start_n) * ((time_s - start_s) / (end_s - start_s))
+
+    def placed(self, structure: Structure, number: int) -> PlacedLoad[Self]:
+        bodies, direction = self.movable(structure, number), np.array(self.unit_direction)
+        if self.point_m is None:
+            shares = structure.masses_kg[bodies] / structure.masses_kg[bodies].sum()
+            directions = np.tile(direction, (len(bodies), 1))
+            return PlacedLoad(self, bodies, shares, directions, np.zeros((len(bodies), 3)))
+        body, arm_m = nearest_of(bodies, self.point_m, structure)
+        return PlacedLoad(self, np.array([body]), np.ones(1), direction[None], arm_m[None])
+
+    def mean_size(self, start_s: float, step_s: float) -> float:
+        return self.force_n(start_s + step_s / 2.0)
+
+    def described(self) -> tuple[str, str]:
+        return f"load of up to {max(self.forces_n) / 1e3:g} kN", self.where
 
     def facts(self, site: Worksite) -> Iterator[Fact]:
         steps = zip(self.times_s, self.forces_n, strict=True)
@@ -178,3 +278,17 @@ def unusual_force(name: str, force_n: float, site: Worksite) -> Iterator[str]:
     weights = force_n / (site.mass_kg * STANDARD_GRAVITY_M_S2)
     if weights > _UNUSUAL_WEIGHTS:
         yield f"{name} is {weights:.3g} times the weight of the bridge (is it in N?)"
+
+
+def nearest_of(bodies: np.ndarray, point_m: Point, structure: Structure) -> tuple[int, np.ndarray]:
+    """Return the body nearest to a point, of some (b,), and the arm (3,) from its centre of mass to the point."""
+    point, boxes_m = np.array(point_m), structure.boxes_m[bodies]
+    outside_m = length(point - np.clip(point, boxes_m[:, 0], boxes_m[:, 1]))
+    apart_m = distance(structure.centres_m[bodies], point)
+    body = int(bodies[np.lexsort((apart_m, outside_m.round(6)))[0]])
+    return body, point - structure.centres_m[body]
+
+
+def placed_loads(loads: Sequence[_Acting], structure: Structure) -> tuple[PlacedLoad[_Acting], ...]:
+    """Place loads on the bodies of a structure."""
+    return tuple(load.placed(structure, number) for number, load in enumerate(loads, start=1))

@@ -3,12 +3,16 @@
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Self
 
+import numpy as np
+
+from ..engineering.geometry.vectors import unit
 from ..engineering.mechanics.slings import rope_stiffness_n, stored_j
 from ..errors import ScenarioError
-from .actions import Fact, HeightAt, Plan, Point, Worksite
-from .loads import Part, unusual_force
+from .actions import Fact, HeightAt, Plan, Point, Worksite, point_text
+from .as_built import Structure
+from .loads import Acting, Part, PlacedLoad, nearest_of, unusual_force
 from .schema import POSITION, check_exactly_one, given, key
 
 _SHORTEST_M = 0.5
@@ -18,7 +22,7 @@ _FALLS_TOWARDS = 1.5
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Pull(Part):
+class Pull(Acting):
     """A cable from a point of the bridge to an anchor, which a winch reels in: it only pulls, and goes with the body.
     It collides with nothing, has no weight, and is straight. Of the members or the box, the shard nearest to the point
     carries it. A run has it; `bda stages` has it as a force as large as it can be.
@@ -26,6 +30,8 @@ class Pull(Part):
 
     table: ClassVar[str] = "pulls"
     heading: ClassVar[str] = "Pulls"
+    noun: ClassVar[str] = "pull"
+    kept_in: ClassVar[str] = "pulls"
 
     name: str = key("Name of the cable.")
     point_m: tuple[float, float, float] = key(
@@ -73,6 +79,11 @@ class Pull(Part):
         return False
 
     @property
+    def hangs_on(self) -> tuple[str, float, float] | None:
+        """Name of the lift whose hook it ends in, masses of its part by shards and by volume; None without one."""
+        return None
+
+    @property
     def built_length_m(self) -> float:
         """Distance of its ends as the bridge was built."""
         return math.dist(self.point_m, self.anchor_m)
@@ -93,6 +104,14 @@ class Pull(Part):
     def points_of_interest(self, height_at: HeightAt) -> Iterator[Point]:
         yield self.point_m
         yield self.anchor_m
+
+    def placed(self, structure: Structure, number: int) -> PlacedLoad[Self]:
+        body, arm_m = nearest_of(self.movable(structure, number), self.point_m, structure)
+        towards = unit(np.array(self.anchor_m) - np.array(self.point_m))
+        return PlacedLoad(self, np.array([body]), np.ones(1), towards[None], arm_m[None])
+
+    def described(self) -> tuple[str, str]:
+        return f"{self.name} pulls with up to {self.most_n / 1e3:g} kN", f"from {point_text(self.anchor_m)}"
 
     def facts(self, site: Worksite) -> Iterator[Fact]:
         how = f"{self.speed_m_s:g} m/s" if self.speed_m_s is not None else f"{given(self.growth_n_s) / 1e3:g} kN/s"

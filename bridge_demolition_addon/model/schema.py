@@ -157,6 +157,8 @@ class Table(metaclass=_TableType):
     """Whether several tables of a list may have one name, as nothing refers to one of them by it."""
     numbered: ClassVar[str] = ""
     """What a table without a name is called, with its number after it."""
+    is_object: ClassVar[bool] = False
+    """Whether the window shows each as an object of the scene, and not as a table."""
 
     def resolved(self) -> dict[str, Any]:
         """Return the values that follow from others, by the names of their fields."""

@@ -14,6 +14,7 @@ import numpy as np
 
 from ..engineering.units import STANDARD_GRAVITY_M_S2
 from ..errors import OutputError, ScenarioError, UnreadableError
+from ..model.changes.bare_bars import bare_bars_text
 from ..model.debris.footprint import check_covers_ground
 from ..model.results.arrays import FRAMES_FILE, RESULTS_FILE, Results, load_results, results_in
 from ..model.results.collapse import ShardRest, rest_of
@@ -28,7 +29,6 @@ from ..model.run_folder.summary import RunSummary, read_summary
 from ..model.scenario import ReportSettings, Scenario
 from ..model.scenario.file import read_scenario
 from ..model.schema import given
-from ..model.sequence.bare_bars import bare_bars_text
 from ..model.sequence.ending import Ending, undone_at_end
 from ..model.sequence.lifts import held_parts_text, pick_texts
 from ..model.sequence.undisturbed import self_collapse_text

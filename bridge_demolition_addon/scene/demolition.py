@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import partial
 from itertools import chain
@@ -17,10 +17,9 @@ from ..errors import SimulationError
 from ..model.actions import PlannedAction
 from ..model.blast.settings import Apply
 from ..model.bridge.extent import room_around, surface_height
+from ..model.pulls import Pull
 from ..model.scenario import Ball, Jackhammer, Scenario
-from ..model.sequence.checked_model import check_actions
-from ..model.sequence.lifts import slings_of
-from ..model.structure.blast_zones import zone_firings
+from ..model.sequence.checked_model import ModelWorksite, check_actions
 from ..model.structure.model import Model, start_motions
 from .as_built import keep_built_bodies
 from .blast.charges import charge_objects, create_charges, keep_blast
@@ -42,7 +41,7 @@ from .connections.elasticity import forget_elasticity, keep_elasticity
 from .connections.joints import set_joints
 from .connections.soil import keep_soil
 from .connections.tendons import keep_tendons
-from .structural_changes import keep_changes, keep_loads, keep_pulls
+from .run_tables import keep_run_tables, run_tables_of
 from .time_scale import animate_time_scale, stop_animation
 from .tools.ball import create_ball
 from .tools.build_site import BuildSite
@@ -56,9 +55,6 @@ TOOLS: dict[type[PlannedAction], Callable[[BuildSite, Any], object]] = {
     Jackhammer: create_jackhammer,
 }
 """Makers of the actions that are bodies of their own, in the order of a scenario's actions."""
-
-KEEPERS: tuple[Callable[[bpy.types.Scene, Sequence[Any]], None], ...] = (keep_changes, keep_loads, keep_pulls)
-"""What keeps actions on bodies that are there with the scene, all of a kind, until a recording applies them."""
 
 
 def build_demolition(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> list[bpy.types.Object]:
@@ -96,10 +92,8 @@ def _build(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> list[bpy
             make(site, action)
     joints = scenario.joints
     keep_breaking(scene, _breaking(scenario, joints[0].strength, model.bars))
-    keep_changes(scene, (*scenario.changes, *zone_firings(scenario, model.members)))
-    keep_loads(scene, scenario.loads)
-    cables = (*scenario.pulls, *slings_of(scenario.lifts, model))
-    keep_pulls(scene, cables)
+    worksite = ModelWorksite(scenario, model)
+    keep_run_tables(scene, [table for action in scenario.actions for table in action.in_run(worksite)])
     with off_scene(scene) as (bodies, connections):
         surface = scenario.surface_of(scenario.shards)
         shards = create_shards(bodies, scenario.shards, surface, model.shards, model.centres_m, model.masses_kg)
@@ -131,7 +125,7 @@ def _build(scene: bpy.types.Scene, scenario: Scenario, model: Model) -> list[bpy
         build_force_objects(scene, bodies_of(scene))
     animate_time_scale(scene, scenario.timeline, FIRST_STEP_FRAME)
     keep_built_bodies(scene)
-    create_cables(scene, cables, model, shards)
+    create_cables(scene, run_tables_of(scene, Pull.kept_in), worksite.structure, shards)
     return shards
 
 

@@ -9,12 +9,12 @@ from .blast.force_fields import force_collection, force_objects
 from .bodies import bodies_of, is_marked
 from .connections.breaking_settings import Breaking, keep_breaking
 from .connections.constraints import constraints_of, ends_of, loose_connections
-from .demolition import KEEPERS
 from .rendering.dust import remove_dust
 from .rendering.markers import clear_markers
 from .rendering.materials import remove_unused_materials
 from .rendering.surroundings import clear_surroundings
 from .rendering.zone_markers import remove_zones
+from .run_tables import keep_run_tables
 from .stability import keep_stability
 from .time_scale import stop_animation
 from .world import START_FRAME, remove_world
@@ -44,8 +44,7 @@ def remove_demolition(scene: bpy.types.Scene) -> int:
     remove_unused_materials()
     stop_animation(scene)
     keep_breaking(scene, Breaking())
-    for keep in KEEPERS:
-        keep(scene, ())
+    keep_run_tables(scene, ())
     forget_built_bodies(scene)
     keep_stability(scene, None)
     fields = force_collection(scene)

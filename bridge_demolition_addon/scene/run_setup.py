@@ -19,14 +19,17 @@ from ..engineering.foundations.footings import SoilSprings
 from ..engineering.geometry.hulls import ConvexHulls, convex_hulls
 from ..engineering.geometry.vectors import transformed
 from ..errors import ScenarioError
+from ..model.as_built import Structure
 from ..model.blast.charges import Charge
 from ..model.blast.explosion import Explosion
 from ..model.blast.settings import BlastSettings
+from ..model.changes.change import Change, Event, schedule
+from ..model.loads import PlacedLoad, SizedLoad, placed_loads
+from ..model.pulls import Pull
 from ..model.results.fingerprint import digest, known_parts
 from ..model.results.inventory import Inventory
-from ..model.scenario import Change, Load, Pull, Scenario
-from ..model.sequence.events import Event, Structure, recorded_structure, schedule
-from ..model.sequence.loads import PlacedLoad, placed_loads
+from ..model.scenario import Scenario
+from ..model.sequence.structures import recorded_structure
 from ..model.structure.tendons import ModelTendons
 from .blast.charges import blast_of, charges_of
 from .bodies import Kind, start_motion_of
@@ -39,7 +42,7 @@ from .connections.soil import soil_of
 from .connections.tendons import tendons_of
 from .effective_scenario import with_bodies, with_duration, with_first_frame, with_speed, with_time_step
 from .inventory import take_inventory
-from .structural_changes import changes_of, loads_of, pulls_of
+from .run_tables import run_tables_of
 from .time_scale import TimeOfScene, time_of
 from .tools.ground_motion import GroundMotionOfScene, ground_motion_of
 
@@ -125,9 +128,8 @@ def _breaking_parts(setup: RunSetup) -> Parts:
 def _load_parts(setup: RunSetup) -> Parts:
     parts: dict[str, Any] = {}
     for number, placed in enumerate(setup.placed_loads):
-        load = placed.load
-        course = np.array((*load.direction, *load.times_s, *load.forces_n, *(load.point_m or ())))
-        parts |= {f"load {number}": course, f"load {number} bears": np.stack((placed.bodies, placed.shares))}
+        bears = np.stack((placed.bodies, placed.shares))
+        parts |= {f"load {number}": placed.load.course, f"load {number} bears": bears}
     return parts
 
 
@@ -279,7 +281,7 @@ class RunSetup:
         compared={"removals, saw cuts, weakenings and blast zones": lambda setup: {"planned": repr(setup.changes)}},
         written=_SAME_KEY,
     )
-    loads: tuple[Load, ...] = decides(
+    loads: tuple[SizedLoad, ...] = decides(
         hashed=_load_parts, compared={"loads": lambda setup: {"planned": repr(setup.loads)}}, written=_SAME_KEY
     )
     pulls: tuple[Pull, ...] = decides(hashed=_pull_parts, compared={"pulls": _pull_parts}, written=_SAME_KEY)
@@ -362,22 +364,16 @@ class RunSetup:
         return schedule(self.changes, self._structure) if self.changes else ()
 
     @cached_property
-    def placed_loads(self) -> tuple[PlacedLoad[Load], ...]:
+    def placed_loads(self) -> tuple[PlacedLoad[SizedLoad], ...]:
         """Loads on the bodies that carry them."""
-        if not self.loads:
-            return ()
-        structure = self._structure
-        return placed_loads(self.loads, structure, self.inventory.masses_kg, structure.boxes_m)
+        return placed_loads(self.loads, self._structure) if self.loads else ()
 
     @cached_property
     def placed_pulls(self) -> tuple[PlacedLoad[Pull], ...]:
         """Cables on the bodies that they pull."""
-        if not self.pulls:
-            return ()
-        structure = self._structure
-        return placed_loads(self.pulls, structure, self.inventory.masses_kg, structure.boxes_m)
+        return placed_loads(self.pulls, self._structure) if self.pulls else ()
 
-    @property
+    @cached_property
     def _structure(self) -> Structure:
         bodies = self.bodies
         corners = transformed(bodies.rotations[:, None], bodies.boxes_m) + bodies.positions_m[:, None]
@@ -402,9 +398,9 @@ def run_setup_of(scene: bpy.types.Scene, *, with_connections: bool = True) -> Ru
         breaking=breaking_of(scene, connections.objects),
         elasticity=elasticity_of(scene, connections.objects),
         start_motion=start_motion_of(bodies.objects),
-        changes=changes_of(scene),
-        loads=loads_of(scene),
-        pulls=pulls_of(scene),
+        changes=run_tables_of(scene, Change.kept_in),
+        loads=run_tables_of(scene, SizedLoad.kept_in),
+        pulls=run_tables_of(scene, Pull.kept_in),
         ground_motion=ground_motion_of(scene),
         soil=soil_of(connections.objects),
         bearings=bearings_of(connections.objects),

@@ -23,7 +23,7 @@ from bridge_demolition_addon.scene.bodies import mark_member
 from bridge_demolition_addon.scene.connections.breaking_settings import Breaking, keep_breaking, set_strength
 from bridge_demolition_addon.scene.connections.elasticity import keep_elasticity
 from bridge_demolition_addon.scene.connections.joints import set_joints
-from bridge_demolition_addon.scene.structural_changes import keep_changes, keep_loads
+from bridge_demolition_addon.scene.run_tables import keep_tables
 from bridge_demolition_addon.scene.tools.build_site import BuildSite
 from bridge_demolition_addon.scene.tools.jackhammer import create_jackhammer
 
@@ -101,8 +101,9 @@ def test_what_is_left_of_a_bridge_shares_its_weight_after_each_step_of_a_sequenc
     # The middle post breaks at its foot, which also bears its own weight, once it can bear no more than 0.99 of that.
     borne = shares(second)[2] + POST_KG * GRAVITY
     set_strength(beam.feet[2], Strength(2.0 * borne, 1e12, 1e12, 1e12, 1e12))
-    keep_changes(
+    keep_tables(
         beam.scene,
+        "changes",
         [
             Removal(time_s=0.25, members=("post 1",)),
             SawCut(time_s=0.5, point_m=(0, 0, 9.5), normal=(0, 0, 1), members=("post 3",)),
@@ -126,7 +127,7 @@ def test_what_is_left_of_a_bridge_shares_its_weight_after_each_step_of_a_sequenc
 def test_posts_bear_a_load_that_grows_at_a_point_of_the_beam(blender, tmp_path):
     """So slowly, against its 100 swings a second, that it is at rest at any time."""
     beam, most_n, at_m = BeamOnPosts(), 3.0 * WEIGHT_N, 2.5
-    keep_loads(beam.scene, [Load(point_m=(at_m, 0, 10.5), times_s=(0.2, 0.8), forces_n=(0, most_n))])
+    keep_tables(beam.scene, "loads", [Load(point_m=(at_m, 0, 10.5), times_s=(0.2, 0.8), forces_n=(0, most_n))])
     results, forces = beam.play(tmp_path)
     times = results.frames.time_s
     middles = times - (times[-1] - times[-2]) / 2.0

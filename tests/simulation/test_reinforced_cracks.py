@@ -15,7 +15,7 @@ from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.model.scenario import SawCut, Weakening
 from bridge_demolition_addon.scene.connections.breaking_settings import Breaking, keep_breaking
 from bridge_demolition_addon.scene.connections.elasticity import keep_elasticity
-from bridge_demolition_addon.scene.structural_changes import keep_changes
+from bridge_demolition_addon.scene.run_tables import keep_tables
 
 GRAVITY = float(np.float32(STANDARD_GRAVITY_M_S2))
 CONCRETE = ElasticModuli(30e9, 0.2)
@@ -84,8 +84,9 @@ def test_bars_that_are_weakened_stretch_further_and_those_that_are_sawn_through_
     blocks.scene.gravity[0] = 1e-3
     animate_gravity(blocks.scene, {1: SMALL, 3: SMALL, 24: 1.0})
     weakened_s, cut_s = 2.0, 3.0
-    keep_changes(
+    keep_tables(
         blocks.scene,
+        "changes",
         [
             Weakening(time_s=weakened_s, lowest_corner_m=(-1, -1, 8), highest_corner_m=(1, 1, 11), factor=0.5),
             SawCut(time_s=cut_s, point_m=(0, 0, 9.5), normal=(0, 0, 1)),

@@ -5,7 +5,7 @@ import zlib
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import ClassVar
+from typing import ClassVar, Self
 
 import numpy as np
 
@@ -14,7 +14,8 @@ from ...engineering.drilled_charges.drill_holes import charge_length_m, hole_cap
 from ...engineering.drilled_charges.specific_charge import THROW_KG_M3, DrilledElement
 from ...engineering.geometry.vectors import AXES, SIDES
 from ...errors import ScenarioError
-from ..actions import CutPlane, Fact, Plan, PlannedAction, Worksite
+from ..actions import CutPlane, Fact, Plan, PlannedAction, PlannedStep, Worksite, counted
+from ..changes.zone_firings import ZoneFiring
 from ..schema import POSITION, SHARE, SIZE, given, key, shown
 from .charges import LARGEST_CHARGE_KG, MS_PER_S
 
@@ -64,6 +65,7 @@ class BlastZone(PlannedAction):
     table: ClassVar[str] = "blast_zones"
     heading: ClassVar[str] = "Blast zones"
     numbered: ClassVar[str] = "Zone"
+    noun: ClassVar[str] = "blast zone"
 
     name: str | None = key("What it is called in plans; by default Zone and its number.", default=None)
     member: str = key("The member, by a name that `bda check` lists.")
@@ -216,6 +218,30 @@ class BlastZone(PlannedAction):
     def ends_s(self, plan: Plan) -> float:
         last_s = self.row_times_s()[-1] + _FARTHEST_DEVIATIONS * self.deviations_s()[-1]
         return plan.detonation_s(last_s) if self.goes_off else math.inf
+
+    @classmethod
+    def run_tables(cls) -> tuple[type[PlannedAction], ...]:
+        return (ZoneFiring,)
+
+    def in_run(self, site: Worksite) -> Iterator[PlannedAction]:
+        yield from site.firings_of(self)
+
+    def described(self) -> tuple[str, str]:
+        rows = "a row" if self.rows == 1 else f"{self.rows} rows"
+        holes = f"{rows}, {self.holes} holes, {self.mass_kg:.3g} kg of {self.explosive}"
+        return f"{self.name} fires: {holes}", self.member
+
+    def planned(self, plan: Plan) -> Iterator[PlannedStep]:
+        """Yield it with its end as planned, without what detonators scatter."""
+        begins_s = self.begins_s(plan)
+        ends_s = plan.detonation_s(self.row_times_s()[-1]) if math.isfinite(begins_s) else math.inf
+        yield PlannedStep(begins_s, ends_s, *self.described())
+
+    @classmethod
+    def means(cls, actions: Sequence[Self]) -> str:
+        mass_kg = math.fsum(zone.mass_kg for zone in actions)
+        last_ms = MS_PER_S * max(zone.row_times_s()[-1] for zone in actions)
+        return f"{counted(len(actions), cls.noun)} with {mass_kg:.3g} kg in drill holes, fired within {last_ms:.0f} ms"
 
     def facts(self, site: Worksite) -> Iterator[Fact]:
         yield from site.facts_of_zone(self)

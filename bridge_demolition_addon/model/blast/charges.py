@@ -1,14 +1,14 @@
 """Charges, and the TNT equivalents of explosives."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Self
 
 from ...engineering.arithmetic import cube_root
 from ...engineering.blast.wave import Burst
 from ...errors import BlastError, ScenarioError
-from ..actions import Fact, Plan, PlannedAction, Worksite
+from ..actions import Fact, Plan, PlannedAction, Worksite, counted, point_text
 from ..schema import POSITION, given, key
 
 SWISDAK = "air blast; Swisdak, NSWC/WOL/TR 75-116 (1975), as in TM 5-855-1 and UFC 3-340-02"
@@ -77,6 +77,8 @@ class Charge(PlannedAction):
     table: ClassVar[str] = "charges"
     heading: ClassVar[str] = "Charges"
     numbered: ClassVar[str] = "Charge"
+    noun: ClassVar[str] = "bare charge"
+    is_object: ClassVar[bool] = True
 
     name: str | None = key("What it is called in the logs; by default Charge and its number.", default=None)
     place_m: tuple[float, float, float] = key("Position: along the road, across it, and above the ground.", **POSITION)
@@ -111,6 +113,15 @@ class Charge(PlannedAction):
 
     def ends_s(self, plan: Plan) -> float:
         return plan.detonation_s(self.delay_s)
+
+    def described(self) -> tuple[str, str]:
+        return f"{self.name} detonates: {self.mass_kg:.3g} kg of {self.explosive}, bare", point_text(self.place_m)
+
+    @classmethod
+    def means(cls, actions: Sequence[Self]) -> str:
+        charges = [charge for charge in actions if charge.mass_kg > 0.0]
+        mass_kg = math.fsum(charge.mass_kg for charge in charges)
+        return f"{counted(len(charges), cls.noun)} with {mass_kg:.3g} kg" if charges else ""
 
     def facts(self, site: Worksite) -> Iterator[Fact]:
         position = ", ".join(f"{value:g}" for value in self.place_m)

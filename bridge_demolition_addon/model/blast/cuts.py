@@ -7,6 +7,7 @@ from typing import ClassVar
 
 from ...engineering.geometry.vectors import AXES
 from ..actions import CutPlane, Fact, Plan, PlannedAction, Worksite
+from ..changes.saw_cuts import Severing
 from ..schema import POSITION, SHARE, key, shown
 from .blast_zones import DETONATORS, NO_SCATTER, BlastZone, check_fires_within, scattered_time_s
 from .charges import LARGEST_CHARGE_KG, MS_PER_S
@@ -23,6 +24,7 @@ class MemberCut(PlannedAction):
     heading: ClassVar[str] = "Severed members"
     numbered: ClassVar[str] = "Cut"
     named_beside: ClassVar[str] = BlastZone.table
+    noun: ClassVar[str] = "severed member"
 
     name: str | None = key("What it is called in plans; by default Cut and its number.", default=None)
     member: str = key("The member, by a name that `bda check` lists.")
@@ -52,6 +54,11 @@ class MemberCut(PlannedAction):
         return fixed_s + share * self.time_s
 
     @property
+    def ends_along_m(self) -> tuple[float, float]:
+        """Where it begins and ends along that axis: a cut is a plane."""
+        return self.position_m, self.position_m
+
+    @property
     def plane(self) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
         """A point of the plane and its normal."""
         point, normal = [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]
@@ -64,6 +71,26 @@ class MemberCut(PlannedAction):
 
     def begins_s(self, plan: Plan) -> float:
         return plan.detonation_s(self.time_s) if self.fires else math.inf
+
+    @classmethod
+    def run_tables(cls) -> tuple[type[PlannedAction], ...]:
+        return (Severing,)
+
+    def in_run(self, site: Worksite) -> Iterator[PlannedAction]:
+        yield from self.changes(site.plan)
+
+    def changes(self, plan: Plan) -> Iterator[Severing]:
+        if self.fires and math.isfinite(plan.detonation_s(0.0)):
+            yield self.severing(plan)
+
+    def severing(self, plan: Plan) -> Severing:
+        """Return it as a change to the structure, where it fires."""
+        point_m, normal = self.plane
+        time_s = plan.blast_start_s + self.fired_after_s(plan.seed)
+        return Severing(time_s=time_s, members=(self.member,), point_m=point_m, normal=normal)
+
+    def described(self) -> tuple[str, str]:
+        return f"{self.name} severs a member: {self.mass_kg:.3g} kg", self.member
 
     def facts(self, site: Worksite) -> Iterator[Fact]:
         begins_s = self.begins_s(site.plan)
@@ -92,5 +119,5 @@ def check_cuts(cuts: Sequence[MemberCut], zones: Sequence[BlastZone]) -> None:
                 continue
             if other.along != cut.along:
                 raise cut.unexpected("along", f'"{other.along}" as {shown(other.name)} of {cut.member} has')
-            if isinstance(other, BlastZone) and other.ends_along_m[0] < cut.position_m < other.ends_along_m[1]:
+            if other.ends_along_m[0] < cut.position_m < other.ends_along_m[1]:
                 raise cut.unexpected("position_m", f"a position outside {shown(other.name)}, a zone of that member")

@@ -1,8 +1,8 @@
 """How the ground moves: by a recorded accelerogram, a sweep of frequencies, or a record made from a spectrum."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Self
 
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...errors import ScenarioError
@@ -111,6 +111,13 @@ class GroundMotion(PlannedAction):
 
     def begins_s(self, plan: Plan) -> float:
         return self.start_s
+
+    def described(self) -> tuple[str, str]:
+        return "the ground moves", ""
+
+    @classmethod
+    def means(cls, actions: Sequence[Self]) -> str:
+        return "motion of the ground"
 
     def facts(self, site: Worksite) -> Iterator[Fact]:
         record = site.plan.ground_record

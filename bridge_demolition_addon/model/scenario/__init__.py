@@ -9,7 +9,11 @@ from ..blast.blast_zones import BlastZone
 from ..blast.charges import Charge
 from ..blast.cuts import MemberCut
 from ..blast.settings import BlastSettings
-from ..lifts import Lift, Sling
+from ..changes.removals import Removal
+from ..changes.saw_cuts import SawCut
+from ..changes.tendon_cuts import TendonCut
+from ..changes.weakenings import Weakening
+from ..lifts import Lift
 from ..loads import Load
 from ..materials.bar_layers import BarLayer
 from ..materials.materials import Material
@@ -33,7 +37,6 @@ from .reporting import ReportSettings
 from .scenario import Scenario
 from .site import Exclusion, Neighbour, Site, Zone
 from .steelwork import SteelMember, SteelNode, Steelwork
-from .structural_changes import Change, LiftingAway, Removal, SawCut, Severing, TendonCut, Weakening, ZoneFiring
 from .tendons import Tendon
 from .time import TimeSettings
 from .trusses import TrussSpan
@@ -51,7 +54,6 @@ __all__ = [
     "BoxGirder",
     "Bridge",
     "BridgeReinforcement",
-    "Change",
     "Charge",
     "ConnectionBetween",
     "ConnectionSettings",
@@ -70,7 +72,6 @@ __all__ = [
     "GroundSurface",
     "Jackhammer",
     "Lift",
-    "LiftingAway",
     "Load",
     "Material",
     "MemberCut",
@@ -87,10 +88,8 @@ __all__ = [
     "RigidFrame",
     "SawCut",
     "Scenario",
-    "Severing",
     "ShardSettings",
     "Site",
-    "Sling",
     "SteelMember",
     "SteelNode",
     "Steelwork",
@@ -102,5 +101,4 @@ __all__ = [
     "TrussSpan",
     "Weakening",
     "Zone",
-    "ZoneFiring",
 ]

@@ -1,7 +1,7 @@
 """The wrecking ball, and the cable that it may swing on."""
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import ClassVar, Self
 
@@ -13,7 +13,7 @@ from ...engineering.geometry.vectors import length, points_along
 from ...engineering.timing.timeline import Timeline
 from ...engineering.units import STANDARD_GRAVITY_M_S2, mass_text
 from ...errors import GeometryError, ScenarioError
-from ..actions import Fact, HeightAt, Place, Plan, PlannedAction, Point, Worksite
+from ..actions import Fact, HeightAt, Place, Plan, PlannedAction, PlannedStep, Point, Worksite, point_text
 from ..schema import FARTHEST_M, POSITION, SHARE, SIZE, Table, expected, given, key
 from .contacts import BALL, FRICTION, OWN_VALUE, RESTITUTION, BodyInContact
 
@@ -261,6 +261,21 @@ class Ball(_Drop, BodyInContact, PlannedAction):
         if self.cable:
             yield self.cable.start_m
             yield self.cable.crane_point_m
+
+    def planned(self, plan: Plan) -> Iterator[PlannedStep]:
+        what = f"ball of {mass_text(self.mass_kg, 1)} is let go"
+        if self.cable:
+            yield PlannedStep(self.release_time_s, self.release_time_s, f"{what} on its cable", "")
+        for drop in self.drops:
+            height = f"{what}, {given(drop.drop_height_m):g} m above the deck"
+            lands_s = drop.release_time_s + drop.fall_time_s
+            yield PlannedStep(drop.release_time_s, lands_s, height, f"above {point_text(given(drop.target_m))}")
+
+    @classmethod
+    def means(cls, actions: Sequence[Self]) -> str:
+        (ball,) = actions
+        times = max(len(ball.drops), 1)
+        return f"ball of {mass_text(ball.mass_kg, 1)}, let go {'once' if times == 1 else f'{times} times'}"
 
     def facts(self, site: Worksite) -> Iterator[Fact]:
         yield "mass", mass_text(self.mass_kg)

@@ -9,7 +9,7 @@ import numpy as np
 
 from ...engineering.arithmetic import cosine
 from ...engineering.geometry.vectors import points_along
-from ..actions import Fact, HeightAt, Place, Plan, PlannedAction, Point, Worksite
+from ..actions import Fact, HeightAt, Place, Plan, PlannedAction, Point, Worksite, point_text
 from ..schema import SHORTEST_LENGTH_M, key
 from .contacts import FRICTION, OWN_VALUE, TOOLS, BodyInContact
 
@@ -31,6 +31,7 @@ class Jackhammer(BodyInContact, PlannedAction):
 
     table: ClassVar[str] = "jackhammers"
     contact: ClassVar[str] = TOOLS
+    noun: ClassVar[str] = "jackhammer"
     older_values: ClassVar[Mapping[str, float]] = {FRICTION: 0.5}
 
     start_time_s: float = key("When the first blow begins, from above the deck.", unit="s", at_least=0)
@@ -101,6 +102,9 @@ class Jackhammer(BodyInContact, PlannedAction):
         (tip,) = self.tip_positions(height_at(self.path_m[0]), np.array([self.start_time_s]))
         for along, across in self.path_m:
             yield along, across, float(tip[2]) + self.length_m
+
+    def described(self) -> tuple[str, str]:
+        return "jackhammer works", f"from {point_text(self.path_m[0])} to {point_text(self.path_m[-1])}"
 
     def facts(self, site: Worksite) -> Iterator[Fact]:
         work = f"jackhammer until {self.end_time_s:g} s, at up to {self.largest_speed_m_s:.1f} m/s"

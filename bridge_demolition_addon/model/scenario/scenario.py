@@ -3,6 +3,7 @@
 import math
 from collections.abc import Hashable
 from dataclasses import dataclass, field, replace
+from functools import cache
 from itertools import chain
 from typing import Any, ClassVar, Literal, NamedTuple
 
@@ -16,6 +17,11 @@ from ..blast.blast_zones import BlastZone, check_zones_apart
 from ..blast.charges import Charge
 from ..blast.cuts import MemberCut, check_cuts
 from ..blast.settings import BlastSettings
+from ..changes.change import Change
+from ..changes.removals import Removal
+from ..changes.saw_cuts import SawCut
+from ..changes.tendon_cuts import TendonCut
+from ..changes.weakenings import Weakening
 from ..foundations import Foundation
 from ..ground_motion.settings import GroundMotion
 from ..ground_motion.sources import ground_record
@@ -51,7 +57,6 @@ from .reinforcement import BarRule, BridgeReinforcement, GeometryReinforcement
 from .reporting import ReportSettings
 from .site import Exclusion, Neighbour, Site, Zone
 from .steelwork import Steelwork
-from .structural_changes import Change, Removal, SawCut, TendonCut, Weakening, lifting_away, severing
 from .tendons import Tendon, check_tendons
 from .time import MOST_FRAMES, TimeSettings
 
@@ -213,6 +218,10 @@ class Scenario(Table):
         return self.blast.start_s + delay_s if self.blast.explosion else math.inf
 
     @property
+    def blast_start_s(self) -> float:
+        return self.blast.start_s
+
+    @property
     def actions(self) -> tuple[PlannedAction, ...]:
         """Return all that is done to the bridge, in the order of the fields."""
         held = (getattr(self, name) for name in action_fields(type(self)))
@@ -232,10 +241,7 @@ class Scenario(Table):
     @property
     def changes(self) -> tuple[Change, ...]:
         """Changes to the structure, but for those of blast zones, which depend on its model."""
-        fired = [cut for cut in self.cuts if cut.fires and self.blast.explosion]
-        severed = (severing(cut, self.blast.start_s, self.seed) for cut in fired)
-        lifted = (lifting_away(lift) for lift in self.lifts)
-        return (*self.removals, *self.saw_cuts, *self.weakenings, *severed, *self.tendon_cuts, *lifted)
+        return tuple(chain.from_iterable(action.changes(self) for action in self.actions))
 
     def resolved(self) -> dict[str, Any]:
         """Return connections with strength and stiffness, the time that these need, and how bodies touch."""
@@ -365,6 +371,17 @@ def action_fields(scenario_class: type[Table]) -> tuple[str, ...]:
         for item in subtable_fields(scenario_class)
         if issubclass(subtable_class(item) or Table, PlannedAction)
     )
+
+
+@cache
+def run_tables() -> dict[str, tuple[type[PlannedAction], ...]]:
+    """Return the kinds of tables by which runs do what is planned, by the name that a scene keeps them under."""
+    found: dict[str, tuple[type[PlannedAction], ...]] = {}
+    for item in subtable_fields(Scenario):
+        kind = subtable_class(item) or Table
+        for table in kind.run_tables() if issubclass(kind, PlannedAction) else ():
+            found[table.kept_in] = (*found.get(table.kept_in, ()), table)
+    return found
 
 
 def no_actions(scenario: Scenario) -> dict[str, Any]:

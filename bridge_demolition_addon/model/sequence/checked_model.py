@@ -12,21 +12,18 @@ from manifold3d import Manifold
 from ...engineering.geometry.solids import to_manifold
 from ...engineering.geometry.vectors import AXES
 from ..actions import Affected, Fact, Place, PlannedAction, Point
+from ..as_built import Structure
 from ..blast.blast_zones import BlastZone
 from ..bridge.extent import surface_height
 from ..bridge.member import Member
-from ..lifts import Lift, Pick
-from ..loads import Load
-from ..pulls import Pull
-from ..scenario import Change, MemberCut, Scenario, TendonCut
-from ..scenario.structural_changes import severing
-from ..schema import given
+from ..changes.zone_firings import ZoneFiring
+from ..lifts import Lift, Pick, Sling
+from ..scenario import MemberCut, Scenario
 from ..structure.blast_zones import one_member, placed_zone, placed_zones
 from ..structure.model import Model, build_model
 from ..structure.zone_loads import ZoneFall, ZoneLoad, facts_of_zones, zone_falls
-from .events import Structure, cut_text, model_structure, schedule
-from .lifts import placed_lift
-from .loads import placed_on_model
+from .lifts import PlacedLift, placed_lift
+from .structures import model_structure
 
 _SPHERE_FACETS = 64
 """Round enough: the corners are on the sphere, and its sides 0.1 % of the radius within it."""
@@ -41,7 +38,7 @@ class ModelWorksite:
     zone_loads: tuple[ZoneLoad, ...] = ()  # what blast zones carry at rest, where it is known
 
     @cached_property
-    def _structure(self) -> Structure:
+    def structure(self) -> Structure:
         return model_structure(self.model)
 
     @cached_property
@@ -71,20 +68,22 @@ class ModelWorksite:
 
     def affected_by(self, action: PlannedAction) -> Affected:
         model = self.model
-        if isinstance(action, Load | Pull):
-            shards = placed_on_model(action, self.number_of(action), model, self._structure).bodies
-        elif isinstance(action, Lift):
-            shards = placed_lift(action, model, self._structure).shards
-        else:
-            assert isinstance(action, Change)
-            (event,) = schedule((action,), self._structure)
-            shards = np.union1d(event.bodies, model.connections.pairs[event.connections])
-            shards = shards[shards >= 0]  # without the ground
+        shards = action.shards(self.structure, self.number_of(action))
         names = sorted({model.members[row].name for row in model.member_of_shard[shards]})
         return Affected(len(shards), float(model.masses_kg[shards].sum()), tuple(names))
 
     def pick_of(self, lift: Lift) -> Pick:
-        return placed_lift(lift, self.model, self._structure).pick
+        return self._placed(lift).pick
+
+    def slings_of(self, lift: Lift) -> Sequence[Sling]:
+        return self._placed(lift).slings()
+
+    def _placed(self, lift: Lift) -> PlacedLift:
+        return placed_lift(lift, self.model, self.structure)
+
+    def firings_of(self, zone: BlastZone) -> Sequence[ZoneFiring]:
+        placed = placed_zone(zone, self.model.members, self.model.layers)
+        return (placed.firing(self.plan),) if placed.loosens(self.plan) else ()
 
     @cached_property
     def _zone_falls(self) -> dict[str, ZoneFall]:
@@ -98,7 +97,7 @@ class ModelWorksite:
     def check_zone(self, zone: BlastZone) -> None:
         placed = placed_zone(zone, self.model.members, self.model.layers)
         if zone.goes_off:
-            schedule((placed.firing(self.plan),), self._structure)
+            placed.firing(self.plan).event(self.structure)
 
     def check_cut(self, cut: MemberCut) -> None:
         member = one_member(cut, self.model.members)
@@ -107,11 +106,7 @@ class ModelWorksite:
             raise cut.unexpected(
                 "position_m", f"a position in {member.name}, from {lowest:g} to {highest:g} (m) along {cut.along}"
             )
-        schedule((severing(cut, self.plan.blast.start_s, self.plan.seed),), self._structure)
-
-    def cut_tendons_text(self, action: TendonCut) -> str:
-        (event,) = schedule((action,), self._structure)
-        return cut_text(event.tendons, given(self.model.tendons))
+        cut.severing(self.plan).event(self.structure)
 
     def number_of(self, action: PlannedAction) -> int:
         alike = [other for other in self.plan.actions if type(other) is type(action)]

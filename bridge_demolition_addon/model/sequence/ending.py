@@ -11,11 +11,11 @@ from typing import Any, Self
 
 import numpy as np
 
+from ..changes.bare_bars import bare_bars_text
 from ..results.arrays import Results
 from ..results.moving import gone_text, moving_text
 from ..results.solver_energy import much_made_text
 from ..scenario import Scenario
-from .bare_bars import bare_bars_text
 from .lifts import held_parts_text, pick_texts
 from .undisturbed import first_event_s, self_collapse_text
 

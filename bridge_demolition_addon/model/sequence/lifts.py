@@ -17,12 +17,11 @@ from ...engineering.geometry.vectors import cross, length, unit
 from ...engineering.mechanics.slings import Hanging, hanging, sling_forces_n
 from ...engineering.structure.connections import GROUND
 from ...engineering.units import STANDARD_GRAVITY_M_S2
-from ...errors import ScenarioError
+from ..as_built import Structure
 from ..lifts import Lift, Pick, Sling, radius_m, sling_of
 from ..schema import given
 from ..structure.model import Model
-from .events import Structure, in_box, model_structure, of_members
-from .loads import placed_on_model
+from .structures import model_structure
 
 _STEEP = math.sqrt(3.0)
 """Height of a hook over its slings by how far they are from it on plan: they are as steep as 60°."""
@@ -69,6 +68,10 @@ class PlacedLift:
         """Forces (k,) of slings that have taken up their share of the weight: upright at the hook."""
         weight_n = self.lift.pretension * STANDARD_GRAVITY_M_S2 * self.pick.shards_kg
         return sling_forces_n(self.points_m, self.hook_m, np.array((0.0, 0.0, weight_n)), self.lift.elastic_n)
+
+    def slings(self) -> tuple[Sling, ...]:
+        """Return its slings as cables of a run."""
+        return _slings(self.lift, self.points_m, self.hook_m, self.taken_up_n, self.pick)
 
     def vertical_n(self, forces_n: np.ndarray) -> float:
         """Return what slings with forces (k,) carry upright, as they were placed."""
@@ -124,7 +127,7 @@ def placed_lifts(lifts: Sequence[Lift], model: Model) -> tuple[PlacedLift, ...]:
 
 def placed_lift(lift: Lift, model: Model, structure: Structure) -> PlacedLift:
     """Return a lift on the shards of a model with a structure; refuse one whose slings cannot hold its part."""
-    shards = shards_of_lift(lift, structure)
+    shards = lift.shards(structure, 1)
     mass_kg, centre_m = _gravity(model, shards)
     pick = Pick(lift.name, mass_kg, volume_kg(lift, model, structure))
     boxes_m = np.array([model.shards[shard].bounds for shard in shards.tolist()])
@@ -133,7 +136,7 @@ def placed_lift(lift: Lift, model: Model, structure: Structure) -> PlacedLift:
     above_m = float(points_m[:, 2].max()) + max(_STEEP * aside_m, _LEAST_HEIGHT_M)
     hook_m = np.array((*centre_m[:2].tolist(), above_m) if lift.hook_m is None else lift.hook_m)
     slings = _slings(lift, points_m, hook_m, np.ones(len(points_m)), pick)
-    carriers = [int(placed_on_model(sling, 1, model, structure).bodies[0]) for sling in slings]
+    carriers = [int(sling.placed(structure, number).bodies[0]) for number, sling in enumerate(slings, start=1)]
     weight_n = STANDARD_GRAVITY_M_S2 * pick.heavier_by * pick.shards_kg
     hangs = hanging(points_m, hook_m, centre_m, weight_n, lift.elastic_n)
     x, y, z = centre_m.tolist()
@@ -141,20 +144,9 @@ def placed_lift(lift: Lift, model: Model, structure: Structure) -> PlacedLift:
     return PlacedLift(lift, shards, pick, centre_m, points_m, hook_m, np.array(carriers))
 
 
-def shards_of_lift(lift: Lift, structure: Structure) -> np.ndarray:
-    """Return the shards (s,) that a lift takes away; refuse one without any."""
-    inside = of_members(lift, structure) & in_box(lift, structure.centres_m)
-    if not (inside & structure.is_shard).any():
-        raise ScenarioError(
-            f"lifts {lift.name!r}: no shard that can move is there; expected members or a box with some that no "
-            "support holds"
-        )
-    return np.flatnonzero(inside & structure.is_shard)
-
-
 def volume_kg(lift: Lift, model: Model, structure: Structure) -> float:
     """Return the mass of what of a lift's members lies in its box, however they are cut, but for what is held."""
-    meant = of_members(lift, structure)[: len(model.shards)]
+    meant = lift.of_members(structure)[: len(model.shards)]
     masses_kg = []
     for number, member in enumerate(model.members):
         own = meant & (model.member_of_shard == number)
@@ -180,22 +172,15 @@ def pick_warnings(lifts: Sequence[Lift], model: Model) -> list[str]:
     return [warning for placed in placed_lifts(lifts, model) if (warning := placed.pick.warning)]
 
 
-def slings_of(lifts: Sequence[Lift], model: Model) -> tuple[Sling, ...]:
-    """Return the slings of lifts as cables of a run."""
-    return tuple(
-        sling
-        for placed in placed_lifts(lifts, model)
-        for sling in _slings(placed.lift, placed.points_m, placed.hook_m, placed.taken_up_n, placed.pick)
-    )
-
-
-def _slings(lift: Lift, points_m: np.ndarray, hook_m: np.ndarray, forces_n: np.ndarray, pick: Pick) -> list[Sling]:
+def _slings(
+    lift: Lift, points_m: np.ndarray, hook_m: np.ndarray, forces_n: np.ndarray, pick: Pick
+) -> tuple[Sling, ...]:
     """Return the slings of a lift, with the forces (k,) that they take up."""
     x, y, z = hook_m.tolist()
-    return [
+    return tuple(
         sling_of(lift, number, (point[0], point[1], point[2]), (x, y, z), force_n, pick)
         for number, (point, force_n) in enumerate(zip(points_m.tolist(), forces_n.tolist(), strict=True), start=1)
-    ]
+    )
 
 
 def _gravity(model: Model, shards: np.ndarray) -> tuple[float, np.ndarray]:

@@ -10,8 +10,8 @@ import numpy as np
 
 from ...engineering.drilled_charges.cages import BareBars
 from ...engineering.elasticity.tendons import CutTendon
-from ..sequence.bare_bars import StandingBars
-from ..sequence.events import Event
+from ..changes.bare_bars import StandingBars
+from ..changes.change import Event
 from ..structure.model import Model
 
 
@@ -19,9 +19,6 @@ from ..structure.model import Model
 class BaredZone:
     """A blast zone whose bars stand bare, and what they resist."""
 
-    name: str
-    tension_n: float
-    compression_n: float
     bars: StandingBars
     groups: np.ndarray  # (k,), which of the groups of bars stand
 
@@ -83,16 +80,16 @@ class ChangedBridge:
             force_n = float(forces_n[begun : begun + len(zone.groups)].sum())
             begun += len(zone.groups)
             if force_n:  # bars that have folded or ruptured are gone
-                found.append(PressedBars(zone.name, force_n, zone.tension_n if force_n > 0.0 else zone.compression_n))
+                resisted_n = zone.bars.tension_n if force_n > 0.0 else zone.bars.compression_n
+                found.append(PressedBars(zone.bars.zone, force_n, resisted_n))
         return tuple(found)
 
     def _after_one(self, event: Event) -> ChangedBridge:
         intact, left, removed = self.intact.copy(), self.left.copy(), self.removed.copy()
         zones = self.zones
-        if (bars := event.bars) and event.zone:
+        if bars := event.bars:
             holds = intact[bars.connections].all(axis=1) & ~self._is_gone(bars.bodies)
-            resisted = event.zone.cage_tension_n, event.zone.cage_compression_n
-            zones = (*zones, BaredZone(event.zone.name, *resisted, bars, np.flatnonzero(holds)))
+            zones = (*zones, BaredZone(bars, np.flatnonzero(holds)))
         removed[event.bodies] = True
         intact[event.connections] &= event.factor > 0.0
         if event.factor > 0.0:
@@ -109,4 +106,4 @@ class ChangedBridge:
 
 def _without(zone: BaredZone, is_gone: np.ndarray) -> BaredZone:
     groups = zone.groups[~is_gone[zone.groups]]
-    return BaredZone(zone.name, zone.tension_n, zone.compression_n, zone.bars, groups)
+    return BaredZone(zone.bars, groups)

@@ -14,9 +14,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...engineering.units import STANDARD_GRAVITY_M_S2, mass_text, with_digits
+from ..as_built import Structure
+from ..changes.change import Event
 from ..lifts import Lift, Pick
-from ..scenario.structural_changes import lifting_away
-from ..sequence.events import Event, Structure, schedule
 from ..sequence.lifts import PlacedLift
 from ..structure.cracking import FALLEN_SHARE
 from ..structure.model import Model
@@ -103,7 +103,7 @@ class CraneWork:
     def __init__(self, lifts: Sequence[PlacedLift], model: Model, structure: Structure):
         self._model = model
         self._waiting = list(lifts)
-        self._leaves = {placed.lift.name: schedule((lifting_away(placed.lift),), structure)[0] for placed in lifts}
+        self._leaves = {placed.lift.name: placed.lift.lifting_away().event(structure) for placed in lifts}
 
     def times(self) -> set[float]:
         """Return when slings begin to hold, and when parts are lifted away."""

@@ -9,8 +9,10 @@ from typing import Any
 import numpy as np
 
 from ...engineering.units import STANDARD_GRAVITY_M_S2, mass_text
-from ..scenario import Scenario, ZoneFiring
-from ..sequence.events import Event, model_structure, schedule
+from ..changes.change import Event, schedule
+from ..changes.zone_firings import ZoneFiring
+from ..scenario import Scenario
+from ..sequence.structures import model_structure
 from ..structure.blast_zones import zone_firings
 from .changed_bridge import ChangedBridge
 from .standing import StandingBridge
@@ -54,8 +56,7 @@ def misfires(scenario: Scenario, bridge: StandingBridge, progress: Callable[[int
     cases: list[ZoneFiring | None] = [None, *firings]
     found = []
     for number, fails in enumerate(cases, start=1):
-        # Rows of changes that are alike: a zone is known by its name, and others have none.
-        fired = [event for event in events if fails is None or event.zone is None or event.zone.name != fails.name]
+        fired = [event for event in events if event.change is not fails]
         found.append(_without(bridge, fired, held, fails.name if fails else ALL_FIRE))
         progress(number, len(cases))
     return found

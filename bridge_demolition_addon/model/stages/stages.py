@@ -14,12 +14,12 @@ from ...engineering.geometry.vectors import unit
 from ...engineering.units import STANDARD_GRAVITY_M_S2
 from ...errors import ScenarioError
 from ..actions import Fact
+from ..changes.change import Event, schedule
 from ..pulls import Pull
-from ..scenario import Equipment, LiftingAway, Scenario
+from ..scenario import Equipment, Scenario
 from ..schema import given
-from ..sequence.events import Event, model_structure, schedule
 from ..sequence.lifts import placed_lifts
-from ..sequence.loads import placed_on_model
+from ..sequence.structures import model_structure
 from ..structure.blast_zones import zone_firings
 from ..structure.cracking import FALLEN_SHARE
 from ..structure.model import Model
@@ -87,7 +87,7 @@ def stages_of(
     most of the time.
     """
     model = bridge.model
-    planned = (change for change in scenario.changes if not isinstance(change, LiftingAway))
+    planned = (change for change in scenario.changes if not change.by_crane)
     changes, structure = (*planned, *zone_firings(scenario, model.members)), model_structure(model)
     sections = SectionsWithBars(scenario, model)
     crane = CraneWork(placed_lifts(scenario.lifts, model), model, structure)
@@ -263,13 +263,13 @@ def pull_loads(model: Model, pulls: Sequence[Pull], removed: np.ndarray) -> np.n
         return loads
     structure = model_structure(model)
     for number, pull in enumerate(pulls, start=1):
-        placed = placed_on_model(pull, number, model, structure)
+        placed = pull.placed(structure, number)
         shard = int(placed.bodies[0])
         if removed[shard]:
             continue
         force_n = pull.most_n * unit(np.subtract(pull.anchor_m, pull.point_m))
         loads[:3, shard] += force_n
-        loads[3:, shard] += np.cross(given(placed.arm_m), force_n)
+        loads[3:, shard] += np.cross(placed.arms_m[0], force_n)
     return loads
 
 
@@ -299,8 +299,8 @@ def _described_step(
 
 
 def _described(event: Event, model: Model) -> str:
-    if event.zone:
-        return f"{event.zone.name} of {', '.join(event.zone.members or ())}: {event.zone.effect}"
+    if event.change.step:
+        return event.change.step
     if len(event.bodies):
         names = {model.members[member].name for member in model.member_of_shard[event.bodies]}
         return f"{event.kind} of {', '.join(sorted(names))}"

@@ -28,9 +28,10 @@ from ...engineering.mechanics.strength import NEWTON_PER_SQUARE_MILLIMETRE
 from ..actions import Fact
 from ..blast.blast_zones import THROWN_AWAY, BlastZone, element_of, length_of_charge_m
 from ..bridge.member import Member, members_named
+from ..changes.zone_firings import ZoneFiring
 from ..materials.bar_layers import BarLayer
 from ..reinforcement.design import all_layers
-from ..scenario import MemberCut, Scenario, ZoneFiring
+from ..scenario import MemberCut, Scenario
 from ..schema import given
 from .zone_bars import ZoneBars, zone_bars
 
@@ -150,6 +151,10 @@ class PlacedZone:
     def fragment_speed_m_s(self) -> float:
         """Mean speed of what is thrown, after its cover."""
         return self.zone.cover_factor * float(mean_speed_m_s(self.effective_kg_m3, self.density_kg_m3))
+
+    def loosens(self, scenario: Scenario) -> bool:
+        """Return whether it fires, and does anything to its concrete."""
+        return scenario.blast.explosion and self.zone.goes_off and self.effect != Effect.NOTHING
 
     def firing(self, scenario: Scenario) -> ZoneFiring:
         """Return it as a change to the structure."""
@@ -292,8 +297,8 @@ def zone_firings(scenario: Scenario, members: Sequence[Member]) -> tuple[ZoneFir
     """Return what the zones do that fire, and that do anything to their concrete."""
     if not scenario.blast.explosion:
         return ()
-    fired = (placed for placed in placed_zones(scenario, members) if placed.zone.goes_off)
-    return tuple(placed.firing(scenario) for placed in fired if placed.effect != Effect.NOTHING)
+    placed = placed_zones(scenario, members)
+    return tuple(zone.firing(scenario) for zone in placed if zone.loosens(scenario))
 
 
 def grams_per_tonne(explosive_kg: float, members: Sequence[Member]) -> float:

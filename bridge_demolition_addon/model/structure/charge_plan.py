@@ -40,31 +40,16 @@ _NEAREST_M = 1e-3
 class FiredRow:
     """A row of holes that fires, or the explosive that severs a member, which is bare."""
 
-    of: PlacedZone | MemberCut
+    name: str  # of the zone or the cut
     box_m: np.ndarray  # (2, 3), around it
     row: int  # from 1
     time_s: float  # after the start of the blasting, as planned
     spread_s: float  # how much earlier or later it may fire
     mass_kg: float
     together_kg: float  # what can fire within 8 ms from it on, itself among it
-
-    @property
-    def detonators(self) -> int:
-        """One in each hole, and one that severs a member."""
-        return self.of.zone.holes_a_row if isinstance(self.of, PlacedZone) else 1
-
-    @property
-    def name(self) -> str:
-        """What the zone or the cut is called."""
-        return zone_name(self.of) if isinstance(self.of, PlacedZone) else given(self.of.name)
-
-    @property
-    def detonator(self) -> str:
-        return self.of.zone.detonator if isinstance(self.of, PlacedZone) else self.of.detonator
-
-    @property
-    def is_bare(self) -> bool:
-        return isinstance(self.of, MemberCut)
+    detonator: str
+    detonators: int = 1  # one in each hole, and one that severs a member
+    is_bare: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -181,7 +166,11 @@ def _rows_of_zones(zones: Sequence[PlacedZone]) -> Iterator[FiredRow]:
         mass_kg = placed.zone.holes_a_row * placed.zone.charge_kg
         times = zip(placed.zone.row_times_s(), placed.zone.deviations_s(), strict=True)
         for number, (time_s, deviation_s) in enumerate(times, start=1):
-            yield FiredRow(placed, placed.box_m, number, time_s, _DEVIATIONS * deviation_s, mass_kg, mass_kg)
+            spread_s = _DEVIATIONS * deviation_s
+            zone, name = placed.zone, zone_name(placed)
+            yield FiredRow(
+                name, placed.box_m, number, time_s, spread_s, mass_kg, mass_kg, zone.detonator, zone.holes_a_row
+            )
 
 
 def _rows_of_cuts(cuts: Sequence[MemberCut], members: Sequence[Member]) -> Iterator[FiredRow]:
@@ -190,7 +179,8 @@ def _rows_of_cuts(cuts: Sequence[MemberCut], members: Sequence[Member]) -> Itera
             continue
         box_m = one_member(cut, members).solid.bounds.copy()
         box_m[:, AXES.index(cut.along)] = cut.position_m
-        yield FiredRow(cut, box_m, 1, cut.time_s, _DEVIATIONS * cut.deviation_s, cut.mass_kg, cut.mass_kg)
+        spread_s, mass_kg = _DEVIATIONS * cut.deviation_s, cut.mass_kg
+        yield FiredRow(given(cut.name), box_m, 1, cut.time_s, spread_s, mass_kg, mass_kg, cut.detonator, is_bare=True)
 
 
 def _totals(

@@ -10,10 +10,8 @@ import numpy as np
 
 from ...engineering.arithmetic import cosine, sine
 from ...engineering.geometry.mesh import TriangleMesh
+from ...model.as_built import Structure
 from ...model.pulls import Pull
-from ...model.sequence.events import model_structure
-from ...model.sequence.loads import placed_on_model
-from ...model.structure.model import Model
 from ..bodies import mesh_of
 from ..collections import ROLE, collection_for, find_collection, remove_marked
 
@@ -27,18 +25,17 @@ _STEEL = (0.08, 0.09, 0.10, 1.0)
 
 
 def create_cables(
-    scene: bpy.types.Scene, pulls: Sequence[Pull], model: Model, shards: Sequence[bpy.types.Object]
+    scene: bpy.types.Scene, pulls: Sequence[Pull], structure: Structure, shards: Sequence[bpy.types.Object]
 ) -> None:
     """Draw cables in place of those that were drawn before. They go with their shards, and are no bodies."""
     remove_marked(scene, _CABLES)
-    structure = model_structure(model) if pulls else None
     for number, pull in enumerate(pulls, start=1):
-        assert structure is not None
-        shard = int(placed_on_model(pull, number, model, structure).bodies[0])
+        placed = pull.placed(structure, number)
+        shard = int(placed.bodies[0])
         end = bpy.data.objects.new(f"{pull.name} end", None)
         end.empty_display_size = 0.3
         end.parent = shards[shard]
-        end.location = np.array(pull.point_m) - model.centres_m[shard]
+        end.location = placed.arms_m[0]
         cable = bpy.data.objects.new(pull.name, mesh_of(pull.name, _rod()))
         cable.location, cable.color = pull.anchor_m, _STEEL
         stretch = cable.constraints.new("STRETCH_TO")

@@ -9,9 +9,8 @@ import numpy as np
 
 from ...bullet.world import BulletWorld
 from ...engineering.drilled_charges.cages import Cages
-from ...model.scenario import ZoneFiring
-from ...model.sequence.departures import Departure
-from ...model.sequence.events import Event
+from ...model.changes.change import Change, Event
+from ...model.changes.departures import Departure
 from .drivers import Driver
 from .elastic_connections import ElasticConnections
 from .tendons import Tendons
@@ -27,14 +26,12 @@ class AppliedEvent:
     """An event that was applied: when, and which bodies (b,) and connections (c,) were still there then."""
 
     time_s: float
-    kind: str
+    change: Change
     bodies: np.ndarray
     connections: np.ndarray
-    zone: ZoneFiring | None = None
     bars: np.ndarray = field(default_factory=lambda: _NONE)  # numbers (g,) of groups of bars that stand bare since then
     law: Cages | None = None  # of all such bars
-    lift: str = ""  # name of the lift that took the bodies away
-    held_by: np.ndarray = field(default_factory=lambda: _NONE)  # bodies (h,) that still held them
+    held_by: np.ndarray = field(default_factory=lambda: _NONE)  # bodies (h,) that still held what a crane took away
 
     def bars_so_far(self) -> dict[str, float]:
         """Return the largest force that pressed its bars, and how far they folded; nothing where none stand bare."""
@@ -75,7 +72,7 @@ class Events(Driver):
         self.remaining_strength = np.ones(len(pairs))
         self.remaining_bars = self.remaining_strength if tendons is None else np.ones(len(pairs))
         self._tendons = tendons
-        self.pressed = np.ones(len(pairs)) if any(event.pressed != 1.0 for event in events) else None
+        self.pressed = np.ones(len(pairs)) if any(event.compression_factor != 1.0 for event in events) else None
         self._elastic, self._lifts_off = elastic, np.zeros(len(pairs), bool) if lifts_off is None else lifts_off
         self.applied: list[AppliedEvent] = []
         self._world, self._pairs, self._masses_kg = world, pairs, masses_kg
@@ -100,7 +97,7 @@ class Events(Driver):
         return impulses
 
     def _apply(self, event: Event) -> None:
-        held_by = self._bodies_holding(event) if event.lift else _NONE
+        held_by = self._bodies_holding(event) if event.change.by_crane else _NONE
         connections = event.connections[self._world.constraints.intact()[event.connections]]
         bars = _NONE
         if self._elastic and event.bars:
@@ -109,7 +106,7 @@ class Events(Driver):
         # Connections that broke before may still hold by reinforcement, which is weakened or cut with the others.
         self.remaining_strength[event.connections] *= event.factor
         if self.pressed is not None:
-            self.pressed[event.connections] *= event.pressed
+            self.pressed[event.connections] *= event.compression_factor
         if event.factor > 0.0:
             self._world.constraints.weaken(connections, event.factor)
         else:
@@ -130,9 +127,7 @@ class Events(Driver):
             until_s = self._begins_s + event.departure.duration_s
             self._leaving.append(_Leaving(event.bodies, event.departure, until_s))
         law = self._elastic.bare_bars.law if self._elastic else None
-        self.applied.append(
-            AppliedEvent(self._begins_s, event.kind, bodies, connections, event.zone, bars, law, event.lift, held_by)
-        )
+        self.applied.append(AppliedEvent(self._begins_s, event.change, bodies, connections, bars, law, held_by))
 
     def _bodies_holding(self, event: Event) -> np.ndarray:
         """Bodies (h,) that hold the part that a lift takes away, by connections or by bars across cracks."""

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from ...engineering.units import STANDARD_GRAVITY_M_S2
-from ...model.lifts import Sling
 from ...model.pulls import Pull
 
 
@@ -17,11 +16,13 @@ class Hooks:
     """Loads on the hooks of all lifts, by the slings among the cables of a run."""
 
     def __init__(self, cables: Sequence[Pull]):
-        slings = [(row, cable) for row, cable in enumerate(cables) if isinstance(cable, Sling)]
         self._rows: dict[str, list[int]] = {}
-        for row, sling in slings:
-            self._rows.setdefault(sling.lift, []).append(row)
-        self._masses_kg = {sling.lift: (sling.part_kg, sling.volume_kg or sling.part_kg) for _, sling in slings}
+        self._masses_kg: dict[str, tuple[float, float]] = {}
+        for row, cable in enumerate(cables):
+            if hook := cable.hangs_on:
+                lift, *masses_kg = hook
+                self._rows.setdefault(lift, []).append(row)
+                self._masses_kg[lift] = masses_kg[0], masses_kg[1]
         self._largest = dict.fromkeys(self._rows, (0.0, 0.0))
 
     def measure(self, time_s: float, upwards_n: np.ndarray) -> None:

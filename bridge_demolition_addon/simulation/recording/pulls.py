@@ -11,8 +11,8 @@ import numpy as np
 from ...bullet.bodies import BodyTable
 from ...engineering.geometry.vectors import cross, dot, length, transformed, transformed_back
 from ...engineering.mechanics.slings import cable_force_n, force_of_step_n, free_length_m, stored_j
+from ...model.loads import PlacedLoad
 from ...model.pulls import Pull
-from ...model.sequence.loads import PlacedLoad
 from .drivers import Driver
 from .hooks import Hooks
 
@@ -109,7 +109,7 @@ class Pulls(Driver):
         self._bodies = np.array([int(placed.bodies[0]) for placed in pulls], int)
         masses = (_LEAST_SHARE * masses_kg[self._bodies]).tolist()
         self.cables = [ReeledCable(placed.load, mass_kg) for placed, mass_kg in zip(pulls, masses, strict=True)]
-        arms = np.array([placed.arm_m for placed in pulls]).reshape(-1, 3)
+        arms = np.concatenate([placed.arms_m for placed in pulls])
         self._anchors = np.array([placed.load.anchor_m for placed in pulls]).reshape(-1, 3)
         self._arms_in_bodies = transformed_back(bodies.positions()[1][self._bodies], arms)
         self._begins_s = 0.0

@@ -17,7 +17,6 @@ from ...engineering.core.library import missing_core
 from ...errors import CoreError, LayoutError, NotFiniteError, OutputError, SimulationError
 from ...model.results.frames import BallHistory, ContactHistory, Frame
 from ...model.results.inventory import Inventory
-from ...model.scenario import ZoneFiring
 from ...model.schema import given
 from ...scene.as_built import build_of, changed_bodies, check_start
 from ...scene.bodies import bodies_of
@@ -196,15 +195,12 @@ class Recording(RecordedFrames):
         return [
             {
                 "time_s": event.time_s,
-                "kind": event.kind,
+                "kind": event.change.kind,
                 "shards": [str(names[body]) for body in event.bodies],
                 "connections": len(event.connections),
-                **(_of_zone(event.zone) | event.bars_so_far() if event.zone else {}),
-                **(
-                    {"lift": event.lift, "held_by": _members_of(event.held_by, given(self.inventory))}
-                    if event.lift
-                    else {}
-                ),
+                **event.change.recorded(),
+                **event.bars_so_far(),
+                **({"held_by": _members_of(event.held_by, given(self.inventory))} if event.change.by_crane else {}),
             }
             for event in (self._reader.applied_events if self._reader else ())
         ]
@@ -379,16 +375,6 @@ def _begin_motion(setup: RunSetup, world: BulletWorld, held: bool) -> None:
         raise SimulationError("a ground that moves needs the timeline played from its start frame")
     velocities, angular_velocities = setup.start_motion[moving, :3], setup.start_motion[moving, 3:]
     world.bodies.set_velocities(moving, velocities, angular_velocities)
-
-
-def _of_zone(zone: ZoneFiring) -> dict[str, Any]:
-    """Return what a blast zone did and what its bars would resist, ready for JSON."""
-    return {
-        "zone": zone.name,
-        "effect": zone.effect,
-        "cage_tension_n": zone.cage_tension_n,
-        "cage_compression_n": zone.cage_compression_n,
-    }
 
 
 def _members_of(bodies: np.ndarray, inventory: Inventory) -> list[str]:

@@ -7,7 +7,7 @@ import numpy as np
 from ...bullet.body_motion import BodyMotion, BodyMotionReader
 from ...engineering.drilled_charges.cages import BareBars, Cages
 from ...engineering.elasticity.joint_rows import turned, turned_back
-from ...model.sequence.bare_bars import StandingBars
+from ...model.changes.bare_bars import StandingBars
 
 
 class StandingBarsOfZones:

@@ -27,7 +27,7 @@ from bpy.props import (
 
 from ...model.optimise.settings import ChosenQuantity, OptimiseSettings
 from ...model.run_folder.files import SCENARIO_FILE
-from ...model.scenario import Charge, Scenario
+from ...model.scenario import Scenario
 from ...model.scenario.contacts import BodyInContact
 from ...model.scenario.file import read_scenario
 from ...model.schema import (
@@ -119,7 +119,7 @@ def shown_keys(table_class: type[Table]) -> list[Field]:
 
 def shown_tables(table_class: type[Table]) -> list[Field]:
     """Return the fields of the tables in a table, but for the charges, which are objects of the scene."""
-    tables = (item for item in subtable_fields(table_class) if subtable_class(item) is not Charge)
+    tables = (item for item in subtable_fields(table_class) if not subtable_class(item).is_object)
     return [item for item in tables if not _is_of_study(table_class, item)]
 
 

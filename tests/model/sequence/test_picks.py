@@ -12,8 +12,8 @@ from bridge_demolition_addon.model.lifts import Pick
 from bridge_demolition_addon.model.scenario.file import scenario_from_text
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
 from bridge_demolition_addon.model.sequence.ending import doubts_of_run
-from bridge_demolition_addon.model.sequence.events import in_box, model_structure
 from bridge_demolition_addon.model.sequence.lifts import placed_lifts, volume_kg
+from bridge_demolition_addon.model.sequence.structures import model_structure
 from bridge_demolition_addon.model.stages.lifted import LIFT_COLUMNS
 from bridge_demolition_addon.model.stages.stages import stages_of
 from bridge_demolition_addon.model.stages.standing import StandingBridge
@@ -145,7 +145,7 @@ def test_what_is_removed_weighs_what_its_box_holds(skew, along, is_exact):
         f"lowest_corner_m = [{5.0 - across / 2.0}, -9.0, 3.0]\nhighest_corner_m = [{5.0 + across / 2.0}, 9.0, 5.0]\n"
     )
     scenario, model = model_with(removal, seed=7)
-    gone = in_box(scenario.removals[0], model.centres_m) & (model.masses_kg > 0.0)
+    gone = scenario.removals[0].in_box(model.centres_m) & (model.masses_kg > 0.0)
     gone &= np.array([model.members[number].name == "deck" for number in model.member_of_shard])
     weighs = float(model.masses_kg[gone].sum()) == pytest.approx(DENSITY_KG_M3 * 2.0 * 4.0 * 0.5, rel=1e-9)
     assert weighs == is_exact

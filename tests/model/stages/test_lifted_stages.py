@@ -12,7 +12,7 @@ from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.scenario import Lift
 from bridge_demolition_addon.model.sequence.checked_model import checked_model
-from bridge_demolition_addon.model.sequence.lifts import placed_lifts, slings_of
+from bridge_demolition_addon.model.sequence.lifts import placed_lifts
 from bridge_demolition_addon.model.stages.lifted import GONE, HANGS, HELD, lift_rows
 from bridge_demolition_addon.model.stages.reactions import supports_of
 from bridge_demolition_addon.model.stages.stages import stages_of
@@ -180,8 +180,8 @@ def test_tables_have_a_row_for_each_part_on_a_hook():
 def test_slings_of_a_run_take_up_the_pretension():
     scenario = beam(lift_text(pretension=0.5))
     model = checked_model(scenario)
-    slings = slings_of(scenario.lifts, model)
     (placed,) = placed_lifts(scenario.lifts, model)
+    slings = placed.slings()
     assert [sling.name for sling in slings] == ["middle, sling 1", "middle, sling 2"]
     forces = np.array([sling.largest_force_n for sling in slings])
     assert placed.vertical_n(forces) == pytest.approx(0.5 * STANDARD_GRAVITY_M_S2 * placed.pick.shards_kg, rel=1e-6)

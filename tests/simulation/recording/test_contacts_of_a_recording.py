@@ -14,7 +14,7 @@ from bridge_demolition_addon.errors import SimulationError
 from bridge_demolition_addon.model.results.arrays import load_results
 from bridge_demolition_addon.model.results.fingerprint import motion_digest
 from bridge_demolition_addon.model.scenario import Removal
-from bridge_demolition_addon.scene.structural_changes import keep_changes
+from bridge_demolition_addon.scene.run_tables import keep_tables
 from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 
@@ -113,7 +113,7 @@ def test_contacts_change_nothing_else_and_are_read_back(blender, tmp_path):
 def test_bodies_that_were_removed_touch_nothing(blender, tmp_path):
     blocks = stack()
     corners = {"lowest_corner_m": (0, -3, 0), "highest_corner_m": (4, 2, 2)}
-    keep_changes(blocks.scene, [Removal(time_s=0.2, **corners)])
+    keep_tables(blocks.scene, "changes", [Removal(time_s=0.2, **corners)])
     results = blocks.play(tmp_path, 12, contacts=True)
     times = results.frames.time_s[np.searchsorted(results.frames.number, results.contacts.frames)]
     frame_s = blocks.time.step.frame_s

@@ -12,12 +12,13 @@ from support.long_cases import long_but
 from bridge_demolition_addon.bullet import layout
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.errors import SimulationError
+from bridge_demolition_addon.model.changes.zone_firings import ZoneFiring
 from bridge_demolition_addon.model.results.solver_energy import throws_of
-from bridge_demolition_addon.model.scenario import MemberCut, ZoneFiring
+from bridge_demolition_addon.model.scenario import MemberCut
 from bridge_demolition_addon.scene.bodies import mark_member
 from bridge_demolition_addon.scene.demolition import build_demolition
 from bridge_demolition_addon.scene.removal import remove_demolition
-from bridge_demolition_addon.scene.structural_changes import changes_of, keep_changes
+from bridge_demolition_addon.scene.run_tables import keep_tables, run_tables_of
 
 WEIGHT_N = 100.0 * STANDARD_GRAVITY_M_S2
 FIRED_S = 0.301
@@ -217,7 +218,7 @@ def tower(*, asleep=False):
 def test_a_block_that_is_thrown_carries_nothing_on_its_way_out(blender, tmp_path, asleep):
     """Loose blocks: the upper one falls through the middle one while that leaves, and none is flung."""
     blocks, _ = tower(asleep=asleep)
-    keep_changes(blocks.scene, [firing()])
+    keep_tables(blocks.scene, "changes", [firing()])
     results = blocks.play(tmp_path, 30)
     times, heights = results.frames.time_s, results.frames.positions_m[:, 1:, 2]
     substep = results.frames.substep_s[-1]
@@ -244,8 +245,8 @@ def test_a_block_that_is_thrown_carries_nothing_on_its_way_out(blender, tmp_path
 def test_zones_are_kept_with_the_scene(blender):
     blocks, _ = tower()
     changes = [firing(), firing(name="other", effect="loosened", left=0.4, cage_compression_n=1.5e6)]
-    keep_changes(blocks.scene, changes)
-    assert changes_of(blocks.scene) == tuple(changes)
+    keep_tables(blocks.scene, "changes", changes)
+    assert run_tables_of(blocks.scene, "changes") == tuple(changes)
 
 
 def test_zones_need_the_memory_of_blender(blender, tmp_path, monkeypatch):
@@ -253,7 +254,7 @@ def test_zones_need_the_memory_of_blender(blender, tmp_path, monkeypatch):
     monkeypatch.setattr(layout, "SYSTEM_V", replace(right, body=replace(right.body, friction=right.body.friction + 8)))
     monkeypatch.setattr(layout, "MICROSOFT", layout.SYSTEM_V)
     blocks, _ = tower()
-    keep_changes(blocks.scene, [firing()])
+    keep_tables(blocks.scene, "changes", [firing()])
     with pytest.raises(SimulationError, match="removals, saw cuts, weakenings and blast zones need Blender's memory"):
         blocks.play(tmp_path, 4)
 
@@ -262,11 +263,11 @@ def test_a_scene_that_is_built_keeps_its_zones_and_forgets_them_with_its_bodies(
     scenario = column_scenario(tmp_path, replace(ZONE, bars=8, bar_diameter_mm=25.0))
     scene = blender.context.scene
     build_demolition(scene, scenario, column_model(scenario))
-    (kept,) = changes_of(scene)
+    (kept,) = run_tables_of(scene, "changes")
     assert (kept.name, kept.members, kept.time_s) == ("zone", ("column",), pytest.approx(FIRED_S))
     assert kept.cage_compression_n == pytest.approx(416.7e3, rel=1e-3)  # 8 × 0.2122 × 245.4 kN
     remove_demolition(scene)
-    assert changes_of(scene) == ()
+    assert run_tables_of(scene, "changes") == ()
 
 
 def test_a_severed_column_loses_its_bars_and_stands_on_its_cut_face(tmp_path):

@@ -16,7 +16,7 @@ from bridge_demolition_addon.model.results.motion import OUT_OF_REACH_M
 from bridge_demolition_addon.model.scenario import Removal, SawCut, Weakening
 from bridge_demolition_addon.scene.bodies import mark_member
 from bridge_demolition_addon.scene.connections.breaking_settings import Breaking
-from bridge_demolition_addon.scene.structural_changes import changes_of, keep_changes
+from bridge_demolition_addon.scene.run_tables import keep_tables, run_tables_of
 from bridge_demolition_addon.simulation.blender_events import start_recording, stop_recording
 from bridge_demolition_addon.simulation.recording.recorder import Recording
 
@@ -47,7 +47,7 @@ def hanging_bar(**options):
 @pytest.mark.parametrize("every_substep", (True, False))
 def test_bar_falls_freely_below_a_saw_cut_from_its_time_on(blender, tmp_path, every_substep):
     bar, cut_s = hanging_bar(), 0.3
-    keep_changes(bar.scene, [SawCut(time_s=cut_s, point_m=(0, 0, 13), normal=(0, 0, 2))])
+    keep_tables(bar.scene, "changes", [SawCut(time_s=cut_s, point_m=(0, 0, 13), normal=(0, 0, 2))])
     recording, results = play(bar.scene, tmp_path, 24, every_substep)
     below = bar.fracture.centres[:, 2] < 13.0
     order = [results.inventory.body_names.tolist().index(shard.name) for shard in bar.shards]
@@ -82,7 +82,7 @@ def test_tower_comes_down_by_what_is_taken_from_under_it(blender, tmp_path, asle
         block.rigid_body.use_deactivation = asleep
         block.rigid_body.use_start_deactivated = asleep
     mark_member(lowest, "pier 1", "pier")
-    keep_changes(blocks.scene, [Removal(time_s=0.5, members=["pier"])])
+    keep_tables(blocks.scene, "changes", [Removal(time_s=0.5, members=["pier"])])
     recording, results = play(blocks.scene, tmp_path, 60)
     height = results.frames.positions_m[:, :, 2]
     assert abs(height[results.frames.time_s < 0.5] - height[0]).max() < 0.01
@@ -106,7 +106,9 @@ def test_blocks_removed_together_bear_on_each_other_no_more(blender, tmp_path):
     blocks.block((0, 0, -0.5), size_m=(20, 20, 1))
     for level in range(3):
         blocks.block((0, 0, 0.5 + level), MASS_KG)
-    keep_changes(blocks.scene, [Removal(time_s=0.5, lowest_corner_m=(-1, -1, 0), highest_corner_m=(1, 1, 2.2))])
+    keep_tables(
+        blocks.scene, "changes", [Removal(time_s=0.5, lowest_corner_m=(-1, -1, 0), highest_corner_m=(1, 1, 2.2))]
+    )
     _, results = play(blocks.scene, tmp_path, 60)
     assert not results.frames.loads.body_peak_sums_n[-1, 1:3].any()
     assert not results.frames.velocities_m_s[-1, 1:3].any()
@@ -120,8 +122,10 @@ def test_weakened_connection_bears_what_is_left_of_its_breaking_force(blender, t
     blocks = Blocks()
     ceiling, block = blocks.block((0, 0, 10)), blocks.block((0, 0, 9), MASS_KG)
     blocks.connect("FIXED", (0, 0, 9.5), ceiling, block, 2.0 * WEIGHT_N)
-    keep_changes(
-        blocks.scene, [Weakening(time_s=0.2 + 0.1 * number, factor=factor) for number, factor in enumerate(factors)]
+    keep_tables(
+        blocks.scene,
+        "changes",
+        [Weakening(time_s=0.2 + 0.1 * number, factor=factor) for number, factor in enumerate(factors)],
     )
     _, results = play(blocks.scene, tmp_path, 24)
     assert results.frames.intact[results.frames.time_s < 0.19].all()
@@ -139,7 +143,7 @@ def test_weakened_section_bears_what_is_left_of_its_strength(blender, tmp_path, 
     bar.hold(np.arange(2) != lower)
     area = bar.scene.rigidbody_world.constraints.objects[0]["bda_area_m2"]
     bar.shards[lower].rigid_body.mass = 3.0 * DENSITY_KG_M3 * area
-    keep_changes(bar.scene, [Weakening(time_s=0.3, factor=factor)])
+    keep_tables(bar.scene, "changes", [Weakening(time_s=0.3, factor=factor)])
     _, results = play(bar.scene, tmp_path, 24)
     assert results.frames.intact[results.frames.time_s < 0.29].all()
     assert bool(results.frames.intact[-1, 0]) is holds
@@ -152,19 +156,19 @@ def test_several_changes_happen_in_order_of_time(blender, tmp_path):
         Weakening(time_s=0.2, factor=0.5),
         SawCut(time_s=0.4, point_m=(0, 0, 14), normal=(0, 0, 1)),
     ]
-    keep_changes(bar.scene, changes)
-    assert changes_of(bar.scene) == tuple(changes)
+    keep_tables(bar.scene, "changes", changes)
+    assert run_tables_of(bar.scene, "changes") == tuple(changes)
     recording, _ = play(bar.scene, tmp_path, 24)
     applied = recording.applied_events
     assert [change["kind"] for change in applied] == ["weakening", "saw cut", "removal"]
     assert [change["time_s"] for change in applied] == pytest.approx([0.2, 0.4, 0.6], abs=1.0 / 240.0)
-    keep_changes(bar.scene, [])
-    assert changes_of(bar.scene) == ()
+    keep_tables(bar.scene, "changes", [])
+    assert run_tables_of(bar.scene, "changes") == ()
 
 
 def test_changes_start_anew_with_the_simulation(blender, tmp_path):
     bar = hanging_bar()
-    keep_changes(bar.scene, [SawCut(time_s=0.3, point_m=(0, 0, 13), normal=(0, 0, 1))])
+    keep_tables(bar.scene, "changes", [SawCut(time_s=0.3, point_m=(0, 0, 13), normal=(0, 0, 1))])
     recording = Recording(bar.scene, tmp_path)
     start_recording(recording)
     for _ in range(2):
@@ -181,7 +185,7 @@ def test_changes_start_anew_with_the_simulation(blender, tmp_path):
 
 def test_change_that_concerns_nothing_is_refused(blender, tmp_path):
     bar = hanging_bar()
-    keep_changes(bar.scene, [Removal(time_s=0.1, members=["pier 7"])])
+    keep_tables(bar.scene, "changes", [Removal(time_s=0.1, members=["pier 7"])])
     with pytest.raises(ScenarioError, match=r'removals\.members names "pier 7"'):
         play(bar.scene, tmp_path, 4)
 
@@ -191,6 +195,6 @@ def test_changes_are_not_left_out_in_silence_where_memory_is_not_trusted(blender
     monkeypatch.setattr(layout, "SYSTEM_V", replace(right, body=replace(right.body, friction=right.body.friction + 8)))
     monkeypatch.setattr(layout, "MICROSOFT", layout.SYSTEM_V)
     bar = hanging_bar()
-    keep_changes(bar.scene, [SawCut(time_s=0.3, point_m=(0, 0, 13), normal=(0, 0, 1))])
+    keep_tables(bar.scene, "changes", [SawCut(time_s=0.3, point_m=(0, 0, 13), normal=(0, 0, 1))])
     with pytest.raises(SimulationError, match="removals, saw cuts, weakenings and blast zones need Blender's memory"):
         play(bar.scene, tmp_path, 4)

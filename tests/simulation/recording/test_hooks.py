@@ -9,10 +9,11 @@ from support.blocks import Blocks
 from support.long_cases import long_but
 
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
+from bridge_demolition_addon.model.changes.removals import LiftingAway
 from bridge_demolition_addon.model.lifts import Pick, sling_of
-from bridge_demolition_addon.model.scenario import Lift, LiftingAway, Removal
+from bridge_demolition_addon.model.scenario import Lift, Removal
 from bridge_demolition_addon.scene.bodies import mark_member
-from bridge_demolition_addon.scene.structural_changes import changes_of, keep_changes, keep_pulls, pulls_of
+from bridge_demolition_addon.scene.run_tables import keep_tables, run_tables_of
 
 MASS_KG = 1000.0
 WEIGHT_N = MASS_KG * STANDARD_GRAVITY_M_S2
@@ -36,11 +37,11 @@ def lifted_block(folder, pretension):
         diameter_mm=10.0,
     )
     sling = sling_of(lift, 1, (0.0, 0.0, 2.0), (0.0, 0.0, 12.0), pretension * WEIGHT_N, Pick("pick", MASS_KG, MASS_KG))
-    keep_pulls(blocks.scene, [sling])
+    keep_tables(blocks.scene, "pulls", [sling])
     away = LiftingAway(time_s=LIFT_S, name="pick", members=("part",))
     changes = (Removal(time_s=FREE_S, members=("below",)), away)
-    keep_changes(blocks.scene, changes)
-    assert pulls_of(blocks.scene) == (sling,) and changes_of(blocks.scene) == changes
+    keep_tables(blocks.scene, "changes", changes)
+    assert run_tables_of(blocks.scene, "pulls") == (sling,) and run_tables_of(blocks.scene, "changes") == changes
     results = blocks.play(folder, 24 * 4)
     return blocks.recording.pulls, lift, results
 

@@ -12,7 +12,7 @@ from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.errors import ScenarioError, SimulationError
 from bridge_demolition_addon.model.scenario import Load, Removal
 from bridge_demolition_addon.scene.bodies import mark_member
-from bridge_demolition_addon.scene.structural_changes import keep_changes, keep_loads, loads_of
+from bridge_demolition_addon.scene.run_tables import keep_tables, run_tables_of
 
 MASS_KG = 100.0
 WEIGHT_N = MASS_KG * STANDARD_GRAVITY_M_S2
@@ -27,7 +27,9 @@ def test_a_block_slides_once_its_load_is_more_than_friction(blender, tmp_path):
         body.rigid_body.friction = value
     # At the foot, so that it does not lean.
     most_n = 2.0 * friction * WEIGHT_N
-    keep_loads(blocks.scene, [Load(point_m=(0, 0, 0.05), direction=(2, 0, 0), times_s=(0, 1), forces_n=(0, most_n))])
+    keep_tables(
+        blocks.scene, "loads", [Load(point_m=(0, 0, 0.05), direction=(2, 0, 0), times_s=(0, 1), forces_n=(0, most_n))]
+    )
     results = blocks.play(tmp_path, 24)
     speeds, times = results.frames.velocities_m_s[:, 1, 0], results.frames.time_s
     assert abs(speeds[times < 0.49]).max() < 1e-3
@@ -42,7 +44,9 @@ def test_a_cantilever_holds_what_hangs_at_a_point_of_it(blender, tmp_path, every
     blocks = Blocks(substeps_per_frame=20, solver_iterations=200)
     wall, arm = blocks.block((0, 0, 10)), blocks.block((1, 0, 10), MASS_KG)
     blocks.connect("FIXED", (0.5, 0, 10), wall, arm)
-    keep_loads(blocks.scene, [Load(point_m=(1.5, 0.25, 10.5), times_s=(0.25, 0.75), forces_n=(0, 10.0 * WEIGHT_N))])
+    keep_tables(
+        blocks.scene, "loads", [Load(point_m=(1.5, 0.25, 10.5), times_s=(0.25, 0.75), forces_n=(0, 10.0 * WEIGHT_N))]
+    )
     results = blocks.play(tmp_path, 24, every_substep=every_substep)
     loads, times = results.frames.loads, results.frames.time_s
     # Mean of a frame, or of its last sub-step.
@@ -68,7 +72,7 @@ def test_a_load_wakes_what_sleeps_and_is_shared_out_by_mass(blender, tmp_path):
     for block in pair:
         mark_member(block, "pair", "pair")
         block.rigid_body.use_deactivation = block.rigid_body.use_start_deactivated = True
-    keep_loads(blocks.scene, [Load(members=("pair",), times_s=(0.5,), forces_n=(3.0 * WEIGHT_N,))])
+    keep_tables(blocks.scene, "loads", [Load(members=("pair",), times_s=(0.5,), forces_n=(3.0 * WEIGHT_N,))])
     frames = blocks.play(tmp_path, 24).frames
     assert not frames.velocities_m_s[frames.time_s < 0.49].any()
     fallen_s = frames.time_s[-1] - 0.5
@@ -80,8 +84,8 @@ def test_what_is_removed_takes_its_part_of_the_load_along(blender, tmp_path):
     blocks.block((0, 0, -0.5), size_m=(20, 20, 1))
     for number in range(2):
         mark_member(blocks.block((3.0 * number, 0, 0.5), MASS_KG), f"block {number}", "block")
-    keep_loads(blocks.scene, [Load(members=("block",), times_s=(0,), forces_n=(2.0 * WEIGHT_N,))])
-    keep_changes(blocks.scene, [Removal(time_s=0.5, members=("block 1",))])
+    keep_tables(blocks.scene, "loads", [Load(members=("block",), times_s=(0,), forces_n=(2.0 * WEIGHT_N,))])
+    keep_tables(blocks.scene, "changes", [Removal(time_s=0.5, members=("block 1",))])
     frames = blocks.play(tmp_path, 24).frames
     for row, borne_n in ((np.flatnonzero(frames.time_s < 0.49)[-1], 4.0 * WEIGHT_N), (-1, 2.0 * WEIGHT_N)):
         assert frames.loads.body_forces_n[row, 0, 2] == pytest.approx(-borne_n, rel=0.01)
@@ -91,18 +95,18 @@ def test_loads_are_kept_with_the_scene_and_refused_where_nothing_bears_them(blen
     blocks = Blocks()
     blocks.block((0, 0, 5), MASS_KG)
     load = Load(members=("pier",), times_s=(0, 1), forces_n=(0, 1))
-    keep_loads(blocks.scene, [load])
-    assert loads_of(blocks.scene) == (load,)
+    keep_tables(blocks.scene, "loads", [load])
+    assert run_tables_of(blocks.scene, "loads") == (load,)
     with pytest.raises(ScenarioError, match=r'loads\.members names "pier"'):
         blocks.play(tmp_path, 2)
-    keep_loads(blocks.scene, [])
-    assert loads_of(blocks.scene) == ()
+    keep_tables(blocks.scene, "loads", [])
+    assert run_tables_of(blocks.scene, "loads") == ()
 
 
 def test_a_run_with_loads_is_refused_where_memory_is_not_as_expected(blender, tmp_path, monkeypatch):
     blocks = Blocks()
     blocks.block((0, 0, 5), MASS_KG)
-    keep_loads(blocks.scene, [Load(point_m=(0, 0, 5), times_s=(0,), forces_n=(1,))])
+    keep_tables(blocks.scene, "loads", [Load(point_m=(0, 0, 5), times_s=(0,), forces_n=(1,))])
     right = layout.platform_layout()
     monkeypatch.setattr(layout, "SYSTEM_V", replace(right, body=replace(right.body, friction=right.body.friction + 8)))
     monkeypatch.setattr(layout, "MICROSOFT", layout.SYSTEM_V)

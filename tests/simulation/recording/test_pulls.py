@@ -10,7 +10,7 @@ from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.pulls import Pull
 from bridge_demolition_addon.model.scenario import Removal
 from bridge_demolition_addon.scene.bodies import mark_member
-from bridge_demolition_addon.scene.structural_changes import keep_changes, keep_pulls, pulls_of
+from bridge_demolition_addon.scene.run_tables import keep_tables, run_tables_of
 
 MASS_KG = 1000.0
 WEIGHT_N = MASS_KG * STANDARD_GRAVITY_M_S2
@@ -35,8 +35,8 @@ def pulled_block(folder, friction, seconds, size_m=(1, 1, 0.2), changes=(), **ke
     mark_member(block, "block", "pier")
     for body, value in ((ground, 1.0), (block, friction)):
         body.rigid_body.friction = value
-    keep_pulls(blocks.scene, [Pull(**(KEYS | keys))])
-    keep_changes(blocks.scene, changes)
+    keep_tables(blocks.scene, "pulls", [Pull(**(KEYS | keys))])
+    keep_tables(blocks.scene, "changes", changes)
     results = blocks.play(folder, round(24 * seconds))
     return results, blocks.recording.pulls
 
@@ -117,8 +117,8 @@ def test_a_cable_on_what_is_taken_away_lets_go(blender, tmp_path):
 def test_cables_are_kept_with_the_scene(blender):
     blocks = Blocks()
     pulls = (Pull(**KEYS), Pull(**(KEYS | {"name": "other", "diameter_mm": 30.0, "stiffness_n": None})))
-    keep_pulls(blocks.scene, pulls)
-    assert pulls_of(blocks.scene) == pulls
+    keep_tables(blocks.scene, "pulls", pulls)
+    assert run_tables_of(blocks.scene, "pulls") == pulls
 
 
 @pytest.mark.parametrize(

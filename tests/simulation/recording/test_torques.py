@@ -9,7 +9,7 @@ from support.blocks import Blocks
 
 from bridge_demolition_addon.engineering.units import STANDARD_GRAVITY_M_S2
 from bridge_demolition_addon.model.scenario import Load
-from bridge_demolition_addon.scene.structural_changes import keep_loads
+from bridge_demolition_addon.scene.run_tables import keep_tables
 
 MASS_KG = 100.0
 WEIGHT_N = MASS_KG * STANDARD_GRAVITY_M_S2
@@ -29,8 +29,10 @@ def block_on_ground(blender):
 def test_a_block_rests_that_is_pushed_by_less_than_friction_wherever_that_is(block_on_ground, point_m, tmp_path):
     """Where Bullet gets the torque itself, the block creeps by 2 to 3 mm/s."""
     most_n = 0.6 * FRICTION * WEIGHT_N
-    keep_loads(
-        block_on_ground.scene, [Load(point_m=point_m, direction=(1, 0, 0), times_s=(0, 0.1), forces_n=(0, most_n))]
+    keep_tables(
+        block_on_ground.scene,
+        "loads",
+        [Load(point_m=point_m, direction=(1, 0, 0), times_s=(0, 0.1), forces_n=(0, most_n))],
     )
     frames = block_on_ground.play(tmp_path, 24).frames
     assert abs(frames.positions_m[-1, 1] - frames.positions_m[0, 1]).max() < 1e-5
@@ -42,7 +44,7 @@ def test_a_block_slides_as_fast_wherever_it_is_pushed(block_on_ground, height_m,
     """a = (F - μ m g) / m, from t = 0.1 s μ m g / F on; more slowly before 0.1 s, while the force grows."""
     most_n = 1.5 * FRICTION * WEIGHT_N
     load = Load(point_m=(0, 0, height_m), direction=(1, 0, 0), times_s=(0, 0.1), forces_n=(0, most_n))
-    keep_loads(block_on_ground.scene, [load])
+    keep_tables(block_on_ground.scene, "loads", [load])
     frames = block_on_ground.play(tmp_path, 24).frames
     excess = (most_n - FRICTION * WEIGHT_N) / MASS_KG
     grown_m_s = excess * (0.1 - 0.1 / 1.5) / 2.0
@@ -58,8 +60,10 @@ def test_a_free_body_turns_faster_by_torque_over_inertia(blender, damping, tmp_p
     blocks.scene.use_gravity = False
     blocks.block((0, 0, 0), MASS_KG).rigid_body.angular_damping = damping
     force_n, arm_m, inertia = 1.0, 0.5, MASS_KG / 6.0
-    keep_loads(
-        blocks.scene, [Load(point_m=(arm_m, 0, 0), direction=(0, 1, 0), times_s=(0, 2), forces_n=(force_n, force_n))]
+    keep_tables(
+        blocks.scene,
+        "loads",
+        [Load(point_m=(arm_m, 0, 0), direction=(0, 1, 0), times_s=(0, 2), forces_n=(force_n, force_n))],
     )
     frames = blocks.play(tmp_path, 24).frames
     accelerated = force_n * arm_m / inertia

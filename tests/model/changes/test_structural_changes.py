@@ -8,14 +8,17 @@ import pytest
 from support.scenarios import I235
 
 from bridge_demolition_addon.errors import ScenarioError
+from bridge_demolition_addon.model.as_built import Structure
+from bridge_demolition_addon.model.changes.change import schedule
 from bridge_demolition_addon.model.scenario import Removal, SawCut, Support, Weakening
 from bridge_demolition_addon.model.scenario.file import scenario_from_text, scenario_text
-from bridge_demolition_addon.model.sequence.events import Structure, model_structure, schedule
+from bridge_demolition_addon.model.sequence.structures import model_structure
 from bridge_demolition_addon.model.structure.model import build_model
 
 # Two piers of two blocks each, 10 m apart, with a deck of one block on top; the last body is the ground.
 STRUCTURE = Structure(
     centres_m=np.array([(0, 0, 1), (0, 0, 3), (10, 0, 1), (10, 0, 3), (5, 0, 4.5), (0, 0, -1)], float),
+    masses_kg=np.array([1000.0] * 5 + [0.0]),
     member_names=np.array(["pier 1", "pier 1", "pier 2", "pier 2", "deck", ""]),
     member_kinds=np.array(["pier"] * 4 + ["deck", ""]),
     is_shard=np.array([True] * 5 + [False]),

@@ -8,12 +8,15 @@ from the moment when the last of them is out of the section.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ...engineering.geometry.vectors import AXES, length, unit
-from ..scenario import ZoneFiring
 from ..schema import given
+
+if TYPE_CHECKING:
+    from .zone_firings import ZoneFiring
 
 LEAVING_M_S = 5.0
 """Least speed on the way out of the section: 0.35 m take 70 ms."""

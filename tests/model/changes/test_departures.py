@@ -4,8 +4,8 @@
 import numpy as np
 import pytest
 
-from bridge_demolition_addon.model.scenario import ZoneFiring
-from bridge_demolition_addon.model.sequence.departures import FALLING_M_S, LEAVING_M_S, departure_of
+from bridge_demolition_addon.model.changes.departures import FALLING_M_S, LEAVING_M_S, departure_of
+from bridge_demolition_addon.model.changes.zone_firings import ZoneFiring
 
 SECTION = np.array([(-0.35, -0.35, 0.75), (0.35, 0.35, 2.25)])
 generator = np.random.default_rng(5)

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from ...engineering.geometry.vectors import AXES
 from ...engineering.mechanics.strength import NEWTON_PER_SQUARE_MILLIMETRE
-from ..scenario import ZoneFiring
 from ..schema import given
+
+if TYPE_CHECKING:
+    from .zone_firings import ZoneFiring
 
 _CORNERS = np.array([(-1.0, -1.0), (-1.0, 1.0), (1.0, -1.0), (1.0, 1.0)])
 
@@ -36,6 +38,10 @@ class StandingBars:
         Where the bars leave the concrete, in the bridge as it was built.
     count, diameter_m, yield_pa : float
         Bars in each group, and what they are.
+    zone : str
+        Name of their zone.
+    tension_n, compression_n : float
+        What all of them resist.
     """
 
     bodies: np.ndarray
@@ -44,6 +50,9 @@ class StandingBars:
     count: float
     diameter_m: float
     yield_pa: float
+    zone: str
+    tension_n: float
+    compression_n: float
 
 
 def standing_bars(
@@ -80,6 +89,9 @@ def standing_bars(
         zone.bars / len(corners),
         1e-3 * zone.bar_diameter_mm,
         NEWTON_PER_SQUARE_MILLIMETRE * zone.bar_yield_n_mm2,
+        zone.name,
+        zone.cage_tension_n,
+        zone.cage_compression_n,
     )
 
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a run says of bars that held in it, by its summary."""
 
-from bridge_demolition_addon.model.sequence.bare_bars import bare_bars_text
+from bridge_demolition_addon.model.changes.bare_bars import bare_bars_text
 from bridge_demolition_addon.model.sequence.ending import doubts_of_run
 
 
