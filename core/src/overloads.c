@@ -91,41 +91,53 @@ static section rectangle(double area, const double second[3])
     return s;
 }
 
-/* Utilisation of a section by force and moment in its axes, with the strength of a connection: the larger of the stretched
- * and the pressed edge acts together with shear, √(edge² + shear²) (EN 1993-1-1:2005, equation 6.1; L. Ye, 1988). Friction
- * helps a pressed section: EN 1992-1-1:2004, equation 6.25. */
-static double utilisation(const bda_judging *j, int64_t row, const section *s, const double force[3],
-                          const double moment[3])
+/* Utilisation of a section by force and moment in its axes, with a strength, of which more may be left where it is pressed:
+ * the larger of the stretched and the pressed edge acts together with shear, √(edge² + shear²) (EN 1993-1-1:2005, equation
+ * 6.1; L. Ye, 1988). Friction, where there is any, helps a pressed section: EN 1992-1-1:2004, equation 6.25. */
+static double utilisation(const section *s, const double *strength, double pressed, const double *friction,
+                          const double force[3], const double moment[3])
 {
-    const double *strength = j->resisting[row].strength, *d = s->directions;
+    const double *d = s->directions;
     double axial = force[0] / s->area;
     double first = fabs(d[0] * moment[1] + d[2] * moment[2]), second = fabs(d[1] * moment[1] + d[3] * moment[2]);
     double bending = first / s->moduli[0] + second / s->moduli[1];
     double shear = sqrt(force[1] * force[1] + force[2] * force[2]) / s->area;
-    if (j->friction)
-        shear = larger(shear + j->friction[row] * (axial > 0.0 ? 0.0 : axial), 0.0);
+    if (friction)
+        shear = larger(shear + *friction * (axial > 0.0 ? 0.0 : axial), 0.0);
     shear = shear / strength[SHEAR];
     shear += fabs(moment[0]) / s->torsion_modulus / strength[TORSION];
     double stretched = axial / strength[axial > 0.0 ? TENSION : BENDING] + bending / strength[BENDING];
-    double edge = larger(stretched, (bending - axial) / (j->pressed[row] * strength[COMPRESSION]));
+    double edge = larger(stretched, (bending - axial) / (pressed * strength[COMPRESSION]));
     return sqrt(edge * edge + shear * shear);
+}
+
+/* Utilisation of a section by the strength of a connection. */
+static double used_of(const bda_judging *j, int64_t row, const section *s, const double force[3], const double moment[3])
+{
+    const double *friction = j->friction ? j->friction + row : 0;
+    return utilisation(s, j->resisting[row].strength, j->pressed[row], friction, force, moment);
+}
+
+static section own_section(const bda_resisting *own)
+{
+    section s = {own->area > 0.0 ? own->area : NAN,
+                 {own->directions[0], own->directions[1], own->directions[2], own->directions[3]},
+                 {own->moduli[0], own->moduli[1]},
+                 own->torsion_modulus};
+    return s;
 }
 
 /* Utilisation of a connection alone, by whole strengths. */
 static double used_alone(const bda_judging *j, const bda_carried_loads *all, int64_t row)
 {
-    const bda_resisting *own = j->resisting + row;
-    section s = {own->area > 0.0 ? own->area : NAN,
-                 {own->directions[0], own->directions[1], own->directions[2], own->directions[3]},
-                 {own->moduli[0], own->moduli[1]},
-                 own->torsion_modulus};
+    section s = own_section(j->resisting + row);
     double axes[3][3], force[3], moment[3];
     carried_load load;
     carry(all, 0, row, &load);
     turn_axes(all, row, axes);
     in_axes(axes, load.force, force);
     in_axes(axes, load.moment, moment);
-    return utilisation(j, row, &s, force, moment);
+    return used_of(j, row, &s, force, moment);
 }
 
 /* Whether the load of a connection is so small that it holds, whatever it acts on. */
@@ -150,25 +162,24 @@ static int64_t intact_faces(const bda_judging *j, int64_t cut)
 }
 
 /* Middle of the faces of a cut that are noted, by their areas, and their area. */
-static double middle_of_cut(const bda_judging *j, int64_t count, double middle[3])
+static double middle_of_cut(const bda_judging *j, const bda_cut_through *through, int64_t count, double middle[3])
 {
-    int64_t room = j->most_faces;
     for (int64_t at = 0; at < count; at++) {
-        const bda_cut_through *member = j->through + j->found[at];
+        const bda_cut_through *member = through + j->found[at];
         j->lines[at] = j->resisting[member->face].area * member->cosine;
         for (int axis = 0; axis < 3; axis++)
-            j->lines[(1 + axis) * room + at] = j->lines[at] * j->noted[9 * at + 6 + axis];
+            j->lines[(1 + axis) * count + at] = j->lines[at] * j->noted[9 * at + 6 + axis];
     }
     double area = total_of(j->lines, count);
     for (int axis = 0; axis < 3; axis++)
-        middle[axis] = total_of(j->lines + (1 + axis) * room, count) / area;
+        middle[axis] = total_of(j->lines + (1 + axis) * count, count) / area;
     return area;
 }
 
 /* Write force, moment about a middle, and second moments of a face of a cut into a column of what is added up. */
-static void add_face(const bda_judging *j, int64_t at, double axes[3][3], const double middle[3])
+static void add_face(const bda_judging *j, const bda_cut_through *member, int64_t at, int64_t count, double axes[3][3],
+                     const double middle[3])
 {
-    const bda_cut_through *member = j->through + j->found[at];
     const bda_resisting *face = j->resisting + member->face;
     const double *load = j->noted + 9 * at;
     double lever[3], pull[3], turn[3], share = face->area * member->cosine;
@@ -180,24 +191,25 @@ static void add_face(const bda_judging *j, int64_t at, double axes[3][3], const 
     double across = dot3(axes[1], lever), up = dot3(axes[2], lever);
     double moved[3] = {up * up, -across * up, across * across};
     for (int axis = 0; axis < 3; axis++) {
-        j->lines[axis * j->most_faces + at] = pull[axis];
-        j->lines[(3 + axis) * j->most_faces + at] = member->sign * load[3 + axis] + turn[axis];
-        j->lines[(6 + axis) * j->most_faces + at] = face->second[axis] * member->cosine + share * moved[axis];
+        j->lines[axis * count + at] = pull[axis];
+        j->lines[(3 + axis) * count + at] = member->sign * load[3 + axis] + turn[axis];
+        j->lines[(6 + axis) * count + at] = face->second[axis] * member->cosine + share * moved[axis];
     }
 }
 
 /* Utilisation of a cut through faces that are noted and stay plane together, by the strength of a connection. */
-static double used_in_cut(const bda_judging *j, int64_t row, int64_t count, double axes[3][3])
+static double used_in_cut(const bda_judging *j, const bda_cut_through *through, int64_t row, int64_t count,
+                          double axes[3][3])
 {
-    double middle[3], sums[9], force[3], moment[3], area = middle_of_cut(j, count, middle);
+    double middle[3], sums[9], force[3], moment[3], area = middle_of_cut(j, through, count, middle);
     for (int64_t at = 0; at < count; at++)
-        add_face(j, at, axes, middle);
+        add_face(j, through + j->found[at], at, count, axes, middle);
     for (int line = 0; line < 9; line++)
-        sums[line] = total_of(j->lines + line * j->most_faces, count);
+        sums[line] = total_of(j->lines + line * count, count);
     in_axes(axes, sums, force);
     in_axes(axes, sums + 3, moment);
     section s = rectangle(area, sums + 6);
-    return utilisation(j, row, &s, force, moment);
+    return used_of(j, row, &s, force, moment);
 }
 
 static void note(const bda_judging *j, int64_t at, const double force[3], const double moment[3], const double point[3])
@@ -222,7 +234,7 @@ static double used_in_both(const bda_judging *j, const bda_carried_loads *all, i
             carry(all, 0, j->through[j->found[at]].face, &load);
             note(j, at, load.force, load.moment, load.point);
         }
-        sides[side] = used_in_cut(j, row, count, axes);
+        sides[side] = used_in_cut(j, j->through, row, count, axes);
     }
     return (sides[0] + sides[1]) / 2.0 / j->left[row];
 }
@@ -279,26 +291,83 @@ int bda_over_in_cuts(bda_judging *j, const bda_carried_loads *all)
     return BDA_DONE;
 }
 
-/* Write utilisations of the cuts of some connections. */
+/* Axes of a section that are given as columns, one after another. */
+static void given_axes(const double *columns, double axes[3][3])
+{
+    for (int axis = 0; axis < 3; axis++)
+        for (int line = 0; line < 3; line++)
+            axes[axis][line] = columns[3 * line + axis];
+}
+
+/* Utilisation of a cut through faces that are found, by loads that are given. */
+static double used_by_given(const bda_judging *j, const bda_loads_in_cuts *loads, const bda_cut_through *through,
+                            int64_t number, int64_t count)
+{
+    double axes[3][3];
+    given_axes(loads->axes + 9 * number, axes);
+    for (int64_t at = 0; at < count; at++) {
+        int64_t face = 3 * through[j->found[at]].face;
+        note(j, at, loads->forces + face, loads->moments + face, loads->points + face);
+    }
+    return used_in_cut(j, through, loads->rows[number], count, axes);
+}
+
+/* Write mean utilisations of the two cuts of some connections. */
 int bda_used_in_cuts(const bda_judging *j, const bda_loads_in_cuts *loads)
 {
     for (int64_t number = 0; number < loads->count; number++) {
         int64_t row = loads->rows[number];
-        double axes[3][3], sides[2];
         if (row < 0 || row >= j->connections)
             return BDA_OUT_OF_RANGE;
-        for (int axis = 0; axis < 3; axis++)
-            for (int line = 0; line < 3; line++)
-                axes[axis][line] = loads->axes[9 * number + 3 * line + axis];
-        for (int side = 0; side < 2; side++) {
-            int64_t count = intact_faces(j, row + side * j->connections);
-            for (int64_t at = 0; at < count; at++) {
-                int64_t face = 3 * j->through[j->found[at]].face;
-                note(j, at, loads->forces + face, loads->moments + face, loads->points + face);
-            }
-            sides[side] = used_in_cut(j, row, count, axes);
+        double first = used_by_given(j, loads, j->through, number, intact_faces(j, row));
+        double second = used_by_given(j, loads, j->through, number, intact_faces(j, row + j->connections));
+        loads->used[number] = (first + second) / 2.0;
+    }
+    return BDA_DONE;
+}
+
+/* Write utilisations of one section of each of some connections, through other faces than those of its two cuts. */
+int bda_used_in_sections(const bda_judging *j, const bda_loads_in_cuts *loads)
+{
+    for (int64_t number = 0; number < loads->count; number++) {
+        int64_t row = loads->rows[number], start = loads->starts[number], count = loads->starts[number + 1] - start;
+        if (row < 0 || row >= j->connections || start < 0 || count < 0 || count > j->most_faces)
+            return BDA_OUT_OF_RANGE;
+        for (int64_t at = 0; at < count; at++) {
+            j->found[at] = start + at;
+            if (loads->through[start + at].face < 0 || loads->through[start + at].face >= j->connections)
+                return BDA_OUT_OF_RANGE;
         }
-        loads->used[number] = (sides[0] + sides[1]) / 2.0;
+        loads->used[number] = used_by_given(j, loads, loads->through, number, count);
+    }
+    return BDA_DONE;
+}
+
+/* Write principal directions (m, 2, 2) and moduli, of bending (m, 2) and torsion (m,), of sections with areas (m,) and
+ * second moments (m, 2, 2). */
+int bda_rectangles(int64_t count, const double *areas, const double *second, double *directions, double *bending,
+                   double *torsion)
+{
+    for (int64_t row = 0; row < count; row++) {
+        const double *own = second + 4 * row, moments[3] = {own[0], own[1], own[3]};
+        section s = rectangle(areas[row], moments);
+        for (int at = 0; at < 4; at++)
+            directions[4 * row + at] = s.directions[at];
+        bending[2 * row] = s.moduli[0];
+        bending[2 * row + 1] = s.moduli[1];
+        torsion[row] = s.torsion_modulus;
+    }
+    return BDA_DONE;
+}
+
+/* Write utilisations (m,) of sections by forces (m, 6), force and moment in their axes; friction (m,) of 0 does not help. */
+int bda_utilisations(int64_t count, const bda_resisting *resisting, const double *forces, const double *friction,
+                     double *used)
+{
+    for (int64_t row = 0; row < count; row++) {
+        section s = own_section(resisting + row);
+        const double *force = forces + 6 * row;
+        used[row] = utilisation(&s, resisting[row].strength, 1.0, friction + row, force, force + 3);
     }
     return BDA_DONE;
 }

@@ -66,12 +66,19 @@ typedef struct {
     const int64_t *rows;                      /* (r,) */
     const double *axes;                       /* (r, 3, 3), as columns */
     const double *forces, *moments, *points;  /* (m, 3) */
-    double *used;                             /* (r,), mean utilisations of both cuts by whole strengths */
+    const int64_t *starts;                    /* (r + 1,), first face of a section of each, where it is not judged by cuts */
+    const bda_cut_through *through;           /* (e,) */
+    double *used;                             /* (r,), utilisations by whole strengths: of the section, or the mean of cuts */
 } bda_loads_in_cuts;
 
 BDA_API int bda_carry(const bda_carried_loads *loads, double *forces, double *moments, double *points);
 BDA_API int bda_over_alone(bda_judging *judging, const bda_carried_loads *loads);
 BDA_API int bda_over_in_cuts(bda_judging *judging, const bda_carried_loads *loads);
 BDA_API int bda_used_in_cuts(const bda_judging *judging, const bda_loads_in_cuts *loads);
+BDA_API int bda_used_in_sections(const bda_judging *judging, const bda_loads_in_cuts *loads);
+BDA_API int bda_rectangles(int64_t count, const double *areas, const double *second, double *directions, double *bending,
+                           double *torsion);
+BDA_API int bda_utilisations(int64_t count, const bda_resisting *resisting, const double *forces, const double *friction,
+                             double *used);
 
 #endif

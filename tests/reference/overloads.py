@@ -9,16 +9,11 @@ from bridge_demolition_addon.engineering.geometry.proximity import ranges
 from bridge_demolition_addon.engineering.geometry.rotations import carried_points
 from bridge_demolition_addon.engineering.geometry.vectors import cross_by_component, product
 from bridge_demolition_addon.engineering.mechanics.carried_sections import CarriedSections
-from bridge_demolition_addon.engineering.mechanics.overloads import Overloads
 from bridge_demolition_addon.engineering.mechanics.section_cuts import ConnectedFaces, ConnectionLoads, SectionCuts
-from bridge_demolition_addon.engineering.mechanics.section_cuts import cut_loads as loads_of_cuts
 from bridge_demolition_addon.engineering.mechanics.section_forces import SectionForces, section_forces
-from bridge_demolition_addon.engineering.mechanics.strength import (
-    Strength,
-    rectangular_sections,
-    strength_at,
-    utilisation,
-)
+from bridge_demolition_addon.engineering.mechanics.strength import Sections, Strength, strength_at
+
+from .strength import cut_loads, rectangular_sections, utilisation
 
 
 def carried_loads(
@@ -55,7 +50,7 @@ def cut_sections(
     holds = intact[cuts.faces[entries]]
     owners, entries = owners[holds], entries[holds]
     faces, signs, cosines = cuts.faces[entries], cuts.signs[entries], cuts.cosines[entries]
-    return loads_of_cuts(cuts.connected, loads, owners, faces, signs, cosines, np.concatenate((axes, axes)))
+    return cut_loads(cuts.connected, loads, owners, faces, signs, cosines, np.concatenate((axes, axes)))
 
 
 class ReferenceOverloads:
@@ -69,7 +64,7 @@ class ReferenceOverloads:
         pressed: np.ndarray | None = None,
         friction: np.ndarray | None = None,
     ):
-        self._alone = Overloads(faces, moves, strength, None, pressed, friction)
+        self._sections = rectangular_sections(faces.areas_m2, faces.second_moments_m4)
         self._cuts, self._strength = SectionCuts.through(faces, moves), strength
         self._pressed, self._friction = pressed, friction
 
@@ -80,21 +75,24 @@ class ReferenceOverloads:
         *places, left = places_and_left
         rows = np.flatnonzero(intact)
         of_all = forces_in_sections(sections, loads, *places)
-        used = self._alone.of_forces(np.arange(len(intact)), of_all)[rows] / left[rows]
+        used = self._used(np.arange(len(intact)), of_all, self._sections)[rows] / left[rows]
         return rows[used > 1.0], used[used > 1.0]
 
     def in_cuts(self, rows: np.ndarray, loads: ConnectionLoads, axes: np.ndarray, intact: np.ndarray) -> np.ndarray:
         """Return the mean utilisations (r,) of the cuts of some connections."""
         of_cuts, areas, second_moments = cut_sections(self._cuts, rows, intact, loads, axes)
         both = np.concatenate((rows, rows))
-        strength = strength_at(self._strength, both)
+        used = self._used(both, of_cuts, rectangular_sections(areas, second_moments))
+        return used.reshape(2, -1).mean(axis=0)
+
+    def _used(self, rows: np.ndarray, forces: SectionForces, sections: Sections) -> np.ndarray:
+        """Return the utilisations (r,) of sections by the strength of some connections."""
+        strength = strength_at(self._strength, rows)
         if self._pressed is not None:
             names = ("compression_pa", "tension_pa", "shear_pa", "torsion_pa", "bending_pa")
-            values = [np.broadcast_to(getattr(strength, name), len(both)) for name in names]
-            strength = Strength(self._pressed[both] * values[0], *values[1:])
-        friction = None if self._friction is None else self._friction[both]
-        used = utilisation(of_cuts, rectangular_sections(areas, second_moments), strength, friction)
-        return used.reshape(2, -1).mean(axis=0)
+            values = [np.broadcast_to(getattr(strength, name), len(rows)) for name in names]
+            strength = Strength(self._pressed[rows] * values[0], *values[1:])
+        return utilisation(forces, sections, strength, None if self._friction is None else self._friction[rows])
 
     def over_in_cuts(
         self, intact: np.ndarray, sections: CarriedSections, loads: np.ndarray, *places_and_left: np.ndarray

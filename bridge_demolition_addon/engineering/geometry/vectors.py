@@ -137,31 +137,6 @@ def _diagonalised(matrices: FloatArray, followed: FloatArray | None = None) -> F
     return np.diagonal(rest, axis1=-2, axis2=-1)
 
 
-def symmetric_eigenvectors_2d(matrices: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Eigenvalues (..., 2), in ascending order, of symmetric matrices (..., 2, 2), and eigenvectors as columns."""
-    first, second, beside = matrices[..., 0, 0], matrices[..., 1, 1], matrices[..., 0, 1]
-    cosine, sine = _jacobi_rotation(first, second, beside)
-    slope = np.divide(sine, cosine)
-    values = np.stack((first - slope * beside, second + slope * beside), axis=-1)
-    vectors = np.stack((np.stack((cosine, -sine), axis=-1), np.stack((sine, cosine), axis=-1)), axis=-1)
-    falling = values[..., 0] > values[..., 1]
-    return (
-        np.where(falling[..., None], values[..., ::-1], values),
-        np.where(falling[..., None, None], vectors[..., ::-1], vectors),
-    )
-
-
-def _jacobi_rotation(first: FloatArray, second: FloatArray, beside: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Cosine and sine of the smaller rotation that makes [[first, beside], [beside, second]] diagonal."""
-    needed = beside != 0.0
-    with np.errstate(over="ignore"):
-        ratio = np.divide(second - first, 2.0 * beside, out=np.zeros(beside.shape), where=needed)
-        tangent = np.where(ratio >= 0.0, 1.0, -1.0) / (np.abs(ratio) + np.sqrt(ratio * ratio + 1.0))
-    tangent = np.where(needed, tangent, 0.0)
-    cosine = 1.0 / np.sqrt(tangent * tangent + 1.0)
-    return cosine, tangent * cosine
-
-
 def points_along(path_m: np.ndarray, distances_m: np.ndarray) -> np.ndarray:
     """Return the points (k, d) of a path (p, d) at distances (k,) from its beginning; its end beyond it."""
     passed = np.concatenate(([0.0], np.cumsum(length(np.diff(path_m, axis=0)))))

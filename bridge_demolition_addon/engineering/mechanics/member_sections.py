@@ -12,8 +12,8 @@ import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..geometry.vectors import dot
-from .section_cuts import ConnectedFaces, ConnectionLoads, cut_loads
-from .section_forces import SectionForces
+from .carried_sections import CUT_THROUGH, pack
+from .section_cuts import ConnectedFaces
 
 SPREAD = 7.0
 """Extent of a section from its middle, by the thickness of the member.
@@ -57,20 +57,17 @@ class MemberSections:
         areas = np.array([(self._connected.areas_m2[faces] * cosines).sum() for faces, _, cosines in in_sections])
         return areas >= WHOLE * np.square(self._thicknesses[rows])
 
-    def sections(
-        self, rows: IntArray, parts: IntArray, loads: ConnectionLoads, axes: FloatArray
-    ) -> tuple[SectionForces, FloatArray, FloatArray]:
-        """Return loads, areas (k,) and second moments (k, 2, 2) of the sections of intact connections `rows` (k,).
+    def through(self, rows: IntArray, parts: IntArray) -> tuple[IntArray, np.ndarray]:
+        """Return the first face (k + 1,) of the section of each intact connection (k,), and all faces (e,).
 
         `parts` (m,) are numbers of what hangs together, which no section goes beyond; negative for broken connections.
-        `axes` (k, 3, 3) are those of the sections, as columns.
         """
         in_sections = [self._faces(row) for row in rows.tolist()]
         owners = np.repeat(np.arange(len(rows)), [len(faces) for faces, _, _ in in_sections])
         faces, signs, cosines = (np.concatenate(arrays) for arrays in zip(*in_sections, strict=True))
         holds = parts[faces] == parts[rows][owners]
-        owners, faces, signs, cosines = owners[holds], faces[holds], signs[holds], cosines[holds]
-        return cut_loads(self._connected, loads, owners, faces, signs, cosines, axes)
+        starts = np.searchsorted(owners[holds], np.arange(len(rows) + 1))
+        return starts, pack(CUT_THROUGH, face=faces[holds], sign=signs[holds], cosine=cosines[holds])
 
     def _faces(self, row: int) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Connections (e,) in the section of one, on which side of it their first bodies are, and their cosines.

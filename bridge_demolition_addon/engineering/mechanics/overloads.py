@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
-from dataclasses import fields, replace
+from dataclasses import replace
 
 import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..core.calls import call
 from ..core.structs import Count, Doubles, Flags, Indices, Struct, WrittenDoubles, WrittenIndices
-from .carried_sections import CUT_THROUGH, RESISTING, CarriedSections, CutsThrough, Resisting, pack
+from .carried_sections import CUT_THROUGH, CarriedSections, CutsThrough, Resisting, pack
 from .member_sections import MemberSections
 from .section_cuts import ConnectedFaces, ConnectionLoads, SectionCuts, worst_around
 from .section_forces import SectionForces
 from .strength import (
-    Sections,
     Strength,
     largest_utilisations,
     rectangular_sections,
+    resisting_records,
     sections_at,
     strength_at,
     utilisation,
@@ -59,6 +59,8 @@ class LoadsInCuts(Struct):
         ("count", Count),
         ("rows", Indices),
         *((name, Doubles) for name in ("axes", "forces", "moments", "points")),
+        ("starts", Indices),
+        ("through", CutsThrough),
         ("used", WrittenDoubles),
     )
 
@@ -170,12 +172,15 @@ class Overloads:
     def _core_judging(self, faces: ConnectedFaces, cuts: SectionCuts) -> Judging:
         """Return what the core knows of all connections; arrays that the caller keeps up to date are his own."""
         count, entries, most = len(faces.pairs), len(cuts.faces), int(np.diff(cuts.starts).max(initial=0))
+        if self._member_sections is not None:
+            most = count
         by_force, by_moment = largest_utilisations(self._sections, self._strength)
+        second = faces.second_moments_m4.reshape(-1, 4)[:, [0, 1, 3]]
         through = pack(CUT_THROUGH, face=cuts.faces, sign=cuts.signs, cosine=cuts.cosines)
         judging = Judging(connections=count, entries=entries, most_faces=most).take(
             by_force=(by_force, count),
             by_moment=(by_moment, count),
-            resisting=(_packed(faces, self._sections, self._strength), count),
+            resisting=(resisting_records(self._sections, self._strength, second), count),
             starts=(cuts.starts, 2 * count + 1),
             through=(through, entries),
             found=(np.empty(most, int), most),
@@ -225,10 +230,17 @@ class Overloads:
 
     def in_cuts(self, rows: IntArray, loads: ConnectionLoads, axes: FloatArray, intact: BoolArray) -> FloatArray:
         """Mean utilisations (r,), of whole strengths, of the cuts through the two shards of some connections."""
+        in_cuts, used = self._given(rows, loads, axes)
+        self._judging.take(intact=(intact, len(self._pairs)))
+        call("bda_used_in_cuts", self._judging, in_cuts)
+        return used
+
+    def _given(self, rows: IntArray, loads: ConnectionLoads, axes: FloatArray) -> tuple[LoadsInCuts, FloatArray]:
+        """Loads of all connections with the axes of some as the core takes them, and where it writes utilisations."""
         count, used = len(rows), np.empty(len(rows))
         if count and not 0 <= rows.min() <= rows.max() < len(self._pairs):
             raise ValueError(f"rows are {rows.min()} to {rows.max()} of {len(self._pairs)} connections")
-        in_cuts = LoadsInCuts(count=count).take(
+        given = LoadsInCuts(count=count).take(
             rows=(rows, count),
             axes=(axes, 9 * count),
             forces=(loads.forces_n, 3 * len(self._pairs)),
@@ -236,9 +248,7 @@ class Overloads:
             points=(loads.points_m, 3 * len(self._pairs)),
             used=(used, count),
         )
-        self._judging.take(intact=(intact, len(self._pairs)))
-        call("bda_used_in_cuts", self._judging, in_cuts)
-        return used
+        return given, used
 
     def _in_members(
         self,
@@ -253,29 +263,14 @@ class Overloads:
         whole = members.are_whole(rows)
         used = np.empty(len(rows))
         if whole.any():
-            holding = np.where(intact, parts, -1)
-            of_sections, areas, second_moments = members.sections(rows[whole], holding, loads, axes[whole])
-            sections = rectangular_sections(areas, second_moments)
-            resisting = self._strength_at(rows[whole]), self._friction_at(rows[whole])
-            used[whole] = utilisation(of_sections, sections, *resisting)
+            in_sections, found = self._given(rows[whole], loads, axes[whole])
+            starts, through = members.through(rows[whole], np.where(intact, parts, -1))
+            in_sections.take(starts=(starts, len(starts)), through=(through, len(through)))
+            call("bda_used_in_sections", self._judging, in_sections)
+            used[whole] = found
         if not whole.all():
             used[~whole] = self.in_cuts(rows[~whole], loads, axes[~whole], intact)
         return used
-
-
-def _packed(faces: ConnectedFaces, sections: Sections, strength: Strength) -> np.ndarray:
-    """Faces, sections and strengths (m,) as the core takes them."""
-    count, second = len(faces.pairs), faces.second_moments_m4
-    strengths = [np.broadcast_to(np.asarray(getattr(strength, item.name), float), count) for item in fields(strength)]
-    return pack(
-        RESISTING,
-        area=faces.areas_m2,
-        second=np.stack((second[:, 0, 0], second[:, 0, 1], second[:, 1, 1]), axis=1),
-        directions=sections.directions.reshape(-1, 4),
-        moduli=sections.bending_moduli_m3,
-        torsion_modulus=sections.torsion_moduli_m3,
-        strength=np.stack(strengths, axis=1),
-    )
 
 
 def _overloaded(rows: IntArray, used: FloatArray) -> tuple[IntArray, FloatArray]:

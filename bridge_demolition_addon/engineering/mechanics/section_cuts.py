@@ -13,7 +13,7 @@ import numpy as np
 
 from ..arrays import BoolArray, FloatArray, IntArray
 from ..geometry.proximity import ranges
-from ..geometry.vectors import cross, dot, transformed_back
+from ..geometry.vectors import dot
 from .section_forces import SectionForces, section_forces
 
 SAME_WAY = 0.3
@@ -79,36 +79,6 @@ class SectionCuts:
         return cls(connected, starts, half % count, signs, cosines)
 
 
-def cut_loads(
-    connected: ConnectedFaces,
-    loads: ConnectionLoads,
-    owners: IntArray,
-    faces: IntArray,
-    signs: FloatArray,
-    cosines: FloatArray,
-    axes: FloatArray,
-) -> tuple[SectionForces, FloatArray, FloatArray]:
-    """Loads, areas (k,) and second moments (k, 2, 2) of k cuts through faces that stay plane together.
-
-    `owners` and `faces` (e,): cuts, from 0 to k - 1 in order, and the connections whose faces are in them. `signs` and
-    `cosines` (e,) are as in `SectionCuts`, `axes` (k, 3, 3) those of the cuts, as columns.
-    """
-    firsts = np.searchsorted(owners, np.arange(len(axes)))
-
-    def total(values: FloatArray) -> FloatArray:
-        return np.add.reduceat(values, firsts, axis=0) if len(values) else values[:0]
-
-    shares, points = connected.areas_m2[faces] * cosines, loads.points_m[faces]
-    cut_areas = total(shares)
-    levers = points - (total(shares[:, None] * points) / cut_areas[:, None])[owners]
-    pulls = signs[:, None] * loads.forces_n[faces]
-    turns = signs[:, None] * loads.moments_nm[faces] + cross(levers, pulls)
-    across = transformed_back(axes[owners], levers)[:, 1:]
-    own = connected.second_moments_m4[faces] * cosines[:, None, None]
-    cut_moments = total(own + shares[:, None, None] * _moved_axes(across))
-    return section_forces(axes, total(pulls), total(turns)), cut_areas, cut_moments
-
-
 def worst_around(pairs: IntArray, used: FloatArray, is_shard: BoolArray) -> BoolArray:
     """Which connections (k,) between pairs (k, 2) use more than any other that shares a shard with them.
 
@@ -119,9 +89,3 @@ def worst_around(pairs: IntArray, used: FloatArray, is_shard: BoolArray) -> Bool
     np.maximum.at(most, pairs.ravel(), np.repeat(used, 2))
     most[~is_shard] = -np.inf
     return used >= most[pairs].max(axis=1)
-
-
-def _moved_axes(across: FloatArray) -> FloatArray:
-    """Second moments (e, 2, 2) of a unit of area by its distance (e, 2), y and z, from the axes."""
-    y, z = across.T
-    return np.stack((np.stack((z * z, -y * z), axis=1), np.stack((-y * z, y * y), axis=1)), axis=1)

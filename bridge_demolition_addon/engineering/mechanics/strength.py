@@ -13,14 +13,13 @@ import numpy as np
 
 from ...errors import ScenarioError
 from ..arrays import FloatArray, IntArray
-from ..geometry.vectors import length, symmetric_eigenvectors_2d, transformed_back
+from ..core.calls import call
+from ..geometry.vectors import length
+from .carried_sections import RESISTING, pack
 from .section_forces import SectionForces
 
 NEWTON_PER_SQUARE_MILLIMETRE = 1e6
 """1 N/mm² in Pa."""
-
-ROUNDING = 1e-9
-"""Largest difference of principal second moments of a square that was cut from a mesh, as a part of the larger."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -129,15 +128,26 @@ def rectangular_sections(areas: FloatArray, second_moments: FloatArray) -> Secti
     Torsion of a rectangle b > c: stress = T / (b c²) × (3 + 1.8 c/b), within 5 % (S. Timoshenko, 1955, Strength of
     Materials, part I, 3rd edition, section 62).
     """
-    areas = np.where(np.asarray(areas) > 0.0, areas, np.nan)
-    moments, directions = symmetric_eigenvectors_2d(second_moments)
-    # Of squares, second moments are equal but for rounding, which alone would then turn the section.
-    are_square = moments[:, 1] - moments[:, 0] <= ROUNDING * moments[:, 1]
-    directions = np.where(are_square[:, None, None], np.eye(2), directions)
-    sides = np.sqrt(12.0 * moments / areas[:, None])
-    short, long = sides.T
-    torsion_moduli = areas * short / (3.0 + 1.8 * short / long)
-    return Sections(areas, directions, 2.0 * moments / sides, torsion_moduli)
+    areas = np.where(np.asarray(areas, float) > 0.0, areas, np.nan)
+    count = len(areas)
+    directions, bending, torsion = np.empty((count, 2, 2)), np.empty((count, 2)), np.empty(count)
+    call("bda_rectangles", count, areas, np.ascontiguousarray(second_moments, float), directions, bending, torsion)
+    return Sections(areas, directions, bending, torsion)
+
+
+def resisting_records(sections: Sections, strength: Strength, second_moments: FloatArray | float = 0.0) -> np.ndarray:
+    """Sections and strengths (m,) as the core takes them, with second moments (m, 3) where cuts go through them."""
+    count = len(sections.areas_m2)
+    strengths = [np.broadcast_to(np.asarray(getattr(strength, item.name), float), count) for item in fields(strength)]
+    return pack(
+        RESISTING,
+        area=sections.areas_m2,
+        second=second_moments,
+        directions=sections.directions.reshape(-1, 4),
+        moduli=sections.bending_moduli_m3,
+        torsion_modulus=sections.torsion_moduli_m3,
+        strength=np.stack(strengths, axis=1),
+    )
 
 
 def sections_at(sections: Sections, rows: IntArray) -> Sections:
@@ -181,14 +191,9 @@ def utilisation(
 
     The stress of a rectangle is largest at a corner: bending about its two axes adds up.
     """
-    axial = forces.axial_n / sections.areas_m2
-    moments = transformed_back(sections.directions, forces.bending_nm)
-    bending = (np.abs(moments) / sections.bending_moduli_m3).sum(axis=1)
-    shear_pa = length(forces.shear_n) / sections.areas_m2
-    if friction is not None:
-        shear_pa = np.maximum(shear_pa + friction * np.minimum(axial, 0.0), 0.0)
-    shear = shear_pa / strength.shear_pa
-    shear += np.abs(forces.torsion_nm) / sections.torsion_moduli_m3 / strength.torsion_pa
-    stretched = axial / np.where(axial > 0.0, strength.tension_pa, strength.bending_pa) + bending / strength.bending_pa
-    pressed = (bending - axial) / strength.compression_pa
-    return length(np.stack((np.maximum(stretched, pressed), shear), axis=-1))
+    parts = forces.axial_n, forces.shear_n, forces.torsion_nm, forces.bending_nm
+    count, used = len(sections.areas_m2), np.empty(len(sections.areas_m2))
+    friction = np.zeros(count) if friction is None else np.ascontiguousarray(friction, float)
+    records = resisting_records(sections, strength).view(float)
+    call("bda_utilisations", count, records, np.column_stack(parts).astype(float, copy=False), friction, used)
+    return used

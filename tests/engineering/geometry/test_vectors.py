@@ -3,7 +3,7 @@
 
 import numpy as np
 import pytest
-from reference.geometry import diagonalised
+from reference.geometry import diagonalised, symmetric_eigenvectors_2d
 
 from bridge_demolition_addon.engineering.geometry.vectors import (
     cross_2d,
@@ -14,7 +14,6 @@ from bridge_demolition_addon.engineering.geometry.vectors import (
     product,
     symmetric_eigenvalues,
     symmetric_eigenvectors,
-    symmetric_eigenvectors_2d,
     transformed,
     transformed_back,
     unit,

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
+from reference.strength import cut_loads, rectangular_sections, utilisation
 from support.long_cases import long_but
 
 from bridge_demolition_addon.engineering.elasticity.section_stiffness import ElasticModuli
@@ -101,8 +102,14 @@ class PulledSlab:
 
     def sections(self, rows: np.ndarray) -> tuple[SectionForces, np.ndarray, np.ndarray]:
         """Loads and sizes of sections through connections."""
-        one_part = np.zeros(len(self.connections), int)
-        return self.member_sections().sections(rows, one_part, self.loads, self.axes[rows])
+        return self.sections_of_parts(rows, np.zeros(len(self.connections), int))
+
+    def sections_of_parts(self, rows: np.ndarray, parts: np.ndarray) -> tuple[SectionForces, np.ndarray, np.ndarray]:
+        """The same, by the parts that connections hold together."""
+        starts, through = self.member_sections().through(rows, parts)
+        owners = np.repeat(np.arange(len(rows)), np.diff(starts))
+        faces, signs, cosines = (through[name] for name in ("face", "sign", "cosine"))
+        return cut_loads(self.faces, self.loads, owners, faces, signs, cosines, self.axes[rows])
 
     def overloads(self, tension_pa: float, sections: MemberSections | None) -> Overloads:
         """What judges it by a strength that cracks in tension and bending."""
@@ -146,9 +153,22 @@ def test_a_section_does_not_reach_from_one_part_to_another():
     slab = PulledSlab.cut(200, 1)
     rows = np.flatnonzero(~slab.moves[slab.pairs[:, 1]])
     parts = (slab.connections.points[:, 1] > 0.0).astype(int)
-    _, areas, _ = slab.member_sections().sections(rows, parts, slab.loads, slab.axes[rows])
+    _, areas, _ = slab.sections_of_parts(rows, parts)
     ground = slab.connections.areas[rows]
     assert areas == pytest.approx(np.where(parts[rows], ground[parts[rows] == 1].sum(), ground[parts[rows] == 0].sum()))
+
+
+def test_the_core_judges_whole_sections_as_numpy_does():
+    slab = PulledSlab.cut(200, 1)
+    members, count = slab.member_sections(), len(slab.connections)
+    rows = np.flatnonzero(members.are_whole(np.arange(count)))
+    overloads, holds = slab.overloads(2e6, members), np.ones(count, bool)
+    alone, parts = np.zeros(len(rows)), np.zeros(count, int)
+    used = overloads.together(rows, alone, slab.loads, slab.axes[rows], holds, np.ones(count), parts)
+    loads, areas, second_moments = slab.sections(rows)
+    strength = Strength(1e12, 2e6, 2e6, 2e6, 2e6)
+    expected = utilisation(loads, rectangular_sections(areas, second_moments), strength)
+    np.testing.assert_allclose(used, expected, rtol=1e-12)
 
 
 def test_what_clips_an_edge_is_no_section_of_the_member():

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from reference import strength as reference
 
 from bridge_demolition_addon.engineering.mechanics.section_forces import SectionForces
 from bridge_demolition_addon.engineering.mechanics.strength import (
@@ -235,3 +236,22 @@ def test_friction_helps_pressed_faces_alone():
     strength = Strength(1e12, 1e12, 1e6, 1e12, 1e12)
     assert utilisation(forces, sections, strength) == pytest.approx([2.0, 2.0, 2.0], rel=1e-5)
     assert utilisation(forces, sections, strength, np.full(3, 0.7)) == pytest.approx([1.3, 2.0, 0.0], abs=1e-5)
+
+
+def test_the_core_has_what_numpy_has():
+    rng = np.random.default_rng(5)
+    count = 5000
+    areas = 10.0 ** rng.uniform(-4.0, 2.0, count) * (rng.random(count) > 0.01)
+    roots = rng.normal(size=(count, 2, 2)) * np.where(rng.random(count) < 0.2, 1e-6, 1.0)[:, None, None]
+    moments = roots @ np.swapaxes(roots, 1, 2)
+    moments[:200] = np.eye(2) * rng.uniform(0.1, 9.0, (200, 1, 1))  # squares
+    moments[200:400] = [np.diag(pair) for pair in rng.uniform(0.1, 9.0, (200, 2))]
+    with np.errstate(all="ignore"):
+        own, by_numpy = rectangular_sections(areas, moments), reference.rectangular_sections(areas, moments)
+    for name in ("areas_m2", "directions", "bending_moduli_m3", "torsion_moduli_m3"):
+        np.testing.assert_array_equal(getattr(own, name), getattr(by_numpy, name), err_msg=name)
+    strength = Strength(*(10.0 ** rng.uniform(5.0, 9.0, count) for _ in range(5)))
+    forces = SectionForces(*(1e6 * rng.normal(size=shape) for shape in ((count,), (count, 2), (count,), (count, 2))))
+    for friction in (None, rng.uniform(0.0, 1.5, count)):
+        expected = reference.utilisation(forces, by_numpy, strength, friction)
+        np.testing.assert_array_equal(utilisation(forces, own, strength, friction), expected)
