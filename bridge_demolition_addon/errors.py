@@ -131,6 +131,8 @@ class ContourError(DemolitionError):
 
 def text_of(error: Exception) -> str:
     """Return the text of an error: of the system's, which file and why, without its number."""
+    if isinstance(error, FileNotFoundError) and "temporary directory" in str(error):  # of tempfile
+        return "no folder for temporary files can be written to: set TMPDIR to one that can"
     if isinstance(error, OSError) and error.filename is not None and error.strerror:
         return f"{error.filename}: {error.strerror}"
     return str(error)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from contextlib import nullcontext
 from importlib import import_module
+from tempfile import gettempdir
 from types import ModuleType
 
 from ..errors import SimulationError
@@ -16,6 +17,7 @@ def simulation_module(name: str, *, one_thread: bool = False) -> ModuleType:
 
     A command that renders nothing has it with `one_thread`, where Blender was not loaded before.
     """
+    gettempdir()  # a run needs it when it saves its scene: without one it is refused before it begins
     try:
         with interrupted_afterwards(), on_one_core() if one_thread else nullcontext():
             return import_module(f"...simulation.{name}", __name__)

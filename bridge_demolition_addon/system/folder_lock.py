@@ -42,15 +42,17 @@ class FolderLock:
     """An existing folder that only its holder writes to, from when this is made until it is released.
 
     The system holds the lock as long as the process lives. A killed process leaves a file without effect, which the
-    next one takes over. `is_new` says whether the folder was made for this holder.
+    next one takes over. `is_new` says whether the folder was made for this holder, `work` in a word or two what it does
+    there: ages of files would not say which of two began first, as a clock may be set back.
     """
 
-    def __init__(self, folder: Path, *, is_new: bool = False) -> None:
+    def __init__(self, folder: Path, *, is_new: bool = False, work: str = "") -> None:
         self.folder, self.is_new = folder, is_new
         self._path = folder / LOCK_FILE
         with writing(folder):
             self._file = _locked_file(self._path)
-            holder = f"process {os.getpid()} on {platform.node()}, since {datetime.now():%Y-%m-%d %H:%M:%S}"
+            since = f"since {datetime.now():%Y-%m-%d %H:%M:%S}"
+            holder = ", ".join(filter(None, (f"process {os.getpid()} on {platform.node()}", since, work)))
             self._file.truncate(0)
             self._file.write(holder.encode())
 

@@ -12,7 +12,7 @@ from typing import Any
 from ...engineering.ground_motion.record import GroundRecord
 from ...errors import OutputError
 from ...system.disk import check_no_link, own_folder, part_of, write_whole_text, writing
-from ...system.folder_lock import LOCK_FILE, FolderLock, check_unlocked, writer_in
+from ...system.folder_lock import FolderLock, check_unlocked, writer_in
 from ..ground_motion.record_files import record_text
 from ..results.arrays import FRAMES_FILE, RESULTS_FILE
 from ..scenario import Scenario
@@ -32,6 +32,9 @@ from .summary import read_summary
 _LONGEST_NAME = 60
 """Letters of a title that the name of a folder has."""
 
+_RUN = "a run"
+"""What the lock of a run says that it is."""
+
 _BLENDERS_LONGEST_PATH = 1023
 """Bytes; Blender cuts off the rest silently (FILE_MAX in its BLI_path_utils.h is one more)."""
 
@@ -50,7 +53,7 @@ def prepare_folder(folder: Path, *, overwrite: bool) -> FolderLock:
     is_new = not folder.exists()
     with writing(folder):
         folder.mkdir(parents=True, exist_ok=True)
-    lock = FolderLock(folder, is_new=is_new)
+    lock = FolderLock(folder, is_new=is_new, work=_RUN)
     try:
         with writing(folder):
             _clear(folder)
@@ -74,7 +77,7 @@ def lock_in_place(lock: FolderLock) -> FolderLock:
         folder = lock.folder.with_name(f"{lock.folder.name}_{number}")
     with writing(folder):
         (folder / PICTURE_FOLDER).mkdir(parents=True)
-    return FolderLock(folder)
+    return FolderLock(folder, work=_RUN)
 
 
 def withdraw_folder(lock: FolderLock) -> None:
@@ -160,14 +163,7 @@ def holds_run(folder: Path) -> bool:
 def writer_of_run(folder: Path) -> str | None:
     """Return which process still writes the run in a folder; None where the run has ended.
 
-    Writing a report also locks the folder, but the frames and the log of a run that was killed are older than that.
+    Writing a report also locks the folder.
     """
-    growing = [path for path in (folder / FRAMES_FILE, folder / FORCE_LOG) if path.exists()]
     writer = writer_in(folder)
-    if writer is None or (folder / RESULTS_FILE).exists():
-        return None
-    try:
-        begun = (folder / LOCK_FILE).stat().st_mtime
-        return writer if not growing or max(path.stat().st_mtime for path in growing) >= begun else None
-    except FileNotFoundError:  # it has ended just now
-        return None
+    return writer if writer and writer.endswith(_RUN) and not (folder / RESULTS_FILE).exists() else None

@@ -13,10 +13,11 @@ from support.sample_results import GRAVITY, hanging_chain
 from bridge_demolition_addon.errors import OutputError
 from bridge_demolition_addon.model.results.arrays import load_results
 from bridge_demolition_addon.model.results.summary import summarise
-from bridge_demolition_addon.model.run_folder.files import RESULT_FILES
-from bridge_demolition_addon.model.run_folder.folder import prepare_folder, withdraw_folder
+from bridge_demolition_addon.model.run_folder.files import FORCE_LOG, RESULT_FILES
+from bridge_demolition_addon.model.run_folder.folder import prepare_folder, withdraw_folder, writer_of_run
 from bridge_demolition_addon.simulation.kept_run import keep_results
 from bridge_demolition_addon.simulation.recording.logs import checked_log
+from bridge_demolition_addon.system.folder_lock import LOCK_FILE, FolderLock
 
 
 def files_in(folder):
@@ -112,3 +113,17 @@ def test_a_log_is_not_written_to_a_pipe_or_a_device(tmp_path):
     for path in (pipe, Path("/dev/zero")):
         with pytest.raises(OutputError, match="found a pipe or a device"):
             checked_log(path, overwrite=True)
+
+
+@pytest.mark.parametrize("set_by_s", [-7200, 7200])
+def test_a_run_is_at_work_whatever_the_clock_says(tmp_path, set_by_s):
+    """A clock that is set back or forth between the lock and the frames."""
+    with prepare_folder(tmp_path, overwrite=False):
+        (tmp_path / FORCE_LOG).write_text("frame\n")
+        began = (tmp_path / LOCK_FILE).stat().st_mtime
+        os.utime(tmp_path / FORCE_LOG, (began + set_by_s, began + set_by_s))
+        assert writer_of_run(tmp_path).startswith(f"process {os.getpid()} on ")
+    assert writer_of_run(tmp_path) is None
+    with FolderLock(tmp_path):  # as of a report on a run that was killed
+        os.utime(tmp_path / FORCE_LOG, (began + set_by_s, began + set_by_s))
+        assert writer_of_run(tmp_path) is None
