@@ -160,7 +160,7 @@ def take_pictures(folder: Path) -> None:
     from bridge_demolition_addon.scene.rendering.stills import prepare_scene_for_pictures
     from bridge_demolition_addon.simulation.display.pictures import rendered_pictures
 
-    bpy.ops.wm.open_mainfile(filepath=str(folder / "scene.blend"))
+    bpy.ops.wm.open_mainfile(filepath=str(folder / "scene.blend"), use_scripts=False)
     scene, (width, height) = bpy.context.scene, PICTURE_PX
     summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
     view = read_scenario(folder / "scenario_as_run.toml").pictures

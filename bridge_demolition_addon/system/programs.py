@@ -27,7 +27,7 @@ def program_command(
         return [sys.executable, "-c", paths + (load if one_thread else "") + start]
     threads = ["--threads", "1"] if one_thread else []
     return [
-        *(blender, "--background", "--factory-startup", *threads),
+        *(blender, "--background", "--factory-startup", "--disable-autoexec", *threads),
         *("--python-exit-code", "1", "--python-expr", paths + start),
     ]
 
