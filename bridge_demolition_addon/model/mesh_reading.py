@@ -27,6 +27,8 @@ _LIMIT_S = 600.0
 
 _REMEMBERED_BYTES = 10 * MEGABYTE
 """Size up to which a binary mesh is remembered: the runs of a study read the same files again and again."""
+_UNREADABLE = "{}: cannot be read as {}: it is damaged, or of another kind than its name says; export it again"
+
 _FROM_Y_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 
 
@@ -81,7 +83,7 @@ def loaded(path: Path, *, is_cloud: bool) -> tuple[np.ndarray, np.ndarray]:
     try:
         whole = trimesh.load(path, process=False) if is_cloud else trimesh.load(path, force="mesh", process=False)
     except Exception as error:  # each reader has its own errors
-        raise GeometryError(f"{path}: cannot be read as {path.suffix[1:].upper()}: {error}") from error
+        raise GeometryError(_UNREADABLE.format(path, path.suffix[1:].upper())) from error
     if is_cloud:
         return _points(whole, path), np.empty((0, 3), np.int64)
     if not isinstance(whole, trimesh.Trimesh) or not len(whole.faces):
@@ -97,7 +99,7 @@ def _points(whole: Any, path: Path) -> np.ndarray:
         parts = whole.dump() if hasattr(whole, "dump") else [whole]
         points = np.concatenate([np.empty((0, 3)), *(_vertices(part, path) for part in parts)])
     except Exception as error:  # what is neither a mesh nor a cloud
-        raise GeometryError(f"{path}: cannot be read as {path.suffix[1:].upper()}: {error}") from error
+        raise GeometryError(_UNREADABLE.format(path, path.suffix[1:].upper())) from error
     points = points[np.isfinite(points).all(axis=1)]
     if not len(points):
         raise GeometryError(f"{path}: has no points.")

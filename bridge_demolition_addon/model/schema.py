@@ -12,7 +12,7 @@ from functools import cache
 from numbers import Integral, Real
 from types import NoneType
 from typing import Any, ClassVar, TypeVar, get_args, get_origin
-from unicodedata import category, normalize
+from unicodedata import bidirectional, category, normalize
 
 import numpy as np
 
@@ -90,6 +90,10 @@ ROUNDING = 1e-9
 """Relative slack where lengths are compared that a user would add up in decimals."""
 
 LONGEST_SHOWN_TEXT = 60
+LONGEST_TEXT = 1000
+_TURNING = {"LRE", "RLE", "LRO", "RLO", "PDF", "LRI", "RLI", "FSI", "PDI"}
+"""Classes of letters by which a text looks like another: Unicode Standard Annex 9, 2.1 to 2.5."""
+
 LINE_BREAKING_CATEGORIES = {"Cc", "Cs", "Zl", "Zp"}
 
 
@@ -316,6 +320,8 @@ def _checked(item: Field[Any], name: str, kind: Any, value: Any) -> Any:
         return _checked(item, name, type(value) if isinstance(value, bool | int | str) else float, value)
     if not isinstance(value, kind) or (kind is str and not _is_text(value, key_of(item))):
         raise _unexpected(item, name, value)
+    if kind is str and (fault := _fault_of(value)):
+        raise _unexpected(item, name, value, f"; {fault}")
     return value
 
 
@@ -358,6 +364,14 @@ def _is_text(text: str, rule: Key) -> bool:
     if rule.choices and not rule.or_else:
         return text in rule.choices
     return bool(text.strip()) and not any(category(letter) in LINE_BREAKING_CATEGORIES for letter in text)
+
+
+def _fault_of(text: str) -> str:
+    """Return what of a text is shown as something else, or as nothing that can be read; empty for none."""
+    if len(text) > LONGEST_TEXT:
+        return f"this one has {len(text)} letters, more than {LONGEST_TEXT}"
+    turned = next((letter for letter in text if bidirectional(letter) in _TURNING), "")
+    return f"U+{ord(turned):04X} in it turns the direction of what is written" if turned else ""
 
 
 def check_exactly_one(table: Table, *names: str) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import tomllib
+import unicodedata
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
@@ -47,6 +48,12 @@ def _straight(match: re.Match[str]) -> str:
     return re.sub(f"[{_SINGLE}]", "'", re.sub(f"[{_DOUBLE}]", '"', match.string))
 
 
+def _as_seen(match: re.Match[str]) -> str:
+    """Return a line with usual spaces and digits in place of those of other scripts, and without what is not seen."""
+    usual = unicodedata.normalize("NFKC", match.string)
+    return "".join(letter for letter in usual if unicodedata.category(letter) != "Cf")
+
+
 def _with_slashes(match: re.Match[str]) -> str:
     return match.string.replace("\\", "/")
 
@@ -70,7 +77,11 @@ def _closed(match: re.Match[str]) -> str:
 _MOST_DIGITS = 300
 """Of a number; the largest of double precision has 309."""
 
+_UNSEEN = "\u00a0\u00ad\u2000-\u200f\u2028-\u202f\u205f-\u206f\u3000\ufeff\uff01-\uff5e"
+"""Spaces that are none, letters that are not seen, and those of full width."""
+
 _SLIPS = (
+    _slip(f".*[{_UNSEEN}]", "has spaces, digits or letters that only look like usual ones", _as_seen),
     _slip(f".*[{_DOUBLE}{_SINGLE}]", "has typographic quotation marks", _straight),
     _slip(r'^.*"[^"]*\\[^"]*"', _BACKSLASHES, _with_slashes),
     _slip(_KEY + r"([-+]?\d+),(\d+)$", "has a decimal comma", r"\1\2.\3"),
@@ -101,12 +112,12 @@ def parsed(text: str, faults: Faults) -> dict[str, Any]:
     Raise `ScenarioError` where it is not known what was meant, with the slips before that.
     """
     slips: list[tuple[int, str]] = []
-    text = _without_drives(text.replace("\r\n", "\n"), slips)
+    text = _without_drives(text.replace("\r\n", "\n").replace("\r", "\n"), slips)
     for _ in range(_MOST_SLIPS):
         try:
             document = tomllib.loads(text)
         except RecursionError as error:
-            raise ScenarioError(f"not a TOML file: {error}") from error
+            raise ScenarioError("not a TOML file: it has brackets in brackets, hundreds deep") from error
         except ValueError as error:
             _check_digits(text)
             text = _mended(text, error, slips)

@@ -39,14 +39,19 @@ def file_text(path: Path, most_bytes: int) -> str:
     check_file(path, most_bytes)
     try:
         content = path.read_bytes()
-        return content.decode("utf-8-sig")
+        text = content.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise UnreadableError(_not_utf8(content, error.start)) from error
     except OSError as error:
         raise UnreadableError(f"cannot be read: {error.strerror}") from error
+    if "\0" in text[:_FIRST_LETTERS]:  # every other byte of a text in UTF-16 without a mark of its order
+        raise UnreadableError(_WIDE.format("UTF-16 or UTF-32"))
+    return text
 
 
-_UTF_16 = (b"\xff\xfe", b"\xfe\xff")
+_FIRST_LETTERS = 4
+_WIDE = "a text in {}: save it again as UTF-8 (in Notepad, Save As, Encoding)"
+_MARKS = {b"\xff\xfe\0\0": "UTF-32", b"\0\0\xfe\xff": "UTF-32", b"\xff\xfe": "UTF-16", b"\xfe\xff": "UTF-16"}
 _NO_TEXT = {
     b"PK\x03\x04": "is a spreadsheet, a document or a ZIP file, not a text",
     b"%PDF": "is a PDF, not a text",
@@ -58,8 +63,9 @@ _NO_TEXT = {
 
 
 def _not_utf8(content: bytes, position: int) -> str:
-    if content.startswith(_UTF_16):
-        return "a text in UTF-16: save it again as UTF-8 (in Notepad, Save As, Encoding)"
+    for mark, name in _MARKS.items():
+        if content.startswith(mark):
+            return _WIDE.format(name)
     for beginning, text in _NO_TEXT.items():
         if content.startswith(beginning):
             return text

@@ -104,6 +104,23 @@ SLIPS = {
         "foundation = True",
         "foundation = True is no true or false: write foundation = true",
     ),
+    "no-break space": (
+        "thickness_m = 0.25",
+        "thickness_m\u00a0= 0.25",
+        "thickness_m = 0.25 has spaces, digits or letters that only look like usual ones: write thickness_m = 0.25",
+    ),
+    "letter that is not seen": (
+        "thickness_m = 0.25",
+        "thickness_m\u200b = 0.25",
+        "thickness_m\u200b = 0.25 has spaces, digits or letters that only look like usual ones: write "
+        "thickness_m = 0.25",
+    ),
+    "digits of full width": (
+        "thickness_m = 0.25",
+        "thickness_m = 0.\uff12\uff15",
+        "thickness_m = 0.\uff12\uff15 has spaces, digits or letters that only look like usual ones: write "
+        "thickness_m = 0.25",
+    ),
     "heading": ("[ball]", "[ball", "[ball has a heading without an end: write [ball]"),
     "comment": ("[ball]", "// steel\n[ball]", "// steel is no TOML, where a comment begins with #: write # steel"),
 }
@@ -137,6 +154,15 @@ FILES = {
     "UTF-16": (
         RIGHT.encode("utf-16"),
         "a text in UTF-16: save it again as UTF-8 (in Notepad, Save As, Encoding): expected a scenario in TOML",
+    ),
+    "UTF-16 without a mark": (
+        RIGHT.encode("utf-16-le"),
+        "a text in UTF-16 or UTF-32: save it again as UTF-8 (in Notepad, Save As, Encoding): expected a scenario in "
+        "TOML",
+    ),
+    "UTF-32": (
+        RIGHT.encode("utf-32"),
+        "a text in UTF-32: save it again as UTF-8 (in Notepad, Save As, Encoding): expected a scenario in TOML",
     ),
     "Latin-1": (
         "title = 'Br\u00fccke'".encode("latin-1"),

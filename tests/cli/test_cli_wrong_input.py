@@ -52,7 +52,7 @@ WRONG_FILES = {
         with_value("scenario.seed", "9" * 5000),
         ["has a number of 5000 digits: expected one of up to 300"],
     ),
-    "too deep": (f"a = {'[' * 5000}{']' * 5000}", ["not a TOML file"]),
+    "too deep": (f"a = {'[' * 5000}{']' * 5000}", ["not a TOML file: it has brackets in brackets, hundreds deep"]),
     "not UTF-8": (RIGHT.replace("I-235", "Br\xfccke").encode("latin-1"), ["not a text in UTF-8, at byte"]),
     "UTF-16": (RIGHT.encode("utf-16"), ["a text in UTF-16: save it again as UTF-8 (in Notepad, Save As, Encoding)"]),
     "unknown table": (

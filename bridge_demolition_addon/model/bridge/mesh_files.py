@@ -42,7 +42,7 @@ def geometry_members(tables: Sequence[Geometry], *, is_flat: bool = True) -> tup
             members.append(_member(same_name, [part.solid for part in parts]))
         except GeometryError as error:
             files = ", ".join(dict.fromkeys(table.file for table in same_name))
-            wrong.append(f"{files}: {error}")
+            wrong.append(f"{files}: {str(error).removeprefix(f'{files}: ')}")
             continue
         notes += [f"{name}: {repair}" for part in parts for repair in part.repairs]
     if wrong:

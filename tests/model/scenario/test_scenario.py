@@ -237,6 +237,8 @@ def test_frames_cover_the_duration():
         (PIERS, {"columns": True}, "bridge.piers.columns is true: expected a whole number from 1 to 1000"),
         (SCENARIO, {"title": "  "}, 'scenario.title is "  ": expected a text on one line, not blank'),
         (SCENARIO, {"title": "a\nb"}, r'scenario.title is "a\nb": expected a text on one line, not blank'),
+        (SCENARIO, {"title": "x" * 1001}, "this one has 1001 letters, more than 1000"),
+        (SCENARIO, {"title": "gpj.\u202eexe"}, "; U+202E in it turns the direction of what is written"),
         (SCENARIO, {"title": 3}, "scenario.title is 3: expected a text on one line, not blank"),
         (SCENARIO, {"seed": -1}, "scenario.seed is -1: expected a whole number from 0 to 2147483647"),
         (SCENARIO, {"time": None}, "time is missing: expected a table"),

@@ -88,6 +88,8 @@ def test_bytes_that_windows_editors_add_are_no_error(tmp_path):
     path.write_bytes(b"\xef\xbb\xbf" + scenario_text(BARE).replace("\n", "\r\n").encode())
     assert read_scenario(path) == BARE
     assert read_scenario(os.fspath(path)) == BARE
+    path.write_bytes(scenario_text(BARE).replace("\n", "\r").encode())  # as programs of old Macintoshes end lines
+    assert read_scenario(path) == BARE
 
 
 def test_the_error_names_the_path_as_given(tmp_path, monkeypatch):
