@@ -102,6 +102,9 @@ class Worksite(Protocol):
     def distance_to_bridge_m(self, point_m: Point) -> float:
         """Return at least how far a point is from all members, m: from the boxes around them."""
 
+    def outer_faces(self, shard: int) -> np.ndarray:
+        """Return the corners (t, 3, 3) of the triangles of a shard that lie on the surface of its member."""
+
     def affected_by(self, action: PlannedAction) -> Affected:
         """Return the shards that a change or a load acts on; refuse one that acts on nothing."""
 

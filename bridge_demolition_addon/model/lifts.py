@@ -13,7 +13,7 @@ from ..errors import ScenarioError
 from .actions import CutBox, Fact, HeightAt, Plan, PlannedAction, Point, Worksite
 from .as_built import Structure
 from .changes.removals import LiftingAway
-from .loads import Part
+from .loads.part import Part
 from .pulls import Pull
 from .schema import POSITION, key, shown
 

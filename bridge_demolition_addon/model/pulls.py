@@ -12,7 +12,7 @@ from ..engineering.mechanics.slings import rope_stiffness_n, stored_j
 from ..errors import ScenarioError
 from .actions import Fact, HeightAt, Plan, Point, Worksite, point_text
 from .as_built import Structure
-from .loads import Acting, Part, PlacedLoad, nearest_of, unusual_force
+from .loads.part import Acting, Part, PlacedLoad, nearest_of, unusual_force
 from .schema import POSITION, check_exactly_one, given, key
 
 _SHORTEST_M = 0.5

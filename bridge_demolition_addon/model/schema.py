@@ -108,6 +108,7 @@ class Key:
     at_most: float | None = None
     choices: tuple[str, ...] = ()  # empty for any text
     or_else: str = ""  # text for other values, which the table around this one checks
+    typical: Any = None  # a usual value of what has no default, for its tooltip
     label: str = ""  # what the window calls it where its own name would puzzle, without a unit
 
     @property

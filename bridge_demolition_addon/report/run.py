@@ -34,6 +34,7 @@ from .sections.cover import ONE_RUN, RUN_TITLE, findings_section, run_section, s
 from .sections.debris import corner_table, debris_section, exclusion_section, terrain_section, zone_of
 from .sections.forces import force_section, logged_section
 from .sections.ground_motion import motion_section, touchdown_section
+from .sections.loads import load_section
 from .sections.model import model_section
 from .sections.plan_contents import with_plan_contents
 from .sections.planned_sequence import sequence_section
@@ -109,6 +110,8 @@ def run_document(
         sections.append(logged_section(run))
     if (tendons := tendon_section(run)) is not None:
         sections.append(tendons)
+    if (loads := load_section(run)) is not None:
+        sections.append(loads)
     if (pulls := pull_section(run)) is not None:
         sections.append(pulls)
     if stages is not None:

@@ -24,7 +24,7 @@ from ..model.blast.charges import Charge
 from ..model.blast.explosion import Explosion
 from ..model.blast.settings import BlastSettings
 from ..model.changes.change import Change, Event, schedule
-from ..model.loads import PlacedLoad, SizedLoad, placed_loads
+from ..model.loads.part import PlacedLoad, SizedLoad, placed_loads
 from ..model.pulls import Pull
 from ..model.results.fingerprint import digest, known_parts
 from ..model.results.inventory import Inventory

@@ -106,6 +106,8 @@ def run_summary(recording: Recording, results: Results, context: RunContext, *, 
     }
     if recording.tendons:
         summary["tendons"] = recording.tendons.summary()
+    if recording.loads:
+        summary["loads"] = recording.loads.summary()
     if recording.pulls:
         summary["pulls"] = recording.pulls.summary()
         if lifts := recording.pulls.hooks.summary():

@@ -10,7 +10,7 @@ from ...engineering.elasticity.tendons import CutTendon
 from ...errors import ScenarioError
 from ..actions import Fact, Plan, Worksite
 from ..as_built import Structure
-from ..loads import Part
+from ..loads.part import Part
 from ..schema import key
 from .bare_bars import StandingBars
 from .departures import Departure

@@ -114,6 +114,11 @@ class RunSummary:
         return self.values.get("pulls", [])
 
     @property
+    def loads(self) -> list[dict[str, Any]]:
+        """What each load did; empty without loads, and of runs that were recorded before."""
+        return self.values.get("loads", [])
+
+    @property
     def came_to_rest_s(self) -> float | None:
         """When everything came to rest; None where it did not."""
         return self.values.get("came_to_rest_s")
@@ -204,6 +209,8 @@ def _checked(summary: Any) -> dict[str, Any]:
             _check_table(f"tendons[{number}].released[{other}]", release, _RELEASE)
     for number, pull in enumerate(summary.get("pulls", ())):
         _check_table(f"pulls[{number}]", pull, _PULL)
+    for number, load in enumerate(summary.get("loads", ())):
+        _check_table(f"loads[{number}]", load, _LOAD)
     for number, lift in enumerate(summary.get("lifts", ())):
         _check_table(f"lifts[{number}]", lift, _LIFT, optional=("volume_weight_N",))
     for number, event in enumerate(summary.get("events", ())):
@@ -395,8 +402,17 @@ _SUMMARY = {
     "reinforcement": _is_table_or_none,
     "tendons": _is_list,
     "pulls": _is_list,
+    "loads": _is_list,
     "lifts": _is_list,
     "events": lambda value: _is_list(value) and all(isinstance(event, dict) for event in value),
+}
+
+_LOAD = {
+    "name": _is_text,
+    "largest_force_N": _is_number,
+    "largest_force_s": _is_number,
+    "impulse_Ns": lambda value: _is_list(value) and len(value) == 3 and all(map(_is_number, value)),
+    "work_J": _is_number,
 }
 
 _ESTIMATES = {"half_sine_peak_force_N": _is_number, "hertz_peak_force_N": _is_number}

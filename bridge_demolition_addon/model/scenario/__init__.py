@@ -14,7 +14,7 @@ from ..changes.saw_cuts import SawCut
 from ..changes.tendon_cuts import TendonCut
 from ..changes.weakenings import Weakening
 from ..lifts import Lift
-from ..loads import Load
+from ..loads.loads import Load
 from ..materials.bar_layers import BarLayer
 from ..materials.materials import Material
 from ..pulls import Pull

@@ -26,7 +26,8 @@ from ..foundations import Foundation
 from ..ground_motion.settings import GroundMotion
 from ..ground_motion.sources import ground_record
 from ..lifts import Lift
-from ..loads import Load
+from ..loads.loads import Load
+from ..loads.pressures import Pressure
 from ..materials.bar_layers import BarLayer
 from ..materials.materials import Material, check_materials
 from ..pulls import Pull
@@ -113,6 +114,7 @@ class Scenario(Table):
     weakenings: tuple[Weakening, ...] = ()
     tendon_cuts: tuple[TendonCut, ...] = ()
     loads: tuple[Load, ...] = ()
+    pressures: tuple[Pressure, ...] = ()
     pulls: tuple[Pull, ...] = ()
     lifts: tuple[Lift, ...] = ()
     recording: RecordingSettings = field(default_factory=RecordingSettings)

@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 from manifold3d import Manifold
 
+from ...engineering.fracture.gaps import is_cut
 from ...engineering.geometry.solids import to_manifold
 from ...engineering.geometry.vectors import AXES
 from ..actions import Affected, Fact, Place, PlannedAction, Point
@@ -65,6 +66,10 @@ class ModelWorksite:
         boxes = np.array([member.solid.bounds for member in self.model.members])
         gaps = np.maximum(0.0, np.maximum(boxes[:, 0] - point_m, point_m - boxes[:, 1]))
         return float(np.sqrt((gaps * gaps).sum(axis=1)).min())
+
+    def outer_faces(self, shard: int) -> np.ndarray:
+        piece = self.model.shards[shard]
+        return piece.corners[~is_cut(piece, self.model.members[self.model.member_of_shard[shard]].solid)]
 
     def affected_by(self, action: PlannedAction) -> Affected:
         model = self.model

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import tomllib
+from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, reduce
 from pathlib import Path
 
 from ...errors import OutputError
@@ -61,4 +62,19 @@ def language_table(name: str) -> ReportTexts:
     if check_language(name) == ENGLISH:
         return ReportTexts(ENGLISH, "en-GB", False, {})
     read = tomllib.loads((FOLDER / f"{name}.toml").read_text(encoding="utf-8"))
-    return ReportTexts(name, read["tag"], read.get("chinese_letters", False), read["texts"])
+    own = texts_of_kinds(name)("report")
+    return ReportTexts(name, read["tag"], read.get("chinese_letters", False), read["texts"] | own)
+
+
+def texts_of_kinds(language: str) -> Callable[..., dict[str, str]]:
+    """Return what gives the translations of all kinds of actions in a part of their files: the report, or the window.
+
+    A kind has its texts in one file, ``kinds/NAME.toml``, in all languages.
+    """
+    files = [tomllib.loads(path.read_text(encoding="utf-8")) for path in sorted((FOLDER / "kinds").glob("*.toml"))]
+
+    def texts(*part: str) -> dict[str, str]:
+        parts = (reduce(lambda table, name: table.get(name, {}), part, file) for file in files)
+        return {english: own[language] for found in parts for english, own in found.items() if language in own}
+
+    return texts

@@ -56,6 +56,8 @@ class BulletReader:
         Connections across whose cracks bars are followed; None where they are not.
     tendons : Tendons or None
         What presses bodies together; None without tendons, or where connections are rigid.
+    loads : Loads or None
+        Loads that push bodies; None without any.
     pulls : Pulls or None
         Cables that pull bodies; None without any.
     rigid_because : LayoutError or None
@@ -96,6 +98,7 @@ class BulletReader:
         setup, world, inventory = self._setup, self._world, self._inventory
         breaking, constraints = setup.breaking, world.constraints
         self.tendons = tendons = _tendons_of(setup, world, elastic)
+        self.loads = loads_of_run = Loads(world.bodies, setup.placed_loads) if setup.loads else None
         self.pulls = pulls = Pulls(world.bodies, setup.placed_pulls, inventory.masses_kg) if setup.pulls else None
         self._events = events = Events(
             world,
@@ -128,7 +131,7 @@ class BulletReader:
                 events,
                 ThresholdScale(constraints, setup.time.step.substep_s),
                 blast,
-                Loads(world.bodies, setup.placed_loads),
+                loads_of_run,
                 pulls,
                 tendons,
                 ElasticPrediction(elastic, breaker) if elastic else None,

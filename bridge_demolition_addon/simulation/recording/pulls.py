@@ -11,7 +11,7 @@ import numpy as np
 from ...bullet.bodies import BodyTable
 from ...engineering.geometry.vectors import cross, dot, length, transformed, transformed_back
 from ...engineering.mechanics.slings import cable_force_n, force_of_step_n, free_length_m, stored_j
-from ...model.loads import PlacedLoad
+from ...model.loads.part import PlacedLoad
 from ...model.pulls import Pull
 from .drivers import Driver
 from .hooks import Hooks

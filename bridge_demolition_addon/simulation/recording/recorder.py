@@ -33,6 +33,7 @@ from .bearings import RecordedBearings
 from .blast import Blast, check_blast
 from .bullet_reader import BulletReader
 from .elastic_connections import RestingState
+from .loads import Loads
 from .logs import LogFiles, Logs
 from .motion_reader import READING as READING_OF_MOTION
 from .motion_reader import MomentumReader, check_motion_is_enough
@@ -124,6 +125,7 @@ class Recording(RecordedFrames):
         self._reader: BulletReader | None = None
         self.tendons: Tendons | None = None
         self.pulls: Pulls | None = None
+        self.loads: Loads | None = None
         self._momentum: MomentumReader | None = None
         self._logs: Logs | None = None
         self._blast: Blast | None = None
@@ -304,7 +306,7 @@ class Recording(RecordedFrames):
         self._reader = BulletReader(
             self.scene, setup, self.world, self._blast, every_substep=self._every_substep, loads=self.has_loads
         )
-        self.tendons, self.pulls = self._reader.tendons, self._reader.pulls
+        self.tendons, self.pulls, self.loads = self._reader.tendons, self._reader.pulls, self._reader.loads
         if self._logs and self._reader.have_bars is not None:
             self._bars = RecordedBars(setup.inventory, self._reader.have_bars)
             self._logs.begin_bars()
@@ -340,6 +342,8 @@ class Recording(RecordedFrames):
             blast_loads, impulses = self._blast.after_frame(frame.positions_m)
             frame = replace(frame, blast_impulses_ns=frame.blast_impulses_ns + impulses)
         self._append(frame, balls, contacts)
+        if self.loads:
+            self.loads.note(frame.time_s)
         if self.pulls:
             self.pulls.note(frame.time_s)
             hide_cables(self.scene, [cable.pull.name for cable in self.pulls.cables if cable.ended])

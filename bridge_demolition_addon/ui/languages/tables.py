@@ -10,6 +10,7 @@ from pathlib import Path
 
 import bpy
 
+from ...report.languages.table import texts_of_kinds
 from ..scenario.key_tooltips import tooltip_of, translated_tooltip
 from ..scenario.prop import all_tables, label_of, shown_keys, title_of, unit_in_label
 from .words import CONTEXT
@@ -18,6 +19,8 @@ FOLDER = Path(__file__).parent
 
 Translations = dict[tuple[str, str], str]
 """Texts by context and English text, as Blender takes them."""
+
+_PARTS = ("labels", "sentences", "tooltips")
 
 _ALL = "*"
 """Blender's context of tooltips: an add-on cannot give them one of their own."""
@@ -44,7 +47,9 @@ class LanguageTable:
     def read(cls, path: Path) -> LanguageTable:
         """Read the table of a language."""
         parts = tomllib.loads(path.read_text(encoding="utf-8"))
-        return cls(tuple(parts["locales"]), parts["labels"], parts["sentences"], parts["tooltips"])
+        of_kinds = texts_of_kinds(path.stem)
+        labels, sentences, tooltips = (parts[name] | of_kinds("window", name) for name in _PARTS)
+        return cls(tuple(parts["locales"]), labels, sentences, tooltips)
 
     def translations(self) -> Translations:
         """Return all texts that Blender may ask for, those of keys of a scenario put together."""

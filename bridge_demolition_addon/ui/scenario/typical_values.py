@@ -242,6 +242,8 @@ TYPICAL: dict[str, Any] = {
 def typical_value(table_class: type[Table], item: Field) -> Any:
     """Return a typical value of a key: its default, or one of `TYPICAL`; None for a text without a default."""
     name = key_name(table_class, item)
+    if key_of(item).typical is not None:
+        return key_of(item).typical
     if name in TYPICAL:
         return TYPICAL[name]
     if item.default not in (MISSING, None):

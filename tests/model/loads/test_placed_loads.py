@@ -8,7 +8,7 @@ import pytest
 
 from bridge_demolition_addon.errors import ScenarioError
 from bridge_demolition_addon.model.as_built import Structure
-from bridge_demolition_addon.model.loads import placed_loads
+from bridge_demolition_addon.model.loads.part import placed_loads
 from bridge_demolition_addon.model.scenario import Load
 
 # Three blocks of a deck, the first of them held, and a pier; the last body is the ground.

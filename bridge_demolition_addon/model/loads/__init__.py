@@ -1,0 +1,1 @@
+"""Forces on parts of the bridge that change with time."""
